@@ -1,0 +1,45 @@
+#include "base/suggest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace clench {
+
+static bool same_letter(char a, char b) {
+  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
+
+int edit_distance(std::string_view a, std::string_view b) {
+  // optimal string alignment, three rows of the table at a time
+  const size_t n = b.size();
+  std::vector<int> before(n + 1), last(n + 1), row(n + 1);
+  for (size_t j = 0; j <= n; ++j) last[j] = static_cast<int>(j);
+  for (size_t i = 1; i <= a.size(); ++i) {
+    row[0] = static_cast<int>(i);
+    for (size_t j = 1; j <= n; ++j) {
+      const int exchange = last[j - 1] + (same_letter(a[i - 1], b[j - 1]) ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, exchange});
+      if (i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) && same_letter(a[i - 2], b[j - 1]))
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before.swap(last);
+    last.swap(row);
+  }
+  return last[n];
+}
+
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
+  // a slip is at most a third of the letters, and never the whole of a short name
+  const int limit = std::clamp(static_cast<int>(name.size()) / 3, 1, 3);
+  int best = limit + 1;
+  std::string_view nearest;
+  for (const auto& candidate : known) {
+    const int edits = edit_distance(name, candidate);
+    if (edits < best) best = edits, nearest = candidate;
+  }
+  return best > limit ? "" : fmt::format("; did you mean '{}'?", nearest);
+}
+
+}  // namespace clench

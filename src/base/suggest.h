@@ -1,0 +1,16 @@
+// "did you mean": the nearest of the known names to one that is unknown.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clench {
+
+/// Number of single-character edits (insert, drop, exchange, swap of neighbours) from a to b,
+/// upper and lower case alike.
+int edit_distance(std::string_view a, std::string_view b);
+
+/// "; did you mean 'flask.iv'?" when a known name is near, else "".
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
+
+}  // namespace clench

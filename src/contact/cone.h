@@ -1,0 +1,31 @@
+// Friction cones as wrenches on an object.
+#pragma once
+#include <Eigen/Core>
+
+namespace clench {
+
+/// A point where a finger presses on an object; vectors in the object frame O.
+struct PointContact {
+  Eigen::Vector3d p_O = Eigen::Vector3d::Zero();   ///< contact point [m]
+  Eigen::Vector3d n_O = Eigen::Vector3d::UnitZ();  ///< unit normal, into the object
+  double mu = 1.0;                                 ///< Coulomb coefficient, >= 0
+};
+
+struct ConeOptions {
+  int edges = 8;                                      ///< generators of the pyramid, >= 3
+  double rho = 1.0;                                   ///< torque length scale, > 0 [m]
+  Eigen::Vector3d p_OM = Eigen::Vector3d::Zero();     ///< torques are about this point, usually the centre of mass [m]
+};
+
+/// Columns x y z of the contact frame: z the unit normal, x = n x e1 (e3 when n is along e1), y = n x x.
+Eigen::Matrix3d contact_frame(const Eigen::Vector3d& normal);
+
+/// Generators of a linearised friction cone. Column i is (f; tau/rho) with f = n + mu t_i: unit normal force.
+/// Without friction the cone is its normal: one column.
+///
+/// returns  6 x edges (6 x 1 when mu = 0), counter-clockwise about n from the frame's x
+/// throws   Error when mu < 0, edges < 3, rho <= 0, n is not unit or a number is not finite
+/// source   Murray, Li & Sastry (1994), ch. 5: grasp map, force rows first
+Eigen::Matrix<double, 6, Eigen::Dynamic> cone_wrenches(const PointContact& contact, const ConeOptions& options = {});
+
+}  // namespace clench

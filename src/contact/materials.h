@@ -1,0 +1,39 @@
+// What bodies are made of, and how much each pair of materials rubs.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/hash.h"
+
+namespace clench {
+
+/// Coulomb coefficients of a pair of materials, >= 0.
+struct Friction {
+  double statics = 0;   ///< while sticking
+  double kinetic = 0;   ///< while sliding
+};
+
+/// Symmetric table of friction coefficients; users add materials and change pairs.
+/// Starts with the seven materials of the original: frictionless glass metal plastic wood rubber stone.
+class MaterialTable {
+ public:
+  MaterialTable();
+
+  /// throws Error with a near name when there is no such material
+  int index(std::string_view name) const;
+  const std::string& name(int material) const { return names_[material]; }
+  const std::vector<std::string>& names() const { return names_; }
+  Friction friction(int a, int b) const { return table_[a * names_.size() + b]; }
+
+  /// Adds the names it does not know, frictionless against all others until told otherwise.
+  /// throws Error when a coefficient is negative or not finite, or kinetic exceeds statics
+  void set_friction(std::string_view a, std::string_view b, Friction friction);
+
+ private:
+  int find_or_add(std::string_view name);
+  std::vector<std::string> names_;
+  std::vector<Friction> table_;  // row by row
+};
+
+}  // namespace clench

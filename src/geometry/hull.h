@@ -1,0 +1,28 @@
+// Convex hulls in 2 to 6 dimensions, by qhull. Rank is tested first: a flat set has no hull, and says so.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+namespace clench {
+
+struct Hull {
+  int dimension = 0;        ///< of the space: rows of the points
+  int rank = 0;             ///< of the affine hull of the points; facets exist only when rank == dimension
+  Eigen::MatrixXd normals;  ///< dimension x facets, unit, outward
+  Eigen::VectorXd offsets;  ///< normal . x <= offset inside
+  std::vector<std::vector<int>> facets;  ///< indices of points on each facet; simplices
+  double volume = 0;
+  double area = 0;
+
+  bool full() const { return rank == dimension; }
+};
+
+/// points  dimension x count, finite; count may be anything
+/// throws  Error when a coordinate is not finite or dimension is outside 2..6
+/// source  Barber, Dobkin & Huhdanpaa (1996)
+Hull convex_hull(const Eigen::MatrixXd& points);
+
+/// Rank of the affine hull, by singular values relative to the largest.
+int affine_rank(const Eigen::MatrixXd& points, double tolerance = 1e-10);
+
+}  // namespace clench

@@ -1,0 +1,41 @@
+// A mesh ready to be queried: immutable, shared between worlds and threads.
+#pragma once
+#include <memory>
+
+#include "geometry/mass.h"
+#include "geometry/mesh.h"
+
+namespace clench {
+
+class Tree;  // bounding volumes over the triangles; its layout is nobody's business but the queries'
+
+class Shape {
+ public:
+  /// throws Error when check_mesh does; `subject` names the mesh in it
+  static std::shared_ptr<const Shape> make(Mesh mesh, const std::string& subject = "mesh");
+  ~Shape();
+
+  const Mesh& mesh() const { return mesh_; }
+  const MeshFaults& faults() const { return faults_; }
+  const MassProperties& solid() const { return solid_; }
+  const Bounds& bounds() const { return bounds_; }
+  bool closed() const { return faults_.closed(); }
+  /// centre and radius [m] of a sphere that holds the mesh
+  const Eigen::Vector3d& centre() const { return centre_; }
+  double radius() const { return radius_; }
+  const Tree& tree() const { return *tree_; }
+
+ private:
+  Shape();
+  Mesh mesh_;
+  MeshFaults faults_;
+  MassProperties solid_;
+  Bounds bounds_;
+  Eigen::Vector3d centre_;
+  double radius_ = 0;
+  std::unique_ptr<const Tree> tree_;
+};
+
+using ShapePtr = std::shared_ptr<const Shape>;
+
+}  // namespace clench

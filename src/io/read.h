@@ -1,0 +1,31 @@
+// Files to specs: the only door. Each format has its own file behind it.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "spec/world_spec.h"
+
+namespace clench {
+
+struct ReadOptions {
+  std::filesystem::path root;                          ///< where relative names are looked up after the referring file's folder
+  std::function<void(const std::string&)> warn = {};   ///< told of what a file contains and we do not use
+};
+
+/// A body from .iv .wrl .obj .stl (any case). A mesh file in other units than its format's: see docs/formats.
+/// throws Error  "flask.iv:31: ..." one sentence: place, subject, wanted, got
+BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// A robot from .cfg.
+RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// A world from .wld.
+WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// Where `name`, as written in `referrer` (empty: given by the user), is found: beside the referrer, below the
+/// root, below the referrer's parent folder. Back-slashes count as slashes, and a name that differs only in case is found.
+/// throws Error  "no such file: flsk.iv; did you mean 'flask.iv'?"
+std::filesystem::path find_file(const std::string& name, const std::filesystem::path& referrer, const ReadOptions& options);
+
+}  // namespace clench

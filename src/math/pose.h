@@ -1,0 +1,52 @@
+// Rigid transforms. X_AB is the pose of frame B in frame A: p_A = X_AB * p_B.
+#pragma once
+#include <Eigen/Geometry>
+
+#include "base/hash.h"
+
+namespace clench {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;  ///< wrench (force, torque) or twist (linear, angular)
+
+/// Unit quaternion and position; kept as given, so that what was set is read back to the bit.
+struct Pose {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< unit
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();            ///< [m]
+
+  static Pose translation(const Eigen::Vector3d& p) { return {Eigen::Quaterniond::Identity(), p}; }
+  static Pose turn(const Eigen::Quaterniond& q) { return {q, Eigen::Vector3d::Zero()}; }
+  /// a turn by angle [rad] about a unit axis
+  static Pose turn(double angle, const Eigen::Vector3d& axis) {
+    return turn(Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis)));
+  }
+
+  Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return rotation * p + position; }
+  Pose operator*(const Pose& other) const {
+    return {(rotation * other.rotation).normalized(), *this * other.position};
+  }
+  Pose inverse() const {
+    const Eigen::Quaterniond back = rotation.conjugate();
+    return {back, -(back * position)};
+  }
+  Eigen::Matrix3d matrix() const { return rotation.toRotationMatrix(); }
+  /// angle of the rotation, in [0, pi] [rad]; exact for small angles too
+  double angle() const { return 2 * std::atan2(rotation.vec().norm(), std::abs(rotation.w())); }
+  bool is_finite() const { return rotation.coeffs().allFinite() && position.allFinite(); }
+
+  bool operator==(const Pose& other) const {
+    return rotation.coeffs() == other.rotation.coeffs() && position == other.position;
+  }
+};
+
+/// Straight line between positions, shortest turn between rotations; t in [0, 1].
+inline Pose interpolate(const Pose& from, const Pose& to, double t) {
+  return {from.rotation.slerp(t, to.rotation),
+          from.position + t * (to.position - from.position)};
+}
+
+inline void add(Hasher& hasher, const Pose& pose) {
+  for (const double x : pose.rotation.coeffs()) hasher.add(x);
+  for (const double x : pose.position) hasher.add(x);
+}
+
+}  // namespace clench

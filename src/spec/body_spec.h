@@ -1,0 +1,34 @@
+// A body as a file describes it: a plain value, in SI.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/shape.h"
+
+namespace clench {
+
+/// How a body looks; physics does not read it.
+struct Appearance {
+  Eigen::Vector3f color = Eigen::Vector3f(0.7f, 0.7f, 0.7f);  ///< linear part of the file's diffuse colour, 0..1
+  float transparency = 0;                                     ///< 0 opaque .. 1 invisible
+  std::vector<Eigen::Vector3f> triangle_colors;               ///< one a triangle, or empty
+  bool given = false;                                         ///< does it come from the file?
+};
+
+struct BodySpec {
+  std::string name;                     ///< file stem unless the user says otherwise
+  std::string source;                   ///< file it was read from, as it was named; empty when made in a script
+  ShapePtr shape;                       ///< null: a frame without geometry, which never collides
+  Appearance appearance;
+  std::string material = "wood";
+  double mass = 0.3;                    ///< [kg]
+  std::optional<Eigen::Vector3d> com;   ///< centre of mass in the body frame [m]; else from the shape
+  std::optional<Eigen::Matrix3d> inertia_per_mass;  ///< about com [m^2]; else from the shape
+  std::optional<double> elastic_modulus;            ///< Young's modulus [Pa]; absent: rigid
+  std::optional<int> tracker;           ///< number of the position sensor that drives it
+};
+
+}  // namespace clench

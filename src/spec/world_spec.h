@@ -1,0 +1,58 @@
+// A world as a file describes it.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spec/robot_spec.h"
+
+namespace clench {
+
+enum class Role { object, obstacle };
+
+struct PlacedBody {
+  BodySpec body;
+  Role role = Role::object;
+  Pose X_WB;
+};
+
+/// Breakaway state of one joint: empty while the joint follows its DOF, else q where it stopped [rad or m].
+using Breakaway = std::optional<double>;
+
+struct PlacedRobot {
+  RobotSpec robot;
+  Pose X_WB;
+  std::vector<double> dofs;              ///< one a DOF [rad or m]
+  std::vector<std::vector<Breakaway>> breakaway;  ///< by chain, by joint; empty: none broken away
+};
+
+/// The child's base is fixed to the last link of the parent's chain.
+struct Connection {
+  int parent = 0;                        ///< index into WorldSpec::robots
+  int chain = 0;
+  int child = 0;
+  Pose X_LB;                             ///< child base in the parent's last link
+  std::optional<BodySpec> mount;         ///< adapter piece, at the last link's frame
+};
+
+struct Camera {
+  Pose X_WC;                             ///< looks along -z, y up
+  double focal_distance = 0.1;           ///< [m]
+};
+
+/// One entry of the file's order, so that bodies keep their numbering.
+struct WorldEntry {
+  enum class Kind { body, robot } kind;
+  int index;                             ///< into bodies or robots
+};
+
+struct WorldSpec {
+  std::string source;
+  std::vector<PlacedBody> bodies;
+  std::vector<PlacedRobot> robots;
+  std::vector<WorldEntry> order;
+  std::vector<Connection> connections;
+  std::optional<Camera> camera;
+};
+
+}  // namespace clench
