@@ -1,0 +1,234 @@
+-- Holds the sources against the two tables of docs/architecture.md: which module may include which, and where
+-- each library may be seen. Finds circles of includes, too. Runs in a stock interpreter:
+--   lua5.4 scripts/check_layers.lua [ROOT]
+-- One sentence a fault, file:line first; exit code 1 when there is any.
+local root = arg[1] or "."
+local faults = {}
+
+local function fault(place, text, ...) faults[#faults + 1] = place .. ": " .. text:format(...) end
+
+local function read(path)
+  local file = assert(io.open(root .. "/" .. path, "rb"), "no such file: " .. root .. "/" .. path)
+  local text = file:read "a"
+  file:close()
+  return text
+end
+
+-- every name between back-quotes, in order
+local function quoted(cell)
+  local names = {}
+  for name in cell:gmatch "`([^`]+)`" do names[#names + 1] = name end
+  return names
+end
+
+--- Rows of the table whose header cell `column` names, each a table of cells by header, with its line.
+local function read_table(path, column)
+  local rows, header, line = {}, nil, 0
+  for text in (read(path) .. "\n"):gmatch "(.-)\r?\n" do
+    line = line + 1
+    local cells = {}
+    for cell in text:gmatch "|([^|]*)" do cells[#cells + 1] = cell:match "^%s*(.-)%s*$" end
+    if text:sub(1, 1) ~= "|" then
+      if #rows > 0 then break end
+      header = nil
+    elseif not header then
+      header = cells
+    elseif not text:find "^|[-:| ]+$" then
+      local row = {line = line}
+      for i, name in ipairs(header) do row[name] = cells[i] or "" end
+      if row[column] then rows[#rows + 1] = row end
+    end
+  end
+  assert(#rows > 0, root .. "/" .. path .. ": no table with a column '" .. column .. "'")
+  return rows
+end
+
+--- module -> {rank, direct = names as its row gives them, may = set of all it may include}
+local function read_modules(path)
+  local modules = {}
+  for _, row in ipairs(read_table(path, "may include")) do
+    local name = quoted(row.module)[1] or row.module
+    local module = {name = name, rank = tonumber(row.rank), direct = {}, may = {[name] = true}}
+    for other in row["may include"]:gmatch "[%w_]+" do module.direct[#module.direct + 1] = other end
+    local place = path .. ":" .. row.line
+    if modules[name] then fault(place, "module '%s' has two rows", name) end
+    -- rows stand below those that they name, so the rights of these are complete
+    for _, other in ipairs(module.direct) do
+      local below = modules[other]
+      if not below then
+        fault(place, "module '%s' names '%s', which has no row above", name, other)
+      else
+        if below.rank >= module.rank then
+          fault(place, "module '%s' of rank %d names '%s' of rank %d; a rank names lower ones only",
+                name, module.rank, other, below.rank)
+        end
+        for reached in pairs(below.may) do module.may[reached] = true end
+      end
+    end
+    modules[name] = module
+  end
+  return modules
+end
+
+-- globs of file names or identifiers as Lua patterns: * any letters, [..] a class
+local function patterns_of(globs)
+  local patterns = {}
+  for i, glob in ipairs(globs) do
+    local escaped = glob:gsub("[%^%$%(%)%%%.%+%?]", "%%%0")
+    patterns[i] = "^" .. escaped:gsub("%*", "[%%w_./]*") .. "$"
+  end
+  return patterns
+end
+
+local function matches(text, patterns)
+  for _, pattern in ipairs(patterns) do
+    if text:find(pattern) then return true end
+  end
+  return false
+end
+
+--- Rows of the table of libraries: headers, names and homes as patterns; a module is the home of all its files.
+local function read_libraries(path)
+  local libraries = {}
+  for _, row in ipairs(read_table(path, "seen only by")) do
+    local homes = quoted(row["seen only by"])
+    for i, home in ipairs(homes) do
+      if not home:find "/" then homes[i] = home .. "/*" end
+    end
+    libraries[#libraries + 1] = {
+      name = row.library, said = row["seen only by"]:gsub("`", ""), homes = patterns_of(homes),
+      headers = patterns_of(quoted(row["its headers"])), names = patterns_of(quoted(row["its names"])),
+    }
+  end
+  return libraries
+end
+
+-- where the comment or literal that starts at `at` ends; nil when none does. `line`: what stands before it
+local function end_of_opaque(text, at, line)
+  local two = text:sub(at, at + 1)
+  local quote = two:sub(1, 1)
+  if two == "//" then
+    return (text:find("\n", at, true) or #text + 1) - 1
+  elseif two == "/*" then
+    return select(2, text:find("*/", at + 2, true)) or #text
+  elseif quote == '"' and line:find "R$" then
+    local delimiter = text:match('^"([^(\n]*)%(', at) or ""
+    return select(2, text:find(")" .. delimiter .. '"', at, true)) or #text
+  elseif quote == '"' or (quote == "'" and not line:find "%w$") then  -- 1'000 is a number
+    local stop = at + 1
+    while stop < #text and not text:find("^[\n" .. quote .. "]", stop) do
+      stop = stop + (text:sub(stop, stop) == "\\" and 2 or 1)
+    end
+    return stop
+  end
+end
+
+-- C++ without comments and literals, names of included files apart; lines keep their numbers
+local function code_of(text)
+  local out, at, line = {}, 1, ""
+  while at <= #text do
+    local start = text:find("[/\"']", at) or #text + 1
+    local plain = text:sub(at, start - 1)
+    out[#out + 1] = plain
+    line = plain:find "\n" and plain:match ".*\n(.*)$" or line .. plain
+    local stop = start <= #text and end_of_opaque(text, start, line)
+    local kept = not stop or (text:sub(start, start) == '"' and line:find "^%s*#%s*include")
+    stop = stop or start
+    local piece = text:sub(start, stop)
+    out[#out + 1] = kept and piece or piece:gsub("[^\n]", " ")
+    line = piece:find "\n" and piece:match ".*\n(.*)$" or line .. piece
+    at = stop + 1
+  end
+  return table.concat(out)
+end
+
+--- All sources in name order, and by path: {path (below src), module, lines, includes = {{line, name, quoted}}}.
+local function read_sources()
+  local folder = "'" .. (root .. "/src"):gsub("'", "'\\''") .. "'"
+  local list = assert(io.popen("cd " .. folder .. " && find . -name '*.h' -o -name '*.cpp' | LC_ALL=C sort"))
+  local sources = {}
+  for found in list:lines() do
+    local path = found:match "^%./(.*)$"
+    local source = {path = path, module = path:match "^([^/]+)/" or "", lines = {}, includes = {}}
+    for text in (code_of(read("src/" .. path)) .. "\n"):gmatch "(.-)\r?\n" do
+      local line = #source.lines + 1
+      local opened, name = text:match '^%s*#%s*include%s*([<"])([^>"]+)[>"]'
+      if name then table.insert(source.includes, {line = line, name = name, quoted = opened == '"'}) end
+      source.lines[line] = name and "" or text
+    end
+    sources[#sources + 1], sources[path] = source, source
+  end
+  list:close()
+  return sources
+end
+
+local function at(source, line) return ("src/%s:%d"):format(source.path, line) end
+
+local function check_modules(sources, modules)
+  for _, source in ipairs(sources) do
+    local module = modules[source.module]
+    if not module then fault(at(source, 1), "module '%s' has no row in docs/architecture.md", source.module) end
+    for _, include in ipairs(source.includes) do
+      local other = include.name:match "^([^/]+)/"
+      if include.quoted and not sources[include.name] then
+        fault(at(source, include.line), 'no such file: "%s"; includes are named from src/, as "module/file.h"',
+              include.name)
+      elseif sources[include.name] and module and not module.may[other] then
+        fault(at(source, include.line), 'module %s may not include "%s": its row names %s', source.module,
+              include.name, #module.direct > 0 and table.concat(module.direct, ", ") or "nothing")
+      end
+    end
+  end
+end
+
+-- depth first; an include of a file that is still open closes a circle
+local function check_circles(sources)
+  local state, trail = {}, {}
+  local function visit(source)
+    state[source.path] = "open"
+    trail[#trail + 1] = source.path
+    for _, include in ipairs(source.includes) do
+      if state[include.name] == "open" then
+        local from = 1
+        while trail[from] ~= include.name do from = from + 1 end
+        fault(at(source, include.line), "circle of includes: %s -> %s", table.concat(trail, " -> ", from),
+              include.name)
+      elseif sources[include.name] and not state[include.name] then
+        visit(sources[include.name])
+      end
+    end
+    trail[#trail] = nil
+    state[source.path] = "done"
+  end
+  for _, source in ipairs(sources) do
+    if not state[source.path] then visit(source) end
+  end
+end
+
+-- headers and names of one library in one source that is not its home
+local function check_library(source, library, sources)
+  local belongs = "belongs to " .. library.name .. ", which is seen only by " .. library.said
+  for _, include in ipairs(source.includes) do
+    if not sources[include.name] and matches(include.name, library.headers) then
+      fault(at(source, include.line), "<%s> %s", include.name, belongs)
+    end
+  end
+  for line, text in ipairs(source.lines) do
+    for name in text:gmatch "[%a_][%w_]*" do
+      if matches(name, library.names) then fault(at(source, line), "'%s' %s", name, belongs) end
+    end
+  end
+end
+
+local modules, libraries = read_modules "docs/architecture.md", read_libraries "docs/architecture.md"
+local sources = read_sources()
+check_modules(sources, modules)
+check_circles(sources)
+for _, source in ipairs(sources) do
+  for _, library in ipairs(libraries) do
+    if not matches(source.path, library.homes) then check_library(source, library, sources) end
+  end
+end
+for _, text in ipairs(faults) do print(text) end
+print(("layers: %d files, %d faults"):format(#sources, #faults))
+os.exit(#faults == 0 and 0 or 1)

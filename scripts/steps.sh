@@ -1,0 +1,47 @@
+# Sourced by the other scripts: a step is one line with its duration; what it prints goes to a log, which is
+# shown when it fails.
+
+if [ -t 1 ]; then on_terminal=1; else on_terminal=; fi
+
+microseconds() { local now="$EPOCHREALTIME"; echo "${now/[.,]/}"; }
+
+# since START: seconds since `microseconds` said START, with one decimal
+since() {
+  local tenths=$((($(microseconds) - $1 + 50000) / 100000))
+  echo "$((tenths / 10)).$((tenths % 10)) s"
+}
+
+# report NAME TEXT: a step that is over
+report() { printf '%-16s %s\n' "$1" "$2"; }
+
+# step NAME LOG COMMAND...: runs it; its last line stands on the terminal while it runs
+step() {
+  local name="$1" log="$2" start status=0
+  shift 2
+  start=$(microseconds)
+  mkdir -p "$(dirname "$log")"
+  if [ "$on_terminal" ]; then
+    "$@" 2>&1 </dev/null | tee "$log" | last_line "$name"
+    status=${PIPESTATUS[0]}
+  else
+    printf '%-16s ' "$name"
+    "$@" >"$log" 2>&1 </dev/null || status=$?
+  fi
+  if [ "$status" -ne 0 ]; then
+    echo "failed after $(since "$start"); from $log:"
+    # compilers and ctest name the trouble after FAILED; others say it last
+    if grep -q '^FAILED' "$log"; then grep -m1 -A60 '^FAILED' "$log"; else tail -n 60 "$log"; fi
+    exit 1
+  fi
+  if [ "$on_terminal" ]; then printf '\r\e[K%-16s ' "$name"; fi
+  since "$start"
+}
+
+# last_line NAME: shows each line it reads over the one before, cut to the terminal's width
+last_line() {
+  local line width
+  width=$(tput cols 2>/dev/null || echo 80)
+  printf '%-16s ' "$1"
+  while IFS= read -r line; do printf '\r\e[K%-16s %s' "$1" "${line:0:width-18}"; done
+  printf '\r\e[K%-16s ' "$1"
+}

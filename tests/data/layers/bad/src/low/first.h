@@ -1,0 +1,3 @@
+// Includes second.h, which includes this one: a circle of two.
+#pragma once
+#include "low/second.h"

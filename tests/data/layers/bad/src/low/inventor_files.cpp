@@ -1,0 +1,2 @@
+#include <Inventor/SoDB.h>
+static SoSeparator* node;

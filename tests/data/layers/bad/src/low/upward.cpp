@@ -1,0 +1,3 @@
+#include "high/tall.h"
+#include "second.h"
+#include <lua.h>

@@ -1,0 +1,46 @@
+-- The checks of scripts/ find every fault of the bad trees in tests/data, each in one sentence, and fail.
+--   lua5.4 tests/scripts/checks_test.lua       from the project's root
+local function run(command)
+  local pipe = assert(io.popen(command))
+  local text = pipe:read "a"
+  local _, _, code = pipe:close()
+  return text, code
+end
+
+local function fails_with(command, wanted)
+  local text, code = run(command)
+  local lines = {}
+  for line in text:gmatch "[^\n]+" do lines[#lines + 1] = line end
+  for i = 1, math.max(#lines, #wanted) do
+    if lines[i] ~= wanted[i] then
+      error(("%s: line %d\nwanted: %s\ngot:    %s"):format(command, i, wanted[i], lines[i]), 0)
+    end
+  end
+  assert(code == 1, command .. ": wanted exit code 1, got " .. tostring(code))
+end
+
+fails_with("lua5.4 scripts/check_layers.lua tests/data/layers/bad", {
+  "docs/architecture.md:6: module 'twin' of rank 2 names 'high' of rank 2; a rank names lower ones only",
+  "docs/architecture.md:7: module 'upside' names 'top', which has no row above",
+  "src/lone/lone.cpp:1: module 'lone' has no row in docs/architecture.md",
+  'src/low/upward.cpp:1: module low may not include "high/tall.h": its row names nothing',
+  'src/low/upward.cpp:2: no such file: "second.h"; includes are named from src/, as "module/file.h"',
+  "src/low/first.h:3: circle of includes: low/second.h -> low/first.h -> low/second.h",
+  "src/high/tall.h:4: 'SoSeparator' belongs to Coin, which is seen only by low/inventor*.cpp",
+  "src/low/upward.cpp:3: <lua.h> belongs to Lua, which is seen only by high",
+  "layers: 6 files, 8 faults",
+})
+
+fails_with("lua5.4 scripts/check_packages.lua tests/data/packages/bad", {
+  "scripts/packages.txt:3: package g++ is listed twice",
+  "scripts/packages.txt:4: libfmt-dev is listed for 'build', and tests/CMakeLists.txt:1 asks for it",
+  "scripts/packages.txt:5: doctest-dev is listed for 'test', and src/CMakeLists.txt:3 asks for it",
+  "scripts/packages.txt:6: libold-dev is listed for old, which no CMake file asks for",
+  "scripts/packages.txt:7: wanted 'build' or 'test', a package, how CMake asks for it, what for; "
+    .. "got 'perhaps    libnew-dev    new     for nobody knows what'",
+  "src/CMakeLists.txt:2: egl is asked for, and no package of scripts/packages.txt gives it",
+  "packages: 6 faults",
+})
+
+local text, code = run "lua5.4 scripts/check_layers.lua tests/data/layers/none 2>&1"
+assert(code == 1 and text:find("no such file: tests/data/layers/none/docs/architecture.md", 1, true), text)
