@@ -21,8 +21,10 @@ struct BodyDistance {
   Id<Body> a, b;
 };
 
-/// Least distance between the bodies of two groups. Switched-off pairs are measured too.
-BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b);
+/// Least distance between the bodies of two groups, if it is below `limit` [m]; infinite otherwise. Switched-off
+/// pairs are measured too.
+BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,
+                      double limit = std::numeric_limits<double>::infinity());
 
 enum class ContactKind { point, frictionless };
 

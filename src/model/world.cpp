@@ -1,0 +1,382 @@
+#include "model/world.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/suggest.h"
+
+namespace clench {
+
+// --- slots ---
+
+template <class T>
+static bool holds(const std::vector<Slot<T>>& slots, Id<T> id) {
+  return id.index < slots.size() && slots[id.index].used && slots[id.index].serial == id.serial;
+}
+
+// the thing behind an id, or a sentence that names what stood there
+template <class T>
+static const T& follow(const std::vector<Slot<T>>& slots, Id<T> id, const char* what) {
+  if (holds(slots, id)) return slots[id.index].value;
+  if (id.index < slots.size() && slots[id.index].serial == id.serial)
+    fail("{} '{}' was removed from its world", what, slots[id.index].value.name);
+  fail("this {} is no longer in its world", what);
+}
+
+template <class T>
+static Id<T> insert_slot(std::vector<Slot<T>>& slots, T value, uint32_t serial) {
+  slots.push_back({serial, true, std::move(value)});
+  return {static_cast<uint32_t>(slots.size() - 1), serial};
+}
+
+static std::pair<Id<Body>, Id<Body>> ordered(Id<Body> a, Id<Body> b) { return std::minmax(a, b); }
+
+const Body& World::body(Id<Body> id) const { return follow(state_.bodies, id, "body"); }
+const Robot& World::robot(Id<Robot> id) const { return follow(state_.robots, id, "robot"); }
+Body& World::edit(Id<Body> id) { return const_cast<Body&>(body(id)); }
+Robot& World::edit(Id<Robot> id) { return const_cast<Robot&>(robot(id)); }
+bool World::alive(Id<Body> id) const { return holds(state_.bodies, id); }
+bool World::alive(Id<Robot> id) const { return holds(state_.robots, id); }
+
+// --- names ---
+
+Id<Body> World::find_body(std::string_view name) const {
+  for (const auto id : state_.body_order)
+    if (body(id).name == name) return id;
+  return {};
+}
+
+Id<Robot> World::find_robot(std::string_view name) const {
+  for (const auto id : state_.robot_order)
+    if (robot(id).name == name) return id;
+  return {};
+}
+
+std::string World::unique_name(const std::string& wanted) const {
+  const std::string stem = wanted.empty() ? "body" : wanted;
+  std::string name = stem;
+  for (int i = 2; find_body(name) || find_robot(name); ++i) name = fmt::format("{}_{}", stem, i);
+  return name;
+}
+
+void World::set_name(Id<Body> id, const std::string& name) {
+  if (name.empty()) fail("body '{}': a name may not be empty", body(id).name);
+  const Id<Body> holder = find_body(name);
+  if (holder && holder != id) fail("the name '{}' is taken by another body of this world", name);
+  edit(id).name = name;
+}
+
+// --- adding and removing ---
+
+Id<Body> World::insert(Body body, const std::string& name) {
+  if (!name.empty() && (find_body(name) || find_robot(name)))
+    fail("the name '{}' is taken in this world", name);
+  body.name = name.empty() ? unique_name(body.name) : name;
+  const auto id = insert_slot(state_.bodies, std::move(body), next_serial_++);
+  state_.body_order.push_back(id);
+  return id;
+}
+
+Id<Body> World::add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB, const std::string& name) {
+  if (!X_WB.is_finite()) fail("body '{}': its pose must be finite", spec.name);
+  Body body = make_body(spec, kind, X_WB);
+  body.material = state_.materials.index(spec.material);
+  return insert(std::move(body), name);
+}
+
+// a part's name follows its robot's when that had to be changed
+static std::string part_name(const std::string& part, const std::string& was, const std::string& is) {
+  return part.starts_with(was) ? is + part.substr(was.size()) : part;
+}
+
+Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::string& name) {
+  check_robot(spec);
+  if (!X_WB.is_finite()) fail("robot '{}': its pose must be finite", spec.name);
+  if (!name.empty() && (find_robot(name) || find_body(name))) fail("the name '{}' is taken in this world", name);
+
+  Robot robot;
+  robot.name = name.empty() ? unique_name(spec.name) : name;
+  robot.source = spec.source;
+  robot.class_name = spec.class_name;
+  robot.dofs = spec.dofs;
+  robot.X_BA = spec.X_BA.value_or(Pose{});
+  robot.eigengrasps = spec.eigengrasps;
+  robot.virtual_contacts = spec.virtual_contacts;
+  robot.glove_calibration = spec.glove_calibration;
+  robot.tracker = spec.tracker;
+  robot.q.resize(static_cast<int>(spec.dofs.size()));
+  for (int i = 0; i < robot.q.size(); ++i) {
+    const auto range = dof_range(spec, i);
+    robot.limits.push_back(range);
+    robot.q[i] = std::clamp(spec.dofs[i].default_value, range[0], range[1]);
+  }
+
+  // the robot first, so that its parts know it; then base and links chain by chain
+  const std::string robot_name = robot.name;
+  const auto id = insert_slot(state_.robots, std::move(robot), next_serial_++);
+  state_.robot_order.push_back(id);
+  const auto add_part = [&](const BodySpec& part, BodyKind kind, int chain, int link) {
+    BodySpec named = part;
+    named.name = part_name(part.name, spec.name, robot_name);
+    const auto body = add_body(named, kind, X_WB);
+    edit(body).robot = id;
+    edit(body).chain = chain;
+    edit(body).link = link;
+    return body;
+  };
+  edit(id).base = add_part(spec.base, BodyKind::base, -1, -1);
+  for (size_t c = 0; c < spec.chains.size(); ++c) {
+    const ChainSpec& from = spec.chains[c];
+    Chain chain{.X_BC = from.X_BC, .joints = from.joints, .breakaway = {}, .last_joints = {}, .link_joints = {}, .links = {}};
+    chain.breakaway.resize(from.joints.size());
+    for (size_t l = 0; l < from.links.size(); ++l) {
+      chain.last_joints.push_back(from.links[l].last_joint);
+      chain.link_joints.push_back(from.links[l].joint);
+      chain.links.push_back(add_part(from.links[l].body, BodyKind::link, static_cast<int>(c), static_cast<int>(l)));
+    }
+    edit(id).chains.push_back(std::move(chain));
+  }
+  switch_off_neighbours(this->robot(id));
+  place_links(id);
+  return id;
+}
+
+// the base never meets the first link of a chain, nor do links of one chain meet
+void World::switch_off_neighbours(const Robot& robot) {
+  for (const Chain& chain : robot.chains) {
+    if (chain.links.empty()) continue;
+    set_collision(false, robot.base, chain.links.front());
+    for (size_t i = 0; i < chain.links.size(); ++i)
+      for (size_t j = i + 1; j < chain.links.size(); ++j) set_collision(false, chain.links[i], chain.links[j]);
+  }
+}
+
+void World::mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB, const BodySpec* piece) {
+  const std::string& name = robot(child).name;
+  const Robot& carrier = robot(parent);
+  if (robot(child).mounting) fail("robot '{}' is already carried by '{}'", name, robot(robot(child).mounting->parent).name);
+  if (chain < 0 || chain >= static_cast<int>(carrier.chains.size()))
+    fail("robot '{}': wanted a chain of '{}', 0 to {}, got {}", name, carrier.name, static_cast<int>(carrier.chains.size()) - 1, chain);
+  if (carrier.chains[chain].links.empty()) fail("robot '{}': chain {} of '{}' has no link to carry it", name, chain, carrier.name);
+  if (!X_LB.is_finite()) fail("robot '{}': its pose on '{}' must be finite", name, carrier.name);
+  for (auto up = parent;;) {
+    if (up == child) fail("robot '{}' cannot be carried by '{}', which it carries itself", name, carrier.name);
+    if (!robot(up).mounting) break;
+    up = robot(up).mounting->parent;
+  }
+
+  // the last link, the adapter and the base are one rigid piece: they never collide
+  const Id<Body> last = carrier.chains[chain].links.back();
+  const Id<Body> base = robot(child).base;
+  edit(child).mounting = Mounting{.parent = parent, .chain = chain, .X_LB = X_LB, .piece = std::nullopt};
+  set_collision(false, last, base);
+  if (piece) {
+    BodySpec named = *piece;
+    named.name = name + "_mount";
+    const auto body = add_body(named, BodyKind::mount, this->body(base).X_WB);
+    edit(body).robot = child;
+    edit(child).mounting->piece = body;
+    set_collision(false, last, body);
+    set_collision(false, base, body);
+  }
+  place_base(child, this->body(last).X_WB * X_LB);
+}
+
+void World::erase(Id<Body> id) {
+  state_.bodies[id.index].used = false;
+  state_.bodies[id.index].value.shape.reset();
+  std::erase(state_.body_order, id);
+  state_.switched_off.erase(id);
+  std::erase_if(state_.pairs_off, [&](const auto& pair) { return pair.first == id || pair.second == id; });
+  std::erase_if(caches_, [&](const auto& entry) { return entry.first.first == id || entry.first.second == id; });
+}
+
+void World::remove(Id<Body> id) {
+  const Body& gone = body(id);
+  if (gone.robot) fail("body '{}' is a part of robot '{}': remove the robot", gone.name, robot(gone.robot).name);
+  erase(id);
+}
+
+void World::remove(Id<Robot> id) {
+  for (const auto body : bodies_of(id)) erase(body);
+  for (const auto other : state_.robot_order)
+    if (robot(other).mounting && robot(other).mounting->parent == id) {
+      // its adapter goes with the arm that it was screwed to
+      if (const auto piece = robot(other).mounting->piece) erase(*piece);
+      edit(other).mounting.reset();
+    }
+  state_.robots[id.index].used = false;
+  std::erase(state_.robot_order, id);
+}
+
+std::vector<Id<Body>> World::bodies_of(Id<Robot> id) const {
+  const Robot& r = robot(id);
+  std::vector<Id<Body>> out{r.base};
+  for (const auto& chain : r.chains) out.insert(out.end(), chain.links.begin(), chain.links.end());
+  if (r.mounting && r.mounting->piece) out.push_back(*r.mounting->piece);
+  return out;
+}
+
+// --- poses and DOFs ---
+
+void World::set_pose(Id<Body> id, const Pose& X_WB) {
+  if (body(id).robot) fail("body '{}' is a part of robot '{}': move the robot", body(id).name, robot(body(id).robot).name);
+  if (!X_WB.is_finite()) fail("body '{}': its pose must be finite", body(id).name);
+  edit(id).X_WB = X_WB;
+}
+
+void World::set_pose(Id<Robot> id, const Pose& X_WB) {
+  if (robot(id).mounting)
+    fail("robot '{}' is carried by '{}': move that one", robot(id).name, robot(robot(id).mounting->parent).name);
+  if (!X_WB.is_finite()) fail("robot '{}': its pose must be finite", robot(id).name);
+  place_base(id, X_WB);
+}
+
+void World::place_base(Id<Robot> id, const Pose& X_WB) {
+  edit(robot(id).base).X_WB = X_WB;
+  if (robot(id).mounting && robot(id).mounting->piece) edit(*robot(id).mounting->piece).X_WB = X_WB;
+  place_links(id);
+}
+
+void World::place_links(Id<Robot> id) {
+  const Robot& r = robot(id);
+  const Pose& X_WB = body(r.base).X_WB;
+  for (size_t c = 0; c < r.chains.size(); ++c) {
+    const auto frames = chain_frames(r, static_cast<int>(c));
+    for (size_t l = 0; l < r.chains[c].links.size(); ++l)
+      edit(r.chains[c].links[l]).X_WB = X_WB * frames[r.chains[c].last_joints[l] + 1];
+  }
+  for (const auto other : state_.robot_order) {
+    const auto& mounting = robot(other).mounting;
+    if (mounting && mounting->parent == id) place_base(other, body(r.chains[mounting->chain].links.back()).X_WB * mounting->X_LB);
+  }
+}
+
+void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
+  const Robot& r = robot(id);
+  if (q.size() != r.q.size()) fail("robot '{}': wanted {} DOF values, got {}", r.name, r.q.size(), q.size());
+  Eigen::VectorXd inside = q;
+  for (int i = 0; i < q.size(); ++i) {
+    const auto [low, high] = r.limits[i];
+    if (!std::isfinite(q[i])) fail("robot '{}': DOF {} must be finite, got {}", r.name, i + 1, q[i]);
+    // a limit that went through degrees and back is still the limit
+    const double slack = 1e-9 * std::max(1.0, std::max(std::abs(low), std::abs(high)));
+    if (q[i] < low - slack || q[i] > high + slack)
+      fail("robot '{}': DOF {} must lie in [{}, {}], got {}", r.name, i + 1, low, high, q[i]);
+    inside[i] = std::clamp(q[i], low, high);
+  }
+  // a value set by hand re-engages every joint
+  std::vector<std::vector<Breakaway>> engaged;
+  for (const auto& chain : r.chains) engaged.emplace_back(chain.joints.size());
+  set_dofs_unchecked(id, inside, engaged);
+}
+
+void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q, const std::vector<std::vector<Breakaway>>& breakaway) {
+  Robot& r = edit(id);
+  r.q = q;
+  for (size_t c = 0; c < r.chains.size(); ++c) r.chains[c].breakaway = breakaway[c];
+  place_links(id);
+}
+
+// --- properties ---
+
+void World::set_material(Id<Body> id, std::string_view material) { edit(id).material = state_.materials.index(material); }
+
+void World::set_mass(Id<Body> id, double mass) {
+  if (!(mass > 0) || !std::isfinite(mass)) fail("body '{}': its mass must be > 0 [kg], got {}", body(id).name, mass);
+  edit(id).mass = mass;
+}
+
+void World::set_com(Id<Body> id, const Eigen::Vector3d& com) {
+  if (!com.allFinite()) fail("body '{}': its centre of mass must be finite", body(id).name);
+  edit(id).com = com;
+}
+
+void World::set_inertia(Id<Body> id, const Eigen::Matrix3d& inertia) {
+  const Body& b = body(id);
+  const double size = inertia.cwiseAbs().maxCoeff();
+  const bool symmetric = (inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * size;
+  if (!inertia.allFinite() || !symmetric || Eigen::LLT<Eigen::Matrix3d>(inertia).info() != Eigen::Success)
+    fail("body '{}': its inertia must be symmetric and positive definite [kg m^2]", b.name);
+  edit(id).inertia_per_mass = inertia / b.mass;
+}
+
+void World::set_elastic_modulus(Id<Body> id, std::optional<double> modulus) {
+  if (modulus && (!(*modulus > 0) || !std::isfinite(*modulus)))
+    fail("body '{}': its elastic modulus must be > 0 [Pa], got {}", body(id).name, *modulus);
+  edit(id).elastic_modulus = modulus;
+}
+
+void World::set_appearance(Id<Body> id, const Appearance& appearance) { edit(id).appearance = appearance; }
+
+void World::set_contact_threshold(double threshold) {
+  if (!(threshold > 0) || !std::isfinite(threshold)) fail("contact_threshold must be > 0 [m], got {}", threshold);
+  state_.contact_threshold = threshold;
+}
+
+// --- what may collide ---
+
+void World::set_collision(bool on) { state_.collision_on = on; }
+
+void World::set_collision(bool on, Id<Body> id) {
+  body(id);
+  if (on)
+    state_.switched_off.erase(id);
+  else
+    state_.switched_off.insert(id);
+}
+
+void World::set_collision(bool on, Id<Body> a, Id<Body> b) {
+  body(a), body(b);
+  if (on)
+    state_.pairs_off.erase(ordered(a, b));
+  else
+    state_.pairs_off.insert(ordered(a, b));
+}
+
+bool World::may_collide(Id<Body> a, Id<Body> b) const {
+  return a != b && state_.collision_on && body(a).shape && body(b).shape && !state_.switched_off.contains(a) &&
+         !state_.switched_off.contains(b) && !state_.pairs_off.contains(ordered(a, b));
+}
+
+// --- time machine ---
+
+void World::restore(const WorldState& snapshot) { state_ = snapshot; }
+
+uint64_t World::hash() const {
+  Hasher h;
+  const auto flag = [&](bool on) { h.add(static_cast<uint64_t>(on)); };
+  for (const auto id : state_.body_order) {
+    const Body& b = body(id);
+    h.add(b.name);
+    h.add(static_cast<uint64_t>(b.kind));
+    add(h, b.X_WB);
+    h.add(static_cast<uint64_t>(b.material));
+    h.add(b.mass);
+    for (const double x : b.com) h.add(x);
+    for (const double x : b.inertia_per_mass.reshaped()) h.add(x);
+    h.add(b.elastic_modulus.value_or(0));
+    flag(state_.switched_off.contains(id));
+  }
+  for (const auto id : state_.robot_order) {
+    const Robot& r = robot(id);
+    h.add(r.name);
+    for (const double x : r.q) h.add(x);
+    for (const auto& chain : r.chains)
+      for (const auto& broken : chain.breakaway) flag(broken.has_value()), h.add(broken.value_or(0));
+  }
+  for (const auto& name : state_.materials.names()) h.add(name);
+  const int count = static_cast<int>(state_.materials.names().size());
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j <= i; ++j) {
+      const Friction f = state_.materials.friction(i, j);
+      h.add(f.statics), h.add(f.kinetic);
+    }
+  for (const auto& [a, b] : state_.pairs_off) h.add(body(a).name), h.add(body(b).name);
+  h.add(state_.contact_threshold);
+  flag(state_.collision_on);
+  return h.value();
+}
+
+}  // namespace clench

@@ -1,0 +1,75 @@
+#include "motion/blocked_joints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clench {
+
+// a contact blocks a motion that leans into it by more than this sine, of a lever longer than a nanometre
+static constexpr double grazing = 1e-6;
+static constexpr double no_lever = 1e-9;
+
+// the link of `robot` that carries the body, as (chain, link); chain -1: its base, or not at all
+static std::pair<int, int> carrying_link(const World& world, Id<Robot> robot, Id<Body> id) {
+  const Body& body = world.body(id);
+  if (body.robot == robot) return {body.kind == BodyKind::link ? body.chain : -1, body.link};
+  for (auto up = body.robot; up;) {
+    const auto& mounting = world.robot(up).mounting;
+    if (!mounting) break;
+    if (mounting->parent == robot) {
+      const int last = static_cast<int>(world.robot(robot).chains[mounting->chain].links.size()) - 1;
+      return {mounting->chain, last};
+    }
+    up = mounting->parent;
+  }
+  return {-1, -1};
+}
+
+bool joint_moves(const World& world, Id<Robot> robot, JointPlace joint, Id<Body> body) {
+  const auto [chain, link] = carrying_link(world, robot, body);
+  return chain == joint.first && world.robot(robot).chains[chain].last_joints[link] >= joint.second;
+}
+
+std::vector<Id<Body>> movable_bodies(const World& world, Id<Robot> robot) {
+  std::vector<Id<Body>> out;
+  for (const auto body : world.bodies())
+    if (world.body(body).robot && carrying_link(world, robot, body).first >= 0) out.push_back(body);
+  return out;
+}
+
+// velocity of a point of whatever the joint moves, the joint at unit speed; frame: before the joint, in the world
+static Eigen::Vector3d point_velocity(const JointSpec& joint, const Pose& frame, const Eigen::Vector3d& p_W) {
+  const Eigen::Vector3d axis = frame.rotation * Eigen::Vector3d::UnitZ();
+  return joint.kind == JointKind::revolute ? Eigen::Vector3d(axis.cross(p_W - frame.position)) : axis;
+}
+
+BlockedJoints blocked_joints(const World& world, Id<Robot> id, const std::vector<std::vector<double>>& speeds,
+                             std::span<const Id<Body>> moving, double closed) {
+  const Robot& robot = world.robot(id);
+  const Pose& X_WB = world.body(robot.base).X_WB;
+  std::vector<std::vector<Pose>> frames;
+  for (size_t c = 0; c < robot.chains.size(); ++c) frames.push_back(chain_frames(robot, static_cast<int>(c)));
+
+  BlockedJoints out;
+  std::set<BodyPair> seen;
+  for (const Contact& contact : contacts(world, world.bodies(), moving)) {
+    for (int c = 0; c < static_cast<int>(robot.chains.size()); ++c)
+      for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j) {
+        // what the joint moves relative to the other side of the contact: one of them, or neither
+        const bool moves_body = joint_moves(world, id, {c, j}, contact.body);
+        const bool moves_other = joint_moves(world, id, {c, j}, contact.other);
+        if (speeds[c][j] == 0 || moves_body == moves_other) continue;
+        const Eigen::Vector3d v =
+            speeds[c][j] * point_velocity(robot.chains[c].joints[j], X_WB * frames[c][j], contact.p_W);
+        const double leaving = (moves_body ? 1 : -1) * v.dot(contact.n_W);
+        const double margin = std::max(grazing * v.norm(), no_lever * std::abs(speeds[c][j]));
+        if (leaving >= (contact.gap <= closed ? margin : -margin)) continue;
+        out.joints.emplace(c, j);
+        const BodyPair pair = moves_body ? BodyPair(contact.body, contact.other) : BodyPair(contact.other, contact.body);
+        if (seen.insert(std::minmax(pair.first, pair.second)).second) out.pairs.push_back(pair);
+      }
+  }
+  return out;
+}
+
+}  // namespace clench

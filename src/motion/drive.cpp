@@ -1,0 +1,236 @@
+#include "motion/drive.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "motion/advance.h"
+#include "motion/blocked_joints.h"
+#include "motion/move.h"
+
+namespace clench {
+
+// changes below this are no motion [rad or m]
+static constexpr double no_motion = 1e-5;
+// fingers that slide along a surface stop and go; one that has not come to rest after so many contacts is stopped
+static constexpr int most_events = 2000;
+
+namespace {
+
+using JointSpeeds = std::vector<std::vector<double>>;
+
+// a robot on its way: what a drive changes from contact to contact
+struct Drive {
+  World& world;
+  Id<Robot> id;
+  Eigen::VectorXd targets;
+  std::vector<Id<Body>> moving;
+  Eigen::VectorXd q;
+  std::vector<std::vector<Breakaway>> breakaway;
+
+  const Robot& robot() const { return world.robot(id); }
+  void place() { world.set_dofs_unchecked(id, q, breakaway); }
+};
+
+JointSpeeds joint_speeds(const Drive& drive, const Eigen::VectorXd& rates) {
+  JointSpeeds speeds;
+  for (size_t c = 0; c < drive.breakaway.size(); ++c) {
+    const auto& joints = drive.robot().chains[c].joints;
+    speeds.emplace_back();
+    for (size_t j = 0; j < joints.size(); ++j)
+      speeds[c].push_back(drive.breakaway[c][j] ? 0 : joints[j].ratio * rates[joints[j].dof]);
+  }
+  return speeds;
+}
+
+// visits chain, joint and its spec for all joints of a DOF
+template <class Visit>
+void each_joint(const Robot& robot, int dof, Visit visit) {
+  for (int c = 0; c < static_cast<int>(robot.chains.size()); ++c)
+    for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j)
+      if (robot.chains[c].joints[j].dof == dof) visit(c, j, robot.chains[c].joints[j]);
+}
+
+// has the DOF gone back to where a joint broke away from it?
+bool back_at(const JointSpec& joint, double q, double broken_at) {
+  return (joint.ratio * q - broken_at) * (joint.ratio < 0 ? -1 : 1) <= 0;
+}
+
+void re_engage(Drive& drive) {
+  for (int dof = 0; dof < drive.q.size(); ++dof)
+    each_joint(drive.robot(), dof, [&](int c, int j, const JointSpec& joint) {
+      Breakaway& broken = drive.breakaway[c][j];
+      if (broken && back_at(joint, drive.q[dof], *broken)) broken.reset();
+    });
+}
+
+// may the DOF go on past its blocked joints? a breakaway DOF, closing, leaves them behind
+bool goes_on(Drive& drive, int dof, double rate, const BlockedJoints& blocked) {
+  int stopped = 0, free = 0;
+  each_joint(drive.robot(), dof, [&](int c, int j, const JointSpec&) {
+    if (blocked.joints.contains({c, j}))
+      ++stopped;
+    else if (!drive.breakaway[c][j])
+      ++free;
+  });
+  if (stopped == 0) return free > 0;
+  if (drive.robot().dofs[dof].kind != DofKind::breakaway || rate < 0 || free == 0) return false;
+  each_joint(drive.robot(), dof, [&](int c, int j, const JointSpec& joint) {
+    if (blocked.joints.contains({c, j})) drive.breakaway[c][j] = joint.ratio * drive.q[dof];
+  });
+  return true;
+}
+
+// how far the path runs before a DOF arrives or, opening, picks up a joint that it had left behind
+double path_length(const Drive& drive, const Eigen::VectorXd& rates) {
+  double length = std::numeric_limits<double>::infinity();
+  for (int dof = 0; dof < rates.size(); ++dof) {
+    if (rates[dof] == 0) continue;
+    length = std::min(length, (drive.targets[dof] - drive.q[dof]) / rates[dof]);
+    each_joint(drive.robot(), dof, [&](int c, int j, const JointSpec& joint) {
+      if (!drive.breakaway[c][j]) return;
+      const double there = (*drive.breakaway[c][j] / joint.ratio - drive.q[dof]) / rates[dof];
+      if (there > 0) length = std::min(length, there);
+    });
+  }
+  return length;
+}
+
+// bound of the distance of any point of the body from the origin of the frame before a joint, whatever the
+// joints do on the way: lengths along the chain, then the body's own extent
+double lever(const Drive& drive, JointPlace joint, Id<Body> id) {
+  const Robot& robot = drive.robot();
+  const Chain& chain = robot.chains[joint.first];
+  const Body& body = drive.world.body(id);
+  const bool own = body.robot == drive.id;
+  const int link = own ? body.link : static_cast<int>(chain.links.size()) - 1;
+  double length = 0;
+  for (int k = joint.second; k <= chain.last_joints[link]; ++k) {
+    const JointSpec& spec = chain.joints[k];
+    const double d = spec.kind == JointKind::prismatic
+                         ? std::max(std::abs(spec.d + spec.min), std::abs(spec.d + spec.max))
+                         : std::abs(spec.d);
+    length += std::hypot(spec.a, d);
+  }
+  // a carried robot is rigid on the last link
+  const Pose X_WL = drive.world.body(chain.links[link]).X_WB;
+  const Eigen::Vector3d centre = X_WL.inverse() * (body.X_WB * body.shape->centre());
+  return length + centre.norm() + body.shape->radius();
+}
+
+// bound of the relative speed of two bodies: the joints that move one of them and not the other
+double pair_speed(const Drive& drive, const JointSpeeds& speeds, Id<Body> a, Id<Body> b) {
+  double sum = 0;
+  for (int c = 0; c < static_cast<int>(speeds.size()); ++c)
+    for (int j = 0; j < static_cast<int>(speeds[c].size()); ++j) {
+      if (speeds[c][j] == 0) continue;
+      const bool moves_a = joint_moves(drive.world, drive.id, {c, j}, a);
+      if (moves_a == joint_moves(drive.world, drive.id, {c, j}, b)) continue;
+      const bool turns = drive.robot().chains[c].joints[j].kind == JointKind::revolute;
+      sum += std::abs(speeds[c][j]) * (turns ? lever(drive, {c, j}, moves_a ? a : b) : 1);
+    }
+  return sum;
+}
+
+std::vector<Watch> watch_pairs(const Drive& drive, const JointSpeeds& speeds) {
+  std::vector<Watch> watches;
+  std::set<Id<Body>> done;
+  for (const auto a : drive.moving) {
+    done.insert(a);
+    for (const auto b : drive.world.bodies()) {
+      if (done.contains(b) || !drive.world.may_collide(a, b)) continue;
+      const double speed = pair_speed(drive, speeds, a, b);
+      if (speed > 0) watches.push_back({.a = a, .b = b, .speed = speed});
+    }
+  }
+  return watches;
+}
+
+// follows the path until a DOF arrives or a pair touches
+Advance follow(Drive& drive, const Eigen::VectorXd& rates, int& queries) {
+  const double length = path_length(drive, rates);
+  auto watches = watch_pairs(drive, joint_speeds(drive, rates));
+  const Eigen::VectorXd start = drive.q;
+  const auto place = [&](double s) {
+    drive.q = start + s * rates;
+    // who arrives, arrives exactly
+    for (int i = 0; i < rates.size(); ++i)
+      if (rates[i] != 0 && (drive.targets[i] - drive.q[i]) * rates[i] <= 1e-15) drive.q[i] = drive.targets[i];
+    drive.place();
+  };
+  return advance(drive.world, watches, length, place, queries);
+}
+
+void check(const Robot& robot, const DofMotion& motion) {
+  if (motion.targets.size() != robot.q.size())
+    fail("driving '{}': wanted {} DOF values, got {}", robot.name, robot.q.size(), motion.targets.size());
+  for (int i = 0; i < motion.targets.size(); ++i) {
+    const auto [low, high] = robot.limits[i];
+    // a limit that went through degrees and back is still the limit
+    const double slack = 1e-9 * std::max({1.0, std::abs(low), std::abs(high)});
+    if (!(motion.targets[i] >= low - slack && motion.targets[i] <= high + slack))
+      fail("driving '{}': DOF {} must lie in [{}, {}], got {}", robot.name, i + 1, low, high, motion.targets[i]);
+    if (!std::isfinite(motion.rates[i])) fail("driving '{}': the pace of DOF {} must be finite, got {}", robot.name, i + 1, motion.rates[i]);
+  }
+}
+
+}  // namespace
+
+DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion, const DriveOptions& options) {
+  const Robot& robot = world.robot(id);
+  check(robot, motion);
+  Drive drive{world, id, motion.targets, movable_bodies(world, id), robot.q, {}};
+  for (size_t i = 0; i < robot.limits.size(); ++i)
+    drive.targets[i] = std::clamp(drive.targets[i], robot.limits[i][0], robot.limits[i][1]);
+  for (const auto& chain : robot.chains) drive.breakaway.push_back(chain.breakaway);
+  refuse_collision(world, drive.moving, fmt::format("driving '{}'", robot.name));
+
+  const Eigen::VectorXd start = robot.q;
+  DriveResult result;
+  result.stops.assign(robot.dofs.size(), DofStop::still);
+  while (true) {
+    // who has somewhere to go, and is not blocked
+    re_engage(drive);
+    Eigen::VectorXd rates = motion.rates;
+    for (int i = 0; i < rates.size(); ++i) {
+      const double way = drive.targets[i] - drive.q[i];
+      if (rates[i] * way > 0) continue;
+      if (rates[i] != 0) {
+        const auto [low, high] = robot.limits[i];
+        result.stops[i] = drive.q[i] == low || drive.q[i] == high ? DofStop::limit : DofStop::reached;
+      }
+      rates[i] = 0;
+    }
+    const double closed = 2 * nearly_closed * world.contact_threshold();
+    const auto blocked = blocked_joints(world, id, joint_speeds(drive, rates), drive.moving, closed);
+    for (int i = 0; i < rates.size(); ++i)
+      if (rates[i] != 0 && !goes_on(drive, i, rates[i], blocked)) {
+        rates[i] = 0;
+        result.stops[i] = DofStop::contact;
+      }
+    result.stopped_by = blocked.pairs;
+    if (rates.isZero(0) || result.events >= most_events) break;
+
+    const Advance end = follow(drive, rates, result.queries);
+    if (!end.stopped_by) continue;
+    ++result.events;
+    if (options.stop_at_contact && !end.stopped_by->touching) {
+      result.stopped_by = {{end.stopped_by->a, end.stopped_by->b}};
+      for (int i = 0; i < rates.size(); ++i)
+        if (rates[i] != 0) result.stops[i] = DofStop::contact;
+      break;
+    }
+  }
+  drive.place();
+  result.moved = (drive.q - start).cwiseAbs().maxCoeff() > no_motion;
+  return result;
+}
+
+DriveResult drive_to(World& world, Id<Robot> id, const Eigen::VectorXd& targets, const DriveOptions& options) {
+  const Robot& robot = world.robot(id);
+  if (targets.size() != robot.q.size())
+    fail("driving '{}': wanted {} DOF values, got {}", robot.name, robot.q.size(), targets.size());
+  return drive(world, id, {.targets = targets, .rates = targets - robot.q}, options);
+}
+
+}  // namespace clench

@@ -1,0 +1,129 @@
+#include "motion/move.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "base/error.h"
+#include "motion/advance.h"
+
+namespace clench {
+
+// a contact blocks a motion that leans into it by more than this sine
+static constexpr double grazing = 1e-6;
+
+void refuse_collision(const World& world, std::span<const Id<Body>> moving, const std::string& subject) {
+  const auto pairs = colliding_pairs(world, moving, world.bodies());
+  if (!pairs.empty()) fail("{}: the motion starts in collision: {}", subject, describe(world, pairs));
+}
+
+namespace {
+
+// one rigid thing, made of bodies, on its way from one pose to another
+struct Way {
+  Pose from, to;
+  std::vector<Id<Body>> moving;
+  std::function<void(const Pose&)> place;
+};
+
+// bound of the distance of the body's points from the origin that the motion turns about
+double reach_from(const Body& body, const Eigen::Vector3d& origin) {
+  return (body.X_WB * body.shape->centre() - origin).norm() + body.shape->radius();
+}
+
+std::vector<Watch> watch_pairs(const World& world, const Way& way, double length, double angle) {
+  const std::set<Id<Body>> mine(way.moving.begin(), way.moving.end());
+  std::vector<Watch> watches;
+  for (const auto a : way.moving)
+    for (const auto b : world.bodies())
+      if (!mine.contains(b) && world.may_collide(a, b))
+        watches.push_back({.a = a, .b = b, .speed = length + angle * reach_from(world.body(a), way.from.position)});
+  return watches;
+}
+
+// contacts that the very first motion would push into
+std::vector<BodyPair> blocked_pairs(const World& world, const Way& way, const Eigen::Vector3d& linear,
+                                    const Eigen::Vector3d& angular, const std::vector<Watch>& watches) {
+  std::vector<BodyPair> blocked;
+  for (const Watch& watch : watches) {
+    const std::array a{watch.a}, b{watch.b};
+    const auto touching = contacts(world, b, a);
+    const bool pushed = std::any_of(touching.begin(), touching.end(), [&](const Contact& contact) {
+      const Eigen::Vector3d velocity = linear + angular.cross(contact.p_W - way.from.position);
+      return velocity.dot(contact.n_W) < -grazing * velocity.norm();
+    });
+    if (pushed) blocked.emplace_back(watch.a, watch.b);
+  }
+  return blocked;
+}
+
+MoveResult move(World& world, const Way& way) {
+  const Pose turn = way.to * way.from.inverse();
+  const double angle = turn.angle();
+  const Eigen::Vector3d linear = way.to.position - way.from.position;
+  Eigen::Vector3d axis = turn.rotation.vec();
+  if (turn.rotation.w() < 0) axis = -axis;
+  const Eigen::Vector3d angular = axis.norm() > 0 ? Eigen::Vector3d(angle * axis.normalized()) : Eigen::Vector3d::Zero();
+
+  MoveResult result;
+  auto watches = watch_pairs(world, way, linear.norm(), angle);
+  std::erase_if(watches, [](const Watch& watch) { return watch.speed == 0; });
+  result.stopped_by = blocked_pairs(world, way, linear, angular, watches);
+  result.touched = !result.stopped_by.empty();
+  if (result.touched) return result;
+
+  const auto place = [&](double s) { way.place(s >= 1 ? way.to : interpolate(way.from, way.to, s)); };
+  const Advance end = advance(world, watches, 1, place, result.queries);
+  result.fraction = end.s;
+  result.touched = end.stopped_by.has_value();
+  if (end.stopped_by) result.stopped_by.emplace_back(end.stopped_by->a, end.stopped_by->b);
+  return result;
+}
+
+// a robot's own bodies, and those of all that it carries
+std::vector<Id<Body>> carried_bodies(const World& world, Id<Robot> robot) {
+  auto out = world.bodies_of(robot);
+  for (const auto other : world.robots()) {
+    const auto& mounting = world.robot(other).mounting;
+    if (!mounting || mounting->parent != robot) continue;
+    const auto more = carried_bodies(world, other);
+    out.insert(out.end(), more.begin(), more.end());
+  }
+  return out;
+}
+
+}  // namespace
+
+MoveResult move_body(World& world, Id<Body> body, const Pose& X_WB) {
+  const Pose from = world.body(body).X_WB;
+  world.set_pose(body, X_WB);  // refuses a part of a robot and a pose that is not finite
+  world.set_pose(body, from);
+  Way way{from, X_WB, {body}, [&](const Pose& X) { world.set_pose(body, X); }};
+  refuse_collision(world, way.moving, fmt::format("moving '{}'", world.body(body).name));
+  return move(world, way);
+}
+
+MoveResult move_robot(World& world, Id<Robot> robot, const Pose& X_WB) {
+  const Pose from = world.body(world.robot(robot).base).X_WB;
+  world.set_pose(robot, X_WB);  // refuses a carried robot and a pose that is not finite
+  world.set_pose(robot, from);
+  Way way{from, X_WB, carried_bodies(world, robot), [&](const Pose& X) { world.set_pose(robot, X); }};
+  // the robot's own overlaps move along: only the rest of the world matters
+  std::vector<Id<Body>> others;
+  for (const auto b : world.bodies())
+    if (std::find(way.moving.begin(), way.moving.end(), b) == way.moving.end()) others.push_back(b);
+  const auto pairs = colliding_pairs(world, way.moving, others);
+  if (!pairs.empty())
+    fail("moving '{}': the motion starts in collision: {}", world.robot(robot).name, describe(world, pairs));
+  return move(world, way);
+}
+
+MoveResult approach(World& world, Id<Robot> robot, double reach) {
+  const Robot& hand = world.robot(robot);
+  if (!(reach >= 0) || !std::isfinite(reach)) fail("approach of '{}': the reach must be >= 0 [m], got {}", hand.name, reach);
+  const Pose X_WB = world.body(hand.base).X_WB;
+  const Eigen::Vector3d direction = X_WB.rotation * (hand.X_BA.rotation * Eigen::Vector3d::UnitZ());
+  return move_robot(world, robot, Pose{X_WB.rotation, X_WB.position + reach * direction});
+}
+
+}  // namespace clench
