@@ -1,0 +1,59 @@
+#include "contact/cone.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace clench {
+
+namespace {
+
+constexpr int most_edges = 1000;      // far beyond what a hull in six dimensions can use
+constexpr double unit_length = 1e-6;  // what a normal's length may be off: it passed through files
+
+void check(const PointContact& contact, const ConeOptions& options) {
+  if (!contact.p_O.allFinite()) fail("contact cone: the point must be finite");
+  const double length = contact.n_O.norm();
+  if (!(std::abs(length - 1) <= unit_length))
+    fail("contact cone: the normal must be a unit vector, got length {}", length);
+  if (!std::isfinite(contact.mu) || contact.mu < 0)
+    fail("contact cone: mu must be >= 0, got {}", contact.mu);
+  if (options.edges < 3 || options.edges > most_edges)
+    fail("contact cone: edges must be 3 to {}, got {}", most_edges, options.edges);
+  if (!std::isfinite(options.rho) || options.rho <= 0)
+    fail("contact cone: rho must be > 0, got {}", options.rho);
+  if (!options.p_OM.allFinite()) fail("contact cone: the point of torques must be finite");
+}
+
+}  // namespace
+
+Eigen::Matrix3d contact_frame(const Eigen::Vector3d& normal) {
+  const bool along_e1 = std::abs(normal.x()) > 1 - 1e-9;
+  const Eigen::Vector3d reference = along_e1 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
+  Eigen::Matrix3d frame;
+  frame.col(2) = normal;
+  frame.col(0) = normal.cross(reference).normalized();
+  frame.col(1) = normal.cross(frame.col(0));
+  return frame;
+}
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> cone_wrenches(const PointContact& contact,
+                                                       const ConeOptions& options) {
+  check(contact, options);
+  const Eigen::Matrix3d frame = contact_frame(contact.n_O);
+  const Eigen::Vector3d lever = (contact.p_O - options.p_OM) / options.rho;
+  const int count = contact.mu == 0 ? 1 : options.edges;
+
+  Eigen::Matrix<double, 6, Eigen::Dynamic> wrenches(6, count);
+  for (int j = 0; j < count; ++j) {
+    const double angle = 2 * std::numbers::pi * j / count;
+    const Eigen::Vector3d tangent = std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1);
+    const Eigen::Vector3d force = frame.col(2) + contact.mu * tangent;
+    wrenches.col(j) << force, lever.cross(force);
+  }
+  return wrenches;
+}
+
+}  // namespace clench

@@ -1,0 +1,64 @@
+#include "contact/materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/suggest.h"
+#include "spec/material_names.h"
+
+namespace clench {
+
+// coefficients of sticking, in the order of the names; sliding is 0.1 less
+constexpr double static_friction[material_names.size()][material_names.size()] = {
+    {0, 0, 0, 0, 0, 0, 0},              // frictionless
+    {0, 0.2, 0.2, 0.2, 0.3, 1.0, 0.3},  // glass
+    {0, 0.2, 0.2, 0.2, 0.3, 1.0, 0.4},  // metal
+    {0, 0.2, 0.2, 0.3, 0.4, 1.0, 0.4},  // plastic
+    {0, 0.3, 0.3, 0.4, 0.4, 1.0, 0.6},  // wood
+    {0, 1.0, 1.0, 1.0, 1.0, 2.0, 1.5},  // rubber
+    {0, 0.3, 0.4, 0.4, 0.6, 1.5, 0.7},  // stone
+};
+
+MaterialTable::MaterialTable() : names_(material_names.begin(), material_names.end()) {
+  for (const auto& row : static_friction)
+    for (const double mu : row) table_.push_back({mu, std::max(0.0, mu - 0.1)});
+}
+
+int MaterialTable::index(std::string_view name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) fail("no material '{}'{}", name, did_you_mean(name, names_));
+  return static_cast<int>(found - names_.begin());
+}
+
+void MaterialTable::set_friction(std::string_view a, std::string_view b, Friction friction) {
+  const auto check = [&](const char* which, double mu) {
+    if (!std::isfinite(mu) || mu < 0)
+      fail("friction of {} and {}: {} must be >= 0, got {}", a, b, which, mu);
+  };
+  if (a.empty() || b.empty()) fail("friction of '{}' and '{}': a material needs a name", a, b);
+  check("static", friction.statics);
+  check("kinetic", friction.kinetic);
+  if (friction.kinetic > friction.statics)
+    fail("friction of {} and {}: kinetic {} exceeds static {}", a, b, friction.kinetic,
+         friction.statics);
+
+  const int i = find_or_add(a), j = find_or_add(b);
+  table_[i * names_.size() + j] = table_[j * names_.size() + i] = friction;
+}
+
+int MaterialTable::find_or_add(std::string_view name) {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found != names_.end()) return static_cast<int>(found - names_.begin());
+
+  // one more row and column, without friction
+  const size_t count = names_.size();
+  std::vector<Friction> grown((count + 1) * (count + 1));
+  for (size_t i = 0; i < count; ++i)
+    for (size_t j = 0; j < count; ++j) grown[i * (count + 1) + j] = table_[i * count + j];
+  table_ = std::move(grown);
+  names_.emplace_back(name);
+  return static_cast<int>(count);
+}
+
+}  // namespace clench

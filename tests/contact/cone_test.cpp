@@ -1,0 +1,114 @@
+#include "contact/cone.h"
+
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "support/shared.h"
+
+using namespace clench;
+
+static Eigen::Vector3d random_unit(Random& random) {
+  return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+}
+
+TEST_CASE("a contact frame is right-handed with z along the normal") {
+  Random random(1);
+  std::vector<Eigen::Vector3d> normals = {Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitX(),
+                                          Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(),
+                                          Eigen::Vector3d(1, 1e-7, 0).normalized()};
+  for (int i = 0; i < 200; ++i) normals.push_back(random_unit(random));
+  for (const Eigen::Vector3d& n : normals) {
+    const Eigen::Matrix3d frame = contact_frame(n);
+    CHECK(frame.col(2) == n);
+    // a few roundings
+    CHECK((frame.transpose() * frame - Eigen::Matrix3d::Identity()).norm() < 1e-14);
+    CHECK(frame.determinant() == doctest::Approx(1).epsilon(1e-14));
+  }
+  CHECK(contact_frame(Eigen::Vector3d::UnitZ()).col(0) == Eigen::Vector3d::UnitY());
+  CHECK(contact_frame(Eigen::Vector3d::UnitX()).col(0) == -Eigen::Vector3d::UnitY());
+}
+
+TEST_CASE("every edge leans from the normal by the friction angle, counter-clockwise from x") {
+  Random random(2);
+  for (int trial = 0; trial < 50; ++trial) {
+    const PointContact contact{.p_O = random_unit(random), .n_O = random_unit(random), .mu = 0.5};
+    const auto wrenches = cone_wrenches(contact, {.edges = 12});
+    REQUIRE(wrenches.cols() == 12);
+    const Eigen::Matrix3d frame = contact_frame(contact.n_O);
+    for (int j = 0; j < 12; ++j) {
+      const Eigen::Vector3d f_C = frame.transpose() * wrenches.col(j).head<3>();
+      CHECK(f_C.z() == doctest::Approx(1));
+      CHECK(f_C.head<2>().norm() == doctest::Approx(0.5));
+      const double wanted = 2 * std::numbers::pi * j / 12;
+      // the angle's sine and cosine, so that a full turn is no jump
+      CHECK(f_C.x() == doctest::Approx(0.5 * std::cos(wanted)).epsilon(1e-12));
+      CHECK(f_C.y() == doctest::Approx(0.5 * std::sin(wanted)).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("torque is the lever about the given point times force, over rho") {
+  const PointContact contact{.p_O = {0.3, -0.2, 0.5}, .n_O = {0, 1, 0}, .mu = 0.7};
+  const Eigen::Vector3d about(0.1, 0.1, -0.2);
+  const auto wrenches = cone_wrenches(contact, {.edges = 5, .rho = 0.25, .p_OM = about});
+  for (const auto& w : wrenches.colwise()) {
+    const Eigen::Vector3d torque = (contact.p_O - about).cross(Eigen::Vector3d(w.head<3>()));
+    CHECK((0.25 * w.tail<3>() - torque).norm() < 1e-15);  // rounding of numbers below 1
+  }
+}
+
+TEST_CASE("without friction the cone is its normal") {
+  const auto wrenches = cone_wrenches({.p_O = {1, 0, 0}, .n_O = {0, 0, 1}, .mu = 0});
+  REQUIRE(wrenches.cols() == 1);
+  CHECK(wrenches.col(0) == (Eigen::Matrix<double, 6, 1>() << 0, 0, 1, 0, -1, 0).finished());
+}
+
+TEST_CASE("a bad contact or option is refused by name and value") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refuse = [](const PointContact& contact, const ConeOptions& options, const char* why) {
+    CHECK_THROWS_WITH_AS(cone_wrenches(contact, options), why, Error);
+  };
+  refuse({.mu = -0.1}, {}, "contact cone: mu must be >= 0, got -0.1");
+  refuse({.mu = nan}, {}, "contact cone: mu must be >= 0, got nan");
+  refuse({.n_O = {0, 0, 2}}, {}, "contact cone: the normal must be a unit vector, got length 2");
+  refuse({.n_O = {0, 0, nan}}, {},
+         "contact cone: the normal must be a unit vector, got length nan");
+  refuse({.p_O = {nan, 0, 0}}, {}, "contact cone: the point must be finite");
+  refuse({}, {.edges = 2}, "contact cone: edges must be 3 to 1000, got 2");
+  refuse({}, {.edges = 2000000000}, "contact cone: edges must be 3 to 1000, got 2000000000");
+  refuse({}, {.rho = 0}, "contact cone: rho must be > 0, got 0");
+  refuse({}, {.rho = nan}, "contact cone: rho must be > 0, got nan");
+  refuse({}, {.p_OM = {0, nan, 0}}, "contact cone: the point of torques must be finite");
+}
+
+TEST_CASE("the wrenches of the original's contacts come out again") {
+  REQUIRE_SHARED();
+  int compared = 0;
+  for (const char* name : {"dlr_flask", "barrett_flask_bestSA", "plannerMug"}) {
+    std::ifstream file(test::shared() / "reference" / ("autograsp_" + std::string(name) + ".json"));
+    REQUIRE(file);
+    const auto measured = nlohmann::json::parse(file);
+    const auto vector = [](const nlohmann::json& v) {
+      return Eigen::Vector3d(v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+    };
+    // millimetres throughout: the ratio to rho has no unit
+    ConeOptions options{.rho = measured["gws_max_radius"], .p_OM = vector(measured["gws_cog"])};
+    for (const auto& c : measured["grasp_contact_list"]) {
+      options.edges = c["friction_edges"];
+      const PointContact contact{
+          .p_O = vector(c["pos_body1"]), .n_O = vector(c["normal_body1"]), .mu = c["cof"]};
+      const auto ours = cone_wrenches(contact, options);
+      const auto& theirs = c["wrenches_fx_fy_fz_tx_ty_tz"];
+      REQUIRE(ours.cols() == static_cast<int>(theirs.size()));
+      for (int j = 0; j < ours.cols(); ++j)
+        for (int row = 0; row < 6; ++row, ++compared)
+          // theirs is printed with 17 digits; the numbers are of order 1
+          CHECK(std::abs(ours(row, j) - theirs[j][row].get<double>()) < 1e-9);
+    }
+  }
+  CHECK(compared > 500);
+}

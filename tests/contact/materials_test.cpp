@@ -1,0 +1,82 @@
+#include "contact/materials.h"
+
+#include <limits>
+
+#include "base/error.h"
+
+using namespace clench;
+
+TEST_CASE("the seven materials stand in their fixed order") {
+  const MaterialTable table;
+  const std::vector<std::string> names = {"frictionless", "glass",  "metal", "plastic",
+                                          "wood",         "rubber", "stone"};
+  CHECK(table.names() == names);
+  for (int i = 0; i < 7; ++i) CHECK(table.index(names[i]) == i);
+}
+
+TEST_CASE("the table is symmetric, and sliding rubs 0.1 less than sticking") {
+  const MaterialTable table;
+  for (int a = 0; a < 7; ++a)
+    for (int b = 0; b < 7; ++b) {
+      CHECK(table.friction(a, b).statics == table.friction(b, a).statics);
+      CHECK(table.friction(a, b).kinetic == table.friction(b, a).kinetic);
+      if (a == 0 || b == 0) {
+        CHECK(table.friction(a, b).statics == 0);
+        CHECK(table.friction(a, b).kinetic == 0);
+      } else {
+        CHECK(table.friction(a, b).kinetic == table.friction(a, b).statics - 0.1);
+      }
+    }
+  const auto mu = [&](const char* a, const char* b) {
+    return table.friction(table.index(a), table.index(b)).statics;
+  };
+  CHECK(mu("rubber", "glass") == 1.0);
+  CHECK(mu("rubber", "rubber") == 2.0);
+  CHECK(mu("rubber", "stone") == 1.5);
+  CHECK(mu("plastic", "plastic") == 0.3);
+  CHECK(mu("metal", "glass") == 0.2);
+  CHECK(mu("stone", "wood") == 0.6);
+}
+
+TEST_CASE("a changed pair changes both ways round and nothing else") {
+  MaterialTable table;
+  const MaterialTable before = table;
+  table.set_friction("wood", "glass", {.statics = 0.55, .kinetic = 0.5});
+  for (int a = 0; a < 7; ++a)
+    for (int b = 0; b < 7; ++b) {
+      const bool changed = (a == 1 && b == 4) || (a == 4 && b == 1);
+      CHECK(table.friction(a, b).statics == (changed ? 0.55 : before.friction(a, b).statics));
+      CHECK(table.friction(a, b).kinetic == (changed ? 0.5 : before.friction(a, b).kinetic));
+    }
+}
+
+TEST_CASE("a new material keeps the others' friction and has none but what it is told") {
+  MaterialTable table;
+  const MaterialTable before = table;
+  table.set_friction("cork", "felt", {.statics = 0.8, .kinetic = 0.7});
+  table.set_friction("cork", "cork", {.statics = 0.9, .kinetic = 0.9});
+  REQUIRE(table.names().size() == 9);
+  for (int a = 0; a < 7; ++a) {
+    for (int b = 0; b < 7; ++b)
+      CHECK(table.friction(a, b).statics == before.friction(a, b).statics);
+    CHECK(table.friction(a, table.index("cork")).statics == 0);
+  }
+  CHECK(table.friction(table.index("felt"), table.index("cork")).statics == 0.8);
+  CHECK(table.friction(table.index("cork"), table.index("cork")).kinetic == 0.9);
+  CHECK(table.friction(table.index("felt"), table.index("felt")).statics == 0);
+}
+
+TEST_CASE("bad coefficients and names are refused, and leave the table as it was") {
+  MaterialTable table;
+  const auto refuse = [&](const char* a, const char* b, Friction friction, const char* message) {
+    CHECK_THROWS_WITH_AS(table.set_friction(a, b, friction), message, Error);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refuse("cork", "glass", {-0.5, 0}, "friction of cork and glass: static must be >= 0, got -0.5");
+  refuse("cork", "glass", {nan, 0}, "friction of cork and glass: static must be >= 0, got nan");
+  refuse("cork", "glass", {0.5, -1}, "friction of cork and glass: kinetic must be >= 0, got -1");
+  refuse("cork", "glass", {0.5, 0.6}, "friction of cork and glass: kinetic 0.6 exceeds static 0.5");
+  refuse("", "glass", {0.5, 0.4}, "friction of '' and 'glass': a material needs a name");
+  CHECK(table.names().size() == 7);
+  CHECK_THROWS_WITH_AS(table.index("rubbr"), "no material 'rubbr'; did you mean 'rubber'?", Error);
+}
