@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -9,12 +10,18 @@ namespace clench {
 
 using Triangle = std::array<int, 3>;  ///< vertex indices, counter-clockwise from outside
 
+/// Beyond this, products of lengths leave the range of doubles [m].
+inline constexpr double largest_coordinate = 1e30;
+
 /// Axis-aligned bounds; empty when low > high.
 struct Bounds {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d high = -low;
 
   void add(const Eigen::Vector3d& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); }
+  bool holds(const Eigen::Vector3d& p) const {
+    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+  }
   bool empty() const { return (low.array() > high.array()).any(); }
   Eigen::Vector3d centre() const { return 0.5 * (low + high); }
   Eigen::Vector3d size() const { return high - low; }

@@ -18,11 +18,14 @@ class Shape {
   const Mesh& mesh() const { return mesh_; }
   const MeshFaults& faults() const { return faults_; }
   const MassProperties& solid() const { return solid_; }
+  bool has_triangle(int i) const { return i >= 0 && i < static_cast<int>(mesh_.triangles.size()); }
   const Bounds& bounds() const { return bounds_; }
   bool closed() const { return faults_.closed(); }
   /// centre and radius [m] of a sphere that holds the mesh
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }
+  /// one triangle of each connected part (vertices at one place connect), in index order
+  const std::vector<int>& parts() const { return parts_; }
   const Tree& tree() const { return *tree_; }
 
  private:
@@ -33,6 +36,7 @@ class Shape {
   Bounds bounds_;
   Eigen::Vector3d centre_;
   double radius_ = 0;
+  std::vector<int> parts_;
   std::unique_ptr<const Tree> tree_;
 };
 

@@ -1,5 +1,5 @@
-// Exact tests between two triangles, a point and a triangle, two segments. Degenerate ones included:
-// a triangle without area is the segment or point that it covers.
+// Exact tests between two triangles, a point and a triangle, two segments. Degenerate ones
+// included: a triangle without area is the segment or point that it covers.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -9,13 +9,13 @@ namespace clench {
 using Corners = std::array<Eigen::Vector3d, 3>;
 
 struct Closest {
-  double distance = 0;  ///< [m]
-  Eigen::Vector3d p, q; ///< nearest point on the first, on the second
+  double distance = 0;   ///< [m]
+  Eigen::Vector3d p, q;  ///< nearest point on the first, on the second
 };
 
 /// source  Ericson (2005), ch. 5.1.9
-Closest segment_segment(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1, const Eigen::Vector3d& b0,
-                        const Eigen::Vector3d& b1);
+Closest segment_segment(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
+                        const Eigen::Vector3d& b0, const Eigen::Vector3d& b1);
 
 /// source  Ericson (2005), ch. 5.1.5. p is the point itself, q lies on the triangle
 Closest point_triangle(const Eigen::Vector3d& p, const Corners& triangle);

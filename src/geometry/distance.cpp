@@ -1,0 +1,48 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "geometry/containment.h"
+#include "geometry/queries.h"
+#include "geometry/tree.h"
+
+namespace clench {
+
+Distance distance(const Shape& a, const Shape& b, const Pose& X_AB, double limit,
+                  PairCache* cache) {
+  if (std::isnan(limit)) fail("distance: limit must be a number [m], got {}", limit);
+  const Placement placement(a, b, X_AB);
+
+  // the least over all pairs that can be nearer than the best so far; a bound above 0 lets meeting
+  // pairs in whatever the limit
+  Distance best;
+  best.distance = std::numeric_limits<double>::infinity();
+  double bound = std::max(limit, std::numeric_limits<double>::min());
+  const auto visit = [&](int triangle_a, int triangle_b) {
+    const Closest c =
+        triangle_triangle(placement.corners_a(triangle_a), placement.corners_b(triangle_b));
+    if (c.distance < bound) {
+      best = {c.distance, c.p, c.q, triangle_a, triangle_b};
+      bound = c.distance;
+    }
+    return bound == 0;
+  };
+  const auto try_again = [&](int triangle_a, int triangle_b) {
+    return a.has_triangle(triangle_a) && b.has_triangle(triangle_b) &&
+           visit(triangle_a, triangle_b);
+  };
+  const bool met = (cache && (try_again(cache->hit_a, cache->hit_b) ||
+                              try_again(cache->closest_a, cache->closest_b))) ||
+                   placement.for_near_pairs(bound, visit);
+  if (!met) {
+    if (const auto inside = find_containment(a, b, placement))
+      return {0, inside->point, inside->point, inside->triangle_a, inside->triangle_b};
+  }
+  if (cache && best.triangle_a >= 0) {
+    cache->closest_a = best.triangle_a, cache->closest_b = best.triangle_b;
+    if (met) cache->hit_a = best.triangle_a, cache->hit_b = best.triangle_b;
+  }
+  return best;
+}
+
+}  // namespace clench

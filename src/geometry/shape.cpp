@@ -1,0 +1,75 @@
+#include "geometry/shape.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "geometry/tree.h"
+
+namespace clench {
+
+namespace {
+
+// Union and find over vertices: the lowest index stands for the whole part.
+class Parts {
+ public:
+  explicit Parts(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  int find(int v) {
+    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    return v;
+  }
+  void join(int u, int v) {
+    u = find(u), v = find(v);
+    parent_[std::max(u, v)] = std::min(u, v);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+std::vector<int> one_triangle_of_each_part(const Mesh& mesh) {
+  Parts parts(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles) parts.join(t[0], t[1]), parts.join(t[0], t[2]);
+
+  // files without shared vertices are connected by position
+  std::vector<int> order(mesh.vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int v) {
+    const Eigen::Vector3d& p = mesh.vertices[v];
+    return std::array<double, 3>{p.x(), p.y(), p.z()};
+  };
+  std::sort(order.begin(), order.end(), [&](int u, int v) { return key(u) < key(v); });
+  for (size_t i = 1; i < order.size(); ++i)
+    if (mesh.vertices[order[i - 1]] == mesh.vertices[order[i]]) parts.join(order[i - 1], order[i]);
+
+  std::vector<int> out;
+  std::vector<char> seen(mesh.vertices.size(), 0);
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    char& known = seen[parts.find(mesh.triangles[i][0])];
+    if (!known) out.push_back(static_cast<int>(i));
+    known = 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+Shape::Shape() = default;
+Shape::~Shape() = default;
+
+std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject) {
+  check_mesh(mesh, subject);
+  const std::shared_ptr<Shape> shape(new Shape);
+  shape->mesh_ = std::move(mesh);
+  shape->faults_ = find_faults(shape->mesh_);
+  shape->solid_ = solid_mass(shape->mesh_);
+  for (const Triangle& t : shape->mesh_.triangles)
+    for (const int v : t) shape->bounds_.add(shape->mesh_.vertices[v]);
+  shape->centre_ = shape->bounds_.centre();
+  shape->radius_ = largest_radius(shape->mesh_, shape->centre_);
+  shape->parts_ = one_triangle_of_each_part(shape->mesh_);
+  shape->tree_ = std::make_unique<const Tree>(shape->mesh_);
+  return shape;
+}
+
+}  // namespace clench
