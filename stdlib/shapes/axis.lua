@@ -1,0 +1,29 @@
+-- stdlib/shapes/axis.lua
+--- Where a shape with an axis stands: a length along z, centred on the origin, or the two points of its axis.
+local vector = require "clench.shapes.vector"
+local mesh = require "clench.shapes.mesh"
+
+--- Reads `size` (a name of the length) or `from` and `to`.
+---@return number length, fun(mesh: table): table place  moves a mesh that starts at z = 0 and rises along +z
+return function(o, size)
+  local length, from, to = o:raw(size), o:point "from", o:point "to"
+  if length ~= nil and (from or to) or (from == nil) ~= (to == nil) or not (length or from) then
+    o:fail("wanted either %s or both from and to, got %s%s%s", size, length and size or from and "from" or "no " .. size,
+           length and from and ", from" or "", to and " and to" or "")
+  end
+  if length ~= nil then
+    length = o:positive(size)
+    return length, function(shape)
+      return mesh.map(shape, function(p) return {p[1], p[2], p[3] - length / 2} end)
+    end
+  end
+  local along = vector.sub(to, from)
+  local z = vector.unit(along)
+  if not z then o:fail("from and to must be apart, got {%.6g, %.6g, %.6g} twice", from[1], from[2], from[3]) end
+  local x, y = vector.frame(z)
+  return vector.norm(along), function(shape)
+    return mesh.map(shape, function(p)
+      return vector.along(vector.along(vector.along(from, p[1], x), p[2], y), p[3], z)
+    end)
+  end
+end

@@ -1,0 +1,34 @@
+-- stdlib/shapes/box.lua
+local options = require "clench.shapes.options"
+
+local corners = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}
+local faces = {{1, 4, 3, 2}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}}
+
+--- A box centred on the origin, its edges sharp, cut or rounded.
+---@param given {x: number, y: number, z: number, chamfer?: number, rounding?: number, segments?: integer}
+---  or {x, y, z, ...}: sizes [m]; chamfer: width cut off each face [m]; rounding: radius of the edges [m]
+---@return table mesh
+return function(given)
+  local o = options("box", given, {"x", "y", "z"})
+  local x, y, z = o:positive "x", o:positive "y", o:positive "z"
+  local chamfer, rounding = o:not_negative("chamfer", 0), o:not_negative("rounding", 0)
+  local segments = o:count("segments", 4, 1, 64)
+  o:done()
+  if chamfer > 0 and rounding > 0 then o:fail "wanted chamfer or rounding, got both" end
+  if chamfer + rounding > 0 then
+    local least = math.min(x, y, z)
+    if 2 * (chamfer + rounding) > least * (1 + 1e-12) then
+      o:fail("%s must be at most half of the smallest size, %.6g, got %.6g", chamfer > 0 and "chamfer" or "rounding",
+             0.5 * least, chamfer + rounding)
+    end
+    return require "clench.shapes.rounded_box" {x, y, z, rounding = chamfer + rounding,
+                                                segments = chamfer > 0 and 1 or segments}
+  end
+  local vertices, triangles = {}, {}
+  for i, c in ipairs(corners) do vertices[i] = {c[1] * x / 2, c[2] * y / 2, c[3] * z / 2} end
+  for _, f in ipairs(faces) do
+    triangles[#triangles + 1] = {f[1], f[2], f[3]}
+    triangles[#triangles + 1] = {f[1], f[3], f[4]}
+  end
+  return {vertices = vertices, triangles = triangles}
+end

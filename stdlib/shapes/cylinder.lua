@@ -1,0 +1,36 @@
+-- stdlib/shapes/cylinder.lua
+local options = require "clench.shapes.options"
+local arc = require "clench.shapes.arc"
+local axis = require "clench.shapes.axis"
+local revolve = require "clench.shapes.revolve"
+
+--- A cylinder along z, centred on the origin, or with its axis between two points.
+---@param given {radius: number, height?: number, from?: number[], to?: number[], chamfer?: number,
+---  rounding?: number, segments?: integer}  or {radius, height, ...}; chamfer or rounding of both rims [m]
+---@return table mesh
+return function(given)
+  local o = options("cylinder", given, {"radius", "height"})
+  local radius = o:positive "radius"
+  local height, place = axis(o, "height")
+  local chamfer, rounding = o:not_negative("chamfer", 0), o:not_negative("rounding", 0)
+  local segments = o:count("segments", 48, 3, 4096)
+  o:done()
+  if chamfer > 0 and rounding > 0 then o:fail "wanted chamfer or rounding, got both" end
+  local cut, steps = chamfer + rounding, chamfer > 0 and 1 or rounding > 0 and 4 or 0
+  if cut > radius or 2 * cut > height then
+    o:fail("%s must be at most the radius and half the height, %.6g, got %.6g", chamfer > 0 and "chamfer" or "rounding",
+           math.min(radius, height / 2), cut)
+  end
+  local profile = {{0, 0}}
+  for half = 0, 1 do
+    for k = 0, steps do
+      local c, s = arc(half == 0 and steps - k or k, math.max(steps, 1))
+      if steps == 0 then c, s = 1, 1 end
+      local p = {radius - cut + cut * c, half == 0 and cut - cut * s or height - cut + cut * s}
+      local last = profile[#profile]
+      if p[1] ~= last[1] or p[2] ~= last[2] then profile[#profile + 1] = p end
+    end
+  end
+  if profile[#profile][1] > 0 then profile[#profile + 1] = {0, height} end
+  return place(revolve(profile, false, segments, "shapes.cylinder"))
+end

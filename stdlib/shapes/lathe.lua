@@ -1,0 +1,28 @@
+-- stdlib/shapes/lathe.lua
+local options = require "clench.shapes.options"
+local polygon = require "clench.shapes.polygon"
+local revolve = require "clench.shapes.revolve"
+
+--- A turned solid: the profile {r, z}, ... swept about the z axis. A profile that starts and ends on the axis
+--- (r = 0) bounds a solid body, such as a bottle with its inside; one that stays off the axis is a loop, and
+--- bounds a ring.
+---@param given {profile: number[][], segments?: integer}  points [m], in either sense; segments about the axis
+---@return table mesh
+return function(given)
+  local o = options("lathe", given, {"profile"})
+  local profile, segments = o:points("profile", 3, 2), o:count("segments", 48, 3, 4096)
+  o:done()
+  local on_axis = 0
+  for i, p in ipairs(profile) do
+    if p[1] < 0 then o:fail("profile[%d] must have a radius >= 0, got %.6g", i, p[1]) end
+    if p[1] == 0 then
+      on_axis = on_axis + 1
+      if i > 1 and i < #profile then
+        o:fail("profile[%d] must lie off the axis, for only its ends may touch it, got radius 0", i)
+      end
+    end
+  end
+  if on_axis == 1 then o:fail "profile must have both ends on the axis or none, got one" end
+  polygon.simple(profile, "shapes.lathe: profile")
+  return revolve(profile, on_axis == 0, segments, "shapes.lathe")
+end

@@ -1,0 +1,36 @@
+-- stdlib/shapes/loft.lua
+local options = require "clench.shapes.options"
+local skin = require "clench.shapes.skin"
+
+--- The solid through a row of cross-sections, each a ring of points {x, y, z}. All rings run the same way round
+--- and have the same number of points, in step; the first and the last may be a single point, an apex, and are
+--- filled flat otherwise.
+---@param given number[][][]  two rings or more [m]
+---@return table mesh
+return function(given)
+  local o = options("loft", given)
+  local rings, count = {}, nil
+  for i = 1, #given do
+    local ring = o:raw(i)
+    local least = (i == 1 or i == #given) and 1 or 3
+    local name = "ring " .. i
+    if type(ring) ~= "table" then o:wanted(name, "a list of points", ring) end
+    if #ring < 3 and #ring ~= least then o:wanted(name, "a list of at least 3 points, or one at an end", ring) end
+    for k, p in ipairs(ring) do
+      for axis = 1, 3 do
+        local x = type(p) == "table" and p[axis]
+        if type(x) ~= "number" or x ~= x or math.abs(x) == math.huge then
+          o:wanted(("%s[%d]"):format(name, k), "a point {x, y, z}", p)
+        end
+      end
+    end
+    if #ring > 1 then
+      count = count or #ring
+      if #ring ~= count then o:fail("ring %d must have %d points like those before it, got %d", i, count, #ring) end
+    end
+    rings[i] = ring
+  end
+  if #rings < 2 or not count then o:fail("wanted two rings or more, one of them with an area, got %d", #rings) end
+  o:done()
+  return skin(rings, false, "shapes.loft")
+end

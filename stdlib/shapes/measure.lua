@@ -1,0 +1,92 @@
+-- stdlib/shapes/measure.lua
+--- What a shape measures: bounds, volume, mass properties, and whether it is closed.
+local mesh = require "clench.shapes.mesh"
+local vector = require "clench.shapes.vector"
+local measure = {}
+
+--- Least and largest coordinates.
+---@return number[] low, number[] high  [m]
+function measure.bounds(shape)
+  mesh.check(shape, "shapes.bounds")
+  local low, high = {math.huge, math.huge, math.huge}, {-math.huge, -math.huge, -math.huge}
+  for _, p in ipairs(shape.vertices) do
+    for k = 1, 3 do low[k], high[k] = math.min(low[k], p[k]), math.max(high[k], p[k]) end
+  end
+  return low, high
+end
+
+--- Volume enclosed, > 0 when the triangles face outward; overlaps of a union's parts count twice.
+---@return number volume  [m^3]
+function measure.volume(shape) return mesh.volume6(mesh.check(shape, "shapes.volume")) / 6 end
+
+--- Area of the surface.
+---@return number area  [m^2]
+function measure.area(shape)
+  local sum = 0
+  for _, t in ipairs(mesh.check(shape, "shapes.area").triangles) do
+    local a, b, c = shape.vertices[t[1]], shape.vertices[t[2]], shape.vertices[t[3]]
+    sum = sum + 0.5 * vector.norm(vector.cross(vector.sub(b, a), vector.sub(c, a)))
+  end
+  return sum
+end
+
+--- Is every edge run exactly once each way, so that the surface bounds a solid?
+---@return boolean closed, string? why  what is wrong, when it is not
+function measure.closed(shape)
+  mesh.check(shape, "shapes.closed")
+  local runs, count = {}, #shape.vertices + 1
+  for i, t in ipairs(shape.triangles) do
+    for k = 1, 3 do
+      local a, b = t[k], t[k % 3 + 1]
+      if a == b then return false, ("triangle %d has a corner twice"):format(i) end
+      local key = a * count + b
+      if runs[key] then return false, ("triangles %d and %d run along an edge the same way"):format(runs[key], i) end
+      runs[key] = i
+    end
+  end
+  for i, t in ipairs(shape.triangles) do
+    for k = 1, 3 do
+      local a, b = t[k], t[k % 3 + 1]
+      if not runs[b * count + a] then return false, ("triangle %d has an open edge"):format(i) end
+    end
+  end
+  return true
+end
+
+--- Integrals over the solid, for uniform density; overlaps of a union's parts count twice.
+--- source  Eberly (2002), polyhedral mass properties: moments of the tetrahedra from a point to each triangle
+---@return {volume: number, centroid: number[], inertia: number[][]} mass  [m^3, m]; inertia about the centroid for
+---  unit mass [m^2]
+function measure.mass(shape)
+  local origin = mesh.check(shape, "shapes.mass").vertices[1]
+  local volume, first, second = 0, {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}
+  for _, t in ipairs(shape.triangles) do
+    local corner = {}
+    for k = 1, 3 do corner[k] = vector.sub(shape.vertices[t[k]], origin) end
+    local part = vector.dot(corner[1], vector.cross(corner[2], corner[3])) / 6
+    local sum = vector.add(corner[1], vector.add(corner[2], corner[3]))
+    volume = volume + part
+    for i = 1, 3 do
+      first[i] = first[i] + part * sum[i] / 4
+      for j = 1, 3 do
+        local products = sum[i] * sum[j]
+        for k = 1, 3 do products = products + corner[k][i] * corner[k][j] end
+        second[i][j] = second[i][j] + part * products / 20
+      end
+    end
+  end
+  if volume == 0 then error("shapes.mass: wanted a solid, got a shape without volume", 0) end
+  local centre, spread, inertia = vector.scale(first, 1 / volume), {}, {}
+  for i = 1, 3 do
+    spread[i] = {}
+    for j = 1, 3 do spread[i][j] = second[i][j] / volume - centre[i] * centre[j] end
+  end
+  local trace = spread[1][1] + spread[2][2] + spread[3][3]
+  for i = 1, 3 do
+    inertia[i] = {}
+    for j = 1, 3 do inertia[i][j] = (i == j and trace or 0) - 0.5 * (spread[i][j] + spread[j][i]) end
+  end
+  return {volume = volume, centroid = vector.add(origin, centre), inertia = inertia}
+end
+
+return measure

@@ -1,0 +1,93 @@
+-- stdlib/shapes/mesh.lua
+--- A shape is a plain table {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}: indices from 1,
+--- metres, counter-clockwise from outside. This unit checks, welds and orients such tables.
+local vector = require "clench.shapes.vector"
+local mesh = {}
+
+local function fail(subject, format, ...) error(subject .. ": " .. format:format(...), 0) end
+
+local function check_vertex(subject, i, p)
+  for k = 1, 3 do
+    local x = type(p) == "table" and p[k]
+    if type(x) ~= "number" or x ~= x or math.abs(x) == math.huge then
+      fail(subject, "vertex %d must be three finite numbers, got %s", i, tostring(x or type(p)))
+    end
+  end
+end
+
+--- throws one sentence when `shape` is not a mesh table; returns it
+function mesh.check(shape, subject)
+  if type(shape) ~= "table" or type(shape.vertices) ~= "table" or type(shape.triangles) ~= "table" then
+    fail(subject, "wanted a shape {vertices = ..., triangles = ...}, got a %s", type(shape))
+  end
+  for i, p in ipairs(shape.vertices) do check_vertex(subject, i, p) end
+  local count = #shape.vertices
+  for i, t in ipairs(shape.triangles) do
+    for k = 1, 3 do
+      local index = type(t) == "table" and math.tointeger(t[k])
+      if not index or index < 1 or index > count then
+        fail(subject, "triangle %d must name vertices 1 to %d, got %s", i, count,
+             tostring(type(t) == "table" and t[k] or type(t)))
+      end
+    end
+  end
+  if #shape.triangles == 0 then fail(subject, "wanted at least one triangle, got none") end
+  return shape
+end
+
+--- equal points become one; triangles left with a corner twice are dropped, and points without triangle
+function mesh.weld(shape)
+  local vertices, triangles, index_of = {}, {}, {}
+  local function place(i)
+    local p = shape.vertices[i]
+    local key = ("%.17g %.17g %.17g"):format(p[1] + 0.0, p[2] + 0.0, p[3] + 0.0)
+    if not index_of[key] then
+      vertices[#vertices + 1] = p
+      index_of[key] = #vertices
+    end
+    return index_of[key]
+  end
+  for _, t in ipairs(shape.triangles) do
+    local p, q, r = shape.vertices[t[1]], shape.vertices[t[2]], shape.vertices[t[3]]
+    local function same(a, b) return a[1] == b[1] and a[2] == b[2] and a[3] == b[3] end
+    if not (same(p, q) or same(q, r) or same(r, p)) then
+      triangles[#triangles + 1] = {place(t[1]), place(t[2]), place(t[3])}
+    end
+  end
+  return {vertices = vertices, triangles = triangles}
+end
+
+--- six times the signed volume, about the first vertex so that distant shapes lose no digits
+function mesh.volume6(shape)
+  local origin, sum = shape.vertices[1], 0
+  for _, t in ipairs(shape.triangles) do
+    local a = vector.sub(shape.vertices[t[1]], origin)
+    local b = vector.sub(shape.vertices[t[2]], origin)
+    local c = vector.sub(shape.vertices[t[3]], origin)
+    sum = sum + vector.dot(a, vector.cross(b, c))
+  end
+  return sum
+end
+
+--- every triangle run the other way round
+function mesh.flip(shape)
+  for _, t in ipairs(shape.triangles) do t[2], t[3] = t[3], t[2] end
+  return shape
+end
+
+--- turns a closed shape's triangles outward; throws one sentence when it encloses nothing
+function mesh.outward(shape, subject)
+  local volume = #shape.triangles > 0 and mesh.volume6(shape) or 0
+  if volume == 0 then fail(subject, "wanted a solid, got a shape without volume") end
+  return volume > 0 and shape or mesh.flip(shape)
+end
+
+--- a copy with every vertex p replaced by map(p)
+function mesh.map(shape, map)
+  local vertices, triangles = {}, {}
+  for i, p in ipairs(shape.vertices) do vertices[i] = map(p) end
+  for i, t in ipairs(shape.triangles) do triangles[i] = {t[1], t[2], t[3]} end
+  return {vertices = vertices, triangles = triangles}
+end
+
+return mesh

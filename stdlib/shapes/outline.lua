@@ -1,0 +1,74 @@
+-- stdlib/shapes/outline.lua
+local options = require "clench.shapes.options"
+local polygon = require "clench.shapes.polygon"
+
+--- where the arc that rounds the corner p begins and ends, and its centre; nil when the corner is straight
+local function corner_arc(p, before, after, radius)
+  local ux, uy = before[1] - p[1], before[2] - p[2]
+  local vx, vy = after[1] - p[1], after[2] - p[2]
+  local lu, lv = math.sqrt(ux * ux + uy * uy), math.sqrt(vx * vx + vy * vy)
+  ux, uy, vx, vy = ux / lu, uy / lu, vx / lv, vy / lv
+  local cosine = math.max(-1, math.min(1, ux * vx + uy * vy))
+  if cosine < -1 + 1e-12 then return nil end
+  local half = 0.5 * math.acos(cosine)
+  local reach, depth = radius / math.tan(half), radius / math.sin(half)
+  local bx, by = ux + vx, uy + vy
+  local lb = math.sqrt(bx * bx + by * by)
+  local centre = {p[1] + depth * bx / lb, p[2] + depth * by / lb}
+  return centre, {p[1] + reach * ux, p[2] + reach * uy}, math.pi - 2 * half, reach, ux * vy - uy * vx
+end
+
+--- A simple polygon with rounded corners, counter-clockwise.
+---
+--- Each corner is {x, y} or {x, y, radius}; `rounding` is the radius of those that name none.
+---@param given {rounding?: number, segments?: integer, [integer]: number[]}  [m]; segments per corner
+---@return number[][] points
+return function(given)
+  local o = options("outline", given)
+  local rounding, segments = o:not_negative("rounding", 0), o:count("segments", 6, 1, 256)
+  local corners = {}
+  for i = 1, #given do
+    local p = o:raw(i)
+    for k = 1, 3 do
+      local x = type(p) == "table" and (p[k] or k == 3 and rounding)
+      if type(x) ~= "number" or x ~= x or math.abs(x) == math.huge or (k == 3 and x < 0) then
+        o:wanted("corner " .. i, "{x, y} or {x, y, radius >= 0}", p)
+      end
+    end
+    corners[i] = p
+  end
+  if #corners < 3 then o:fail("wanted at least 3 corners, got %d", #corners) end
+  o:done()
+  corners = polygon.simple(corners, "shapes.outline: corners")
+
+  local points, n, used = {}, #corners, {}
+  for i, p in ipairs(corners) do
+    local radius = p[3] or rounding
+    local centre, start, sweep, reach, side
+    if radius > 0 then
+      centre, start, sweep, reach, side = corner_arc(p, corners[(i - 2) % n + 1], corners[i % n + 1], radius)
+    end
+    used[i] = centre and reach or 0
+    if not centre then
+      points[#points + 1] = {p[1], p[2]}
+    else
+      -- around a convex corner the arc runs counter-clockwise, around a concave one clockwise
+      local direction = side < 0 and 1 or -1
+      local x, y = start[1] - centre[1], start[2] - centre[2]
+      for k = 0, segments do
+        local angle = direction * sweep * k / segments
+        local c, s = math.cos(angle), math.sin(angle)
+        points[#points + 1] = {centre[1] + c * x - s * y, centre[2] + s * x + c * y}
+      end
+    end
+  end
+  for i, p in ipairs(corners) do
+    local q = corners[i % n + 1]
+    local length = math.sqrt((q[1] - p[1]) ^ 2 + (q[2] - p[2]) ^ 2)
+    if used[i] + used[i % n + 1] > length * (1 - 1e-9) then
+      o:fail("roundings must leave some of each edge, got %.6g and %.6g on an edge of length %.6g", used[i],
+             used[i % n + 1], length)
+    end
+  end
+  return points
+end

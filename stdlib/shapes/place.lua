@@ -1,0 +1,76 @@
+-- stdlib/shapes/place.lua
+--- Shapes moved, turned, scaled, mirrored: each returns a new mesh and leaves the given one alone.
+local mesh = require "clench.shapes.mesh"
+local vector = require "clench.shapes.vector"
+local place = {}
+
+local function check_vector(subject, what, v)
+  for k = 1, 3 do
+    local x = type(v) == "table" and v[k]
+    if type(x) ~= "number" or x ~= x or math.abs(x) == math.huge then
+      error(("%s: %s must be {x, y, z}, got %s"):format(subject, what, tostring(x or type(v))), 0)
+    end
+  end
+  return v
+end
+
+--- The shape moved by an offset.
+---@param shape table
+---@param offset number[]  {x, y, z} [m]
+---@return table mesh
+function place.move(shape, offset)
+  mesh.check(shape, "shapes.move")
+  check_vector("shapes.move", "the offset", offset)
+  return mesh.map(shape, function(p) return vector.add(p, offset) end)
+end
+
+--- The shape turned about an axis through a point.
+---@param shape table
+---@param axis number[]  {x, y, z}, of any length
+---@param angle number  right-handed [rad]
+---@param about? number[]  a point of the axis, else the origin [m]
+---@return table mesh
+function place.turn(shape, axis, angle, about)
+  mesh.check(shape, "shapes.turn")
+  local unit = vector.unit(check_vector("shapes.turn", "the axis", axis))
+  if not unit then error("shapes.turn: the axis must have a length, got {0, 0, 0}", 0) end
+  if type(angle) ~= "number" or angle ~= angle or math.abs(angle) == math.huge then
+    error("shapes.turn: the angle must be a finite number, got " .. tostring(angle), 0)
+  end
+  local centre = about and check_vector("shapes.turn", "the point", about) or {0, 0, 0}
+  return mesh.map(shape, function(p)
+    return vector.add(centre, vector.turn(vector.sub(p, centre), unit, angle))
+  end)
+end
+
+--- The shape scaled about the origin, by one factor or by one for each axis.
+---@param shape table
+---@param factor number|number[]  > 0
+---@return table mesh
+function place.scale(shape, factor)
+  mesh.check(shape, "shapes.scale")
+  local k = type(factor) == "table" and factor or {factor, factor, factor}
+  for i = 1, 3 do
+    if type(k[i]) ~= "number" or not (k[i] > 0 and k[i] < math.huge) then
+      error("shapes.scale: the factor must be > 0, got " .. tostring(k[i]), 0)
+    end
+  end
+  return mesh.map(shape, function(p) return {k[1] * p[1], k[2] * p[2], k[3] * p[3]} end)
+end
+
+--- The shape mirrored in the plane through the origin at right angles to an axis.
+---@param shape table
+---@param axis "x"|"y"|"z"
+---@return table mesh
+function place.mirror(shape, axis)
+  mesh.check(shape, "shapes.mirror")
+  local place_of = ({x = 1, y = 2, z = 3})[axis]
+  if not place_of then error("shapes.mirror: the axis must be 'x', 'y' or 'z', got " .. tostring(axis), 0) end
+  return mesh.flip(mesh.map(shape, function(p)
+    local q = {p[1], p[2], p[3]}
+    q[place_of] = -q[place_of]
+    return q
+  end))
+end
+
+return place

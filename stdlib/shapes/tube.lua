@@ -1,0 +1,151 @@
+-- stdlib/shapes/tube.lua
+local options = require "clench.shapes.options"
+local arc = require "clench.shapes.arc"
+local polygon = require "clench.shapes.polygon"
+local skin = require "clench.shapes.skin"
+local vector = require "clench.shapes.vector"
+
+--- unit directions of the path's segments; throws when one has no length
+local function directions(o, path, closed)
+  local list = {}
+  for i = 1, #path - (closed and 0 or 1) do
+    list[i] = vector.unit(vector.sub(path[i % #path + 1], path[i]))
+    if not list[i] then o:fail("path[%d] must differ from path[%d], got the same point", i % #path + 1, i) end
+  end
+  return list
+end
+
+--- x turned by the least rotation that takes unit vector a to b
+local function carry(x, a, b)
+  local axis = vector.cross(a, b)
+  local sine = vector.norm(axis)
+  if sine < 1e-12 then return x end
+  return vector.turn(x, vector.scale(axis, 1 / sine), math.atan(sine, vector.dot(a, b)))
+end
+
+--- the section's x axis along each segment, turned as little as the path allows
+--- source  Bishop (1975), frames that do not turn about the curve
+local function section_axes(o, dirs, up)
+  local x = vector.frame(dirs[1])
+  if up then
+    local side = vector.unit(vector.cross(up, dirs[1]))
+    if not side then o:fail("up must not lie along the path's first segment, got {%.6g, %.6g, %.6g}", up[1], up[2], up[3]) end
+    x = side
+  end
+  local axes = {x}
+  for i = 2, #dirs do axes[i] = carry(axes[i - 1], dirs[i - 1], dirs[i]) end
+  return axes
+end
+
+--- the section at a path point, on the plane that halves the bend there
+local function mitred(o, section, p, i, dir_in, dir_out, x, angle, radius)
+  local normal = vector.unit(vector.add(dir_in, dir_out))
+  if not normal then o:fail("path[%d] must not turn straight back, got a bend of 180 degrees", i) end
+  local y = vector.cross(dir_in, x)
+  local c, s, lean = math.cos(angle), math.sin(angle), vector.dot(dir_in, normal)
+  local ring = {}
+  for k, q in ipairs(section) do
+    local u, v = radius * (c * q[1] - s * q[2]), radius * (s * q[1] + c * q[2])
+    local offset = vector.along(vector.scale(x, u), v, y)
+    ring[k] = vector.add(p, vector.along(offset, -vector.dot(offset, normal) / lean, dir_in))
+  end
+  return ring
+end
+
+--- rings that round an end off to a point: half an ellipsoid over the end ring, rising along `dir`
+local function dome(ring, centre, dir, height, steps)
+  local rings = {}
+  for k = 1, steps - 1 do
+    local c, s = arc(k, steps)
+    local smaller = {}
+    for i, p in ipairs(ring) do
+      smaller[i] = vector.along(vector.along(centre, c, vector.sub(p, centre)), s * height, dir)
+    end
+    rings[k] = smaller
+  end
+  rings[steps] = {vector.along(centre, height, dir)}
+  return rings
+end
+
+--- every point of the section must move forward along every segment, or the tube would fold into itself
+local function check_bends(o, rings, dirs)
+  for i, dir in ipairs(dirs) do
+    local next_ring = rings[i % #rings + 1]
+    for k, p in ipairs(rings[i]) do
+      if vector.dot(vector.sub(next_ring[k], p), dir) <= 0 then
+        o:fail("the path must bend more gently than the tube is wide, got a fold between path[%d] and path[%d]", i,
+               i % #rings + 1)
+      end
+    end
+  end
+end
+
+--- one radius for each path point, and the section of radius 1, or the given profile with factors 1
+local function read_section(o, count)
+  local radius, profile, sides = o:raw "radius", o:raw "profile", o:count("sides", 24, 3, 1024)
+  if (radius == nil) == (profile == nil) then
+    o:fail("wanted either radius or profile, got %s", radius and "both" or "neither")
+  end
+  local radii, section = {}, {}
+  if profile then
+    section = polygon.simple(o:points("profile", 3, 2), "shapes.tube: profile")
+  else
+    for k = 1, sides do
+      local angle = 2 * math.pi * (k - 1) / sides
+      section[k] = {math.cos(angle), math.sin(angle)}
+    end
+  end
+  local list = type(radius) == "table"
+  if list and #radius ~= count then o:fail("radius must be one number or one for each of %d points, got %d", count, #radius) end
+  for i = 1, count do
+    radii[i] = profile and 1 or list and radius[i] or radius
+    if type(radii[i]) ~= "number" or not (radii[i] > 0 and radii[i] < math.huge) then
+      o:wanted(list and "radius[" .. i .. "]" or "radius", "a number > 0", radii[i])
+    end
+  end
+  return section, radii
+end
+
+--- A circle or another section swept along a path: a handle, a cable, a frame.
+---@param given {path: number[][], radius?: number|number[], profile?: number[][], closed?: boolean,
+---  ends?: "flat"|"round", up?: number[], sides?: integer, steps?: integer}  path of points {x, y, z}; radius for
+---  all or for each of them, or a profile {x, y}, ... whose y is towards `up` at the start [m]; closed joins the last
+---  point to the first; steps of a round end
+---@return table mesh
+return function(given)
+  local o = options("tube", given, {"path"})
+  local path, closed = o:points("path", 2, 3), o:flag "closed"
+  local section, radii = read_section(o, #path)
+  local ends, up, steps = o:choice("ends", {"flat", "round"}), o:point "up", o:count("steps", 6, 2, 64)
+  o:done()
+  if closed and #path < 3 then o:fail("a closed path must have at least 3 points, got %d", #path) end
+  local dirs = directions(o, path, closed)
+  local axes = section_axes(o, dirs, up)
+  local twist = 0
+  if closed then
+    -- what the frame has turned on its way round is undone in equal parts
+    local x = carry(axes[#axes], dirs[#dirs], dirs[1])
+    twist = -math.atan(vector.dot(vector.cross(axes[1], x), dirs[1]), vector.dot(axes[1], x)) / #path
+  end
+  local rings = {}
+  for i, p in ipairs(path) do
+    local before = dirs[i - 1] or (closed and dirs[#dirs]) or dirs[1]
+    local x = axes[i - 1] or axes[1]
+    if i == 1 and closed then x = carry(axes[1], dirs[1], before) end
+    rings[i] = mitred(o, section, p, i, before, dirs[i] or before, x, twist * (i - 1), radii[i])
+  end
+  check_bends(o, rings, dirs)
+  if ends == "round" and not closed then
+    local widest = 0
+    for _, q in ipairs(section) do widest = math.max(widest, math.sqrt(q[1] ^ 2 + q[2] ^ 2)) end
+    local stack = {}
+    local first = dome(rings[1], path[1], vector.scale(dirs[1], -1), widest * radii[1], steps)
+    for i = #first, 1, -1 do stack[#stack + 1] = first[i] end
+    for _, ring in ipairs(rings) do stack[#stack + 1] = ring end
+    for _, ring in ipairs(dome(rings[#rings], path[#path], dirs[#dirs], widest * radii[#path], steps)) do
+      stack[#stack + 1] = ring
+    end
+    rings = stack
+  end
+  return skin(rings, closed, "shapes.tube")
+end

@@ -1,0 +1,20 @@
+-- stdlib/shapes/union.lua
+local mesh = require "clench.shapes.mesh"
+
+--- Several closed shapes as one: their vertices and triangles side by side, nothing cut away. Parts may overlap;
+--- inside is what any part encloses (the engine counts windings), but volume and mass count an overlap twice.
+---@param parts table[]  meshes, one or more
+---@return table mesh
+return function(parts)
+  if type(parts) ~= "table" or #parts == 0 then
+    error("shapes.union: wanted a list of shapes, got " .. (type(parts) == "table" and "none" or "a " .. type(parts)), 0)
+  end
+  local vertices, triangles = {}, {}
+  for i = 1, #parts do
+    local part = mesh.check(parts[i], "shapes.union: part " .. i)
+    local base = #vertices
+    for _, p in ipairs(part.vertices) do vertices[#vertices + 1] = {p[1], p[2], p[3]} end
+    for _, t in ipairs(part.triangles) do triangles[#triangles + 1] = {t[1] + base, t[2] + base, t[3] + base} end
+  end
+  return {vertices = vertices, triangles = triangles}
+end
