@@ -1,0 +1,98 @@
+// A ray against triangles without gaps between neighbours, and the walk along it through a tree.
+// For the queries of this module only.
+// source  Woop, Benthin & Wald (2013), watertight ray/triangle intersection
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/tree.h"
+
+namespace clench {
+
+struct Crossing {
+  enum class Kind {
+    miss,
+    hit,
+    unsure
+  };  ///< unsure: rounding may have decided; given only if asked for
+  Kind kind = Kind::miss;
+  double distance = 0;  ///< along the ray [m]; negative behind the origin
+  int side = 0;  ///< +1 when the ray leaves through the outside of the triangle, -1 when it enters
+};
+
+class Ray {
+ public:
+  Ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)
+      : origin_(origin), direction_(direction) {
+    direction.cwiseAbs().maxCoeff(&z_);
+    x_ = (z_ + 1) % 3, y_ = (z_ + 2) % 3;
+    shear_x_ = direction[x_] / direction[z_], shear_y_ = direction[y_] / direction[z_];
+  }
+
+  /// `doubt`: relative size of edge functions that count as unsure, 0 for none
+  Crossing cross(const Corners& triangle, double doubt = 0) const {
+    // the ray as z axis: twice the areas that it makes with the three edges
+    double x[3], y[3], z[3], extent = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d p = triangle[i] - origin_;
+      x[i] = p[x_] - shear_x_ * p[z_], y[i] = p[y_] - shear_y_ * p[z_],
+      z[i] = p[z_] / direction_[z_];
+      extent = std::max(extent, p.cwiseAbs().maxCoeff());
+    }
+    const double u = x[1] * y[2] - y[1] * x[2], v = x[2] * y[0] - y[2] * x[0],
+                 w = x[0] * y[1] - y[0] * x[1];
+    const double sure = doubt * extent * extent;
+    if (std::min({u, v, w}) < -sure && std::max({u, v, w}) > sure) return {};
+    const double area = u + v + w, depth = u * z[0] + v * z[1] + w * z[2];
+    if (doubt > 0 && (std::min({std::abs(u), std::abs(v), std::abs(w)}) <= sure ||
+                      std::abs(depth) <= sure * extent))
+      return {Crossing::Kind::unsure};
+    if (area == 0) return {};
+    return {Crossing::Kind::hit, depth / area, (area > 0) == (direction_[z_] > 0) ? 1 : -1};
+  }
+
+  /// where the ray enters the box grown by slack, >= 0; infinity when it misses [m]
+  double enter(const OrientedBox& box, double slack) const {
+    const Eigen::Vector3d from = box.axes.transpose() * (origin_ - box.centre);
+    const Eigen::Vector3d along = box.axes.transpose() * direction_;
+    double low = 0, high = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      const double half = box.half[i] + slack;
+      if (std::abs(along[i]) < 1e-300) {
+        if (std::abs(from[i]) > half) return std::numeric_limits<double>::infinity();
+        continue;
+      }
+      const double s = (-half - from[i]) / along[i], t = (half - from[i]) / along[i];
+      low = std::max(low, std::min(s, t)), high = std::min(high, std::max(s, t));
+    }
+    return low <= high ? low : std::numeric_limits<double>::infinity();
+  }
+
+  /// Calls visit(triangle) for all leaves that the ray may reach within `limit`, near ones first;
+  /// visit may lower `limit`, and ends the walk by returning true.
+  template <class Visit>
+  bool for_near_triangles(const Tree& tree, double slack, const double& limit,
+                          Visit&& visit) const {
+    return walk(tree, 0, enter(tree.node(0).box, slack), slack, limit, visit);
+  }
+
+ private:
+  template <class Visit>
+  bool walk(const Tree& tree, int at, double entry, double slack, const double& limit,
+            Visit& visit) const {
+    if (!(entry < std::numeric_limits<double>::infinity()) || entry - slack > limit) return false;
+    const Tree::Node& node = tree.node(at);
+    if (node.leaf()) return visit(node.triangle);
+    int first = at + 1, second = node.right;
+    double near = enter(tree.node(first).box, slack), far = enter(tree.node(second).box, slack);
+    if (far < near) std::swap(near, far), std::swap(first, second);
+    return walk(tree, first, near, slack, limit, visit) ||
+           walk(tree, second, far, slack, limit, visit);
+  }
+
+  Eigen::Vector3d origin_, direction_;
+  int x_, y_, z_;  // the direction's largest coordinate is its z
+  double shear_x_, shear_y_;
+};
+
+}  // namespace clench
