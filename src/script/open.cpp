@@ -1,0 +1,34 @@
+#include "script/open.h"
+
+#include <lua.hpp>
+
+#include "script/library.h"
+#include "script/packed.h"
+
+namespace clench {
+
+// clench.shapes: the standard library's module, loaded when it is first asked for
+static int load_member(lua_State* L) {
+  const char* name = lua_tostring(L, 1);
+  if (!find_packed(name)) return 0;
+  push_packed(L, name);
+  return 1;
+}
+
+}  // namespace clench
+
+int clench_open(lua_State* L) {
+  using namespace clench;
+  luaL_checkversion(L);
+  lua_newtable(L);
+  const int module = lua_gettop(L);
+  for (const Library* library : all_libraries()) open_library(L, module, *library);
+  for (const Class* kind : all_classes()) {
+    push_metatable(L, *kind);
+    lua_pop(L, 1);
+  }
+  lua_pushcfunction(L, load_member);
+  set_library_fallback(L, module);
+  add_packed_searcher(L, false);
+  return 1;
+}

@@ -1,0 +1,153 @@
+#include "script/read.h"
+
+#include <climits>
+#include <cmath>
+
+#include "base/error.h"
+#include "script/bind_pose.h"
+#include "script/bind_vec3.h"
+#include "script/entry.h"
+#include "script/object.h"
+
+namespace clench {
+
+std::string What::text() const {
+  std::string out = subject.empty() ? clench::subject(L) : std::string(subject);
+  if (!key.empty()) out += ": " + key;
+  return out;
+}
+
+static std::string quoted(lua_State* L, int index) {
+  size_t size = 0;
+  const char* text = lua_tolstring(L, index, &size);
+  if (size > 40) return fmt::format("'{}...'", std::string_view(text, 37));
+  return fmt::format("'{}'", std::string_view(text, size));
+}
+
+static std::string class_name(lua_State* L, int index) {
+  if (luaL_getmetafield(L, index, "__name") == LUA_TNIL) return "userdata";
+  const std::string name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "userdata";
+  lua_pop(L, 1);
+  return name;
+}
+
+std::string described(lua_State* L, int index) {
+  switch (lua_type(L, index)) {
+    case LUA_TNONE:
+      return "nothing";
+    case LUA_TNIL:
+      return "nil";
+    case LUA_TBOOLEAN:
+      return lua_toboolean(L, index) ? "true" : "false";
+    case LUA_TNUMBER:
+      if (lua_isinteger(L, index)) return fmt::format("{}", lua_tointeger(L, index));
+      return fmt::format("{}", lua_tonumber(L, index));
+    case LUA_TSTRING:
+      return quoted(L, index);
+    case LUA_TTABLE: {
+      const auto size = lua_rawlen(L, index);
+      return size ? fmt::format("a table of {}", size) : "a table";
+    }
+    case LUA_TUSERDATA:
+      return "a " + class_name(L, index);
+    default:
+      return std::string("a ") + luaL_typename(L, index);
+  }
+}
+
+void fail_wanted(const What& what, std::string_view wanted, int index) {
+  fail("{}: wanted {}, got {}", what.text(), wanted, described(what.L, index));
+}
+
+double read_number(lua_State* L, int i, const What& what) {
+  if (lua_type(L, i) != LUA_TNUMBER) fail_wanted(what, "a number", i);
+  const double x = lua_tonumber(L, i);
+  if (!std::isfinite(x)) fail_wanted(what, "a finite number", i);
+  return x;
+}
+
+int64_t read_integer(lua_State* L, int i, const What& what) {
+  int whole = 0;
+  const int64_t n = lua_tointegerx(L, i, &whole);
+  if (lua_type(L, i) != LUA_TNUMBER || !whole) fail_wanted(what, "an integer", i);
+  return n;
+}
+
+int read_int(lua_State* L, int i, const What& what) {
+  const int64_t n = read_integer(L, i, what);
+  if (n < INT_MIN || n > INT_MAX) fail_wanted(what, "an integer of 32 bits", i);
+  return static_cast<int>(n);
+}
+
+bool read_boolean(lua_State* L, int i, const What& what) {
+  if (lua_type(L, i) != LUA_TBOOLEAN) fail_wanted(what, "true or false", i);
+  return lua_toboolean(L, i);
+}
+
+std::string read_string(lua_State* L, int i, const What& what) {
+  if (lua_type(L, i) != LUA_TSTRING) fail_wanted(what, "a string", i);
+  size_t size = 0;
+  const char* text = lua_tolstring(L, i, &size);
+  if (std::string_view(text, size).find('\0') != std::string_view::npos)
+    fail_wanted(what, "a string without zero bytes", i);
+  return {text, size};
+}
+
+// leaves the item of a list on the stack; metamethods are not asked
+static void push_item(lua_State* L, int list, int item) {
+  if (!lua_checkstack(L, 4)) fail("too many values on the stack");
+  lua_rawgeti(L, list, item);
+}
+
+static int list_size(lua_State* L, int i, const What& what, std::string_view wanted) {
+  if (lua_type(L, i) != LUA_TTABLE) fail_wanted(what, wanted, i);
+  const auto size = lua_rawlen(L, i);
+  if (size > INT_MAX) fail_wanted(what, wanted, i);
+  return static_cast<int>(size);
+}
+
+std::vector<double> read_numbers(lua_State* L, int i, const What& what, int count) {
+  i = lua_absindex(L, i);
+  if (const auto* v = to<Eigen::Vector3d>(L, i); v && (count < 0 || count == 3))
+    return {v->x(), v->y(), v->z()};
+  const std::string wanted = count < 0 ? "a list of numbers" : fmt::format("{} numbers", count);
+  const int size = list_size(L, i, what, wanted);
+  if (count >= 0 && size != count) fail("{}: wanted {}, got {}", what.text(), wanted, size);
+  std::vector<double> numbers(static_cast<size_t>(size));
+  for (int k = 1; k <= size; ++k) {
+    push_item(L, i, k);
+    // the item's name is made only when it is needed
+    if (lua_type(L, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(L, -1)))
+      read_number(L, -1, what.item(k));
+    numbers[static_cast<size_t>(k - 1)] = lua_tonumber(L, -1);
+    lua_pop(L, 1);
+  }
+  return numbers;
+}
+
+std::vector<std::vector<double>> read_rows(lua_State* L, int i, const What& what, int columns) {
+  i = lua_absindex(L, i);
+  const int size = list_size(L, i, what, "a list of lists of numbers");
+  std::vector<std::vector<double>> rows;
+  for (int k = 1; k <= size; ++k) {
+    push_item(L, i, k);
+    rows.push_back(read_numbers(L, -1, what.item(k), columns));
+    lua_pop(L, 1);
+  }
+  return rows;
+}
+
+Eigen::Vector3d read_vec3(lua_State* L, int i, const What& what) {
+  if (const auto* v = to<Eigen::Vector3d>(L, i)) return *v;
+  if (lua_type(L, i) != LUA_TTABLE) fail_wanted(what, "a vec3 or {x, y, z}", i);
+  const auto v = read_numbers(L, i, what, 3);
+  return {v[0], v[1], v[2]};
+}
+
+Pose read_pose(lua_State* L, int i, const What& what) {
+  if (const auto* pose = to<Pose>(L, i)) return *pose;
+  if (lua_type(L, i) != LUA_TTABLE) fail_wanted(what, "a pose", i);
+  return pose_from_table(L, i, what.text());
+}
+
+}  // namespace clench
