@@ -11,6 +11,7 @@ namespace clench {
 struct ReadOptions {
   std::filesystem::path root;                          ///< where relative names are looked up after the referring file's folder
   std::function<void(const std::string&)> warn = {};   ///< told of what a file contains and we do not use
+  double mesh_scale = 1;                               ///< .obj .stl: length of the file's unit, > 0 [m]
 };
 
 /// A body from .iv .wrl .obj .stl (any case). A mesh file in other units than its format's: see docs/formats.

@@ -9,4 +9,7 @@ namespace clench {
 inline constexpr std::array<std::string_view, 7> material_names = {
     "frictionless", "glass", "metal", "plastic", "wood", "rubber", "stone"};
 
+/// throws Error  "unknown material 'rubbr'; did you mean 'rubber'?"
+void check_material(std::string_view name);
+
 }  // namespace clench

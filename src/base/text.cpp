@@ -1,0 +1,169 @@
+#include "base/text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+namespace clench {
+
+static bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code code;
+  if (!fs::exists(path, code)) fail("no such file: {}", path.generic_string());
+  if (!fs::is_regular_file(path, code))
+    fail("{}: wanted a file, got a {}", path.generic_string(),
+         fs::is_directory(path, code) ? "folder" : "special file");
+  const auto size = fs::file_size(path, code);
+  if (!code && size > (uintmax_t{1} << 30))
+    fail("{}: wanted a file of at most 1 GB, got {} bytes", path.generic_string(), size);
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail("{}: the file cannot be opened", path.generic_string());
+  std::string raw(code ? 0 : static_cast<size_t>(size), '\0');
+  in.read(raw.data(), static_cast<std::streamsize>(raw.size()));
+  if (in.bad()) fail("{}: the file cannot be read", path.generic_string());
+  raw.resize(static_cast<size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+
+  // CR LF and lone CR become LF
+  if (raw.find('\r') == std::string::npos) return raw;
+  std::string text;
+  text.reserve(raw.size());
+  for (size_t i = 0; i < raw.size(); ++i) {
+    if (raw[i] != '\r') text += raw[i];
+    else if (i + 1 == raw.size() || raw[i + 1] != '\n') text += '\n';
+  }
+  return text;
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  if (!text.empty() && text.front() == '+') {
+    text.remove_prefix(1);
+    if (!text.empty() && text.front() == '-') return {};
+  }
+  // only digits: this shuts out inf, nan and hexadecimal
+  if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return {};
+  double value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size()) return {};
+  if (code == std::errc::result_out_of_range) {
+    // too small is zero, too large is no number
+    const size_t e = text.find_first_of("eE");
+    if (e != std::string_view::npos && text.substr(e + 1).starts_with('-')) return 0.0;
+    return {};
+  }
+  if (code != std::errc() || !std::isfinite(value)) return {};
+  return value;
+}
+
+std::optional<int> parse_integer(std::string_view text) {
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+  int value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+std::vector<std::string_view> split_words(std::string_view text, std::string_view separators) {
+  const auto parts = [&](char c) {
+    return is_blank(c) || separators.find(c) != std::string_view::npos;
+  };
+  std::vector<std::string_view> words;
+  for (size_t i = 0; i < text.size();) {
+    if (parts(text[i])) {
+      ++i;
+      continue;
+    }
+    const size_t start = i;
+    while (i < text.size() && !parts(text[i])) ++i;
+    words.push_back(text.substr(start, i - start));
+  }
+  return words;
+}
+
+std::string in_quotes(std::string_view text) {
+  if (text.empty()) return "nothing";
+  constexpr size_t longest = 40;
+  std::string out(text.substr(0, longest));
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = '?';
+  return "'" + out + (text.size() > longest ? "...'" : "'");
+}
+
+Line::Line(const std::string* file, int number, std::string_view text)
+    : file_(file), number_(number), text_(trim(text)), words_(split_words(text_)) {}
+
+std::string Line::place() const { return fmt::format("{}:{}", file_ ? *file_ : "", number_); }
+
+Line Line::before(char mark) const {
+  for (int i = 0; i < size(); ++i)
+    if (words_[i].front() == mark) return Line(file_, number_, text_.substr(0, words_[i].data() - text_.data()));
+  return *this;
+}
+
+double Line::number(int i, std::string_view what) const {
+  const auto value = parse_number(word(i));
+  if (!value) fail("{}: wanted a number, got {}", what, in_quotes(word(i)));
+  return *value;
+}
+
+int Line::integer(int i, std::string_view what, int low, int high) const {
+  const auto value = parse_integer(word(i));
+  if (!value) fail("{}: wanted a whole number, got {}", what, in_quotes(word(i)));
+  if (*value < low || *value > high)
+    fail("{}: wanted a whole number from {} to {}, got {}", what, low, high, *value);
+  return *value;
+}
+
+LineReader::LineReader(std::string file, std::string text)
+    : file_(std::move(file)), text_(std::move(text)) {
+  const std::string_view all = text_;
+  for (size_t start = 0; start < all.size();) {
+    const size_t end = std::min(all.find('\n', start), all.size());
+    lines_.push_back(all.substr(start, end - start));
+    start = end + 1;
+  }
+}
+
+Line LineReader::peek() const {
+  if (done()) return Line(&file_, std::max<int>(1, static_cast<int>(lines_.size())), "");
+  return Line(&file_, static_cast<int>(next_) + 1, lines_[next_]);
+}
+
+Line LineReader::next() {
+  const Line line = peek();
+  if (!done()) ++next_;
+  return line;
+}
+
+bool LineReader::skip_to_full() {
+  while (!done()) {
+    const auto text = trim(lines_[next_]);
+    if (!text.empty() && text.front() != '#') return true;
+    ++next_;
+  }
+  return false;
+}
+
+Line LineReader::next_full(std::string_view what) {
+  if (!skip_to_full()) peek().fail("wanted {}, got the end of the file", what);
+  return next();
+}
+
+}  // namespace clench

@@ -1,0 +1,91 @@
+// Text files taken apart: lines, words, and numbers that are numbers. Whatever is wrong is told with
+// the place "file:line", what was wanted and what was got.
+#pragma once
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+
+namespace clench {
+
+/// A whole file; line ends of every kind become '\n'.
+/// throws Error when it does not exist, is a folder, cannot be read or is larger than 1 GB
+std::string read_text(const std::filesystem::path& path);
+
+/// A finite decimal number, an explicit '+' allowed, nothing before or after it; else empty.
+std::optional<double> parse_number(std::string_view text);
+std::optional<int> parse_integer(std::string_view text);
+
+std::string_view trim(std::string_view text);
+std::string lower_case(std::string_view text);
+/// Words between white space and any of `separators`.
+std::vector<std::string_view> split_words(std::string_view text, std::string_view separators = "");
+/// A word for an error: in quotes, cut when long, unprintable characters as '?'; "nothing" when empty.
+std::string in_quotes(std::string_view text);
+
+/// A line and where it stands. The text belongs to the LineReader that gave it.
+class Line {
+ public:
+  Line() = default;
+  Line(const std::string* file, int number, std::string_view text);
+
+  int number() const { return number_; }          ///< from 1
+  std::string place() const;                      ///< "Barrett.cfg:31"
+  std::string_view text() const { return text_; } ///< without blanks at its ends
+  bool blank() const { return text_.empty(); }
+  int size() const { return static_cast<int>(words_.size()); }
+  /// word i, or "" when there is none
+  std::string_view word(int i) const { return i < size() ? words_[i] : std::string_view(); }
+  /// The same line without the words from the first that begins with `mark` on.
+  Line before(char mark) const;
+
+  /// throws Error  "Barrett.cfg:31: Kp: wanted a number, got 'x'"
+  double number(int i, std::string_view what) const;
+  /// throws Error as number does, or when out of [low, high]
+  int integer(int i, std::string_view what, int low = std::numeric_limits<int>::min(),
+              int high = std::numeric_limits<int>::max()) const;
+  /// throws Error  "Barrett.cfg:31: joint 2: min 144 exceeds max 0 [deg]"
+  template <class... Args>
+  [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
+    throw Error(place() + ": " + fmt::format(format, std::forward<Args>(args)...));
+  }
+
+ private:
+  const std::string* file_ = nullptr;
+  int number_ = 0;
+  std::string_view text_;
+  std::vector<std::string_view> words_;
+};
+
+/// Walks through the lines of a text.
+class LineReader {
+ public:
+  /// `file` is the name shown in errors
+  LineReader(std::string file, std::string text);
+  LineReader(const LineReader&) = delete;
+  LineReader& operator=(const LineReader&) = delete;
+
+  const std::string& file() const { return file_; }
+  bool done() const { return next_ >= lines_.size(); }
+  /// The next line, blank ones and those that begin with '#' too; stays there.
+  /// At the end: an empty line whose place is the last one.
+  Line peek() const;
+  Line next();
+  /// As next(), but steps over blank lines and lines that begin with '#'.
+  /// throws Error  "Barrett.cfg:31: wanted `what`, got the end of the file"
+  Line next_full(std::string_view what);
+  /// Steps over blank lines and comments; is there another line?
+  bool skip_to_full();
+
+ private:
+  std::string file_, text_;
+  std::vector<std::string_view> lines_;
+  size_t next_ = 0;
+};
+
+}  // namespace clench

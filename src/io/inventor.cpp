@@ -1,0 +1,336 @@
+#include "io/inventor.h"
+
+#include <Inventor/SoDB.h>
+#include <Inventor/SoInput.h>
+#include <Inventor/SoPrimitiveVertex.h>
+#include <Inventor/VRMLnodes/SoVRMLNodes.h>
+#include <Inventor/actions/SoCallbackAction.h>
+#include <Inventor/elements/SoLazyElement.h>
+#include <Inventor/errors/SoDebugError.h>
+#include <Inventor/errors/SoMemoryError.h>
+#include <Inventor/errors/SoReadError.h>
+#include <Inventor/lists/SoTypeList.h>
+#include <Inventor/misc/SoChildList.h>
+#include <Inventor/nodekits/SoBaseKit.h>
+#include <Inventor/nodes/SoNodes.h>
+
+#include <charconv>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "base/suggest.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "io/inventor_scan.h"
+#include "io/inventor_shapes.h"
+
+namespace clench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int deepest_graph = 1000;          // nodes above one another; Coin walks by recursion
+constexpr int deepest_include = 32;          // files that include files
+constexpr int most_steps = 5'000'000;        // nodes visited, shared ones each time
+constexpr size_t most_triangles = 20'000'000;
+
+/// Coin keeps global state: one reader at a time, its messages caught, a host's handlers put back.
+class CoinLease {
+ public:
+  CoinLease() : lock_(mutex()) {
+    static std::once_flag once;
+    std::call_once(once, [] {
+      SoDB::init();
+      SoVRMLInline::setFetchURLCallBack([](const SbString&, void*, SoVRMLInline*) {}, nullptr);
+      SoWWWInline::setFetchURLCallBack([](const SbString&, void*, SoWWWInline*) {}, nullptr);
+    });
+    read_ = SoReadError::getHandlerCallback(), read_data_ = SoReadError::getHandlerData();
+    debug_ = SoDebugError::getHandlerCallback(), debug_data_ = SoDebugError::getHandlerData();
+    SoReadError::setHandlerCallback(on_read_error, this);
+    SoDebugError::setHandlerCallback([](const SoError*, void*) {}, nullptr);
+  }
+  ~CoinLease() {
+    SoReadError::setHandlerCallback(read_, read_data_);
+    SoDebugError::setHandlerCallback(debug_, debug_data_);
+  }
+  CoinLease(const CoinLease&) = delete;
+
+  std::string error;   ///< first message of the reader
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex m;
+    return m;
+  }
+  static void on_read_error(const SoError* error, void* data) {
+    const std::string text = error->getDebugString().getString();
+    auto& first = static_cast<CoinLease*>(data)->error;
+    if (first.empty() && text.find("clench:include:") == std::string::npos) first = text;
+  }
+  std::lock_guard<std::mutex> lock_;
+  SoErrorCB* read_;
+  void* read_data_;
+  SoErrorCB* debug_;
+  void* debug_data_;
+};
+
+/// Counts a reference to a node.
+template <class T>
+class Ref {
+ public:
+  Ref(T* node = nullptr) : node_(node) { if (node_) node_->ref(); }
+  Ref(const Ref& other) : Ref(other.node_) {}
+  Ref& operator=(Ref other) { std::swap(node_, other.node_); return *this; }
+  ~Ref() { if (node_) node_->unref(); }
+  T* get() const { return node_; }
+
+ private:
+  T* node_;
+};
+
+/// Names of nodes and engines that we let Coin read; kits draw handles, scripts run code.
+bool is_readable_type(const std::string& name) {
+  static const std::set<std::string> names = [] {
+    std::set<std::string> out;
+    for (const SoType& base : {SoNode::getClassTypeId(), SoType::fromName("Engine")}) {
+      SoTypeList types;
+      SoType::getAllDerivedFrom(base, types);
+      for (int i = 0; i < types.getLength(); ++i) {
+        if (types[i].isDerivedFrom(SoBaseKit::getClassTypeId()) || !types[i].canCreateInstance()) continue;
+        const std::string type = types[i].getName().getString();
+        if (type == "VRMLScript" || type.ends_with("Manip")) continue;
+        out.insert(type);
+        if (type.starts_with("VRML")) out.insert(type.substr(4));
+      }
+    }
+    return out;
+  }();
+  return names.contains(name) || (name.starts_with("So") && names.contains(name.substr(2)));
+}
+
+/// "Coin read error: Unknown field\n\tOccurred at line  12 in <memory>" as "box.iv:12: unknown field"
+[[noreturn]] void rethrow(const std::string& message, const std::string& file, int skipped_lines) {
+  std::string text = message;
+  const std::string_view intro = "Coin read error: ", where = "Occurred at line";
+  if (text.starts_with(intro)) text.erase(0, intro.size());
+  int line = 1;
+  if (const size_t at = text.find(where); at != std::string::npos) {
+    const auto words = split_words(std::string_view(text).substr(at + where.size()));
+    line = words.empty() ? 1 : parse_integer(words[0]).value_or(1);
+    text.erase(at);
+  }
+  std::string sentence;
+  for (const auto word : split_words(text)) sentence += (sentence.empty() ? "" : " ") + std::string(word);
+  fail("{}:{}: {}", file, line + skipped_lines, sentence.empty() ? "the file cannot be read" : sentence);
+}
+
+/// Files to scene graphs, each read once.
+class Loader {
+ public:
+  Loader(CoinLease& coin, const ReadOptions& options) : coin_(coin), options_(options) {}
+  Ref<SoSeparator> load(const fs::path& path, const std::string& text);
+
+ private:
+  void fill_includes(SoNode* root, const fs::path& path, const InventorText& scanned);
+  Ref<SoSeparator> include(const std::string& name, const fs::path& referrer, int line);
+  void visit(SoNode* node, const std::string& file, std::vector<SoNode*>& found, int depth = 1);
+
+  CoinLease& coin_;
+  const ReadOptions& options_;
+  std::map<fs::path, Ref<SoSeparator>> done_;
+  std::vector<fs::path> open_;
+  std::map<SoNode*, int> heights_;
+};
+
+Ref<SoSeparator> Loader::load(const fs::path& path, const std::string& text) {
+  const std::string file = path.filename().string();
+  const InventorText scanned = scan_inventor(text, file, is_readable_type);
+  if (options_.warn)
+    for (const auto& warning : scanned.warnings) options_.warn(warning);
+
+  coin_.error.clear();
+  SoInput input;
+  input.setBuffer(const_cast<char*>(scanned.text.data()), scanned.text.size());
+  const Ref<SoSeparator> root = SoDB::readAll(&input);
+  if (!root.get() || !coin_.error.empty()) rethrow(coin_.error, file, scanned.skipped_lines);
+
+  open_.push_back(path);
+  fill_includes(root.get(), path, scanned);
+  open_.pop_back();
+  return root;
+}
+
+/// All nodes below, each once; remembers how deep it goes below each.
+void Loader::visit(SoNode* node, const std::string& file, std::vector<SoNode*>& found, int depth) {
+  if (heights_.contains(node)) return;
+  int height = deepest_graph;
+  heights_[node] = height;   // stands while we are below it: a circle is endlessly deep
+  found.push_back(node);
+  if (depth <= deepest_graph) {
+    height = 0;
+    const SoChildList* children = node->getChildren();
+    for (int i = 0; children && i < children->getLength(); ++i) {
+      visit((*children)[i], file, found, depth + 1);
+      height = std::max(height, heights_[(*children)[i]]);
+    }
+  }
+  if (height >= deepest_graph) fail("{}: wanted nodes at most {} deep", file, deepest_graph);
+  heights_[node] = height + 1;
+}
+
+void Loader::fill_includes(SoNode* root, const fs::path& path, const InventorText& scanned) {
+  std::vector<SoNode*> nodes;
+  heights_.clear();
+  visit(root, path.filename().string(), nodes);
+  std::map<std::string, int> numbers;
+  for (size_t i = 0; i < scanned.includes.size(); ++i) numbers[include_key(static_cast<int>(i))] = static_cast<int>(i);
+  for (SoNode* node : nodes) {
+    Ref<SoSeparator> part;
+    if (node->isOfType(SoFile::getClassTypeId())) {
+      const auto found = numbers.find(static_cast<SoFile*>(node)->name.getValue().getString());
+      if (found == numbers.end()) continue;
+      const auto& wanted = scanned.includes[found->second];
+      part = include(wanted.name, path, wanted.line);
+      node->getChildren()->append(part.get());
+    } else if (node->isOfType(SoVRMLInline::getClassTypeId())) {
+      auto* inlined = static_cast<SoVRMLInline*>(node);
+      if (inlined->url.getNum() == 0) continue;
+      part = include(inlined->url[0].getString(), path, 0);
+      inlined->setChildData(part.get());
+    } else if (node->isOfType(SoWWWInline::getClassTypeId())) {
+      auto* inlined = static_cast<SoWWWInline*>(node);
+      if (inlined->name.getValue().getLength() == 0) continue;
+      part = include(inlined->name.getValue().getString(), path, 0);
+      inlined->setChildData(part.get());
+    }
+  }
+  // the parts make it deeper
+  nodes.clear();
+  heights_.clear();
+  if (!scanned.includes.empty()) visit(root, path.filename().string(), nodes);
+}
+
+Ref<SoSeparator> Loader::include(const std::string& name, const fs::path& referrer, int line) {
+  const std::string place = referrer.filename().string() + (line > 0 ? fmt::format(":{}", line) : "");
+  fs::path path;
+  std::string text;
+  try {
+    path = fs::weakly_canonical(find_file(name, referrer, options_));
+    text = read_text(path);
+  } catch (const Error& error) {
+    fail("{}: {}", place, error.what());
+  }
+  for (const auto& above : open_)
+    if (fs::weakly_canonical(above) == path) fail("{}: '{}' includes itself", place, name);
+  if (open_.size() >= deepest_include)
+    fail("{}: '{}': wanted files that include one another at most {} deep", place, name, deepest_include);
+  if (const auto found = done_.find(path); found != done_.end()) return found->second;
+  auto part = load(path, text);
+  done_[path] = part;
+  return part;
+}
+
+/// Walks a scene graph and gathers its triangles.
+class Collector {
+ public:
+  explicit Collector(std::string file) : file_(std::move(file)) {}
+  void apply(SoNode* root);
+
+  GeometryBuilder builder;
+  bool colors_given = false;
+  std::set<std::string> warnings;
+
+ private:
+  static SoCallbackAction::Response on_node(void* self, SoCallbackAction* action, const SoNode* node) {
+    return static_cast<Collector*>(self)->enter(action, const_cast<SoNode*>(node));
+  }
+  static void on_triangle(void* self, SoCallbackAction* action, const SoPrimitiveVertex* a,
+                          const SoPrimitiveVertex* b, const SoPrimitiveVertex* c) {
+    static_cast<Collector*>(self)->add(action, {a, b, c});
+  }
+  SoCallbackAction::Response enter(SoCallbackAction* action, SoNode* node);
+  void add(SoCallbackAction* action, const std::array<const SoPrimitiveVertex*, 3>& corners);
+
+  std::string file_, error_;
+  int steps_ = 0;
+  bool clockwise_ = false;   // of the shape that is being asked for triangles
+};
+
+void Collector::apply(SoNode* root) {
+  SoCallbackAction action;
+  action.addPreCallback(SoNode::getClassTypeId(), on_node, this);
+  action.addTriangleCallback(SoShape::getClassTypeId(), on_triangle, this);
+  action.apply(root);
+  if (!error_.empty()) fail("{}: {}", file_, error_);
+}
+
+SoCallbackAction::Response Collector::enter(SoCallbackAction* action, SoNode* node) {
+  const auto is = [&](SoType type) { return node->isOfType(type); };
+  if (++steps_ > most_steps) error_ = fmt::format("wanted at most {} nodes, shared ones counted each time", most_steps);
+  if (builder.triangle_count() > most_triangles) error_ = fmt::format("wanted at most {} triangles", most_triangles);
+  if (!error_.empty()) return SoCallbackAction::ABORT;
+
+  // normals and textures have no effect on triangles
+  if (is(SoNormal::getClassTypeId()) || is(SoNormalBinding::getClassTypeId()) ||
+      is(SoTextureCoordinate2::getClassTypeId()) || is(SoTextureCoordinate3::getClassTypeId()) ||
+      is(SoTextureCoordinateBinding::getClassTypeId()) || is(SoTextureCoordinateFunction::getClassTypeId()) ||
+      is(SoTexture::getClassTypeId()) || is(SoVRMLTexture::getClassTypeId()))
+    return SoCallbackAction::PRUNE;
+  if (is(SoMaterial::getClassTypeId()) || is(SoBaseColor::getClassTypeId()) || is(SoPackedColor::getClassTypeId()) ||
+      is(SoVRMLMaterial::getClassTypeId()) || is(SoVRMLColor::getClassTypeId()))
+    colors_given = true;
+  if (!is(SoShape::getClassTypeId())) return SoCallbackAction::CONTINUE;
+
+  const ShapeVerdict verdict = check_shape(action, node);
+  error_ = verdict.error;
+  if (!verdict.warning.empty()) warnings.insert(fmt::format("{}: {}", file_, verdict.warning));
+  if (!error_.empty()) return SoCallbackAction::ABORT;
+  if (!verdict.use) return SoCallbackAction::PRUNE;
+
+  // which way round the corners of its faces are listed
+  clockwise_ = is(SoVertexShape::getClassTypeId()) && action->getVertexOrdering() == SoShapeHints::CLOCKWISE;
+  if (is(SoVRMLIndexedFaceSet::getClassTypeId())) {
+    clockwise_ = !static_cast<SoVRMLIndexedFaceSet*>(node)->ccw.getValue();
+    colors_given = colors_given || static_cast<SoVRMLIndexedFaceSet*>(node)->color.getValue();
+  }
+  return SoCallbackAction::CONTINUE;
+}
+
+void Collector::add(SoCallbackAction* action, const std::array<const SoPrimitiveVertex*, 3>& corners) {
+  const SbMatrix& X = action->getModelMatrix();
+  std::array<Eigen::Vector3d, 3> points;
+  for (int i = 0; i < 3; ++i) {
+    SbVec3f p;
+    X.multVecMatrix(corners[i]->getPoint(), p);
+    points[i] = Eigen::Vector3d(p[0], p[1], p[2]) * units::millimetre;
+  }
+  // a mirrored shape is inside out
+  if (clockwise_ != (X.det3() < 0)) std::swap(points[1], points[2]);
+
+  SoState* state = action->getState();
+  const SoLazyElement* material = SoLazyElement::getInstance(state);
+  const int index = corners[0]->getMaterialIndex();
+  const int colors = material->getNumDiffuse(), alphas = material->getNumTransparencies();
+  SbColor color(0.8f, 0.8f, 0.8f);
+  if (colors > 0) color = SoLazyElement::getDiffuse(state, std::clamp(index, 0, colors - 1));
+  const float alpha = alphas > 0 ? SoLazyElement::getTransparency(state, std::clamp(index, 0, alphas - 1)) : 0.0f;
+  builder.add(points, Eigen::Vector3f(color[0], color[1], color[2]).cwiseMax(0.0f).cwiseMin(1.0f),
+              std::clamp(alpha, 0.0f, 1.0f));
+}
+
+}  // namespace
+
+Geometry read_inventor(const fs::path& path, const std::string& text, const ReadOptions& options) {
+  CoinLease coin;
+  const std::string file = path.filename().string();
+  const Ref<SoSeparator> root = Loader(coin, options).load(path, text);
+  Collector collector(file);
+  collector.apply(root.get());
+  if (options.warn)
+    for (const auto& warning : collector.warnings) options.warn(warning);
+  return collector.builder.finish(collector.colors_given, file, options);
+}
+
+}  // namespace clench

@@ -1,0 +1,69 @@
+#include "io/inventor_params.h"
+
+#include "base/text.h"
+#include "base/units.h"
+#include "spec/material_names.h"
+
+namespace clench {
+
+namespace {
+
+double positive(const Line& line, const char* what, const char* unit) {
+  const double value = line.number(1, what);
+  if (value <= 0) line.fail("{}: wanted a number > 0 [{}], got {}", what, unit, value);
+  return value;
+}
+
+Eigen::Matrix3d inertia_rows(LineReader& lines, const Line& head, const ReadOptions& options) {
+  // three rows on the next three lines, each after a '#'
+  Eigen::Matrix3d rows;
+  std::vector<std::string> texts;
+  for (int i = 0; i < 3; ++i) {
+    const Line line = lines.next();
+    if (!line.text().starts_with('#') || line.number() == head.number())
+      line.fail("inertia_matrix: wanted row {} of 3 as '#a b c', got {}", i + 1, in_quotes(line.text()));
+    const auto words = split_words(line.text().substr(1));
+    for (int j = 0; j < 3; ++j) {
+      const std::string_view word = j < static_cast<int>(words.size()) ? words[j] : std::string_view();
+      const auto value = parse_number(word);
+      if (!value) line.fail("inertia_matrix: wanted three numbers [mm^2], got {}", in_quotes(word));
+      rows(i, j) = *value * units::square_millimetre;
+    }
+  }
+  if (rows != rows.transpose() && options.warn)
+    options.warn(head.place() + ": inertia_matrix is not symmetric; its symmetric part is used");
+  return 0.5 * (rows + rows.transpose());
+}
+
+}  // namespace
+
+void read_inventor_params(const std::string& text, const std::string& file, const ReadOptions& options, BodySpec& body) {
+  LineReader lines(file, text);
+  while (!lines.done()) {
+    const Line line = lines.next();
+    if (!line.text().starts_with('#')) continue;
+    const std::string_view key = line.word(0).substr(1);
+    if (key == "material") {
+      try {
+        check_material(line.word(1));
+      } catch (const Error& error) {
+        line.fail("{}", error.what());
+      }
+      body.material = line.word(1);
+    } else if (key == "youngs") {
+      body.elastic_modulus = positive(line, "youngs", "Pa");
+      if (*body.elastic_modulus < 1e4 && options.warn)
+        options.warn(fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?", line.place(), *body.elastic_modulus));
+    } else if (key == "useFlockOfBirds") {
+      body.tracker = line.integer(1, "useFlockOfBirds", 0);
+    } else if (key == "mass") {
+      body.mass = positive(line, "mass", "g") * units::gram;
+    } else if (key == "cog") {
+      body.com = Eigen::Vector3d(line.number(1, "cog"), line.number(2, "cog"), line.number(3, "cog")) * units::millimetre;
+    } else if (key == "inertia_matrix") {
+      body.inertia_per_mass = inertia_rows(lines, line, options);
+    }
+  }
+}
+
+}  // namespace clench

@@ -1,0 +1,260 @@
+#include "io/inventor_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "base/suggest.h"
+#include "base/text.h"
+
+namespace clench {
+
+namespace {
+
+constexpr size_t deepest = 250;   // nested brackets; the library reads by recursion
+
+struct Token {
+  enum Kind { word, string, open, close, end } kind = end;
+  std::string_view text;   // with the quotes of a string
+  size_t start = 0;
+  int line = 0;
+};
+
+/// An open bracket.
+struct Open {
+  char bracket = '{';
+  int line = 0;
+  std::string type;       // node type before a '{', else empty
+  std::string name;       // given by DEF
+  size_t start = 0;       // where the node begins, DEF included
+  bool unknown = false;
+  bool proto = false;     // body of a PROTO
+};
+
+bool ends_word(char c) {
+  return c == ' ' || c == '\t' || c == '\n' || c == '\v' || c == '\f' || c == ',' || c == '{' || c == '}' ||
+         c == '[' || c == ']' || c == '"' || c == '#';
+}
+
+class Scanner {
+ public:
+  Scanner(std::string_view text, const std::string& file, int first_line, bool vrml2,
+          const std::function<bool(const std::string&)>& is_node_type)
+      : text_(text), file_(file), line_(first_line), vrml2_(vrml2), is_node_type_(is_node_type), out_(text) {}
+
+  void run();
+  std::string take_text();
+  std::vector<InventorInclude> includes;
+  std::vector<std::string> warnings;
+
+ private:
+  template <class... Args>
+  [[noreturn]] void refuse(int line, fmt::format_string<Args...> format, Args&&... args) const {
+    throw Error(fmt::format("{}:{}: ", file_, line) + fmt::format(format, std::forward<Args>(args)...));
+  }
+  Token next();
+  void on_word(const Token& token);
+  void on_open(const Token& token);
+  void on_close(const Token& token);
+  void include_value(const Token& token);
+  bool in_unknown() const {
+    return std::any_of(open_.begin(), open_.end(), [](const Open& o) { return o.unknown; });
+  }
+  /// blanks the text from start to end, so that lines keep their numbers
+  void cut(size_t start, size_t end);
+
+  std::string_view text_;
+  const std::string& file_;
+  size_t at_ = 0;
+  int line_;
+  bool vrml2_;
+  const std::function<bool(const std::string&)>& is_node_type_;
+  std::string out_;
+  std::vector<Open> open_;
+  Token last_;                     // the token before, when it was a word
+  Token before_last_, third_last_; // for DEF name type
+  std::set<std::string> cut_names_, protos_;
+  std::map<std::string, bool> known_types_;
+  std::vector<std::pair<size_t, std::pair<size_t, std::string>>> edits_;   // start, length, text
+};
+
+Token Scanner::next() {
+  // white space, commas and comments
+  while (at_ < text_.size()) {
+    const char c = text_[at_];
+    if (c == '\n') ++line_, ++at_;
+    else if (c == '#') at_ = std::min(text_.find('\n', at_), text_.size());
+    else if (c == ' ' || c == '\t' || c == ',' || c == '\v' || c == '\f') ++at_;
+    else break;
+  }
+  Token token{Token::end, {}, at_, line_};
+  if (at_ >= text_.size()) return token;
+
+  const char c = text_[at_];
+  if (c == '\0') refuse(line_, "wanted text, got a byte of value 0; binary Inventor files are not read");
+  if (c == '{' || c == '[' || c == '}' || c == ']') {
+    token.kind = c == '{' || c == '[' ? Token::open : Token::close;
+    token.text = text_.substr(at_++, 1);
+  } else if (c == '"') {
+    token.kind = Token::string;
+    for (++at_; at_ < text_.size() && text_[at_] != '"'; ++at_) {
+      if (text_[at_] == '\\' && at_ + 1 < text_.size()) ++at_;
+      if (text_[at_] == '\n') ++line_;
+    }
+    if (at_ >= text_.size()) refuse(token.line, "a string has no closing quote");
+    token.text = text_.substr(token.start, ++at_ - token.start);
+  } else {
+    token.kind = Token::word;
+    while (at_ < text_.size() && !ends_word(text_[at_]) && text_[at_] != '\0') ++at_;
+    token.text = text_.substr(token.start, at_ - token.start);
+  }
+  return token;
+}
+
+void Scanner::cut(size_t start, size_t end) {
+  for (size_t i = start; i < end; ++i)
+    if (out_[i] != '\n') out_[i] = ' ';
+  // in VRML 2 a node that is the value of a field cannot just be missing
+  const bool value = vrml2_ && !open_.empty() && open_.back().bracket == '{' && !open_.back().proto;
+  if (value && end - start >= 4 && std::string_view(out_).substr(start, 4).find('\n') == std::string_view::npos)
+    out_.replace(start, 4, "NULL");
+}
+
+void Scanner::on_word(const Token& token) {
+  if (token.text == "EXTERNPROTO") refuse(token.line, "EXTERNPROTO is not read; wanted nodes of the standard");
+  if (last_.text == "PROTO") protos_.insert(std::string(token.text));
+  if (last_.text == "USE") {
+    const std::string name(token.text);
+    for (const auto& o : open_)
+      if (o.name == name) refuse(token.line, "USE of '{}' inside itself, which line {} defines", name, o.line);
+    if (cut_names_.contains(name) && !in_unknown()) cut(last_.start, at_);
+  }
+}
+
+void Scanner::on_open(const Token& token) {
+  if (open_.size() >= deepest) refuse(token.line, "wanted brackets nested at most {} deep", deepest);
+  Open open{token.text[0], token.line, "", "", token.start, false, false};
+  if (open.bracket == '{' && last_.kind == Token::word) {
+    open.type = last_.text;
+    open.start = last_.start;
+    if (third_last_.text == "DEF") {
+      open.name = before_last_.text;
+      open.start = third_last_.start;
+    }
+    const bool nested_proto = protos_.contains(open.type) &&
+                              std::any_of(open_.begin(), open_.end(), [](const Open& o) { return o.proto; });
+    if (nested_proto) refuse(token.line, "PROTO '{}' is used inside a PROTO, which is not read", open.type);
+    auto known = known_types_.find(open.type);
+    if (known == known_types_.end())
+      known = known_types_.emplace(open.type, is_node_type_(open.type)).first;
+    open.unknown = !known->second && !protos_.contains(open.type);
+    if (open.unknown && !in_unknown())
+      warnings.push_back(fmt::format("{}:{}: unknown node {} is skipped", file_, token.line, in_quotes(open.type)));
+  } else if (open.bracket == '{') {
+    open.proto = last_.kind == Token::close && last_.text == "]" && vrml2_;
+    if (!open.proto)
+      refuse(token.line, "wanted a node type before '{{', got {}", last_.text.empty() ? "nothing" : in_quotes(last_.text));
+  }
+  open_.push_back(std::move(open));
+}
+
+void Scanner::on_close(const Token& token) {
+  const char bracket = token.text[0] == '}' ? '{' : '[';
+  if (open_.empty()) refuse(token.line, "'{}' closes nothing", token.text);
+  const Open open = open_.back();
+  if (open.bracket != bracket)
+    refuse(token.line, "wanted '{}' for the '{}' of line {}, got '{}'", open.bracket == '{' ? '}' : ']', open.bracket,
+           open.line, token.text);
+  open_.pop_back();
+  if (open.unknown && !in_unknown()) {
+    cut(open.start, at_);
+    if (!open.name.empty()) cut_names_.insert(open.name);
+  } else if (!open.name.empty()) {
+    cut_names_.erase(open.name);
+  }
+}
+
+void Scanner::include_value(const Token& token) {
+  std::string name(token.text);
+  if (token.kind == Token::string) name = name.substr(1, name.size() - 2);
+  if (trim(name).empty()) refuse(token.line, "File: wanted the name of a file, got nothing");
+  edits_.push_back({token.start, {token.text.size(), '"' + include_key(static_cast<int>(includes.size())) + '"'}});
+  includes.push_back({name, token.line});
+}
+
+void Scanner::run() {
+  for (Token token = next(); token.kind != Token::end; token = next()) {
+    const bool file_name = !open_.empty() && (open_.back().type == "File" || open_.back().type == "SoFile") &&
+                           last_.kind == Token::word && last_.text == "name" && !in_unknown();
+    if (file_name && (token.kind == Token::word || token.kind == Token::string)) include_value(token);
+    else if (token.kind == Token::word) on_word(token);
+    else if (token.kind == Token::open) on_open(token);
+    else if (token.kind == Token::close) on_close(token);
+    third_last_ = before_last_;
+    before_last_ = last_;
+    last_ = token;
+  }
+  if (!open_.empty()) {
+    const Open& open = open_.back();
+    refuse(line_, "wanted '{}' for the '{}' of line {}, got the end of the file", open.bracket == '{' ? '}' : ']',
+           open.type.empty() ? std::string(1, open.bracket) : open.type + " {", open.line);
+  }
+}
+
+std::string Scanner::take_text() {
+  // from the back, so that earlier places stay where they are
+  for (auto edit = edits_.rbegin(); edit != edits_.rend(); ++edit)
+    out_.replace(edit->first, edit->second.first, edit->second.second);
+  return std::move(out_);
+}
+
+constexpr std::array<std::string_view, 5> headers = {"#Inventor V2.1 ascii", "#Inventor V2.0 ascii",
+                                                     "#Inventor V1.0 ascii", "#VRML V1.0 ascii", "#VRML V2.0 utf8"};
+
+/// The canonical header that a line means, or "".
+std::string_view header_of(std::string_view line) {
+  for (const auto header : headers)
+    if (line.starts_with(header)) return header;
+  return "";
+}
+
+}  // namespace
+
+std::string include_key(int number) { return fmt::format("clench:include:{}:", number); }
+
+InventorText scan_inventor(const std::string& text, const std::string& file,
+                           const std::function<bool(const std::string&)>& is_node_type) {
+  InventorText out;
+  std::string_view rest = text;
+  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
+
+  // the header stands on the first line, or after comments
+  std::string_view header, first;
+  while (!rest.empty()) {
+    const size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view line = trim(rest.substr(0, end));
+    if (first.empty()) first = line;
+    header = header_of(line);
+    if (!header.empty()) {
+      rest.remove_prefix(end);
+      break;
+    }
+    if (line.starts_with("#Inventor") && line.find("binary") != std::string_view::npos)
+      fail("{}:{}: binary Inventor files are not read; wanted '#Inventor V2.1 ascii'", file, out.skipped_lines + 1);
+    if (!line.empty() && line.front() != '#') break;
+    ++out.skipped_lines;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  if (header.empty())
+    fail("{}:1: wanted a header such as '#Inventor V2.1 ascii' or '#VRML V2.0 utf8', got {}", file, in_quotes(first));
+
+  Scanner scanner(rest, file, out.skipped_lines + 1, header == "#VRML V2.0 utf8", is_node_type);
+  scanner.run();
+  out.includes = std::move(scanner.includes);
+  out.warnings = std::move(scanner.warnings);
+  out.text = std::string(header) + scanner.take_text() + "\n";
+  return out;
+}
+
+}  // namespace clench

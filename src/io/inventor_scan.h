@@ -1,0 +1,33 @@
+// The text of an Inventor or VRML file, looked through before the reader library sees it: the library
+// trusts its input further than we do.
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clench {
+
+/// A File node: another file that stands in its place.
+struct InventorInclude {
+  std::string name;   ///< as written
+  int line = 0;
+};
+
+struct InventorText {
+  std::string text;                        ///< for the library; line n of it is line n + skipped_lines of the file
+  int skipped_lines = 0;                   ///< lines before the header
+  std::vector<InventorInclude> includes;   ///< number i is called include_key(i) in `text`
+  std::vector<std::string> warnings;       ///< "box.iv:7: unknown node 'Foo' is skipped"
+};
+
+/// What a File node's name is replaced by.
+std::string include_key(int number);
+
+/// Checks header, brackets, strings and names; cuts out nodes of unknown type.
+/// `file` is the name shown in errors, `is_node_type` tells whether the library knows a node by that name.
+/// throws Error  "box.iv:31: '}' missing for 'Separator' of line 4", and so on
+InventorText scan_inventor(const std::string& text, const std::string& file,
+                           const std::function<bool(const std::string&)>& is_node_type);
+
+}  // namespace clench

@@ -1,0 +1,277 @@
+#include "io/robot_cfg.h"
+
+#include "base/suggest.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "io/joint_expression.h"
+#include "io/transform_list.h"
+
+namespace clench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int most = 1000;   // DOFs, chains, joints, links: far above any hand, far below what fills the memory
+
+/// Numbers of a DOF line as written; their units depend on the kind of its joints, which come later.
+struct DofLine {
+  Line line;
+  DofKind kind = DofKind::rigid;
+  double velocity = 0, effort = 0, kp = 0, kd = 0, scale = 0, breakaway = 0;
+};
+
+class CfgReader {
+ public:
+  CfgReader(const fs::path& path, Library& library)
+      : path_(path), library_(library), lines_(path.filename().string(), read_text(path)) {}
+  RobotSpec read();
+
+ private:
+  Line wanted(std::string_view what) { return lines_.next_full(what).before('#'); }
+  int count(const char* what, int low);
+  void read_dofs();
+  void read_chain(int number);
+  void read_joint(ChainSpec& chain, int number);
+  void read_link(ChainSpec& chain, int number, const std::string& name);
+  void read_optional_blocks();
+  void read_tracker();
+  void read_approach();
+  std::string named_file(const char* what);
+  BodySpec body(const Line& line, const std::string& name);
+  void set_dof_units();
+  void check_ranges();
+
+  const fs::path& path_;
+  Library& library_;
+  LineReader lines_;
+  std::vector<DofLine> dof_lines_;
+  std::vector<std::optional<JointKind>> dof_kinds_;   // of its first joint
+  RobotSpec robot_;
+};
+
+int CfgReader::count(const char* what, int low) {
+  return wanted(what).integer(0, what, low, most);
+}
+
+BodySpec CfgReader::body(const Line& line, const std::string& name) {
+  // geometry lives in the folder iv/ beside the robot file
+  const std::string file(line.word(0));
+  BodySpec out;
+  try {
+    const ReadOptions& options = library_.options();
+    fs::path found;
+    try {
+      found = find_file(file, path_.parent_path() / "iv" / "x", {});
+    } catch (const Error& near) {
+      try {
+        found = find_file(file, path_, options);
+      } catch (const Error&) {
+        throw near;
+      }
+    }
+    out = library_.body(found);
+    out.source = found.generic_string();
+  } catch (const Error& error) {
+    line.fail("{}", error.what());
+  }
+  out.name = name;
+  return out;
+}
+
+RobotSpec CfgReader::read() {
+  robot_.name = path_.stem().string();
+  robot_.source = path_.generic_string();
+  robot_.class_name = wanted("the robot's class").word(0);
+  robot_.base = body(wanted("the palm's file"), robot_.name + "_base");
+  read_dofs();
+  const int chains = count("number of chains", 0);
+  for (int c = 0; c < chains; ++c) read_chain(c);
+  set_dof_units();
+  check_ranges();
+  read_optional_blocks();
+  check_robot(robot_);
+  return std::move(robot_);
+}
+
+void CfgReader::read_dofs() {
+  const int dofs = count("number of DOFs", 0);
+  for (int i = 0; i < dofs; ++i) {
+    DofLine d;
+    d.line = wanted(fmt::format("the line of DOF {}", i));
+    const std::string_view kind = d.line.word(0);
+    if (kind == "r") d.kind = DofKind::rigid;
+    else if (kind == "b") d.kind = DofKind::breakaway;
+    else if (kind == "c") d.kind = DofKind::compliant;
+    else d.line.fail("DOF {}: wanted type r, b or c, got {}", i, in_quotes(kind));
+    const auto number = [&](int k, const char* what) { return d.line.number(k, fmt::format("DOF {}: {}", i, what)); };
+    d.velocity = number(1, "default velocity");
+    d.effort = number(2, "max effort");
+    d.kp = number(3, "Kp");
+    d.kd = number(4, "Kd");
+    d.scale = number(5, "dragger scale");
+    if (d.kind == DofKind::breakaway) d.breakaway = number(6, "breakaway torque");
+    if (d.effort < 0) d.line.fail("DOF {}: max effort: wanted a number >= 0, got {}", i, d.effort);
+    if (d.breakaway < 0) d.line.fail("DOF {}: breakaway torque: wanted a number >= 0, got {}", i, d.breakaway);
+    dof_lines_.push_back(std::move(d));
+  }
+  dof_kinds_.resize(dofs);
+}
+
+void CfgReader::read_chain(int number) {
+  ChainSpec chain;
+  const int joints = count("number of joints", 0), links = count("number of links", 0);
+  chain.X_BC = read_transform_list(lines_);
+  for (int j = 0; j < joints; ++j) read_joint(chain, j);
+  for (int l = 0; l < links; ++l)
+    read_link(chain, l, fmt::format("{}_chain{}_link{}", robot_.name, number, l));
+  robot_.chains.push_back(std::move(chain));
+}
+
+void CfgReader::read_joint(ChainSpec& chain, int number) {
+  const Line line = wanted(fmt::format("the line of joint {}", number));
+  const auto value = [&](int i, const char* what) { return line.number(i, fmt::format("joint {}: {}", number, what)); };
+  JointSpec joint;
+
+  // the DOF stands in the theta column of a revolute joint, in the d column of a prismatic one
+  joint.kind = line.word(0).starts_with('d') ? JointKind::revolute : JointKind::prismatic;
+  const bool revolute = joint.kind == JointKind::revolute;
+  const std::string_view text = line.word(revolute ? 0 : 1);
+  const auto expression = parse_joint_expression(text);
+  if (!expression) {
+    if (!revolute) value(0, "theta");
+    line.fail("joint {}: wanted a joint expression such as d0*0.5+90 for {}, got {}", number, revolute ? "theta" : "d", in_quotes(text));
+  }
+  joint.dof = expression->dof;
+  if (joint.dof >= static_cast<int>(dof_lines_.size()))
+    line.fail("joint {}: wanted a DOF below {}, got d{}", number, dof_lines_.size(), joint.dof);
+  if (expression->ratio == 0) line.fail("joint {}: wanted a ratio other than 0, got {}", number, in_quotes(text));
+
+  // degrees and millimetres to radians and metres
+  const double unit = revolute ? units::degree : units::millimetre;
+  joint.theta = revolute ? expression->offset * units::degree : value(0, "theta") * units::degree;
+  joint.d = revolute ? value(1, "d") * units::millimetre : expression->offset * units::millimetre;
+  joint.a = value(2, "a") * units::millimetre;
+  joint.alpha = value(3, "alpha") * units::degree;
+  const double low = value(4, "min"), high = value(5, "max");
+  if (low > high) line.fail("joint {}: min {} exceeds max {} [{}]", number, low, high, revolute ? "deg" : "mm");
+  joint.min = low * unit;
+  joint.max = high * unit;
+  if (line.size() > 6) joint.viscous = value(6, "viscous friction") * (revolute ? units::gram_square_millimetre : units::gram);
+  if (line.size() > 7) joint.coulomb = value(7, "Coulomb friction") * (revolute ? units::gram_square_millimetre : units::gram_millimetre);
+  if (line.size() > 8) joint.spring = value(8, "spring stiffness") * (revolute ? units::newton_millimetre : units::newton_per_millimetre);
+  if (line.size() > 9) joint.rest = value(9, "rest value") * (revolute ? 1.0 : units::millimetre);
+  if (joint.viscous < 0 || joint.coulomb < 0 || joint.spring < 0)
+    line.fail("joint {}: wanted friction and spring stiffness >= 0", number);
+
+  // a DOF counts in the unit of its first joint: rad or mm
+  auto& kind = dof_kinds_[joint.dof];
+  if (!kind) kind = joint.kind;
+  joint.ratio = expression->ratio;
+  if (*kind != joint.kind) joint.ratio *= revolute ? 1 / units::millimetre : units::millimetre;
+  chain.joints.push_back(joint);
+}
+
+void CfgReader::read_link(ChainSpec& chain, int number, const std::string& name) {
+  constexpr std::pair<std::string_view, LinkJoint> kinds[] = {
+      {"Revolute", LinkJoint::revolute}, {"Prismatic", LinkJoint::prismatic}, {"Universal", LinkJoint::universal},
+      {"Ball", LinkJoint::ball}, {"Fixed", LinkJoint::fixed}};
+  const Line kind_line = wanted(fmt::format("the joint type of link {}", number));
+  LinkSpec link;
+  std::vector<std::string> names;
+  bool known = false;
+  for (const auto& [word, kind] : kinds) {
+    names.emplace_back(word);
+    if (lower_case(word) == lower_case(kind_line.word(0))) link.joint = kind, known = true;
+  }
+  if (!known)
+    kind_line.fail("link {}: wanted Revolute, Prismatic, Universal, Ball or Fixed, got {}{}", number,
+                   in_quotes(kind_line.word(0)), did_you_mean(kind_line.word(0), names));
+
+  const Line line = wanted(fmt::format("the file of link {}", number));
+  const int before = chain.links.empty() ? -1 : chain.links.back().last_joint;
+  const int joints = static_cast<int>(chain.joints.size());
+  if (line.size() > 1) link.last_joint = line.integer(1, fmt::format("link {}: last joint", number), -1, joints - 1);
+  else link.last_joint = before + 1;
+  if (link.last_joint >= joints)
+    line.fail("link {}: wanted a joint to move it, got {} joints for {} links", number, joints, chain.links.size() + 1);
+  link.body = body(line, name);
+  chain.links.push_back(std::move(link));
+}
+
+void CfgReader::set_dof_units() {
+  for (size_t i = 0; i < dof_lines_.size(); ++i) {
+    const DofLine& d = dof_lines_[i];
+    const bool slides = dof_kinds_[i] == JointKind::prismatic;
+    if (!dof_kinds_[i]) library_.warn(fmt::format("{}: DOF {} moves no joint", d.line.place(), i));
+    DofSpec dof;
+    dof.kind = d.kind;
+    dof.default_velocity = d.velocity * (slides ? units::millimetre : 1.0);
+    dof.max_effort = d.effort * (slides ? units::gram_millimetre : units::gram_square_millimetre);
+    dof.kp = d.kp * (slides ? units::gram_per_square_second : units::gram_square_millimetre);
+    dof.kd = d.kd * (slides ? units::gram : units::gram_square_millimetre);
+    dof.dragger_scale = d.scale * units::millimetre;
+    dof.breakaway_torque = d.breakaway;
+    robot_.dofs.push_back(dof);
+  }
+}
+
+void CfgReader::check_ranges() {
+  for (size_t i = 0; i < dof_lines_.size(); ++i) {
+    const auto [low, high] = dof_range(robot_, static_cast<int>(i));
+    if (low > high) dof_lines_[i].line.fail("DOF {}: the ranges of its joints have no value in common", i);
+  }
+}
+
+std::string CfgReader::named_file(const char* what) {
+  const Line line = wanted(fmt::format("the file of {}", what));
+  try {
+    return find_file(std::string(line.text()), path_, library_.options()).generic_string();
+  } catch (const Error& error) {
+    library_.warn(fmt::format("{}: {}: {}", line.place(), what, error.what()));
+    return "";
+  }
+}
+
+void CfgReader::read_tracker() {
+  TrackerSpec tracker;
+  tracker.number = wanted("a bird number").integer(0, "FlockOfBirds", 0);
+  tracker.X_BS = read_transform_list(lines_);
+  robot_.tracker = tracker;
+}
+
+void CfgReader::read_approach() {
+  const auto vector = [&](const char* what) {
+    const Line line = wanted(what);
+    return std::pair(line, Eigen::Vector3d(line.number(0, what), line.number(1, what), line.number(2, what)));
+  };
+  const Eigen::Vector3d point = vector("approach point").second * units::millimetre;
+  const auto [line, direction] = vector("approach direction");
+  try {
+    robot_.X_BA = approach_frame(point, direction);
+  } catch (const Error& error) {
+    line.fail("{}", error.what());
+  }
+}
+
+void CfgReader::read_optional_blocks() {
+  while (lines_.skip_to_full()) {
+    const Line line = lines_.next().before('#');
+    const std::string_view key = line.word(0);
+    if (key == "EigenGrasps") robot_.eigengrasps = named_file("EigenGrasps");
+    else if (key == "VirtualContacts") robot_.virtual_contacts = named_file("VirtualContacts");
+    else if (key == "CyberGlove") robot_.glove_calibration = named_file("CyberGlove");
+    else if (key == "FlockOfBirds") read_tracker();
+    else if (key == "Approach") read_approach();
+    else {
+      const std::vector<std::string> known = {"EigenGrasps", "FlockOfBirds", "Approach", "VirtualContacts", "CyberGlove"};
+      library_.warn(fmt::format("{}: unknown keyword {} is not used{}", line.place(), in_quotes(key), did_you_mean(key, known)));
+    }
+  }
+}
+
+}  // namespace
+
+RobotSpec read_robot_cfg(const fs::path& path, Library& library) { return CfgReader(path, library).read(); }
+
+}  // namespace clench

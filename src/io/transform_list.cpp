@@ -1,0 +1,79 @@
+#include "io/transform_list.h"
+
+#include "base/units.h"
+
+namespace clench {
+
+bool begins_transform(const Line& line) {
+  const std::string_view text = line.text();
+  return !text.empty() && std::string_view("tTrR").find(text.front()) != std::string_view::npos;
+}
+
+Pose read_full_transform(const Line& line, std::string_view text) {
+  // the brackets in their order, then the numbers between them
+  std::string shape;
+  for (const char c : text)
+    if (c == '(' || c == ')' || c == '[' || c == ']') shape += c;
+  const auto words = split_words(text, "()[],");
+  if (shape != "()[]" || words.size() != 7 || text.front() != '(')
+    line.fail("transform: wanted '(w x y z)[x y z]', got {}", in_quotes(text));
+  double x[7];
+  for (int i = 0; i < 7; ++i) {
+    const auto value = parse_number(words[i]);
+    if (!value) line.fail("transform: wanted a number, got {}", in_quotes(words[i]));
+    x[i] = *value;
+  }
+  const Eigen::Quaterniond q(x[0], x[1], x[2], x[3]);
+  const double norm = q.coeffs().stableNorm();
+  if (!(norm > 1e-6) || !std::isfinite(norm))
+    line.fail("transform: wanted a quaternion of length 1, got ({} {} {} {})", x[0], x[1], x[2], x[3]);
+  return {Eigen::Quaterniond(q.coeffs() / norm), Eigen::Vector3d(x[4], x[5], x[6]) * units::millimetre};
+}
+
+static Eigen::Vector3d axis(const Line& line, int i) {
+  const std::string_view word = line.word(i);
+  if (word.size() == 1 && (word[0] | 32) >= 'x' && (word[0] | 32) <= 'z') return Eigen::Vector3d::Unit((word[0] | 32) - 'x');
+  line.fail("rotation: wanted an axis x, y or z, got {}", in_quotes(word));
+}
+
+static Pose read_matrix(const Line& head, LineReader& lines) {
+  // nine numbers, wherever the lines end
+  Eigen::Matrix3d R;
+  Line line = head;
+  int next = 1;
+  for (int i = 0; i < 9; ++i) {
+    while (next >= line.size()) {
+      line = lines.next_full("9 numbers of a rotation matrix");
+      next = 0;
+    }
+    R.col(i / 3)[i % 3] = line.number(next++, "rotation matrix");
+  }
+  const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error < 1e-2) || !(R.determinant() > 0))
+    head.fail("rotation matrix: wanted unit axes at right angles, right-handed; they are off by {:.2g}", error);
+  return Pose::turn(Eigen::Quaterniond(R).normalized());
+}
+
+Pose read_transform(const Line& line, LineReader& lines) {
+  const std::string_view key = line.word(0);
+  if (line.text().starts_with('T') && (key == "T" || key.starts_with("T(")))
+    return read_full_transform(line, trim(line.text().substr(1)));
+  if (key == "t")
+    return Pose::translation(Eigen::Vector3d(line.number(1, "translation x"), line.number(2, "translation y"),
+                                             line.number(3, "translation z")) * units::millimetre);
+  if (key == "r") return Pose::turn(line.number(1, "rotation") * units::degree, axis(line, 2));
+  if (key == "rr") return Pose::turn(line.number(1, "rotation"), axis(line, 2));
+  if (key == "R") return read_matrix(line, lines);
+  line.fail("transform: wanted t, r, rr, T or R, got {}", in_quotes(key));
+}
+
+Pose read_transform_list(LineReader& lines) {
+  Pose total;
+  while (lines.skip_to_full() && begins_transform(lines.peek())) {
+    const Line line = lines.next();
+    total = total * read_transform(line, lines);
+  }
+  return total;
+}
+
+}  // namespace clench
