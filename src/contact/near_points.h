@@ -1,0 +1,31 @@
+// Points where two surfaces come near each other: a corner over a face, an edge across an edge.
+// Between them lies the whole near part of both surfaces, so their outline is its outline.
+#pragma once
+#include <vector>
+
+#include "geometry/queries.h"
+#include "geometry/triangle.h"
+
+namespace clench {
+
+struct NearPoint {
+  Eigen::Vector3d p_a, p_b;  ///< on both surfaces, frame of a [m]
+  Eigen::Vector3d normal;    ///< unit, from a into b
+  double gap = 0;            ///< [m]
+  int region = 0;            ///< equal where a path of near points leads from one to the other
+};
+
+/// The closest pair first, then the others in the order of the triangles. Only points where each
+/// surface is the nearest to the other within its neighbourhood, up to a slope of 1/100: not the
+/// corners of a tilted face. pairs      of pairs_within(a, b, X_AB, threshold); not empty, none
+/// intersect threshold  [m]
+std::vector<NearPoint> near_points(const Shape& a, const Shape& b, const Pose& X_AB,
+                                   const std::vector<TrianglePair>& pairs, double threshold);
+
+/// What rounding may do to a difference of points of two shapes [m].
+double coordinate_rounding(const Shape& a, const Shape& b, const Pose& X_AB);
+
+/// Normal of a triangle by its winding, 0 without area.
+Eigen::Vector3d face_normal(const Corners& corners);
+
+}  // namespace clench

@@ -1,0 +1,56 @@
+// The near triangles of one shape, and which of them meet at a corner or an edge.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "geometry/triangle.h"
+#include "math/pose.h"
+
+namespace clench {
+
+/// Corners and edges are numbered by position, so that triangles which share one find each other
+/// even when the mesh repeats its vertices. A slot is 3 * triangle + corner; edge k runs from
+/// corner k to k + 1.
+class NearSurface {
+ public:
+  /// triangles  indices into the mesh, ascending; `X` moves the corners
+  NearSurface(const Mesh& mesh, std::vector<int> triangles, const Pose& X);
+
+  int find(int mesh_triangle) const;  ///< its number among the near ones
+  const Corners& corners(int triangle) const { return corners_[triangle]; }
+  int corner(int triangle, int k) const { return by_corner_.of[3 * triangle + k]; }
+  int edge(int triangle, int k) const { return by_edge_.of[3 * triangle + k]; }
+  int corner_count() const { return static_cast<int>(by_corner_.start.size()) - 1; }
+  /// slots at a corner or an edge, ascending
+  std::span<const int> at_corner(int corner) const { return by_corner_.members(corner); }
+  std::span<const int> at_edge(int edge) const { return by_edge_.members(edge); }
+
+  /// Slots of the triangles around p, a point of `triangle`: those at its corner or edge; none
+  /// inside the face.
+  std::span<const int> around(int triangle, const Eigen::Vector3d& p) const;
+
+  /// Is p the point of these triangles that comes nearest to what lies along `direction` (unit)
+  /// from it? A slope of 1/100 towards it is forgiven. reach     how far it may lie, > 0 [m]
+  /// rounding  of coordinates [m]
+  bool is_summit(std::span<const int> slots, const Eigen::Vector3d& p,
+                 const Eigen::Vector3d& direction, double reach, double rounding) const;
+
+ private:
+  struct Groups {
+    std::vector<int> of;     // slot -> number
+    std::vector<int> start;  // number -> first member, and one past the last
+    std::vector<int> order;  // slots by number
+    std::span<const int> members(int number) const {
+      return {order.data() + start[number], order.data() + start[number + 1]};
+    }
+  };
+  template <class Less>
+  static Groups group(int count, Less less);
+
+  std::vector<int> triangles_;
+  std::vector<Corners> corners_;
+  Groups by_corner_, by_edge_;
+};
+
+}  // namespace clench
