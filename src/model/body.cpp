@@ -15,7 +15,8 @@ static bool is_solid(const Shape& shape) {
 
 static Eigen::Vector3d default_com(const BodySpec& spec) {
   if (!spec.shape) return Eigen::Vector3d::Zero();
-  return is_solid(*spec.shape) ? spec.shape->solid().centroid : surface_centroid(spec.shape->mesh());
+  return is_solid(*spec.shape) ? spec.shape->solid().centroid
+                               : surface_centroid(spec.shape->mesh());
 }
 
 static Eigen::Matrix3d default_inertia(const BodySpec& spec, const Eigen::Vector3d& com) {
@@ -40,7 +41,8 @@ Body make_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB) {
   body.X_WB = X_WB;
   body.mass = spec.mass;
   body.com = spec.com ? *spec.com : default_com(spec);
-  body.inertia_per_mass = spec.inertia_per_mass ? *spec.inertia_per_mass : default_inertia(spec, body.com);
+  body.inertia_per_mass =
+      spec.inertia_per_mass ? *spec.inertia_per_mass : default_inertia(spec, body.com);
   body.elastic_modulus = spec.elastic_modulus;
   body.tracker = spec.tracker;
   return body;

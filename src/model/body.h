@@ -14,30 +14,30 @@ struct Robot;
 enum class BodyKind { object, obstacle, base, link, mount };
 
 struct Body {
-  std::string name;               ///< unique in its world
-  std::string source;             ///< file it came from; empty when made in a script
+  std::string name;    ///< unique in its world
+  std::string source;  ///< file it came from; empty when made in a script
   BodyKind kind = BodyKind::object;
-  ShapePtr shape;                 ///< null: a frame without geometry
+  ShapePtr shape;  ///< null: a frame without geometry
   Appearance appearance;
   Pose X_WB;
-  int material = 0;               ///< index into the world's table
-  double mass = 0;                ///< [kg]
-  Eigen::Vector3d com;            ///< in the body frame [m]
-  Eigen::Matrix3d inertia_per_mass;  ///< about com, body axes [m^2]
+  int material = 0;                       ///< index into the world's table
+  double mass = 0;                        ///< [kg]
+  Eigen::Vector3d com;                    ///< in the body frame [m]
+  Eigen::Matrix3d inertia_per_mass;       ///< about com, body axes [m^2]
   std::optional<double> elastic_modulus;  ///< [Pa]
   std::optional<int> tracker;
 
   // place in a robot, when it belongs to one
   Id<Robot> robot;
-  int chain = -1;                 ///< -1: base or mount
+  int chain = -1;  ///< -1: base or mount
   int link = -1;
 
   /// largest distance of the surface from the centre of mass [m]; scales torques
   double max_radius() const;
 };
 
-/// Mass, centre and inertia as the spec gives them, else from the shape: the solid's when it is closed,
-/// the surface's centroid and a solid ball of the surface's radius when not.
+/// Mass, centre and inertia as the spec gives them, else from the shape: the solid's when it is
+/// closed, the surface's centroid and a solid ball of the surface's radius when not.
 Body make_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB);
 
 }  // namespace clench

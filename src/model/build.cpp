@@ -11,35 +11,41 @@ using Warn = std::function<void(const std::string&)>;
 // six digits of a metre and of a radian
 static constexpr double digits = 1e-5;
 
-static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed, const Warn& warn) {
+static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed,
+                           const Warn& warn) {
   const Robot& robot = world.robot(id);
   if (placed.dofs.empty()) return;
   if (placed.dofs.size() != robot.dofs.size())
-    fail("robot '{}': wanted {} DOF values, got {}", robot.name, robot.dofs.size(), placed.dofs.size());
+    fail("robot '{}': wanted {} DOF values, got {}", robot.name, robot.dofs.size(),
+         placed.dofs.size());
   Eigen::VectorXd q(robot.q.size());
   for (int i = 0; i < q.size(); ++i) {
     const auto [low, high] = robot.limits[i];
     q[i] = std::clamp(placed.dofs[i], low, high);
     if (warn && std::abs(q[i] - placed.dofs[i]) > digits)
-      warn(fmt::format("robot '{}': DOF {} starts at {}, outside [{}, {}]; moved to the limit", robot.name, i + 1,
-                       placed.dofs[i], low, high));
+      warn(fmt::format("robot '{}': DOF {} starts at {}, outside [{}, {}]; moved to the limit",
+                       robot.name, i + 1, placed.dofs[i], low, high));
   }
   world.set_dofs(id, q);
   if (!placed.breakaway.empty()) world.set_dofs_unchecked(id, q, placed.breakaway);
 }
 
-static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robot> child, const Warn& warn) {
+static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robot> child,
+                    const Warn& warn) {
   const Robot& carrier = world.robot(parent);
   Pose X_LB = c.X_LB;
-  if (c.chain >= 0 && c.chain < static_cast<int>(carrier.chains.size()) && !carrier.chains[c.chain].links.empty()) {
+  if (c.chain >= 0 && c.chain < static_cast<int>(carrier.chains.size()) &&
+      !carrier.chains[c.chain].links.empty()) {
     const Pose X_WL = world.body(carrier.chains[c.chain].links.back()).X_WB;
     const Pose as_written = X_WL.inverse() * world.body(world.robot(child).base).X_WB;
     const Pose off = X_LB.inverse() * as_written;
     if (off.position.norm() < digits && off.angle() < digits)
       X_LB = as_written;
     else if (warn)
-      warn(fmt::format("robot '{}': its pose and its connection to '{}' differ by {:.3g} m and {:.3g} rad; the connection is used",
-                       world.robot(child).name, carrier.name, off.position.norm(), off.angle()));
+      warn(
+          fmt::format("robot '{}': its pose and its connection to '{}' differ by {:.3g} m and "
+                      "{:.3g} rad; the connection is used",
+                      world.robot(child).name, carrier.name, off.position.norm(), off.angle()));
   }
   world.mount(child, parent, c.chain, X_LB, c.mount ? &*c.mount : nullptr);
 }
@@ -50,7 +56,9 @@ World build_world(const WorldSpec& spec, const Warn& warn) {
   for (const WorldEntry& entry : spec.order) {
     if (entry.kind == WorldEntry::Kind::body) {
       const PlacedBody& placed = spec.bodies[entry.index];
-      world.add_body(placed.body, placed.role == Role::object ? BodyKind::object : BodyKind::obstacle, placed.X_WB);
+      world.add_body(placed.body,
+                     placed.role == Role::object ? BodyKind::object : BodyKind::obstacle,
+                     placed.X_WB);
     } else {
       const PlacedRobot& placed = spec.robots[entry.index];
       robots[entry.index] = world.add_robot(placed.robot, placed.X_WB);

@@ -27,7 +27,8 @@ static bool pair_collides(const World& world, Id<Body> a, Id<Body> b) {
 
 // pairs of two groups that may collide, each once, in the groups' order
 template <class Visit>
-static void each_pair(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b, Visit visit) {
+static void each_pair(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,
+                      Visit visit) {
   std::set<BodyPair> seen;
   for (const auto i : a)
     for (const auto j : b)
@@ -51,7 +52,8 @@ std::vector<BodyPair> colliding_pairs(const World& world) {
   return out;
 }
 
-std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b) {
+std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Body>> a,
+                                      std::span<const Id<Body>> b) {
   std::vector<BodyPair> out;
   each_pair(world, a, b, [&](Id<Body> i, Id<Body> j) {
     if (pair_collides(world, i, j)) out.emplace_back(i, j);
@@ -69,7 +71,8 @@ BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span
       const auto [first, second] = ordered(i, j);
       const Body &one = world.body(first), &two = world.body(second);
       if (i == j || !one.shape || !two.shape || sphere_gap(one, two) > best.distance) continue;
-      const Distance d = distance(*one.shape, *two.shape, relative(one, two), best.distance, &world.cache(first, second));
+      const Distance d = distance(*one.shape, *two.shape, relative(one, two), best.distance,
+                                  &world.cache(first, second));
       if (!(d.distance < best.distance)) continue;
       const Eigen::Vector3d p_one = one.X_WB * d.p_a, p_two = one.X_WB * d.p_b;
       best = {d.distance, i == first ? p_one : p_two, i == first ? p_two : p_one, i, j};
@@ -79,9 +82,12 @@ BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span
 }
 
 // which of the two owns the contact: the thing that is held, else the second
-static bool first_is_held(const Body& first, const Body& second) { return !first.robot && second.robot; }
+static bool first_is_held(const Body& first, const Body& second) {
+  return !first.robot && second.robot;
+}
 
-static void add_contacts(const World& world, Id<Body> other, Id<Body> body, std::vector<Contact>& out) {
+static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
+                         std::vector<Contact>& out) {
   const auto [first, second] = ordered(other, body);
   const Body &a = world.body(first), &b = world.body(second);
   const double threshold = world.contact_threshold();
@@ -92,8 +98,13 @@ static void add_contacts(const World& world, Id<Body> other, Id<Body> body, std:
   for (const Touch& touch : touches) {
     const bool on_b = body == second;
     const Eigen::Vector3d n_W = a.X_WB.rotation * touch.normal_b;
-    out.push_back({.body = body, .other = other, .p_W = a.X_WB * (on_b ? touch.p_b : touch.p_a),
-                   .n_W = on_b ? n_W : Eigen::Vector3d(-n_W), .gap = touch.gap, .friction = friction, .kind = kind});
+    out.push_back({.body = body,
+                   .other = other,
+                   .p_W = a.X_WB * (on_b ? touch.p_b : touch.p_a),
+                   .n_W = on_b ? n_W : Eigen::Vector3d(-n_W),
+                   .gap = touch.gap,
+                   .friction = friction,
+                   .kind = kind});
   }
 }
 
@@ -106,7 +117,8 @@ std::vector<Contact> contacts(const World& world) {
   return out;
 }
 
-std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> others, std::span<const Id<Body>> bodies) {
+std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> others,
+                              std::span<const Id<Body>> bodies) {
   std::vector<Contact> out;
   each_pair(world, others, bodies, [&](Id<Body> a, Id<Body> b) { add_contacts(world, a, b, out); });
   return out;
@@ -115,7 +127,8 @@ std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> othe
 std::string describe(const World& world, std::span<const BodyPair> pairs) {
   std::string out;
   for (const auto& [a, b] : pairs)
-    out += fmt::format("{}{} and {}", out.empty() ? "" : ", ", world.body(a).name, world.body(b).name);
+    out +=
+        fmt::format("{}{} and {}", out.empty() ? "" : ", ", world.body(a).name, world.body(b).name);
   return out;
 }
 

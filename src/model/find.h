@@ -13,16 +13,17 @@ using BodyPair = std::pair<Id<Body>, Id<Body>>;
 /// Pairs that may collide and do, in creation order.
 std::vector<BodyPair> colliding_pairs(const World& world);
 /// Only pairs with one body from each group.
-std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b);
+std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Body>> a,
+                                      std::span<const Id<Body>> b);
 
 struct BodyDistance {
-  double distance = 0;                  ///< [m]; 0 when colliding; infinite when a body has no geometry
-  Eigen::Vector3d p_a, p_b;             ///< witness points in the world frame
+  double distance = 0;       ///< [m]; 0 when colliding; infinite when a body has no geometry
+  Eigen::Vector3d p_a, p_b;  ///< witness points in the world frame
   Id<Body> a, b;
 };
 
-/// Least distance between the bodies of two groups, if it is below `limit` [m]; infinite otherwise. Switched-off
-/// pairs are measured too.
+/// Least distance between the bodies of two groups, if it is below `limit` [m]; infinite otherwise.
+/// Switched-off pairs are measured too.
 BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,
                       double limit = std::numeric_limits<double>::infinity());
 
@@ -31,16 +32,17 @@ enum class ContactKind { point, frictionless };
 /// A point where `other` touches `body`.
 struct Contact {
   Id<Body> body, other;
-  Eigen::Vector3d p_W;        ///< on the surface of body [m]
-  Eigen::Vector3d n_W;        ///< unit, into body
-  double gap = 0;             ///< [m], in (0, threshold]
+  Eigen::Vector3d p_W;  ///< on the surface of body [m]
+  Eigen::Vector3d n_W;  ///< unit, into body
+  double gap = 0;       ///< [m], in (0, threshold]
   Friction friction;
   ContactKind kind = ContactKind::point;
 };
 
 /// Contacts of all pairs that may collide; `body` is the later group's.
 std::vector<Contact> contacts(const World& world);
-std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> others, std::span<const Id<Body>> bodies);
+std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> others,
+                              std::span<const Id<Body>> bodies);
 
 /// "DLR_chain0_link1 and flask, palm and flask"
 std::string describe(const World& world, std::span<const BodyPair> pairs);

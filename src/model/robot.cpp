@@ -22,7 +22,8 @@ std::vector<Pose> chain_frames(const Robot& robot, int chain) {
   std::vector<Pose> frames{c.X_BC};
   frames.reserve(c.joints.size() + 1);
   for (size_t j = 0; j < c.joints.size(); ++j)
-    frames.push_back(frames.back() * joint_pose(c.joints[j], joint_value(robot, chain, static_cast<int>(j))));
+    frames.push_back(frames.back() *
+                     joint_pose(c.joints[j], joint_value(robot, chain, static_cast<int>(j))));
   return frames;
 }
 

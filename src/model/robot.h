@@ -11,10 +11,10 @@
 namespace clench {
 
 struct Chain {
-  Pose X_BC;                             ///< chain frame in the base
+  Pose X_BC;  ///< chain frame in the base
   std::vector<JointSpec> joints;
-  std::vector<Breakaway> breakaway;      ///< one a joint: q where it broke away, else empty
-  std::vector<int> last_joints;          ///< one a link
+  std::vector<Breakaway> breakaway;  ///< one a joint: q where it broke away, else empty
+  std::vector<int> last_joints;      ///< one a link
   std::vector<LinkJoint> link_joints;
   std::vector<Id<Body>> links;
 };
@@ -23,8 +23,8 @@ struct Chain {
 struct Mounting {
   Id<Robot> parent;
   int chain = 0;
-  Pose X_LB;                             ///< our base in the parent's last link
-  std::optional<Id<Body>> piece;         ///< adapter, stands where our base stands
+  Pose X_LB;                      ///< our base in the parent's last link
+  std::optional<Id<Body>> piece;  ///< adapter, stands where our base stands
 };
 
 struct Robot {
@@ -36,7 +36,7 @@ struct Robot {
   std::vector<std::array<double, 2>> limits;  ///< one a DOF [rad or m]
   Eigen::VectorXd q;                          ///< one a DOF [rad or m]
   std::vector<Chain> chains;
-  Pose X_BA;                                  ///< approach frame: +z is the direction of approach
+  Pose X_BA;  ///< approach frame: +z is the direction of approach
   std::optional<Mounting> mounting;
   std::string eigengrasps, virtual_contacts, glove_calibration;  ///< files that its file names
   std::optional<TrackerSpec> tracker;

@@ -78,7 +78,8 @@ Id<Body> World::insert(Body body, const std::string& name) {
   return id;
 }
 
-Id<Body> World::add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB, const std::string& name) {
+Id<Body> World::add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB,
+                         const std::string& name) {
   if (!X_WB.is_finite()) fail("body '{}': its pose must be finite", spec.name);
   Body body = make_body(spec, kind, X_WB);
   body.material = state_.materials.index(spec.material);
@@ -86,14 +87,16 @@ Id<Body> World::add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB, 
 }
 
 // a part's name follows its robot's when that had to be changed
-static std::string part_name(const std::string& part, const std::string& was, const std::string& is) {
+static std::string part_name(const std::string& part, const std::string& was,
+                             const std::string& is) {
   return part.starts_with(was) ? is + part.substr(was.size()) : part;
 }
 
 Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::string& name) {
   check_robot(spec);
   if (!X_WB.is_finite()) fail("robot '{}': its pose must be finite", spec.name);
-  if (!name.empty() && (find_robot(name) || find_body(name))) fail("the name '{}' is taken in this world", name);
+  if (!name.empty() && (find_robot(name) || find_body(name)))
+    fail("the name '{}' is taken in this world", name);
 
   Robot robot;
   robot.name = name.empty() ? unique_name(spec.name) : name;
@@ -128,12 +131,18 @@ Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::s
   edit(id).base = add_part(spec.base, BodyKind::base, -1, -1);
   for (size_t c = 0; c < spec.chains.size(); ++c) {
     const ChainSpec& from = spec.chains[c];
-    Chain chain{.X_BC = from.X_BC, .joints = from.joints, .breakaway = {}, .last_joints = {}, .link_joints = {}, .links = {}};
+    Chain chain{.X_BC = from.X_BC,
+                .joints = from.joints,
+                .breakaway = {},
+                .last_joints = {},
+                .link_joints = {},
+                .links = {}};
     chain.breakaway.resize(from.joints.size());
     for (size_t l = 0; l < from.links.size(); ++l) {
       chain.last_joints.push_back(from.links[l].last_joint);
       chain.link_joints.push_back(from.links[l].joint);
-      chain.links.push_back(add_part(from.links[l].body, BodyKind::link, static_cast<int>(c), static_cast<int>(l)));
+      chain.links.push_back(
+          add_part(from.links[l].body, BodyKind::link, static_cast<int>(c), static_cast<int>(l)));
     }
     edit(id).chains.push_back(std::move(chain));
   }
@@ -148,20 +157,26 @@ void World::switch_off_neighbours(const Robot& robot) {
     if (chain.links.empty()) continue;
     set_collision(false, robot.base, chain.links.front());
     for (size_t i = 0; i < chain.links.size(); ++i)
-      for (size_t j = i + 1; j < chain.links.size(); ++j) set_collision(false, chain.links[i], chain.links[j]);
+      for (size_t j = i + 1; j < chain.links.size(); ++j)
+        set_collision(false, chain.links[i], chain.links[j]);
   }
 }
 
-void World::mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB, const BodySpec* piece) {
+void World::mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB,
+                  const BodySpec* piece) {
   const std::string& name = robot(child).name;
   const Robot& carrier = robot(parent);
-  if (robot(child).mounting) fail("robot '{}' is already carried by '{}'", name, robot(robot(child).mounting->parent).name);
+  if (robot(child).mounting)
+    fail("robot '{}' is already carried by '{}'", name, robot(robot(child).mounting->parent).name);
   if (chain < 0 || chain >= static_cast<int>(carrier.chains.size()))
-    fail("robot '{}': wanted a chain of '{}', 0 to {}, got {}", name, carrier.name, static_cast<int>(carrier.chains.size()) - 1, chain);
-  if (carrier.chains[chain].links.empty()) fail("robot '{}': chain {} of '{}' has no link to carry it", name, chain, carrier.name);
+    fail("robot '{}': wanted a chain of '{}', 0 to {}, got {}", name, carrier.name,
+         static_cast<int>(carrier.chains.size()) - 1, chain);
+  if (carrier.chains[chain].links.empty())
+    fail("robot '{}': chain {} of '{}' has no link to carry it", name, chain, carrier.name);
   if (!X_LB.is_finite()) fail("robot '{}': its pose on '{}' must be finite", name, carrier.name);
   for (auto up = parent;;) {
-    if (up == child) fail("robot '{}' cannot be carried by '{}', which it carries itself", name, carrier.name);
+    if (up == child)
+      fail("robot '{}' cannot be carried by '{}', which it carries itself", name, carrier.name);
     if (!robot(up).mounting) break;
     up = robot(up).mounting->parent;
   }
@@ -169,7 +184,8 @@ void World::mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB
   // the last link, the adapter and the base are one rigid piece: they never collide
   const Id<Body> last = carrier.chains[chain].links.back();
   const Id<Body> base = robot(child).base;
-  edit(child).mounting = Mounting{.parent = parent, .chain = chain, .X_LB = X_LB, .piece = std::nullopt};
+  edit(child).mounting =
+      Mounting{.parent = parent, .chain = chain, .X_LB = X_LB, .piece = std::nullopt};
   set_collision(false, last, base);
   if (piece) {
     BodySpec named = *piece;
@@ -188,13 +204,17 @@ void World::erase(Id<Body> id) {
   state_.bodies[id.index].value.shape.reset();
   std::erase(state_.body_order, id);
   state_.switched_off.erase(id);
-  std::erase_if(state_.pairs_off, [&](const auto& pair) { return pair.first == id || pair.second == id; });
-  std::erase_if(caches_, [&](const auto& entry) { return entry.first.first == id || entry.first.second == id; });
+  std::erase_if(state_.pairs_off,
+                [&](const auto& pair) { return pair.first == id || pair.second == id; });
+  std::erase_if(caches_, [&](const auto& entry) {
+    return entry.first.first == id || entry.first.second == id;
+  });
 }
 
 void World::remove(Id<Body> id) {
   const Body& gone = body(id);
-  if (gone.robot) fail("body '{}' is a part of robot '{}': remove the robot", gone.name, robot(gone.robot).name);
+  if (gone.robot)
+    fail("body '{}' is a part of robot '{}': remove the robot", gone.name, robot(gone.robot).name);
   erase(id);
 }
 
@@ -221,14 +241,17 @@ std::vector<Id<Body>> World::bodies_of(Id<Robot> id) const {
 // --- poses and DOFs ---
 
 void World::set_pose(Id<Body> id, const Pose& X_WB) {
-  if (body(id).robot) fail("body '{}' is a part of robot '{}': move the robot", body(id).name, robot(body(id).robot).name);
+  if (body(id).robot)
+    fail("body '{}' is a part of robot '{}': move the robot", body(id).name,
+         robot(body(id).robot).name);
   if (!X_WB.is_finite()) fail("body '{}': its pose must be finite", body(id).name);
   edit(id).X_WB = X_WB;
 }
 
 void World::set_pose(Id<Robot> id, const Pose& X_WB) {
   if (robot(id).mounting)
-    fail("robot '{}' is carried by '{}': move that one", robot(id).name, robot(robot(id).mounting->parent).name);
+    fail("robot '{}' is carried by '{}': move that one", robot(id).name,
+         robot(robot(id).mounting->parent).name);
   if (!X_WB.is_finite()) fail("robot '{}': its pose must be finite", robot(id).name);
   place_base(id, X_WB);
 }
@@ -249,17 +272,20 @@ void World::place_links(Id<Robot> id) {
   }
   for (const auto other : state_.robot_order) {
     const auto& mounting = robot(other).mounting;
-    if (mounting && mounting->parent == id) place_base(other, body(r.chains[mounting->chain].links.back()).X_WB * mounting->X_LB);
+    if (mounting && mounting->parent == id)
+      place_base(other, body(r.chains[mounting->chain].links.back()).X_WB * mounting->X_LB);
   }
 }
 
 void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
   const Robot& r = robot(id);
-  if (q.size() != r.q.size()) fail("robot '{}': wanted {} DOF values, got {}", r.name, r.q.size(), q.size());
+  if (q.size() != r.q.size())
+    fail("robot '{}': wanted {} DOF values, got {}", r.name, r.q.size(), q.size());
   Eigen::VectorXd inside = q;
   for (int i = 0; i < q.size(); ++i) {
     const auto [low, high] = r.limits[i];
-    if (!std::isfinite(q[i])) fail("robot '{}': DOF {} must be finite, got {}", r.name, i + 1, q[i]);
+    if (!std::isfinite(q[i]))
+      fail("robot '{}': DOF {} must be finite, got {}", r.name, i + 1, q[i]);
     // a limit that went through degrees and back is still the limit
     const double slack = 1e-9 * std::max(1.0, std::max(std::abs(low), std::abs(high)));
     if (q[i] < low - slack || q[i] > high + slack)
@@ -272,7 +298,8 @@ void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
   set_dofs_unchecked(id, inside, engaged);
 }
 
-void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q, const std::vector<std::vector<Breakaway>>& breakaway) {
+void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
+                               const std::vector<std::vector<Breakaway>>& breakaway) {
   Robot& r = edit(id);
   r.q = q;
   for (size_t c = 0; c < r.chains.size(); ++c) r.chains[c].breakaway = breakaway[c];
@@ -281,10 +308,13 @@ void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q, const std
 
 // --- properties ---
 
-void World::set_material(Id<Body> id, std::string_view material) { edit(id).material = state_.materials.index(material); }
+void World::set_material(Id<Body> id, std::string_view material) {
+  edit(id).material = state_.materials.index(material);
+}
 
 void World::set_mass(Id<Body> id, double mass) {
-  if (!(mass > 0) || !std::isfinite(mass)) fail("body '{}': its mass must be > 0 [kg], got {}", body(id).name, mass);
+  if (!(mass > 0) || !std::isfinite(mass))
+    fail("body '{}': its mass must be > 0 [kg], got {}", body(id).name, mass);
   edit(id).mass = mass;
 }
 
@@ -297,7 +327,8 @@ void World::set_inertia(Id<Body> id, const Eigen::Matrix3d& inertia) {
   const Body& b = body(id);
   const double size = inertia.cwiseAbs().maxCoeff();
   const bool symmetric = (inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * size;
-  if (!inertia.allFinite() || !symmetric || Eigen::LLT<Eigen::Matrix3d>(inertia).info() != Eigen::Success)
+  if (!inertia.allFinite() || !symmetric ||
+      Eigen::LLT<Eigen::Matrix3d>(inertia).info() != Eigen::Success)
     fail("body '{}': its inertia must be symmetric and positive definite [kg m^2]", b.name);
   edit(id).inertia_per_mass = inertia / b.mass;
 }
@@ -308,10 +339,13 @@ void World::set_elastic_modulus(Id<Body> id, std::optional<double> modulus) {
   edit(id).elastic_modulus = modulus;
 }
 
-void World::set_appearance(Id<Body> id, const Appearance& appearance) { edit(id).appearance = appearance; }
+void World::set_appearance(Id<Body> id, const Appearance& appearance) {
+  edit(id).appearance = appearance;
+}
 
 void World::set_contact_threshold(double threshold) {
-  if (!(threshold > 0) || !std::isfinite(threshold)) fail("contact_threshold must be > 0 [m], got {}", threshold);
+  if (!(threshold > 0) || !std::isfinite(threshold))
+    fail("contact_threshold must be > 0 [m], got {}", threshold);
   state_.contact_threshold = threshold;
 }
 
@@ -336,8 +370,9 @@ void World::set_collision(bool on, Id<Body> a, Id<Body> b) {
 }
 
 bool World::may_collide(Id<Body> a, Id<Body> b) const {
-  return a != b && state_.collision_on && body(a).shape && body(b).shape && !state_.switched_off.contains(a) &&
-         !state_.switched_off.contains(b) && !state_.pairs_off.contains(ordered(a, b));
+  return a != b && state_.collision_on && body(a).shape && body(b).shape &&
+         !state_.switched_off.contains(a) && !state_.switched_off.contains(b) &&
+         !state_.pairs_off.contains(ordered(a, b));
 }
 
 // --- time machine ---
@@ -364,7 +399,8 @@ uint64_t World::hash() const {
     h.add(r.name);
     for (const double x : r.q) h.add(x);
     for (const auto& chain : r.chains)
-      for (const auto& broken : chain.breakaway) flag(broken.has_value()), h.add(broken.value_or(0));
+      for (const auto& broken : chain.breakaway)
+        flag(broken.has_value()), h.add(broken.value_or(0));
   }
   for (const auto& name : state_.materials.names()) h.add(name);
   const int count = static_cast<int>(state_.materials.names().size());

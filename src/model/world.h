@@ -19,19 +19,19 @@ template <class T>
 struct Slot {
   uint32_t serial = 0;
   bool used = false;
-  T value;              ///< of the last occupant; its name outlives it, for errors
+  T value;  ///< of the last occupant; its name outlives it, for errors
 };
 
 /// All state of a world as a value: what a snapshot keeps.
 struct WorldState {
   std::vector<Slot<Body>> bodies;
   std::vector<Slot<Robot>> robots;
-  std::vector<Id<Body>> body_order;    ///< alive, in creation order
+  std::vector<Id<Body>> body_order;  ///< alive, in creation order
   std::vector<Id<Robot>> robot_order;
   MaterialTable materials;
-  double contact_threshold = 1e-4;     ///< [m]
+  double contact_threshold = 1e-4;  ///< [m]
   bool collision_on = true;
-  std::set<Id<Body>> switched_off;     ///< bodies that collide with nothing
+  std::set<Id<Body>> switched_off;                    ///< bodies that collide with nothing
   std::set<std::pair<Id<Body>, Id<Body>>> pairs_off;  ///< lesser id first
   std::optional<Camera> camera;
   std::string source;
@@ -41,13 +41,17 @@ class World {
  public:
   // --- things ---
   /// `name` empty: the spec's, made unique by a number.   throws Error when the name is taken
-  Id<Body> add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB, const std::string& name = "");
+  Id<Body> add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB,
+                    const std::string& name = "");
   Id<Robot> add_robot(const RobotSpec& spec, const Pose& X_WB, const std::string& name = "");
   /// Carries `child` on the last link of the parent's chain from now on.
-  /// throws Error when that closes a circle, the chain does not exist, or the child is carried already
-  void mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB, const BodySpec* piece = nullptr);
-  void remove(Id<Body> body);           ///< an object or obstacle; throws Error for a part of a robot
-  void remove(Id<Robot> robot);         ///< with base, links and mount; robots that it carries stay where they are
+  /// throws Error when that closes a circle, the chain does not exist, or the child is carried
+  /// already
+  void mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB,
+             const BodySpec* piece = nullptr);
+  void remove(Id<Body> body);  ///< an object or obstacle; throws Error for a part of a robot
+  void remove(
+      Id<Robot> robot);  ///< with base, links and mount; robots that it carries stay where they are
 
   const std::vector<Id<Body>>& bodies() const { return state_.body_order; }
   const std::vector<Id<Robot>>& robots() const { return state_.robot_order; }
@@ -67,7 +71,8 @@ class World {
   void set_pose(Id<Body> body, const Pose& X_WB);
   /// of the base; links and carried robots follow. throws Error when the robot is carried
   void set_pose(Id<Robot> robot, const Pose& X_WB);
-  /// throws Error on a wrong count or a number that is not finite; values outside the limits are refused by name
+  /// throws Error on a wrong count or a number that is not finite; values outside the limits are
+  /// refused by name
   void set_dofs(Id<Robot> robot, const Eigen::VectorXd& q);
   /// the same with breakaway states, by chain and joint; used by motion, which has its own checks
   void set_dofs_unchecked(Id<Robot> robot, const Eigen::VectorXd& q,
@@ -92,14 +97,17 @@ class World {
   void set_source(const std::string& source) { state_.source = source; }
 
   // --- what may collide ---
-  void set_collision(bool on);                             ///< the whole world
-  void set_collision(bool on, Id<Body> body);              ///< one body against everything
-  void set_collision(bool on, Id<Body> a, Id<Body> b);     ///< a pair
+  void set_collision(bool on);                          ///< the whole world
+  void set_collision(bool on, Id<Body> body);           ///< one body against everything
+  void set_collision(bool on, Id<Body> a, Id<Body> b);  ///< a pair
   bool may_collide(Id<Body> a, Id<Body> b) const;
 
   // --- time machine ---
-  std::shared_ptr<const WorldState> snapshot() const { return std::make_shared<WorldState>(state_); }
-  /// Exactly the state of the snapshot: what was removed since is back, what was added since is gone.
+  std::shared_ptr<const WorldState> snapshot() const {
+    return std::make_shared<WorldState>(state_);
+  }
+  /// Exactly the state of the snapshot: what was removed since is back, what was added since is
+  /// gone.
   void restore(const WorldState& snapshot);
   const WorldState& state() const { return state_; }
   /// Fingerprint of poses, DOFs, masses, materials, switches: equal for equal bits.
@@ -119,7 +127,7 @@ class World {
   void place_base(Id<Robot> robot, const Pose& X_WB);
 
   WorldState state_;
-  uint32_t next_serial_ = 1;   // never goes back, so a restored world cannot revive a stale id
+  uint32_t next_serial_ = 1;  // never goes back, so a restored world cannot revive a stale id
   mutable std::map<std::pair<Id<Body>, Id<Body>>, PairCache> caches_;
 };
 

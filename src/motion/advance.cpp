@@ -6,13 +6,14 @@
 
 namespace clench {
 
-// a stop aims at a quarter of the threshold: all of a patch is then within it, and rounding far below
+// a stop aims at a quarter of the threshold: all of a patch is then within it, and rounding far
+// below
 static constexpr double aim = 0.25;
 // a motion that needs more than this grazes for metres within micrometres: it ends where it is
 static constexpr int most_queries = 1000000;
 
-Advance advance(const World& world, std::vector<Watch>& watches, double end, const std::function<void(double)>& place,
-                int& queries) {
+Advance advance(const World& world, std::vector<Watch>& watches, double end,
+                const std::function<void(double)>& place, int& queries) {
   const double threshold = world.contact_threshold();
   for (Watch& watch : watches) watch.safe = 0;
   double s = -1;
@@ -22,8 +23,9 @@ Advance advance(const World& world, std::vector<Watch>& watches, double end, con
   };
   while (true) {
     // the pair that is known to be apart for the shortest while
-    const auto next = std::min_element(watches.begin(), watches.end(),
-                                       [](const Watch& x, const Watch& y) { return x.safe < y.safe; });
+    const auto next =
+        std::min_element(watches.begin(), watches.end(),
+                         [](const Watch& x, const Watch& y) { return x.safe < y.safe; });
     if (next == watches.end() || next->safe >= end) {
       go(end);
       return {end, std::nullopt};

@@ -5,7 +5,8 @@
 
 namespace clench {
 
-// a contact blocks a motion that leans into it by more than this sine, of a lever longer than a nanometre
+// a contact blocks a motion that leans into it by more than this sine, of a lever longer than a
+// nanometre
 static constexpr double grazing = 1e-6;
 static constexpr double no_lever = 1e-9;
 
@@ -17,7 +18,8 @@ static std::pair<int, int> carrying_link(const World& world, Id<Robot> robot, Id
     const auto& mounting = world.robot(up).mounting;
     if (!mounting) break;
     if (mounting->parent == robot) {
-      const int last = static_cast<int>(world.robot(robot).chains[mounting->chain].links.size()) - 1;
+      const int last =
+          static_cast<int>(world.robot(robot).chains[mounting->chain].links.size()) - 1;
       return {mounting->chain, last};
     }
     up = mounting->parent;
@@ -37,18 +39,23 @@ std::vector<Id<Body>> movable_bodies(const World& world, Id<Robot> robot) {
   return out;
 }
 
-// velocity of a point of whatever the joint moves, the joint at unit speed; frame: before the joint, in the world
-static Eigen::Vector3d point_velocity(const JointSpec& joint, const Pose& frame, const Eigen::Vector3d& p_W) {
+// velocity of a point of whatever the joint moves, the joint at unit speed; frame: before the
+// joint, in the world
+static Eigen::Vector3d point_velocity(const JointSpec& joint, const Pose& frame,
+                                      const Eigen::Vector3d& p_W) {
   const Eigen::Vector3d axis = frame.rotation * Eigen::Vector3d::UnitZ();
-  return joint.kind == JointKind::revolute ? Eigen::Vector3d(axis.cross(p_W - frame.position)) : axis;
+  return joint.kind == JointKind::revolute ? Eigen::Vector3d(axis.cross(p_W - frame.position))
+                                           : axis;
 }
 
-BlockedJoints blocked_joints(const World& world, Id<Robot> id, const std::vector<std::vector<double>>& speeds,
+BlockedJoints blocked_joints(const World& world, Id<Robot> id,
+                             const std::vector<std::vector<double>>& speeds,
                              std::span<const Id<Body>> moving, double closed) {
   const Robot& robot = world.robot(id);
   const Pose& X_WB = world.body(robot.base).X_WB;
   std::vector<std::vector<Pose>> frames;
-  for (size_t c = 0; c < robot.chains.size(); ++c) frames.push_back(chain_frames(robot, static_cast<int>(c)));
+  for (size_t c = 0; c < robot.chains.size(); ++c)
+    frames.push_back(chain_frames(robot, static_cast<int>(c)));
 
   BlockedJoints out;
   std::set<BodyPair> seen;
@@ -59,13 +66,14 @@ BlockedJoints blocked_joints(const World& world, Id<Robot> id, const std::vector
         const bool moves_body = joint_moves(world, id, {c, j}, contact.body);
         const bool moves_other = joint_moves(world, id, {c, j}, contact.other);
         if (speeds[c][j] == 0 || moves_body == moves_other) continue;
-        const Eigen::Vector3d v =
-            speeds[c][j] * point_velocity(robot.chains[c].joints[j], X_WB * frames[c][j], contact.p_W);
+        const Eigen::Vector3d v = speeds[c][j] * point_velocity(robot.chains[c].joints[j],
+                                                                X_WB * frames[c][j], contact.p_W);
         const double leaving = (moves_body ? 1 : -1) * v.dot(contact.n_W);
         const double margin = std::max(grazing * v.norm(), no_lever * std::abs(speeds[c][j]));
         if (leaving >= (contact.gap <= closed ? margin : -margin)) continue;
         out.joints.emplace(c, j);
-        const BodyPair pair = moves_body ? BodyPair(contact.body, contact.other) : BodyPair(contact.other, contact.body);
+        const BodyPair pair = moves_body ? BodyPair(contact.body, contact.other)
+                                         : BodyPair(contact.other, contact.body);
         if (seen.insert(std::minmax(pair.first, pair.second)).second) out.pairs.push_back(pair);
       }
   }

@@ -12,7 +12,8 @@ namespace clench {
 
 // changes below this are no motion [rad or m]
 static constexpr double no_motion = 1e-5;
-// fingers that slide along a surface stop and go; one that has not come to rest after so many contacts is stopped
+// fingers that slide along a surface stop and go; one that has not come to rest after so many
+// contacts is stopped
 static constexpr int most_events = 2000;
 
 namespace {
@@ -96,8 +97,8 @@ double path_length(const Drive& drive, const Eigen::VectorXd& rates) {
   return length;
 }
 
-// bound of the distance of any point of the body from the origin of the frame before a joint, whatever the
-// joints do on the way: lengths along the chain, then the body's own extent
+// bound of the distance of any point of the body from the origin of the frame before a joint,
+// whatever the joints do on the way: lengths along the chain, then the body's own extent
 double lever(const Drive& drive, JointPlace joint, Id<Body> id) {
   const Robot& robot = drive.robot();
   const Chain& chain = robot.chains[joint.first];
@@ -155,7 +156,8 @@ Advance follow(Drive& drive, const Eigen::VectorXd& rates, int& queries) {
     drive.q = start + s * rates;
     // who arrives, arrives exactly
     for (int i = 0; i < rates.size(); ++i)
-      if (rates[i] != 0 && (drive.targets[i] - drive.q[i]) * rates[i] <= 1e-15) drive.q[i] = drive.targets[i];
+      if (rates[i] != 0 && (drive.targets[i] - drive.q[i]) * rates[i] <= 1e-15)
+        drive.q[i] = drive.targets[i];
     drive.place();
   };
   return advance(drive.world, watches, length, place, queries);
@@ -163,20 +165,25 @@ Advance follow(Drive& drive, const Eigen::VectorXd& rates, int& queries) {
 
 void check(const Robot& robot, const DofMotion& motion) {
   if (motion.targets.size() != robot.q.size())
-    fail("driving '{}': wanted {} DOF values, got {}", robot.name, robot.q.size(), motion.targets.size());
+    fail("driving '{}': wanted {} DOF values, got {}", robot.name, robot.q.size(),
+         motion.targets.size());
   for (int i = 0; i < motion.targets.size(); ++i) {
     const auto [low, high] = robot.limits[i];
     // a limit that went through degrees and back is still the limit
     const double slack = 1e-9 * std::max({1.0, std::abs(low), std::abs(high)});
     if (!(motion.targets[i] >= low - slack && motion.targets[i] <= high + slack))
-      fail("driving '{}': DOF {} must lie in [{}, {}], got {}", robot.name, i + 1, low, high, motion.targets[i]);
-    if (!std::isfinite(motion.rates[i])) fail("driving '{}': the pace of DOF {} must be finite, got {}", robot.name, i + 1, motion.rates[i]);
+      fail("driving '{}': DOF {} must lie in [{}, {}], got {}", robot.name, i + 1, low, high,
+           motion.targets[i]);
+    if (!std::isfinite(motion.rates[i]))
+      fail("driving '{}': the pace of DOF {} must be finite, got {}", robot.name, i + 1,
+           motion.rates[i]);
   }
 }
 
 }  // namespace
 
-DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion, const DriveOptions& options) {
+DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
+                  const DriveOptions& options) {
   const Robot& robot = world.robot(id);
   check(robot, motion);
   Drive drive{world, id, motion.targets, movable_bodies(world, id), robot.q, {}};
@@ -197,12 +204,14 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion, const Dri
       if (rates[i] * way > 0) continue;
       if (rates[i] != 0) {
         const auto [low, high] = robot.limits[i];
-        result.stops[i] = drive.q[i] == low || drive.q[i] == high ? DofStop::limit : DofStop::reached;
+        result.stops[i] =
+            drive.q[i] == low || drive.q[i] == high ? DofStop::limit : DofStop::reached;
       }
       rates[i] = 0;
     }
     const double closed = 2 * nearly_closed * world.contact_threshold();
-    const auto blocked = blocked_joints(world, id, joint_speeds(drive, rates), drive.moving, closed);
+    const auto blocked =
+        blocked_joints(world, id, joint_speeds(drive, rates), drive.moving, closed);
     for (int i = 0; i < rates.size(); ++i)
       if (rates[i] != 0 && !goes_on(drive, i, rates[i], blocked)) {
         rates[i] = 0;
@@ -226,7 +235,8 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion, const Dri
   return result;
 }
 
-DriveResult drive_to(World& world, Id<Robot> id, const Eigen::VectorXd& targets, const DriveOptions& options) {
+DriveResult drive_to(World& world, Id<Robot> id, const Eigen::VectorXd& targets,
+                     const DriveOptions& options) {
   const Robot& robot = world.robot(id);
   if (targets.size() != robot.q.size())
     fail("driving '{}': wanted {} DOF values, got {}", robot.name, robot.q.size(), targets.size());

@@ -12,9 +12,11 @@ namespace clench {
 // a contact blocks a motion that leans into it by more than this sine
 static constexpr double grazing = 1e-6;
 
-void refuse_collision(const World& world, std::span<const Id<Body>> moving, const std::string& subject) {
+void refuse_collision(const World& world, std::span<const Id<Body>> moving,
+                      const std::string& subject) {
   const auto pairs = colliding_pairs(world, moving, world.bodies());
-  if (!pairs.empty()) fail("{}: the motion starts in collision: {}", subject, describe(world, pairs));
+  if (!pairs.empty())
+    fail("{}: the motion starts in collision: {}", subject, describe(world, pairs));
 }
 
 namespace {
@@ -37,13 +39,16 @@ std::vector<Watch> watch_pairs(const World& world, const Way& way, double length
   for (const auto a : way.moving)
     for (const auto b : world.bodies())
       if (!mine.contains(b) && world.may_collide(a, b))
-        watches.push_back({.a = a, .b = b, .speed = length + angle * reach_from(world.body(a), way.from.position)});
+        watches.push_back({.a = a,
+                           .b = b,
+                           .speed = length + angle * reach_from(world.body(a), way.from.position)});
   return watches;
 }
 
 // contacts that the very first motion would push into
-std::vector<BodyPair> blocked_pairs(const World& world, const Way& way, const Eigen::Vector3d& linear,
-                                    const Eigen::Vector3d& angular, const std::vector<Watch>& watches) {
+std::vector<BodyPair> blocked_pairs(const World& world, const Way& way,
+                                    const Eigen::Vector3d& linear, const Eigen::Vector3d& angular,
+                                    const std::vector<Watch>& watches) {
   std::vector<BodyPair> blocked;
   for (const Watch& watch : watches) {
     const std::array a{watch.a}, b{watch.b};
@@ -63,7 +68,8 @@ MoveResult move(World& world, const Way& way) {
   const Eigen::Vector3d linear = way.to.position - way.from.position;
   Eigen::Vector3d axis = turn.rotation.vec();
   if (turn.rotation.w() < 0) axis = -axis;
-  const Eigen::Vector3d angular = axis.norm() > 0 ? Eigen::Vector3d(angle * axis.normalized()) : Eigen::Vector3d::Zero();
+  const Eigen::Vector3d angular =
+      axis.norm() > 0 ? Eigen::Vector3d(angle * axis.normalized()) : Eigen::Vector3d::Zero();
 
   MoveResult result;
   auto watches = watch_pairs(world, way, linear.norm(), angle);
@@ -72,7 +78,9 @@ MoveResult move(World& world, const Way& way) {
   result.touched = !result.stopped_by.empty();
   if (result.touched) return result;
 
-  const auto place = [&](double s) { way.place(s >= 1 ? way.to : interpolate(way.from, way.to, s)); };
+  const auto place = [&](double s) {
+    way.place(s >= 1 ? way.to : interpolate(way.from, way.to, s));
+  };
   const Advance end = advance(world, watches, 1, place, result.queries);
   result.fraction = end.s;
   result.touched = end.stopped_by.has_value();
@@ -107,20 +115,23 @@ MoveResult move_robot(World& world, Id<Robot> robot, const Pose& X_WB) {
   const Pose from = world.body(world.robot(robot).base).X_WB;
   world.set_pose(robot, X_WB);  // refuses a carried robot and a pose that is not finite
   world.set_pose(robot, from);
-  Way way{from, X_WB, carried_bodies(world, robot), [&](const Pose& X) { world.set_pose(robot, X); }};
+  Way way{from, X_WB, carried_bodies(world, robot),
+          [&](const Pose& X) { world.set_pose(robot, X); }};
   // the robot's own overlaps move along: only the rest of the world matters
   std::vector<Id<Body>> others;
   for (const auto b : world.bodies())
     if (std::find(way.moving.begin(), way.moving.end(), b) == way.moving.end()) others.push_back(b);
   const auto pairs = colliding_pairs(world, way.moving, others);
   if (!pairs.empty())
-    fail("moving '{}': the motion starts in collision: {}", world.robot(robot).name, describe(world, pairs));
+    fail("moving '{}': the motion starts in collision: {}", world.robot(robot).name,
+         describe(world, pairs));
   return move(world, way);
 }
 
 MoveResult approach(World& world, Id<Robot> robot, double reach) {
   const Robot& hand = world.robot(robot);
-  if (!(reach >= 0) || !std::isfinite(reach)) fail("approach of '{}': the reach must be >= 0 [m], got {}", hand.name, reach);
+  if (!(reach >= 0) || !std::isfinite(reach))
+    fail("approach of '{}': the reach must be >= 0 [m], got {}", hand.name, reach);
   const Pose X_WB = world.body(hand.base).X_WB;
   const Eigen::Vector3d direction = X_WB.rotation * (hand.X_BA.rotation * Eigen::Vector3d::UnitZ());
   return move_robot(world, robot, Pose{X_WB.rotation, X_WB.position + reach * direction});

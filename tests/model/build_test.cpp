@@ -1,0 +1,89 @@
+#include "model/build.h"
+
+#include "base/error.h"
+#include "support/robots.h"
+
+using namespace clench;
+using namespace clench::test;
+
+static WorldSpec arm_and_hand(double off) {
+  WorldSpec spec;
+  spec.bodies.push_back(
+      {body_spec("flask", box(0.02, 0.02, 0.02)), Role::object, Pose::translation({0, 0, 5})});
+  spec.robots.push_back({two_finger(), Pose{}, {0.5, 0}, {}});
+  spec.robots.push_back({two_finger(), Pose{}, {}, {}});
+  spec.order = {
+      {WorldEntry::Kind::robot, 0}, {WorldEntry::Kind::body, 0}, {WorldEntry::Kind::robot, 1}};
+  Connection c;
+  c.child = 1;
+  c.X_LB = Pose::translation({0.1, 0, 0});
+  // where the arm's last link is, by a world without the connection
+  World alone;
+  const auto arm = alone.add_robot(spec.robots[0].robot, {});
+  alone.set_dofs(arm, Eigen::Vector2d(0.5, 0));
+  spec.robots[1].X_WB =
+      alone.body(alone.robot(arm).chains[0].links[1]).X_WB * Pose::translation({0.1 + off, 0, 0});
+  spec.connections.push_back(c);
+  return spec;
+}
+
+TEST_CASE("bodies keep the file's order") {
+  const World world = build_world(arm_and_hand(0));
+  CHECK(world.body(world.bodies()[0]).name == "gripper_base");
+  CHECK(world.body(world.bodies()[5]).name == "flask");
+  CHECK(world.body(world.bodies()[5]).kind == BodyKind::object);
+  CHECK(world.robots().size() == 2);
+}
+
+TEST_CASE(
+    "a carried robot keeps its written pose when it agrees with the connection to six digits") {
+  const WorldSpec spec = arm_and_hand(3e-6);
+  std::vector<std::string> warnings;
+  const World world = build_world(spec, [&](const std::string& w) { warnings.push_back(w); });
+  const Pose X = world.body(world.robot(world.robots()[1]).base).X_WB;
+  CHECK((X.position - spec.robots[1].X_WB.position).norm() < 1e-15);
+  CHECK(warnings.empty());
+}
+
+TEST_CASE("a connection that contradicts the pose wins, with a warning") {
+  std::vector<std::string> warnings;
+  build_world(arm_and_hand(0.01), [&](const std::string& w) { warnings.push_back(w); });
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0] ==
+        "robot 'gripper_2': its pose and its connection to 'gripper' differ by 0.01 m and 0 rad; "
+        "the connection is used");
+}
+
+TEST_CASE("a start outside the limits is brought to the limit, with a warning beyond six digits") {
+  WorldSpec spec = arm_and_hand(0);
+  spec.robots[1].dofs = {-4e-6, -0.1};
+  std::vector<std::string> warnings;
+  const World world = build_world(spec, [&](const std::string& w) { warnings.push_back(w); });
+  CHECK(world.robot(world.robots()[1]).q == Eigen::Vector2d(0, 0));
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0] ==
+        "robot 'gripper_2': DOF 2 starts at -0.1, outside [0, 1.5707963267948966]; moved to the "
+        "limit");
+}
+
+TEST_CASE("breakaway states are taken over") {
+  WorldSpec spec = arm_and_hand(0);
+  spec.connections.clear();
+  spec.robots[1].robot = two_finger(DofKind::breakaway);
+  spec.robots[1].dofs = {0.6, 0};
+  spec.robots[1].breakaway = {{0.2, std::nullopt}, {std::nullopt, std::nullopt}};
+  const World world = build_world(spec);
+  const Robot& hand = world.robot(world.robots()[1]);
+  CHECK(joint_value(hand, 0, 0) == 0.2);
+  CHECK(joint_value(hand, 0, 1) == doctest::Approx(0.3));
+}
+
+TEST_CASE("wrong counts are refused") {
+  WorldSpec spec = arm_and_hand(0);
+  spec.robots[1].dofs = {0};
+  CHECK_THROWS_WITH_AS(build_world(spec), "robot 'gripper_2': wanted 2 DOF values, got 1", Error);
+  spec = arm_and_hand(0);
+  spec.connections[0].child = 7;
+  CHECK_THROWS_WITH_AS(build_world(spec), "a connection names robots 0 and 7, but the world has 2",
+                       Error);
+}

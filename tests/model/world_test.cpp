@@ -1,0 +1,283 @@
+#include "model/world.h"
+
+#include "base/error.h"
+#include "model/build.h"
+#include "model/find.h"
+#include "support/robots.h"
+
+using namespace clench;
+using namespace clench::test;
+
+static Id<Body> add_box(World& world, const std::string& name, const Eigen::Vector3d& at,
+                        double size = 0.02) {
+  return world.add_body(body_spec(name, box(size, size, size)), BodyKind::object,
+                        Pose::translation(at));
+}
+
+TEST_CASE("names are unique: the second box of the same name gets a number") {
+  World world;
+  add_box(world, "box", {0, 0, 0});
+  const auto second = add_box(world, "box", {1, 0, 0});
+  CHECK(world.body(second).name == "box_2");
+  CHECK_THROWS_WITH_AS(world.add_body(body_spec("x", box(1, 1, 1)), BodyKind::object, {}, "box"),
+                       "the name 'box' is taken in this world", Error);
+}
+
+TEST_CASE("a removed body is named by the error, not followed") {
+  World world;
+  const auto id = add_box(world, "flask", {0, 0, 0});
+  world.remove(id);
+  CHECK_FALSE(world.alive(id));
+  CHECK_THROWS_WITH_AS(world.body(id), "body 'flask' was removed from its world", Error);
+  CHECK_THROWS_WITH_AS(world.set_pose(id, Pose{}), "body 'flask' was removed from its world",
+                       Error);
+}
+
+TEST_CASE("restoring brings removed bodies back and makes younger ones stale for good") {
+  World world;
+  const auto old = add_box(world, "old", {0, 0, 0});
+  const auto snapshot = world.snapshot();
+  const uint64_t before = world.hash();
+  world.remove(old);
+  const auto young = add_box(world, "young", {0, 0, 0});
+  world.restore(*snapshot);
+  CHECK(world.hash() == before);
+  CHECK(world.body(old).name == "old");
+  const auto next = add_box(world, "next", {0, 0, 0});
+  CHECK(next.index == young.index);
+  CHECK_THROWS_WITH_AS(world.body(young), "this body is no longer in its world", Error);
+}
+
+TEST_CASE("mass properties come from the solid when the file gives none") {
+  World world;
+  auto spec = body_spec("block", moved(box(0.1, 0.2, 0.3), {0.05, 0, 0}));
+  spec.mass = 2;
+  const auto id = world.add_body(spec, BodyKind::object, {});
+  const Body& body = world.body(id);
+  // integrals of a dozen triangles: rounding only
+  CHECK((body.com - Eigen::Vector3d(0.05, 0, 0)).norm() < 1e-15);
+  CHECK(body.inertia_per_mass(0, 0) == doctest::Approx((0.04 + 0.09) / 12).epsilon(1e-12));
+  CHECK(body.inertia_per_mass(2, 2) == doctest::Approx((0.01 + 0.04) / 12).epsilon(1e-12));
+  CHECK(body.max_radius() == doctest::Approx(0.5 * std::sqrt(0.01 + 0.04 + 0.09)).epsilon(1e-12));
+}
+
+TEST_CASE("a centre of mass away from the centroid adds the parallel axis term") {
+  World world;
+  auto spec = body_spec("block", box(0.1, 0.1, 0.1));
+  spec.com = Eigen::Vector3d(0, 0, 0.02);
+  const auto id = world.add_body(spec, BodyKind::object, {});
+  const Eigen::Matrix3d inertia = world.body(id).inertia_per_mass;
+  CHECK(inertia(0, 0) == doctest::Approx(0.01 / 6 + 0.0004).epsilon(1e-12));
+  CHECK(inertia(2, 2) == doctest::Approx(0.01 / 6).epsilon(1e-12));
+}
+
+TEST_CASE("a body without geometry loads and never collides") {
+  World world;
+  BodySpec spec;
+  spec.name = "frame";
+  const auto frame = world.add_body(spec, BodyKind::obstacle, {});
+  const auto block = add_box(world, "block", {0, 0, 0});
+  CHECK_FALSE(world.may_collide(frame, block));
+  CHECK(colliding_pairs(world).empty());
+  CHECK(contacts(world).empty());
+  const std::array a{frame}, b{block};
+  CHECK(std::isinf(distance(world, a, b).distance));
+}
+
+TEST_CASE("links stand where Denavit and Hartenberg put them") {
+  World world;
+  const auto id = world.add_robot(two_finger(), Pose::translation({0, 0, 1}));
+  const double q = 0.3;
+  world.set_dofs(id, Eigen::Vector2d(q, 0));
+  const Robot& robot = world.robot(id);
+  // a planar arm of two 50 mm links that starts at (0.03, 0) along +y and turns left by q, then by
+  // q/2 more
+  const Eigen::Vector3d knuckle(0.03, 0, 1);
+  const Eigen::Vector3d first = knuckle + 0.05 * Eigen::Vector3d(-std::sin(q), std::cos(q), 0);
+  const Eigen::Vector3d second =
+      first + 0.05 * Eigen::Vector3d(-std::sin(1.5 * q), std::cos(1.5 * q), 0);
+  CHECK((world.body(robot.chains[0].links[0]).X_WB.position - first).norm() < 1e-15);
+  CHECK((world.body(robot.chains[0].links[1]).X_WB.position - second).norm() < 1e-15);
+  // the other finger mirrors it: straight up at rest
+  CHECK(
+      (world.body(robot.chains[1].links[1]).X_WB.position - Eigen::Vector3d(-0.03, 0.1, 1)).norm() <
+      1e-15);
+}
+
+TEST_CASE("moving a robot moves its links rigidly") {
+  World world;
+  const auto id = world.add_robot(two_finger(), {});
+  world.set_dofs(id, Eigen::Vector2d(0.4, 0.7));
+  const auto link = world.robot(id).chains[1].links[1];
+  const Pose before = world.body(link).X_WB;
+  const Pose X{Eigen::Quaterniond(Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 2) / 3)), {1, 2, 3}};
+  world.set_pose(id, X);
+  const Pose off = (X * before).inverse() * world.body(link).X_WB;
+  CHECK(off.position.norm() < 1e-15);
+  CHECK(off.angle() < 1e-15);
+}
+
+TEST_CASE("DOF values are refused with what was wanted and got") {
+  World world;
+  const auto id = world.add_robot(two_finger(), {});
+  CHECK_THROWS_WITH_AS(world.set_dofs(id, Eigen::Vector3d(1, 2, 3)),
+                       "robot 'gripper': wanted 2 DOF values, got 3", Error);
+  CHECK_THROWS_WITH_AS(world.set_dofs(id, Eigen::Vector2d(NAN, 0)),
+                       "robot 'gripper': DOF 1 must be finite, got nan", Error);
+  CHECK_THROWS_WITH_AS(world.set_dofs(id, Eigen::Vector2d(0, -1)),
+                       "robot 'gripper': DOF 2 must lie in [0, 1.5707963267948966], got -1", Error);
+}
+
+TEST_CASE("parts of a robot can neither be moved nor removed by themselves") {
+  World world;
+  const auto id = world.add_robot(two_finger(), {});
+  const auto link = world.robot(id).chains[0].links[0];
+  CHECK_THROWS_WITH_AS(world.set_pose(link, Pose{}),
+                       "body 'gripper_chain0_link0' is a part of robot 'gripper': move the robot",
+                       Error);
+  CHECK_THROWS_WITH_AS(world.remove(link),
+                       "body 'gripper_chain0_link0' is a part of robot 'gripper': remove the robot",
+                       Error);
+  world.remove(id);
+  CHECK(world.bodies().empty());
+  CHECK_THROWS_WITH_AS(world.robot(id), "robot 'gripper' was removed from its world", Error);
+}
+
+TEST_CASE("the manual's pairs are off on load: base and first links, links of one chain") {
+  World world;
+  const auto id = world.add_robot(two_finger(), {});
+  const Robot& robot = world.robot(id);
+  const auto link = [&](int c, int l) { return robot.chains[c].links[l]; };
+  CHECK_FALSE(world.may_collide(robot.base, link(0, 0)));
+  CHECK_FALSE(world.may_collide(link(0, 0), link(0, 1)));
+  CHECK(world.may_collide(robot.base, link(0, 1)));
+  CHECK(world.may_collide(link(0, 0), link(1, 0)));
+}
+
+TEST_CASE("switches act on the world, a body, a pair") {
+  World world;
+  const auto a = add_box(world, "a", {0, 0, 0}), b = add_box(world, "b", {0.01, 0, 0});
+  CHECK(colliding_pairs(world).size() == 1);
+  world.set_collision(false, a, b);
+  CHECK(colliding_pairs(world).empty());
+  world.set_collision(true, b, a);
+  world.set_collision(false, a);
+  CHECK(colliding_pairs(world).empty());
+  world.set_collision(true, a);
+  world.set_collision(false);
+  CHECK(colliding_pairs(world).empty());
+  world.set_collision(true);
+  CHECK(colliding_pairs(world).size() == 1);
+}
+
+TEST_CASE("a copy shares meshes and nothing else") {
+  World world;
+  const auto robot = world.add_robot(two_finger(), {});
+  World copy = world;
+  copy.set_dofs(robot, Eigen::Vector2d(1, 1));
+  copy.set_friction("wood", "metal", {0.9, 0.8});
+  CHECK(world.robot(robot).q == Eigen::Vector2d(0, 0));
+  CHECK(world.materials().friction(4, 2).statics == doctest::Approx(0.3));
+  CHECK(world.body(world.robot(robot).base).shape == copy.body(copy.robot(robot).base).shape);
+  CHECK(world.hash() != copy.hash());
+}
+
+TEST_CASE("distance and contacts do not depend on the order of the pair") {
+  World world;
+  const auto a = add_box(world, "a", {0, 0, 0}),
+             b = add_box(world, "b", {0.0200500001, 0.003, 0.001});
+  const std::array ga{a}, gb{b};
+  const auto ab = distance(world, ga, gb), ba = distance(world, gb, ga);
+  CHECK(ab.distance == ba.distance);
+  CHECK(ab.p_a == ba.p_b);
+  CHECK((ab.p_a - ab.p_b).norm() == doctest::Approx(ab.distance).epsilon(1e-12));
+  const auto on_b = contacts(world, ga, gb), on_a = contacts(world, gb, ga);
+  REQUIRE(on_b.size() == on_a.size());
+  REQUIRE(on_b.size() >= 4);
+  for (size_t i = 0; i < on_b.size(); ++i) {
+    CHECK(on_b[i].n_W == -on_a[i].n_W);
+    CHECK(on_b[i].gap == on_a[i].gap);
+    CHECK(on_b[i].n_W.x() == doctest::Approx(1));
+  }
+}
+
+TEST_CASE("an arm carries a hand: it follows, and what is rigidly joined never collides") {
+  World world;
+  const auto arm = world.add_robot(two_finger(), {});
+  const auto hand = world.add_robot(two_finger(), Pose::translation({0, 1, 0}));
+  CHECK(world.robot(hand).name == "gripper_2");
+  CHECK(world.body(world.robot(hand).base).name == "gripper_2_base");
+  const Pose X_LB = Pose::translation({0.1, 0, 0});
+  const BodySpec piece = body_spec("adapter", box(0.02, 0.02, 0.02));
+  world.mount(hand, arm, 0, X_LB, &piece);
+  const auto last = world.robot(arm).chains[0].links[1];
+  const auto base = world.robot(hand).base;
+  for (const double q : {0.0, 0.5}) {
+    world.set_dofs(arm, Eigen::Vector2d(q, 0));
+    const Pose off = (world.body(last).X_WB * X_LB).inverse() * world.body(base).X_WB;
+    CHECK(off.position.norm() < 1e-15);
+    CHECK(world.body(*world.robot(hand).mounting->piece).X_WB == world.body(base).X_WB);
+  }
+  CHECK_FALSE(world.may_collide(last, base));
+  CHECK_FALSE(world.may_collide(last, *world.robot(hand).mounting->piece));
+  CHECK_THROWS_WITH_AS(world.set_pose(hand, Pose{}),
+                       "robot 'gripper_2' is carried by 'gripper': move that one", Error);
+  CHECK_THROWS_WITH_AS(world.mount(arm, hand, 0, Pose{}),
+                       "robot 'gripper' cannot be carried by 'gripper_2', which it carries itself",
+                       Error);
+  CHECK_THROWS_WITH_AS(world.mount(hand, arm, 1, Pose{}),
+                       "robot 'gripper_2' is already carried by 'gripper'", Error);
+  world.remove(arm);
+  CHECK_FALSE(world.robot(hand).mounting);
+  world.set_pose(hand, Pose{});
+}
+
+TEST_CASE("a mount on a chain that is not there is refused with the range") {
+  World world;
+  const auto arm = world.add_robot(two_finger(), {}), hand = world.add_robot(two_finger(), {});
+  CHECK_THROWS_WITH_AS(world.mount(hand, arm, 2, Pose{}),
+                       "robot 'gripper_2': wanted a chain of 'gripper', 0 to 1, got 2", Error);
+}
+
+TEST_CASE("properties refuse what is no mass, inertia, modulus, threshold, material or name") {
+  World world;
+  const auto a = add_box(world, "a", {0, 0, 0});
+  add_box(world, "b", {1, 0, 0});
+  CHECK_THROWS_WITH_AS(world.set_mass(a, -1), "body 'a': its mass must be > 0 [kg], got -1", Error);
+  CHECK_THROWS_WITH_AS(world.set_com(a, {NAN, 0, 0}), "body 'a': its centre of mass must be finite",
+                       Error);
+  CHECK_THROWS_WITH_AS(world.set_inertia(a, Eigen::Vector3d(1, 1, -1).asDiagonal()),
+                       "body 'a': its inertia must be symmetric and positive definite [kg m^2]",
+                       Error);
+  CHECK_THROWS_WITH_AS(world.set_elastic_modulus(a, 0),
+                       "body 'a': its elastic modulus must be > 0 [Pa], got 0", Error);
+  CHECK_THROWS_WITH_AS(world.set_contact_threshold(0), "contact_threshold must be > 0 [m], got 0",
+                       Error);
+  CHECK_THROWS_WITH_AS(world.set_name(a, "b"),
+                       "the name 'b' is taken by another body of this world", Error);
+  CHECK_THROWS_WITH_AS(world.set_name(a, ""), "body 'a': a name may not be empty", Error);
+  CHECK_THROWS_AS(world.set_material(a, "woood"), Error);
+  CHECK_THROWS_WITH_AS(world.set_pose(a, Pose::translation({NAN, 0, 0})),
+                       "body 'a': its pose must be finite", Error);
+}
+
+TEST_CASE("the hash follows every bit of the state") {
+  World world;
+  const auto a = add_box(world, "a", {0, 0, 0});
+  const auto robot = world.add_robot(two_finger(), Pose::translation({1, 0, 0}));
+  const uint64_t start = world.hash();
+  const auto snapshot = world.snapshot();
+  const auto changes = [&](auto change) {
+    change();
+    const bool differs = world.hash() != start;
+    world.restore(*snapshot);
+    return differs && world.hash() == start;
+  };
+  CHECK(changes([&] { world.set_pose(a, Pose::translation({0, 0, 1e-300})); }));
+  CHECK(changes([&] { world.set_dofs(robot, Eigen::Vector2d(0, 1e-16)); }));
+  CHECK(changes([&] { world.set_mass(a, 0.31); }));
+  CHECK(changes([&] { world.set_material(a, "glass"); }));
+  CHECK(changes([&] { world.set_friction("glass", "wood", {0.31, 0.2}); }));
+  CHECK(changes([&] { world.set_collision(false, a); }));
+  CHECK(changes([&] { world.set_contact_threshold(2e-4); }));
+}

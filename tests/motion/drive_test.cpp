@@ -1,0 +1,171 @@
+#include "motion/drive.h"
+
+#include <array>
+
+#include "base/error.h"
+#include "support/robots.h"
+
+using namespace clench;
+using namespace clench::test;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// a gripper and a ball or box between its fingers
+struct Bench {
+  World world;
+  Id<Robot> hand;
+  Id<Body> object;
+
+  explicit Bench(DofKind kind = DofKind::rigid, double ratio = 0.5, Mesh mesh = ball(0.015),
+                 Eigen::Vector3d at = {0, 0.07, 0}) {
+    hand = world.add_robot(two_finger(kind, ratio), {});
+    object = world.add_body(body_spec("object", std::move(mesh)), BodyKind::object,
+                            Pose::translation(at));
+  }
+  const Robot& robot() const { return world.robot(hand); }
+  Id<Body> link(int chain, int link) const { return robot().chains[chain].links[link]; }
+  double gap(Id<Body> a) const {
+    const std::array ga{a}, gb{object};
+    return distance(world, ga, gb).distance;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("closing stops both fingers on the object with a gap within the threshold") {
+  Bench bench;
+  const auto result = autograsp(bench.world, bench.hand);
+  CHECK(result.moved);
+  CHECK(colliding_pairs(bench.world).empty());
+  for (const int c : {0, 1}) {
+    CHECK(result.stops[c] == DofStop::contact);
+    const double gap = std::min(bench.gap(bench.link(c, 0)), bench.gap(bench.link(c, 1)));
+    CHECK(gap > 0);
+    CHECK(gap <= bench.world.contact_threshold());
+  }
+  // two mirrored fingers on a centred ball close alike, but for where in the threshold each stops
+  CHECK(std::abs(bench.robot().q[0] - bench.robot().q[1]) < 0.01);
+}
+
+TEST_CASE("closing again moves nothing") {
+  for (const auto kind : {DofKind::rigid, DofKind::breakaway}) {
+    Bench bench(kind);
+    autograsp(bench.world, bench.hand);
+    const Eigen::VectorXd before = bench.robot().q;
+    const auto again = autograsp(bench.world, bench.hand);
+    CHECK_FALSE(again.moved);
+    CHECK((bench.robot().q - before).cwiseAbs().maxCoeff() < 1e-5);
+  }
+}
+
+TEST_CASE("an empty hand closes to where its fingers meet") {
+  Bench bench(DofKind::rigid, 0.5, ball(0.015), {0, 1, 0});
+  const auto result = autograsp(bench.world, bench.hand);
+  CHECK(colliding_pairs(bench.world).empty());
+  for (const auto stop : result.stops) CHECK(stop == DofStop::contact);
+  const std::array left{bench.link(0, 1)}, right{bench.link(1, 1)};
+  const double gap = distance(bench.world, left, right).distance;
+  CHECK(gap > 0);
+  CHECK(gap <= bench.world.contact_threshold());
+}
+
+TEST_CASE("a thin wall is not tunnelled by a long drive") {
+  // half a millimetre thin, in the way of both fingers
+  Bench bench(DofKind::rigid, 0.5, box(0.0005, 0.2, 0.2), {0, 0.15, 0});
+  autograsp(bench.world, bench.hand);
+  for (const int c : {0, 1})
+    for (const int l : {0, 1}) {
+      const double x = bench.world.body(bench.link(c, l)).X_WB.position.x();
+      CHECK((c == 0 ? x > 0 : x < 0));
+    }
+}
+
+TEST_CASE("a breakaway finger goes on closing beyond the joint that contact stopped") {
+  // the first link meets the ball early, the second one is still free
+  Bench rigid(DofKind::rigid, 0.5, ball(0.02), {0, 0.03, 0});
+  Bench breakaway(DofKind::breakaway, 0.5, ball(0.02), {0, 0.03, 0});
+  autograsp(rigid.world, rigid.hand);
+  autograsp(breakaway.world, breakaway.hand);
+  const auto& chain = breakaway.robot().chains[0];
+  REQUIRE(chain.breakaway[0]);
+  CHECK(*chain.breakaway[0] == doctest::Approx(rigid.robot().q[0]).epsilon(0.02));
+  CHECK(breakaway.robot().q[0] > rigid.robot().q[0] + 0.1);
+  CHECK(joint_value(breakaway.robot(), 0, 1) > joint_value(rigid.robot(), 0, 1) + 0.05);
+  CHECK(colliding_pairs(breakaway.world).empty());
+
+  // opening picks the joint up where it was left
+  open_hand(breakaway.world, breakaway.hand);
+  CHECK_FALSE(breakaway.robot().chains[0].breakaway[0]);
+  CHECK(breakaway.robot().q == Eigen::Vector2d(0, 0));
+}
+
+TEST_CASE("a drive without obstacles reaches its targets exactly, in a straight line of DOFs") {
+  Bench bench(DofKind::rigid, 0.5, ball(0.01), {0, 2, 0});
+  const auto result = drive_to(bench.world, bench.hand, Eigen::Vector2d(0.123456789, 0.2));
+  CHECK(bench.robot().q == Eigen::Vector2d(0.123456789, 0.2));
+  CHECK(result.stops[0] == DofStop::reached);
+  CHECK(result.moved);
+}
+
+TEST_CASE("stop_at_contact ends at the first touch of any finger") {
+  Bench bench(DofKind::rigid, 0.5, ball(0.01), {0.012, 0.07, 0});
+  autograsp(bench.world, bench.hand, 1, {.stop_at_contact = true});
+  CHECK(bench.gap(bench.link(0, 1)) <= bench.world.contact_threshold());
+  CHECK(bench.gap(bench.link(1, 1)) > 0.001);
+}
+
+TEST_CASE("speed scales nothing but the sense: closing twice as fast ends the same") {
+  Bench slow, fast;
+  autograsp(slow.world, slow.hand, 1);
+  autograsp(fast.world, fast.hand, 1024);
+  CHECK((slow.robot().q - fast.robot().q).norm() < 1e-12);
+}
+
+TEST_CASE("the grasp moves with the world") {
+  Bench here, there;
+  const Pose X{Eigen::Quaterniond(Eigen::AngleAxisd(2, Eigen::Vector3d(2, -1, 2) / 3)),
+               {0.3, -0.2, 0.5}};
+  there.world.set_pose(there.hand, X);
+  there.world.set_pose(there.object, X * there.world.body(there.object).X_WB);
+  autograsp(here.world, here.hand);
+  autograsp(there.world, there.hand);
+  // the stop may be anywhere within the threshold over a lever of 40 mm, but rounding alone decides
+  // where
+  CHECK((here.robot().q - there.robot().q).norm() < 1e-9);
+}
+
+TEST_CASE("a start in collision is an error that names the pair") {
+  Bench bench(DofKind::rigid, 0.5, ball(0.02), {0.03, 0.05, 0});
+  CHECK_THROWS_WITH_AS(autograsp(bench.world, bench.hand),
+                       "driving 'gripper': the motion starts in collision: gripper_chain0_link0 "
+                       "and object, gripper_chain0_link1 and object",
+                       Error);
+}
+
+TEST_CASE("opening frees a hand that overlaps, and says so when it cannot") {
+  Bench bench(DofKind::rigid, 0.5, ball(0.02), {0, 0.07, 0});
+  bench.world.set_dofs(bench.hand, Eigen::Vector2d(0.6, 0.6));
+  REQUIRE_FALSE(colliding_pairs(bench.world).empty());
+  open_hand(bench.world, bench.hand);
+  CHECK(colliding_pairs(bench.world).empty());
+  CHECK(bench.robot().q == Eigen::Vector2d(0, 0));
+
+  Bench stuck(DofKind::rigid, 0.5, ball(0.02), {0.03, 0.05, 0});
+  CHECK_THROWS_AS(open_hand(stuck.world, stuck.hand), Error);
+}
+
+TEST_CASE("wrong numbers are refused") {
+  Bench bench;
+  CHECK_THROWS_WITH_AS(autograsp(bench.world, bench.hand, 0),
+                       "autograsp of 'gripper': the speed must be finite and not 0, got 0", Error);
+  CHECK_THROWS_WITH_AS(drive_to(bench.world, bench.hand, Eigen::Vector3d(0, 0, 0)),
+                       "driving 'gripper': wanted 2 DOF values, got 3", Error);
+  CHECK_THROWS_WITH_AS(drive_to(bench.world, bench.hand, Eigen::Vector2d(0, 9)),
+                       "driving 'gripper': DOF 2 must lie in [0, 1.5707963267948966], got 9",
+                       Error);
+  CHECK_THROWS_WITH_AS(drive_to(bench.world, bench.hand, Eigen::Vector2d(0, NAN)),
+                       "driving 'gripper': DOF 2 must lie in [0, 1.5707963267948966], got nan",
+                       Error);
+}
