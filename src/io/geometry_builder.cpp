@@ -21,6 +21,19 @@ void GeometryBuilder::add(const std::array<Eigen::Vector3d, 3>& corners, const E
   weight_ += area;
 }
 
+/// Seams of round shapes end in points that differ in their last bits: joins them where that mends edges.
+/// The tolerance is a few units in the last place of the 32-bit numbers that the points were.
+static Mesh weld_seams(const Mesh& loose) {
+  Mesh exact = weld(loose);
+  const int open_edges = find_faults(exact).open_edges;
+  if (open_edges == 0) return exact;
+  const Bounds bounds = exact.bounds();
+  const double largest = std::max(bounds.low.cwiseAbs().maxCoeff(), bounds.high.cwiseAbs().maxCoeff());
+  int dropped = 0;
+  Mesh joined = weld(exact, 4e-7 * largest, &dropped);
+  return dropped == 0 && find_faults(joined).open_edges < open_edges ? joined : exact;
+}
+
 static void turn_if_inside_out(Mesh& mesh, const std::string& subject, const ReadOptions& options) {
   if (!(solid_mass(mesh).volume < 0) || !find_faults(mesh).closed()) return;
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -31,7 +44,7 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject, 
   Geometry out;
   if (mesh_.triangles.empty()) return out;
   check_mesh(mesh_, subject);
-  out.mesh = weld(mesh_);
+  out.mesh = weld_seams(mesh_);
   turn_if_inside_out(out.mesh, subject, options);
   out.appearance.given = colors_given;
   if (!colors_given || weight_ <= 0) return out;

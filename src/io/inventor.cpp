@@ -90,24 +90,29 @@ class Ref {
   T* node_;
 };
 
-/// Names of nodes and engines that we let Coin read; kits draw handles, scripts run code.
-bool is_readable_type(const std::string& name) {
-  static const std::set<std::string> names = [] {
-    std::set<std::string> out;
+/// What a node of that name is to us. Kits draw handles, scripts run code, textures and sounds read files.
+NodeType node_type(const std::string& name) {
+  static const std::map<std::string, NodeType> types = [] {
+    std::map<std::string, NodeType> out;
+    const SoType idle[] = {SoTexture::getClassTypeId(), SoVRMLTexture::getClassTypeId(), SoBumpMap::getClassTypeId(),
+                           SoShaderObject::getClassTypeId(), SoShaderProgram::getClassTypeId(),
+                           SoVRMLSound::getClassTypeId(), SoVRMLAudioClip::getClassTypeId(),
+                           SoVRMLScript::getClassTypeId(), SoBaseKit::getClassTypeId()};
     for (const SoType& base : {SoNode::getClassTypeId(), SoType::fromName("Engine")}) {
-      SoTypeList types;
-      SoType::getAllDerivedFrom(base, types);
-      for (int i = 0; i < types.getLength(); ++i) {
-        if (types[i].isDerivedFrom(SoBaseKit::getClassTypeId()) || !types[i].canCreateInstance()) continue;
-        const std::string type = types[i].getName().getString();
-        if (type == "VRMLScript" || type.ends_with("Manip")) continue;
-        out.insert(type);
-        if (type.starts_with("VRML")) out.insert(type.substr(4));
+      SoTypeList list;
+      SoType::getAllDerivedFrom(base, list);
+      for (int i = 0; i < list.getLength(); ++i) {
+        const std::string type = list[i].getName().getString();
+        if (!list[i].canCreateInstance() || type.ends_with("Manip")) continue;
+        const bool is_idle = std::any_of(std::begin(idle), std::end(idle), [&](SoType t) { return list[i].isDerivedFrom(t); });
+        out[type] = is_idle ? NodeType::idle : NodeType::known;
+        if (type.starts_with("VRML")) out.emplace(type.substr(4), out[type]);
       }
     }
     return out;
   }();
-  return names.contains(name) || (name.starts_with("So") && names.contains(name.substr(2)));
+  const auto found = types.find(name.starts_with("So") && !types.contains(name) ? name.substr(2) : name);
+  return found == types.end() ? NodeType::unknown : found->second;
 }
 
 /// "Coin read error: Unknown field\n\tOccurred at line  12 in <memory>" as "box.iv:12: unknown field"
@@ -146,7 +151,7 @@ class Loader {
 
 Ref<SoSeparator> Loader::load(const fs::path& path, const std::string& text) {
   const std::string file = path.filename().string();
-  const InventorText scanned = scan_inventor(text, file, is_readable_type);
+  const InventorText scanned = scan_inventor(text, file, node_type);
   if (options_.warn)
     for (const auto& warning : scanned.warnings) options_.warn(warning);
 
@@ -154,7 +159,7 @@ Ref<SoSeparator> Loader::load(const fs::path& path, const std::string& text) {
   SoInput input;
   input.setBuffer(const_cast<char*>(scanned.text.data()), scanned.text.size());
   const Ref<SoSeparator> root = SoDB::readAll(&input);
-  if (!root.get() || !coin_.error.empty()) rethrow(coin_.error, file, scanned.skipped_lines);
+  if (!root.get()) rethrow(coin_.error, file, scanned.skipped_lines);
 
   open_.push_back(path);
   fill_includes(root.get(), path, scanned);
@@ -276,7 +281,7 @@ SoCallbackAction::Response Collector::enter(SoCallbackAction* action, SoNode* no
   if (is(SoNormal::getClassTypeId()) || is(SoNormalBinding::getClassTypeId()) ||
       is(SoTextureCoordinate2::getClassTypeId()) || is(SoTextureCoordinate3::getClassTypeId()) ||
       is(SoTextureCoordinateBinding::getClassTypeId()) || is(SoTextureCoordinateFunction::getClassTypeId()) ||
-      is(SoTexture::getClassTypeId()) || is(SoVRMLTexture::getClassTypeId()))
+      is(SoVRMLTextureCoordinate::getClassTypeId()))
     return SoCallbackAction::PRUNE;
   if (is(SoMaterial::getClassTypeId()) || is(SoBaseColor::getClassTypeId()) || is(SoPackedColor::getClassTypeId()) ||
       is(SoVRMLMaterial::getClassTypeId()) || is(SoVRMLColor::getClassTypeId()))

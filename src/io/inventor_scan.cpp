@@ -28,7 +28,7 @@ struct Open {
   std::string type;       // node type before a '{', else empty
   std::string name;       // given by DEF
   size_t start = 0;       // where the node begins, DEF included
-  bool unknown = false;
+  bool cut = false;        // unknown, or not needed
   bool proto = false;     // body of a PROTO
 };
 
@@ -40,8 +40,8 @@ bool ends_word(char c) {
 class Scanner {
  public:
   Scanner(std::string_view text, const std::string& file, int first_line, bool vrml2,
-          const std::function<bool(const std::string&)>& is_node_type)
-      : text_(text), file_(file), line_(first_line), vrml2_(vrml2), is_node_type_(is_node_type), out_(text) {}
+          const std::function<NodeType(const std::string&)>& node_type)
+      : text_(text), file_(file), line_(first_line), vrml2_(vrml2), node_type_(node_type), out_(text) {}
 
   void run();
   std::string take_text();
@@ -58,8 +58,8 @@ class Scanner {
   void on_open(const Token& token);
   void on_close(const Token& token);
   void include_value(const Token& token);
-  bool in_unknown() const {
-    return std::any_of(open_.begin(), open_.end(), [](const Open& o) { return o.unknown; });
+  bool in_cut() const {
+    return std::any_of(open_.begin(), open_.end(), [](const Open& o) { return o.cut; });
   }
   /// blanks the text from start to end, so that lines keep their numbers
   void cut(size_t start, size_t end);
@@ -69,13 +69,14 @@ class Scanner {
   size_t at_ = 0;
   int line_;
   bool vrml2_;
-  const std::function<bool(const std::string&)>& is_node_type_;
+  const std::function<NodeType(const std::string&)>& node_type_;
   std::string out_;
   std::vector<Open> open_;
   Token last_;                     // the token before, when it was a word
   Token before_last_, third_last_; // for DEF name type
+  size_t route_ = 0;               // where an open ROUTE begins, plus 1
   std::set<std::string> cut_names_, protos_;
-  std::map<std::string, bool> known_types_;
+  std::map<std::string, NodeType> types_;
   std::vector<std::pair<size_t, std::pair<size_t, std::string>>> edits_;   // start, length, text
 };
 
@@ -124,11 +125,13 @@ void Scanner::cut(size_t start, size_t end) {
 void Scanner::on_word(const Token& token) {
   if (token.text == "EXTERNPROTO") refuse(token.line, "EXTERNPROTO is not read; wanted nodes of the standard");
   if (last_.text == "PROTO") protos_.insert(std::string(token.text));
+  if (before_last_.text == "TO" && route_ > 0) cut(route_ - 1, at_), route_ = 0;
+  if (token.text == "ROUTE") route_ = token.start + 1;
   if (last_.text == "USE") {
     const std::string name(token.text);
     for (const auto& o : open_)
       if (o.name == name) refuse(token.line, "USE of '{}' inside itself, which line {} defines", name, o.line);
-    if (cut_names_.contains(name) && !in_unknown()) cut(last_.start, at_);
+    if (cut_names_.contains(name) && !in_cut()) cut(last_.start, at_);
   }
 }
 
@@ -145,11 +148,10 @@ void Scanner::on_open(const Token& token) {
     const bool nested_proto = protos_.contains(open.type) &&
                               std::any_of(open_.begin(), open_.end(), [](const Open& o) { return o.proto; });
     if (nested_proto) refuse(token.line, "PROTO '{}' is used inside a PROTO, which is not read", open.type);
-    auto known = known_types_.find(open.type);
-    if (known == known_types_.end())
-      known = known_types_.emplace(open.type, is_node_type_(open.type)).first;
-    open.unknown = !known->second && !protos_.contains(open.type);
-    if (open.unknown && !in_unknown())
+    auto type = types_.find(open.type);
+    if (type == types_.end()) type = types_.emplace(open.type, node_type_(open.type)).first;
+    open.cut = type->second != NodeType::known && !protos_.contains(open.type);
+    if (open.cut && type->second == NodeType::unknown && !in_cut())
       warnings.push_back(fmt::format("{}:{}: unknown node {} is skipped", file_, token.line, in_quotes(open.type)));
   } else if (open.bracket == '{') {
     open.proto = last_.kind == Token::close && last_.text == "]" && vrml2_;
@@ -167,7 +169,7 @@ void Scanner::on_close(const Token& token) {
     refuse(token.line, "wanted '{}' for the '{}' of line {}, got '{}'", open.bracket == '{' ? '}' : ']', open.bracket,
            open.line, token.text);
   open_.pop_back();
-  if (open.unknown && !in_unknown()) {
+  if (open.cut && !in_cut()) {
     cut(open.start, at_);
     if (!open.name.empty()) cut_names_.insert(open.name);
   } else if (!open.name.empty()) {
@@ -186,7 +188,7 @@ void Scanner::include_value(const Token& token) {
 void Scanner::run() {
   for (Token token = next(); token.kind != Token::end; token = next()) {
     const bool file_name = !open_.empty() && (open_.back().type == "File" || open_.back().type == "SoFile") &&
-                           last_.kind == Token::word && last_.text == "name" && !in_unknown();
+                           last_.kind == Token::word && last_.text == "name" && !in_cut();
     if (file_name && (token.kind == Token::word || token.kind == Token::string)) include_value(token);
     else if (token.kind == Token::word) on_word(token);
     else if (token.kind == Token::open) on_open(token);
@@ -224,7 +226,7 @@ std::string_view header_of(std::string_view line) {
 std::string include_key(int number) { return fmt::format("clench:include:{}:", number); }
 
 InventorText scan_inventor(const std::string& text, const std::string& file,
-                           const std::function<bool(const std::string&)>& is_node_type) {
+                           const std::function<NodeType(const std::string&)>& node_type) {
   InventorText out;
   std::string_view rest = text;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
@@ -249,7 +251,7 @@ InventorText scan_inventor(const std::string& text, const std::string& file,
   if (header.empty())
     fail("{}:1: wanted a header such as '#Inventor V2.1 ascii' or '#VRML V2.0 utf8', got {}", file, in_quotes(first));
 
-  Scanner scanner(rest, file, out.skipped_lines + 1, header == "#VRML V2.0 utf8", is_node_type);
+  Scanner scanner(rest, file, out.skipped_lines + 1, header == "#VRML V2.0 utf8", node_type);
   scanner.run();
   out.includes = std::move(scanner.includes);
   out.warnings = std::move(scanner.warnings);

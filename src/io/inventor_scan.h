@@ -24,10 +24,12 @@ struct InventorText {
 /// What a File node's name is replaced by.
 std::string include_key(int number);
 
-/// Checks header, brackets, strings and names; cuts out nodes of unknown type.
-/// `file` is the name shown in errors, `is_node_type` tells whether the library knows a node by that name.
+enum class NodeType { known, idle, unknown };   ///< idle: without effect on triangles and colours
+
+/// Checks header, brackets, strings and names; cuts out nodes that are idle or of unknown type, and routes.
+/// `file` is the name shown in errors, `node_type` tells what the library knows by a name.
 /// throws Error  "box.iv:31: '}' missing for 'Separator' of line 4", and so on
 InventorText scan_inventor(const std::string& text, const std::string& file,
-                           const std::function<bool(const std::string&)>& is_node_type);
+                           const std::function<NodeType(const std::string&)>& node_type);
 
 }  // namespace clench

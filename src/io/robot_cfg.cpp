@@ -235,7 +235,10 @@ std::string CfgReader::named_file(const char* what) {
 
 void CfgReader::read_tracker() {
   TrackerSpec tracker;
-  tracker.number = wanted("a bird number").integer(0, "FlockOfBirds", 0);
+  // some files leave the number out
+  if (lines_.skip_to_full() && begins_transform(lines_.peek()))
+    library_.warn(fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
+  else tracker.number = wanted("a bird number").integer(0, "FlockOfBirds", 0);
   tracker.X_BS = read_transform_list(lines_);
   robot_.tracker = tracker;
 }
