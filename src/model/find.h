@@ -22,8 +22,8 @@ struct BodyDistance {
   Id<Body> a, b;
 };
 
-/// Least distance between the bodies of two groups, if it is below `limit` [m]; infinite otherwise.
-/// Switched-off pairs are measured too.
+/// Least distance between the bodies of two groups, if it is below `limit` [m]; infinite otherwise. Switched-off
+/// pairs are measured too.
 BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,
                       double limit = std::numeric_limits<double>::infinity());
 

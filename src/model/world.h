@@ -45,8 +45,7 @@ class World {
                     const std::string& name = "");
   Id<Robot> add_robot(const RobotSpec& spec, const Pose& X_WB, const std::string& name = "");
   /// Carries `child` on the last link of the parent's chain from now on.
-  /// throws Error when that closes a circle, the chain does not exist, or the child is carried
-  /// already
+  /// throws Error when that closes a circle, the chain does not exist, or the child is carried already
   void mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB,
              const BodySpec* piece = nullptr);
   void remove(Id<Body> body);  ///< an object or obstacle; throws Error for a part of a robot
@@ -71,8 +70,7 @@ class World {
   void set_pose(Id<Body> body, const Pose& X_WB);
   /// of the base; links and carried robots follow. throws Error when the robot is carried
   void set_pose(Id<Robot> robot, const Pose& X_WB);
-  /// throws Error on a wrong count or a number that is not finite; values outside the limits are
-  /// refused by name
+  /// throws Error on a wrong count or a number that is not finite; values outside the limits are refused by name
   void set_dofs(Id<Robot> robot, const Eigen::VectorXd& q);
   /// the same with breakaway states, by chain and joint; used by motion, which has its own checks
   void set_dofs_unchecked(Id<Robot> robot, const Eigen::VectorXd& q,
@@ -106,8 +104,7 @@ class World {
   std::shared_ptr<const WorldState> snapshot() const {
     return std::make_shared<WorldState>(state_);
   }
-  /// Exactly the state of the snapshot: what was removed since is back, what was added since is
-  /// gone.
+  /// Exactly the state of the snapshot: what was removed since is back, what was added since is gone.
   void restore(const WorldState& snapshot);
   const WorldState& state() const { return state_; }
   /// Fingerprint of poses, DOFs, masses, materials, switches: equal for equal bits.

@@ -6,8 +6,7 @@
 
 namespace clench {
 
-// a stop aims at a quarter of the threshold: all of a patch is then within it, and rounding far
-// below
+// a stop aims at a quarter of the threshold: all of a patch is then within it, and rounding far below
 static constexpr double aim = 0.25;
 // a motion that needs more than this grazes for metres within micrometres: it ends where it is
 static constexpr int most_queries = 1000000;

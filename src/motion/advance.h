@@ -1,6 +1,5 @@
-// Conservative advancement of many pairs along one motion: how far can it go before the first
-// touch? source  Mirtich (1996), ch. 2: a pair at distance d cannot meet within d / (bound of its
-// speed)
+// Conservative advancement of many pairs along one motion: how far can it go before the first touch?
+// source  Mirtich (1996), ch. 2: a pair at distance d cannot meet within d / (bound of its speed)
 #pragma once
 #include <functional>
 #include <optional>
@@ -28,11 +27,12 @@ struct Advance {
 /// A gap below this part of the threshold was pushed in, not slid.
 inline constexpr double nearly_closed = 1.0 / 64;
 
-/// Runs s from 0 to `end`, measuring each pair only when it is no longer known to be apart, and
-/// stops at the first that comes within the threshold. `place(s)` must put the bodies where they
-/// are at s; it has done so on return. The gap at a stop is in (0, threshold]. A pair that touches
-/// at the start stops the motion only when its gap nearly closes. watches  with a, b and speed > 0
-/// given; nothing collides at s = 0 queries  counts the distance queries made
+/// Runs s from 0 to `end`, measuring each pair only when it is no longer known to be apart, and stops at the first
+/// that comes within the threshold. `place(s)` must put the bodies where they are at s; it has done so on return.
+/// The gap at a stop is in (0, threshold]. A pair that touches at the start stops the motion only when its gap
+/// nearly closes.
+/// watches  with a, b and speed > 0 given; nothing collides at s = 0
+/// queries  counts the distance queries made
 Advance advance(const World& world, std::vector<Watch>& watches, double end,
                 const std::function<void(double)>& place, int& queries);
 

@@ -5,8 +5,7 @@
 
 namespace clench {
 
-// a contact blocks a motion that leans into it by more than this sine, of a lever longer than a
-// nanometre
+// a contact blocks a motion that leans into it by more than this sine, of a lever longer than a nanometre
 static constexpr double grazing = 1e-6;
 static constexpr double no_lever = 1e-9;
 
@@ -39,8 +38,7 @@ std::vector<Id<Body>> movable_bodies(const World& world, Id<Robot> robot) {
   return out;
 }
 
-// velocity of a point of whatever the joint moves, the joint at unit speed; frame: before the
-// joint, in the world
+// velocity of a point of whatever the joint moves, the joint at unit speed; frame: before the joint, in the world
 static Eigen::Vector3d point_velocity(const JointSpec& joint, const Pose& frame,
                                       const Eigen::Vector3d& p_W) {
   const Eigen::Vector3d axis = frame.rotation * Eigen::Vector3d::UnitZ();

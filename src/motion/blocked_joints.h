@@ -17,14 +17,13 @@ struct BlockedJoints {
 
 /// speeds  of each joint, by chain [rad or m per unit of path]; a joint at 0 is never blocked
 /// moving  the robot's bodies, and those of all robots that it carries
-/// A joint is blocked by a contact of a body beyond it whose point it would move into the other
-/// body. A gap below `closed` [m] blocks also what would merely slide.
+/// A joint is blocked by a contact of a body beyond it whose point it would move into the other body. A gap below
+/// `closed` [m] blocks also what would merely slide.
 BlockedJoints blocked_joints(const World& world, Id<Robot> robot,
                              const std::vector<std::vector<double>>& speeds,
                              std::span<const Id<Body>> moving, double closed);
 
-/// Does the joint move the body? A body of a carried robot moves with the last link of the chain
-/// that carries it.
+/// Does the joint move the body? A body of a carried robot moves with the last link of the chain that carries it.
 bool joint_moves(const World& world, Id<Robot> robot, JointPlace joint, Id<Body> body);
 
 /// The robot's bodies that its joints can move, and those of all robots that it carries.

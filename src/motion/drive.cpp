@@ -12,8 +12,7 @@ namespace clench {
 
 // changes below this are no motion [rad or m]
 static constexpr double no_motion = 1e-5;
-// fingers that slide along a surface stop and go; one that has not come to rest after so many
-// contacts is stopped
+// fingers that slide along a surface stop and go; one that has not come to rest after so many contacts is stopped
 static constexpr int most_events = 2000;
 
 namespace {
@@ -97,8 +96,8 @@ double path_length(const Drive& drive, const Eigen::VectorXd& rates) {
   return length;
 }
 
-// bound of the distance of any point of the body from the origin of the frame before a joint,
-// whatever the joints do on the way: lengths along the chain, then the body's own extent
+// bound of the distance of any point of the body from the origin of the frame before a joint, whatever the
+// joints do on the way: lengths along the chain, then the body's own extent
 double lever(const Drive& drive, JointPlace joint, Id<Body> id) {
   const Robot& robot = drive.robot();
   const Chain& chain = robot.chains[joint.first];

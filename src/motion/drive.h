@@ -1,5 +1,4 @@
-// Driving the DOFs of a robot until contact stops them: rigid and breakaway couplings. Continuous,
-// never tunnelling.
+// Driving the DOFs of a robot until contact stops them: rigid and breakaway couplings. Continuous, never tunnelling.
 #pragma once
 #include <vector>
 
@@ -32,11 +31,10 @@ struct DofMotion {
   Eigen::VectorXd rates;  ///< signed like target - q; 0: the DOF stays [rad or m per unit of path]
 };
 
-/// A contact stops the joints between it and the base that would push it in. A rigid DOF stops with
-/// any of its joints; a breakaway DOF leaves a stopped joint behind, closing, and picks it up there
-/// again, opening. A DOF whose joints come free goes on. The gaps that remain are in (0,
-/// threshold]. throws Error naming the pairs when the robot starts in collision, or when a number
-/// is out of order
+/// A contact stops the joints between it and the base that would push it in. A rigid DOF stops with any of its
+/// joints; a breakaway DOF leaves a stopped joint behind, closing, and picks it up there again, opening. A DOF whose
+/// joints come free goes on. The gaps that remain are in (0, threshold].
+/// throws Error naming the pairs when the robot starts in collision, or when a number is out of order
 DriveResult drive(World& world, Id<Robot> robot, const DofMotion& motion,
                   const DriveOptions& options = {});
 
@@ -44,14 +42,13 @@ DriveResult drive(World& world, Id<Robot> robot, const DofMotion& motion,
 DriveResult drive_to(World& world, Id<Robot> robot, const Eigen::VectorXd& targets,
                      const DriveOptions& options = {});
 
-/// Closes (speed > 0) or opens (speed < 0) a hand: each DOF goes to its limit in the sense of its
-/// default velocity, at a pace in proportion to it. Opening again what was closed brings joints
-/// back that had broken away.
+/// Closes (speed > 0) or opens (speed < 0) a hand: each DOF goes to its limit in the sense of its default velocity,
+/// at a pace in proportion to it. Opening again what was closed brings joints back that had broken away.
 DriveResult autograsp(World& world, Id<Robot> robot, double speed = 1,
                       const DriveOptions& options = {});
 
-/// Opens a hand as far as it goes. One that overlaps something is first opened without regard to
-/// contacts, until it is free.   throws Error naming the pairs when it is never free
+/// Opens a hand as far as it goes. One that overlaps something is first opened without regard to contacts,
+/// until it is free.   throws Error naming the pairs when it is never free
 DriveResult open_hand(World& world, Id<Robot> robot);
 
 }  // namespace clench
