@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "io/library.h"
+#include "io/world_wld.h"
 
 namespace clench {
 
@@ -22,6 +23,18 @@ RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& optio
   RobotSpec robot = Library(options).robot(find_file(path.string(), "", options));
   robot.source = path.generic_string();
   return robot;
+}
+
+WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& options) {
+  check_options(options);
+  Library library(options);
+  const auto found = find_file(path.string(), "", options);
+  const std::string extension = lower_case(found.extension().string());
+  if (extension != ".wld")
+    fail("{}: wanted a world from .wld, got {}", found.filename().string(), in_quotes(extension));
+  WorldSpec world = read_world_wld(found, library);
+  world.source = path.generic_string();
+  return world;
 }
 
 }  // namespace clench

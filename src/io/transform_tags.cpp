@@ -1,0 +1,50 @@
+#include "io/transform_tags.h"
+
+#include "io/transform_list.h"
+
+namespace clench {
+
+/// One element as a line of the text formats.
+static Pose element(const Line& line, std::string_view tag, std::string_view value) {
+  if (tag == "fullTransform") return read_full_transform(line, trim(value));
+  const char* key = tag == "translation" ? "t " : tag == "rotation" ? "r " : tag == "rotationMatrix" ? "R " : nullptr;
+  if (!key) line.fail("wanted translation, rotation, rotationMatrix or fullTransform, got <{}>", tag);
+  const std::string file = line.place().substr(0, line.place().rfind(':'));
+  LineReader one(file, std::string(line.number() - 1, '\n') + key + std::string(value));
+  Line entry;
+  while (!one.done()) entry = one.next();
+  return read_transform(entry, one);
+}
+
+Pose read_tagged_transform(const Line& line, LineReader& lines) {
+  // the element as one text, white space between its parts
+  const std::string_view name = line.text().substr(1, line.text().find_first_of("> ") - 1);
+  const std::string closing = "</" + std::string(name) + ">";
+  std::string text(line.text());
+  while (text.find(closing) == std::string::npos) {
+    if (lines.done()) line.fail("wanted {} for <{}>, got the end of the file", closing, name);
+    text += ' ';
+    text += lines.next().text();
+  }
+  if (name == "transform") {
+    text = text.substr(text.find('>') + 1);
+    text = text.substr(0, text.find(closing));
+  }
+
+  Pose total;
+  std::string_view rest = trim(text);
+  while (!rest.empty()) {
+    const size_t head = rest.find('>');
+    if (rest.front() != '<' || head == std::string_view::npos || head < 2)
+      line.fail("transform: wanted an element such as <translation>, got {}", in_quotes(rest));
+    const std::string_view tag = trim(rest.substr(1, head - 1));
+    const std::string end = "</" + std::string(tag) + ">";
+    const size_t tail = rest.find(end, head);
+    if (tail == std::string_view::npos) line.fail("transform: wanted {} for <{}>", end, tag);
+    total = total * element(line, tag, rest.substr(head + 1, tail - head - 1));
+    rest = trim(rest.substr(tail + end.size()));
+  }
+  return total;
+}
+
+}  // namespace clench
