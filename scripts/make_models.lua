@@ -1,0 +1,59 @@
+-- scripts/make_models.lua
+--- Writes every model file that is made from numbers; the same bytes at each run.
+---   lua5.4 scripts/make_models.lua          writes them, from the project's root
+---   lua5.4 scripts/make_models.lua --check  writes nothing, fails when a file is not what it would write
+package.path = "scripts/?.lua;" .. package.path
+
+--- clench.x.y is stdlib/x/y.lua or stdlib/x/y/init.lua, as in the executable
+table.insert(package.searchers, 2, function(name)
+  local unit = name:match "^clench%.(.+)$"
+  if not unit then return nil end
+  local base = "stdlib/" .. unit:gsub("%.", "/")
+  for _, path in ipairs {base .. ".lua", base .. "/init.lua"} do
+    local file = io.open(path)
+    if file then
+      file:close()
+      return assert(loadfile(path)), path
+    end
+  end
+  return "no unit " .. base
+end)
+
+local inventor = require "models.inventor"
+
+local function read(path)
+  local file = io.open(path, "rb")
+  local text = file and file:read "a"
+  if file then file:close() end
+  return text
+end
+
+local function write(path, text)
+  local file, why = io.open(path, "wb")
+  if not file then error("cannot write " .. why .. "; the folder must exist, and this must run in the project's root", 0) end
+  file:write(text)
+  file:close()
+end
+
+local check, only = false, nil
+for _, word in ipairs(arg) do
+  if word == "--check" then check = true else only = word end
+end
+
+local stale = 0
+for _, set in ipairs {"barrett", "dlr", "objects"} do
+  if not only or only == set then
+    for _, body in ipairs(require("models." .. set)) do
+      local path = body[1]
+      local text, triangles = inventor.text(body, path)
+      local same = read(path) == text
+      if check and not same then stale = stale + 1 end
+      if not check and not same then write(path, text) end
+      print(("%-9s %-40s %5d triangles %4d KB"):format(same and "same" or check and "STALE" or "written", path, triangles, #text // 1000))
+    end
+  end
+end
+if stale > 0 then
+  print(stale .. " stale: run lua5.4 scripts/make_models.lua")
+  os.exit(1)
+end

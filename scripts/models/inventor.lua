@@ -1,0 +1,89 @@
+-- scripts/models/inventor.lua
+--- A body as Inventor text: coloured parts [mm], material, mass [g], centre of gravity [mm] and inertia [mm^2].
+local shapes = require "clench.shapes"
+local inventor = {}
+
+--- a number with up to four decimals and no more characters than it needs
+local function number(x)
+  local text = ("%.4f"):format(x):gsub("0+$", ""):gsub("%.$", "")
+  return text == "-0" and "0" or text
+end
+
+--- the mesh as a reader will get it: coordinates with four decimals
+local function rounded(mesh)
+  local vertices = {}
+  for i, p in ipairs(mesh.vertices) do
+    vertices[i] = {}
+    for k = 1, 3 do vertices[i][k] = tonumber(number(p[k])) end
+  end
+  return {vertices = vertices, triangles = mesh.triangles}
+end
+
+--- what a file must not hold: openings, triangles without area
+local function check(mesh, subject)
+  local closed, why = shapes.closed(mesh)
+  if not closed then error(subject .. ": wanted a closed part, but " .. why, 0) end
+  for i, t in ipairs(mesh.triangles) do
+    local corners = {mesh.vertices[t[1]], mesh.vertices[t[2]], mesh.vertices[t[3]]}
+    local area = shapes.area {vertices = corners, triangles = {{1, 2, 3}}}
+    if area < 1e-4 then
+      error(("%s: triangle %d has an area of %.3g mm^2, wanted at least 1e-4"):format(subject, i, area), 0)
+    end
+  end
+end
+
+local function row(numbers)
+  local words = {}
+  for i, x in ipairs(numbers) do words[i] = number(x) end
+  return table.concat(words, " ")
+end
+
+--- one part: its colour and its surface
+local function part_text(mesh, part)
+  local out = {"  Separator {", ("    Material { diffuseColor %s%s }"):format(row(part.color),
+               part.transparency and " transparency " .. number(part.transparency) or "")}
+  out[#out + 1] = "    Coordinate3 { point ["
+  for _, p in ipairs(mesh.vertices) do out[#out + 1] = "      " .. row(p) .. "," end
+  out[#out + 1] = "    ] }"
+  out[#out + 1] = "    IndexedFaceSet { coordIndex ["
+  for _, t in ipairs(mesh.triangles) do
+    out[#out + 1] = ("      %d, %d, %d, -1,"):format(t[1] - 1, t[2] - 1, t[3] - 1)
+  end
+  out[#out + 1] = "    ] }"
+  out[#out + 1] = "  }"
+  return table.concat(out, "\n")
+end
+
+---@param body {about: string, material: string, mass?: number, density?: number, parts: table[]}
+---  parts: {mesh, color = {r, g, b}, transparency?}; mass [g] or density [g/mm^3]
+---@param subject string  for messages
+---@return string text, integer triangles
+function inventor.text(body, subject)
+  local meshes, texts, count = {}, {}, 0
+  for i, part in ipairs(body.parts) do
+    local mesh = rounded(part[1])
+    check(mesh, ("%s: part %d"):format(subject, i))
+    meshes[i], texts[i] = mesh, part_text(mesh, part)
+    count = count + #mesh.triangles
+  end
+  local solid = shapes.mass(shapes.union(meshes))
+  local out = {
+    "#Inventor V2.1 ascii",
+    "# " .. body.about .. "; made by scripts/make_models.lua [mm]",
+    "#material " .. body.material,
+    "#mass " .. number(body.mass or body.density * solid.volume),
+    "#cog " .. row(solid.centroid),
+    "#inertia_matrix",
+    "#" .. row(solid.inertia[1]),
+    "#" .. row(solid.inertia[2]),
+    "#" .. row(solid.inertia[3]),
+    "Separator {",
+    "  ShapeHints { vertexOrdering COUNTERCLOCKWISE shapeType SOLID faceType CONVEX creaseAngle 0.6 }",
+    table.concat(texts, "\n"),
+    "}",
+    "",
+  }
+  return table.concat(out, "\n"), count
+end
+
+return inventor
