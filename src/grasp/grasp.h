@@ -20,7 +20,7 @@ struct Grasp {
   int edges = 8;
 };
 
-/// The contacts of palm and links with the object, now. None is no error: such a grasp resists nothing.
+/// The contacts of palm, links and mount with the object, now. None is no error: such a grasp resists nothing.
 /// throws Error when edges < 3, rho <= 0 or the object is a part of a robot
 Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object, const GraspOptions& options = {});
 

@@ -11,17 +11,18 @@ namespace clench {
 
 using Wrenches = Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< a column a wrench (force; torque / rho)
 
-/// The wrench that a grasp resists worst.
+/// The wrench on the object, from outside, that a grasp resists worst. Contacts answer w by -w, so w is resisted
+/// when -w lies in the hull: the worst direction runs against the normal of the facet nearest to the origin.
 struct Weakest {
   Vector6d direction = Vector6d::Zero();  ///< unit
-  double resistance = 0;                  ///< largest multiple resisted; <= 0: cannot be resisted
+  double resistance = 0;  ///< largest multiple resisted; 0: none; below: all contacts push along it, by as much at least
 };
 
 /// L1 wrench space: all that contacts resist when their normal forces sum to at most one. It is the convex
 /// hull of the unit wrenches of all contacts.   source  Ferrari & Canny (1992)
 class WrenchSpace {
  public:
-  /// contacts  unit wrenches, one matrix a contact; empty: nothing is resisted
+  /// contacts  unit wrenches, one matrix a contact; empty: nothing is resisted. Any number, size or rank of them
   /// throws    Error when a number is not finite
   explicit WrenchSpace(std::vector<Wrenches> contacts);
 
@@ -33,6 +34,7 @@ class WrenchSpace {
   int rank() const { return rank_; }          ///< dimension that the wrenches span, 0..6
   const Weakest& weakest() const { return weakest_; }
   const std::vector<Wrenches>& contacts() const { return contacts_; }
+  /// Its points are the columns of all contacts in order; no facets unless the hull is full.
   const Hull& hull() const { return hull_; }
 
  private:

@@ -1,0 +1,407 @@
+#include "grasp/wrench_space.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "support/shared.h"
+
+using namespace clench;
+using Eigen::Vector3d;
+
+namespace {
+
+Wrenches random_wrenches(Random& random, int count, double size = 1) {
+  Wrenches out(6, count);
+  for (double& x : out.reshaped()) x = size * random.normal();
+  return out;
+}
+
+Wrenches all_of(const WrenchSpace& space) {
+  Eigen::Index count = 0;
+  for (const Wrenches& w : space.contacts()) count += w.cols();
+  Wrenches out(6, count);
+  Eigen::Index column = 0;
+  for (const Wrenches& w : space.contacts())
+    for (const auto& one : w.colwise()) out.col(column++) = one;
+  return out;
+}
+
+// The slow way: every hyperplane through six of the points that has all others on one side.
+// returns the least offset; 0 when the origin is not strictly inside
+double slow_epsilon(const Wrenches& points) {
+  const int n = static_cast<int>(points.cols());
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<char> chosen(n, 0);
+  std::fill(chosen.begin(), chosen.begin() + std::min(6, n), 1);
+  do {
+    Eigen::Matrix<double, 5, 6> across;
+    int first = -1, row = 0;
+    for (int i = 0; i < n; ++i) {
+      if (!chosen[i]) continue;
+      if (first < 0)
+        first = i;
+      else
+        across.row(row++) = (points.col(i) - points.col(first)).transpose();
+    }
+    const Eigen::FullPivLU<Eigen::Matrix<double, 5, 6>> lu(across);
+    if (lu.rank() < 5) continue;
+    const Vector6d normal = lu.kernel().col(0).normalized();
+    const double offset = normal.dot(points.col(first));
+    const Eigen::RowVectorXd beyond = (normal.transpose() * points).array() - offset;
+    // points on the plane are off it by rounding only
+    if (beyond.maxCoeff() <= 1e-9) least = std::min(least, offset);
+    if (beyond.minCoeff() >= -1e-9) least = std::min(least, -offset);
+  } while (std::prev_permutation(chosen.begin(), chosen.end()));
+  return std::isfinite(least) && least > 1e-9 ? least : 0;
+}
+
+// what holds for every wrench space
+void check_sound(const WrenchSpace& space) {
+  const Wrenches all = all_of(space);
+  const double size = all.size() > 0 ? all.colwise().norm().maxCoeff() : 0;
+  CHECK(space.rank() >= 0);
+  CHECK(space.rank() <= 6);
+  CHECK(space.epsilon() >= 0);
+  CHECK(space.epsilon() <= size);
+  CHECK(space.is_force_closure() == (space.epsilon() > 0));
+  CHECK(space.weakest().direction.norm() == doctest::Approx(1).epsilon(1e-12));
+  // what the contacts can do against it at most is the resistance that is claimed
+  const Vector6d answer = -space.weakest().direction;
+  const double reach = all.cols() > 0 ? (answer.transpose() * all).maxCoeff() : 0;
+  if (space.rank() == 6) {
+    CHECK(std::abs(reach - space.weakest().resistance) <= 1e-10 * size);
+  } else {
+    CHECK(space.epsilon() == 0);
+    CHECK(space.volume() == 0);
+    CHECK(space.weakest().resistance == 0);
+    CHECK(std::abs(reach) <= 1e-9 * size);
+  }
+  if (space.is_force_closure()) {
+    CHECK(space.epsilon() == space.weakest().resistance);
+    CHECK(space.volume() > 0);
+  }
+  // no facet cuts a point off
+  const Hull& hull = space.hull();
+  for (int f = 0; f < hull.normals.cols(); ++f)
+    CHECK((hull.normals.col(f).transpose() * all).maxCoeff() <= hull.offsets[f] + 1e-10 * size);
+}
+
+Wrenches cross_polytope() {
+  Wrenches w(6, 12);
+  w << Eigen::Matrix<double, 6, 6>::Identity(), -Eigen::Matrix<double, 6, 6>::Identity();
+  return w;
+}
+
+Eigen::MatrixXd random_turn(Random& random) {
+  Eigen::MatrixXd m(6, 6);
+  for (double& x : m.reshaped()) x = random.normal();
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(m).householderQ();
+}
+
+// contacts around a ball of the given radius
+std::vector<Wrenches> ball_grasp(const std::vector<Vector3d>& directions, double mu, int edges,
+                                 double radius = 1) {
+  std::vector<Wrenches> out;
+  for (const Vector3d& d : directions) {
+    const Vector3d u = d.normalized();
+    out.push_back(
+        cone_wrenches({.p_O = radius * u, .n_O = -u, .mu = mu}, {.edges = edges, .rho = radius}));
+  }
+  return out;
+}
+
+const std::vector<Vector3d> tetrahedron = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+
+std::vector<Wrenches> contacts_of(const nlohmann::json& measured) {
+  std::vector<Wrenches> out;
+  for (const auto& c : measured["grasp_contact_list"]) {
+    const auto& list = c["wrenches_fx_fy_fz_tx_ty_tz"];
+    Wrenches w(6, list.size());
+    for (size_t k = 0; k < list.size(); ++k)
+      for (int row = 0; row < 6; ++row) w(row, k) = list[k][row].get<double>();
+    out.push_back(w);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("opposed unit pushes along all six axes: epsilon 1/sqrt 6, volume 2^6/6!") {
+  const WrenchSpace space({cross_polytope()});
+  CHECK(space.rank() == 6);
+  CHECK(space.epsilon() == doctest::Approx(1 / std::sqrt(6.0)).epsilon(1e-12));
+  CHECK(space.volume() == doctest::Approx(64.0 / 720).epsilon(1e-12));
+  // the weakest wrench takes equal parts of all six
+  CHECK((space.weakest().direction.cwiseAbs().array() - 1 / std::sqrt(6.0)).abs().maxCoeff() <
+        1e-12);
+  check_sound(space);
+}
+
+TEST_CASE("a cube of wrenches: epsilon is half its side") {
+  Wrenches corners(6, 64);
+  for (int i = 0; i < 64; ++i)
+    for (int row = 0; row < 6; ++row) corners(row, i) = (i >> row & 1) ? 0.7 : -0.7;
+  const WrenchSpace space({corners});
+  CHECK(space.epsilon() == doctest::Approx(0.7).epsilon(1e-12));
+  CHECK(space.volume() == doctest::Approx(std::pow(1.4, 6)).epsilon(1e-12));
+  check_sound(space);
+}
+
+TEST_CASE("axes pushed with different strength: epsilon by the distance of a plane") {
+  Wrenches w = cross_polytope();
+  double sum = 0;
+  for (int i = 0; i < 6; ++i) {
+    w.col(i) *= 1 + i, w.col(i + 6) *= 1 + i;
+    sum += 1.0 / ((1 + i) * (1 + i));
+  }
+  const WrenchSpace space({w});
+  CHECK(space.epsilon() == doctest::Approx(1 / std::sqrt(sum)).epsilon(1e-12));
+  CHECK(space.volume() == doctest::Approx(64.0).epsilon(1e-12));  // 2^6 6! / 6!
+}
+
+TEST_CASE("the original's wrench sets give the exact hull's epsilon and volume") {
+  REQUIRE_SHARED();
+  const auto read = [](const std::string& name) {
+    std::ifstream file(test::shared() / "reference" / (name + ".json"));
+    REQUIRE(file);
+    return nlohmann::json::parse(file);
+  };
+  int compared = 0;
+  const auto exact = read("gws_exact_check");
+  for (const std::string name : {"dlr_flask", "barrett_flask_bestSA", "plannerMug"}) {
+    const WrenchSpace space(contacts_of(read("autograsp_" + name)));
+    const auto& wanted = exact[name]["Qt_no_joggle"];
+    // -1 there says no force closure
+    CHECK(std::abs(space.epsilon() - std::max(0.0, wanted["epsilon"].get<double>())) < 1e-9);
+    CHECK(std::abs(space.volume() - wanted["volume"].get<double>()) < 1e-9);
+    CHECK(std::abs(space.weakest().resistance - wanted["min_offset"].get<double>()) < 1e-9);
+    CHECK(space.rank() == 6);
+    check_sound(space);
+    ++compared;
+  }
+  CHECK(compared == 3);
+}
+
+TEST_CASE("epsilon of few wrenches agrees with all hyperplanes through six of them") {
+  Random random(1);
+  int closed = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    Wrenches w = random_wrenches(random, 7 + trial % 6);
+    // seven random points seldom surround the origin: move their mean there
+    if (trial % 3 != 0) w.colwise() -= w.rowwise().mean().eval();
+    const WrenchSpace space({w});
+    CHECK(space.epsilon() == doctest::Approx(slow_epsilon(w)).epsilon(1e-9));
+    closed += space.is_force_closure();
+    check_sound(space);
+  }
+  CHECK(closed > 30);
+  CHECK(slow_epsilon(cross_polytope()) == doctest::Approx(1 / std::sqrt(6.0)).epsilon(1e-12));
+}
+
+TEST_CASE("epsilon of frictional grasps agrees with all hyperplanes through six wrenches") {
+  Random random(2);
+  for (int trial = 0; trial < 12; ++trial) {
+    std::vector<Vector3d> directions;
+    for (int i = 0; i < 4; ++i)
+      directions.push_back(trial == 0
+                               ? tetrahedron[i]
+                               : Vector3d(random.normal(), random.normal(), random.normal()));
+    const WrenchSpace space(ball_grasp(directions, 0.8, 3));
+    CHECK(space.epsilon() == doctest::Approx(slow_epsilon(all_of(space))).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("turning, permuting, repeating and regrouping wrenches changes nothing") {
+  Random random(3);
+  for (int trial = 0; trial < 5; ++trial) {
+    const WrenchSpace space(ball_grasp(tetrahedron, 0.2 + 0.2 * trial, 8));
+    const Wrenches all = all_of(space);
+    // rounding of 6 x 6 turns and of qhull's planes
+    const auto same = [&](const Wrenches& w) {
+      const WrenchSpace other({w});
+      CHECK(std::abs(other.epsilon() - space.epsilon()) < 1e-12);
+      CHECK(std::abs(other.volume() - space.volume()) < 1e-12);
+      CHECK(other.rank() == space.rank());
+    };
+    same(random_turn(random) * all);
+    std::vector<int> order(all.cols());
+    std::iota(order.begin(), order.end(), 0);
+    for (size_t i = order.size() - 1; i > 0; --i)
+      std::swap(order[i], order[random.bits() % (i + 1)]);
+    same(all(Eigen::all, order));
+    Wrenches twice(6, 2 * all.cols() + 1);
+    twice << all, Vector6d::Zero(), all;
+    if (space.is_force_closure()) same(twice);
+    Wrenches inner(6, 2 * all.cols());
+    inner << all, 0.5 * all;
+    if (space.is_force_closure()) same(inner);
+  }
+}
+
+TEST_CASE("size does not matter: epsilon scales with the wrenches, over all magnitudes") {
+  const WrenchSpace one({cross_polytope()});
+  for (const double scale : {1e-300, 1e-100, 1e-9, 1e9, 1e100, 1e300}) {
+    const WrenchSpace space({scale * cross_polytope()});
+    CHECK(space.rank() == 6);
+    CHECK(space.epsilon() == doctest::Approx(scale * one.epsilon()).epsilon(1e-12));
+    CHECK(space.is_force_closure());
+  }
+  // numbers too small to have all their digits
+  const WrenchSpace tiny({std::numeric_limits<double>::denorm_min() * cross_polytope()});
+  CHECK(tiny.rank() == 6);
+}
+
+TEST_CASE("no contact, no wrench, one wrench, zero wrenches: nothing is resisted, nothing fails") {
+  for (const auto& contacts : std::vector<std::vector<Wrenches>>{
+           {}, {Wrenches(6, 0)}, {Wrenches::Zero(6, 1)}, {Wrenches::Zero(6, 40), Wrenches(6, 0)}}) {
+    const WrenchSpace space(contacts);
+    CHECK(space.rank() == 0);
+    check_sound(space);
+  }
+  const WrenchSpace one({Wrenches(Vector6d(Vector6d::Ones()))});
+  CHECK(one.rank() == 1);
+  check_sound(one);
+}
+
+TEST_CASE(
+    "sets below rank six have their rank, and the weakest direction is one they do not span") {
+  Random random(4);
+  for (int rank = 1; rank <= 5; ++rank)
+    for (int trial = 0; trial < 40; ++trial) {
+      const int count = rank + trial;
+      const Eigen::MatrixXd basis = random_turn(random).leftCols(rank);
+      Eigen::MatrixXd mix(rank, count);
+      for (double& x : mix.reshaped()) x = random.normal();
+      const WrenchSpace space({Wrenches(basis * mix)});
+      CHECK(space.rank() == rank);
+      CHECK(space.weakest().resistance == 0);
+      CHECK((basis.transpose() * space.weakest().direction).norm() < 1e-9);
+      check_sound(space);
+    }
+}
+
+TEST_CASE("two hard fingers cannot turn the object about their line") {
+  const WrenchSpace space(ball_grasp({{1, 0, 0}, {-1, 0, 0}}, 0.5, 8));
+  CHECK(space.rank() == 5);
+  CHECK(space.epsilon() == 0);
+  CHECK(!space.is_force_closure());
+  CHECK((space.weakest().direction - Vector6d::Unit(3)).norm() < 1e-12);
+}
+
+TEST_CASE("the weakest wrench is one from outside: a finger below cannot hold what pulls up") {
+  // pushes all up, and in every other direction both ways
+  Wrenches w(6, 11);
+  w.col(0) = Vector6d::Unit(2);
+  int column = 1;
+  for (const int axis : {0, 1, 3, 4, 5})
+    for (const double side : {-1, 1})
+      w.col(column++) = Vector6d::Unit(2) + side * Vector6d::Unit(axis);
+  const WrenchSpace space({w});
+  CHECK(space.rank() == 6);
+  CHECK(space.hull().rank == 5);  // all in the plane fz = 1
+  CHECK(space.epsilon() == 0);
+  CHECK((space.weakest().direction - Vector6d::Unit(2)).norm() < 1e-9);
+  CHECK(space.weakest().resistance == doctest::Approx(-1));
+  check_sound(space);
+
+  // one wrench shorter: a full hull, still all upwards
+  w.col(0) *= 0.5;
+  const WrenchSpace full({w});
+  CHECK(full.hull().full());
+  CHECK(full.epsilon() == 0);
+  CHECK(full.volume() > 0);
+  CHECK(full.weakest().resistance < 0);
+  check_sound(full);
+
+  // held from above by a weaker finger: pulling up is resisted, but worst of all
+  Wrenches held(6, 12);
+  held << 10 * cross_polytope();
+  held.col(8) = -0.1 * Vector6d::Unit(2);
+  const WrenchSpace weak({held});
+  CHECK(weak.is_force_closure());
+  CHECK(weak.weakest().direction[2] > 0.99);
+  CHECK(weak.weakest().resistance < 0.1);
+  check_sound(weak);
+}
+
+TEST_CASE("an origin on the boundary is not inside: epsilon is exactly 0") {
+  // half a cross polytope, with the origin among its points or on its face
+  Random random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    Wrenches half(6, 12);
+    half << cross_polytope();
+    half.col(6 + trial % 6) =
+        trial % 2 ? Vector6d::Zero().eval() : Vector6d(0.3 * Vector6d::Unit((trial + 1) % 6));
+    const WrenchSpace space({trial < 12 ? half : Wrenches(random_turn(random) * half)});
+    CHECK(space.rank() == 6);
+    CHECK(space.epsilon() == 0);
+    check_sound(space);
+  }
+}
+
+TEST_CASE("without friction a ball cannot be kept from turning, with it four fingers hold it") {
+  CHECK(WrenchSpace(ball_grasp(tetrahedron, 0, 8)).rank() == 3);
+  double last = 0;
+  for (const double mu : {0.1, 0.3, 1.0, 3.0}) {
+    const WrenchSpace space(ball_grasp(tetrahedron, mu, 8));
+    CHECK(space.is_force_closure());
+    CHECK(space.epsilon() > last);  // more friction, more grip
+    last = space.epsilon();
+    check_sound(space);
+  }
+}
+
+TEST_CASE("a grasp twice the size is the same grasp") {
+  const WrenchSpace small(ball_grasp(tetrahedron, 0.5, 8, 0.01)),
+      large(ball_grasp(tetrahedron, 0.5, 8, 2));
+  CHECK(std::abs(small.epsilon() - large.epsilon()) < 1e-12);
+  CHECK(std::abs(small.volume() - large.volume()) < 1e-12);
+}
+
+TEST_CASE("symmetric grasps with any number of fingers and edges never fail") {
+  for (int fingers = 1; fingers <= 6; ++fingers)
+    for (const int edges : {3, 4, 8})
+      for (const double mu : {0.0, 1e-9, 1e-6, 0.5, 1.0, 100.0}) {
+        std::vector<Vector3d> ring;
+        for (int i = 0; i < fingers; ++i) {
+          const double angle = 2 * std::numbers::pi * i / fingers;
+          ring.emplace_back(std::cos(angle), std::sin(angle), 0);
+        }
+        check_sound(WrenchSpace(ball_grasp(ring, mu, edges)));
+      }
+}
+
+TEST_CASE("structured sets never fail: lattices, repeats, near repeats, thin sets, mixed sizes") {
+  Random random(6);
+  for (int trial = 0; trial < 300; ++trial) {
+    const int count = 1 + static_cast<int>(random.bits() % 40);
+    Wrenches w = random_wrenches(random, count);
+    const int kind = trial % 6;
+    if (kind == 0) w = w.array().round();                           // points of a lattice
+    if (kind == 1) w = w.array().sign();                            // corners of a cube
+    if (kind == 2) w.rightCols(count / 2) = w.leftCols(count / 2);  // repeated
+    if (kind == 3)                                                  // nearly repeated
+      w.rightCols(count / 2) = w.leftCols(count / 2) + random_wrenches(random, count / 2, 1e-13);
+    if (kind == 4) w.row(trial / 6 % 6) *= std::pow(10, -random.uniform(0, 16));  // thin
+    if (kind == 5)                                                                // of many sizes
+      for (int i = 0; i < count; ++i) w.col(i) *= std::pow(10, -random.uniform(0, 16));
+    CAPTURE(trial);
+    check_sound(WrenchSpace({w}));
+  }
+}
+
+TEST_CASE("a number that is not finite is refused by its place") {
+  Wrenches good = cross_polytope(), bad = good;
+  bad(3, 4) = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH_AS(WrenchSpace({good, bad}),
+                       "wrench space: contact 2, wrench 5: numbers must be finite, got nan", Error);
+  bad(3, 4) = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_WITH_AS(WrenchSpace({bad}),
+                       "wrench space: contact 1, wrench 5: numbers must be finite, got inf", Error);
+}
