@@ -22,8 +22,9 @@
 #include "base/suggest.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "io/inventor_faces.h"
 #include "io/inventor_scan.h"
-#include "io/inventor_shapes.h"
+#include "io/triangulate.h"
 
 namespace clench {
 
@@ -253,14 +254,16 @@ class Collector {
   }
   static void on_triangle(void* self, SoCallbackAction* action, const SoPrimitiveVertex* a,
                           const SoPrimitiveVertex* b, const SoPrimitiveVertex* c) {
-    static_cast<Collector*>(self)->add(action, {a, b, c});
+    static_cast<Collector*>(self)->add(action, {a->getPoint(), b->getPoint(), c->getPoint()}, a->getMaterialIndex());
   }
   SoCallbackAction::Response enter(SoCallbackAction* action, SoNode* node);
-  void add(SoCallbackAction* action, const std::array<const SoPrimitiveVertex*, 3>& corners);
+  SoCallbackAction::Response enter_shape(SoCallbackAction* action, SoNode* node);
+  void add_faces(SoCallbackAction* action, const FaceList& list);
+  void add(SoCallbackAction* action, const std::array<SbVec3f, 3>& corners, int color, const SbColor* given = nullptr);
 
   std::string file_, error_;
   int steps_ = 0;
-  bool clockwise_ = false;   // of the shape that is being asked for triangles
+  bool clockwise_ = false;   // how the shape at hand turns
 };
 
 void Collector::apply(SoNode* root) {
@@ -276,39 +279,62 @@ SoCallbackAction::Response Collector::enter(SoCallbackAction* action, SoNode* no
   if (++steps_ > most_steps) error_ = fmt::format("wanted at most {} nodes, shared ones counted each time", most_steps);
   if (builder.triangle_count() > most_triangles) error_ = fmt::format("wanted at most {} triangles", most_triangles);
   if (!error_.empty()) return SoCallbackAction::ABORT;
-
-  // normals and textures have no effect on triangles
-  if (is(SoNormal::getClassTypeId()) || is(SoNormalBinding::getClassTypeId()) ||
-      is(SoTextureCoordinate2::getClassTypeId()) || is(SoTextureCoordinate3::getClassTypeId()) ||
-      is(SoTextureCoordinateBinding::getClassTypeId()) || is(SoTextureCoordinateFunction::getClassTypeId()) ||
-      is(SoVRMLTextureCoordinate::getClassTypeId()))
-    return SoCallbackAction::PRUNE;
   if (is(SoMaterial::getClassTypeId()) || is(SoBaseColor::getClassTypeId()) || is(SoPackedColor::getClassTypeId()) ||
-      is(SoVRMLMaterial::getClassTypeId()) || is(SoVRMLColor::getClassTypeId()))
+      is(SoVRMLMaterial::getClassTypeId()))
     colors_given = true;
   if (!is(SoShape::getClassTypeId())) return SoCallbackAction::CONTINUE;
 
-  const ShapeVerdict verdict = check_shape(action, node);
-  error_ = verdict.error;
-  if (!verdict.warning.empty()) warnings.insert(fmt::format("{}: {}", file_, verdict.warning));
-  if (!error_.empty()) return SoCallbackAction::ABORT;
-  if (!verdict.use) return SoCallbackAction::PRUNE;
-
-  // which way round the corners of its faces are listed
-  clockwise_ = is(SoVertexShape::getClassTypeId()) && action->getVertexOrdering() == SoShapeHints::CLOCKWISE;
-  if (is(SoVRMLIndexedFaceSet::getClassTypeId())) {
-    clockwise_ = !static_cast<SoVRMLIndexedFaceSet*>(node)->ccw.getValue();
-    colors_given = colors_given || static_cast<SoVRMLIndexedFaceSet*>(node)->color.getValue();
+  // no exception may pass through Coin
+  try {
+    return enter_shape(action, node);
+  } catch (const Error& error) {
+    error_ = error.what();
   }
-  return SoCallbackAction::CONTINUE;
+  return SoCallbackAction::ABORT;
 }
 
-void Collector::add(SoCallbackAction* action, const std::array<const SoPrimitiveVertex*, 3>& corners) {
+SoCallbackAction::Response Collector::enter_shape(SoCallbackAction* action, SoNode* node) {
+  if (const auto faces = list_faces(action, node)) {
+    add_faces(action, *faces);
+    return SoCallbackAction::PRUNE;
+  }
+  // the shapes given by their sizes are Coin's to cut into triangles
+  const SoType round[] = {SoCube::getClassTypeId(), SoSphere::getClassTypeId(), SoCylinder::getClassTypeId(),
+                          SoCone::getClassTypeId(), SoVRMLBox::getClassTypeId(), SoVRMLSphere::getClassTypeId(),
+                          SoVRMLCylinder::getClassTypeId(), SoVRMLCone::getClassTypeId(), SoVRMLExtrusion::getClassTypeId()};
+  clockwise_ = node->isOfType(SoVRMLExtrusion::getClassTypeId()) && !static_cast<SoVRMLExtrusion*>(node)->ccw.getValue();
+  for (const SoType type : round)
+    if (node->isOfType(type)) return SoCallbackAction::CONTINUE;
+  const std::string name = node_name(node);
+  const bool flat = name.find("Line") != std::string::npos || name.find("Point") != std::string::npos || name.find("Text") != std::string::npos;
+  if (!flat) warnings.insert(fmt::format("{}: {} is not used as geometry", file_, name));
+  return SoCallbackAction::PRUNE;
+}
+
+void Collector::add_faces(SoCallbackAction* action, const FaceList& list) {
+  clockwise_ = list.clockwise;
+  colors_given = colors_given || !list.colors.empty();
+  std::vector<Eigen::Vector3d> corners;
+  std::vector<SbVec3f> points;
+  for (const auto& face : list.faces) {
+    corners.clear();
+    points.clear();
+    for (int i = 0; i < face.count; ++i) {
+      points.push_back(list.point(list.corners[face.first + i]));
+      corners.emplace_back(points.back()[0], points.back()[1], points.back()[2]);
+    }
+    const int last_color = static_cast<int>(list.colors.size()) - 1;
+    const SbColor* color = list.colors.empty() ? nullptr : &list.colors[std::clamp(face.color, 0, last_color)];
+    for (const auto& t : triangulate(corners)) add(action, {points[t[0]], points[t[1]], points[t[2]]}, face.color, color);
+  }
+}
+
+void Collector::add(SoCallbackAction* action, const std::array<SbVec3f, 3>& corners, int color, const SbColor* given) {
   const SbMatrix& X = action->getModelMatrix();
   std::array<Eigen::Vector3d, 3> points;
   for (int i = 0; i < 3; ++i) {
     SbVec3f p;
-    X.multVecMatrix(corners[i]->getPoint(), p);
+    X.multVecMatrix(corners[i], p);
     points[i] = Eigen::Vector3d(p[0], p[1], p[2]) * units::millimetre;
   }
   // a mirrored shape is inside out
@@ -316,12 +342,12 @@ void Collector::add(SoCallbackAction* action, const std::array<const SoPrimitive
 
   SoState* state = action->getState();
   const SoLazyElement* material = SoLazyElement::getInstance(state);
-  const int index = corners[0]->getMaterialIndex();
   const int colors = material->getNumDiffuse(), alphas = material->getNumTransparencies();
-  SbColor color(0.8f, 0.8f, 0.8f);
-  if (colors > 0) color = SoLazyElement::getDiffuse(state, std::clamp(index, 0, colors - 1));
-  const float alpha = alphas > 0 ? SoLazyElement::getTransparency(state, std::clamp(index, 0, alphas - 1)) : 0.0f;
-  builder.add(points, Eigen::Vector3f(color[0], color[1], color[2]).cwiseMax(0.0f).cwiseMin(1.0f),
+  SbColor diffuse(0.8f, 0.8f, 0.8f);
+  if (given) diffuse = *given;
+  else if (colors > 0) diffuse = SoLazyElement::getDiffuse(state, std::clamp(color, 0, colors - 1));
+  const float alpha = alphas > 0 ? SoLazyElement::getTransparency(state, std::clamp(color, 0, alphas - 1)) : 0.0f;
+  builder.add(points, Eigen::Vector3f(diffuse[0], diffuse[1], diffuse[2]).cwiseMax(0.0f).cwiseMin(1.0f),
               std::clamp(alpha, 0.0f, 1.0f));
 }
 

@@ -125,7 +125,7 @@ void Scanner::cut(size_t start, size_t end) {
 void Scanner::on_word(const Token& token) {
   if (token.text == "EXTERNPROTO") refuse(token.line, "EXTERNPROTO is not read; wanted nodes of the standard");
   if (last_.text == "PROTO") protos_.insert(std::string(token.text));
-  if (before_last_.text == "TO" && route_ > 0) cut(route_ - 1, at_), route_ = 0;
+  if (last_.text == "TO" && route_ > 0) cut(route_ - 1, at_), route_ = 0;
   if (token.text == "ROUTE") route_ = token.start + 1;
   if (last_.text == "USE") {
     const std::string name(token.text);
