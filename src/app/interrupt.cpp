@@ -1,0 +1,47 @@
+#include "app/interrupt.h"
+
+#include <csignal>
+
+#include "script/state.h"
+
+namespace clench {
+
+// a signal handler has no arguments: what it needs must lie outside
+static State* volatile target = nullptr;
+static volatile std::sig_atomic_t presses = 0;
+
+static void on_interrupt(int) {
+  presses = presses + 1;
+  if (!target) return;
+  if (presses >= 3) {
+    std::signal(SIGINT, SIG_DFL);
+    std::raise(SIGINT);
+  }
+  target->interrupt();
+}
+
+void catch_interrupts() {
+  // without SA_RESTART, so that a key that is being waited for gives up
+  struct sigaction action = {};
+  action.sa_handler = on_interrupt;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+}
+
+bool take_interrupt() {
+  const bool pressed = presses > 0;
+  presses = 0;
+  return pressed;
+}
+
+Interruptible::Interruptible(State& state) {
+  presses = 0;
+  target = &state;
+}
+
+Interruptible::~Interruptible() {
+  target = nullptr;
+  presses = 0;
+}
+
+}  // namespace clench

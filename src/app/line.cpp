@@ -1,0 +1,167 @@
+#include "app/line.h"
+
+#include <histedit.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <clocale>
+#include <cstdio>
+#include <cstdlib>
+#include <cwchar>
+#include <system_error>
+
+#include "app/interrupt.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+struct LineEditor::Terminal {
+  EditLine* edit = nullptr;
+  History* history = nullptr;
+  HistEvent event = {};
+  fs::path file;
+  Complete complete;
+  std::string prompt;
+  bool interrupted = false;
+
+  static Terminal* of(EditLine* edit) {
+    void* data = nullptr;
+    el_get(edit, EL_CLIENTDATA, &data);
+    return static_cast<Terminal*>(data);
+  }
+};
+
+static size_t common_start(const std::vector<std::string>& words) {
+  size_t size = words[0].size();
+  for (const auto& word : words) {
+    const auto end =
+        std::mismatch(words[0].begin(), words[0].end(), word.begin(), word.end()).first;
+    size = std::min(size, static_cast<size_t>(end - words[0].begin()));
+  }
+  return size;
+}
+
+// below the line, as many columns as fit
+static void list_words(const std::vector<std::string>& words) {
+  size_t widest = 0;
+  for (const auto& word : words) widest = std::max(widest, word.size() + 2);
+  const size_t columns = std::max<size_t>(1, 78 / widest);
+  std::fputc('\n', stdout);
+  for (size_t i = 0; i < words.size(); ++i) {
+    const bool last = (i + 1) % columns == 0 || i + 1 == words.size();
+    std::fprintf(stdout, "%-*s%s", last ? 0 : static_cast<int>(widest), words[i].c_str(),
+                 last ? "\n" : "");
+  }
+  std::fflush(stdout);
+}
+
+template <class Terminal>
+static unsigned char complete_word(EditLine* edit, int) {
+  Terminal* terminal = Terminal::of(edit);
+  const LineInfo* info = el_line(edit);
+  auto words = terminal->complete(std::string(info->buffer, info->cursor));
+  if (words.size() < 2) return CC_REFRESH_BEEP;
+  const size_t typed = words[0].size();
+  words.erase(words.begin());
+  const size_t common = common_start(words);
+  if (common > typed) {
+    el_insertstr(edit, words[0].substr(typed, common - typed).c_str());
+    return CC_REFRESH;
+  }
+  if (words.size() == 1) return CC_NORM;
+  list_words(words);
+  return CC_REDISPLAY;
+}
+
+// one character from the terminal; Ctrl-C ends the waiting
+template <class Terminal>
+static int read_character(EditLine* edit, wchar_t* out) {
+  Terminal* terminal = Terminal::of(edit);
+  std::mbstate_t partial = {};
+  for (;;) {
+    char byte = 0;
+    const auto count = ::read(STDIN_FILENO, &byte, 1);
+    if (count == 0) return 0;
+    if (count < 0) {
+      if (errno != EINTR) return -1;
+      if (!take_interrupt()) continue;
+      terminal->interrupted = true;
+      return -1;
+    }
+    const size_t used = std::mbrtowc(out, &byte, 1, &partial);
+    if (used == static_cast<size_t>(-2)) continue;  // the beginning of a character
+    if (used == static_cast<size_t>(-1)) partial = {}, *out = L'?';
+    return 1;
+  }
+}
+
+LineEditor::LineEditor(fs::path history, Complete complete) : terminal_(new Terminal) {
+  std::setlocale(LC_CTYPE, "C.UTF-8");
+  Terminal& t = *terminal_;
+  t.file = std::move(history);
+  t.complete = std::move(complete);
+  t.edit = el_init("clench", stdin, stdout, stderr);
+  t.history = history_init();
+  el_set(t.edit, EL_CLIENTDATA, &t);
+  el_set(
+      t.edit, EL_PROMPT, +[](EditLine* edit) { return Terminal::of(edit)->prompt.data(); });
+  el_set(t.edit, EL_EDITOR, "emacs");
+  el_set(t.edit, EL_SIGNAL, 0);
+  el_set(t.edit, EL_GETCFN, &read_character<Terminal>);
+  el_set(t.edit, EL_ADDFN, "clench-complete", "complete a name", &complete_word<Terminal>);
+  el_set(t.edit, EL_BIND, "^I", "clench-complete", nullptr);
+  el_set(t.edit, EL_BIND, "^R", "em-inc-search-prev", nullptr);
+  ::history(t.history, &t.event, H_SETSIZE, 2000);
+  ::history(t.history, &t.event, H_SETUNIQUE, 1);
+  ::history(t.history, &t.event, H_LOAD, t.file.c_str());
+  el_set(t.edit, EL_HIST, ::history, t.history);
+  el_source(t.edit, nullptr);
+}
+
+LineEditor::~LineEditor() {
+  history_end(terminal_->history);
+  el_end(terminal_->edit);
+}
+
+LineEditor::Key LineEditor::read(const std::string& prompt, std::string& line) {
+  Terminal& t = *terminal_;
+  t.prompt = prompt;
+  t.interrupted = false;
+  take_interrupt();
+  int count = 0;
+  const char* text = el_gets(t.edit, &count);
+  if (t.interrupted) {
+    std::fputs("^C\n", stdout);
+    el_reset(t.edit);
+    return Key::interrupted;
+  }
+  if (!text || count <= 0) return Key::end;
+  line.assign(text, static_cast<size_t>(count));
+  while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.pop_back();
+  return Key::line;
+}
+
+void LineEditor::remember(const std::string& entry) {
+  Terminal& t = *terminal_;
+  if (entry.find_first_not_of(" \t\n") == std::string::npos) return;
+  ::history(t.history, &t.event, H_ENTER, entry.c_str());
+  if (t.file.empty()) return;
+  std::error_code ignored;
+  fs::create_directories(t.file.parent_path(), ignored);
+  ::history(t.history, &t.event, H_SAVE, t.file.c_str());
+}
+
+fs::path history_file() {
+  std::error_code none;
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state)
+    return fs::path(state) / "clench/history";
+  const char* home = std::getenv("HOME");
+  if (!home || !*home) return {};
+  const fs::path state = fs::path(home) / ".local/state";
+  if (fs::is_directory(state, none)) return state / "clench/history";
+  return fs::path(home) / ".clench_history";
+}
+
+}  // namespace clench

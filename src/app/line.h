@@ -1,0 +1,34 @@
+// A line typed at a terminal: editing, history, completion. The one file that knows libedit.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace clench {
+
+class LineEditor {
+ public:
+  /// What the cursor's word may become: first the word as far as it is typed, then whole words.
+  using Complete = std::function<std::vector<std::string>(const std::string& before_cursor)>;
+  enum class Key { line, interrupted, end };
+
+  /// history  a file; made when something is remembered, and ignored when it cannot be
+  LineEditor(std::filesystem::path history, Complete complete);
+  ~LineEditor();
+
+  /// Reads a line, without its end. interrupted: Ctrl-C; end: Ctrl-D.
+  Key read(const std::string& prompt, std::string& line);
+  void remember(const std::string& entry);
+
+ private:
+  struct Terminal;
+  std::unique_ptr<Terminal> terminal_;
+};
+
+/// $XDG_STATE_HOME/clench/history, else ~/.local/state/clench/history where that folder exists,
+/// else ~/.clench_history.
+std::filesystem::path history_file();
+
+}  // namespace clench

@@ -1,0 +1,105 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "app/verbs.h"
+
+namespace clench {
+
+struct CommandLine {
+  std::vector<std::string> ours;    ///< up to and with the script's name
+  std::vector<std::string> script;  ///< what follows it belongs to the script
+};
+
+// `clench run FILE --x 1`: everything after FILE is the script's own, whatever it looks like
+static CommandLine split(int argc, char** argv) {
+  CommandLine line;
+  bool run = false, file = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (file) {
+      line.script.push_back(word);
+      continue;
+    }
+    line.ours.push_back(word);
+    const bool option = word.size() > 1 && word[0] == '-';
+    if (run && !option) file = true;
+    if (!run && word == "run") run = true;
+    // the next word is this option's value, not the verb
+    if (!run && (word == "-e" || word == "-i") && i + 1 < argc) line.ours.push_back(argv[++i]);
+  }
+  return line;
+}
+
+static int main_of(int argc, char** argv) {
+  CommandLine line = split(argc, argv);
+  CLI::App app("Clench simulates, judges and plans robotic grasps.", "clench");
+  app.footer(
+      "Examples:\n  clench run examples/01_first_grasp.lua\n  clench -e 'print(clench.version)'\n  "
+      "clench -i scene.lua\n"
+      "  clench repl\n\nExit code: 0 done, 1 failed, 2 wrong usage. `clench VERB --help` says "
+      "more.");
+  app.set_version_flag("--version", "clench " CLENCH_VERSION);
+  app.require_subcommand(0, 1);
+
+  RunOptions run;
+  std::string interactive, test_path, doc_folder = "docs/api";
+  bool check = false;
+  app.add_flag("-q,--quiet", run.quiet, "show errors only");
+  app.add_option("-e", run.code, "run this code")->type_name("CODE")->allow_extra_args(false);
+  app.add_option("-i", interactive, "run a script, then open a console")->type_name("FILE");
+
+  auto* run_verb = app.add_subcommand("run", "run a script");
+  run_verb
+      ->add_option("FILE", run.file, "a Lua script, or - for stdin; what follows are its arguments")
+      ->required();
+  run_verb->footer("Examples:\n  clench run grasp.lua\n  clench run plan.lua mug.iv --seconds 10");
+  auto* repl_verb = app.add_subcommand("repl", "open a console");
+  repl_verb->footer(
+      "Examples:\n  clench repl\n  echo '=clench.rad(90)' | clench repl\n\nIn a console: =x or x "
+      "prints, "
+      "help(x) explains, Tab completes, Ctrl-C interrupts, Ctrl-D leaves.");
+  auto* test_verb = app.add_subcommand("test", "run every *_test.lua of a folder");
+  test_verb->add_option("DIR", test_path, "a folder, or one file")->required();
+  test_verb->footer("Example:\n  clench test tests/lua");
+  auto* doc_verb =
+      app.add_subcommand("doc", "write the pages of the Lua API and the editor's stub");
+  doc_verb->add_option("DIR", doc_folder, "where to; default: docs/api");
+  doc_verb->add_flag("--check", check, "write nothing; fail when a page is not what it should be");
+  doc_verb->footer("Examples:\n  clench doc\n  clench doc --check");
+  for (auto* verb : {run_verb, repl_verb, test_verb, doc_verb}) verb->fallthrough();
+
+  try {
+    // it takes the words from the back
+    std::vector<std::string> words(line.ours.rbegin(), line.ours.rend());
+    app.parse(words);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+
+  run.arguments = line.script;
+  if (test_verb->parsed()) return run_tests(test_path, run.quiet);
+  if (doc_verb->parsed()) return write_docs(doc_folder, check);
+  const bool nothing =
+      !run_verb->parsed() && !repl_verb->parsed() && run.code.empty() && interactive.empty();
+  if (nothing && !isatty(STDIN_FILENO)) {
+    std::fputs(app.help().c_str(), stdout);
+    return 0;
+  }
+  run.console = repl_verb->parsed() || !interactive.empty() || nothing;
+  if (run.file.empty()) run.file = interactive;
+  return run_scripts(run);
+}
+
+}  // namespace clench
+
+int main(int argc, char** argv) {
+  try {
+    return clench::main_of(argc, argv);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "clench: %s\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,64 @@
+#include "app/repl.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <functional>
+#include <iostream>
+#include <string>
+
+#include "app/interrupt.h"
+#include "app/line.h"
+#include "script/state.h"
+
+namespace clench {
+
+static State::Line run_chunk(State& state, const std::string& chunk) {
+  const Interruptible running(state);
+  const auto line = state.evaluate(chunk);
+  std::fflush(stdout);
+  return line;
+}
+
+// chunks from anything that is no terminal
+static int run_piped(State& state) {
+  std::string chunk, line;
+  bool open = false;
+  while (std::getline(std::cin, line)) {
+    chunk = open ? chunk + "\n" + line : line;
+    open = run_chunk(state, chunk) == State::Line::incomplete;
+  }
+  if (!open) return 0;
+  std::fputs("clench repl: the input ended inside a chunk\n", stderr);
+  return 1;
+}
+
+static int run_terminal(State& state) {
+  const auto complete = [&state](const std::string& line) {
+    return state.call("host.complete", "words", {line}).values;
+  };
+  LineEditor editor(history_file(), complete);
+  std::puts("Clench " CLENCH_VERSION ", Lua 5.4. Tab completes, help(x) explains, Ctrl-D leaves.");
+  std::string chunk, line;
+  bool open = false;
+  for (;;) {
+    const auto key = editor.read(open ? ">> " : "> ", line);
+    if (key == LineEditor::Key::end) break;
+    if (key == LineEditor::Key::interrupted) {
+      open = false;
+      continue;
+    }
+    chunk = open ? chunk + "\n" + line : line;
+    open = run_chunk(state, chunk) == State::Line::incomplete;
+    if (!open) editor.remember(chunk);
+  }
+  std::fputc('\n', stdout);
+  return 0;
+}
+
+int run_console(State& state) {
+  state.call("host.help", "install", {});
+  return isatty(STDIN_FILENO) ? run_terminal(state) : run_piped(state);
+}
+
+}  // namespace clench

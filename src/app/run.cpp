@@ -1,0 +1,31 @@
+#include <cstdio>
+
+#include "app/interrupt.h"
+#include "app/repl.h"
+#include "app/verbs.h"
+#include "script/state.h"
+
+namespace clench {
+
+static bool report(const State::Result& result) {
+  std::fflush(stdout);
+  if (!result.ok) std::fprintf(stderr, "clench: %s\n", result.error.c_str());
+  return result.ok;
+}
+
+int run_scripts(const RunOptions& options) {
+  State state;
+  if (options.quiet) state.set_quiet();
+  catch_interrupts();
+  bool ok = true;
+  {
+    const Interruptible running(state);
+    for (const auto& code : options.code) ok = ok && report(state.run_code(code, "=-e"));
+    if (ok && !options.file.empty()) ok = report(state.run_file(options.file, options.arguments));
+  }
+  // a console is for looking at what went wrong, too
+  if (options.console) return run_console(state);
+  return ok ? 0 : 1;
+}
+
+}  // namespace clench

@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+
+#include "app/interrupt.h"
+#include "app/verbs.h"
+#include "script/state.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+static std::vector<fs::path> test_files(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) return {path};
+  std::vector<fs::path> files;
+  for (fs::recursive_directory_iterator it(path, error), end; !error && it != end;
+       it.increment(error))
+    if (it->path().filename().string().ends_with("_test.lua")) files.push_back(it->path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+struct Count {
+  int passed = 0, failed = 0, skipped = 0;
+};
+
+static Count run_test_file(const fs::path& file, bool quiet) {
+  State state;
+  if (quiet) state.set_quiet();
+  const Interruptible running(state);
+  const auto result = state.call("test", "run_file", {file.string()});
+  std::fflush(stdout);
+  if (result.ok && result.values.size() == 3)
+    return {std::atoi(result.values[0].c_str()), std::atoi(result.values[1].c_str()),
+            std::atoi(result.values[2].c_str())};
+  std::printf("  FAILED   %s\n", result.error.c_str());
+  return {0, 1, 0};
+}
+
+int run_tests(const std::string& path, bool quiet) {
+  const auto files = test_files(path);
+  if (files.empty()) {
+    std::fprintf(stderr, "clench test: no *_test.lua in '%s'\n", path.c_str());
+    return 1;
+  }
+  catch_interrupts();
+  Count all;
+  for (const auto& file : files) {
+    if (!quiet) std::printf("%s\n", file.c_str());
+    const Count one = run_test_file(file, quiet);
+    all.passed += one.passed, all.failed += one.failed, all.skipped += one.skipped;
+  }
+  std::printf("%d passed, %d failed", all.passed, all.failed);
+  if (all.skipped) std::printf(", %d skipped", all.skipped);
+  std::printf("\n");
+  return all.failed ? 1 : 0;
+}
+
+}  // namespace clench

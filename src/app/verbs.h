@@ -1,0 +1,24 @@
+// What the command's verbs do. Each returns the exit code: 0 done, 1 failed.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace clench {
+
+struct RunOptions {
+  std::vector<std::string> code;       ///< chunks to run first
+  std::string file;                    ///< then this, "-" for stdin; empty: none
+  std::vector<std::string> arguments;  ///< the file's
+  bool console = false;                ///< and then a console
+  bool quiet = false;
+};
+
+int run_scripts(const RunOptions& options);
+
+/// Runs every *_test.lua below a folder, or one file, each in a Lua of its own.
+int run_tests(const std::string& path, bool quiet);
+
+/// Writes the API's pages and the editor's stub to a folder; check: compares, and writes nothing.
+int write_docs(const std::string& folder, bool check);
+
+}  // namespace clench

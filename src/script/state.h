@@ -1,0 +1,63 @@
+// A Lua of one's own, with clench in it: what the command runs scripts in. Every call is protected;
+// a script can neither end the process by an error nor take all of the machine's memory.
+#pragma once
+#include <string>
+#include <vector>
+
+struct lua_State;
+
+namespace clench {
+
+class State {
+ public:
+  struct Result {
+    bool ok = true;
+    std::string error;                ///< message and traceback
+    std::vector<std::string> values;  ///< what was returned, as text
+  };
+  enum class Line { done, incomplete, failed };
+
+  /// throws Error when there is no memory
+  State();
+  ~State();
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  /// Runs a file, "-" for stdin, with the global `arg` and `...` as the command's arguments.
+  Result run_file(const std::string& path, const std::vector<std::string>& arguments);
+  /// Runs a chunk that messages call by its name.
+  Result run_code(const std::string& code, const std::string& name);
+  /// Runs a console's input: an expression, "=expression" or statements; prints the results to
+  /// stdout and errors to stderr. incomplete: it is the beginning of something.
+  Line evaluate(const std::string& text);
+  /// Calls a function of the packed standard library, in its module's table, with strings.
+  Result call(const std::string& module, const std::string& function,
+              const std::vector<std::string>& arguments);
+
+  /// Messages below errors are not shown from now on.
+  void set_quiet();
+
+  /// Makes the running chunk fail with "interrupted", coroutines too. May be called from a signal
+  /// handler.
+  void interrupt();
+
+ private:
+  struct Memory {
+    size_t used = 0, limit = 0;
+    bool quiet = false;
+    std::string warning;
+  };
+  static void* allocate(void* memory, void* block, size_t old_size, size_t new_size);
+  static void warn(void* memory, const char* text, int to_be_continued);
+  static int track(lua_State* L);
+
+  void set_arguments(const std::string& path, const std::vector<std::string>& arguments);
+  Result run_loaded(int status, const std::vector<std::string>& arguments);
+  Result finish(int status, int base);
+
+  Memory memory_;
+  lua_State* L_ = nullptr;
+  lua_State* volatile running_ = nullptr;  // the coroutine that runs, for interrupt
+};
+
+}  // namespace clench

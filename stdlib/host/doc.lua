@@ -1,0 +1,251 @@
+--- The documentation from the bindings' own tables: pages for people, and a stub for editors (LuaCATS).
+local doc = {}
+
+-- what stands before two blanks, and the prose after them
+local function split(line)
+  local head, prose = line:match "^(.-)%s%s+(.*)$"
+  return head or line, prose or ""
+end
+
+-- "> code" alone prepares; "> code  --> result" shows
+local function add_example(parsed, line, prepared)
+  local code, result = line:match "^> (.-)%s*%-%->%s?(.*)$"
+  if not code then
+    prepared[#prepared + 1] = line:sub(3)
+    return prepared
+  end
+  parsed.examples[#parsed.examples + 1] = {prepare = prepared, code = code, result = result}
+  return {}
+end
+
+local function add_tag(parsed, tag, rest)
+  local head, prose = split(rest)
+  if tag == "param" then
+    local name, kind = head:match "^(%S+)%s+(.*)$"
+    parsed.params[#parsed.params + 1] = {name = name or head, type = kind or "any", text = prose}
+  elseif tag == "return" then
+    parsed.returns[#parsed.returns + 1] = {type = head, text = prose}
+  elseif tag == "type" then
+    parsed.type = {type = head, text = prose}
+  end
+end
+
+--- The parts of an entry's doc: text, params, returns, type, examples, and what is prepared for no example.
+---@param text string
+function doc.parse(text)
+  local parsed = {text = "", params = {}, returns = {}, examples = {}}
+  local sentences, prepared = {}, {}
+  for line in (text .. "\n"):gmatch "(.-)\n" do
+    local tag, rest = line:match "^@(%l+)%s+(.*)$"
+    if line:sub(1, 2) == "> " then
+      prepared = add_example(parsed, line, prepared)
+    elseif tag then
+      add_tag(parsed, tag, rest)
+    elseif line ~= "" then
+      sentences[#sentences + 1] = line
+    end
+  end
+  parsed.text = table.concat(sentences, " ")
+  parsed.unused = #prepared
+  return parsed
+end
+
+local function arguments(parsed)
+  local names = {}
+  for i, param in ipairs(parsed.params) do names[i] = (param.name:gsub("%?$", "")) end
+  return table.concat(names, ", ")
+end
+
+--- "clench.rad(degrees)"; a field is its name alone
+function doc.signature(subject, parsed)
+  return parsed.type and subject or ("%s(%s)"):format(subject, arguments(parsed))
+end
+
+local function after(dash, text) return text ~= "" and dash .. text or "" end
+
+--- a line for each parameter and result, and the examples
+function doc.details(parsed)
+  local lines = {}
+  if parsed.type then lines[#lines + 1] = "type " .. parsed.type.type .. after("  ", parsed.type.text) end
+  for _, p in ipairs(parsed.params) do lines[#lines + 1] = ("%s: %s%s"):format(p.name, p.type, after("  ", p.text)) end
+  for _, r in ipairs(parsed.returns) do lines[#lines + 1] = "returns " .. r.type .. after("  ", r.text) end
+  for _, e in ipairs(parsed.examples) do
+    for _, code in ipairs(e.prepare) do lines[#lines + 1] = "> " .. code end
+    lines[#lines + 1] = "> " .. e.code .. "  --> " .. e.result
+  end
+  return lines
+end
+
+-- --- pages ---
+
+local function add_entry(page, subject, entry)
+  local parsed = doc.parse(entry.doc)
+  page("\n### `%s`\n\n%s\n", doc.signature(subject, parsed), parsed.text)
+  if parsed.type then
+    page("\nType `%s`%s%s\n", parsed.type.type, after(" ", parsed.type.text), entry.settable and "; can be set." or "; read only.")
+  end
+  if #parsed.params + #parsed.returns > 0 then page "\n" end
+  for _, p in ipairs(parsed.params) do page("- `%s`: `%s`%s\n", p.name, p.type, after(" – ", p.text)) end
+  for _, r in ipairs(parsed.returns) do page("- returns `%s`%s\n", r.type, after(" – ", r.text)) end
+  if #parsed.examples == 0 then return end
+  page "\n```lua\n"
+  for _, e in ipairs(parsed.examples) do
+    for _, code in ipairs(e.prepare) do page("%s\n", code) end
+    page("%s  --> %s\n", e.code, e.result)
+  end
+  page "```\n"
+end
+
+local function new_page(title)
+  local parts = {}
+  local page = setmetatable({}, {__call = function(_, format, ...)
+    parts[#parts + 1] = select("#", ...) > 0 and format:format(...) or format
+  end})
+  function page.text() return table.concat(parts) end
+  if title then page("# %s\n", title) end
+  return page
+end
+
+-- libraries of one name are one page
+local function merged(libraries)
+  local list, by_name = {}, {}
+  for _, library in ipairs(libraries) do
+    local one = by_name[library.name]
+    if not one then
+      one = {name = library.name, doc = "", functions = {}, fields = {}}
+      by_name[library.name] = one
+      list[#list + 1] = one
+    end
+    if library.doc ~= "" then one.doc = library.doc end
+    for _, kind in ipairs {"functions", "fields"} do
+      for _, entry in ipairs(library[kind]) do table.insert(one[kind], entry) end
+    end
+  end
+  return list
+end
+
+local function library_page(library)
+  local page = new_page(library.name)
+  page("\n%s\n", library.doc)
+  for _, entry in ipairs(library.fields) do add_entry(page, library.name .. "." .. entry.name, entry) end
+  for _, entry in ipairs(library.functions) do add_entry(page, library.name .. "." .. entry.name, entry) end
+  return page.text()
+end
+
+local function class_page(class)
+  local page = new_page(class.name)
+  page("\n%s\n", class.doc)
+  if class.parent then page("\nIt has every field and method of [%s](%s.md) too.\n", class.parent, class.parent) end
+  if #class.fields > 0 then page "\n## Fields\n" end
+  for _, entry in ipairs(class.fields) do add_entry(page, class.variable .. "." .. entry.name, entry) end
+  if #class.methods > 0 then page "\n## Methods\n" end
+  for _, entry in ipairs(class.methods) do add_entry(page, class.variable .. ":" .. entry.name, entry) end
+  return page.text()
+end
+
+-- the block of `---` lines before a module's `return function(...)`, as an entry's doc
+local function packed_function(file)
+  local comment = {}
+  for line in (file.text .. "\n"):gmatch "(.-)\n" do
+    local said = line:match "^%-%-%-%s?(.*)$"
+    if said and said:sub(1, 1) ~= "@" and #comment > 0 and comment[#comment]:sub(1, 1) == "@" then
+      -- a tag goes on: with its type while a brace is open, else with prose
+      local tag = comment[#comment]
+      local _, opened = tag:gsub("{", "")
+      local _, closed = tag:gsub("}", "")
+      local prose = tag:find "%S%s%s+%S"
+      comment[#comment] = tag .. ((opened > closed or prose) and " " or "  ") .. said:gsub("^%s+", "")
+    elseif said then
+      comment[#comment + 1] = said
+    elseif line:match "^return function%(" then
+      local name = file.path:gsub("%.lua$", ""):gsub("/", ".")
+      return #comment > 0 and {name = name, doc = table.concat(comment, "\n")} or nil
+    else
+      comment = {}
+    end
+  end
+end
+
+-- what a module's init.lua offers by name
+local function packed_functions(files)
+  local list = {}
+  for _, file in ipairs(files) do
+    local module, name = file.path:match "^(%w+)/(%w+)%.lua$"
+    local entry = module and module ~= "host" and name ~= "init" and packed_function(file)
+    if entry and rawget(_G, "clench")[module] then
+      local ok, offered = pcall(function() return clench[module][name] end)
+      if ok and offered then list[#list + 1] = entry end
+    end
+  end
+  return list
+end
+
+local function packed_page(files)
+  local page = new_page "The standard library"
+  page "\nModules in Lua, loaded when they are first used.\n"
+  for _, entry in ipairs(packed_functions(files)) do add_entry(page, "clench." .. entry.name, entry) end
+  return page.text()
+end
+
+local function index_page(libraries, classes)
+  local page = new_page "The Lua API"
+  page "\nMade by `clench doc` from the bindings; the examples on these pages are run by the tests.\n\n"
+  for _, library in ipairs(libraries) do page("- [%s](%s.md)\n", library.name, library.name) end
+  for _, class in ipairs(classes) do page("- [%s](%s.md): a value that scripts hold\n", class.name, class.name) end
+  page "- [the standard library](stdlib.md)\n- [clench.lua](clench.lua): a stub for editors (LuaCATS)\n"
+  return page.text()
+end
+
+-- --- the editor's stub ---
+
+local function add_stub(page, subject, parsed)
+  page("\n---%s\n", parsed.text)
+  for _, p in ipairs(parsed.params) do page("---@param %s %s%s\n", p.name, p.type, after(" # ", p.text)) end
+  for _, r in ipairs(parsed.returns) do page("---@return %s%s\n", r.type, after(" # ", r.text)) end
+  page("function %s(%s) end\n", subject, arguments(parsed))
+end
+
+local function add_stub_fields(page, fields)
+  for _, entry in ipairs(fields) do
+    local parsed = doc.parse(entry.doc)
+    local kind = parsed.type or {type = "any", text = ""}
+    page("---@field %s %s # %s%s\n", entry.name, kind.type, parsed.text, after(" ", kind.text))
+  end
+end
+
+local function stub(libraries, classes)
+  local page = new_page()
+  page "---@meta clench\n-- Made by `clench doc`.\n"
+  for _, class in ipairs(classes) do
+    page("\n---%s\n---@class %s%s\n", class.doc, class.name, class.parent and ": " .. class.parent or "")
+    add_stub_fields(page, class.fields)
+    page("local %s = {}\n", class.name)
+    for _, entry in ipairs(class.methods) do add_stub(page, class.name .. ":" .. entry.name, doc.parse(entry.doc)) end
+  end
+  for _, library in ipairs(libraries) do
+    page("\n---%s\n---@class %s\n", library.doc, library.name)
+    add_stub_fields(page, library.fields)
+    page("%s%s = {}\n", library.name:find "%." and "" or "local ", library.name)
+    for _, entry in ipairs(library.functions) do add_stub(page, library.name .. "." .. entry.name, doc.parse(entry.doc)) end
+  end
+  page "\nreturn clench\n"
+  return page.text()
+end
+
+--- Every page: name, text, name, text, ...
+function doc.pages()
+  local all, pages = clench.entries(), {}
+  local libraries = merged(all.libraries)
+  local function add(name, text)
+    pages[#pages + 1] = name
+    pages[#pages + 1] = text
+  end
+  add("index.md", index_page(libraries, all.classes))
+  for _, library in ipairs(libraries) do add(library.name .. ".md", library_page(library)) end
+  for _, class in ipairs(all.classes) do add(class.name .. ".md", class_page(class)) end
+  add("stdlib.md", packed_page(all.files))
+  add("clench.lua", stub(libraries, all.classes))
+  return table.unpack(pages)
+end
+
+return doc

@@ -1,0 +1,86 @@
+--- help(x) in the console: what the documentation says of a value or of a name.
+local doc = require "clench.host.doc"
+local help = {}
+
+local function print_entry(subject, entry)
+  local parsed = doc.parse(entry.doc)
+  print(doc.signature(subject, parsed))
+  print("  " .. parsed.text)
+  for _, line in ipairs(doc.details(parsed)) do print("  " .. line) end
+end
+
+local function print_members(title, entries, separator)
+  for _, entry in ipairs(entries) do
+    print(("  %-24s %s"):format(title .. separator .. entry.name, (doc.parse(entry.doc).text:gsub("%. .*", "."))))
+  end
+end
+
+local function print_class(class, all)
+  print(class.variable .. ": " .. class.doc)
+  print_members("", class.fields, ".")
+  print_members("", class.methods, ":")
+  for _, parent in ipairs(all.classes) do
+    if parent.name == class.parent then print_class(parent, all) end
+  end
+end
+
+local function print_library(name, all)
+  for _, library in ipairs(all.libraries) do
+    if library.name == name then
+      if library.doc ~= "" then print(library.doc) end
+      print_members(name, library.fields, ".")
+      print_members(name, library.functions, ".")
+    end
+  end
+end
+
+-- calls visit(subject, entry) for every function, field and method
+local function each(all, visit)
+  for _, library in ipairs(all.libraries) do
+    for _, kind in ipairs {"functions", "fields"} do
+      for _, entry in ipairs(library[kind]) do visit(library.name .. "." .. entry.name, entry) end
+    end
+  end
+  for _, class in ipairs(all.classes) do
+    for _, entry in ipairs(class.fields) do visit(class.variable .. "." .. entry.name, entry) end
+    for _, entry in ipairs(class.methods) do visit(class.variable .. ":" .. entry.name, entry) end
+  end
+end
+
+-- the value of "clench.json.encode"
+local function value_of(path)
+  local value = _G
+  for name in path:gmatch "[^.]+" do value = type(value) == "table" and rawget(value, name) or nil end
+  return value
+end
+
+local function explain(x)
+  local all, found = clench.entries(), false
+  local meta = debug.getmetatable(x)
+  local name = type(meta) == "table" and rawget(meta, "__name")
+  if x == nil then
+    print "help(x) explains a value: a function, a robot, clench.json; help 'autograsp' finds a name."
+    return print_library("clench", all)
+  elseif type(x) == "string" then
+    each(all, function(subject, entry)
+      if subject == x or entry.name == x then print_entry(subject, entry) found = true end
+    end)
+  elseif type(x) == "function" then
+    each(all, function(subject, entry)
+      if not subject:find ":" and value_of(subject) == x then print_entry(subject, entry) found = true end
+    end)
+  elseif type(x) == "table" and name then
+    print_library(name, all)
+    found = true
+  else
+    for _, class in ipairs(all.classes) do
+      if type(x) == "userdata" and class.name == name then print_class(class, all) found = true end
+    end
+  end
+  if not found then print("nothing is known of " .. require "clench.show"(x)) end
+end
+
+--- makes help a global
+function help.install() rawset(_G, "help", explain) end
+
+return help

@@ -1,0 +1,122 @@
+--- Tests as claims: `test("a ring of contacts balances", function(t) t.close(sum, 0, 1e-12) end)`. Each runs where it
+--- stands; `clench test` counts them, file by file.
+local show = require "clench.show"
+local test = {passed = 0, failed = 0, skipped = 0}
+
+local skip = {}  -- the mark of a test that stops because it cannot run here
+local failure = {__tostring = function(self) return self.message end}
+
+local function fail(format, ...) error(setmetatable({message = format:format(...)}, failure), 0) end
+
+local function equal(a, b)
+  if a == b then return true end
+  if type(a) ~= "table" or type(b) ~= "table" then return false end
+  for key, value in pairs(a) do
+    if not equal(value, b[key]) then return false end
+  end
+  for key in pairs(b) do
+    if a[key] == nil then return false end
+  end
+  return true
+end
+
+-- the largest difference of two numbers or of two lists of them, vectors too
+local function difference(a, b)
+  if type(a) == "number" and type(b) == "number" then
+    if a == b then return 0 end
+    return math.abs(a - b)
+  end
+  local lists = (type(a) == "table" or type(a) == "userdata") and (type(b) == "table" or type(b) == "userdata")
+  if not lists or #a ~= #b then fail("wanted numbers or lists of one length, got %s and %s", show(a), show(b)) end
+  local worst = 0
+  for i = 1, #a do
+    local d = difference(a[i], b[i])
+    if d ~= d or d > worst then worst = d end
+    if d ~= d then return d end
+  end
+  return worst
+end
+
+--- what a test is given
+local t = {}
+
+--- the value must be true, or at least not nil or false
+---@param ok any
+---@param message? string
+function t.ok(ok, message)
+  if not ok then fail("%s", message or "wanted true, got " .. show(ok)) end
+end
+
+--- the same value; tables with the same contents
+function t.equal(got, want)
+  if not equal(got, want) then fail("wanted %s, got %s", show(want), show(got)) end
+end
+
+--- numbers, vectors or lists of numbers, nowhere further apart than tolerance
+function t.close(got, want, tolerance)
+  if type(tolerance) ~= "number" then fail("close: wanted a tolerance, got %s", show(tolerance)) end
+  local off = difference(got, want)
+  if not (off <= tolerance) then
+    fail("wanted %s within %.3g, got %s, off by %.3g", show(want), tolerance, show(got), off)
+  end
+end
+
+--- fn must raise an error whose message contains each of the texts; returns the message
+function t.fails(fn, ...)
+  local ok, message = pcall(fn)
+  if ok then fail("wanted an error, got none") end
+  message = tostring(message)
+  for _, text in ipairs {...} do
+    if not message:find(text, 1, true) then fail("wanted an error with '%s', got '%s'", text, message) end
+  end
+  return message
+end
+
+--- ends the test without a verdict
+function t.skip(reason) error({mark = skip, reason = reason or "no reason given"}, 0) end
+
+local function explain(message)
+  if type(message) == "table" and message.mark == skip then return message end
+  if getmetatable(message) == failure then
+    -- the line of the test that failed is what is looked for
+    for level = 3, 12 do
+      local info = debug.getinfo(level, "Sl")
+      if info and info.currentline > 0 and not info.source:find "^@stdlib/test%.lua" then
+        return ("%s:%d: %s"):format(info.short_src, info.currentline, message.message)
+      end
+    end
+    return message.message
+  end
+  return debug.traceback(type(message) == "string" and message or show(message), 2)
+end
+
+---@param claim string  what holds
+---@param fn fun(t: table)
+local function run(_, claim, fn)
+  if type(claim) ~= "string" or type(fn) ~= "function" then error("test: wanted a claim and a function", 2) end
+  local ok, message = xpcall(fn, explain, t)
+  if ok then
+    test.passed = test.passed + 1
+  elseif type(message) == "table" and message.mark == skip then
+    test.skipped = test.skipped + 1
+    print(("  skipped  %s: %s"):format(claim, message.reason))
+  else
+    test.failed = test.failed + 1
+    print(("  FAILED   %s\n           %s"):format(claim, (tostring(message):gsub("\n", "\n           "))))
+  end
+end
+
+--- runs a file of tests, for `clench test`; returns how many passed, failed, were skipped
+function test.run_file(path)
+  package.loaded.test = test
+  local chunk, message = loadfile(path, "t")
+  local ok = chunk ~= nil
+  if chunk then ok, message = xpcall(chunk, explain) end
+  if not ok then
+    test.failed = test.failed + 1
+    print(("  FAILED   %s: the file itself\n           %s"):format(path, (tostring(message):gsub("\n", "\n           "))))
+  end
+  return test.passed, test.failed, test.skipped
+end
+
+return setmetatable(test, {__call = run})
