@@ -17,15 +17,17 @@ Distance distance(const Shape& a, const Shape& b, const Pose& X_AB, double limit
   // pairs in whatever the limit
   Distance best;
   best.distance = std::numeric_limits<double>::infinity();
-  double bound = std::max(limit, std::numeric_limits<double>::min());
+  Reach reach{std::max(limit, std::numeric_limits<double>::min())};
   const auto visit = [&](int triangle_a, int triangle_b) {
-    const Closest c =
-        triangle_triangle(placement.corners_a(triangle_a), placement.corners_b(triangle_b));
-    if (c.distance < bound) {
+    const Corners corners_a = placement.corners_a(triangle_a);
+    const Corners corners_b = placement.corners_b(triangle_b);
+    if (placement.beyond(corners_a, corners_b, reach)) return false;
+    const Closest c = triangle_triangle(corners_a, corners_b);
+    if (c.distance < reach.distance) {
       best = {c.distance, c.p, c.q, triangle_a, triangle_b};
-      bound = c.distance;
+      reach = {c.distance, (c.q - c.p).stableNormalized()};
     }
-    return bound == 0;
+    return reach.distance == 0;
   };
   const auto try_again = [&](int triangle_a, int triangle_b) {
     return a.has_triangle(triangle_a) && b.has_triangle(triangle_b) &&
@@ -33,7 +35,7 @@ Distance distance(const Shape& a, const Shape& b, const Pose& X_AB, double limit
   };
   const bool met = (cache && (try_again(cache->hit_a, cache->hit_b) ||
                               try_again(cache->closest_a, cache->closest_b))) ||
-                   placement.for_near_pairs(bound, visit);
+                   placement.for_near_pairs(reach, visit);
   if (!met) {
     if (const auto inside = find_containment(a, b, placement))
       return {0, inside->point, inside->point, inside->triangle_a, inside->triangle_b};

@@ -156,14 +156,22 @@ double box_slack(const Bounds& bounds, const Vector3d& p) {
   return 256 * epsilon * reach.maxCoeff();
 }
 
-double gap(const OrientedBox& a, const OrientedBox& b) {
+double gap(const OrientedBox& a, const OrientedBox& b, const Reach& reach, double slack) {
+  const Vector3d between = b.centre - a.centre;
+  const double parted = reach.along.dot(between) -
+                        (a.axes.transpose() * reach.along).cwiseAbs().dot(a.half) -
+                        (b.axes.transpose() * reach.along).cwiseAbs().dot(b.half) - slack;
+  if (parted > reach.distance) return parted;
+
   // from either box: how far the other one's shadow on its axes stays away
   const Matrix3d turn = a.axes.transpose() * b.axes, shadow = turn.cwiseAbs();
-  const Vector3d offset = a.axes.transpose() * (b.centre - a.centre);
+  const Vector3d offset = a.axes.transpose() * between;
   const Vector3d from_a = offset.cwiseAbs() - a.half - shadow * b.half;
   const Vector3d from_b =
       (turn.transpose() * offset).cwiseAbs() - b.half - shadow.transpose() * a.half;
-  return std::sqrt(std::max(from_a.cwiseMax(0).squaredNorm(), from_b.cwiseMax(0).squaredNorm()));
+  return std::max(parted, std::sqrt(std::max(from_a.cwiseMax(0).squaredNorm(),
+                                             from_b.cwiseMax(0).squaredNorm())) -
+                              slack);
 }
 
 Tree::Tree(const Mesh& mesh) { Builder(mesh, nodes_); }

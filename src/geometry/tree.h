@@ -3,6 +3,7 @@
 // Gottschalk, Lin & Manocha (1996), OBBTree
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -29,8 +30,16 @@ struct OrientedBox {
 /// What rounding may add to a gap between boxes within the bounds, or at p or as far away [m]
 double box_slack(const Bounds& bounds, const Eigen::Vector3d& p);
 
-/// A lower bound of the distance between two boxes, 0 if none of their axes separates them [m]
-double gap(const OrientedBox& a, const OrientedBox& b);
+/// How near two things must be to matter.
+struct Reach {
+  double distance;  ///< [m]
+  Eigen::Vector3d along =
+      Eigen::Vector3d::Zero();  ///< unit, from a to b where they are near; or zero
+};
+
+/// A lower bound of the distance between two boxes: by the known direction, which parts most of what
+/// is near, and if that leaves them within reach, by their own axes. What rounding may add, slack, is taken off [m]
+double gap(const OrientedBox& a, const OrientedBox& b, const Reach& reach, double slack);
 
 class Tree {
  public:
@@ -65,14 +74,21 @@ class Placement {
   OrientedBox to_a(const OrientedBox& box) const {
     return {rotation_ * box.axes, to_a(box.centre), box.half};
   }
-  /// Calls visit(triangle_a, triangle_b) for all pairs that may be as near as `bound`, near ones
-  /// first; visit may lower `bound`, and ends the walk by returning true.
+  /// do the triangles lie farther apart than reach along its direction?
+  bool beyond(const Corners& a, const Corners& b, const Reach& reach) const {
+    const Eigen::Vector3d& n = reach.along;
+    return std::min({n.dot(b[0]), n.dot(b[1]), n.dot(b[2])}) -
+               std::max({n.dot(a[0]), n.dot(a[1]), n.dot(a[2])}) - slack_ >
+           reach.distance;
+  }
+  /// Calls visit(triangle_a, triangle_b) for all pairs that may be as near as `reach`, near ones
+  /// first; visit may lower `reach`, and ends the walk by returning true.
   template <class Visit>
-  bool for_near_pairs(const double& bound, Visit&& visit) const;
+  bool for_near_pairs(const Reach& reach, Visit&& visit) const;
 
  private:
   template <class Visit>
-  bool walk(int node_a, int node_b, const OrientedBox& box_b, const double& bound,
+  bool walk(int node_a, int node_b, const OrientedBox& box_b, const Reach& reach,
             Visit& visit) const;
 
   const Mesh &mesh_a_, &mesh_b_;
@@ -83,14 +99,14 @@ class Placement {
 };
 
 template <class Visit>
-bool Placement::for_near_pairs(const double& bound, Visit&& visit) const {
+bool Placement::for_near_pairs(const Reach& reach, Visit&& visit) const {
   const OrientedBox root = to_a(tree_b_.node(0).box);
-  if (gap(tree_a_.node(0).box, root) - slack_ > bound) return false;
-  return walk(0, 0, root, bound, visit);
+  if (gap(tree_a_.node(0).box, root, reach, slack_) > reach.distance) return false;
+  return walk(0, 0, root, reach, visit);
 }
 
 template <class Visit>
-bool Placement::walk(int node_a, int node_b, const OrientedBox& box_b, const double& bound,
+bool Placement::walk(int node_a, int node_b, const OrientedBox& box_b, const Reach& reach,
                      Visit& visit) const {
   const Tree::Node &a = tree_a_.node(node_a), &b = tree_b_.node(node_b);
   if (a.leaf() && b.leaf()) return visit(a.triangle, b.triangle);
@@ -98,20 +114,20 @@ bool Placement::walk(int node_a, int node_b, const OrientedBox& box_b, const dou
   // open the larger box, go into its nearer half first
   if (b.leaf() || (!a.leaf() && a.size >= b.size)) {
     int first = node_a + 1, second = a.right;
-    double near = gap(tree_a_.node(first).box, box_b) - slack_;
-    double far = gap(tree_a_.node(second).box, box_b) - slack_;
+    double near = gap(tree_a_.node(first).box, box_b, reach, slack_);
+    double far = gap(tree_a_.node(second).box, box_b, reach, slack_);
     if (far < near) std::swap(near, far), std::swap(first, second);
-    return (near <= bound && walk(first, node_b, box_b, bound, visit)) ||
-           (far <= bound && walk(second, node_b, box_b, bound, visit));
+    return (near <= reach.distance && walk(first, node_b, box_b, reach, visit)) ||
+           (far <= reach.distance && walk(second, node_b, box_b, reach, visit));
   }
   int first = node_b + 1, second = b.right;
   OrientedBox box_first = to_a(tree_b_.node(first).box),
               box_second = to_a(tree_b_.node(second).box);
-  double near = gap(a.box, box_first) - slack_;
-  double far = gap(a.box, box_second) - slack_;
+  double near = gap(a.box, box_first, reach, slack_);
+  double far = gap(a.box, box_second, reach, slack_);
   if (far < near) std::swap(near, far), std::swap(first, second), std::swap(box_first, box_second);
-  return (near <= bound && walk(node_a, first, box_first, bound, visit)) ||
-         (far <= bound && walk(node_a, second, box_second, bound, visit));
+  return (near <= reach.distance && walk(node_a, first, box_first, reach, visit)) ||
+         (far <= reach.distance && walk(node_a, second, box_second, reach, visit));
 }
 
 }  // namespace clench
