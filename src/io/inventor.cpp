@@ -325,7 +325,7 @@ void Collector::add_faces(SoCallbackAction* action, const FaceList& list) {
     }
     const int last_color = static_cast<int>(list.colors.size()) - 1;
     const SbColor* color = list.colors.empty() ? nullptr : &list.colors[std::clamp(face.color, 0, last_color)];
-    for (const auto& t : triangulate(corners)) add(action, {points[t[0]], points[t[1]], points[t[2]]}, face.color, color);
+    for (const auto& t : triangulate(corners, list.convex)) add(action, {points[t[0]], points[t[1]], points[t[2]]}, face.color, color);
   }
 }
 

@@ -49,6 +49,7 @@ class FaceReader {
 void FaceReader::take_points(SoCallbackAction* action, SoVertexShape* shape) {
   int kind = action->getMaterialBinding();
   out.clockwise = action->getVertexOrdering() == SoShapeHints::CLOCKWISE;
+  out.convex = action->getFaceType() == SoShapeHints::CONVEX;
   const SoCoordinateElement* state = SoCoordinateElement::getInstance(action->getState());
   out.point_count = state->getNum();
   out.point = [state](int i) { return state->get3(i); };

@@ -21,6 +21,7 @@ struct FaceList {
   std::vector<int> corners;     ///< indices of points, checked
   std::vector<Face> faces;
   std::vector<SbColor> colors;  ///< empty: the colours of the material in force
+  bool convex = false;          ///< the file says that all are
   bool clockwise = false;       ///< corners run clockwise seen from outside
 };
 

@@ -57,13 +57,13 @@ bool is_ear(const Points& p, const std::vector<int>& rest, size_t i) {
 
 }  // namespace
 
-std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners) {
+std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, bool convex) {
   std::vector<Triangle> out;
   const int n = static_cast<int>(corners.size());
   if (n < 3) return out;
   if (n == 3) return {{0, 1, 2}};
-  const Points flat = flatten(corners);
-  if (is_convex(flat)) {
+  const Points flat = convex ? Points() : flatten(corners);
+  if (convex || is_convex(flat)) {
     for (int i = 1; i + 1 < n; ++i) out.push_back({0, i, i + 1});
     return out;
   }
