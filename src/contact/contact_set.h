@@ -16,7 +16,7 @@ struct Touch {
 
 struct TouchOptions {
   double threshold = 1e-4;    ///< surfaces closer than this touch [m]
-  double merge_radius = 3e-3; ///< points of a patch nearer than this are one; at most 1/10 of the smaller radius [m]
+  double merge_radius = 1e-3; ///< points of a patch nearer than this are one; at most 1/10 of the smaller radius [m]
   int most_per_patch = 8;     ///< a longer outline is thinned, the closest pair kept
 };
 

@@ -12,8 +12,7 @@ static BodyPair ordered(Id<Body> a, Id<Body> b) { return std::minmax(a, b); }
 
 static Pose relative(const Body& a, const Body& b) { return a.X_WB.inverse() * b.X_WB; }
 
-// least distance that the bounding spheres allow
-static double sphere_gap(const Body& a, const Body& b) {
+double sphere_gap(const Body& a, const Body& b) {
   const Eigen::Vector3d between = a.X_WB * a.shape->centre() - b.X_WB * b.shape->centre();
   return between.norm() - a.shape->radius() - b.shape->radius();
 }

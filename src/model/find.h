@@ -16,6 +16,9 @@ std::vector<BodyPair> colliding_pairs(const World& world);
 std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Body>> a,
                                       std::span<const Id<Body>> b);
 
+/// Least distance that the bounding spheres of two bodies with geometry allow; negative when they overlap [m].
+double sphere_gap(const Body& a, const Body& b);
+
 struct BodyDistance {
   double distance = 0;       ///< [m]; 0 when colliding; infinite when a body has no geometry
   Eigen::Vector3d p_a, p_b;  ///< witness points in the world frame

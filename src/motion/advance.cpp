@@ -6,45 +6,84 @@
 
 namespace clench {
 
-// a stop aims at a quarter of the threshold: all of a patch is then within it, and rounding far below
-static constexpr double aim = 0.25;
+// a stop is deep in the threshold, so that the whole of a patch is within it, and far above rounding:
+// steps aim at the one part of the threshold, and what is below the other is there
+static constexpr double aim = 0.2;
+static constexpr double there = 0.3;
 // a motion that needs more than this grazes for metres within micrometres: it ends where it is
 static constexpr int most_queries = 1000000;
 
+namespace {
+
+struct Advancing {
+  const World& world;
+  double end;
+  double threshold = world.contact_threshold();
+
+  // the gap that a step must leave: a touching pair may use up half of what it has
+  double keep(const Watch& watch) const {
+    return watch.touching ? std::min(aim * threshold, watch.gap / 2) : aim * threshold;
+  }
+
+  // a distance of the pair at s, or a lower bound of it that leaves the pair well apart [m]
+  double measure(const Watch& watch, double s, int& queries) const {
+    const Body &a = world.body(watch.a), &b = world.body(watch.b);
+    const double spheres = sphere_gap(a, b);
+    if (spheres > 0.1 * (a.shape->radius() + b.shape->radius())) return spheres;
+    // beyond what the rest of the motion can cover, the distance is of no interest
+    const double reach = watch.speed * (end - s) + 2 * threshold;
+    ++queries;
+    const std::array one{watch.a}, other{watch.b};
+    return std::min(distance(world, one, other, reach).distance, reach);
+  }
+
+  // measures the pair at s.   returns whether it stops the motion there
+  bool stops(Watch& watch, double s, int& queries) const {
+    const double gap = measure(watch, s, queries);
+    const bool first = watch.gap == 0;
+    const bool closing = !first && gap < watch.gap;
+    watch.gap = gap;
+    if (first && s == 0) watch.touching = gap <= threshold;
+    if (watch.touching && gap > 2 * threshold) watch.touching = false;
+    if (watch.touching) return closing && gap <= nearly_closed * threshold;
+    return gap <= there * threshold || (gap <= threshold && !first && !closing);
+  }
+};
+
+}  // namespace
+
 Advance advance(const World& world, std::vector<Watch>& watches, double end,
                 const std::function<void(double)>& place, int& queries) {
-  const double threshold = world.contact_threshold();
-  for (Watch& watch : watches) watch.safe = 0;
+  const Advancing run{world, end};
+  const auto later = [&](Watch& watch, double s) { watch.safe = s + (watch.gap - run.keep(watch)) / watch.speed; };
+  for (Watch& watch : watches) {
+    watch.gap = 0;
+    watch.touching = false;
+    watch.safe = watch.clear > 2 * run.threshold ? (watch.clear - aim * run.threshold) / watch.speed : 0;
+  }
+
   double s = -1;
-  const int last_query = queries + most_queries;
   const auto go = [&](double to) {
     if (to != s) place(s = to);
   };
-  while (true) {
+  // what is known of each pair where the motion stands
+  const auto arrive = [&](std::optional<Watch> stopped_by) {
+    for (Watch& watch : watches) watch.clear = std::max(0.0, (watch.safe - s) * watch.speed);
+    return Advance{s, std::move(stopped_by)};
+  };
+  for (const int last = queries + most_queries; true;) {
     // the pair that is known to be apart for the shortest while
-    const auto next =
-        std::min_element(watches.begin(), watches.end(),
-                         [](const Watch& x, const Watch& y) { return x.safe < y.safe; });
+    const auto next = std::min_element(watches.begin(), watches.end(),
+                                       [](const Watch& x, const Watch& y) { return x.safe < y.safe; });
     if (next == watches.end() || next->safe >= end) {
       go(end);
-      return {end, std::nullopt};
+      return arrive(std::nullopt);
     }
-    Watch& watch = *next;
-    go(watch.safe);
-    // beyond what the rest of the motion can cover, the distance is of no interest
-    const double reach = watch.speed * (end - s) + 2 * threshold;
-    const std::array a{watch.a}, b{watch.b};
-    const double gap = std::min(distance(world, a, b, reach).distance, reach);
-    const bool closing = s > 0 && gap < watch.gap;
-    ++queries;
-    watch.gap = gap;
-    if (s == 0) watch.touching = gap <= threshold;
-    if (watch.touching && gap > 2 * threshold) watch.touching = false;
-    if (!watch.touching && gap <= threshold) return {s, watch};
-    if (watch.touching && closing && gap <= nearly_closed * threshold) return {s, watch};
-    if (queries >= last_query) return {s, watch};
-    const double keep = watch.touching ? std::min(aim * threshold, gap / 2) : aim * threshold;
-    watch.safe = std::max(s + (gap - keep) / watch.speed, std::nextafter(s, 2 * end));
+    go(next->safe);
+    const bool stop = run.stops(*next, s, queries);
+    if (stop || queries >= last) return arrive(*next);
+    later(*next, s);
+    next->safe = std::max(next->safe, std::nextafter(s, 2 * end));
   }
 }
 

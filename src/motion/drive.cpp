@@ -27,6 +27,7 @@ struct Drive {
   std::vector<Id<Body>> moving;
   Eigen::VectorXd q;
   std::vector<std::vector<Breakaway>> breakaway;
+  std::vector<Watch> pairs;
 
   const Robot& robot() const { return world.robot(id); }
   void place() { world.set_dofs_unchecked(id, q, breakaway); }
@@ -132,34 +133,37 @@ double pair_speed(const Drive& drive, const JointSpeeds& speeds, Id<Body> a, Id<
   return sum;
 }
 
-std::vector<Watch> watch_pairs(const Drive& drive, const JointSpeeds& speeds) {
-  std::vector<Watch> watches;
+// pairs that some joint can bring together, nothing known of them yet
+std::vector<Watch> all_pairs(const Drive& drive) {
+  std::vector<Watch> pairs;
   std::set<Id<Body>> done;
   for (const auto a : drive.moving) {
     done.insert(a);
-    for (const auto b : drive.world.bodies()) {
-      if (done.contains(b) || !drive.world.may_collide(a, b)) continue;
-      const double speed = pair_speed(drive, speeds, a, b);
-      if (speed > 0) watches.push_back({.a = a, .b = b, .speed = speed});
-    }
+    for (const auto b : drive.world.bodies())
+      if (!done.contains(b) && drive.world.may_collide(a, b)) pairs.push_back({.a = a, .b = b});
   }
-  return watches;
+  return pairs;
 }
 
 // follows the path until a DOF arrives or a pair touches
 Advance follow(Drive& drive, const Eigen::VectorXd& rates, int& queries) {
   const double length = path_length(drive, rates);
-  auto watches = watch_pairs(drive, joint_speeds(drive, rates));
+  const JointSpeeds speeds = joint_speeds(drive, rates);
+  for (Watch& pair : drive.pairs) pair.speed = pair_speed(drive, speeds, pair.a, pair.b);
+  // what rests keeps what is known of it
+  const auto moves = std::partition(drive.pairs.begin(), drive.pairs.end(), [](const Watch& pair) { return pair.speed > 0; });
+  std::vector<Watch> watches(drive.pairs.begin(), moves);
   const Eigen::VectorXd start = drive.q;
   const auto place = [&](double s) {
     drive.q = start + s * rates;
     // who arrives, arrives exactly
     for (int i = 0; i < rates.size(); ++i)
-      if (rates[i] != 0 && (drive.targets[i] - drive.q[i]) * rates[i] <= 1e-15)
-        drive.q[i] = drive.targets[i];
+      if (rates[i] != 0 && (drive.targets[i] - drive.q[i]) * rates[i] <= 1e-15) drive.q[i] = drive.targets[i];
     drive.place();
   };
-  return advance(drive.world, watches, length, place, queries);
+  const Advance end = advance(drive.world, watches, length, place, queries);
+  std::copy(watches.begin(), watches.end(), drive.pairs.begin());
+  return end;
 }
 
 void check(const Robot& robot, const DofMotion& motion) {
@@ -185,10 +189,11 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
                   const DriveOptions& options) {
   const Robot& robot = world.robot(id);
   check(robot, motion);
-  Drive drive{world, id, motion.targets, movable_bodies(world, id), robot.q, {}};
+  Drive drive{world, id, motion.targets, movable_bodies(world, id), robot.q, {}, {}};
   for (size_t i = 0; i < robot.limits.size(); ++i)
     drive.targets[i] = std::clamp(drive.targets[i], robot.limits[i][0], robot.limits[i][1]);
   for (const auto& chain : robot.chains) drive.breakaway.push_back(chain.breakaway);
+  drive.pairs = all_pairs(drive);
   refuse_collision(world, drive.moving, fmt::format("driving '{}'", robot.name));
 
   const Eigen::VectorXd start = robot.q;

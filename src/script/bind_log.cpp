@@ -83,7 +83,7 @@ static int level(lua_State* L) {
 
 static int sink(lua_State* L) {
   if (given(L, 1) && lua_type(L, 1) != LUA_TFUNCTION)
-    fail_wanted({L, {}, "function"}, "a function or nil", 1);
+    fail_wanted({L, {}, "fn"}, "a function or nil", 1);
   lua_settop(L, 1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &sink_key);
   return 0;
@@ -125,7 +125,7 @@ Says from which level on messages are shown, and sets it if one is given.
 > clench.log.level "loud"  --> error: wanted one of debug, info, warning, error, quiet)"},
     {"sink", guarded<sink>, R"(
 Sends messages to a function(level, text) instead of stderr; without one, to stderr again.
-@param function? fun(level: string, text: string)
+@param fn? fun(level: string, text: string)
 > clench.log.sink(function(level, text) said = text end)
 > clench.log.info "hello"
 > clench.log.sink()

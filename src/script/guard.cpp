@@ -51,9 +51,11 @@ int run_guarded(lua_State* L, lua_CFunction fn) {
     lua_pushnil(L);
     lua_rawsetp(L, LUA_REGISTRYINDEX, &raised_key);
   } else {
+    // a field's getter is called by the lookup, and that by the script
     luaL_where(L, 1);
+    if (lua_rawlen(L, -1) == 0) luaL_where(L, 2);
     lua_pushstring(L, message.text);
-    lua_concat(L, 2);
+    lua_concat(L, lua_gettop(L));
   }
   return -1;
 }

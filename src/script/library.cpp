@@ -1,9 +1,18 @@
 #include "script/library.h"
 
+#include "script/bind_body.h"
+#include "script/bind_catalog.h"
+#include "script/bind_contact.h"
+#include "script/bind_entries.h"
+#include "script/bind_grasp.h"
+#include "script/bind_json.h"
 #include "script/bind_log.h"
+#include "script/bind_mesh.h"
 #include "script/bind_pose.h"
+#include "script/bind_random.h"
 #include "script/bind_units.h"
 #include "script/bind_vec3.h"
+#include "script/handles.h"
 
 namespace clench {
 
@@ -14,7 +23,13 @@ std::span<const Library* const> all_libraries() {
       &units_library,
       &vec3_library,
       &pose_library,
+      &random_library,
+      &catalog_library,
+      &entries_library,
+      &json_library,
       &log_library,
+      &world_library,
+      &grasp_library,
   };
   return libraries;
 }
@@ -23,6 +38,16 @@ std::span<const Class* const> all_classes() {
   static const Class* const classes[] = {
       &vec3_class,
       &pose_class,
+      &random_class,
+      &world_class,
+      &snapshot_class,
+      &thing_class,
+      &body_class,
+      &mesh_class,
+      &robot_class,
+      &contact_class,
+      &grasp_class,
+      &wrench_space_class,
   };
   return classes;
 }

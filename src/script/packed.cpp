@@ -74,7 +74,7 @@ static int search_packed(lua_State* L) {
     lua_pushlstring(L, file->path.data(), file->path.size());
     return 2;
   }
-  lua_pushfstring(L, "no module '%s' in clench's standard library", module);
+  lua_pushfstring(L, "no module '%s' in clench's standard library", name);
   return 1;
 }
 

@@ -1,0 +1,122 @@
+#include "script/bind_contact.h"
+
+#include "contact/cone.h"
+#include "script/guard.h"
+#include "script/push.h"
+#include "script/table.h"
+
+namespace clench {
+
+int push_contacts(lua_State* L, const WorldPtr& world, const std::vector<Contact>& contacts) {
+  return push_list_of(L, contacts, [&](const Contact& contact) {
+    push_object(L, ContactHandle{world, contact});
+  });
+}
+
+static int get_body(lua_State* L) {
+  const auto& c = self<ContactHandle>(L);
+  return push(L, BodyHandle{c.world, c.contact.body});
+}
+
+static int get_other(lua_State* L) {
+  const auto& c = self<ContactHandle>(L);
+  return push(L, BodyHandle{c.world, c.contact.other});
+}
+
+// the side that belongs to a robot; the other one first
+static int get_link(lua_State* L) {
+  const auto& c = self<ContactHandle>(L);
+  for (const auto id : {c.contact.other, c.contact.body})
+    if (c.world->body(id).robot) return push(L, BodyHandle{c.world, id});
+  lua_pushnil(L);
+  return 1;
+}
+
+static int get_point(lua_State* L) { return push(L, self<ContactHandle>(L).contact.p_W); }
+static int get_normal(lua_State* L) { return push(L, self<ContactHandle>(L).contact.n_W); }
+static int get_gap(lua_State* L) { return push(L, self<ContactHandle>(L).contact.gap); }
+static int get_mu(lua_State* L) { return push(L, self<ContactHandle>(L).contact.friction.statics); }
+static int get_mu_kinetic(lua_State* L) {
+  return push(L, self<ContactHandle>(L).contact.friction.kinetic);
+}
+
+static int get_frame(lua_State* L) {
+  const Contact& c = self<ContactHandle>(L).contact;
+  return push(L, Pose{Eigen::Quaterniond(contact_frame(c.n_W)), c.p_W});
+}
+
+static const char* kind_name(ContactKind kind) {
+  return kind == ContactKind::point ? "point" : "frictionless";
+}
+
+static int get_kind(lua_State* L) {
+  return push(L, kind_name(self<ContactHandle>(L).contact.kind));
+}
+
+static int text(lua_State* L) {
+  const auto& c = self<ContactHandle>(L);
+  const Eigen::Vector3d& p = c.contact.p_W;
+  return push(L, fmt::format("{} contact of {} on {} at ({:.6g}, {:.6g}, {:.6g})",
+                             kind_name(c.contact.kind), c.world->body(c.contact.other).name,
+                             c.world->body(c.contact.body).name, p.x(), p.y(), p.z()));
+}
+
+static const Entry fields[] = {
+    {"body", guarded<get_body>, R"(
+The body that is touched: the object, of a hand and an object.
+@type body
+> world:contacts(hand, flask)[1].body == flask  --> true)"},
+    {"other", guarded<get_other>, R"(
+The body that touches it.
+@type body
+> world:contacts(hand, flask)[1].other.kind  --> link)"},
+    {"link", guarded<get_link>, R"(
+The part of a robot among the two; nil when there is none.
+@type body?
+> world:contacts(hand, flask)[1].link.robot == hand  --> true)"},
+    {"point", guarded<get_point>, R"(
+Where, on the surface of `body`, in the world frame.
+@type vec3  [m]
+> (world:contacts(hand, flask)[1].point - flask.pose.position):norm() < 1  --> true)"},
+    {"normal", guarded<get_normal>, R"(
+Unit normal into `body`, in the world frame.
+@type vec3
+> math.abs(world:contacts(hand, flask)[1].normal:norm() - 1) < 1e-12  --> true)"},
+    {"frame", guarded<get_frame>, R"(
+Contact frame: origin at the point, +z into `body`.
+@type pose
+> c = world:contacts(hand, flask)[1]
+> (c.frame:rotate{0, 0, 1} - c.normal):norm() < 1e-12  --> true)"},
+    {"gap", guarded<get_gap>, R"(
+Distance of the two surfaces there, at most the world's contact threshold.
+@type number  [m]
+> world:contacts(hand, flask)[1].gap <= world.contact_threshold  --> true)"},
+    {"mu", guarded<get_mu>, R"(
+Static Coulomb coefficient of the two materials.
+@type number
+> c = world:contacts(hand, flask)[1]
+> c.mu == world:friction(c.body.material, c.other.material)  --> true)"},
+    {"mu_kinetic", guarded<get_mu_kinetic>, R"(
+Kinetic Coulomb coefficient of the two materials.
+@type number
+> world:contacts(hand, flask)[1].mu_kinetic >= 0  --> true)"},
+    {"kind", guarded<get_kind>, R"(
+"point" (with friction) or "frictionless".
+@type string
+> world:contacts(hand, flask)[1].kind  --> point)"},
+};
+
+static const Entry operators[] = {
+    {"__tostring", guarded<text>, ""},
+};
+
+const Class contact_class{.name = "contact",
+                          .variable = "contact",
+                          .doc =
+                              "A point where one body touches another, as "
+                              "it was when it was asked for.",
+                          .fields = fields,
+                          .methods = {},
+                          .operators = operators};
+
+}  // namespace clench

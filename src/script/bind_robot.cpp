@@ -1,0 +1,378 @@
+#include <algorithm>
+
+#include "base/suggest.h"
+#include "motion/drive.h"
+#include "script/bind_body.h"
+#include "script/guard.h"
+#include "script/push.h"
+#include "script/read_spec.h"
+#include "script/table.h"
+
+namespace clench {
+
+static int get_name(lua_State* L) { return push(L, self<RobotHandle>(L)->name); }
+static int get_source(lua_State* L) { return push(L, self<RobotHandle>(L)->source); }
+static int get_class_name(lua_State* L) { return push(L, self<RobotHandle>(L)->class_name); }
+
+static int get_pose(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push(L, robot.world->body(robot->base).X_WB);
+}
+
+static int set_pose(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  robot.world->set_pose(robot.id, check_pose(L, 2));
+  return 0;
+}
+
+static int get_base(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push(L, BodyHandle{robot.world, robot->base});
+}
+
+static int get_bodies(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push_bodies(L, robot.world, robot.world->bodies_of(robot.id));
+}
+
+static std::vector<Id<Body>> links_of(const Robot& robot) {
+  std::vector<Id<Body>> links;
+  for (const auto& chain : robot.chains)
+    links.insert(links.end(), chain.links.begin(), chain.links.end());
+  return links;
+}
+
+static int get_links(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push_bodies(L, robot.world, links_of(*robot));
+}
+
+static void push_joint(lua_State* L, const Robot& robot, int chain, int joint) {
+  const JointSpec& spec = robot.chains[chain].joints[joint];
+  push_list(L, 0, 7);
+  set_field(L, "kind", spec.kind == JointKind::revolute ? "revolute" : "prismatic");
+  set_field(L, "dof", spec.dof + 1);
+  set_field(L, "ratio", spec.ratio);
+  set_field(L, "min", spec.min);
+  set_field(L, "max", spec.max);
+  set_field(L, "value", joint_value(robot, chain, joint));
+  set_field(L, "broken_away", robot.chains[chain].breakaway[joint].has_value());
+}
+
+static int get_chains(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  push_list(L, static_cast<int>(robot->chains.size()));
+  for (int c = 0; c < static_cast<int>(robot->chains.size()); ++c) {
+    const Chain& chain = robot->chains[c];
+    push_list(L, 0, 3);
+    set_field(L, "pose", chain.X_BC);
+    push_bodies(L, robot.world, chain.links);
+    lua_setfield(L, -2, "links");
+    push_list(L, static_cast<int>(chain.joints.size()));
+    for (int j = 0; j < static_cast<int>(chain.joints.size()); ++j) {
+      push_joint(L, *robot, c, j);
+      lua_rawseti(L, -2, j + 1);
+    }
+    lua_setfield(L, -2, "joints");
+    lua_rawseti(L, -2, c + 1);
+  }
+  return 1;
+}
+
+static int get_dofs(lua_State* L) { return push_vector(L, self<RobotHandle>(L)->q); }
+
+// DOF values of an argument; a wrong count names the robot
+static Eigen::VectorXd check_dofs(lua_State* L, int i, const Robot& robot) {
+  const auto values = read_numbers(L, i, {L, {}, "values"});
+  if (static_cast<int>(values.size()) != robot.q.size())
+    fail("{}: robot '{}': wanted {} DOF values, got {}", subject(L), robot.name, robot.q.size(),
+         values.size());
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<int>(values.size()));
+}
+
+static int set_dofs(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  robot.world->set_dofs(robot.id, check_dofs(L, 2, *robot));
+  return 0;
+}
+
+static int get_dof_limits(lua_State* L) {
+  return push_list_of(L, self<RobotHandle>(L)->limits,
+                      [&](const std::array<double, 2>& range) { push_numbers(L, range); });
+}
+
+static const char* dof_kind(DofKind kind) {
+  static constexpr const char* names[] = {"rigid", "breakaway", "compliant"};
+  return names[static_cast<int>(kind)];
+}
+
+static int get_dof_info(lua_State* L) {
+  return push_list_of(L, self<RobotHandle>(L)->dofs, [&](const DofSpec& dof) {
+    push_list(L, 0, 6);
+    set_field(L, "kind", dof_kind(dof.kind));
+    set_field(L, "default_velocity", dof.default_velocity);
+    set_field(L, "max_effort", dof.max_effort);
+    set_field(L, "kp", dof.kp);
+    set_field(L, "kd", dof.kd);
+    set_field(L, "breakaway_torque", dof.breakaway_torque);
+  });
+}
+
+static int get_approach(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const Pose frame = robot.world->body(robot->base).X_WB * robot->X_BA;
+  push_list(L, 0, 3);
+  set_field(L, "point", frame.position);
+  set_field(L, "direction", Eigen::Vector3d(frame.rotation * Eigen::Vector3d::UnitZ()));
+  set_field(L, "frame", frame);
+  return 1;
+}
+
+static int get_carrier(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  if (robot->mounting) return push(L, RobotHandle{robot.world, robot->mounting->parent});
+  lua_pushnil(L);
+  return 1;
+}
+
+static int get_files(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  push_list(L, 0, 3);
+  if (!robot->eigengrasps.empty())
+    set_field(L, "eigengrasps", std::string_view(robot->eigengrasps));
+  if (!robot->virtual_contacts.empty())
+    set_field(L, "virtual_contacts", std::string_view(robot->virtual_contacts));
+  if (!robot->glove_calibration.empty())
+    set_field(L, "glove_calibration", std::string_view(robot->glove_calibration));
+  return 1;
+}
+
+// --- verbs ---
+
+static int link(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const std::string name = check_string(L, 2, "name");
+  std::vector<std::string> names;
+  for (const auto id : links_of(*robot)) {
+    const std::string& full = robot.world->body(id).name;
+    if (full == name || full == robot->name + "_" + name)
+      return push(L, BodyHandle{robot.world, id});
+    names.push_back(full);
+  }
+  fail("{}: robot '{}' has no link '{}'{}", subject(L), robot->name, name,
+       did_you_mean(name, names));
+}
+
+static const char* stop_name(DofStop stop) {
+  static constexpr const char* names[] = {"reached", "limit", "contact", "still"};
+  return names[static_cast<int>(stop)];
+}
+
+static int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result) {
+  push_list(L, 0, 5);
+  set_field(L, "moved", result.moved);
+  push_list_of(L, result.stops, [&](DofStop stop) { push(L, stop_name(stop)); });
+  lua_setfield(L, -2, "stops");
+  push_pairs(L, world, result.stopped_by);
+  lua_setfield(L, -2, "stopped_by");
+  set_field(L, "queries", result.queries);
+  set_field(L, "events", result.events);
+  return 1;
+}
+
+static int autograsp(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  Table options(L, 2);
+  const double speed = options.number("speed", 1);
+  const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
+  options.done();
+  return push_drive(L, robot.world, clench::autograsp(*robot.world, robot.id, speed, driving));
+}
+
+static int open(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  Table options(L, 2);
+  options.done();
+  return push_drive(L, robot.world, open_hand(*robot.world, robot.id));
+}
+
+static int move_dofs(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const Eigen::VectorXd targets = check_dofs(L, 2, *robot);
+  Table options(L, 3);
+  const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
+  options.done();
+  return push_drive(L, robot.world, drive_to(*robot.world, robot.id, targets, driving));
+}
+
+static int move_to(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push_move(L, robot.world, move_robot(*robot.world, robot.id, check_pose(L, 2, "pose")));
+}
+
+static int approach_object(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  Table options(L, 2);
+  const double reach = options.number("reach", 1);
+  options.done();
+  return push_move(L, robot.world, approach(*robot.world, robot.id, reach));
+}
+
+static int mount_on(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const auto& parent = check_object<RobotHandle>(L, 2, "carrier");
+  if (parent.world != robot.world)
+    fail("{}: '{}' belongs to another world", subject(L), parent->name);
+  Table options(L, 3);
+  const ReadOptions reading = read_options(L, options);
+  const int chain = options.integer("chain", 1);
+  const Pose pose = options.pose("pose", Pose{});
+  const std::string piece = options.string("piece", "");
+  options.done();
+  if (chain < 1 || chain > static_cast<int>(parent->chains.size()))
+    fail("{}: chain: wanted 1 to {}, got {}", subject(L), parent->chains.size(), chain);
+  std::optional<BodySpec> spec;
+  if (!piece.empty()) spec = read_body(find_file(piece, {}, reading), reading);
+  robot.world->mount(robot.id, parent.id, chain - 1, pose, spec ? &*spec : nullptr);
+  return 0;
+}
+
+static int text(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  if (!robot.world->alive(robot.id)) return push(L, "removed robot");
+  return push(L, fmt::format("robot '{}' of {} DOFs, {} chains, {} links", robot->name,
+                             robot->q.size(), robot->chains.size(), links_of(*robot).size()));
+}
+
+static int equal(lua_State* L) {
+  const auto *a = to<RobotHandle>(L, 1), *b = to<RobotHandle>(L, 2);
+  return push(L, a && b && a->world == b->world && a->id == b->id);
+}
+
+static const Entry fields[] = {
+    {"name", guarded<get_name>, R"(
+Unique in its world.
+@type string
+> world:robot(hand.name) == hand  --> true)"},
+    {"pose", guarded<get_pose>, R"(
+Where its base is, in the world frame. Setting it moves the robot at once, with all that it carries; see move_to.
+@type pose
+> hand.pose = {xyz = {0, 0, 1}}
+> hand.base.pose.position  --> (0, 0, 1))",
+     guarded<set_pose>},
+    {"dofs", guarded<get_dofs>, R"(
+Values of its degrees of freedom; a list of its own, set as by set_dofs.
+@type number[]  [rad or m]
+> #hand.dofs  --> 12)",
+     guarded<set_dofs>},
+    {"dof_limits", guarded<get_dof_limits>, R"(
+Least and largest value of each DOF.
+@type number[][]  [rad or m]
+> #hand.dof_limits[1]  --> 2)"},
+    {"dof_info", guarded<get_dof_info>, R"(
+What its file says of each DOF: kind ("rigid", "breakaway", "compliant"), default_velocity [rad/s or m/s],
+max_effort [N m or N], kp, kd, breakaway_torque [N m].
+@type table[]
+> hand.dof_info[1].kind  --> rigid)"},
+    {"links", guarded<get_links>, R"(
+Its links, chain by chain, without the base.
+@type body[]
+> #hand.links  --> 12)"},
+    {"chains", guarded<get_chains>, R"(
+Its chains: `pose` in the base, `links`, and `joints` as they stand (kind, dof, ratio, min, max, value, broken_away).
+@type table[]
+> #hand.chains  --> 4
+> hand.chains[1].joints[1].kind  --> revolute)"},
+    {"base", guarded<get_base>, R"(
+Its base: palm or stand.
+@type body
+> hand.base.kind  --> base)"},
+    {"bodies", guarded<get_bodies>, R"(
+Base, links, and mount if it has one.
+@type body[]
+> #hand.bodies  --> 13)"},
+    {"approach", guarded<get_approach>, R"(
+How it approaches what it grasps, in the world frame: `point` on the palm, `direction`, `frame` with +z along it.
+@type {point: vec3, direction: vec3, frame: pose}
+> math.abs(hand.approach.direction:norm() - 1) < 1e-12  --> true)"},
+    {"carrier", guarded<get_carrier>, R"(
+The robot that carries it; nil when none does.
+@type robot?
+> hand.carrier  --> nil)"},
+    {"class_name", guarded<get_class_name>, R"(
+What its file calls its kind.
+@type string
+> hand.class_name  --> Hand)"},
+    {"source", guarded<get_source>, R"(
+File that it was read from.
+@type string
+> hand.source:match "%.cfg$"  --> .cfg)"},
+    {"files", guarded<get_files>, R"(
+Files that its file names: `eigengrasps`, `virtual_contacts`, `glove_calibration`.
+@type table
+> type(hand.files)  --> table)"},
+};
+
+static const Entry methods[] = {
+    {"link", guarded<link>, R"(
+A link by its name, whole or without the robot's.
+@param name string
+@return body
+> hand:link "chain0_link2" == hand.chains[1].links[3]  --> true
+> hand:link "chain9_link0"  --> error: has no link)"},
+    {"set_dofs", guarded<set_dofs>, R"(
+Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away follow again.
+@param values number[]  within the limits [rad or m]
+> hand:set_dofs{1, 2, 3}  --> error: wanted 12 DOF values, got 3)"},
+    {"move_dofs", guarded<move_dofs>, R"(
+Drives all DOFs in proportion towards values, until contact stops them.
+@param values number[]  within the limits [rad or m]
+@param options? {stop_at_contact?: boolean}  true: end at the first new contact of any link
+@return table result  as of autograsp
+> hand:move_dofs(hand.dofs).moved  --> false)"},
+    {"autograsp", guarded<autograsp>, R"(
+Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway
+fingers go on beyond the joint that is stopped. Negative speed opens.
+@param options? {speed?: number, stop_at_contact?: boolean}
+@return table result  `moved`, `stops` (a DOF each: "contact", "limit", "reached", "still"), `stopped_by` (pairs), `queries`, `events`
+> hand:autograsp().moved  --> false
+> hand:autograsp{sped = 1}  --> error: did you mean 'speed'?)"},
+    {"open", guarded<open>, R"(
+Opens the hand as far as it goes. One that overlaps something is opened without regard to contacts until it is free.
+@param options? table  no options yet
+@return table result  as of autograsp
+> hand:open().moved  --> true
+> #world:contacts(hand, flask)  --> 0)"},
+    {"move_to", guarded<move_to>, R"(
+Moves the whole robot until it first touches something, as a body's move_to.
+@param pose pose
+@return table result  `fraction`, `touched`, `stopped_by`, `queries`
+> hand:move_to(hand.pose).fraction  --> 1.0)"},
+    {"approach_object", guarded<approach_object>, R"(
+Moves the hand along its approach direction until it touches something.
+@param options? {reach?: number}  at most this far, 1 by default [m]
+@return table result  `fraction`, `touched`, `stopped_by`, `queries`
+> hand:approach_object{reach = -1}  --> error: reach)"},
+    {"mount_on", guarded<mount_on>, R"(
+Fixes the robot to the last link of another one's chain. It follows from now on.
+@param carrier robot
+@param options? {chain?: integer, pose?: pose, piece?: string, root?: string}  chain 1 by default; pose of the base in the link; file of an adapter
+> hand:mount_on(hand)  --> error: which it carries itself)"},
+};
+
+static const Entry operators[] = {
+    {"__tostring", guarded<text>, ""},
+    {"__eq", guarded<equal>, ""},
+};
+
+const Class robot_class{.name = "robot",
+                        .variable = "hand",
+                        .doc =
+                            "A hand or an arm: a base, chains of links, and "
+                            "the degrees of freedom that move them.",
+                        .fields = fields,
+                        .methods = methods,
+                        .operators = operators,
+                        .parent = &thing_class};
+
+}  // namespace clench

@@ -1,0 +1,178 @@
+#include "script/bind_thing.h"
+
+#include <array>
+
+#include "script/bind_contact.h"
+#include "script/bind_mesh.h"
+#include "script/guard.h"
+#include "script/push.h"
+#include "script/table.h"
+
+namespace clench {
+
+static int get_material(lua_State* L) {
+  const auto body = self_body(L);
+  return push(L, body.world->materials().name(body->material));
+}
+
+static int set_material(lua_State* L) {
+  const auto body = self_body(L);
+  body.world->set_material(body.id, check_string(L, 2));
+  return 0;
+}
+
+static int get_mass(lua_State* L) { return push(L, self_body(L)->mass); }
+
+static int set_mass(lua_State* L) {
+  const auto body = self_body(L);
+  body.world->set_mass(body.id, check_number(L, 2));
+  return 0;
+}
+
+static int get_com(lua_State* L) { return push(L, self_body(L)->com); }
+
+static int set_com(lua_State* L) {
+  const auto body = self_body(L);
+  body.world->set_com(body.id, check_vec3(L, 2));
+  return 0;
+}
+
+static int get_inertia(lua_State* L) {
+  const auto body = self_body(L);
+  return push_rows(L, body->mass * body->inertia_per_mass);
+}
+
+static int set_inertia(lua_State* L) {
+  const auto body = self_body(L);
+  const auto rows = read_rows(L, 2, {L, {}, ""}, 3);
+  if (rows.size() != 3) fail("{}: wanted 3 rows, got {}", subject(L), rows.size());
+  Eigen::Matrix3d inertia;
+  for (int r = 0; r < 3; ++r) inertia.row(r) = Eigen::Vector3d(rows[r][0], rows[r][1], rows[r][2]);
+  body.world->set_inertia(body.id, inertia);
+  return 0;
+}
+
+static int get_mesh(lua_State* L) {
+  const auto body = self_body(L);
+  if (body->shape) return push_object(L, body->shape);
+  lua_pushnil(L);
+  return 1;
+}
+
+static int get_elastic_modulus(lua_State* L) {
+  const auto body = self_body(L);
+  if (body->elastic_modulus) return push(L, *body->elastic_modulus);
+  lua_pushnil(L);
+  return 1;
+}
+
+static int set_elastic_modulus(lua_State* L) {
+  const auto body = self_body(L);
+  std::optional<double> modulus;
+  if (given(L, 2)) modulus = check_number(L, 2);
+  body.world->set_elastic_modulus(body.id, modulus);
+  return 0;
+}
+
+static int get_contacts(lua_State* L) {
+  const auto body = self_body(L);
+  const std::array on{body.id};
+  return push_contacts(L, body.world, contacts(*body.world, body.world->bodies(), on));
+}
+
+static int get_color(lua_State* L) {
+  const Eigen::Vector3d color = self_body(L)->appearance.color.cast<double>();
+  return push_vector(L, color);
+}
+
+static int set_color(lua_State* L) {
+  const auto body = self_body(L);
+  const Eigen::Vector3d color = check_vec3(L, 2);
+  if ((color.array() < 0).any() || (color.array() > 1).any())
+    fail("{}: wanted three numbers in 0..1", subject(L));
+  Appearance appearance = body->appearance;
+  appearance.color = color.cast<float>();
+  appearance.triangle_colors.clear();
+  appearance.given = true;
+  body.world->set_appearance(body.id, appearance);
+  return 0;
+}
+
+static int get_transparency(lua_State* L) {
+  return push(L, static_cast<double>(self_body(L)->appearance.transparency));
+}
+
+static int set_transparency(lua_State* L) {
+  const auto body = self_body(L);
+  const double transparency = check_number(L, 2);
+  if (transparency < 0 || transparency > 1)
+    fail("{}: wanted 0..1, got {}", subject(L), transparency);
+  Appearance appearance = body->appearance;
+  appearance.transparency = static_cast<float>(transparency);
+  body.world->set_appearance(body.id, appearance);
+  return 0;
+}
+
+static const Entry fields[] = {
+    {"material", guarded<get_material>, R"(
+Name of its material, which decides how it rubs.
+@type string
+> flask.material = "rubber"
+> flask.material  --> rubber
+> flask.material = "ruber"  --> error: rubber)",
+     guarded<set_material>},
+    {"mass", guarded<get_mass>, R"(
+@type number  [kg]
+> flask.mass = 0.5
+> flask.mass  --> 0.5)",
+     guarded<set_mass>},
+    {"com", guarded<get_com>, R"(
+Centre of mass in the body frame.
+@type vec3  [m]
+> flask.com = {0, 0, 0.01}
+> flask.com  --> (0, 0, 0.01))",
+     guarded<set_com>},
+    {"inertia", guarded<get_inertia>, R"(
+Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass.
+@type number[][]  [kg m^2]
+> flask.mass = 1
+> flask.inertia = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}
+> flask.inertia[1]  --> {1.0, 0.0, 0.0})",
+     guarded<set_inertia>},
+    {"mesh", guarded<get_mesh>, R"(
+Its surface; nil when it has none.
+@type mesh?
+> flask.mesh:is_watertight()  --> true)"},
+    {"elastic_modulus", guarded<get_elastic_modulus>, R"(
+Young's modulus; nil when it is rigid.
+@type number?  [Pa]
+> flask.elastic_modulus = 1.5e6
+> flask.elastic_modulus  --> 1500000.0)",
+     guarded<set_elastic_modulus>},
+    {"contacts", guarded<get_contacts>, R"(
+Where others touch it now.
+@type contact[]
+> #flask.contacts == #world:contacts(hand, flask)  --> true)"},
+    {"color", guarded<get_color>, R"(
+Colour in pictures: red, green and blue in 0..1.
+@type number[]
+> flask.color = {1, 0.5, 0}
+> flask.color  --> {1.0, 0.5, 0.0})",
+     guarded<set_color>},
+    {"transparency", guarded<get_transparency>, R"(
+From 0, opaque, to 1, invisible.
+@type number
+> flask.transparency = 0.5
+> flask.transparency  --> 0.5)",
+     guarded<set_transparency>},
+};
+
+const Class thing_class{.name = "thing",
+                        .variable = "thing",
+                        .doc =
+                            "What bodies and robots have in common; of a "
+                            "robot these are its base's.",
+                        .fields = fields,
+                        .methods = {}};
+
+}  // namespace clench

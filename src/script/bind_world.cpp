@@ -1,0 +1,439 @@
+#include <algorithm>
+
+#include "base/suggest.h"
+#include "model/build.h"
+#include "script/bind_contact.h"
+#include "script/guard.h"
+#include "script/handles.h"
+#include "script/push.h"
+#include "script/read_spec.h"
+#include "script/table.h"
+
+namespace clench {
+
+static World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
+
+// --- making ---
+
+static int new_world(lua_State* L) {
+  Table options(L, 1);
+  auto world = std::make_shared<World>();
+  world->set_contact_threshold(options.positive("contact_threshold", world->contact_threshold()));
+  options.done();
+  return push_object(L, WorldHandle{std::move(world)});
+}
+
+static int load(lua_State* L) {
+  const std::string path = check_string(L, 1, "path");
+  Table options(L, 2);
+  const ReadOptions reading = read_options(L, options);
+  options.done();
+  const WorldSpec spec = read_world(find_file(path, {}, reading), reading);
+  return push_object(L, WorldHandle{std::make_shared<World>(build_world(spec, reading.warn))});
+}
+
+static int add_body(lua_State* L, BodyKind kind) {
+  const auto& handle = self<WorldHandle>(L);
+  Table options(L, 3);
+  const ReadOptions reading = read_options(L, options);
+  const BodySpec spec = check_body_spec(L, 2, options, reading);
+  const Pose pose = options.pose("pose", Pose{});
+  const bool named = options.has("name");
+  std::optional<Eigen::Matrix3d> inertia;
+  if (options.has("inertia")) {
+    const auto rows = options.rows("inertia", 3);
+    if (rows.size() != 3) fail("{}: inertia: wanted 3 rows, got {}", subject(L), rows.size());
+    inertia.emplace();
+    for (int r = 0; r < 3; ++r)
+      inertia->row(r) = Eigen::Vector3d(rows[r][0], rows[r][1], rows[r][2]);
+  }
+  options.done();
+  const auto id = handle.world->add_body(spec, kind, pose, named ? spec.name : "");
+  try {
+    if (inertia) handle.world->set_inertia(id, *inertia);
+  } catch (const Error&) {
+    handle.world->remove(id);
+    throw;
+  }
+  return push(L, BodyHandle{handle.world, id});
+}
+
+static int add_object(lua_State* L) { return add_body(L, BodyKind::object); }
+static int add_obstacle(lua_State* L) { return add_body(L, BodyKind::obstacle); }
+
+static int add_robot(lua_State* L) {
+  const auto& handle = self<WorldHandle>(L);
+  const std::string path = check_string(L, 2, "path");
+  Table options(L, 3);
+  const ReadOptions reading = read_options(L, options);
+  const Pose pose = options.pose("pose", Pose{});
+  const std::string name = options.string("name", "");
+  options.done();
+  const RobotSpec spec = read_robot(find_file(path, {}, reading), reading);
+  return push(L, RobotHandle{handle.world, handle.world->add_robot(spec, pose, name)});
+}
+
+static int remove(lua_State* L) {
+  const auto& handle = self<WorldHandle>(L);
+  check_bodies(L, 2, "thing", handle.world);  // of this world, and alive
+  if (const auto* robot = to<RobotHandle>(L, 2))
+    handle.world->remove(robot->id);
+  else
+    handle.world->remove(to<BodyHandle>(L, 2)->id);
+  return 0;
+}
+
+// --- finding ---
+
+template <class Handle, class Ids>
+static int push_handles(lua_State* L, const WorldPtr& world, const Ids& ids) {
+  return push_list_of(L, ids, [&](auto id) { push(L, Handle{world, id}); });
+}
+
+static int get_bodies(lua_State* L) {
+  const auto& handle = self<WorldHandle>(L);
+  return push_bodies(L, handle.world, handle.world->bodies());
+}
+
+static int push_kind(lua_State* L, BodyKind kind) {
+  const auto& handle = self<WorldHandle>(L);
+  std::vector<Id<Body>> ids;
+  for (const auto id : handle.world->bodies())
+    if (handle.world->body(id).kind == kind) ids.push_back(id);
+  return push_bodies(L, handle.world, ids);
+}
+
+static int get_objects(lua_State* L) { return push_kind(L, BodyKind::object); }
+static int get_obstacles(lua_State* L) { return push_kind(L, BodyKind::obstacle); }
+
+static int get_robots(lua_State* L) {
+  const auto& handle = self<WorldHandle>(L);
+  return push_handles<RobotHandle>(L, handle.world, handle.world->robots());
+}
+
+static int body(lua_State* L) {
+  const auto& handle = self<WorldHandle>(L);
+  const std::string name = check_string(L, 2, "name");
+  const auto id = handle.world->find_body(name);
+  if (!id) {
+    std::vector<std::string> names;
+    for (const auto other : handle.world->bodies()) names.push_back(handle.world->body(other).name);
+    fail("{}: no body '{}' in this world{}", subject(L), name, did_you_mean(name, names));
+  }
+  return push(L, BodyHandle{handle.world, id});
+}
+
+static int robot(lua_State* L) {
+  const auto& handle = self<WorldHandle>(L);
+  const std::string name = check_string(L, 2, "name");
+  const auto id = handle.world->find_robot(name);
+  if (!id) {
+    std::vector<std::string> names;
+    for (const auto other : handle.world->robots())
+      names.push_back(handle.world->robot(other).name);
+    fail("{}: no robot '{}' in this world{}", subject(L), name, did_you_mean(name, names));
+  }
+  return push(L, RobotHandle{handle.world, id});
+}
+
+// --- time machine ---
+
+static int clone(lua_State* L) {
+  return push_object(L, WorldHandle{std::make_shared<World>(world_of(L))});
+}
+
+static int snapshot(lua_State* L) {
+  const auto& handle = self<WorldHandle>(L);
+  return push_object(L, SnapshotHandle{handle.world, handle.world->snapshot()});
+}
+
+static int restore(lua_State* L) {
+  const auto& handle = self<WorldHandle>(L);
+  const auto& moment = check_object<SnapshotHandle>(L, 2, "snapshot");
+  if (moment.world != handle.world) fail("{}: the snapshot was taken of another world", subject(L));
+  handle.world->restore(*moment.state);
+  return 0;
+}
+
+static int hash(lua_State* L) { return push(L, fmt::format("{:016x}", world_of(L).hash())); }
+
+// --- who touches whom ---
+
+static int colliding(lua_State* L) {
+  const auto& world = self<WorldHandle>(L).world;
+  if (!given(L, 2)) return push_pairs(L, world, colliding_pairs(*world));
+  const auto a = check_bodies(L, 2, "a", world);
+  const auto b = given(L, 3) ? check_bodies(L, 3, "b", world) : world->bodies();
+  return push_pairs(L, world, colliding_pairs(*world, a, b));
+}
+
+static int measure_distance(lua_State* L) {
+  const auto& world = self<WorldHandle>(L).world;
+  const auto a = check_bodies(L, 2, "a", world), b = check_bodies(L, 3, "b", world);
+  const BodyDistance d = distance(*world, a, b);
+  push(L, d.distance);
+  push(L, d.p_a);
+  push(L, d.p_b);
+  return 3;
+}
+
+static int find_contacts(lua_State* L) {
+  const auto& world = self<WorldHandle>(L).world;
+  if (!given(L, 2)) return push_contacts(L, world, contacts(*world));
+  const auto a = check_bodies(L, 2, "a", world);
+  const auto b = given(L, 3) ? check_bodies(L, 3, "b", world) : world->bodies();
+  // one argument: the contacts on it
+  return push_contacts(L, world, given(L, 3) ? contacts(*world, a, b) : contacts(*world, b, a));
+}
+
+static int set_collision(lua_State* L) {
+  const auto& world = self<WorldHandle>(L).world;
+  const bool on = check_boolean(L, 2, "on");
+  if (!given(L, 3)) {
+    world->set_collision(on);
+    return 0;
+  }
+  const auto group_a = check_bodies(L, 3, "a", world);
+  if (!given(L, 4)) {
+    for (const auto a : group_a) world->set_collision(on, a);
+    return 0;
+  }
+  const auto group_b = check_bodies(L, 4, "b", world);
+  for (const auto a : group_a)
+    for (const auto b : group_b)
+      if (a != b) world->set_collision(on, a, b);
+  return 0;
+}
+
+// --- how things rub ---
+
+static int set_friction(lua_State* L) {
+  const std::string a = check_string(L, 2, "material"), b = check_string(L, 3, "material");
+  Table options(L, 4);
+  const double statics = options.number("static");
+  const Friction friction{.statics = statics,
+                          .kinetic = options.number("kinetic", std::max(0.0, statics - 0.1))};
+  options.done();
+  world_of(L).set_friction(a, b, friction);
+  return 0;
+}
+
+static int friction(lua_State* L) {
+  const MaterialTable& table = world_of(L).materials();
+  const Friction f = table.friction(table.index(check_string(L, 2, "material")),
+                                    table.index(check_string(L, 3, "material")));
+  push(L, f.statics);
+  push(L, f.kinetic);
+  return 2;
+}
+
+static int get_materials(lua_State* L) {
+  return push_list_of(L, world_of(L).materials().names(),
+                      [&](const std::string& name) { push(L, name); });
+}
+
+static int get_contact_threshold(lua_State* L) { return push(L, world_of(L).contact_threshold()); }
+
+static int set_contact_threshold(lua_State* L) {
+  world_of(L).set_contact_threshold(check_number(L, 2));
+  return 0;
+}
+
+static int get_source(lua_State* L) { return push(L, world_of(L).source()); }
+
+static int text(lua_State* L) {
+  const World& world = world_of(L);
+  return push(L, fmt::format("world of {} bodies, {} robots", world.bodies().size(),
+                             world.robots().size()));
+}
+
+static int equal(lua_State* L) {
+  const auto *a = to<WorldHandle>(L, 1), *b = to<WorldHandle>(L, 2);
+  return push(L, a && b && a->world == b->world);
+}
+
+static int snapshot_text(lua_State* L) {
+  return push(
+      L, fmt::format("snapshot of {} bodies", self<SnapshotHandle>(L).state->body_order.size()));
+}
+
+// --- tables ---
+
+static const Entry functions[] = {
+    {"world", guarded<new_world>, R"(
+An empty world.
+@param options? {contact_threshold?: number}  surfaces closer than this touch, 1e-4 by default [m]
+@return world
+> #clench.world().bodies  --> 0)"},
+    {"load", guarded<load>, R"(
+A world from a file. Names in it are looked up beside the file, then below the root.
+@param path string  .wld
+@param options? {root?: string}
+@return world
+> #clench.load("worlds/dlr_flask.wld", {root = "."}).robots  --> 1
+> clench.load("no/such.wld")  --> error: no/such.wld)"},
+};
+
+static const Entry fields[] = {
+    {"bodies", guarded<get_bodies>, R"(
+All bodies in creation order: objects, obstacles, robot bases, links, mounts.
+@type body[]
+> world.bodies[1] ~= nil  --> true)"},
+    {"objects", guarded<get_objects>, R"(
+The bodies that can be grasped.
+@type body[]
+> world.objects[1] == flask  --> true)"},
+    {"obstacles", guarded<get_obstacles>, R"(
+The bodies that only stand in the way.
+@type body[]
+> #world.obstacles  --> 0)"},
+    {"robots", guarded<get_robots>, R"(
+All robots in creation order.
+@type robot[]
+> world.robots[1] == hand  --> true)"},
+    {"contact_threshold", guarded<get_contact_threshold>, R"(
+Surfaces closer than this touch; motion stops with a gap below it.
+@type number  [m]
+> world.contact_threshold  --> 0.0001)",
+     guarded<set_contact_threshold>},
+    {"materials", guarded<get_materials>, R"(
+Names of the materials, the seven of the original first.
+@type string[]
+> world.materials[1]  --> frictionless)"},
+    {"source", guarded<get_source>, R"(
+File that the world was loaded from; empty when it was made by a script.
+@type string
+> clench.world().source == ""  --> true)"},
+};
+
+static const Entry methods[] = {
+    {"body", guarded<body>, R"(
+The body of a name.
+@param name string
+@return body
+> world:body(flask.name) == flask  --> true
+> world:body "no such thing"  --> error: no body)"},
+    {"robot", guarded<robot>, R"(
+The robot of a name.
+@param name string
+@return robot
+> world:robot(hand.name) == hand  --> true
+> world:robot "no such thing"  --> error: no robot)"},
+    {"add_object", guarded<add_object>, R"(
+Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options
+give overrides the file.
+@param body string|table  file name (.iv .wrl .obj .stl), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
+@param options? {pose?: pose, name?: string, material?: string, mass?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, color?: number[], transparency?: number, root?: string}
+@return body
+> world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "cube", mass = 0.2}).mass  --> 0.2
+> world:add_object "flsk.iv"  --> error: flsk.iv)"},
+    {"add_obstacle", guarded<add_obstacle>, R"(
+Adds a body that only stands in the way; as add_object.
+@param body string|table
+@param options? table
+@return body
+> world:add_obstacle(clench.shapes.box {1, 1, 0.1}, {pose = {xyz = {0, 0, -2}}}).kind  --> obstacle)"},
+    {"add_robot", guarded<add_robot>, R"(
+Adds a robot from a file.
+@param path string  .cfg
+@param options? {pose?: pose, name?: string, root?: string}
+@return robot
+> world:add_robot("nothing.cfg")  --> error: nothing.cfg)"},
+    {"remove", guarded<remove>, R"(
+Removes an object, an obstacle or a whole robot. Whoever still holds it gets an error that names it.
+@param thing body|robot
+> world:remove(flask)
+> flask.pose  --> error: was removed)"},
+    {"clone", guarded<clone>, R"(
+An independent copy that shares the meshes. Its things are found by name or place in its lists.
+@return world
+> copy = world:clone()
+> copy == world  --> false
+> copy:hash() == world:hash()  --> true)"},
+    {"snapshot", guarded<snapshot>, R"(
+The state of the world now, exact to the bit.
+@return snapshot
+> world:snapshot() ~= nil  --> true)"},
+    {"restore", guarded<restore>, R"(
+Back to a snapshot of this world: what was removed since is back, what was added since is gone.
+@param snapshot snapshot
+> before, moment = world:hash(), world:snapshot()
+> hand:open()
+> world:restore(moment)
+> world:hash() == before  --> true)"},
+    {"hash", guarded<hash>, R"(
+Fingerprint of the state: equal bits, equal text.
+@return string  16 hexadecimal digits
+> #world:hash()  --> 16)"},
+    {"colliding", guarded<colliding>, R"(
+Pairs of bodies that collide, of the world, of one thing, or between two. A closed body inside another collides too.
+@param a? body|robot
+@param b? body|robot
+@return body[][]  pairs
+> #world:colliding()  --> 0)"},
+    {"distance", guarded<measure_distance>, R"(
+Least distance of two things, 0 when they collide, with the closest points in the world frame.
+@param a body|robot
+@param b body|robot
+@return number distance  [m]
+@return vec3 on_a
+@return vec3 on_b
+> world:distance(hand, flask) <= world.contact_threshold  --> true)"},
+    {"contacts", guarded<find_contacts>, R"(
+Where surfaces touch: everywhere, on one thing, or of `a` on `b`.
+@param a? body|robot
+@param b? body|robot
+@return contact[]  on b; without arguments on the object of each pair
+> world:contacts(hand, flask)[1].body == flask  --> true)"},
+    {"set_collision", guarded<set_collision>, R"(
+Switches collision on or off: for the whole world, for one thing against everything, or for a pair.
+@param on boolean
+@param a? body|robot
+@param b? body|robot
+> world:set_collision(false, hand, flask)
+> #world:contacts(hand, flask)  --> 0)"},
+    {"set_friction", guarded<set_friction>, R"(
+Sets the Coulomb coefficients of a pair of materials; new names become materials.
+@param a string
+@param b string
+@param friction {static: number, kinetic?: number}  kinetic: static - 0.1 unless given
+> world:set_friction("cork", "wood", {static = 0.7})
+> world:friction("wood", "cork")  --> 0.7)"},
+    {"friction", guarded<friction>, R"(
+The coefficients of a pair of materials.
+@param a string
+@param b string
+@return number static
+@return number kinetic
+> world:friction("rubber", "stone")  --> 1.5)"},
+};
+
+static const Entry operators[] = {
+    {"__tostring", guarded<text>, ""},
+    {"__eq", guarded<equal>, ""},
+};
+
+static const Entry snapshot_operators[] = {
+    {"__tostring", guarded<snapshot_text>, ""},
+};
+
+const Library world_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class world_class{.name = "world",
+                        .variable = "world",
+                        .doc =
+                            "Bodies and robots, what may collide with what, "
+                            "how things rub. Lists are in creation order.",
+                        .fields = fields,
+                        .methods = methods,
+                        .operators = operators};
+
+const Class snapshot_class{
+    .name = "snapshot",
+    .variable = "snapshot",
+    .doc = "The state of a world at a moment; `world:restore` goes back to it.",
+    .fields = {},
+    .methods = {},
+    .operators = snapshot_operators};
+
+}  // namespace clench

@@ -1,0 +1,40 @@
+#include "script/handles.h"
+
+#include "base/error.h"
+#include "script/push.h"
+
+namespace clench {
+
+int push_bodies(lua_State* L, const WorldPtr& world, const std::vector<Id<Body>>& ids) {
+  return push_list_of(L, ids, [&](Id<Body> id) { push(L, BodyHandle{world, id}); });
+}
+
+int push_pairs(lua_State* L, const WorldPtr& world, const std::vector<BodyPair>& pairs) {
+  return push_list_of(L, pairs, [&](const BodyPair& pair) {
+    push_bodies(L, world, {pair.first, pair.second});
+  });
+}
+
+static void check_world(lua_State* L, const WorldPtr& mine, const WorldPtr& theirs,
+                        const std::string& name) {
+  if (mine != theirs) fail("{}: '{}' belongs to another world", subject(L), name);
+}
+
+std::vector<Id<Body>> check_bodies(lua_State* L, int i, const char* name, const WorldPtr& world) {
+  if (const auto* body = to<BodyHandle>(L, i)) {
+    check_world(L, world, body->world, (*body)->name);
+    return {body->id};
+  }
+  if (const auto* robot = to<RobotHandle>(L, i)) {
+    check_world(L, world, robot->world, (*robot)->name);
+    return world->bodies_of(robot->id);
+  }
+  fail_wanted({L, {}, name}, "a body or a robot", i);
+}
+
+BodyHandle self_body(lua_State* L) {
+  if (const auto* robot = to<RobotHandle>(L, 1)) return {robot->world, (*robot)->base};
+  return self<BodyHandle>(L);
+}
+
+}  // namespace clench

@@ -1,0 +1,79 @@
+#include "script/read_spec.h"
+
+#include "base/error.h"
+#include "script/bind_log.h"
+
+namespace clench {
+
+ReadOptions read_options(lua_State* L, Table& options) {
+  ReadOptions out;
+  out.root = options.string("root", "");
+  out.warn = [L](const std::string& message) { log_warning(L, message); };
+  return out;
+}
+
+// the value of a key of a plain table, without metamethods
+static void push_raw(lua_State* L, int table, const char* key) {
+  lua_pushstring(L, key);
+  lua_rawget(L, table);
+}
+
+// a table of vertices and triangles, as the shapes of the standard library are
+static Mesh read_mesh(lua_State* L, int i, const std::string& name) {
+  const int table = lua_absindex(L, i);
+  Mesh mesh;
+  push_raw(L, table, "vertices");
+  for (const auto& row : read_rows(L, -1, {L, name, "vertices"}, 3))
+    mesh.vertices.emplace_back(row[0], row[1], row[2]);
+  push_raw(L, table, "triangles");
+  const int count = static_cast<int>(mesh.vertices.size());
+  int number = 0;
+  for (const auto& row : read_rows(L, -1, {L, name, "triangles"}, 3)) {
+    ++number;
+    Triangle t;
+    for (int k = 0; k < 3; ++k) {
+      if (!(row[k] >= 1 && row[k] <= count && row[k] == std::floor(row[k])))
+        fail("{}: triangle {}: wanted vertices from 1 to {}, got {}", name, number, count, row[k]);
+      t[k] = static_cast<int>(row[k]) - 1;
+    }
+    mesh.triangles.push_back(t);
+  }
+  lua_pop(L, 2);
+  return mesh;
+}
+
+static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
+  spec.name = options.string("name", spec.name);
+  spec.material = options.string("material", spec.material);
+  spec.mass = options.positive("mass", spec.mass);
+  if (options.has("com")) spec.com = options.vec3("com");
+  if (options.has("elastic_modulus")) spec.elastic_modulus = options.positive("elastic_modulus", 1);
+  if (options.has("color")) {
+    spec.appearance.color = options.vec3("color").cast<float>();
+    spec.appearance.triangle_colors.clear();
+    spec.appearance.given = true;
+    if ((spec.appearance.color.array() < 0).any() || (spec.appearance.color.array() > 1).any())
+      fail("{}: color: wanted three numbers in 0..1", subject(L));
+  }
+  const double transparency = options.number("transparency", spec.appearance.transparency);
+  if (transparency < 0 || transparency > 1)
+    fail("{}: transparency: wanted 0..1, got {}", subject(L), transparency);
+  spec.appearance.transparency = static_cast<float>(transparency);
+}
+
+BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions& reading) {
+  BodySpec spec;
+  if (lua_type(L, i) == LUA_TSTRING) {
+    spec = read_body(find_file(check_string(L, i, "path"), {}, reading), reading);
+  } else if (lua_istable(L, i)) {
+    const std::string name = options.string("name", "body");
+    spec.name = name;
+    spec.shape = Shape::make(read_mesh(L, i, subject(L)), name);
+  } else {
+    fail_wanted({L, {}, "body"}, "a file name or a mesh {vertices = ..., triangles = ...}", i);
+  }
+  override_spec(L, spec, options);
+  return spec;
+}
+
+}  // namespace clench
