@@ -7,23 +7,23 @@ local silver, steel, black, rubber = {0.70, 0.72, 0.74}, {0.38, 0.40, 0.42}, {0.
 
 -- where the fingers stand on the palm: see the chains of dlr.cfg
 local fingers = {{x = -40, y = 128, turn = 6}, {x = 0, y = 133, turn = 0}, {x = 40, y = 128, turn = -6}}
-local finger_height, thumb = -6, {30, 34, 30}
+local finger_height, thumb = -6, {30, 24, 30}
 
---- from the knuckle (x = -100) to the middle joint (x = 0)
+--- from the knuckle (x = -75) to the middle joint (x = 0)
 local function proximal()
   local body = build.spine {
-    {x = -91, y = 0, h = 17, w = 18, r = 5}, {x = -86, y = -0.3, h = 22, w = 23, r = 6.5},
-    {x = -76, y = -0.8, h = 24, w = 24, r = 7}, {x = -45, y = -0.8, h = 22.5, w = 22.5, r = 7},
+    {x = -66, y = 0, h = 17, w = 18, r = 5}, {x = -61, y = -0.3, h = 22, w = 23, r = 6.5},
+    {x = -53, y = -0.8, h = 24, w = 24, r = 7}, {x = -36, y = -0.8, h = 22.5, w = 22.5, r = 7},
     {x = -18, y = -0.4, h = 19.5, w = 20.5, r = 6}, {x = -12.5, y = -0.2, h = 16, w = 18, r = 5},
   }
   local cover = build.spine {
-    {x = -74, y = -10.4, h = 5, w = 10, r = 2}, {x = -69, y = -11.4, h = 6.4, w = 13, r = 2.6},
-    {x = -34, y = -10.6, h = 6, w = 12, r = 2.5}, {x = -27, y = -9.4, h = 4.4, w = 9, r = 1.9},
+    {x = -54, y = -10.4, h = 5, w = 10, r = 2}, {x = -50, y = -11.4, h = 6.4, w = 13, r = 2.6},
+    {x = -27, y = -10.4, h = 6, w = 12, r = 2.5}, {x = -22, y = -9.4, h = 4.4, w = 9, r = 1.9},
   }
   local cheeks = build.fork(build.belt({-16, 0}, 8, {0, 0}, 9.4), 6.8, 10, 1)
   return {
-    {shapes.move(shapes.sphere {14.2}, {-100, 0, 0}), color = steel},
-    {build.drum(-100, 0, 7, -16.4, 16.4, 28), color = black},
+    {shapes.move(shapes.sphere {14.2}, {-75, 0, 0}), color = steel},
+    {build.drum(-75, 0, 7, -16.4, 16.4, 28), color = black},
     {body, color = silver}, {cover, color = black}, {cheeks, color = silver},
     {build.drum(0, 0, 5, -10.9, 10.9, 20), color = black},
   }
@@ -43,16 +43,16 @@ local function middle()
   }
 end
 
---- from the distal joint (x = -34) to the centre of the fingertip (x = 0)
+--- from the distal joint (x = -31) to the centre of the fingertip (x = 0)
 local function distal()
-  local neck = build.plate({{-35, -5.6}, {-22, -6.2}, {-22, 5.6}, {-35, 5.6}}, -5.4, 5.4)
+  local neck = build.plate({{-32, -5.6}, {-20, -6.2}, {-20, 5.6}, {-32, 5.6}}, -5.4, 5.4)
   local sleeve = build.spine {
-    {x = -25.5, y = -0.3, h = 13, w = 14, r = 4.5}, {x = -23, y = -0.3, h = 16.6, w = 17.6, r = 6},
-    {x = -15, y = -0.2, h = 17.4, w = 18, r = 6.5}, {x = -13.4, y = -0.2, h = 15.6, w = 16.4, r = 6},
+    {x = -23, y = -0.3, h = 13, w = 14, r = 4.5}, {x = -20.5, y = -0.3, h = 16.2, w = 17.2, r = 6},
+    {x = -13, y = -0.2, h = 16.8, w = 17.4, r = 6.5}, {x = -11.4, y = -0.2, h = 15, w = 15.8, r = 6},
   }
-  local tip = shapes.capsule {8.5, top = 9.6, from = {-13, 0.2, 0}, to = {0, 0, 0}, segments = 36}
+  local tip = shapes.capsule {8.2, top = 9, from = {-11, 0.2, 0}, to = {0, 0, 0}, segments = 36}
   return {
-    {build.drum(-34, 0, 7.6, -5.6, 5.6, 28), color = steel}, {neck, color = steel}, {sleeve, color = silver},
+    {build.drum(-31, 0, 7.6, -5.6, 5.6, 28), color = steel}, {neck, color = steel}, {sleeve, color = silver},
     {tip, color = rubber},
   }
 end
@@ -67,9 +67,9 @@ end
 
 local function palm()
   local shell = shapes.outline {
-    {-36, 10, 8}, {36, 10, 8}, {58, 46, 22}, {61, 112, 10}, {14, 117}, {-14, 117}, {-61, 112, 10}, {-50, 46, 30}, segments = 5,
+    {-36, 0, 8}, {51, 0, 14}, {59, 46, 22}, {61, 112, 10}, {14, 117}, {-14, 117}, {-61, 112, 10}, {-50, 46, 30}, segments = 5,
   }
-  local pad = shapes.outline {{-31, 18, 6}, {6, 18, 6}, {9, 52, 8}, {42, 62, 8}, {47, 103, 8}, {-48, 103, 8}, {-40, 50, 20}, segments = 4}
+  local pad = shapes.outline {{-31, 18, 6}, {4, 18, 6}, {8, 46, 8}, {42, 56, 8}, {47, 103, 8}, {-48, 103, 8}, {-40, 50, 20}, segments = 4}
   local back = shapes.outline {{-27, 20, 10}, {27, 20, 10}, {42, 58, 16}, {44, 102, 10}, {-44, 102, 10}, {-36, 58, 16}, segments = 4}
   -- the thumb stands on a post in front of the palm
   local post = shapes.lathe {shapes.outline {{0, -40}, {21, -40, 2}, {20, -24, 4}, {16.5, -18, 4}, {17.4, -5, 1.2}, {15, -4, 0.8}, {11, -9}, {0, -9}, segments = 2},
@@ -81,7 +81,7 @@ local function palm()
     {shapes.move(shapes.prism {pad, 6, rounding = 1.2, segments = 2}, {0, 0, 2}), color = rubber},
     {shapes.move(shapes.prism {back, 6, rounding = 1.5, segments = 2}, {0, 0, -31}), color = black},
     {shapes.move(post, thumb), color = steel},
-    {shapes.move(shapes.turn(wrist, {1, 0, 0}, -math.pi / 2), {0, 0, -11}), color = steel},
+    {shapes.move(shapes.turn(wrist, {1, 0, 0}, -math.pi / 2), {0, -5, -11}), color = steel},
   }
   for _, finger in ipairs(fingers) do parts[#parts + 1] = {socket(finger), color = steel} end
   return parts
@@ -89,7 +89,7 @@ end
 
 -- the published weight of the whole hand, 1800 g, shared out by volume
 return {
-  {"models/hands/dlr/iv/palm.iv", about = "palm and wrist of a four-fingered hand", material = "metal", mass = 880, parts = palm()},
+  {"models/hands/dlr/iv/palm.iv", about = "palm and wrist of a four-fingered hand", material = "rubber", mass = 880, parts = palm()},
   {"models/hands/dlr/iv/proximal.iv", about = "proximal link of a four-fingered hand", material = "metal", mass = 150, parts = proximal()},
   {"models/hands/dlr/iv/middle.iv", about = "middle link of a four-fingered hand", material = "metal", mass = 40, parts = middle()},
   {"models/hands/dlr/iv/distal.iv", about = "fingertip of a four-fingered hand", material = "rubber", mass = 40, parts = distal()},
