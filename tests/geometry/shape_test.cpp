@@ -1,0 +1,71 @@
+#include "geometry/shape.h"
+
+#include <doctest/doctest.h>
+
+#include "base/error.h"
+#include "support/meshes.h"
+
+using namespace clench;
+using namespace clench::test;
+using Eigen::Vector3d;
+
+TEST_CASE("a shape knows its mesh, faults, mass and bounds") {
+  const ShapePtr shape = Shape::make(moved(box(1, 2, 2), Pose::translation({5, 0, 0})));
+  CHECK(shape->mesh().triangles.size() == 12);
+  CHECK(shape->closed());
+  CHECK(shape->faults().none());
+  CHECK(shape->solid().volume == doctest::Approx(4));
+  CHECK(shape->bounds().low == Vector3d(4.5, -1, -1));
+  CHECK(shape->centre() == Vector3d(5, 0, 0));
+  CHECK(shape->radius() == 1.5);
+  CHECK(shape->has_triangle(11));
+  CHECK_FALSE(shape->has_triangle(12));
+  CHECK_FALSE(shape->has_triangle(-1));
+}
+
+TEST_CASE("the sphere holds every corner, the bounds leave out what no triangle uses") {
+  Random random(1);
+  Mesh mesh = moved(potato(random), random_pose(random, 10));
+  const Bounds used = mesh.bounds();
+  mesh.vertices.push_back({1000, 0, 0});
+  const ShapePtr shape = Shape::make(mesh);
+  CHECK(shape->bounds().high == used.high);
+  for (size_t i = 0; i + 1 < mesh.vertices.size(); ++i)
+    CHECK((mesh.vertices[i] - shape->centre()).norm() <= shape->radius());
+}
+
+TEST_CASE("each connected part is named by its first triangle") {
+  const Mesh one = ball(1), two = joined(one, moved(one, Pose::translation({5, 0, 0})));
+  const int count = static_cast<int>(one.triangles.size());
+  CHECK(Shape::make(one)->parts() == std::vector<int>{0});
+  CHECK(Shape::make(two)->parts() == std::vector<int>{0, count});
+  // corners at one place connect, as in a file without indices
+  Mesh fan;
+  fan.vertices = {{0, 0, 0},  {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {-1, 0, 0},
+                  {0, -1, 0}, {2, 2, 2}, {3, 2, 2}, {2, 3, 2}};
+  fan.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  CHECK(Shape::make(fan)->parts() == std::vector<int>{0, 2});
+}
+
+TEST_CASE("a bad mesh is refused in the words of its subject") {
+  Mesh mesh = box(1, 1, 1);
+  mesh.vertices[2].x() = std::nan("");
+  CHECK_THROWS_WITH_AS(
+      Shape::make(mesh, "mug.iv"),
+      "mug.iv: vertex 2: coordinates must be finite and within 1e+30 [m], got (nan, 0.5, -0.5)",
+      Error);
+  CHECK_THROWS_WITH_AS(Shape::make({}), "mesh: at least one triangle wanted, got none", Error);
+}
+
+TEST_CASE("shapes are made of anything finite: copies, points, needles, geometric series") {
+  Mesh heap;
+  for (int i = 0; i < 300; ++i) {
+    const int v = static_cast<int>(heap.vertices.size());
+    const double x = i < 100 ? 0 : std::pow(2, 0.3 * (i - 200));
+    for (const double y : {0.0, i % 3 * x, 0.5 * x}) heap.vertices.push_back({x, y, 0});
+    heap.triangles.push_back({v, v + 1, v + 2});
+  }
+  CHECK(Shape::make(heap)->radius() > 0);
+  CHECK(Shape::make(scaled(heap, 1e15))->radius() > 0);
+  CHECK(Shape::make(scaled(heap, 0))->radius() == 0);
+}
