@@ -70,7 +70,7 @@ static int add_robot(lua_State* L) {
   const std::string name = options.string("name", "");
   options.done();
   const RobotSpec spec = read_robot(find_file(path, {}, reading), reading);
-  return push(L, RobotHandle{handle.world, handle.world->add_robot(spec, pose, name)});
+  return push(L, RobotHandle{handle.world, clench::add_robot(*handle.world, spec, pose, name, reading.warn)});
 }
 
 static int remove(lua_State* L) {
@@ -323,7 +323,7 @@ The robot of a name.
 Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options
 give overrides the file.
 @param body string|table  file name (.iv .wrl .obj .stl), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
-@param options? {pose?: pose, name?: string, material?: string, mass?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, color?: number[], transparency?: number, root?: string}
+@param options? {pose?: pose, name?: string, material?: string, mass?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, color?: number[], transparency?: number, root?: string, mesh_scale?: number}  mesh_scale: length of the unit of an .obj or .stl file, 1 by default [m]
 @return body
 > world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "cube", mass = 0.2}).mass  --> 0.2
 > world:add_object "flsk.iv"  --> error: flsk.iv)"},

@@ -8,6 +8,7 @@ namespace clench {
 ReadOptions read_options(lua_State* L, Table& options) {
   ReadOptions out;
   out.root = options.string("root", "");
+  out.mesh_scale = options.positive("mesh_scale", out.mesh_scale);
   out.warn = [L](const std::string& message) { log_warning(L, message); };
   return out;
 }
