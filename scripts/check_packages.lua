@@ -20,21 +20,23 @@ local function each_line(path, take)
   file:close()
 end
 
---- name that CMake asks for -> {purpose, package, line}
+--- packages in the list's order: {purpose, package, asked = names that CMake asks for, line}
 local function read_list(path)
-  local listed, packages = {}, {}
+  local packages, seen = {}, {}
   each_line(path, function(line, text)
     local purpose, package, asked = text:match "^(%S+)%s+(%S+)%s+(%S+)%s+%S"
     if purpose ~= "build" and purpose ~= "test" then
       fault(path, line, "wanted 'build' or 'test', a package, how CMake asks for it, what for; got '%s'", text)
-    elseif packages[package] then
+    elseif seen[package] then
       fault(path, line, "package %s is listed twice", package)
-    elseif asked ~= "-" then
-      listed[asked] = {purpose = purpose, package = package, line = line}
+    else
+      local entry = {purpose = purpose, package = package, asked = {}, line = line}
+      for name in asked:gmatch "[^,]+" do entry.asked[#entry.asked + 1] = name ~= "-" and name or nil end
+      packages[#packages + 1] = entry
+      seen[package] = true
     end
-    if package then packages[package] = true end
   end)
-  return listed
+  return packages
 end
 
 --- name -> {path, line} of the first find_package or pkg_check_modules that asks for it
@@ -52,10 +54,11 @@ local function read_requests(paths)
   return asked
 end
 
---- CMakeLists.txt of the root, of src/, of tests/ and below, in this order
+--- the CMake files: the root's, those of src/, those of tests/ and below, in this order
 local function cmake_files()
   local quoted = "'" .. root:gsub("'", "'\\''") .. "'"
-  local found = assert(io.popen("cd " .. quoted .. " && find src tests -name CMakeLists.txt -not -path 'tests/data/*' | LC_ALL=C sort"))
+  local wanted = "\\( -name CMakeLists.txt -o -name '*.cmake' \\) -not -path 'tests/data/*'"
+  local found = assert(io.popen(("cd %s && find src tests %s | LC_ALL=C sort"):format(quoted, wanted)))
   local files = {"CMakeLists.txt"}
   for path in found:lines() do files[#files + 1] = path end
   found:close()
@@ -63,21 +66,26 @@ local function cmake_files()
 end
 
 local list = "scripts/packages.txt"
-local listed, asked = read_list(list), read_requests(cmake_files())
-for name, request in pairs(asked) do
-  local entry = listed[name]
-  local only_tests = request.path:find "^tests/" ~= nil
-  if not entry then
-    fault(request.path, request.line, "%s is asked for, and no package of %s gives it", name, list)
-  elseif only_tests ~= (entry.purpose == "test") then
+local packages, requests = read_list(list), read_requests(cmake_files())
+requests.clench = nil  -- our own, which the embedding test asks for
+for _, entry in ipairs(packages) do
+  local first  -- what asks for it before tests/ does, else anything that does
+  for _, name in ipairs(entry.asked) do
+    local request = requests[name]
+    if not request then
+      fault(list, entry.line, "%s is listed for %s, which no CMake file asks for", entry.package, name)
+    elseif not first or first.path:find "^tests/" then
+      first = request
+    end
+    requests[name] = nil
+  end
+  if first and (first.path:find "^tests/" ~= nil) ~= (entry.purpose == "test") then
     fault(list, entry.line, "%s is listed for '%s', and %s:%d asks for it", entry.package, entry.purpose,
-          request.path, request.line)
+          first.path, first.line)
   end
 end
-for name, entry in pairs(listed) do
-  if not asked[name] then
-    fault(list, entry.line, "%s is listed for %s, which no CMake file asks for", entry.package, name)
-  end
+for name, request in pairs(requests) do
+  fault(request.path, request.line, "%s is asked for, and no package of %s gives it", name, list)
 end
 table.sort(faults)
 for _, text in ipairs(faults) do print(text) end
