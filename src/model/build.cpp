@@ -50,6 +50,24 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
   world.mount(child, parent, c.chain, X_LB, c.mount ? &*c.mount : nullptr);
 }
 
+std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot) {
+  const auto own = world.bodies_of(robot);
+  const auto pairs = colliding_pairs(world, own, own);
+  for (const auto& [a, b] : pairs) world.set_collision(false, a, b);
+  return pairs;
+}
+
+Id<Robot> add_robot(World& world, const RobotSpec& spec, const Pose& X_WB, const std::string& name,
+                    const Warn& warn) {
+  const auto id = world.add_robot(spec, X_WB, name);
+  const auto pairs = switch_off_overlaps(world, id);
+  if (warn && !pairs.empty())
+    warn(fmt::format(
+        "robot '{}': these of its bodies overlap as it is loaded, and may from now on: {}",
+        world.robot(id).name, describe(world, pairs)));
+  return id;
+}
+
 World build_world(const WorldSpec& spec, const Warn& warn) {
   World world;
   std::vector<Id<Robot>> robots(spec.robots.size());
@@ -61,7 +79,7 @@ World build_world(const WorldSpec& spec, const Warn& warn) {
                      placed.X_WB);
     } else {
       const PlacedRobot& placed = spec.robots[entry.index];
-      robots[entry.index] = world.add_robot(placed.robot, placed.X_WB);
+      robots[entry.index] = add_robot(world, placed.robot, placed.X_WB, "", warn);
       set_start_dofs(world, robots[entry.index], placed, warn);
     }
   }

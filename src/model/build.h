@@ -2,7 +2,7 @@
 #pragma once
 #include <functional>
 
-#include "model/world.h"
+#include "model/find.h"
 
 namespace clench {
 
@@ -10,5 +10,14 @@ namespace clench {
 /// agrees with the connection to the six digits that files hold; otherwise the connection wins. DOF values
 /// outside their limits are brought to the nearest limit. `warn` is told of both.
 World build_world(const WorldSpec& spec, const std::function<void(const std::string&)>& warn = {});
+
+/// Switches off the pairs of a robot's own bodies that overlap where it stands: models whose links reach into each
+/// other at a joint could otherwise never move.   returns those pairs
+std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot);
+
+/// Adds a robot, and tells `warn` of the pairs that switch_off_overlaps found.
+Id<Robot> add_robot(World& world, const RobotSpec& spec, const Pose& X_WB,
+                    const std::string& name = "",
+                    const std::function<void(const std::string&)>& warn = {});
 
 }  // namespace clench

@@ -87,3 +87,22 @@ TEST_CASE("wrong counts are refused") {
   CHECK_THROWS_WITH_AS(build_world(spec), "a connection names robots 0 and 7, but the world has 2",
                        Error);
 }
+
+TEST_CASE("links that overlap as a robot is loaded are switched off, and said to be") {
+  RobotSpec spec = two_finger();
+  // the second links reach back into the base
+  spec.chains[0].links[1].body.shape = Shape::make(moved(box(0.4, 0.01, 0.01), {-0.025, 0, 0}));
+  World world;
+  std::vector<std::string> warnings;
+  const auto id =
+      add_robot(world, spec, {}, "", [&](const std::string& w) { warnings.push_back(w); });
+  const Robot& robot = world.robot(id);
+  CHECK_FALSE(world.may_collide(robot.base, robot.chains[0].links[1]));
+  CHECK(world.may_collide(robot.base, robot.chains[1].links[1]));
+  CHECK(colliding_pairs(world).empty());
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0] ==
+        "robot 'gripper': these of its bodies overlap as it is loaded, and may from now on: "
+        "gripper_base and "
+        "gripper_chain0_link1");
+}
