@@ -10,6 +10,7 @@
 #include "script/bind_mesh.h"
 #include "script/bind_pose.h"
 #include "script/bind_random.h"
+#include "script/bind_render.h"
 #include "script/bind_units.h"
 #include "script/bind_vec3.h"
 #include "script/handles.h"
@@ -30,6 +31,7 @@ std::span<const Library* const> all_libraries() {
       &log_library,
       &world_library,
       &grasp_library,
+      &render_library,
   };
   return libraries;
 }
@@ -48,6 +50,7 @@ std::span<const Class* const> all_classes() {
       &contact_class,
       &grasp_class,
       &wrench_space_class,
+      &picture_class,
   };
   return classes;
 }

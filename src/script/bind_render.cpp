@@ -1,0 +1,127 @@
+#include "script/bind_render.h"
+
+#include "render/render.h"
+#include "script/guard.h"
+#include "script/handles.h"
+#include "script/push.h"
+#include "script/table.h"
+
+namespace clench {
+
+static Eye read_eye(Table& options, const Eye& from) {
+  Eye eye = from;
+  eye.eye = options.vec3("eye", from.eye);
+  eye.target = options.vec3("target", from.target);
+  eye.up = options.vec3("up", from.up);
+  eye.field_of_view = options.positive("field_of_view", from.field_of_view);
+  return eye;
+}
+
+static int draw(lua_State* L) {
+  const auto& world = *check_object<WorldHandle>(L, 1, "world").world;
+  Table options(L, 2);
+  RenderOptions rendering;
+  const auto size =
+      options.has("size") ? options.numbers("size", 2) : std::vector<double>{1280, 960};
+  for (const double n : size)
+    if (n != std::floor(n) || std::abs(n) > 1e6)
+      fail("{}: size: wanted whole numbers of pixels, got {}", subject(L), n);
+  rendering.width = static_cast<int>(size[0]);
+  rendering.height = static_cast<int>(size[1]);
+  rendering.samples = options.integer("samples", rendering.samples);
+  SceneOptions showing;
+  showing.contacts = options.boolean("contacts", showing.contacts);
+  showing.ground = options.boolean("ground", showing.ground);
+  showing.transparent_objects = options.boolean("transparent_objects", showing.transparent_objects);
+  showing.file_colors = options.boolean("file_colors", showing.file_colors);
+  Scene scene = make_scene(world, showing);
+  // a camera that is given in part begins from the one that frames everything
+  const Eye framed = frame_all(scene, size[1] > 0 ? size[0] / size[1] : 1);
+  const bool given_eye = options.has("eye") || options.has("target") || options.has("up") ||
+                         options.has("field_of_view");
+  const Eye eye = read_eye(options, framed);
+  if (given_eye) scene.eye = eye;
+  options.done();
+  return push_object(L, render(scene, rendering));
+}
+
+static int save(lua_State* L) {
+  save_png(self<Picture>(L), check_string(L, 2, "path"));
+  return 0;
+}
+
+static int get_width(lua_State* L) { return push(L, self<Picture>(L).width); }
+static int get_height(lua_State* L) { return push(L, self<Picture>(L).height); }
+
+static int pixel(lua_State* L) {
+  const Picture& p = self<Picture>(L);
+  const int x = check_int(L, 2, "x"), y = check_int(L, 3, "y");
+  if (x < 1 || x > p.width || y < 1 || y > p.height)
+    fail("{}: wanted 1..{}, 1..{}, got {}, {}", subject(L), p.width, p.height, x, y);
+  const size_t at = 3 * (static_cast<size_t>(y - 1) * p.width + (x - 1));
+  for (int k = 0; k < 3; ++k) push(L, static_cast<int>(p.pixels[at + k]));
+  return 3;
+}
+
+static int text(lua_State* L) {
+  const Picture& p = self<Picture>(L);
+  return push(L, fmt::format("picture of {} x {} pixels", p.width, p.height));
+}
+
+static int equal(lua_State* L) {
+  const auto *a = to<Picture>(L, 1), *b = to<Picture>(L, 2);
+  return push(L,
+              a && b && a->width == b->width && a->height == b->height && a->pixels == b->pixels);
+}
+
+static const Entry functions[] = {
+    {"render", guarded<draw>, R"(
+Draws a world: robots, objects, obstacles, and friction cones where robots touch objects. The camera frames everything
+unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
+@param world world
+@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer}  size: width and height in pixels; field_of_view: vertical [rad]
+@return picture
+> clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels)"},
+};
+
+static const Entry fields[] = {
+    {"width", guarded<get_width>, R"(
+@type integer  pixels
+> clench.render(world, {size = {64, 48}}).width  --> 64)"},
+    {"height", guarded<get_height>, R"(
+@type integer  pixels
+> clench.render(world, {size = {64, 48}}).height  --> 48)"},
+};
+
+static const Entry methods[] = {
+    {"save", guarded<save>, R"(
+Writes a PNG file.
+@param path string
+> clench.render(world, {size = {64, 48}}):save("no/such/folder/a.png")  --> error: no/such/folder/a.png)"},
+    {"pixel", guarded<pixel>, R"(
+Red, green and blue of a pixel, 0 to 255; (1, 1) is the upper left.
+@param x integer
+@param y integer
+@return integer red
+@return integer green
+@return integer blue
+> select("#", clench.render(world, {size = {64, 48}}):pixel(1, 1))  --> 3)"},
+};
+
+static const Entry operators[] = {
+    {"__tostring", guarded<text>, ""},
+    {"__eq", guarded<equal>, ""},
+};
+
+const Library render_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class picture_class{.name = "picture",
+                          .variable = "picture",
+                          .doc =
+                              "A picture: red, green and blue, 8 bits each. "
+                              "`==` compares every pixel.",
+                          .fields = fields,
+                          .methods = methods,
+                          .operators = operators};
+
+}  // namespace clench
