@@ -30,7 +30,7 @@ end
 
 local function write(path, text)
   local file, why = io.open(path, "wb")
-  if not file then error("cannot write " .. why .. "; the folder must exist, and this must run in the project's root", 0) end
+  if not file then error("cannot write " .. why .. "; run this in the project's root", 0) end
   file:write(text)
   file:close()
 end
@@ -49,7 +49,8 @@ for _, set in ipairs {"barrett", "dlr", "objects"} do
       local same = read(path) == text
       if check and not same then stale = stale + 1 end
       if not check and not same then write(path, text) end
-      print(("%-9s %-40s %5d triangles %4d KB"):format(same and "same" or check and "STALE" or "written", path, triangles, #text // 1000))
+      local word = same and "same" or check and "STALE" or "written"
+      print(("%-9s %-40s %5d triangles %4d KB"):format(word, path, triangles, #text // 1000))
     end
   end
 end

@@ -9,7 +9,8 @@ local black, grey, metal, rubber = {0.13, 0.14, 0.15}, {0.34, 0.36, 0.38}, {0.74
 local function inner_link()
   local body = build.spine {
     {x = -58.5, y = -1, h = 15, w = 18, r = 3}, {x = -55, y = -1, h = 19, w = 21, r = 4},
-    {x = -30, y = -1.2, h = 18, w = 19.5, r = 4}, {x = -11, y = -1, h = 16, w = 18, r = 4}, {x = -8.5, y = -0.8, h = 13, w = 16, r = 3},
+    {x = -30, y = -1.2, h = 18, w = 19.5, r = 4}, {x = -11, y = -1, h = 16, w = 18, r = 4},
+    {x = -8.5, y = -0.8, h = 13, w = 16, r = 3},
   }
   local neck = build.plate({{-72, -8}, {-52, -8.5}, {-52, 6.5}, {-72, 7}}, -7.2, 7.2)
   local gear = build.spine {{x = -50, y = -10.4, h = 4, w = 11, r = 1.5}, {x = -46, y = -11.2, h = 5, w = 13, r = 1.8},
@@ -35,7 +36,8 @@ local function outer_link()
     {x = -6, y = 4.3, h = 3.8, w = 9, r = 1.5, lean = -9}, {x = -1.6, y = 3.9, h = 2.4, w = 6.6, r = 1, lean = -14},
   }
   return {
-    {build.drum(-55, 0, 8, -6, 6), color = grey}, {build.plate({{-56, -6}, {-44, -7}, {-44, 6}, {-56, 6}}, -5.6, 5.6), color = metal},
+    {build.drum(-55, 0, 8, -6, 6), color = grey},
+    {build.plate({{-56, -6}, {-44, -7}, {-44, 6}, {-56, 6}}, -5.6, 5.6), color = metal},
     {claw, color = metal}, {pad, color = rubber},
   }
 end
@@ -58,7 +60,9 @@ local function palm()
   local cheeks = build.z_to_x(build.fork(build.belt({-50, -1}, 11.4, {-47, -32}, 13), 7.8, 11.8, 1.2))
   local web = build.z_to_x(build.plate({{-58, -44}, {-18, -44}, {-18, -13.5}, {-58, -13.5}}, -9, 9, 1.5))
   local axle = build.z_to_x(build.drum(-50, -1, 5.4, -12.6, 12.6, 20))
-  local housing = shapes.lathe {shapes.outline {{0, -118}, {37, -118, 2}, {37, -107, 1.5}, {44.5, -101, 4}, {44.5, -48, 5}, {0, -44}, segments = 4}}
+  local housing = shapes.lathe {shapes.outline {
+    {0, -118}, {37, -118, 2}, {37, -107, 1.5}, {44.5, -101, 4}, {44.5, -48, 5}, {0, -44}, segments = 4,
+  }}
   local band = shapes.lathe {{{40, -92}, {45.2, -92}, {45.6, -91}, {45.6, -80}, {45.2, -79}, {40, -79}}}
   local column = shapes.cylinder {17, from = {0, -26, -46}, to = {0, -26, -6}, segments = 32}
   return {
@@ -70,8 +74,12 @@ end
 
 -- the published weight of the whole hand, 1180 g, shared out by volume and thickness of the parts
 return {
-  {"models/hands/barrett/iv/palm.iv", about = "palm and motor housing of a three-fingered hand", material = "plastic", mass = 690, parts = palm()},
-  {"models/hands/barrett/iv/spread.iv", about = "spread link of a three-fingered hand", material = "metal", mass = 85, parts = spread_link()},
-  {"models/hands/barrett/iv/inner.iv", about = "inner link of a three-fingered hand", material = "metal", mass = 65, parts = inner_link()},
-  {"models/hands/barrett/iv/outer.iv", about = "outer link of a three-fingered hand", material = "rubber", mass = 41, parts = outer_link()},
+  {"models/hands/barrett/iv/palm.iv", about = "palm and motor housing of a three-fingered hand",
+   material = "plastic", mass = 690, parts = palm()},
+  {"models/hands/barrett/iv/spread.iv", about = "spread link of a three-fingered hand",
+   material = "metal", mass = 85, parts = spread_link()},
+  {"models/hands/barrett/iv/inner.iv", about = "inner link of a three-fingered hand",
+   material = "metal", mass = 65, parts = inner_link()},
+  {"models/hands/barrett/iv/outer.iv", about = "outer link of a three-fingered hand",
+   material = "rubber", mass = 41, parts = outer_link()},
 }

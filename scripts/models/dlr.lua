@@ -59,23 +59,32 @@ end
 
 --- a socket that a knuckle's ball stands out of, with the finger along `turn` degrees from +y
 local function socket(finger)
-  local ring = shapes.lathe {shapes.outline {{0, -30}, {16.5, -30, 2}, {16.5, -13, 3}, {17.4, -5, 1.2}, {15, -4, 0.8}, {11, -9}, {0, -9}, segments = 2},
-                             segments = 30}
+  local ring = shapes.lathe {segments = 30, profile = shapes.outline {
+    {0, -30}, {16.5, -30, 2}, {16.5, -13, 3}, {17.4, -5, 1.2}, {15, -4, 0.8}, {11, -9}, {0, -9}, segments = 2,
+  }}
   local along = shapes.turn(ring, {1, 0, 0}, -math.pi / 2)
   return shapes.move(shapes.turn(along, {0, 0, 1}, math.rad(finger.turn)), {finger.x, finger.y, finger_height})
 end
 
 local function palm()
   local shell = shapes.outline {
-    {-36, 0, 8}, {51, 0, 14}, {59, 46, 22}, {61, 112, 10}, {14, 117}, {-14, 117}, {-61, 112, 10}, {-50, 46, 30}, segments = 5,
+    {-36, 0, 8}, {51, 0, 14}, {59, 46, 22}, {61, 112, 10}, {14, 117}, {-14, 117}, {-61, 112, 10}, {-50, 46, 30},
+    segments = 5,
   }
-  local pad = shapes.outline {{-31, 18, 6}, {4, 18, 6}, {8, 46, 8}, {42, 56, 8}, {47, 103, 8}, {-48, 103, 8}, {-40, 50, 20}, segments = 4}
-  local back = shapes.outline {{-27, 20, 10}, {27, 20, 10}, {42, 58, 16}, {44, 102, 10}, {-44, 102, 10}, {-36, 58, 16}, segments = 4}
+  local pad = shapes.outline {
+    {-31, 18, 6}, {4, 18, 6}, {8, 46, 8}, {42, 56, 8}, {47, 103, 8}, {-48, 103, 8}, {-40, 50, 20}, segments = 4,
+  }
+  local back = shapes.outline {
+    {-27, 20, 10}, {27, 20, 10}, {42, 58, 16}, {44, 102, 10}, {-44, 102, 10}, {-36, 58, 16}, segments = 4,
+  }
   -- the thumb stands on a post in front of the palm
-  local post = shapes.lathe {shapes.outline {{0, -40}, {21, -40, 2}, {20, -24, 4}, {16.5, -18, 4}, {17.4, -5, 1.2}, {15, -4, 0.8}, {11, -9}, {0, -9}, segments = 2},
-                             segments = 30}
-  local wrist = shapes.lathe {shapes.outline {{0, -34}, {36, -34, 2}, {36, -24, 2}, {28, -22, 1.5}, {26, 8, 4}, {16, 12}, {16, 24}, {0, 24}, segments = 2},
-                              segments = 40}
+  local post = shapes.lathe {segments = 30, profile = shapes.outline {
+    {0, -40}, {21, -40, 2}, {20, -24, 4}, {16.5, -18, 4}, {17.4, -5, 1.2}, {15, -4, 0.8}, {11, -9}, {0, -9},
+    segments = 2,
+  }}
+  local wrist = shapes.lathe {segments = 40, profile = shapes.outline {
+    {0, -34}, {36, -34, 2}, {36, -24, 2}, {28, -22, 1.5}, {26, 8, 4}, {16, 12}, {16, 24}, {0, 24}, segments = 2,
+  }}
   local parts = {
     {shapes.move(shapes.prism {shell, 34, rounding = 6, segments = 4}, {0, 0, -28}), color = silver},
     {shapes.move(shapes.prism {pad, 6, rounding = 1.2, segments = 2}, {0, 0, 2}), color = rubber},
@@ -89,8 +98,12 @@ end
 
 -- the published weight of the whole hand, 1800 g, shared out by volume
 return {
-  {"models/hands/dlr/iv/palm.iv", about = "palm and wrist of a four-fingered hand", material = "rubber", mass = 880, parts = palm()},
-  {"models/hands/dlr/iv/proximal.iv", about = "proximal link of a four-fingered hand", material = "metal", mass = 150, parts = proximal()},
-  {"models/hands/dlr/iv/middle.iv", about = "middle link of a four-fingered hand", material = "metal", mass = 40, parts = middle()},
-  {"models/hands/dlr/iv/distal.iv", about = "fingertip of a four-fingered hand", material = "rubber", mass = 40, parts = distal()},
+  {"models/hands/dlr/iv/palm.iv", about = "palm and wrist of a four-fingered hand",
+   material = "rubber", mass = 880, parts = palm()},
+  {"models/hands/dlr/iv/proximal.iv", about = "proximal link of a four-fingered hand",
+   material = "metal", mass = 150, parts = proximal()},
+  {"models/hands/dlr/iv/middle.iv", about = "middle link of a four-fingered hand",
+   material = "metal", mass = 40, parts = middle()},
+  {"models/hands/dlr/iv/distal.iv", about = "fingertip of a four-fingered hand",
+   material = "rubber", mass = 40, parts = distal()},
 }

@@ -40,7 +40,8 @@ end
 
 local function glass()
   return vessel({
-    {0, 1.5}, {18, 1.5, 1}, {21, 0, 1}, {26.5, 0, 3}, {29, 30, 40}, {36, 140, 0.8}, {33.8, 140, 0.8}, {26, 16, 8}, {0, 13},
+    {0, 1.5}, {18, 1.5, 1}, {21, 0, 1}, {26.5, 0, 3}, {29, 30, 40}, {36, 140, 0.8},
+    {33.8, 140, 0.8}, {26, 16, 8}, {0, 13},
   }, 56)
 end
 
@@ -74,6 +75,7 @@ return {
   {"models/objects/glass.iv", about = "drinking glass, 350 ml", material = "glass", density = soda_glass,
    parts = {{glass(), color = {0.75, 0.87, 0.85}, transparency = 0.4}}},
   {"models/objects/tea_tin.iv", about = "tea tin, 125 g of tea", material = "metal", density = tinplate,
-   parts = {{tin_body, color = {0.16, 0.36, 0.27}}, {tin_lid, color = {0.16, 0.36, 0.27}}, {tin_label, color = {0.88, 0.82, 0.66}}}},
+   parts = {{tin_body, color = {0.16, 0.36, 0.27}}, {tin_lid, color = {0.16, 0.36, 0.27}},
+            {tin_label, color = {0.88, 0.82, 0.66}}}},
   {"models/obstacles/table.iv", about = "low table", material = "wood", density = board, parts = table_parts()},
 }

@@ -8,8 +8,11 @@ local mesh = require "clench.shapes.mesh"
 return function(o, size)
   local length, from, to = o:raw(size), o:point "from", o:point "to"
   if length ~= nil and (from or to) or (from == nil) ~= (to == nil) or not (length or from) then
-    o:fail("wanted either %s or both from and to, got %s%s%s", size, length and size or from and "from" or "no " .. size,
-           length and from and ", from" or "", to and " and to" or "")
+    local got = {}
+    for _, name in ipairs {size, "from", "to"} do
+      if o:raw(name) ~= nil then got[#got + 1] = name end
+    end
+    o:fail("wanted either %s or both from and to, got %s", size, #got > 0 and table.concat(got, " and ") or "neither")
   end
   if length ~= nil then
     length = o:positive(size)

@@ -108,7 +108,10 @@ function polygon.triangulate(points, subject)
     triangles[#triangles + 1] = {ring[(best - 2) % n + 1], ring[best], ring[best % n + 1]}
     table.remove(ring, best)
     table.remove(quality, best)
-    for _, i in ipairs {(best - 2) % (n - 1) + 1, (best - 1) % (n - 1) + 1} do quality[i] = ear(points, ring, i) or -1 end
+    for i = best - 2, best - 1 do
+      local neighbour = i % (n - 1) + 1
+      quality[neighbour] = ear(points, ring, neighbour) or -1
+    end
   end
   triangles[#triangles + 1] = {ring[1], ring[2], ring[3]}
   return triangles

@@ -34,7 +34,8 @@ return function(given)
   outline = polygon.simple(outline, "shapes.prism: outline")
   local bevel, steps = chamfer + rounding, rounding > 0 and segments or 1
   if 2 * bevel >= height then
-    o:fail("%s must be less than half the height, %.6g, got %.6g", chamfer > 0 and "chamfer" or "rounding", height / 2, bevel)
+    o:fail("%s must be less than half the height, %.6g, got %.6g", chamfer > 0 and "chamfer" or "rounding", height / 2,
+           bevel)
   end
   if bevel == 0 then return skin({layer(o, outline, 0, 0), layer(o, outline, 0, height)}, false, "shapes.prism") end
   local rings = {}

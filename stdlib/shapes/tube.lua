@@ -29,7 +29,9 @@ local function section_axes(o, dirs, up)
   local x = vector.frame(dirs[1])
   if up then
     local side = vector.unit(vector.cross(up, dirs[1]))
-    if not side then o:fail("up must not lie along the path's first segment, got {%.6g, %.6g, %.6g}", up[1], up[2], up[3]) end
+    if not side then
+      o:fail("up must not lie along the path's first segment, got {%.6g, %.6g, %.6g}", up[1], up[2], up[3])
+    end
     x = side
   end
   local axes = {x}
@@ -96,7 +98,9 @@ local function read_section(o, count)
     end
   end
   local list = type(radius) == "table"
-  if list and #radius ~= count then o:fail("radius must be one number or one for each of %d points, got %d", count, #radius) end
+  if list and #radius ~= count then
+    o:fail("radius must be one number or one for each of %d points, got %d", count, #radius)
+  end
   for i = 1, count do
     radii[i] = profile and 1 or list and radius[i] or radius
     if type(radii[i]) ~= "number" or not (radii[i] > 0 and radii[i] < math.huge) then

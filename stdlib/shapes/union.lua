@@ -7,7 +7,8 @@ local mesh = require "clench.shapes.mesh"
 ---@return table mesh
 return function(parts)
   if type(parts) ~= "table" or #parts == 0 then
-    error("shapes.union: wanted a list of shapes, got " .. (type(parts) == "table" and "none" or "a " .. type(parts)), 0)
+    local got = type(parts) == "table" and "none" or "a " .. type(parts)
+    error("shapes.union: wanted a list of shapes, got " .. got, 0)
   end
   local vertices, triangles = {}, {}
   for i = 1, #parts do

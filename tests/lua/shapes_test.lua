@@ -46,7 +46,7 @@ local samples = {
   {"torus", shapes.torus {0.1, 0.02}},
   {"tube", shapes.tube {path, radius = 0.01}},
   {"tube with round ends", shapes.tube {path, radius = {0.01, 0.02, 0.01, 0.02, 0.01}, ends = "round"}},
-  {"tube of a profile", shapes.tube {arch(20), profile = {{-0.1, -0.2}, {0.1, -0.2}, {0.1, 0.2}, {-0.1, 0.2}}, up = {0, 1, 0}}},
+  {"tube of a profile", shapes.tube {arch(20), profile = {{-0.1, -0.2}, {0.1, -0.2}, {0, 0.2}}, up = {0, 1, 0}}},
   {"closed tube", shapes.tube {loop(40), radius = 0.1, closed = true}},
   {"union", shapes.union {shapes.box {1, 1, 1}, shapes.sphere {1}}},
 }
@@ -232,12 +232,13 @@ test("bad numbers are refused with what was wanted and what was got", function(t
   t.fails(function() shapes.sphere {math.huge} end, "radius must be a number > 0")
   t.fails(function() shapes.sphere {1, subdivisions = 2.5} end, "a whole number from 0 to 7, got 2.5")
   t.fails(function() shapes.cone {0, 0, 1} end, "bottom or top must be > 0")
-  t.fails(function() shapes.cylinder {1} end, "either height or both from and to, got no height")
-  t.fails(function() shapes.cylinder {1, 2, from = {0, 0, 0}} end, "got height, from")
+  t.fails(function() shapes.cylinder {1} end, "either height or both from and to, got neither")
+  t.fails(function() shapes.cylinder {1, 2, from = {0, 0, 0}} end, "got height and from")
   t.fails(function() shapes.cylinder {1, from = {1, 2, 3}, to = {1, 2, 3}} end, "from and to must be apart")
   t.fails(function() shapes.cylinder {1, from = {1, 2}, to = {1, 2, 3}} end, "from must be a point {x, y, z}")
   t.fails(function() shapes.cylinder {1, 1, chamfer = 0.6} end, "at most the radius and half the height, 0.5, got 0.6")
   t.fails(function() shapes.capsule {3, 1, top = 1} end, "differ by less than the length, 1, got 3 and 1")
+  t.fails(function() shapes.torus {1e300, 1} end, "wanted a solid, got one whose volume is no number")
   t.fails(function() shapes.torus {1, 1} end, "tube must be smaller than radius, 1, got 1")
 end)
 
@@ -258,7 +259,8 @@ test("bad outlines, profiles, sections and paths are refused", function(t)
   t.fails(function() shapes.loft {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}} end,
           "ring 2 must have 3 points like those before it, got 4")
   t.fails(function() shapes.loft {{{0, 0, 0}, {1, 0, 0}, {0, 1, "z"}}, {{0, 0, 1}}} end, "ring 1[3] must be a point")
-  t.fails(function() shapes.tube {{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}, radius = 0.1} end, "path[2] must not turn straight back")
+  t.fails(function() shapes.tube {{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}, radius = 0.1} end,
+          "path[2] must not turn straight back")
   t.fails(function() shapes.tube {{{0, 0, 0}, {1, 0, 0}, {1, 0.1, 0}}, radius = 0.3} end, "bend more gently")
   t.fails(function() shapes.tube {{{0, 0, 0}, {0, 0, 0}}, radius = 0.3} end, "path[2] must differ from path[1]")
   t.fails(function() shapes.tube {path} end, "either radius or profile, got neither")
@@ -272,10 +274,12 @@ end)
 test("what is no mesh is refused by name and number", function(t)
   t.fails(function() shapes.union {} end, "a list of shapes, got none")
   t.fails(function() shapes.union {shapes.box {1, 1, 1}, 7} end, "part 2", "got a number")
-  t.fails(function() shapes.volume {vertices = {{0, 0, 0}}, triangles = {{1, 2, 3}}} end, "triangle 1 must name vertices 1 to 1, got 2")
+  t.fails(function() shapes.volume {vertices = {{0, 0, 0}}, triangles = {{1, 2, 3}}} end,
+          "triangle 1 must name vertices 1 to 1, got 2")
   t.fails(function() shapes.volume {vertices = {{0, 0}}, triangles = {}} end, "vertex 1 must be three finite numbers")
   t.fails(function() shapes.volume {vertices = {}, triangles = {}} end, "at least one triangle, got none")
-  t.fails(function() shapes.mass {vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, triangles = {{1, 2, 3}}} end, "without volume")
+  t.fails(function() shapes.mass {vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, triangles = {{1, 2, 3}}} end,
+          "without volume")
   t.fails(function() shapes.move(shapes.box {1, 1, 1}, {1, 2}) end, "the offset must be {x, y, z}")
   t.fails(function() shapes.turn(shapes.box {1, 1, 1}, {0, 0, 0}, 1) end, "the axis must have a length")
   t.fails(function() shapes.turn(shapes.box {1, 1, 1}, {0, 0, 1}, "a") end, "the angle must be a finite number, got a")
