@@ -102,6 +102,18 @@ inline Mesh read_obj(const std::filesystem::path& path) {
   return mesh;
 }
 
+/// How often the mesh winds about p, by solid angles (Van Oosterom & Strackee 1983): slow and obvious.
+inline double winding(const Mesh& mesh, const Eigen::Vector3d& p) {
+  double sum = 0;
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    auto c = mesh.corners(static_cast<int>(i));
+    for (auto& x : c) x = (x - p).normalized();
+    sum += 2 * std::atan2(c[0].dot(c[1].cross(c[2])),
+                          1 + c[0].dot(c[1]) + c[1].dot(c[2]) + c[2].dot(c[0]));
+  }
+  return sum / (4 * std::numbers::pi);
+}
+
 /// Triangle of b at X_AB in the frame of a.
 inline std::array<Eigen::Vector3d, 3> corners_at(const Shape& b, const Pose& X_AB, int triangle) {
   auto c = b.mesh().corners(triangle);

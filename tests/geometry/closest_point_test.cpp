@@ -1,0 +1,61 @@
+#include <doctest/doctest.h>
+
+#include "base/error.h"
+#include "geometry/queries.h"
+#include "geometry/triangle.h"
+#include "support/meshes.h"
+#include "support/shared.h"
+
+using namespace clench;
+using namespace clench::test;
+using Eigen::Vector3d;
+
+namespace {
+
+void check_against_all_triangles(const Shape& shape, const Vector3d& p, int seed) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int t = 0; shape.has_triangle(t); ++t)
+    least = std::min(least, point_triangle(p, shape.mesh().corners(t)).distance);
+  const ClosestPoint c = closest_point(shape, p);
+  // the same function of the same numbers
+  CHECK(c.distance == least);
+  CHECK(closest_point(shape, p, seed).distance == least);
+  REQUIRE(shape.has_triangle(c.triangle));
+  const Closest again = point_triangle(p, shape.mesh().corners(c.triangle));
+  CHECK(again.distance == least);
+  CHECK(again.q == c.point);
+}
+
+}  // namespace
+
+TEST_CASE("the closest point is that of all triangles, with any seed") {
+  Random random(1);
+  for (const auto& shape : {Shape::make(soup(random, 100)), Shape::make(potato(random))})
+    for (int i = 0; i < 200; ++i)
+      check_against_all_triangles(*shape, random_point(random, i % 10 == 0 ? 100 : 1),
+                                  static_cast<int>(random.uniform(-20, 150)));
+}
+
+TEST_CASE("a point of the surface is its own closest point") {
+  const auto shape = Shape::make(ball(0.05, 20, 40));
+  for (const Vector3d& p : shape->mesh().vertices) {
+    const ClosestPoint c = closest_point(*shape, p);
+    CHECK(c.distance == 0);
+    CHECK(c.point == p);
+  }
+}
+
+TEST_CASE("real meshes: the closest point is that of all triangles") {
+  REQUIRE_SHARED();
+  Random random(2);
+  const auto apple = Shape::make(read_obj(shared() / "data" / "ycb" / "013_apple.obj"));
+  for (int i = 0; i < 20; ++i)
+    check_against_all_triangles(*apple, apple->centre() + random_point(random, 0.1), i);
+}
+
+TEST_CASE("a point that is not finite is refused") {
+  const auto shape = Shape::make(box(1, 1, 1));
+  CHECK_THROWS_WITH_AS(closest_point(*shape, {0, std::nan(""), 0}),
+                       "closest_point: point must be finite [m], got (0, nan, 0)", Error);
+  CHECK(closest_point(*shape, {1e300, 0, 0}).triangle >= 0);
+}
