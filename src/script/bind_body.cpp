@@ -100,7 +100,7 @@ remains is within the contact threshold. One that starts in contact may slide an
 @return table result  `fraction` of the way gone, `touched`, `stopped_by` (pairs), `queries`
 > cube = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {pose = {xyz = {0, 0, 9}}})
 > floor = world:add_obstacle(clench.shapes.box {1, 1, 1}, {pose = {xyz = {0, 0, 7}}})
-> cube:move_to{xyz = {0, 0, 8}}.touched  --> true
+> cube:move_to{xyz = {0, 0, 7}}.touched  --> true
 > world:distance(cube, floor) <= world.contact_threshold  --> true)"},
 };
 

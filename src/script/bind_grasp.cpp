@@ -161,9 +161,11 @@ wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu} in th
 
 static const Entry grasp_fields[] = {
     {"hand", guarded<get_hand>, R"(
+The robot that grasps.
 @type robot
 > grasp.hand == hand  --> true)"},
     {"object", guarded<get_object>, R"(
+The body that is grasped.
 @type body
 > grasp.object == flask  --> true)"},
     {"contacts", guarded<get_contacts>, R"(

@@ -54,9 +54,11 @@ static int equal(lua_State* L) {
 
 static const Entry fields[] = {
     {"triangle_count", guarded<get_triangle_count>, R"(
+How many triangles it has.
 @type integer
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh.triangle_count  --> 12)"},
     {"vertex_count", guarded<get_vertex_count>, R"(
+How many vertices it has.
 @type integer
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh.vertex_count  --> 8)"},
     {"bounds", guarded<get_bounds>, R"(
@@ -68,6 +70,7 @@ Volume that the surface bounds; parts that overlap count twice. Meaningful when 
 @type number  [m^3]
 > math.abs(world:add_object(clench.shapes.box {1, 2, 4}).mesh.volume - 8) < 1e-12  --> true)"},
     {"area", guarded<get_area>, R"(
+Area of all its triangles.
 @type number  [m^2]
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.area  --> 28.0)"},
     {"faults", guarded<get_faults>, R"(

@@ -86,9 +86,11 @@ unless it is given, in whole or in part. The same world gives the same bytes. It
 
 static const Entry fields[] = {
     {"width", guarded<get_width>, R"(
+Its width.
 @type integer  pixels
 > clench.render(world, {size = {64, 48}}).width  --> 64)"},
     {"height", guarded<get_height>, R"(
+Its height.
 @type integer  pixels
 > clench.render(world, {size = {64, 48}}).height  --> 48)"},
 };

@@ -122,6 +122,7 @@ Name of its material, which decides how it rubs.
 > flask.material = "ruber"  --> error: rubber)",
      guarded<set_material>},
     {"mass", guarded<get_mass>, R"(
+Its mass.
 @type number  [kg]
 > flask.mass = 0.5
 > flask.mass  --> 0.5)",

@@ -398,14 +398,14 @@ Sets the Coulomb coefficients of a pair of materials; new names become materials
 @param b string
 @param friction {static: number, kinetic?: number}  kinetic: static - 0.1 unless given
 > world:set_friction("cork", "wood", {static = 0.7})
-> world:friction("wood", "cork")  --> 0.7)"},
+> world:friction("wood", "cork")  --> 0.7, 0.6)"},
     {"friction", guarded<friction>, R"(
 The coefficients of a pair of materials.
 @param a string
 @param b string
 @return number static
 @return number kinetic
-> world:friction("rubber", "stone")  --> 1.5)"},
+> world:friction("rubber", "stone")  --> 1.5, 1.4)"},
 };
 
 static const Entry operators[] = {
