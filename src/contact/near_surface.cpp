@@ -7,8 +7,8 @@ namespace clench {
 
 using Eigen::Vector3d;
 
-static constexpr double most_slope = 1.0 / 30;   // forgiven by is_summit
-static constexpr double on_boundary = 1e-9;  // of a triangle's size: nearer is on its edge
+static constexpr double most_slope = 1.0 / 30;  // forgiven by is_summit
+static constexpr double on_boundary = 1e-9;     // of a triangle's size: nearer is on its edge
 
 // equal slots, those of which neither is less, get one number
 template <class Less>

@@ -1,0 +1,162 @@
+#include "grasp/grasp.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "support/shapes.h"
+
+using namespace clench;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double thin = 5e-5;  // within the contact threshold [m]
+
+BodySpec body(const std::string& name, const Mesh& mesh, const std::string& material) {
+  BodySpec spec;
+  spec.name = name;
+  spec.shape = Shape::make(mesh, name);
+  spec.material = material;
+  return spec;
+}
+
+// a finger that slides along +x in its chain frame's z, starting 0.1 m beside the middle
+ChainSpec finger(const std::string& name, const Pose& X_BC, int dof) {
+  ChainSpec chain;
+  chain.X_BC = X_BC;
+  chain.joints.push_back({.kind = JointKind::prismatic, .dof = dof, .min = 0, .max = 0.1});
+  LinkSpec link;
+  link.body = body(name, test::box(0.02, 0.02, 0.02), "rubber");
+  link.joint = LinkJoint::prismatic;
+  chain.links.push_back(link);
+  return chain;
+}
+
+// a gripper: palm below, a finger from either side
+RobotSpec gripper() {
+  const double quarter = std::numbers::pi / 2;
+  RobotSpec spec;
+  spec.name = "gripper";
+  spec.base = body("palm", test::box(0.2, 0.02, 0.02), "rubber");
+  spec.dofs.resize(2);
+  spec.chains.push_back(finger(
+      "left", {Eigen::Quaterniond(Eigen::AngleAxisd(quarter, Vector3d::UnitY())), {-0.1, 0, 0.1}},
+      0));
+  spec.chains.push_back(finger(
+      "right", {Eigen::Quaterniond(Eigen::AngleAxisd(-quarter, Vector3d::UnitY())), {0.1, 0, 0.1}},
+      1));
+  return spec;
+}
+
+struct Scene {
+  World world;
+  Id<Robot> hand;
+  Id<Body> object;
+};
+
+// a cube of 0.1 m between both fingers, `X` moves all of it
+Scene scene(const Pose& X = Pose()) {
+  Scene s;
+  s.hand = s.world.add_robot(gripper(), X);
+  s.object = s.world.add_body(body("cube", test::box(0.1, 0.1, 0.1), "wood"), BodyKind::object,
+                              X * Pose::translation({0, 0, 0.1}));
+  return s;
+}
+
+void close(Scene& s) { s.world.set_dofs(s.hand, Eigen::Vector2d::Constant(0.1 - 0.06 - thin)); }
+
+}  // namespace
+
+TEST_CASE("a hand that touches nothing grasps nothing, and that is no error") {
+  Scene s = scene();
+  const Grasp grasp = measure_grasp(s.world, s.hand, s.object);
+  CHECK(grasp.contacts.empty());
+  const WrenchSpace space = wrench_space(grasp);
+  CHECK(space.rank() == 0);
+  CHECK(space.epsilon() == 0);
+}
+
+TEST_CASE("contacts lie on the object and push into it, in its own frame") {
+  Scene s = scene();
+  close(s);
+  const Grasp grasp = measure_grasp(s.world, s.hand, s.object);
+  REQUIRE(grasp.contacts.size() == 8);  // four corners a finger
+  REQUIRE(grasp.points.size() == 8);
+  for (size_t i = 0; i < 8; ++i) {
+    const PointContact& p = grasp.points[i];
+    CHECK(grasp.contacts[i].body == s.object);
+    CHECK(std::abs(std::abs(p.p_O.x()) - 0.05) < 1e-12);
+    CHECK(std::abs(p.p_O.y()) == doctest::Approx(0.01));
+    CHECK(std::abs(p.p_O.z()) == doctest::Approx(0.01));
+    CHECK((p.n_O - Vector3d(p.p_O.x() < 0 ? 1 : -1, 0, 0)).norm() < 1e-9);
+    CHECK(p.mu == 1.0);  // rubber on wood
+  }
+  CHECK(grasp.com.norm() < 1e-12);
+  CHECK(grasp.rho == doctest::Approx(0.05 * std::sqrt(3.0)));
+}
+
+TEST_CASE("two faces with friction are a force closure, without it they are not") {
+  Scene s = scene();
+  close(s);
+  const WrenchSpace held = wrench_space(measure_grasp(s.world, s.hand, s.object));
+  CHECK(held.is_force_closure());
+  CHECK(held.rank() == 6);
+  s.world.set_friction("rubber", "wood", {.statics = 0, .kinetic = 0});
+  const WrenchSpace slips = wrench_space(measure_grasp(s.world, s.hand, s.object));
+  // along the line of the fingers, and two turns across it
+  CHECK(slips.rank() == 3);
+  CHECK(slips.epsilon() == 0);
+}
+
+TEST_CASE("what another hand or the floor does to the object is not this grasp") {
+  Scene s = scene();
+  close(s);
+  const double before = wrench_space(measure_grasp(s.world, s.hand, s.object)).epsilon();
+  s.world.add_body(body("block", test::box(0.1, 0.1, 0.1), "wood"), BodyKind::obstacle,
+                   Pose::translation({0, 0, 0.2 + thin}));
+  CHECK(wrench_space(measure_grasp(s.world, s.hand, s.object)).epsilon() == before);
+}
+
+TEST_CASE("quality does not depend on where the grasp stands") {
+  Scene s = scene();
+  close(s);
+  const WrenchSpace here = wrench_space(measure_grasp(s.world, s.hand, s.object));
+  const Pose X{Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1).normalized(), {0.3, -0.2, 0.5}};
+  Scene t = scene(X);
+  close(t);
+  const WrenchSpace there = wrench_space(measure_grasp(t.world, t.hand, t.object));
+  // contact points move by rounding over the gap's slope: 1e-15 / 1e-4 in the normals
+  CHECK(std::abs(here.epsilon() - there.epsilon()) < 1e-9);
+  CHECK(std::abs(here.volume() - there.volume()) < 1e-9);
+}
+
+TEST_CASE("a longer torque length makes torques count less") {
+  Scene s = scene();
+  close(s);
+  const auto epsilon = [&](double rho) {
+    return wrench_space(measure_grasp(s.world, s.hand, s.object, {.rho = rho})).epsilon();
+  };
+  CHECK(epsilon(0.1) > epsilon(0.2));
+  CHECK(epsilon(0.2) > epsilon(0.4));
+}
+
+TEST_CASE("a grasp that makes no sense is refused by name") {
+  Scene s = scene();
+  const auto refuse = [&](Id<Body> object, const GraspOptions& options, const char* message) {
+    CHECK_THROWS_WITH_AS(measure_grasp(s.world, s.hand, object, options), message, Error);
+  };
+  refuse(s.object, {.edges = 2, .rho = {}}, "grasp of cube by gripper: edges must be >= 3, got 2");
+  refuse(s.object, {.rho = 0.0}, "grasp of cube by gripper: rho must be > 0 [m], got 0");
+  refuse(s.object, {.rho = std::numeric_limits<double>::quiet_NaN()},
+         "grasp of cube by gripper: rho must be > 0 [m], got nan");
+  const Id<Body> palm = s.world.robot(s.hand).base;
+  const std::string name = s.world.body(palm).name;
+  CHECK_THROWS_WITH_AS(
+      measure_grasp(s.world, s.hand, palm),
+      ("grasp of " + name + " by gripper: " + name + " is a part of gripper").c_str(), Error);
+  const Id<Body> gone = s.object;
+  s.world.remove(gone);
+  CHECK_THROWS_AS(measure_grasp(s.world, s.hand, gone), Error);
+}
