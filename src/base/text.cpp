@@ -126,6 +126,8 @@ double Line::number(int i, std::string_view what) const {
 int Line::integer(int i, std::string_view what, int low, int high) const {
   const auto value = parse_integer(word(i));
   if (!value) fail("{}: wanted a whole number, got {}", what, in_quotes(word(i)));
+  if (*value < low && high == std::numeric_limits<int>::max())
+    fail("{}: wanted a whole number from {} on, got {}", what, low, *value);
   if (*value < low || *value > high)
     fail("{}: wanted a whole number from {} to {}, got {}", what, low, high, *value);
   return *value;

@@ -34,8 +34,8 @@ namespace fs = std::filesystem;
 
 constexpr int deepest_graph = 1000;          // nodes above one another; Coin walks by recursion
 constexpr int deepest_include = 32;          // files that include files
-constexpr int most_steps = 5'000'000;        // nodes visited, shared ones each time
-constexpr size_t most_triangles = 20'000'000;
+constexpr int most_steps = 2'000'000;        // nodes visited, shared ones each time
+constexpr size_t most_triangles = 2'000'000;
 
 /// Coin keeps global state: one reader at a time, its messages caught, a host's handlers put back.
 class CoinLease {
@@ -127,6 +127,7 @@ NodeType node_type(const std::string& name) {
     line = words.empty() ? 1 : parse_integer(words[0]).value_or(1);
     text.erase(at);
   }
+  if (text.find("floating point") != std::string::npos) text = "wanted a finite number that fits 32 bits";
   std::string sentence;
   for (const auto word : split_words(text)) sentence += (sentence.empty() ? "" : " ") + std::string(word);
   fail("{}:{}: {}", file, line + skipped_lines, sentence.empty() ? "the file cannot be read" : sentence);
@@ -160,7 +161,8 @@ Ref<SoSeparator> Loader::load(const fs::path& path, const std::string& text) {
   SoInput input;
   input.setBuffer(const_cast<char*>(scanned.text.data()), scanned.text.size());
   const Ref<SoSeparator> root = SoDB::readAll(&input);
-  if (!root.get()) rethrow(coin_.error, file, scanned.skipped_lines);
+  const bool harmless = root.get() && coin_.error.find("floating point") == std::string::npos;
+  if (!harmless) rethrow(coin_.error, file, scanned.skipped_lines);
 
   open_.push_back(path);
   fill_includes(root.get(), path, scanned);
@@ -270,7 +272,13 @@ void Collector::apply(SoNode* root) {
   SoCallbackAction action;
   action.addPreCallback(SoNode::getClassTypeId(), on_node, this);
   action.addTriangleCallback(SoShape::getClassTypeId(), on_triangle, this);
-  action.apply(root);
+  // where a file says nothing about its faces they may be of any shape
+  const Ref<SoSeparator> all(new SoSeparator);
+  auto* hints = new SoShapeHints;
+  hints->faceType = SoShapeHints::UNKNOWN_FACE_TYPE;
+  all.get()->addChild(hints);
+  all.get()->addChild(root);
+  action.apply(all.get());
   if (!error_.empty()) fail("{}: {}", file_, error_);
 }
 

@@ -13,13 +13,15 @@ namespace clench {
 
 namespace {
 
-/// First line of a message of the reader, without its own prefixes.
-std::string sentence(const char* message) {
-  std::string text(trim(message ? message : ""));
-  text = text.substr(0, text.find('\n'));
-  for (const std::string_view prefix : {"OBJ: ", "STL: ", "Obj: "})
-    if (text.starts_with(prefix)) text.erase(0, prefix.size());
-  return text.empty() ? "the file cannot be read" : text;
+/// What the reader library says, where it says it well.
+std::string sentence(const std::string& message, const std::string& extension) {
+  if (message.find("vertex index out of range") != std::string::npos) return "a face names a vertex that does not exist";
+  if (message.find("number of vertices") != std::string::npos) return "wanted three vertices a facet";
+  if (message.find("storage representation") != std::string::npos || message.find("too small") != std::string::npos ||
+      message.find("empty") != std::string::npos)
+    return extension == ".stl" ? "wanted an ASCII or binary STL file, got something else" : "wanted triangles, got none";
+  if (message.find("No output meshes") != std::string::npos) return "wanted triangles, got none";
+  return fmt::format("the file is malformed ({})", trim(message.substr(0, message.find('\n'))));
 }
 
 Eigen::Vector3f color_of(const aiMaterial* material, float& transparency, bool& given) {
@@ -39,7 +41,7 @@ Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& op
   Assimp::Importer importer;
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices);
-  if (!scene) fail("{}: {}", file, sentence(importer.GetErrorString()));
+  if (!scene) fail("{}: {}", file, sentence(importer.GetErrorString(), lower_case(path.extension().string())));
 
   GeometryBuilder builder;
   bool given = false;

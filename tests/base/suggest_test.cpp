@@ -1,0 +1,30 @@
+#include "base/suggest.h"
+
+using namespace clench;
+
+TEST_CASE("edits count inserts, drops, exchanges and swaps of neighbours") {
+  CHECK(edit_distance("flask", "flask") == 0);
+  CHECK(edit_distance("flsk", "flask") == 1);
+  CHECK(edit_distance("flaask", "flask") == 1);
+  CHECK(edit_distance("flusk", "flask") == 1);
+  CHECK(edit_distance("flaks", "flask") == 1);
+  CHECK(edit_distance("FLASK", "flask") == 0);
+  CHECK(edit_distance("", "abc") == 3);
+  CHECK(edit_distance("abc", "") == 3);
+}
+
+TEST_CASE("the number of edits is a distance") {
+  const std::vector<std::string> words = {"", "a", "mug", "mugs", "gum", "glass", "flask"};
+  for (const auto& a : words)
+    for (const auto& b : words) {
+      CHECK(edit_distance(a, b) == edit_distance(b, a));
+      CHECK((edit_distance(a, b) == 0) == (a == b));
+    }
+}
+
+TEST_CASE("only a near name is suggested") {
+  CHECK(did_you_mean("flsk.iv", {"mug.iv", "flask.iv"}) == "; did you mean 'flask.iv'?");
+  CHECK(did_you_mean("wod", {"wood", "rubber"}) == "; did you mean 'wood'?");
+  CHECK(did_you_mean("table", {"wood", "rubber"}).empty());
+  CHECK(did_you_mean("x", {}).empty());
+}

@@ -1,0 +1,81 @@
+#include "base/text.h"
+
+#include <filesystem>
+#include <fstream>
+
+using namespace clench;
+
+TEST_CASE("a number is decimal, finite and alone") {
+  CHECK(parse_number("5.0e+9") == 5e9);
+  CHECK(parse_number("+0.25") == 0.25);
+  CHECK(parse_number("-.5") == -0.5);
+  CHECK(parse_number("3.") == 3.0);
+  CHECK(parse_number("1e-400") == 0.0);
+  for (const auto* bad : {"", "+", "-", "nan", "inf", "-inf", "1e999", "0x10", "1,5", "12abc", "1 2", "+-3", "e5", "--1"})
+    CHECK_MESSAGE(!parse_number(bad), bad);
+}
+
+TEST_CASE("a whole number has no point and fits an int") {
+  CHECK(parse_integer("42") == 42);
+  CHECK(parse_integer("+0") == 0);
+  CHECK(parse_integer("-7") == -7);
+  for (const auto* bad : {"", "1.0", "99999999999", "1e3", "+-1", "x"}) CHECK_MESSAGE(!parse_integer(bad), bad);
+}
+
+TEST_CASE("words lie between white space and separators") {
+  CHECK(split_words(" a\tb  c ") == std::vector<std::string_view>{"a", "b", "c"});
+  CHECK(split_words("(1 2)[3,4]", "()[],") == std::vector<std::string_view>{"1", "2", "3", "4"});
+  CHECK(split_words(" \t").empty());
+  CHECK(trim(" \t x y \r\n") == "x y");
+  CHECK(lower_case("ReVolute") == "revolute");
+}
+
+TEST_CASE("a word in a message is short and printable") {
+  CHECK(in_quotes("abc") == "'abc'");
+  CHECK(in_quotes("") == "nothing");
+  CHECK(in_quotes("a\tb\x01") == "'a?b?'");
+  CHECK(in_quotes(std::string(100, 'x')) == "'" + std::string(40, 'x') + "...'");
+}
+
+TEST_CASE("a reader walks over blank lines and comments and knows where it stands") {
+  LineReader lines("a.cfg", "# head\n\n  one two # three\n\t\nlast");
+  const Line line = lines.next_full("a line");
+  CHECK(line.place() == "a.cfg:3");
+  CHECK(line.size() == 4);
+  CHECK(line.before('#').size() == 2);
+  CHECK(line.word(1) == "two");
+  CHECK(line.word(9).empty());
+  CHECK(lines.peek().blank());
+  CHECK(lines.next_full("a line").text() == "last");
+  CHECK(lines.done());
+  CHECK_THROWS_WITH_AS(lines.next_full("more"), "a.cfg:5: wanted more, got the end of the file", Error);
+}
+
+TEST_CASE("an empty text has no lines, and its place is the first") {
+  LineReader lines("a.cfg", "");
+  CHECK(lines.done());
+  CHECK(lines.peek().place() == "a.cfg:1");
+  CHECK(lines.next().blank());
+}
+
+TEST_CASE("a wrong number is told with place, subject, wanted and got") {
+  LineReader lines("a.cfg", "x 3 2.5");
+  const Line line = lines.next();
+  CHECK(line.number(1, "a") == 3);
+  CHECK(line.integer(1, "a", 0, 3) == 3);
+  CHECK_THROWS_WITH_AS(line.number(0, "mass"), "a.cfg:1: mass: wanted a number, got 'x'", Error);
+  CHECK_THROWS_WITH_AS(line.number(3, "mass"), "a.cfg:1: mass: wanted a number, got nothing", Error);
+  CHECK_THROWS_WITH_AS(line.integer(2, "n"), "a.cfg:1: n: wanted a whole number, got '2.5'", Error);
+  CHECK_THROWS_WITH_AS(line.integer(1, "n", 4, 9), "a.cfg:1: n: wanted a whole number from 4 to 9, got 3", Error);
+  CHECK_THROWS_WITH_AS(line.integer(1, "n", 4), "a.cfg:1: n: wanted a whole number from 4 on, got 3", Error);
+  CHECK_THROWS_WITH_AS(line.fail("min {} exceeds max {}", 2, 1), "a.cfg:1: min 2 exceeds max 1", Error);
+}
+
+TEST_CASE("every kind of line end reads as one") {
+  const auto path = std::filesystem::temp_directory_path() / "clench_text_test.txt";
+  std::ofstream(path, std::ios::binary) << "a\r\nb\rc\nd";
+  CHECK(read_text(path) == "a\nb\nc\nd");
+  std::filesystem::remove(path);
+  CHECK_THROWS_WITH_AS(read_text(path), ("no such file: " + path.generic_string()).c_str(), Error);
+  CHECK_THROWS_WITH_AS(read_text("/"), "/: wanted a file, got a folder", Error);
+}
