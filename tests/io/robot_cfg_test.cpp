@@ -1,0 +1,202 @@
+#include <numbers>
+
+#include "base/error.h"
+#include "io/read.h"
+#include "support/shared.h"
+#include "temporary.h"
+
+using namespace clench;
+using clench::test::TemporaryFolder;
+using clench::test::Warnings;
+
+static constexpr double degree = std::numbers::pi / 180;
+
+/// A robot of one chain, its joint lines and what stands before and behind them given.
+struct Cfg {
+  std::string dofs = "1\nr 1.5 5e9 1e9 1e7 20\n";
+  std::string transforms = "t 0 0 0\n";
+  std::string joints = "1\n1\n", joint_lines = "d0 0 10 0 -10 90\n";
+  std::string links = "Revolute\nbox.iv 0\n";
+  std::string rest;
+
+  RobotSpec read(const ReadOptions& options = {}) const {
+    const TemporaryFolder folder;
+    folder.write("iv/box.iv", "#Inventor V2.1 ascii\n#mass 20\nCube { }\n");
+    folder.write("eigen/a.egr", "DIMENSIONS 1\n");
+    return read_robot(folder.write("hand.cfg", "#class\nHand\nbox.iv\n" + dofs + "1\n" + joints + transforms + joint_lines + links + rest), options);
+  }
+};
+
+TEST_CASE("the two-finger pincher is read as it is written") {
+  const RobotSpec r = read_robot("tests/data/two_finger/pincher.cfg");
+  CHECK(r.name == "pincher");
+  CHECK(r.class_name == "Hand");
+  CHECK(r.base.name == "pincher_base");
+  CHECK(r.base.mass == doctest::Approx(0.5));
+  REQUIRE(r.dofs.size() == 2);
+  REQUIRE(r.chains.size() == 2);
+  CHECK(r.chains[1].links[0].body.name == "pincher_chain1_link0");
+  CHECK(r.chains[0].links[0].joint == LinkJoint::prismatic);
+  CHECK(r.chains[0].links[0].last_joint == 0);
+  CHECK(r.chains[1].links[0].last_joint == 0);   // left out in the file
+  const JointSpec& joint = r.chains[0].joints[0];
+  CHECK(joint.kind == JointKind::prismatic);
+  CHECK(joint.max == doctest::Approx(0.044));
+  // a sliding DOF: mm/s, g mm/s^2
+  CHECK(r.dofs[0].default_velocity == doctest::Approx(0.01));
+  CHECK(r.dofs[0].max_effort == doctest::Approx(20));
+  CHECK(r.dofs[0].kp == doctest::Approx(1000));
+  CHECK(r.dofs[0].kd == doctest::Approx(10));
+  REQUIRE(r.X_BA);
+  CHECK(r.X_BA->angle() < 1e-15);
+  CHECK_FALSE(r.tracker);
+}
+
+TEST_CASE("a geometry file that several links name is read once and shared") {
+  const RobotSpec r = read_robot("tests/data/two_finger/claw.cfg");
+  CHECK(r.chains[0].links[0].body.shape == r.chains[1].links[0].body.shape);
+  CHECK(r.chains[0].links[0].body.shape != r.chains[0].links[1].body.shape);
+}
+
+TEST_CASE("numbers of a turning joint come in radians, newton metres and metres") {
+  Cfg cfg;
+  cfg.dofs = "1\nb 1.5 5e9 1e9 1e7 20 0.5\n";
+  cfg.joint_lines = "d0*-0.5+90 7 10 -90 -10 90 5e7 2e6 1600 0.25\n";
+  const RobotSpec r = cfg.read();
+  const JointSpec& j = r.chains[0].joints[0];
+  CHECK(j.kind == JointKind::revolute);
+  CHECK(j.ratio == -0.5);
+  CHECK(j.theta == doctest::Approx(90 * degree));
+  CHECK(j.d == doctest::Approx(0.007));
+  CHECK(j.a == doctest::Approx(0.010));
+  CHECK(j.alpha == doctest::Approx(-90 * degree));
+  CHECK(j.min == doctest::Approx(-10 * degree));
+  CHECK(j.max == doctest::Approx(90 * degree));
+  CHECK(j.viscous == doctest::Approx(0.05));
+  CHECK(j.coulomb == doctest::Approx(0.002));
+  CHECK(j.spring == doctest::Approx(1.6));
+  CHECK(j.rest == 0.25);
+  const DofSpec& d = r.dofs[0];
+  CHECK(d.kind == DofKind::breakaway);
+  CHECK(d.default_velocity == 1.5);
+  CHECK(d.max_effort == doctest::Approx(5));
+  CHECK(d.kp == doctest::Approx(1));
+  CHECK(d.kd == doctest::Approx(0.01));
+  CHECK(d.dragger_scale == doctest::Approx(0.02));
+  CHECK(d.breakaway_torque == 0.5);
+}
+
+TEST_CASE("a sliding joint stands in the d column, its numbers in millimetres") {
+  Cfg cfg;
+  cfg.joint_lines = "30 d0*2+-5 10 0 -10 90 5e7 2e6 3 0.5\n";
+  const JointSpec j = cfg.read().chains[0].joints[0];
+  CHECK(j.kind == JointKind::prismatic);
+  CHECK(j.theta == doctest::Approx(30 * degree));
+  CHECK(j.d == doctest::Approx(-0.005));
+  CHECK(j.ratio == 2);
+  CHECK(j.min == doctest::Approx(-0.010));
+  CHECK(j.viscous == doctest::Approx(5e4));
+  CHECK(j.coulomb == doctest::Approx(2));
+  CHECK(j.spring == doctest::Approx(3000));
+  CHECK(j.rest == doctest::Approx(0.0005));
+}
+
+TEST_CASE("a DOF that turns and slides joints counts in the unit of its first") {
+  Cfg cfg;
+  cfg.joints = "2\n1\n";
+  cfg.joint_lines = "d0 0 10 0 -10 90\n0 d0*5 0 0 -100 100\n";
+  CHECK(cfg.read().chains[0].joints[1].ratio == doctest::Approx(0.005));   // 5 mm a radian
+  cfg.joint_lines = "0 d0 10 0 -10 90\nd0*0.1 0 0 0 -1000 1000\n";
+  CHECK(cfg.read().chains[0].joints[1].ratio == doctest::Approx(100));     // 0.1 rad a millimetre
+}
+
+TEST_CASE("comments, tabs, blank lines and other line ends change nothing") {
+  Cfg cfg;
+  cfg.joint_lines = "# theta d\n\n  \t\n d0+90 \t0\t10\t-90 +0 +180 # friction\r\n\r\n";
+  const RobotSpec r = cfg.read();
+  CHECK(r.chains[0].joints[0].max == doctest::Approx(180 * degree));
+  CHECK(r.chains[0].joints[0].viscous == 0);
+}
+
+TEST_CASE("words behind the palm's file and the links' are left alone") {
+  Cfg cfg;
+  cfg.links = "Revolute\nbox.iv 0 plastic\n";
+  CHECK(cfg.read().chains[0].links.size() == 1);
+}
+
+TEST_CASE("links without a last joint take the next one") {
+  Cfg cfg;
+  cfg.joints = "3\n2\n";
+  cfg.joint_lines = "d0 0 10 0 -10 90\nd0 0 10 0 -10 90\nd0 0 10 0 -10 90\n";
+  cfg.links = "Universal\nbox.iv 1\nRevolute\nbox.iv\n";
+  const auto links = cfg.read().chains[0].links;
+  CHECK(links[0].joint == LinkJoint::universal);
+  CHECK(links[0].last_joint == 1);
+  CHECK(links[1].last_joint == 2);
+}
+
+TEST_CASE("every kind of link joint is known") {
+  Cfg cfg;
+  for (const auto& [word, kind] : {std::pair{"Revolute", LinkJoint::revolute}, {"Prismatic", LinkJoint::prismatic},
+                                   {"Universal", LinkJoint::universal}, {"Ball", LinkJoint::ball}, {"Fixed", LinkJoint::fixed}}) {
+    cfg.links = std::string(word) + "\nbox.iv -1\n";
+    CHECK(cfg.read().chains[0].links[0].joint == kind);
+  }
+}
+
+TEST_CASE("blocks at the end may come in any order") {
+  Cfg cfg;
+  cfg.rest = "Approach\n10 20 30\n0 1 0\nFlockOfBirds\n3\nt 0 0 10\nr 90 z\nEigenGrasps\neigen/a.egr\n";
+  Warnings warnings;
+  const RobotSpec r = cfg.read(warnings.options());
+  REQUIRE(r.X_BA);
+  CHECK((r.X_BA->position - Eigen::Vector3d(0.01, 0.02, 0.03)).norm() < 1e-15);
+  CHECK((r.X_BA->matrix().col(2) - Eigen::Vector3d::UnitY()).norm() < 1e-15);
+  REQUIRE(r.tracker);
+  CHECK(r.tracker->number == 3);
+  CHECK(r.tracker->X_BS.position.z() == doctest::Approx(0.01));
+  CHECK(r.tracker->X_BS.angle() == doctest::Approx(90 * degree));
+  CHECK(r.eigengrasps.ends_with("eigen/a.egr"));
+  CHECK(warnings.list.empty());
+}
+
+TEST_CASE("what a robot file names and is not there, and what it says and is not known, are warnings") {
+  Cfg cfg;
+  cfg.rest = "EigenGrasps\neigen/b.egr\nVirtualContacts\nnone.vgr\nCyberGlov\nFlockOfBirds\nt 0 0 1\n";
+  Warnings warnings;
+  const RobotSpec r = cfg.read(warnings.options());
+  CHECK(r.eigengrasps.empty());
+  CHECK(r.virtual_contacts.empty());
+  CHECK(r.tracker->number == 0);
+  CHECK(warnings.list == std::vector<std::string>{
+                             "hand.cfg:14: EigenGrasps: no such file: eigen/b.egr; did you mean 'a.egr'?",
+                             "hand.cfg:16: VirtualContacts: no such file: none.vgr",
+                             "hand.cfg:17: unknown keyword 'CyberGlov' is not used; did you mean 'CyberGlove'?",
+                             "hand.cfg:19: FlockOfBirds: no bird number, 0 is used"});
+}
+
+TEST_CASE("a DOF that moves nothing is a warning") {
+  Cfg cfg;
+  cfg.dofs = "2\nr 1.5 5e9 1e9 1e7 20\nr 1.5 5e9 1e9 1e7 20\n";
+  Warnings warnings;
+  CHECK(cfg.read(warnings.options()).dofs.size() == 2);
+  CHECK(warnings.list == std::vector<std::string>{"hand.cfg:6: DOF 1 moves no joint"});
+}
+
+TEST_CASE("the Barrett hand of the original has the figures of its manual") {
+  REQUIRE_SHARED();
+  const RobotSpec r = read_robot(test::shared() / "data/graspit/models/robots/Barrett/Barrett.cfg");
+  CHECK(r.class_name == "Barrett");
+  REQUIRE(r.dofs.size() == 4);
+  CHECK(r.dofs[0].kind == DofKind::rigid);
+  CHECK(r.dofs[0].default_velocity == 0);
+  CHECK(r.dofs[3].kind == DofKind::breakaway);
+  CHECK(r.dofs[3].max_effort == doctest::Approx(5));
+  CHECK(r.dofs[3].breakaway_torque == 0.5);
+  REQUIRE(r.chains.size() == 3);
+  CHECK(r.chains[0].joints[2].ratio == 0.333333333);
+  CHECK(dof_range(r, 0)[1] == doctest::Approx(180 * degree));
+  CHECK(dof_range(r, 1)[1] == doctest::Approx(144 * degree));
+  CHECK(r.virtual_contacts.ends_with("virtual/all_16_contacts.vgr"));
+  CHECK(r.tracker->number == 1);
+}

@@ -1,0 +1,196 @@
+// Files cut short anywhere and files with bytes changed at random: a spec or an Error, never a crash or a hang.
+#include "base/error.h"
+#include "base/random.h"
+#include "base/text.h"
+#include "io/read.h"
+#include "temporary.h"
+
+using namespace clench;
+using clench::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string inventor = R"(#Inventor V2.1 ascii
+#mass 12
+#inertia_matrix
+#1 0 0
+#0 1 0
+#0 0 1
+Separator { ShapeHints { vertexOrdering CLOCKWISE faceType UNKNOWN_FACE_TYPE }
+ Material { diffuseColor [1 0 0, 0 1 0] } MaterialBinding { value PER_FACE_INDEXED } Normal { vector [0 0 1] }
+ DEF C Coordinate3 { point [0 0 0, 1 0 0, 1 1 0, 0 1 0, 0.5 0.2 1] }
+ IndexedFaceSet { coordIndex [0,1,2,3,-1,0,1,4,-1,1,2,4] materialIndex [0,1,1] normalIndex [0,5] }
+ Transform { translation 1 2 3 rotation 0 1 0 0.5 scaleFactor 1 -2 3 } FaceSet { numVertices [3,-1] }
+ FaceSet { vertexProperty VertexProperty { vertex [0 0 0, 1 0 0, 1 1 0] orderedRGBA [0xff00ffff] } }
+ IndexedTriangleStripSet { coordIndex [0,1,2,3,4] } TriangleStripSet { numVertices [4] } QuadMesh { verticesPerRow 2 verticesPerColumn 2 }
+ Group { DEF L Cube { width 2 } USE L } Sphere { } Cylinder { parts SIDES } Cone { } Switch { whichChild 0 Cube { } } Units { }
+ Texture2 { filename "x.jpg" } Whirl { a 1 } MatrixTransform { matrix 1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1 } }
+)";
+
+const std::string vrml = R"(#VRML V2.0 utf8
+DEF T Transform { translation 1 2 3 scale 1 2 3 children [
+ Shape { appearance Appearance { material DEF M Material { diffuseColor 1 0 0 } texture ImageTexture { url "a.png" } }
+  geometry IndexedFaceSet { coord Coordinate { point [0 0 0, 1 0 0, 1 1 0, 0 1 0] } coordIndex [0,1,2,3,-1] colorPerVertex FALSE
+   color Color { color [1 0 0] } colorIndex [0] normal Normal { vector [0 0 1] } ccw FALSE } }
+ Shape { geometry Box { size 1 2 3 } } Shape { geometry Cylinder { radius 1 } } Shape { geometry Sphere { } }
+ Shape { geometry ElevationGrid { xDimension 2 zDimension 2 height [0,1,0,1] } }
+ Shape { geometry Extrusion { crossSection [1 1, 1 -1, -1 -1, 1 1] spine [0 0 0, 0 1 0] } }
+ Switch { whichChoice 0 choice [ Shape { geometry Cone { } } ] } ] }
+PROTO P [ field SFFloat r 1 ] { Shape { geometry Sphere { radius IS r } } }
+P { r 3 }
+)";
+
+const std::string robot = R"(Hand
+box.iv
+2
+r 1 1e9 1e9 1e7 20
+b 1 1e9 1e9 1e7 20 0.5
+1
+2
+2
+t 1 2 3
+r 90 x
+R
+0 1 0
+-1 0 0
+0 0 1
+d0+90 0 10 90 -10 90 5e7 0 1600 1
+0 d1*2+-5 10 0 -10 90
+Revolute
+box.iv 0
+Prismatic
+box.iv
+Approach
+0 0 0
+0 0 1
+FlockOfBirds
+1
+t 0 0 1
+)";
+
+const std::string world = R"(#GraspIt! version 2.0
+Obstacle
+box.iv
+wood
+T (+1 0 0 0)[+1 2 3]
+
+Robot
+hand.cfg
+0.1 2 1 3
+T (0.7 0.7 0 0)[0 0 0]
+
+Robot
+hand.cfg
+0 0 0
+T (1 0 0 0)[0 0 0]
+
+Connection
+0 0 1
+box.iv
+T (1 0 0 0)[0 0 5]
+
+CameraFull
+1 2 3 0 0 0 1 100
+)";
+
+const char* const pieces[] = {"-1", "999999999", "-2147483648", "1e38", "nan", "1e-40", "{", "}", "[", "]", "USE C", "USE L", "DEF C", "\"",
+                              "#", "NULL", "Cube", "Separator { ", "-7", "PER_VERTEX", "OVERALL", "CONVEX", "100000", ",", "T", "\n", "d0", "r"};
+
+std::string changed(std::string s, Random& random) {
+  const int changes = 1 + static_cast<int>(random.bits() % 3);
+  for (int i = 0; i < changes && !s.empty(); ++i) {
+    const size_t at = random.bits() % s.size();
+    const char* piece = pieces[random.bits() % std::size(pieces)];
+    // the word at that place
+    const size_t before = s.find_last_of(" \n[],", at), first = before == std::string::npos ? 0 : before + 1;
+    const size_t end = std::max(first, std::min(s.find_first_of(" \n[],", at), s.size()));
+    switch (random.bits() % 6) {
+      case 0: s[at] = static_cast<char>(random.bits()); break;
+      case 1: s.erase(at, random.bits() % 8); break;
+      case 2: s.insert(at, piece); break;
+      case 3: s.replace(first, end - first, piece); break;
+      case 4: s.erase(first, end - first); break;
+      default: s.insert(at, s.substr(random.bits() % s.size(), random.bits() % 40));
+    }
+  }
+  return s;
+}
+
+/// The folder with the files that others name, and a reader for a text of each format.
+class Bench {
+ public:
+  Bench() {
+    for (const auto* name : {"box.iv", "iv/box.iv"}) folder_.write(name, "#Inventor V2.1 ascii\nCube { }\n");
+    folder_.write("hand.cfg", robot);
+  }
+  /// returns  was it refused?   fails the test when the sentence does not name the file
+  bool refused(const std::string& name, const std::string& text) {
+    const fs::path file = folder_.write(name, text);
+    try {
+      if (name.ends_with(".cfg")) read_robot(file);
+      else if (name.ends_with(".wld")) read_world(file);
+      else read_body(file);
+      return false;
+    } catch (const Error& error) {
+      CHECK_MESSAGE(std::string(error.what()).starts_with(name), error.what());
+      return true;
+    }
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+void cut_everywhere(const std::string& name, const std::string& text, size_t step) {
+  Bench bench;
+  int refused = 0;
+  for (size_t n = 0; n <= text.size(); n += step) refused += bench.refused(name, text.substr(0, n));
+  // most cuts fall within something
+  CHECK(refused * 2 > static_cast<int>(text.size() / step));
+}
+
+void change_at_random(const std::string& name, const std::string& text, int times) {
+  Bench bench;
+  for (int i = 0; i < times; ++i) {
+    Random random(11, static_cast<uint64_t>(i));
+    const std::string bad = changed(text, random);
+    INFO(bad);
+    bench.refused(name, bad);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the texts of this file are sound") {
+  Bench bench;
+  CHECK_FALSE(bench.refused("a.iv", inventor));
+  CHECK_FALSE(bench.refused("a.wrl", vrml));
+  CHECK_FALSE(bench.refused("a.cfg", robot));
+  CHECK_FALSE(bench.refused("a.wld", world));
+}
+
+TEST_CASE("an Inventor file cut short anywhere is an Error or a body") { cut_everywhere("a.iv", inventor, 17); }
+TEST_CASE("a VRML file cut short anywhere is an Error or a body") { cut_everywhere("a.wrl", vrml, 17); }
+TEST_CASE("a robot file cut short anywhere is an Error or a robot") { cut_everywhere("a.cfg", robot, 1); }
+TEST_CASE("a world file cut short anywhere is an Error or a world") { cut_everywhere("a.wld", world, 1); }
+TEST_CASE("an Inventor file changed at random is an Error or a body") { change_at_random("a.iv", inventor, 100); }
+TEST_CASE("a VRML file changed at random is an Error or a body") { change_at_random("a.wrl", vrml, 100); }
+TEST_CASE("a robot file changed at random is an Error or a robot") { change_at_random("a.cfg", robot, 300); }
+TEST_CASE("a world file changed at random is an Error or a world") { change_at_random("a.wld", world, 200); }
+TEST_CASE("mesh files changed at random are Errors or bodies") {
+  const std::string obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nusemtl x\nf 1//1 2//1 3//1\nf 1 2 4\nf 2 3 4 1\n";
+  const std::string stl = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+  cut_everywhere("a.stl", stl, 3);
+  change_at_random("a.obj", obj, 200);
+  change_at_random("a.stl", stl, 200);
+}
+TEST_CASE("noise is an Error in every format") {
+  Bench bench;
+  for (uint64_t i = 0; i < 40; ++i) {
+    Random random(13, i);
+    std::string noise(random.bits() % 300, '\0');
+    for (char& c : noise) c = static_cast<char>(random.bits());
+    for (const auto* name : {"a.iv", "a.wrl", "a.cfg", "a.wld", "a.stl"}) CHECK(bench.refused(name, noise));
+  }
+}
