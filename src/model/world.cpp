@@ -379,40 +379,4 @@ bool World::may_collide(Id<Body> a, Id<Body> b) const {
 
 void World::restore(const WorldState& snapshot) { state_ = snapshot; }
 
-uint64_t World::hash() const {
-  Hasher h;
-  const auto flag = [&](bool on) { h.add(static_cast<uint64_t>(on)); };
-  for (const auto id : state_.body_order) {
-    const Body& b = body(id);
-    h.add(b.name);
-    h.add(static_cast<uint64_t>(b.kind));
-    add(h, b.X_WB);
-    h.add(static_cast<uint64_t>(b.material));
-    h.add(b.mass);
-    for (const double x : b.com) h.add(x);
-    for (const double x : b.inertia_per_mass.reshaped()) h.add(x);
-    h.add(b.elastic_modulus.value_or(0));
-    flag(state_.switched_off.contains(id));
-  }
-  for (const auto id : state_.robot_order) {
-    const Robot& r = robot(id);
-    h.add(r.name);
-    for (const double x : r.q) h.add(x);
-    for (const auto& chain : r.chains)
-      for (const auto& broken : chain.breakaway)
-        flag(broken.has_value()), h.add(broken.value_or(0));
-  }
-  for (const auto& name : state_.materials.names()) h.add(name);
-  const int count = static_cast<int>(state_.materials.names().size());
-  for (int i = 0; i < count; ++i)
-    for (int j = 0; j <= i; ++j) {
-      const Friction f = state_.materials.friction(i, j);
-      h.add(f.statics), h.add(f.kinetic);
-    }
-  for (const auto& [a, b] : state_.pairs_off) h.add(body(a).name), h.add(body(b).name);
-  h.add(state_.contact_threshold);
-  flag(state_.collision_on);
-  return h.value();
-}
-
 }  // namespace clench

@@ -241,6 +241,23 @@ static int set_contact_threshold(lua_State* L) {
 
 static int get_source(lua_State* L) { return push(L, world_of(L).source()); }
 
+// what a perspective camera of Inventor sees unless a file says otherwise: 45 degrees
+static constexpr double inventor_field_of_view = 0.7853981633974483;
+
+static int get_camera(lua_State* L) {
+  const auto& camera = world_of(L).camera();
+  if (!camera) {
+    lua_pushnil(L);
+    return 1;
+  }
+  push_list(L, 0, 4);
+  set_field(L, "eye", camera->X_WC.position);
+  set_field(L, "target", camera->X_WC * Eigen::Vector3d(0, 0, -camera->focal_distance));
+  set_field(L, "up", Eigen::Vector3d(camera->X_WC.rotation * Eigen::Vector3d::UnitY()));
+  set_field(L, "field_of_view", inventor_field_of_view);
+  return 1;
+}
+
 static int text(lua_State* L) {
   const World& world = world_of(L);
   return push(L, fmt::format("world of {} bodies, {} robots", world.bodies().size(),
@@ -300,6 +317,10 @@ Surfaces closer than this touch; motion stops with a gap below it.
 Names of the materials, the seven of the original first.
 @type string[]
 > world.materials[1]  --> frictionless)"},
+    {"camera", guarded<get_camera>, R"(
+The camera of its file, as `clench.render` takes it: `clench.render(world, world.camera)`. nil when the file has none.
+@type {eye: vec3, target: vec3, up: vec3, field_of_view: number}?
+> clench.world().camera  --> nil)"},
     {"source", guarded<get_source>, R"(
 File that the world was loaded from; empty when it was made by a script.
 @type string
