@@ -20,10 +20,12 @@ struct TouchOptions {
   int most_per_patch = 8;     ///< a longer outline is thinned, the closest pair kept
 };
 
-/// Contact set of two shapes that do not intersect. A patch is where near points with one normal hang together;
-/// it gives the corners of its outline, so a box standing on a table touches at four points however its faces
-/// are cut into triangles. Always contains the closest pair (its gap to the bit); never loses a patch.
-/// Normals run along the gap; where it is too narrow to tell a direction, along the face's normal.
+/// Contact set of two shapes that do not intersect. A patch is where near points with one normal
+/// hang together; it gives the corners of its outline, so a box standing on a table touches at four
+/// points however its faces are cut into triangles. Always contains the closest pair (its gap to the
+/// bit); never loses a patch. Normals run along the gap; where it is too narrow to tell a direction,
+/// along the face's normal.
+///
 /// returns empty when they are farther apart than the threshold, or intersect, or one holds the other
 /// throws  Error when an option is negative or not finite, or most_per_patch < 1
 std::vector<Touch> contact_set(const Shape& a, const Shape& b, const Pose& X_AB, const TouchOptions& options = {});

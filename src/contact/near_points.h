@@ -16,9 +16,11 @@ struct NearPoint {
 };
 
 /// The closest pair first, then the others in the order of the triangles. Only points where each
-/// surface is the nearest to the other within its neighbourhood, up to a slope of 1/100: not the
-/// corners of a tilted face. pairs      of pairs_within(a, b, X_AB, threshold); not empty, none
-/// intersect threshold  [m]
+/// surface is the nearest to the other within its neighbourhood, up to a slope of 1/30: not the
+/// corners of a face that is tilted by more.
+///
+/// pairs      of pairs_within(a, b, X_AB, threshold); not empty, none intersect
+/// threshold  [m]
 std::vector<NearPoint> near_points(const Shape& a, const Shape& b, const Pose& X_AB,
                                    const std::vector<TrianglePair>& pairs, double threshold);
 

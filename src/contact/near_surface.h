@@ -31,7 +31,9 @@ class NearSurface {
   std::span<const int> around(int triangle, const Eigen::Vector3d& p) const;
 
   /// Is p the point of these triangles that comes nearest to what lies along `direction` (unit)
-  /// from it? A slope of 1/30 towards it is forgiven. reach     how far it may lie, > 0 [m]
+  /// from it? A slope of 1/30 towards it is forgiven.
+  ///
+  /// reach     how far it may lie, > 0 [m]
   /// rounding  of coordinates [m]
   bool is_summit(std::span<const int> slots, const Eigen::Vector3d& p,
                  const Eigen::Vector3d& direction, double reach, double rounding) const;

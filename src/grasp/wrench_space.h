@@ -11,11 +11,13 @@ namespace clench {
 
 using Wrenches = Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< a column a wrench (force; torque / rho)
 
-/// The wrench on the object, from outside, that a grasp resists worst. Contacts answer w by -w, so w is resisted
-/// when -w lies in the hull: the worst direction runs against the normal of the facet nearest to the origin.
+/// The wrench on the object, from outside, that a grasp resists worst. Contacts answer w by -w, so w
+/// is resisted when -w lies in the hull: the worst direction runs against the normal of the facet
+/// nearest to the origin.
 struct Weakest {
   Vector6d direction = Vector6d::Zero();  ///< unit
-  double resistance = 0;  ///< largest multiple resisted; 0: none; below: all contacts push along it, by as much at least
+  /// largest multiple resisted; 0: none; below 0: all contacts push along it, by as much at least
+  double resistance = 0;
 };
 
 /// L1 wrench space: all that contacts resist when their normal forces sum to at most one. It is the convex
