@@ -6,13 +6,16 @@
 namespace clench {
 
 struct RenderOptions {
-  int width = 1280, height = 960;   ///< pixels, 16..8192
+  int width = 1280, height = 960;  ///< pixels, 16..8192
+  int samples = 8;                 ///< a pixel: smoothness of edges and shadows against time, 1..256
 };
 
-/// throws Error that says what to install when there is no EGL or no OpenGL 3.3, and on a size out of range
+/// throws Error that says what to install when there is no EGL or no OpenGL 3.3, on a size out of range,
+/// and on a number of the scene out of range, naming the mesh or cone
 Picture render(const Scene& scene, const RenderOptions& options = {});
 
-/// The view that `render` uses when the scene names none: everything in the frame, from above and the side.
+/// The view that `render` uses when the scene names none: everything in the frame, from above and that
+/// side which shows most of the contacts and of what is grasped. `aspect` is width over height.
 Eye frame_all(const Scene& scene, double aspect);
 
 }  // namespace clench

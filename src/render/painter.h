@@ -1,0 +1,13 @@
+// A draw list to pixels, tile by tile and pass by pass.
+#pragma once
+#include "render/draw_list.h"
+#include "render/picture.h"
+#include "render/render.h"
+
+namespace clench {
+
+/// Lives inside the life of a GlContext; `eye` is in scene units.   throws Error when the driver refuses
+/// source  Haeberli & Akeley (1990), The accumulation buffer: soft shadows and smooth edges as a mean of pictures
+Picture paint(const DrawList& list, const Eye& eye, const RenderOptions& options);
+
+}  // namespace clench

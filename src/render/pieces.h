@@ -1,0 +1,28 @@
+// What a scene's meshes and cones look like as triangles in the world.
+#pragma once
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace clench {
+
+/// Triangles of one mesh or cone.
+struct Piece {
+  std::vector<Eigen::Vector3d> p_W = {};
+  std::vector<Triangle> triangles = {};
+  std::vector<Eigen::Vector3f> colors = {};  ///< one, or one a triangle
+  float opacity = 1;
+  bool mark = false;        ///< drawn as it is, whatever the light
+  bool background = false;  ///< throws no shadow, counts for no frame
+};
+
+/// throws Error naming the mesh or cone and the number that is out of range
+void check(const Scene& scene);
+
+/// `number` names the mesh in an error: when its pose moves it beyond all numbers
+Piece mesh_piece(const DrawMesh& mesh, size_t number);
+
+/// The mantle, its lid, and a ball about the apex. A needle when there is no angle; a flat cone is cut off.
+Piece cone_piece(const DrawCone& cone);
+
+}  // namespace clench

@@ -1,0 +1,15 @@
+#include "base/error.h"
+#include "render/render.h"
+
+namespace clench {
+namespace {
+
+[[noreturn]] void refuse() { fail("this build has no pictures: configure with -DCLENCH_GL=ON"); }
+
+}  // namespace
+
+Picture render(const Scene&, const RenderOptions&) { refuse(); }
+
+void save_png(const Picture&, const std::string&) { refuse(); }
+
+}  // namespace clench

@@ -1,0 +1,256 @@
+// The programs of the graphics card, as text. Parts come before a program's own text, and before all the count
+// LIGHTS of lights at a time: a constant, so that loops over them unroll.
+#pragma once
+
+namespace clench::shaders {
+
+/// corners to the picture, with the light that was gathered for them
+inline constexpr const char* surface_vertex = R"(
+layout(location = 0) in vec3 p;
+layout(location = 1) in vec3 n;
+layout(location = 2) in vec4 color;
+uniform mat4 to_clip;
+uniform sampler2D room;
+uniform sampler2D lamp;
+out vec3 at;
+out vec3 normal;
+out vec4 paint;
+out vec4 room_light;
+out vec4 lamp_light;
+void main() {
+  int width = textureSize(room, 0).x;
+  ivec2 place = ivec2(gl_VertexID % width, gl_VertexID / width);
+  at = p;
+  normal = n;
+  paint = color;
+  room_light = texelFetch(room, place, 0);
+  lamp_light = texelFetch(lamp, place, 0);
+  gl_Position = to_clip * vec4(p, 1);
+}
+)";
+
+/// corners to the depth that a lamp sees; rows of axes: across, across, towards the lamp
+inline constexpr const char* shadow_vertex = R"(
+layout(location = 0) in vec3 p;
+uniform mat3 axes[LIGHTS];
+void main() {
+  vec3 q = axes[0] * p;
+  gl_Position = vec4(q.xy, -q.z, 1);
+}
+)";
+
+/// one triangle that covers everything
+inline constexpr const char* cover_vertex = R"(
+void main() {
+  gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1);
+}
+)";
+
+/// part of other programs: what some lights do
+inline constexpr const char* light_part = R"(
+uniform sampler2DArrayShadow maps;
+uniform mat3 axes[LIGHTS];
+uniform vec3 to_light[LIGHTS];
+uniform float radiance[LIGHTS];
+uniform float texel;         // of a map, in scene units
+uniform float power;         // of each light, times its own
+
+// where to start from the surface: farther off where the light grazes it
+vec3 off(vec3 p, vec3 n, float facing) {
+  return p + n * texel * (0.6 + 1.6 * sqrt(max(0, 1 - facing * facing)));
+}
+// part of light i that reaches p
+float seen(int i, vec3 p) {
+  vec3 q = axes[i] * p;
+  return texture(maps, vec4(0.5 + 0.5 * q.xy, i, min(0.5 - 0.5 * q.z, 0.99999)));
+}
+// what a lamp, all of whose points are near the first, returns from a matt white surface
+float lamp_on(vec3 p, vec3 n) {
+  vec3 start = off(p, n, dot(n, to_light[0]));
+  float sum = 0;
+  for (int i = 0; i < LIGHTS; ++i)
+    sum += power * radiance[i] * max(0, dot(n, to_light[i])) * seen(i, start);
+  return sum;
+}
+)";
+
+/// for each corner, front and back: light of the room that reaches it, and how open it lies
+inline constexpr const char* gather_fragment = R"(
+uniform sampler2D points;
+uniform sampler2D normals;
+uniform float share[LIGHTS];
+out vec4 result;
+void main() {
+  vec3 p = texelFetch(points, ivec2(gl_FragCoord.xy), 0).xyz;
+  vec3 n = texelFetch(normals, ivec2(gl_FragCoord.xy), 0).xyz;
+  result = vec4(0);
+  for (int i = 0; i < LIGHTS; ++i) {
+    float facing = dot(n, to_light[i]);
+    float part = abs(facing) * seen(i, off(p, facing < 0 ? -n : n, facing));
+    vec2 more = part * vec2(radiance[i], share[i]);
+    result += facing < 0 ? vec4(0, 0, more) : vec4(more, 0, 0);
+  }
+}
+)";
+
+/// depth and nothing else
+inline constexpr const char* depth_fragment = R"(
+void main() {}
+)";
+
+/// what is seen first: where, which way it faces, its paint, and the light of the room
+inline constexpr const char* seen_fragment = R"(
+in vec3 at;
+in vec3 normal;
+in vec4 paint;
+in vec4 room_light;
+uniform float floor_sign;    // -1 for the floor, else 1
+layout(location = 0) out vec4 place;
+layout(location = 1) out vec4 facing;
+layout(location = 2) out vec4 colors;
+void main() {
+  float side = gl_FrontFacing ? 1 : -1;
+  vec2 light = gl_FrontFacing ? room_light.xy : room_light.zw;
+  place = vec4(at, light.x);
+  facing = vec4(side * normalize(normal), light.y);
+  colors = vec4(paint.rgb, 0.5 + 0.5 * floor_sign);
+}
+)";
+
+/// part of what shades: matt paint under a varnish
+inline constexpr const char* shade_part = R"(
+uniform vec3 eye;
+
+vec3 mirrored(vec3 d) {
+  return mix(vec3(0.30), vec3(0.98, 1.0, 1.04), smoothstep(-0.35, 0.5, d.z));
+}
+// what the varnish returns; direct: light of the lamp, open: how much of the room is seen
+vec3 varnish(vec3 n, vec3 v, vec3 to_lamp, float direct, float open) {
+  float fresnel = 0.04 + 0.96 * pow(1 - clamp(dot(n, v), 0, 1), 5);
+  float gloss = pow(max(0, dot(n, normalize(to_lamp + v))), 48);
+  return 0.35 * (vec3(direct * gloss) + mirrored(reflect(-v, n)) * fresnel * min(1, open));
+}
+// of a colour on a screen; nothing is so black that its shape is lost
+vec3 linear(vec3 color) { return 0.012 + 0.988 * pow(color, vec3(2.2)); }
+)";
+
+/// what was seen first, in the light of the lamps
+inline constexpr const char* shade_fragment = R"(
+uniform sampler2D places;
+uniform sampler2D facings;
+uniform sampler2D paints;
+uniform sampler2D depths;
+uniform float open_light;    // what comes to the floor with nothing in between
+uniform float reach;         // of the floor
+out vec4 result;
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  vec4 place = texelFetch(places, here, 0), facing = texelFetch(facings, here, 0),
+       paint = texelFetch(paints, here, 0);
+  bool nothing = texelFetch(depths, here, 0).r == 1, on_floor = paint.a < 0.5;
+  vec3 p = place.xyz, n = facing.xyz;
+  float direct = lamp_on(p, n);
+  vec3 behind = backdrop(), v = normalize(eye - p);
+  // the floor is the backdrop, less the light that bodies keep from it
+  vec3 light = on_floor ? behind * (place.w + direct) / open_light
+                        : linear(paint.rgb) * (place.w + direct) + varnish(n, v, to_light[0], direct, facing.w);
+  // far away everything melts into the backdrop
+  float fade = nothing ? 1 : smoothstep(0.5, 1.0, length(p) / reach);
+  result = vec4(mix(light, behind, fade), 1);
+}
+)";
+
+/// glass; red green blue are multiplied by what they cover
+inline constexpr const char* through_fragment = R"(
+in vec3 at;
+in vec3 normal;
+in vec4 paint;
+in vec4 room_light;
+in vec4 lamp_light;
+uniform vec3 to_lamp;
+out vec4 result;
+void main() {
+  vec3 n = normalize(gl_FrontFacing ? normal : -normal);
+  vec3 v = normalize(eye - at);
+  vec2 room = gl_FrontFacing ? room_light.xy : room_light.zw;
+  float direct = gl_FrontFacing ? lamp_light.x : lamp_light.z;
+  // denser where one looks along it
+  float cover = mix(paint.a, 1, 0.75 * pow(1 - clamp(dot(n, v), 0, 1), 2.5));
+  result = vec4(linear(paint.rgb) * (room.x + direct) * cover + varnish(n, v, to_lamp, direct, room.y), cover);
+}
+)";
+
+/// cones: they glow, so that their colour tells in any light
+inline constexpr const char* mark_fragment = R"(
+in vec3 at;
+in vec3 normal;
+in vec4 paint;
+out vec4 result;
+void main() {
+  vec3 n = normalize(gl_FrontFacing ? normal : -normal);
+  float across = clamp(dot(n, normalize(eye - at)), 0, 1);
+  result = vec4(linear(paint.rgb) * (0.75 + 0.30 * across + 0.25 * max(0, n.z)) * paint.a, paint.a);
+}
+)";
+
+/// the floor's light, smoothed over its net: wider where its meshes are
+inline constexpr const char* smooth_fragment = R"(
+uniform sampler2D light;
+uniform int first;           // corner of the floor's net
+uniform int lines;           // each way
+out vec4 result;
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  int width = textureSize(light, 0).x;
+  int i = here.x + width * here.y - first;
+  result = texelFetch(light, here, 0);
+  if (i < 0 || i >= lines * lines) return;
+  vec4 sum = vec4(0);
+  float all = 0;
+  for (int dy = -2; dy <= 2; ++dy)
+    for (int dx = -2; dx <= 2; ++dx) {
+      ivec2 at = clamp(ivec2(i % lines + dx, i / lines + dy), ivec2(0), ivec2(lines - 1));
+      int from = first + at.x + lines * at.y;
+      float weight = float((3 - abs(dx)) * (3 - abs(dy)));
+      sum += weight * texelFetch(light, ivec2(from % width, from / width), 0);
+      all += weight;
+    }
+  result = sum / all;
+}
+)";
+
+/// part of what shades: what is behind everything, by the height in the picture
+inline constexpr const char* backdrop_part = R"(
+uniform vec2 corner;         // of the tile in the picture, pixels
+uniform vec2 size;           // of the picture, pixels
+vec3 backdrop() {
+  vec2 here = (gl_FragCoord.xy + corner) / size;
+  return mix(vec3(0.80, 0.81, 0.82), vec3(0.52, 0.58, 0.66), smoothstep(0.1, 1.0, here.y));
+}
+)";
+
+/// one pass, weighted
+inline constexpr const char* add_fragment = R"(
+uniform sampler2D light;
+uniform float weight;
+out vec4 result;
+void main() { result = weight * texelFetch(light, ivec2(gl_FragCoord.xy), 0); }
+)";
+
+/// light to what a screen shows: a shoulder for highlights, then the curve of sRGB
+inline constexpr const char* develop_fragment = R"(
+uniform sampler2D light;
+out vec4 result;
+void main() {
+  vec3 c = max(vec3(0), texelFetch(light, ivec2(gl_FragCoord.xy), 0).rgb);
+  const float knee = 0.7;
+  vec3 over = max(vec3(0), c - knee);
+  c = min(c, knee) + (1 - knee) * (1 - exp(-over / (1 - knee)));
+  c = mix(12.92 * c, 1.055 * pow(c, vec3(1 / 2.4)) - 0.055, step(0.0031308, c));
+  // less than a step of grain, so that slow gradients have no steps
+  float grain = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
+  result = vec4(c + (grain - 0.5) / 255, 1);
+}
+)";
+
+}  // namespace clench::shaders

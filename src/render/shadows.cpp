@@ -1,0 +1,153 @@
+#include "render/shadows.h"
+
+#include <epoxy/gl.h>
+
+#include <cmath>
+#include <cstddef>
+
+#include "base/error.h"
+#include "render/shaders.h"
+
+namespace clench {
+namespace {
+
+constexpr double reach = 1.03;      // of a map: the scene's ball and a margin [scene units]
+constexpr int gathered_width = 2048;
+
+// neighbours on the floor share their light, so that no single shadow of the many shows
+gl::Object smooth_floor(const DrawList& list, gl::Object gathered, int rows) {
+  if (!list.ground) return gathered;
+  gl::Object smooth = gl::make_texture(gl::Format::rgba32f, gathered_width, rows);
+  const gl::Object framebuffer = gl::make_framebuffer({smooth}, 0);
+  const gl::Object program = gl::make_program("", shaders::cover_vertex, shaders::smooth_fragment);
+  gl::bind(program, "light", 1, gathered);
+  gl::set(program, "first", static_cast<int>(list.floor_corner));
+  gl::set(program, "lines", floor_lines);
+  Cover().draw(program);
+  return smooth;
+}
+
+}  // namespace
+
+std::string shader_head(int lights) { return fmt::format("#define LIGHTS {}\n", lights); }
+
+LoadedList::LoadedList(const DrawList& list)
+    : array(gl::make_vertex_array()),
+      corners(gl::make_buffer(list.corners.data(), list.corners.size() * sizeof(Corner))),
+      indices(gl::make_buffer(list.indices.data(), list.indices.size() * sizeof(uint32_t), true)) {
+  const auto field = [](int at, int count, GLenum type, size_t offset) {
+    glEnableVertexAttribArray(at);
+    glVertexAttribPointer(at, count, type, type == GL_UNSIGNED_BYTE, sizeof(Corner),
+                          reinterpret_cast<const void*>(offset));
+  };
+  field(0, 3, GL_FLOAT, offsetof(Corner, p));
+  field(1, 3, GL_FLOAT, offsetof(Corner, n));
+  field(2, 4, GL_UNSIGNED_BYTE, offsetof(Corner, color));
+}
+
+void Cover::draw(unsigned program) const {
+  gl::use(program);
+  glBindVertexArray(array_);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+Shadows::Shadows(const DrawList& list, const LoadedList& loaded, int size)
+    : list_(list),
+      loaded_(loaded),
+      size_(size),
+      program_(gl::make_program(shader_head(1), shaders::shadow_vertex, shaders::depth_fragment)),
+      maps_(gl::make_shadow_maps(size, most)),
+      framebuffer_(gl::make_framebuffer({}, 0)) {}
+
+void Shadows::cast(std::span<const Light> lights) {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  glViewport(0, 0, size_, size_);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.5f, 2);
+  glBindVertexArray(loaded_.array);
+  axes_.assign(most, Eigen::Matrix3f::Zero());
+  to_light_.assign(most, Eigen::Vector3f::Zero());
+  radiance_.assign(most, 0);
+  share_.assign(most, 0);
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const Light& light = lights[i];
+    const Eigen::Vector3d to = light.to_light.cast<double>();
+    const Eigen::Vector3d across = to.unitOrthogonal();
+    Eigen::Matrix3d rows;
+    rows << across.transpose(), to.cross(across).transpose(), to.transpose();
+    axes_[i] = (rows / reach).cast<float>();
+    to_light_[i] = light.to_light;
+    radiance_[i] = light.radiance;
+    share_[i] = light.share;
+
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps_, 0,
+                              static_cast<int>(i));
+    glClear(GL_DEPTH_BUFFER_BIT);
+    gl::set(program_, "axes", std::vector{axes_[i]});
+    const auto draw = [](const Batch& batch) {
+      glDrawElements(GL_TRIANGLES, batch.caster_count, GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(batch.first_caster * sizeof(uint32_t)));
+    };
+    for (const Batch& batch : list_.solid) draw(batch);
+    // bodies take turns, so that two of half opacity do not stop the same lights
+    for (size_t b = 0; b < list_.clear.size(); ++b) {
+      const double turn = light.chance + 0.38196601125 * static_cast<double>(b);
+      if (turn - std::floor(turn) < list_.clear[b].opacity) draw(list_.clear[b]);
+    }
+  }
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void Shadows::give(unsigned program) const {
+  gl::set(program, "axes", axes_);
+  gl::set(program, "to_light", to_light_);
+  gl::set(program, "radiance", radiance_);
+  gl::set(program, "share", share_);
+  gl::set(program, "texel", static_cast<float>(2 * reach / size_));
+  gl::bind(program, "maps", 0, maps_, true);
+}
+
+gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Light>& lights) {
+  const int rows = std::max<int>(1, (list.corners.size() + gathered_width - 1) / gathered_width);
+  GLint most_rows = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_rows);
+  if (rows > most_rows)
+    fail("picture: {} corners of triangles are more than the {} that OpenGL takes here",
+         list.corners.size(), static_cast<size_t>(most_rows) * gathered_width);
+
+  // corners as textures, four numbers each
+  std::vector<Eigen::Vector4f> p(static_cast<size_t>(rows) * gathered_width, Eigen::Vector4f::Zero()), n = p;
+  for (size_t i = 0; i < list.corners.size(); ++i) {
+    p[i].head<3>() = list.corners[i].p;
+    n[i].head<3>() = list.corners[i].n;
+  }
+  const gl::Object points = gl::make_texture(gl::Format::rgba32f, gathered_width, rows, p.data()),
+                   normals = gl::make_texture(gl::Format::rgba32f, gathered_width, rows, n.data());
+  gl::Object gathered = gl::make_texture(gl::Format::rgba32f, gathered_width, rows);
+  const gl::Object framebuffer = gl::make_framebuffer({gathered}, 0);
+  const gl::Object program =
+      gl::make_program(shader_head(Shadows::most), shaders::cover_vertex,
+                       std::string(shaders::light_part) + shaders::gather_fragment);
+  const Cover cover;
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  for (size_t i = 0; i < lights.size(); i += Shadows::most) {
+    shadows.cast(std::span(lights).subspan(i, std::min<size_t>(Shadows::most, lights.size() - i)));
+    shadows.give(program);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, gathered_width, rows);
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    gl::bind(program, "points", 1, points);
+    gl::bind(program, "normals", 2, normals);
+    cover.draw(program);
+    glDisable(GL_BLEND);
+  }
+  return smooth_floor(list, std::move(gathered), rows);
+}
+
+}  // namespace clench

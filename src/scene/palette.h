@@ -1,0 +1,30 @@
+// Every colour of our pictures of worlds, in one table. Colours are as a screen shows them (sRGB).
+#pragma once
+#include "model/body.h"
+
+namespace clench::palette {
+
+struct Entry {
+  Eigen::Vector3f color;
+  float opacity;  ///< when objects are drawn transparent, so that contacts show
+};
+
+/// By kind of body: dark palm, light fingers, so that the joints of a hand read; objects in the one
+/// saturated colour; obstacles quiet.
+inline Entry of(BodyKind kind) {
+  switch (kind) {
+    case BodyKind::base: return {{0.29f, 0.33f, 0.38f}, 1};
+    case BodyKind::link: return {{0.74f, 0.77f, 0.80f}, 1};
+    case BodyKind::mount: return {{0.45f, 0.49f, 0.54f}, 1};
+    case BodyKind::object: return {{0.25f, 0.60f, 0.85f}, 0.26f};
+    case BodyKind::obstacle: return {{0.80f, 0.74f, 0.66f}, 1};
+  }
+  return {{0.7f, 0.7f, 0.7f}, 1};
+}
+
+/// Friction cones: the complement of the objects' colour, which surrounds them.
+inline const Eigen::Vector3f cone(1.0f, 0.36f, 0.05f);
+/// Cones of contacts without friction, which are needles.
+inline const Eigen::Vector3f needle(0.95f, 0.80f, 0.10f);
+
+}  // namespace clench::palette
