@@ -34,8 +34,10 @@ std::string read_text(const std::filesystem::path& path) {
   std::string text;
   text.reserve(raw.size());
   for (size_t i = 0; i < raw.size(); ++i) {
-    if (raw[i] != '\r') text += raw[i];
-    else if (i + 1 == raw.size() || raw[i + 1] != '\n') text += '\n';
+    if (raw[i] != '\r')
+      text += raw[i];
+    else if (i + 1 == raw.size() || raw[i + 1] != '\n')
+      text += '\n';
   }
   return text;
 }
@@ -46,7 +48,8 @@ std::optional<double> parse_number(std::string_view text) {
     if (!text.empty() && text.front() == '-') return {};
   }
   // only digits: this shuts out inf, nan and hexadecimal
-  if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return {};
+  if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos)
+    return {};
   double value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size()) return {};
@@ -113,7 +116,8 @@ std::string Line::place() const { return fmt::format("{}:{}", file_ ? *file_ : "
 
 Line Line::before(char mark) const {
   for (int i = 0; i < size(); ++i)
-    if (words_[i].front() == mark) return Line(file_, number_, text_.substr(0, words_[i].data() - text_.data()));
+    if (words_[i].front() == mark)
+      return Line(file_, number_, text_.substr(0, words_[i].data() - text_.data()));
   return *this;
 }
 

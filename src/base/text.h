@@ -34,9 +34,9 @@ class Line {
   Line() = default;
   Line(const std::string* file, int number, std::string_view text);
 
-  int number() const { return number_; }          ///< from 1
-  std::string place() const;                      ///< "Barrett.cfg:31"
-  std::string_view text() const { return text_; } ///< without blanks at its ends
+  int number() const { return number_; }           ///< from 1
+  std::string place() const;                       ///< "Barrett.cfg:31"
+  std::string_view text() const { return text_; }  ///< without blanks at its ends
   bool blank() const { return text_.empty(); }
   int size() const { return static_cast<int>(words_.size()); }
   /// word i, or "" when there is none

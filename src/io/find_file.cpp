@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 static std::vector<std::string> entries(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code code;
-  for (fs::directory_iterator it(folder.empty() ? "." : folder, code), end; !code && it != end; it.increment(code))
+  for (fs::directory_iterator it(folder.empty() ? "." : folder, code), end; !code && it != end;
+       it.increment(code))
     names.push_back(it->path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
@@ -60,7 +61,8 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
 
   // beside the referrer, below the root, below the referrer's parent folder; where we stand for the user's own
   std::vector<fs::path> places;
-  if (wanted.is_absolute()) places = {wanted};
+  if (wanted.is_absolute())
+    places = {wanted};
   else if (referrer.empty()) {
     places.push_back(wanted);
     if (!options.root.empty()) places.push_back(options.root / wanted);
@@ -73,7 +75,8 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
   for (const auto& place : places)
     if (fs::is_regular_file(place, code)) return place.lexically_normal();
   for (const auto& place : places)
-    if (const fs::path found = exact_or_case(place); fs::is_regular_file(found, code)) return found.lexically_normal();
+    if (const fs::path found = exact_or_case(place); fs::is_regular_file(found, code))
+      return found.lexically_normal();
   for (const auto& place : places)
     if (fs::is_directory(place, code)) fail("wanted a file, got the folder {}", name);
   fail("no such file: {}{}", name, suggestion(places));

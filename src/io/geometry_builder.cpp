@@ -5,8 +5,8 @@
 
 namespace clench {
 
-void GeometryBuilder::add(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3f& color,
-                          float transparency) {
+void GeometryBuilder::add(const std::array<Eigen::Vector3d, 3>& corners,
+                          const Eigen::Vector3f& color, float transparency) {
   if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
   const int first = static_cast<int>(mesh_.vertices.size());
   mesh_.vertices.insert(mesh_.vertices.end(), corners.begin(), corners.end());
@@ -28,7 +28,8 @@ static Mesh weld_seams(const Mesh& loose) {
   const int open_edges = find_faults(exact).open_edges;
   if (open_edges == 0) return exact;
   const Bounds bounds = exact.bounds();
-  const double largest = std::max(bounds.low.cwiseAbs().maxCoeff(), bounds.high.cwiseAbs().maxCoeff());
+  const double largest =
+      std::max(bounds.low.cwiseAbs().maxCoeff(), bounds.high.cwiseAbs().maxCoeff());
   int dropped = 0;
   Mesh joined = weld(exact, 4e-7 * largest, &dropped);
   return dropped == 0 && find_faults(joined).open_edges < open_edges ? joined : exact;
@@ -40,7 +41,8 @@ static void turn_if_inside_out(Mesh& mesh, const std::string& subject, const Rea
   if (options.warn) options.warn(subject + ": its triangles face inward; turned to face outward");
 }
 
-Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject, const ReadOptions& options) {
+Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
+                                 const ReadOptions& options) {
   Geometry out;
   if (mesh_.triangles.empty()) return out;
   check_mesh(mesh_, subject);
@@ -53,8 +55,10 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject, 
   out.appearance.transparency = static_cast<float>(weighted_transparency_ / weight_);
   bool differ = false;
   for (const auto& c : colors_) differ = differ || c != colors_.front();
-  if (differ) out.appearance.triangle_colors = std::move(colors_);
-  else out.appearance.color = colors_.front();
+  if (differ)
+    out.appearance.triangle_colors = std::move(colors_);
+  else
+    out.appearance.color = colors_.front();
   return out;
 }
 

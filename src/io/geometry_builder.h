@@ -5,14 +5,15 @@
 namespace clench {
 
 struct Geometry {
-  Mesh mesh;               ///< welded, no triangle with a vertex twice; may be empty
+  Mesh mesh;  ///< welded, no triangle with a vertex twice; may be empty
   Appearance appearance;
 };
 
 class GeometryBuilder {
  public:
   /// Corners [m]. A triangle with two equal corners is dropped.
-  void add(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3f& color, float transparency);
+  void add(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3f& color,
+           float transparency);
   size_t triangle_count() const { return mesh_.triangles.size(); }
   /// Colours are kept one a triangle when they differ. A closed mesh that is inside out is turned, with a warning.
   /// `colors_given`: do the colours come from the file?

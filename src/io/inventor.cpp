@@ -32,9 +32,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int deepest_graph = 1000;          // nodes above one another; Coin walks by recursion
-constexpr int deepest_include = 32;          // files that include files
-constexpr int most_steps = 2'000'000;        // nodes visited, shared ones each time
+constexpr int deepest_graph = 1000;    // nodes above one another; Coin walks by recursion
+constexpr int deepest_include = 32;    // files that include files
+constexpr int most_steps = 2'000'000;  // nodes visited, shared ones each time
 constexpr size_t most_triangles = 2'000'000;
 
 /// Coin keeps global state: one reader at a time, its messages caught, a host's handlers put back.
@@ -58,7 +58,7 @@ class CoinLease {
   }
   CoinLease(const CoinLease&) = delete;
 
-  std::string error;   ///< first message of the reader
+  std::string error;  ///< first message of the reader
 
  private:
   static std::mutex& mutex() {
@@ -81,10 +81,17 @@ class CoinLease {
 template <class T>
 class Ref {
  public:
-  Ref(T* node = nullptr) : node_(node) { if (node_) node_->ref(); }
+  Ref(T* node = nullptr) : node_(node) {
+    if (node_) node_->ref();
+  }
   Ref(const Ref& other) : Ref(other.node_) {}
-  Ref& operator=(Ref other) { std::swap(node_, other.node_); return *this; }
-  ~Ref() { if (node_) node_->unref(); }
+  Ref& operator=(Ref other) {
+    std::swap(node_, other.node_);
+    return *this;
+  }
+  ~Ref() {
+    if (node_) node_->unref();
+  }
   T* get() const { return node_; }
 
  private:
@@ -95,24 +102,27 @@ class Ref {
 NodeType node_type(const std::string& name) {
   static const std::map<std::string, NodeType> types = [] {
     std::map<std::string, NodeType> out;
-    const SoType idle[] = {SoTexture::getClassTypeId(), SoVRMLTexture::getClassTypeId(), SoBumpMap::getClassTypeId(),
-                           SoShaderObject::getClassTypeId(), SoShaderProgram::getClassTypeId(),
-                           SoVRMLSound::getClassTypeId(), SoVRMLAudioClip::getClassTypeId(),
-                           SoVRMLScript::getClassTypeId(), SoBaseKit::getClassTypeId()};
+    const SoType idle[] = {SoTexture::getClassTypeId(),       SoVRMLTexture::getClassTypeId(),
+                           SoBumpMap::getClassTypeId(),       SoShaderObject::getClassTypeId(),
+                           SoShaderProgram::getClassTypeId(), SoVRMLSound::getClassTypeId(),
+                           SoVRMLAudioClip::getClassTypeId(), SoVRMLScript::getClassTypeId(),
+                           SoBaseKit::getClassTypeId()};
     for (const SoType& base : {SoNode::getClassTypeId(), SoType::fromName("Engine")}) {
       SoTypeList list;
       SoType::getAllDerivedFrom(base, list);
       for (int i = 0; i < list.getLength(); ++i) {
         const std::string type = list[i].getName().getString();
         if (!list[i].canCreateInstance() || type.ends_with("Manip")) continue;
-        const bool is_idle = std::any_of(std::begin(idle), std::end(idle), [&](SoType t) { return list[i].isDerivedFrom(t); });
+        const bool is_idle = std::any_of(std::begin(idle), std::end(idle),
+                                         [&](SoType t) { return list[i].isDerivedFrom(t); });
         out[type] = is_idle ? NodeType::idle : NodeType::known;
         if (type.starts_with("VRML")) out.emplace(type.substr(4), out[type]);
       }
     }
     return out;
   }();
-  const auto found = types.find(name.starts_with("So") && !types.contains(name) ? name.substr(2) : name);
+  const auto found =
+      types.find(name.starts_with("So") && !types.contains(name) ? name.substr(2) : name);
   return found == types.end() ? NodeType::unknown : found->second;
 }
 
@@ -127,10 +137,15 @@ NodeType node_type(const std::string& name) {
     line = words.empty() ? 1 : parse_integer(words[0]).value_or(1);
     text.erase(at);
   }
-  if (text.find("floating point") != std::string::npos) text = "wanted a finite number that fits 32 bits";
+  if (text.find("floating point") != std::string::npos)
+    text = "wanted a finite number that fits 32 bits";
   std::string sentence;
-  for (const auto word : split_words(text)) sentence += (sentence.empty() ? "" : " ") + std::string(word);
-  fail("{}:{}: {}", file, line + skipped_lines, sentence.empty() ? "the file cannot be read" : sentence);
+  for (const auto word : split_words(text)) {
+    if (!sentence.empty()) sentence += ' ';
+    sentence += word;
+  }
+  fail("{}:{}: {}", file, line + skipped_lines,
+       sentence.empty() ? "the file cannot be read" : sentence);
 }
 
 /// Files to scene graphs, each read once.
@@ -174,7 +189,7 @@ Ref<SoSeparator> Loader::load(const fs::path& path, const std::string& text) {
 void Loader::visit(SoNode* node, const std::string& file, std::vector<SoNode*>& found, int depth) {
   if (heights_.contains(node)) return;
   int height = deepest_graph;
-  heights_[node] = height;   // stands while we are below it: a circle is endlessly deep
+  heights_[node] = height;  // stands while we are below it: a circle is endlessly deep
   found.push_back(node);
   if (depth <= deepest_graph) {
     height = 0;
@@ -193,7 +208,8 @@ void Loader::fill_includes(SoNode* root, const fs::path& path, const InventorTex
   heights_.clear();
   visit(root, path.filename().string(), nodes);
   std::map<std::string, int> numbers;
-  for (size_t i = 0; i < scanned.includes.size(); ++i) numbers[include_key(static_cast<int>(i))] = static_cast<int>(i);
+  for (size_t i = 0; i < scanned.includes.size(); ++i)
+    numbers[include_key(static_cast<int>(i))] = static_cast<int>(i);
   for (SoNode* node : nodes) {
     Ref<SoSeparator> part;
     if (node->isOfType(SoFile::getClassTypeId())) {
@@ -221,7 +237,8 @@ void Loader::fill_includes(SoNode* root, const fs::path& path, const InventorTex
 }
 
 Ref<SoSeparator> Loader::include(const std::string& name, const fs::path& referrer, int line) {
-  const std::string place = referrer.filename().string() + (line > 0 ? fmt::format(":{}", line) : "");
+  const std::string place =
+      referrer.filename().string() + (line > 0 ? fmt::format(":{}", line) : "");
   fs::path path;
   std::string text;
   try {
@@ -233,7 +250,8 @@ Ref<SoSeparator> Loader::include(const std::string& name, const fs::path& referr
   for (const auto& above : open_)
     if (fs::weakly_canonical(above) == path) fail("{}: '{}' includes itself", place, name);
   if (open_.size() >= deepest_include)
-    fail("{}: '{}': wanted files that include one another at most {} deep", place, name, deepest_include);
+    fail("{}: '{}': wanted files that include one another at most {} deep", place, name,
+         deepest_include);
   if (const auto found = done_.find(path); found != done_.end()) return found->second;
   auto part = load(path, text);
   done_[path] = part;
@@ -251,21 +269,24 @@ class Collector {
   std::set<std::string> warnings;
 
  private:
-  static SoCallbackAction::Response on_node(void* self, SoCallbackAction* action, const SoNode* node) {
+  static SoCallbackAction::Response on_node(void* self, SoCallbackAction* action,
+                                            const SoNode* node) {
     return static_cast<Collector*>(self)->enter(action, const_cast<SoNode*>(node));
   }
   static void on_triangle(void* self, SoCallbackAction* action, const SoPrimitiveVertex* a,
                           const SoPrimitiveVertex* b, const SoPrimitiveVertex* c) {
-    static_cast<Collector*>(self)->add(action, {a->getPoint(), b->getPoint(), c->getPoint()}, a->getMaterialIndex());
+    static_cast<Collector*>(self)->add(action, {a->getPoint(), b->getPoint(), c->getPoint()},
+                                       a->getMaterialIndex());
   }
   SoCallbackAction::Response enter(SoCallbackAction* action, SoNode* node);
   SoCallbackAction::Response enter_shape(SoCallbackAction* action, SoNode* node);
   void add_faces(SoCallbackAction* action, const FaceList& list);
-  void add(SoCallbackAction* action, const std::array<SbVec3f, 3>& corners, int color, const SbColor* given = nullptr);
+  void add(SoCallbackAction* action, const std::array<SbVec3f, 3>& corners, int color,
+           const SbColor* given = nullptr);
 
   std::string file_, error_;
   int steps_ = 0;
-  bool clockwise_ = false;   // how the shape at hand turns
+  bool clockwise_ = false;  // how the shape at hand turns
 };
 
 void Collector::apply(SoNode* root) {
@@ -284,11 +305,13 @@ void Collector::apply(SoNode* root) {
 
 SoCallbackAction::Response Collector::enter(SoCallbackAction* action, SoNode* node) {
   const auto is = [&](SoType type) { return node->isOfType(type); };
-  if (++steps_ > most_steps) error_ = fmt::format("wanted at most {} nodes, shared ones counted each time", most_steps);
-  if (builder.triangle_count() > most_triangles) error_ = fmt::format("wanted at most {} triangles", most_triangles);
+  if (++steps_ > most_steps)
+    error_ = fmt::format("wanted at most {} nodes, shared ones counted each time", most_steps);
+  if (builder.triangle_count() > most_triangles)
+    error_ = fmt::format("wanted at most {} triangles", most_triangles);
   if (!error_.empty()) return SoCallbackAction::ABORT;
-  if (is(SoMaterial::getClassTypeId()) || is(SoBaseColor::getClassTypeId()) || is(SoPackedColor::getClassTypeId()) ||
-      is(SoVRMLMaterial::getClassTypeId()))
+  if (is(SoMaterial::getClassTypeId()) || is(SoBaseColor::getClassTypeId()) ||
+      is(SoPackedColor::getClassTypeId()) || is(SoVRMLMaterial::getClassTypeId()))
     colors_given = true;
   if (!is(SoShape::getClassTypeId())) return SoCallbackAction::CONTINUE;
 
@@ -307,14 +330,19 @@ SoCallbackAction::Response Collector::enter_shape(SoCallbackAction* action, SoNo
     return SoCallbackAction::PRUNE;
   }
   // the shapes given by their sizes are Coin's to cut into triangles
-  const SoType round[] = {SoCube::getClassTypeId(), SoSphere::getClassTypeId(), SoCylinder::getClassTypeId(),
-                          SoCone::getClassTypeId(), SoVRMLBox::getClassTypeId(), SoVRMLSphere::getClassTypeId(),
-                          SoVRMLCylinder::getClassTypeId(), SoVRMLCone::getClassTypeId(), SoVRMLExtrusion::getClassTypeId()};
-  clockwise_ = node->isOfType(SoVRMLExtrusion::getClassTypeId()) && !static_cast<SoVRMLExtrusion*>(node)->ccw.getValue();
+  const SoType round[] = {SoCube::getClassTypeId(),         SoSphere::getClassTypeId(),
+                          SoCylinder::getClassTypeId(),     SoCone::getClassTypeId(),
+                          SoVRMLBox::getClassTypeId(),      SoVRMLSphere::getClassTypeId(),
+                          SoVRMLCylinder::getClassTypeId(), SoVRMLCone::getClassTypeId(),
+                          SoVRMLExtrusion::getClassTypeId()};
+  clockwise_ = node->isOfType(SoVRMLExtrusion::getClassTypeId()) &&
+               !static_cast<SoVRMLExtrusion*>(node)->ccw.getValue();
   for (const SoType type : round)
     if (node->isOfType(type)) return SoCallbackAction::CONTINUE;
   const std::string name = node_name(node);
-  const bool flat = name.find("Line") != std::string::npos || name.find("Point") != std::string::npos || name.find("Text") != std::string::npos;
+  const bool flat = name.find("Line") != std::string::npos ||
+                    name.find("Point") != std::string::npos ||
+                    name.find("Text") != std::string::npos;
   if (!flat) warnings.insert(fmt::format("{}: {} is not used as geometry", file_, name));
   return SoCallbackAction::PRUNE;
 }
@@ -332,12 +360,15 @@ void Collector::add_faces(SoCallbackAction* action, const FaceList& list) {
       corners.emplace_back(points.back()[0], points.back()[1], points.back()[2]);
     }
     const int last_color = static_cast<int>(list.colors.size()) - 1;
-    const SbColor* color = list.colors.empty() ? nullptr : &list.colors[std::clamp(face.color, 0, last_color)];
-    for (const auto& t : triangulate(corners, list.convex)) add(action, {points[t[0]], points[t[1]], points[t[2]]}, face.color, color);
+    const SbColor* color =
+        list.colors.empty() ? nullptr : &list.colors[std::clamp(face.color, 0, last_color)];
+    for (const auto& t : triangulate(corners, list.convex))
+      add(action, {points[t[0]], points[t[1]], points[t[2]]}, face.color, color);
   }
 }
 
-void Collector::add(SoCallbackAction* action, const std::array<SbVec3f, 3>& corners, int color, const SbColor* given) {
+void Collector::add(SoCallbackAction* action, const std::array<SbVec3f, 3>& corners, int color,
+                    const SbColor* given) {
   const SbMatrix& X = action->getModelMatrix();
   std::array<Eigen::Vector3d, 3> points;
   for (int i = 0; i < 3; ++i) {
@@ -352,10 +383,14 @@ void Collector::add(SoCallbackAction* action, const std::array<SbVec3f, 3>& corn
   const SoLazyElement* material = SoLazyElement::getInstance(state);
   const int colors = material->getNumDiffuse(), alphas = material->getNumTransparencies();
   SbColor diffuse(0.8f, 0.8f, 0.8f);
-  if (given) diffuse = *given;
-  else if (colors > 0) diffuse = SoLazyElement::getDiffuse(state, std::clamp(color, 0, colors - 1));
-  const float alpha = alphas > 0 ? SoLazyElement::getTransparency(state, std::clamp(color, 0, alphas - 1)) : 0.0f;
-  builder.add(points, Eigen::Vector3f(diffuse[0], diffuse[1], diffuse[2]).cwiseMax(0.0f).cwiseMin(1.0f),
+  if (given)
+    diffuse = *given;
+  else if (colors > 0)
+    diffuse = SoLazyElement::getDiffuse(state, std::clamp(color, 0, colors - 1));
+  const float alpha =
+      alphas > 0 ? SoLazyElement::getTransparency(state, std::clamp(color, 0, alphas - 1)) : 0.0f;
+  builder.add(points,
+              Eigen::Vector3f(diffuse[0], diffuse[1], diffuse[2]).cwiseMax(0.0f).cwiseMin(1.0f),
               std::clamp(alpha, 0.0f, 1.0f));
 }
 

@@ -10,6 +10,7 @@ namespace clench {
 /// text have none. `text` is what the file holds, its lines ended by '\n'.
 /// A file of frames only gives an empty mesh.
 /// throws Error  "box.iv:31: ..." when the file or one that it includes is malformed, missing or includes itself
-Geometry read_inventor(const std::filesystem::path& path, const std::string& text, const ReadOptions& options);
+Geometry read_inventor(const std::filesystem::path& path, const std::string& text,
+                       const ReadOptions& options);
 
 }  // namespace clench

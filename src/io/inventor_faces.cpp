@@ -43,7 +43,7 @@ class FaceReader {
   void add_strip(const std::vector<int>& points, int color);
 
   std::string name_;
-  int faces_ = 0;   // faces or strips seen so far
+  int faces_ = 0;  // faces or strips seen so far
 };
 
 void FaceReader::take_points(SoCallbackAction* action, SoVertexShape* shape) {
@@ -68,9 +68,12 @@ void FaceReader::take_points(SoCallbackAction* action, SoVertexShape* shape) {
     if (!out.colors.empty()) kind = property->materialBinding.getValue();
   }
   using B = SoMaterialBinding;
-  if (kind == B::PER_VERTEX || kind == B::PER_VERTEX_INDEXED) binding = Binding::corner;
-  else if (kind != B::OVERALL) binding = Binding::face;
-  indexed = kind == B::PER_VERTEX_INDEXED || kind == B::PER_FACE_INDEXED || kind == B::PER_PART_INDEXED;
+  if (kind == B::PER_VERTEX || kind == B::PER_VERTEX_INDEXED)
+    binding = Binding::corner;
+  else if (kind != B::OVERALL)
+    binding = Binding::face;
+  indexed =
+      kind == B::PER_VERTEX_INDEXED || kind == B::PER_FACE_INDEXED || kind == B::PER_PART_INDEXED;
 }
 
 void FaceReader::take_points(SoNode* coordinate) {
@@ -85,7 +88,8 @@ void FaceReader::take_points(SoNode* coordinate) {
 
 void FaceReader::add_face(const std::vector<int>& points, int color) {
   if (points.size() < 3) return;
-  out.faces.push_back({static_cast<int>(out.corners.size()), static_cast<int>(points.size()), color});
+  out.faces.push_back(
+      {static_cast<int>(out.corners.size()), static_cast<int>(points.size()), color});
   out.corners.insert(out.corners.end(), points.begin(), points.end());
 }
 
@@ -93,17 +97,21 @@ void FaceReader::add_strip(const std::vector<int>& points, int color) {
   // every other triangle of a strip turns the other way
   for (size_t i = 0; i + 2 < points.size(); ++i)
     add_face(i % 2 == 0 ? std::vector<int>{points[i], points[i + 1], points[i + 2]}
-                        : std::vector<int>{points[i + 1], points[i], points[i + 2]}, color);
+                        : std::vector<int>{points[i + 1], points[i], points[i + 2]},
+             color);
 }
 
-void FaceReader::read_indexed(const SoMFInt32& indices, const SoMFInt32& color_indices, bool strips) {
+void FaceReader::read_indexed(const SoMFInt32& indices, const SoMFInt32& color_indices,
+                              bool strips) {
   const bool own_indices = indexed && color_indices.getNum() > 0 && color_indices[0] >= 0;
   const auto color_at = [&](int i) { return i < color_indices.getNum() ? color_indices[i] : 0; };
   std::vector<int> points;
   int color = 0, corners = 0;
   const auto finish = [&] {
-    if (strips) add_strip(points, color);
-    else add_face(points, color);
+    if (strips)
+      add_strip(points, color);
+    else
+      add_face(points, color);
     points.clear();
     ++faces_;
   };
@@ -114,7 +122,8 @@ void FaceReader::read_indexed(const SoMFInt32& indices, const SoMFInt32& color_i
       continue;
     }
     if (index < 0 || index >= out.point_count)
-      refuse("number {} of coordIndex: wanted -1 or one of {} points, got {}", i, out.point_count, index);
+      refuse("number {} of coordIndex: wanted -1 or one of {} points, got {}", i, out.point_count,
+             index);
     // a face has the colour of its first corner
     if (points.empty()) {
       if (binding == Binding::face) color = own_indices ? color_at(faces_) : faces_;
@@ -135,12 +144,17 @@ void FaceReader::read_listed(const SoMFInt32& counts, int start, bool strips) {
     if (count < 0 || (count < 3 && counts[i] != -1))
       refuse("number {} of numVertices: wanted at least 3, got {}", i, counts[i]);
     if (used + count > out.point_count)
-      refuse("number {} of numVertices: wanted {} points, got {}", i, used + count, out.point_count);
+      refuse("number {} of numVertices: wanted {} points, got {}", i, used + count,
+             out.point_count);
     std::vector<int> points;
     for (long long k = 0; k < count; ++k) points.push_back(static_cast<int>(used + k));
-    const int color = binding == Binding::face ? i : binding == Binding::corner ? static_cast<int>(used) - start : 0;
-    if (strips) add_strip(points, color);
-    else add_face(points, color);
+    const int color = binding == Binding::face     ? i
+                      : binding == Binding::corner ? static_cast<int>(used) - start
+                                                   : 0;
+    if (strips)
+      add_strip(points, color);
+    else
+      add_face(points, color);
     used += count;
   }
 }
@@ -151,13 +165,15 @@ void FaceReader::read_grid(long long rows, long long columns, long long start) {
     refuse("wanted {} x {} points from {} on, got {}", rows, columns, start, out.point_count);
   for (long long r = 0; r + 1 < rows; ++r)
     for (long long c = 0; c + 1 < columns; ++c) {
-      const int p = static_cast<int>(start + r * columns + c), below = static_cast<int>(p + columns);
+      const int p = static_cast<int>(start + r * columns + c),
+                below = static_cast<int>(p + columns);
       add_face({p, below, below + 1, p + 1}, 0);
     }
 }
 
 void FaceReader::read_heights(SoVRMLElevationGrid* grid) {
-  const long long x = grid->xDimension.getValue(), z = grid->zDimension.getValue(), heights = grid->height.getNum();
+  const long long x = grid->xDimension.getValue(), z = grid->zDimension.getValue(),
+                  heights = grid->height.getNum();
   if (x < 0 || z < 0 || x > heights || z > heights || x * z > heights)
     refuse("wanted {} x {} heights, got {}", x, z, heights);
   out.point_count = static_cast<int>(x * z);
@@ -200,7 +216,8 @@ std::optional<FaceList> list_faces(SoCallbackAction* action, SoNode* shape) {
     reader.read_heights(static_cast<SoVRMLElevationGrid*>(shape));
     return std::move(reader.out);
   }
-  const bool strips = is(SoIndexedTriangleStripSet::getClassTypeId()) || is(SoTriangleStripSet::getClassTypeId());
+  const bool strips =
+      is(SoIndexedTriangleStripSet::getClassTypeId()) || is(SoTriangleStripSet::getClassTypeId());
   if (is(SoIndexedFaceSet::getClassTypeId()) || is(SoIndexedTriangleStripSet::getClassTypeId())) {
     auto* faces = static_cast<SoIndexedShape*>(shape);
     reader.take_points(action, faces);
@@ -216,7 +233,8 @@ std::optional<FaceList> list_faces(SoCallbackAction* action, SoNode* shape) {
   } else if (is(SoQuadMesh::getClassTypeId())) {
     auto* mesh = static_cast<SoQuadMesh*>(shape);
     reader.take_points(action, mesh);
-    reader.read_grid(mesh->verticesPerColumn.getValue(), mesh->verticesPerRow.getValue(), mesh->startIndex.getValue());
+    reader.read_grid(mesh->verticesPerColumn.getValue(), mesh->verticesPerRow.getValue(),
+                     mesh->startIndex.getValue());
   } else {
     return {};
   }

@@ -13,12 +13,12 @@ namespace clench {
 
 struct FaceList {
   struct Face {
-    int first = 0, count = 0;   ///< of `corners`
-    int color = 0;              ///< index of its colour
+    int first = 0, count = 0;  ///< of `corners`
+    int color = 0;             ///< index of its colour
   };
   int point_count = 0;
   std::function<SbVec3f(int)> point;
-  std::vector<int> corners;     ///< indices of points, checked
+  std::vector<int> corners;  ///< indices of points, checked
   std::vector<Face> faces;
   std::vector<SbColor> colors;  ///< empty: the colours of the material in force
   bool convex = false;          ///< the file says that all are

@@ -21,10 +21,12 @@ Eigen::Matrix3d inertia_rows(LineReader& lines, const Line& head, const ReadOpti
   for (int i = 0; i < 3; ++i) {
     const Line line = lines.next();
     if (!line.text().starts_with('#') || line.number() == head.number())
-      line.fail("inertia_matrix: wanted row {} of 3 as '#a b c', got {}", i + 1, in_quotes(line.text()));
+      line.fail("inertia_matrix: wanted row {} of 3 as '#a b c', got {}", i + 1,
+                in_quotes(line.text()));
     const auto words = split_words(line.text().substr(1));
     for (int j = 0; j < 3; ++j) {
-      const std::string_view word = j < static_cast<int>(words.size()) ? words[j] : std::string_view();
+      const std::string_view word =
+          j < static_cast<int>(words.size()) ? words[j] : std::string_view();
       const auto value = parse_number(word);
       if (!value) line.fail("inertia_matrix: wanted three numbers [mm^2], got {}", in_quotes(word));
       rows(i, j) = *value * units::square_millimetre;
@@ -37,7 +39,8 @@ Eigen::Matrix3d inertia_rows(LineReader& lines, const Line& head, const ReadOpti
 
 }  // namespace
 
-void read_inventor_params(const std::string& text, const std::string& file, const ReadOptions& options, BodySpec& body) {
+void read_inventor_params(const std::string& text, const std::string& file,
+                          const ReadOptions& options, BodySpec& body) {
   LineReader lines(file, text);
   while (!lines.done()) {
     const Line line = lines.next();
@@ -53,13 +56,16 @@ void read_inventor_params(const std::string& text, const std::string& file, cons
     } else if (key == "youngs") {
       body.elastic_modulus = positive(line, "youngs", "Pa");
       if (*body.elastic_modulus < 1e4 && options.warn)
-        options.warn(fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?", line.place(), *body.elastic_modulus));
+        options.warn(fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
+                                 line.place(), *body.elastic_modulus));
     } else if (key == "useFlockOfBirds") {
       body.tracker = line.integer(1, "useFlockOfBirds", 0);
     } else if (key == "mass") {
       body.mass = positive(line, "mass", "g") * units::gram;
     } else if (key == "cog") {
-      body.com = Eigen::Vector3d(line.number(1, "cog"), line.number(2, "cog"), line.number(3, "cog")) * units::millimetre;
+      body.com =
+          Eigen::Vector3d(line.number(1, "cog"), line.number(2, "cog"), line.number(3, "cog")) *
+          units::millimetre;
     } else if (key == "inertia_matrix") {
       body.inertia_per_mass = inertia_rows(lines, line, options);
     }

@@ -12,11 +12,11 @@ namespace clench {
 
 namespace {
 
-constexpr size_t deepest = 250;   // nested brackets; the library reads by recursion
+constexpr size_t deepest = 250;  // nested brackets; the library reads by recursion
 
 struct Token {
   enum Kind { word, string, open, close, end } kind = end;
-  std::string_view text;   // with the quotes of a string
+  std::string_view text;  // with the quotes of a string
   size_t start = 0;
   int line = 0;
 };
@@ -25,23 +25,28 @@ struct Token {
 struct Open {
   char bracket = '{';
   int line = 0;
-  std::string type;       // node type before a '{', else empty
-  std::string name;       // given by DEF
-  size_t start = 0;       // where the node begins, DEF included
-  bool cut = false;        // unknown, or not needed
-  bool proto = false;     // body of a PROTO
+  std::string type;    // node type before a '{', else empty
+  std::string name;    // given by DEF
+  size_t start = 0;    // where the node begins, DEF included
+  bool cut = false;    // unknown, or not needed
+  bool proto = false;  // body of a PROTO
 };
 
 bool ends_word(char c) {
-  return c == ' ' || c == '\t' || c == '\n' || c == '\v' || c == '\f' || c == ',' || c == '{' || c == '}' ||
-         c == '[' || c == ']' || c == '"' || c == '#';
+  return c == ' ' || c == '\t' || c == '\n' || c == '\v' || c == '\f' || c == ',' || c == '{' ||
+         c == '}' || c == '[' || c == ']' || c == '"' || c == '#';
 }
 
 class Scanner {
  public:
   Scanner(std::string_view text, const std::string& file, int first_line, bool vrml2,
           const std::function<NodeType(const std::string&)>& node_type)
-      : text_(text), file_(file), line_(first_line), vrml2_(vrml2), node_type_(node_type), out_(text) {}
+      : text_(text),
+        file_(file),
+        line_(first_line),
+        vrml2_(vrml2),
+        node_type_(node_type),
+        out_(text) {}
 
   void run();
   std::string take_text();
@@ -51,7 +56,8 @@ class Scanner {
  private:
   template <class... Args>
   [[noreturn]] void refuse(int line, fmt::format_string<Args...> format, Args&&... args) const {
-    throw Error(fmt::format("{}:{}: ", file_, line) + fmt::format(format, std::forward<Args>(args)...));
+    throw Error(fmt::format("{}:{}: ", file_, line) +
+                fmt::format(format, std::forward<Args>(args)...));
   }
   Token next();
   void on_word(const Token& token);
@@ -72,28 +78,33 @@ class Scanner {
   const std::function<NodeType(const std::string&)>& node_type_;
   std::string out_;
   std::vector<Open> open_;
-  Token last_;                     // the token before, when it was a word
-  Token before_last_, third_last_; // for DEF name type
-  size_t route_ = 0;               // where an open ROUTE begins, plus 1
+  Token last_;                      // the token before, when it was a word
+  Token before_last_, third_last_;  // for DEF name type
+  size_t route_ = 0;                // where an open ROUTE begins, plus 1
   std::set<std::string> cut_names_, protos_;
   std::map<std::string, NodeType> types_;
-  std::vector<std::pair<size_t, std::pair<size_t, std::string>>> edits_;   // start, length, text
+  std::vector<std::pair<size_t, std::pair<size_t, std::string>>> edits_;  // start, length, text
 };
 
 Token Scanner::next() {
   // white space, commas and comments
   while (at_ < text_.size()) {
     const char c = text_[at_];
-    if (c == '\n') ++line_, ++at_;
-    else if (c == '#') at_ = std::min(text_.find('\n', at_), text_.size());
-    else if (c == ' ' || c == '\t' || c == ',' || c == '\v' || c == '\f') ++at_;
-    else break;
+    if (c == '\n')
+      ++line_, ++at_;
+    else if (c == '#')
+      at_ = std::min(text_.find('\n', at_), text_.size());
+    else if (c == ' ' || c == '\t' || c == ',' || c == '\v' || c == '\f')
+      ++at_;
+    else
+      break;
   }
   Token token{Token::end, {}, at_, line_};
   if (at_ >= text_.size()) return token;
 
   const char c = text_[at_];
-  if (c == '\0') refuse(line_, "wanted text, got a byte of value 0; binary Inventor files are not read");
+  if (c == '\0')
+    refuse(line_, "wanted text, got a byte of value 0; binary Inventor files are not read");
   if (c == '{' || c == '[' || c == '}' || c == ']') {
     token.kind = c == '{' || c == '[' ? Token::open : Token::close;
     token.text = text_.substr(at_++, 1);
@@ -118,25 +129,29 @@ void Scanner::cut(size_t start, size_t end) {
     if (out_[i] != '\n') out_[i] = ' ';
   // in VRML 2 a node that is the value of a field cannot just be missing
   const bool value = vrml2_ && !open_.empty() && open_.back().bracket == '{' && !open_.back().proto;
-  if (value && end - start >= 4 && std::string_view(out_).substr(start, 4).find('\n') == std::string_view::npos)
+  if (value && end - start >= 4 &&
+      std::string_view(out_).substr(start, 4).find('\n') == std::string_view::npos)
     out_.replace(start, 4, "NULL");
 }
 
 void Scanner::on_word(const Token& token) {
-  if (token.text == "EXTERNPROTO") refuse(token.line, "EXTERNPROTO is not read; wanted nodes of the standard");
+  if (token.text == "EXTERNPROTO")
+    refuse(token.line, "EXTERNPROTO is not read; wanted nodes of the standard");
   if (last_.text == "PROTO") protos_.insert(std::string(token.text));
   if (last_.text == "TO" && route_ > 0) cut(route_ - 1, at_), route_ = 0;
   if (token.text == "ROUTE") route_ = token.start + 1;
   if (last_.text == "USE") {
     const std::string name(token.text);
     for (const auto& o : open_)
-      if (o.name == name) refuse(token.line, "USE of '{}' inside itself, which line {} defines", name, o.line);
+      if (o.name == name)
+        refuse(token.line, "USE of '{}' inside itself, which line {} defines", name, o.line);
     if (cut_names_.contains(name) && !in_cut()) cut(last_.start, at_);
   }
 }
 
 void Scanner::on_open(const Token& token) {
-  if (open_.size() >= deepest) refuse(token.line, "wanted brackets nested at most {} deep", deepest);
+  if (open_.size() >= deepest)
+    refuse(token.line, "wanted brackets nested at most {} deep", deepest);
   Open open{token.text[0], token.line, "", "", token.start, false, false};
   if (open.bracket == '{' && last_.kind == Token::word) {
     open.type = last_.text;
@@ -145,18 +160,22 @@ void Scanner::on_open(const Token& token) {
       open.name = before_last_.text;
       open.start = third_last_.start;
     }
-    const bool nested_proto = protos_.contains(open.type) &&
-                              std::any_of(open_.begin(), open_.end(), [](const Open& o) { return o.proto; });
-    if (nested_proto) refuse(token.line, "PROTO '{}' is used inside a PROTO, which is not read", open.type);
+    const bool nested_proto =
+        protos_.contains(open.type) &&
+        std::any_of(open_.begin(), open_.end(), [](const Open& o) { return o.proto; });
+    if (nested_proto)
+      refuse(token.line, "PROTO '{}' is used inside a PROTO, which is not read", open.type);
     auto type = types_.find(open.type);
     if (type == types_.end()) type = types_.emplace(open.type, node_type_(open.type)).first;
     open.cut = type->second != NodeType::known && !protos_.contains(open.type);
     if (open.cut && type->second == NodeType::unknown && !in_cut())
-      warnings.push_back(fmt::format("{}:{}: unknown node {} is skipped", file_, token.line, in_quotes(open.type)));
+      warnings.push_back(fmt::format("{}:{}: unknown node {} is skipped", file_, token.line,
+                                     in_quotes(open.type)));
   } else if (open.bracket == '{') {
     open.proto = last_.kind == Token::close && last_.text == "]" && vrml2_;
     if (!open.proto)
-      refuse(token.line, "wanted a node type before '{{', got {}", last_.text.empty() ? "nothing" : in_quotes(last_.text));
+      refuse(token.line, "wanted a node type before '{{', got {}",
+             last_.text.empty() ? "nothing" : in_quotes(last_.text));
   }
   open_.push_back(std::move(open));
 }
@@ -166,8 +185,8 @@ void Scanner::on_close(const Token& token) {
   if (open_.empty()) refuse(token.line, "'{}' closes nothing", token.text);
   const Open open = open_.back();
   if (open.bracket != bracket)
-    refuse(token.line, "wanted '{}' for the '{}' of line {}, got '{}'", open.bracket == '{' ? '}' : ']', open.bracket,
-           open.line, token.text);
+    refuse(token.line, "wanted '{}' for the '{}' of line {}, got '{}'",
+           open.bracket == '{' ? '}' : ']', open.bracket, open.line, token.text);
   open_.pop_back();
   if (open.cut && !in_cut()) {
     cut(open.start, at_);
@@ -181,25 +200,33 @@ void Scanner::include_value(const Token& token) {
   std::string name(token.text);
   if (token.kind == Token::string) name = name.substr(1, name.size() - 2);
   if (trim(name).empty()) refuse(token.line, "File: wanted the name of a file, got nothing");
-  edits_.push_back({token.start, {token.text.size(), '"' + include_key(static_cast<int>(includes.size())) + '"'}});
+  edits_.push_back(
+      {token.start,
+       {token.text.size(), '"' + include_key(static_cast<int>(includes.size())) + '"'}});
   includes.push_back({name, token.line});
 }
 
 void Scanner::run() {
   for (Token token = next(); token.kind != Token::end; token = next()) {
-    const bool file_name = !open_.empty() && (open_.back().type == "File" || open_.back().type == "SoFile") &&
+    const bool file_name = !open_.empty() &&
+                           (open_.back().type == "File" || open_.back().type == "SoFile") &&
                            last_.kind == Token::word && last_.text == "name" && !in_cut();
-    if (file_name && (token.kind == Token::word || token.kind == Token::string)) include_value(token);
-    else if (token.kind == Token::word) on_word(token);
-    else if (token.kind == Token::open) on_open(token);
-    else if (token.kind == Token::close) on_close(token);
+    if (file_name && (token.kind == Token::word || token.kind == Token::string))
+      include_value(token);
+    else if (token.kind == Token::word)
+      on_word(token);
+    else if (token.kind == Token::open)
+      on_open(token);
+    else if (token.kind == Token::close)
+      on_close(token);
     third_last_ = before_last_;
     before_last_ = last_;
     last_ = token;
   }
   if (!open_.empty()) {
     const Open& open = open_.back();
-    refuse(line_, "wanted '{}' for the '{}' of line {}, got the end of the file", open.bracket == '{' ? '}' : ']',
+    refuse(line_, "wanted '{}' for the '{}' of line {}, got the end of the file",
+           open.bracket == '{' ? '}' : ']',
            open.type.empty() ? std::string(1, open.bracket) : open.type + " {", open.line);
   }
 }
@@ -212,7 +239,8 @@ std::string Scanner::take_text() {
 }
 
 constexpr std::array<std::string_view, 5> headers = {"#Inventor V2.1 ascii", "#Inventor V2.0 ascii",
-                                                     "#Inventor V1.0 ascii", "#VRML V1.0 ascii", "#VRML V2.0 utf8"};
+                                                     "#Inventor V1.0 ascii", "#VRML V1.0 ascii",
+                                                     "#VRML V2.0 utf8"};
 
 /// The canonical header that a line means, or "".
 std::string_view header_of(std::string_view line) {
@@ -243,13 +271,15 @@ InventorText scan_inventor(const std::string& text, const std::string& file,
       break;
     }
     if (line.starts_with("#Inventor") && line.find("binary") != std::string_view::npos)
-      fail("{}:{}: binary Inventor files are not read; wanted '#Inventor V2.1 ascii'", file, out.skipped_lines + 1);
+      fail("{}:{}: binary Inventor files are not read; wanted '#Inventor V2.1 ascii'", file,
+           out.skipped_lines + 1);
     if (!line.empty() && line.front() != '#') break;
     ++out.skipped_lines;
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   if (header.empty())
-    fail("{}:1: wanted a header such as '#Inventor V2.1 ascii' or '#VRML V2.0 utf8', got {}", file, in_quotes(first));
+    fail("{}:1: wanted a header such as '#Inventor V2.1 ascii' or '#VRML V2.0 utf8', got {}", file,
+         in_quotes(first));
 
   Scanner scanner(rest, file, out.skipped_lines + 1, header == "#VRML V2.0 utf8", node_type);
   scanner.run();

@@ -10,21 +10,21 @@ namespace clench {
 
 /// A File node: another file that stands in its place.
 struct InventorInclude {
-  std::string name;   ///< as written
+  std::string name;  ///< as written
   int line = 0;
 };
 
 struct InventorText {
-  std::string text;                        ///< for the library; line n of it is line n + skipped_lines of the file
-  int skipped_lines = 0;                   ///< lines before the header
-  std::vector<InventorInclude> includes;   ///< number i is called include_key(i) in `text`
-  std::vector<std::string> warnings;       ///< "box.iv:7: unknown node 'Foo' is skipped"
+  std::string text;       ///< for the library; line n of it is line n + skipped_lines of the file
+  int skipped_lines = 0;  ///< lines before the header
+  std::vector<InventorInclude> includes;  ///< number i is called include_key(i) in `text`
+  std::vector<std::string> warnings;      ///< "box.iv:7: unknown node 'Foo' is skipped"
 };
 
 /// What a File node's name is replaced by.
 std::string include_key(int number);
 
-enum class NodeType { known, idle, unknown };   ///< idle: without effect on triangles and colours
+enum class NodeType { known, idle, unknown };  ///< idle: without effect on triangles and colours
 
 /// Checks header, brackets, strings and names; cuts out nodes that are idle or of unknown type, and routes.
 /// `file` is the name shown in errors, `node_type` tells what the library knows by a name.

@@ -19,7 +19,9 @@ std::optional<JointExpression> parse_joint_expression(std::string_view text) {
   // a ratio, up to the sign of the offset; the sign after '*' or 'e' is the ratio's own
   if (text.starts_with('*')) {
     size_t end = 2;
-    while (end < text.size() && ((text[end] != '+' && text[end] != '-') || (text[end - 1] | 32) == 'e')) ++end;
+    while (end < text.size() &&
+           ((text[end] != '+' && text[end] != '-') || (text[end - 1] | 32) == 'e'))
+      ++end;
     const auto ratio = parse_number(text.substr(1, std::min(end, text.size()) - 1));
     if (!ratio) return {};
     out.ratio = *ratio;

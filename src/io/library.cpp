@@ -11,7 +11,8 @@ namespace clench {
 namespace fs = std::filesystem;
 
 static BodySpec load_body(const fs::path& path, const ReadOptions& options) {
-  const std::string extension = lower_case(path.extension().string()), file = path.filename().string();
+  const std::string extension = lower_case(path.extension().string()),
+                    file = path.filename().string();
   BodySpec body;
   body.name = path.stem().string();
   body.source = path.generic_string();
@@ -39,7 +40,8 @@ const BodySpec& Library::body(const fs::path& path) {
 const RobotSpec& Library::robot(const fs::path& path) {
   auto found = robots_.find(path);
   const std::string extension = lower_case(path.extension().string());
-  if (extension != ".cfg") fail("{}: wanted a robot from .cfg, got {}", path.filename().string(), in_quotes(extension));
+  if (extension != ".cfg")
+    fail("{}: wanted a robot from .cfg, got {}", path.filename().string(), in_quotes(extension));
   if (found == robots_.end()) found = robots_.emplace(path, read_robot_cfg(path, *this)).first;
   return found->second;
 }

@@ -1,9 +1,9 @@
 #include "io/mesh_files.h"
 
-#include <assimp/DefaultLogger.hpp>
-#include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/DefaultLogger.hpp>
+#include <assimp/Importer.hpp>
 
 #include <cmath>
 
@@ -15,11 +15,14 @@ namespace {
 
 /// What the reader library says, where it says it well.
 std::string sentence(const std::string& message, const std::string& extension) {
-  if (message.find("vertex index out of range") != std::string::npos) return "a face names a vertex that does not exist";
-  if (message.find("number of vertices") != std::string::npos) return "wanted three vertices a facet";
-  if (message.find("storage representation") != std::string::npos || message.find("too small") != std::string::npos ||
-      message.find("empty") != std::string::npos)
-    return extension == ".stl" ? "wanted an ASCII or binary STL file, got something else" : "wanted triangles, got none";
+  if (message.find("vertex index out of range") != std::string::npos)
+    return "a face names a vertex that does not exist";
+  if (message.find("number of vertices") != std::string::npos)
+    return "wanted three vertices a facet";
+  if (message.find("storage representation") != std::string::npos ||
+      message.find("too small") != std::string::npos || message.find("empty") != std::string::npos)
+    return extension == ".stl" ? "wanted an ASCII or binary STL file, got something else"
+                               : "wanted triangles, got none";
   if (message.find("No output meshes") != std::string::npos) return "wanted triangles, got none";
   return fmt::format("the file is malformed ({})", trim(message.substr(0, message.find('\n'))));
 }
@@ -37,18 +40,24 @@ Eigen::Vector3f color_of(const aiMaterial* material, float& transparency, bool& 
 
 Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string file = path.filename().string();
-  read_text(path);   // refuses what is no readable file, in our own words
+  read_text(path);  // refuses what is no readable file, in our own words
   Assimp::Importer importer;
-  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices);
-  if (!scene) fail("{}: {}", file, sentence(importer.GetErrorString(), lower_case(path.extension().string())));
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                              aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  const aiScene* scene =
+      importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_SortByPType |
+                                           aiProcess_PreTransformVertices);
+  if (!scene)
+    fail("{}: {}", file,
+         sentence(importer.GetErrorString(), lower_case(path.extension().string())));
 
   GeometryBuilder builder;
   bool given = false;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& mesh = *scene->mMeshes[m];
     float transparency = 0;
-    const Eigen::Vector3f color = color_of(scene->mMaterials[mesh.mMaterialIndex], transparency, given);
+    const Eigen::Vector3f color =
+        color_of(scene->mMaterials[mesh.mMaterialIndex], transparency, given);
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices != 3) continue;

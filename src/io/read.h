@@ -9,9 +9,11 @@
 namespace clench {
 
 struct ReadOptions {
-  std::filesystem::path root;                          ///< where relative names are looked up after the referring file's folder
-  std::function<void(const std::string&)> warn = {};   ///< told of what a file contains and we do not use
-  double mesh_scale = 1;                               ///< .obj .stl: length of the file's unit, > 0 [m]
+  std::filesystem::path
+      root;  ///< where relative names are looked up after the referring file's folder
+  std::function<void(const std::string&)> warn =
+      {};                 ///< told of what a file contains and we do not use
+  double mesh_scale = 1;  ///< .obj .stl: length of the file's unit, > 0 [m]
 };
 
 /// A body from .iv .wrl .obj .stl (any case). A mesh file in other units than its format's: see docs/formats.
@@ -27,6 +29,7 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
 /// Where `name`, as written in `referrer` (empty: given by the user), is found: beside the referrer, below the
 /// root, below the referrer's parent folder. Back-slashes count as slashes, and a name that differs only in case is found.
 /// throws Error  "no such file: flsk.iv; did you mean 'flask.iv'?"
-std::filesystem::path find_file(const std::string& name, const std::filesystem::path& referrer, const ReadOptions& options);
+std::filesystem::path find_file(const std::string& name, const std::filesystem::path& referrer,
+                                const ReadOptions& options);
 
 }  // namespace clench

@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most = 1000;   // DOFs, chains, joints, links: far above any hand, far below what fills the memory
+constexpr int most =
+    1000;  // DOFs, chains, joints, links: far above any hand, far below what fills the memory
 
 /// Numbers of a DOF line as written; their units depend on the kind of its joints, which come later.
 struct DofLine {
@@ -46,13 +47,11 @@ class CfgReader {
   Library& library_;
   LineReader lines_;
   std::vector<DofLine> dof_lines_;
-  std::vector<std::optional<JointKind>> dof_kinds_;   // of its first joint
+  std::vector<std::optional<JointKind>> dof_kinds_;  // of its first joint
   RobotSpec robot_;
 };
 
-int CfgReader::count(const char* what, int low) {
-  return wanted(what).integer(0, what, low, most);
-}
+int CfgReader::count(const char* what, int low) { return wanted(what).integer(0, what, low, most); }
 
 BodySpec CfgReader::body(const Line& line, const std::string& name) {
   // geometry lives in the folder iv/ beside the robot file
@@ -100,11 +99,17 @@ void CfgReader::read_dofs() {
     DofLine d;
     d.line = wanted(fmt::format("the line of DOF {}", i));
     const std::string_view kind = d.line.word(0);
-    if (kind == "r") d.kind = DofKind::rigid;
-    else if (kind == "b") d.kind = DofKind::breakaway;
-    else if (kind == "c") d.kind = DofKind::compliant;
-    else d.line.fail("DOF {}: wanted type r, b or c, got {}", i, in_quotes(kind));
-    const auto number = [&](int k, const char* what) { return d.line.number(k, fmt::format("DOF {}: {}", i, what)); };
+    if (kind == "r")
+      d.kind = DofKind::rigid;
+    else if (kind == "b")
+      d.kind = DofKind::breakaway;
+    else if (kind == "c")
+      d.kind = DofKind::compliant;
+    else
+      d.line.fail("DOF {}: wanted type r, b or c, got {}", i, in_quotes(kind));
+    const auto number = [&](int k, const char* what) {
+      return d.line.number(k, fmt::format("DOF {}: {}", i, what));
+    };
     d.velocity = number(1, "default velocity");
     d.effort = number(2, "max effort");
     d.kp = number(3, "Kp");
@@ -112,7 +117,8 @@ void CfgReader::read_dofs() {
     d.scale = number(5, "dragger scale");
     if (d.kind == DofKind::breakaway) d.breakaway = number(6, "breakaway torque");
     if (d.effort < 0) d.line.fail("DOF {}: max effort: wanted a number >= 0, got {}", i, d.effort);
-    if (d.breakaway < 0) d.line.fail("DOF {}: breakaway torque: wanted a number >= 0, got {}", i, d.breakaway);
+    if (d.breakaway < 0)
+      d.line.fail("DOF {}: breakaway torque: wanted a number >= 0, got {}", i, d.breakaway);
     dof_lines_.push_back(std::move(d));
   }
   dof_kinds_.resize(dofs);
@@ -130,7 +136,9 @@ void CfgReader::read_chain(int number) {
 
 void CfgReader::read_joint(ChainSpec& chain, int number) {
   const Line line = wanted(fmt::format("the line of joint {}", number));
-  const auto value = [&](int i, const char* what) { return line.number(i, fmt::format("joint {}: {}", number, what)); };
+  const auto value = [&](int i, const char* what) {
+    return line.number(i, fmt::format("joint {}: {}", number, what));
+  };
   JointSpec joint;
 
   // the DOF stands in the theta column of a revolute joint, in the d column of a prismatic one
@@ -140,12 +148,14 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
   const auto expression = parse_joint_expression(text);
   if (!expression) {
     if (!revolute) value(0, "theta");
-    line.fail("joint {}: wanted a joint expression such as d0*0.5+90 for {}, got {}", number, revolute ? "theta" : "d", in_quotes(text));
+    line.fail("joint {}: wanted a joint expression such as d0*0.5+90 for {}, got {}", number,
+              revolute ? "theta" : "d", in_quotes(text));
   }
   joint.dof = expression->dof;
   if (joint.dof >= static_cast<int>(dof_lines_.size()))
     line.fail("joint {}: wanted a DOF below {}, got d{}", number, dof_lines_.size(), joint.dof);
-  if (expression->ratio == 0) line.fail("joint {}: wanted a ratio other than 0, got {}", number, in_quotes(text));
+  if (expression->ratio == 0)
+    line.fail("joint {}: wanted a ratio other than 0, got {}", number, in_quotes(text));
 
   // degrees and millimetres to radians and metres
   const double unit = revolute ? units::degree : units::millimetre;
@@ -154,12 +164,19 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
   joint.a = value(2, "a") * units::millimetre;
   joint.alpha = value(3, "alpha") * units::degree;
   const double low = value(4, "min"), high = value(5, "max");
-  if (low > high) line.fail("joint {}: min {} exceeds max {} [{}]", number, low, high, revolute ? "deg" : "mm");
+  if (low > high)
+    line.fail("joint {}: min {} exceeds max {} [{}]", number, low, high, revolute ? "deg" : "mm");
   joint.min = low * unit;
   joint.max = high * unit;
-  if (line.size() > 6) joint.viscous = value(6, "viscous friction") * (revolute ? units::gram_square_millimetre : units::gram);
-  if (line.size() > 7) joint.coulomb = value(7, "Coulomb friction") * (revolute ? units::gram_square_millimetre : units::gram_millimetre);
-  if (line.size() > 8) joint.spring = value(8, "spring stiffness") * (revolute ? units::newton_millimetre : units::newton_per_millimetre);
+  if (line.size() > 6)
+    joint.viscous =
+        value(6, "viscous friction") * (revolute ? units::gram_square_millimetre : units::gram);
+  if (line.size() > 7)
+    joint.coulomb = value(7, "Coulomb friction") *
+                    (revolute ? units::gram_square_millimetre : units::gram_millimetre);
+  if (line.size() > 8)
+    joint.spring = value(8, "spring stiffness") *
+                   (revolute ? units::newton_millimetre : units::newton_per_millimetre);
   if (line.size() > 9) joint.rest = value(9, "rest value") * (revolute ? 1.0 : units::millimetre);
   if (joint.viscous < 0 || joint.coulomb < 0 || joint.spring < 0)
     line.fail("joint {}: wanted friction and spring stiffness >= 0", number);
@@ -173,9 +190,11 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
 }
 
 void CfgReader::read_link(ChainSpec& chain, int number, const std::string& name) {
-  constexpr std::pair<std::string_view, LinkJoint> kinds[] = {
-      {"Revolute", LinkJoint::revolute}, {"Prismatic", LinkJoint::prismatic}, {"Universal", LinkJoint::universal},
-      {"Ball", LinkJoint::ball}, {"Fixed", LinkJoint::fixed}};
+  constexpr std::pair<std::string_view, LinkJoint> kinds[] = {{"Revolute", LinkJoint::revolute},
+                                                              {"Prismatic", LinkJoint::prismatic},
+                                                              {"Universal", LinkJoint::universal},
+                                                              {"Ball", LinkJoint::ball},
+                                                              {"Fixed", LinkJoint::fixed}};
   const Line kind_line = wanted(fmt::format("the joint type of link {}", number));
   LinkSpec link;
   std::vector<std::string> names;
@@ -185,16 +204,19 @@ void CfgReader::read_link(ChainSpec& chain, int number, const std::string& name)
     if (lower_case(word) == lower_case(kind_line.word(0))) link.joint = kind, known = true;
   }
   if (!known)
-    kind_line.fail("link {}: wanted Revolute, Prismatic, Universal, Ball or Fixed, got {}{}", number,
-                   in_quotes(kind_line.word(0)), did_you_mean(kind_line.word(0), names));
+    kind_line.fail("link {}: wanted Revolute, Prismatic, Universal, Ball or Fixed, got {}{}",
+                   number, in_quotes(kind_line.word(0)), did_you_mean(kind_line.word(0), names));
 
   const Line line = wanted(fmt::format("the file of link {}", number));
   const int before = chain.links.empty() ? -1 : chain.links.back().last_joint;
   const int joints = static_cast<int>(chain.joints.size());
-  if (line.size() > 1) link.last_joint = line.integer(1, fmt::format("link {}: last joint", number), -1, joints - 1);
-  else link.last_joint = before + 1;
+  if (line.size() > 1)
+    link.last_joint = line.integer(1, fmt::format("link {}: last joint", number), -1, joints - 1);
+  else
+    link.last_joint = before + 1;
   if (link.last_joint >= joints)
-    line.fail("link {}: wanted a joint to move it, got {} joints for {} links", number, joints, chain.links.size() + 1);
+    line.fail("link {}: wanted a joint to move it, got {} joints for {} links", number, joints,
+              chain.links.size() + 1);
   link.body = body(line, name);
   chain.links.push_back(std::move(link));
 }
@@ -219,7 +241,8 @@ void CfgReader::set_dof_units() {
 void CfgReader::check_ranges() {
   for (size_t i = 0; i < dof_lines_.size(); ++i) {
     const auto [low, high] = dof_range(robot_, static_cast<int>(i));
-    if (low > high) dof_lines_[i].line.fail("DOF {}: the ranges of its joints have no value in common", i);
+    if (low > high)
+      dof_lines_[i].line.fail("DOF {}: the ranges of its joints have no value in common", i);
   }
 }
 
@@ -237,8 +260,10 @@ void CfgReader::read_tracker() {
   TrackerSpec tracker;
   // some files leave the number out
   if (lines_.skip_to_full() && begins_transform(lines_.peek()))
-    library_.warn(fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
-  else tracker.number = wanted("a bird number").integer(0, "FlockOfBirds", 0);
+    library_.warn(
+        fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
+  else
+    tracker.number = wanted("a bird number").integer(0, "FlockOfBirds", 0);
   tracker.X_BS = read_transform_list(lines_);
   robot_.tracker = tracker;
 }
@@ -246,7 +271,8 @@ void CfgReader::read_tracker() {
 void CfgReader::read_approach() {
   const auto vector = [&](const char* what) {
     const Line line = wanted(what);
-    return std::pair(line, Eigen::Vector3d(line.number(0, what), line.number(1, what), line.number(2, what)));
+    return std::pair(
+        line, Eigen::Vector3d(line.number(0, what), line.number(1, what), line.number(2, what)));
   };
   const Eigen::Vector3d point = vector("approach point").second * units::millimetre;
   const auto [line, direction] = vector("approach direction");
@@ -261,20 +287,29 @@ void CfgReader::read_optional_blocks() {
   while (lines_.skip_to_full()) {
     const Line line = lines_.next().before('#');
     const std::string_view key = line.word(0);
-    if (key == "EigenGrasps") robot_.eigengrasps = named_file("EigenGrasps");
-    else if (key == "VirtualContacts") robot_.virtual_contacts = named_file("VirtualContacts");
-    else if (key == "CyberGlove") robot_.glove_calibration = named_file("CyberGlove");
-    else if (key == "FlockOfBirds") read_tracker();
-    else if (key == "Approach") read_approach();
+    if (key == "EigenGrasps")
+      robot_.eigengrasps = named_file("EigenGrasps");
+    else if (key == "VirtualContacts")
+      robot_.virtual_contacts = named_file("VirtualContacts");
+    else if (key == "CyberGlove")
+      robot_.glove_calibration = named_file("CyberGlove");
+    else if (key == "FlockOfBirds")
+      read_tracker();
+    else if (key == "Approach")
+      read_approach();
     else {
-      const std::vector<std::string> known = {"EigenGrasps", "FlockOfBirds", "Approach", "VirtualContacts", "CyberGlove"};
-      library_.warn(fmt::format("{}: unknown keyword {} is not used{}", line.place(), in_quotes(key), did_you_mean(key, known)));
+      const std::vector<std::string> known = {"EigenGrasps", "FlockOfBirds", "Approach",
+                                              "VirtualContacts", "CyberGlove"};
+      library_.warn(fmt::format("{}: unknown keyword {} is not used{}", line.place(),
+                                in_quotes(key), did_you_mean(key, known)));
     }
   }
 }
 
 }  // namespace
 
-RobotSpec read_robot_cfg(const fs::path& path, Library& library) { return CfgReader(path, library).read(); }
+RobotSpec read_robot_cfg(const fs::path& path, Library& library) {
+  return CfgReader(path, library).read();
+}
 
 }  // namespace clench

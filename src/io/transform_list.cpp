@@ -26,13 +26,16 @@ Pose read_full_transform(const Line& line, std::string_view text) {
   const Eigen::Quaterniond q(x[0], x[1], x[2], x[3]);
   const double norm = q.coeffs().stableNorm();
   if (!(norm > 1e-6) || !std::isfinite(norm))
-    line.fail("transform: wanted a quaternion of length 1, got ({} {} {} {})", x[0], x[1], x[2], x[3]);
-  return {Eigen::Quaterniond(q.coeffs() / norm), Eigen::Vector3d(x[4], x[5], x[6]) * units::millimetre};
+    line.fail("transform: wanted a quaternion of length 1, got ({} {} {} {})", x[0], x[1], x[2],
+              x[3]);
+  return {Eigen::Quaterniond(q.coeffs() / norm),
+          Eigen::Vector3d(x[4], x[5], x[6]) * units::millimetre};
 }
 
 static Eigen::Vector3d axis(const Line& line, int i) {
   const std::string_view word = line.word(i);
-  if (word.size() == 1 && (word[0] | 32) >= 'x' && (word[0] | 32) <= 'z') return Eigen::Vector3d::Unit((word[0] | 32) - 'x');
+  if (word.size() == 1 && (word[0] | 32) >= 'x' && (word[0] | 32) <= 'z')
+    return Eigen::Vector3d::Unit((word[0] | 32) - 'x');
   line.fail("rotation: wanted an axis x, y or z, got {}", in_quotes(word));
 }
 
@@ -50,7 +53,9 @@ static Pose read_matrix(const Line& head, LineReader& lines) {
   }
   const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error < 1e-2) || !(R.determinant() > 0))
-    head.fail("rotation matrix: wanted unit axes at right angles, right-handed; they are off by {:.2g}", error);
+    head.fail(
+        "rotation matrix: wanted unit axes at right angles, right-handed; they are off by {:.2g}",
+        error);
   return Pose::turn(Eigen::Quaterniond(R).normalized());
 }
 
@@ -59,8 +64,10 @@ Pose read_transform(const Line& line, LineReader& lines) {
   if (line.text().starts_with('T') && (key == "T" || key.starts_with("T(")))
     return read_full_transform(line, trim(line.text().substr(1)));
   if (key == "t")
-    return Pose::translation(Eigen::Vector3d(line.number(1, "translation x"), line.number(2, "translation y"),
-                                             line.number(3, "translation z")) * units::millimetre);
+    return Pose::translation(Eigen::Vector3d(line.number(1, "translation x"),
+                                             line.number(2, "translation y"),
+                                             line.number(3, "translation z")) *
+                             units::millimetre);
   if (key == "r") return Pose::turn(line.number(1, "rotation") * units::degree, axis(line, 2));
   if (key == "rr") return Pose::turn(line.number(1, "rotation"), axis(line, 2));
   if (key == "R") return read_matrix(line, lines);

@@ -7,8 +7,12 @@ namespace clench {
 /// One element as a line of the text formats.
 static Pose element(const Line& line, std::string_view tag, std::string_view value) {
   if (tag == "fullTransform") return read_full_transform(line, trim(value));
-  const char* key = tag == "translation" ? "t " : tag == "rotation" ? "r " : tag == "rotationMatrix" ? "R " : nullptr;
-  if (!key) line.fail("wanted translation, rotation, rotationMatrix or fullTransform, got <{}>", tag);
+  const char* key = tag == "translation"      ? "t "
+                    : tag == "rotation"       ? "r "
+                    : tag == "rotationMatrix" ? "R "
+                                              : nullptr;
+  if (!key)
+    line.fail("wanted translation, rotation, rotationMatrix or fullTransform, got <{}>", tag);
   const std::string file = line.place().substr(0, line.place().rfind(':'));
   LineReader one(file, std::string(line.number() - 1, '\n') + key + std::string(value));
   Line entry;

@@ -11,7 +11,9 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 /// The polygon seen along its normal, counter-clockwise.   source  Newell (1974), normal of a polygon
 Points flatten(const std::vector<Eigen::Vector3d>& corners) {
@@ -39,7 +41,8 @@ bool is_convex(const Points& p) {
   return turns_back <= 2;
 }
 
-bool inside(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+bool inside(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+            const Eigen::Vector2d& c) {
   return cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0;
 }
 

@@ -52,14 +52,15 @@ auto WldReader::at(const Line& line, Read read) const {
 
 bool WldReader::begins_pose(const Line& line) const {
   const std::string_view text = line.text();
-  return text.starts_with("T ") || text.starts_with("T\t") || text.starts_with("T(") || text.starts_with('(') ||
-         text.starts_with('<');
+  return text.starts_with("T ") || text.starts_with("T\t") || text.starts_with("T(") ||
+         text.starts_with('(') || text.starts_with('<');
 }
 
 Pose WldReader::pose() {
   const Line line = lines_.next_full("a transform 'T (w x y z)[x y z]'");
   if (line.text().starts_with('<')) return read_tagged_transform(line, lines_);
-  if (!begins_pose(line)) line.fail("wanted a transform 'T (w x y z)[x y z]', got {}", in_quotes(line.text()));
+  if (!begins_pose(line))
+    line.fail("wanted a transform 'T (w x y z)[x y z]', got {}", in_quotes(line.text()));
   const std::string_view text = line.text();
   return read_full_transform(line, trim(text.substr(text.front() == 'T' ? 1 : 0)));
 }
@@ -73,7 +74,8 @@ fs::path WldReader::file(const Line& line) const {
       // files that were converted to XML since
       fs::path sibling;
       try {
-        sibling = find_file(fs::path(name).replace_extension(".xml").string(), path_, library_.options());
+        sibling =
+            find_file(fs::path(name).replace_extension(".xml").string(), path_, library_.options());
       } catch (const Error&) {
         throw missing;
       }
@@ -86,7 +88,8 @@ void WldReader::read_header() {
   // comments, then a block; the first comment should name the program
   const Line first = lines_.peek();
   const bool named = lower_case(first.text()).starts_with("#graspit!");
-  if (!named && !lines_.skip_to_full()) first.fail("wanted '#GraspIt! version ...', got {}", in_quotes(first.text()));
+  if (!named && !lines_.skip_to_full())
+    first.fail("wanted '#GraspIt! version ...', got {}", in_quotes(first.text()));
   if (!named) library_.warn(first.place() + ": the first line '#GraspIt! version ...' is missing");
 }
 
@@ -96,15 +99,23 @@ WorldSpec WldReader::read() {
   while (lines_.skip_to_full()) {
     const Line line = lines_.next();
     const std::string_view key = line.word(0);
-    if (key == "Obstacle") read_body(Role::obstacle);
-    else if (key == "GraspableBody") read_body(Role::object);
-    else if (key == "Robot") read_robot();
-    else if (key == "Connection") connection_lines_.push_back(line), read_connection();
-    else if (key == "Camera") read_camera(false);
-    else if (key == "CameraFull") read_camera(true);
+    if (key == "Obstacle")
+      read_body(Role::obstacle);
+    else if (key == "GraspableBody")
+      read_body(Role::object);
+    else if (key == "Robot")
+      read_robot();
+    else if (key == "Connection")
+      connection_lines_.push_back(line), read_connection();
+    else if (key == "Camera")
+      read_camera(false);
+    else if (key == "CameraFull")
+      read_camera(true);
     else
-      line.fail("wanted Obstacle, GraspableBody, Robot, Connection, Camera or CameraFull, got {}{}", in_quotes(line.text()),
-                did_you_mean(key, {"Obstacle", "GraspableBody", "Robot", "Connection", "Camera", "CameraFull"}));
+      line.fail("wanted Obstacle, GraspableBody, Robot, Connection, Camera or CameraFull, got {}{}",
+                in_quotes(line.text()),
+                did_you_mean(key, {"Obstacle", "GraspableBody", "Robot", "Connection", "Camera",
+                                   "CameraFull"}));
   }
   check_connections();
   return std::move(world_);
@@ -161,16 +172,20 @@ void WldReader::read_dofs(const Line& line, PlacedRobot& placed) {
           if (joints.empty()) slides = robot.chains[c].joints[j].kind == JointKind::prismatic;
           joints.push_back({c, j});
         }
-    placed.dofs.push_back(line.number(next++, fmt::format("DOF {} of {}", d, dofs)) * (slides ? units::millimetre : 1.0));
+    placed.dofs.push_back(line.number(next++, fmt::format("DOF {} of {}", d, dofs)) *
+                          (slides ? units::millimetre : 1.0));
     if (robot.dofs[d].kind != DofKind::breakaway || plain) continue;
     for (const auto& [c, j] : joints) {
       const std::string what = fmt::format("DOF {}: joint {} of chain {}", d, j, c);
       if (line.integer(next++, what + ": broken away (0 or 1)", 0, 1) == 0) continue;
-      const double unit = robot.chains[c].joints[j].kind == JointKind::prismatic ? units::millimetre : 1.0;
+      const double unit =
+          robot.chains[c].joints[j].kind == JointKind::prismatic ? units::millimetre : 1.0;
       placed.breakaway[c][j] = line.number(next++, what) * unit;
     }
   }
-  if (next < line.size()) line.fail("wanted {} numbers for the {} DOFs of {}, got {}", next, dofs, robot.name, line.size());
+  if (next < line.size())
+    line.fail("wanted {} numbers for the {} DOFs of {}, got {}", next, dofs, robot.name,
+              line.size());
 }
 
 void WldReader::read_connection() {
@@ -197,13 +212,18 @@ void WldReader::check_connections() {
   for (size_t i = 0; i < world_.connections.size(); ++i) {
     const Connection& c = world_.connections[i];
     const Line& line = connection_lines_[i];
-    if (c.parent >= robots) line.fail("parent robot: wanted one of {} robots, got {}", robots, c.parent);
-    if (c.child >= robots) line.fail("child robot: wanted one of {} robots, got {}", robots, c.child);
-    if (c.parent == c.child) line.fail("child robot: wanted another robot than the parent, got {}", c.child);
+    if (c.parent >= robots)
+      line.fail("parent robot: wanted one of {} robots, got {}", robots, c.parent);
+    if (c.child >= robots)
+      line.fail("child robot: wanted one of {} robots, got {}", robots, c.child);
+    if (c.parent == c.child)
+      line.fail("child robot: wanted another robot than the parent, got {}", c.child);
     const auto& chains = world_.robots[c.parent].robot.chains;
     if (c.chain >= static_cast<int>(chains.size()))
-      line.fail("parent chain: wanted one of {} chains of {}, got {}", chains.size(), world_.robots[c.parent].robot.name, c.chain);
-    if (chains[c.chain].links.empty()) line.fail("parent chain: chain {} has no link to carry a robot", c.chain);
+      line.fail("parent chain: wanted one of {} chains of {}, got {}", chains.size(),
+                world_.robots[c.parent].robot.name, c.chain);
+    if (chains[c.chain].links.empty())
+      line.fail("parent chain: chain {} has no link to carry a robot", c.chain);
     if (carried[c.child]) line.fail("child robot: robot {} is carried already", c.child);
     carried[c.child] = true;
   }
@@ -212,19 +232,24 @@ void WldReader::check_connections() {
 void WldReader::read_camera(bool focal_distance) {
   const Line line = lines_.next_full("7 numbers of a camera");
   double x[8];
-  for (int i = 0; i < 7; ++i) x[i] = line.number(i, i < 3 ? "camera position" : "camera orientation (x y z w)");
-  const Eigen::Quaterniond q(x[6], x[3], x[4], x[5]);   // Inventor's order is x y z w
+  for (int i = 0; i < 7; ++i)
+    x[i] = line.number(i, i < 3 ? "camera position" : "camera orientation (x y z w)");
+  const Eigen::Quaterniond q(x[6], x[3], x[4], x[5]);  // Inventor's order is x y z w
   const double norm = q.coeffs().stableNorm();
   if (!(norm > 1e-6) || !std::isfinite(norm))
-    line.fail("camera orientation: wanted a quaternion of length 1, got {} {} {} {}", x[3], x[4], x[5], x[6]);
+    line.fail("camera orientation: wanted a quaternion of length 1, got {} {} {} {}", x[3], x[4],
+              x[5], x[6]);
   Camera camera;
-  camera.X_WC = {Eigen::Quaterniond(q.coeffs() / norm), Eigen::Vector3d(x[0], x[1], x[2]) * units::millimetre};
+  camera.X_WC = {Eigen::Quaterniond(q.coeffs() / norm),
+                 Eigen::Vector3d(x[0], x[1], x[2]) * units::millimetre};
   if (focal_distance) camera.focal_distance = line.number(7, "focal distance") * units::millimetre;
   world_.camera = camera;
 }
 
 }  // namespace
 
-WorldSpec read_world_wld(const fs::path& path, Library& library) { return WldReader(path, library).read(); }
+WorldSpec read_world_wld(const fs::path& path, Library& library) {
+  return WldReader(path, library).read();
+}
 
 }  // namespace clench

@@ -19,7 +19,8 @@ TEST_CASE("equal contents give equal hashes, and order counts") {
 }
 
 TEST_CASE("where a text ends counts") {
-  CHECK(hash_of(std::string_view("ab"), std::string_view("c")) != hash_of(std::string_view("a"), std::string_view("bc")));
+  CHECK(hash_of(std::string_view("ab"), std::string_view("c")) !=
+        hash_of(std::string_view("a"), std::string_view("bc")));
   CHECK(hash_of(std::string_view("")) != hash_of());
 }
 

@@ -11,7 +11,8 @@ TEST_CASE("a number is decimal, finite and alone") {
   CHECK(parse_number("-.5") == -0.5);
   CHECK(parse_number("3.") == 3.0);
   CHECK(parse_number("1e-400") == 0.0);
-  for (const auto* bad : {"", "+", "-", "nan", "inf", "-inf", "1e999", "0x10", "1,5", "12abc", "1 2", "+-3", "e5", "--1"})
+  for (const auto* bad : {"", "+", "-", "nan", "inf", "-inf", "1e999", "0x10", "1,5", "12abc",
+                          "1 2", "+-3", "e5", "--1"})
     CHECK_MESSAGE(!parse_number(bad), bad);
 }
 
@@ -19,7 +20,8 @@ TEST_CASE("a whole number has no point and fits an int") {
   CHECK(parse_integer("42") == 42);
   CHECK(parse_integer("+0") == 0);
   CHECK(parse_integer("-7") == -7);
-  for (const auto* bad : {"", "1.0", "99999999999", "1e3", "+-1", "x"}) CHECK_MESSAGE(!parse_integer(bad), bad);
+  for (const auto* bad : {"", "1.0", "99999999999", "1e3", "+-1", "x"})
+    CHECK_MESSAGE(!parse_integer(bad), bad);
 }
 
 TEST_CASE("words lie between white space and separators") {
@@ -48,7 +50,8 @@ TEST_CASE("a reader walks over blank lines and comments and knows where it stand
   CHECK(lines.peek().blank());
   CHECK(lines.next_full("a line").text() == "last");
   CHECK(lines.done());
-  CHECK_THROWS_WITH_AS(lines.next_full("more"), "a.cfg:5: wanted more, got the end of the file", Error);
+  CHECK_THROWS_WITH_AS(lines.next_full("more"), "a.cfg:5: wanted more, got the end of the file",
+                       Error);
 }
 
 TEST_CASE("an empty text has no lines, and its place is the first") {
@@ -64,11 +67,15 @@ TEST_CASE("a wrong number is told with place, subject, wanted and got") {
   CHECK(line.number(1, "a") == 3);
   CHECK(line.integer(1, "a", 0, 3) == 3);
   CHECK_THROWS_WITH_AS(line.number(0, "mass"), "a.cfg:1: mass: wanted a number, got 'x'", Error);
-  CHECK_THROWS_WITH_AS(line.number(3, "mass"), "a.cfg:1: mass: wanted a number, got nothing", Error);
+  CHECK_THROWS_WITH_AS(line.number(3, "mass"), "a.cfg:1: mass: wanted a number, got nothing",
+                       Error);
   CHECK_THROWS_WITH_AS(line.integer(2, "n"), "a.cfg:1: n: wanted a whole number, got '2.5'", Error);
-  CHECK_THROWS_WITH_AS(line.integer(1, "n", 4, 9), "a.cfg:1: n: wanted a whole number from 4 to 9, got 3", Error);
-  CHECK_THROWS_WITH_AS(line.integer(1, "n", 4), "a.cfg:1: n: wanted a whole number from 4 on, got 3", Error);
-  CHECK_THROWS_WITH_AS(line.fail("min {} exceeds max {}", 2, 1), "a.cfg:1: min 2 exceeds max 1", Error);
+  CHECK_THROWS_WITH_AS(line.integer(1, "n", 4, 9),
+                       "a.cfg:1: n: wanted a whole number from 4 to 9, got 3", Error);
+  CHECK_THROWS_WITH_AS(line.integer(1, "n", 4),
+                       "a.cfg:1: n: wanted a whole number from 4 on, got 3", Error);
+  CHECK_THROWS_WITH_AS(line.fail("min {} exceeds max {}", 2, 1), "a.cfg:1: min 2 exceeds max 1",
+                       Error);
 }
 
 TEST_CASE("every kind of line end reads as one") {

@@ -11,15 +11,19 @@ static const fs::path folder = "tests/data/bad";
 
 static void read_any(const fs::path& path) {
   const auto extension = path.extension();
-  if (extension == ".cfg") read_robot(path);
-  else if (extension == ".wld") read_world(path);
-  else read_body(path);
+  if (extension == ".cfg")
+    read_robot(path);
+  else if (extension == ".wld")
+    read_world(path);
+  else
+    read_body(path);
 }
 
 static std::vector<fs::path> bad_files(const std::string& format) {
   std::vector<fs::path> out;
   for (const auto& entry : fs::directory_iterator(folder / format))
-    if (entry.path().extension() == ".txt") out.push_back(fs::path(entry.path()).replace_extension("." + format));
+    if (entry.path().extension() == ".txt")
+      out.push_back(fs::path(entry.path()).replace_extension("." + format));
   std::sort(out.begin(), out.end());
   return out;
 }
@@ -42,12 +46,20 @@ TEST_CASE("a malformed OBJ file is told by file, wanted and got") { check_format
 TEST_CASE("a malformed STL file is told by file, wanted and got") { check_format("stl"); }
 
 TEST_CASE("a format that is not read is refused with the list of those that are") {
-  CHECK_THROWS_WITH_AS(read_body("tests/CMakeLists.txt"), "CMakeLists.txt: wanted a body from .iv, .wrl, .obj or .stl, got '.txt'", Error);
-  CHECK_THROWS_WITH_AS(read_robot("tests/CMakeLists.txt"), "CMakeLists.txt: wanted a robot from .cfg, got '.txt'", Error);
-  CHECK_THROWS_WITH_AS(read_world("tests/CMakeLists.txt"), "CMakeLists.txt: wanted a world from .wld, got '.txt'", Error);
+  CHECK_THROWS_WITH_AS(read_body("tests/CMakeLists.txt"),
+                       "CMakeLists.txt: wanted a body from .iv, .wrl, .obj or .stl, got '.txt'",
+                       Error);
+  CHECK_THROWS_WITH_AS(read_robot("tests/CMakeLists.txt"),
+                       "CMakeLists.txt: wanted a robot from .cfg, got '.txt'", Error);
+  CHECK_THROWS_WITH_AS(read_world("tests/CMakeLists.txt"),
+                       "CMakeLists.txt: wanted a world from .wld, got '.txt'", Error);
 }
 
 TEST_CASE("a scale that is no length is refused") {
-  CHECK_THROWS_WITH_AS(read_body("tests/data/two_finger/box.iv", {.mesh_scale = 0}), "read options: mesh_scale: wanted a length > 0 [m], got 0", Error);
-  CHECK_THROWS_AS(read_body("tests/data/two_finger/box.iv", {.mesh_scale = NAN}), Error);
+  ReadOptions options;
+  options.mesh_scale = 0;
+  CHECK_THROWS_WITH_AS(read_body("tests/data/two_finger/box.iv", options),
+                       "read options: mesh_scale: wanted a length > 0 [m], got 0", Error);
+  options.mesh_scale = NAN;
+  CHECK_THROWS_AS(read_body("tests/data/two_finger/box.iv", options), Error);
 }

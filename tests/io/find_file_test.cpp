@@ -6,10 +6,12 @@ using namespace clench;
 using clench::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
-TEST_CASE("a name is looked up beside the referrer, below the root, below the referrer's parent folder") {
+TEST_CASE(
+    "a name is looked up beside the referrer, below the root, below the referrer's parent folder") {
   const TemporaryFolder folder;
   const fs::path world = folder.write("home/worlds/w.wld", "");
-  const fs::path beside = folder.write("home/worlds/models/a.iv", ""), root = folder.write("root/models/a.iv", ""),
+  const fs::path beside = folder.write("home/worlds/models/a.iv", ""),
+                 root = folder.write("root/models/a.iv", ""),
                  parent = folder.write("home/models/a.iv", "");
   ReadOptions options;
   options.root = folder.path() / "root";
@@ -19,7 +21,8 @@ TEST_CASE("a name is looked up beside the referrer, below the root, below the re
   fs::remove(root);
   CHECK(find_file("models/a.iv", world, options) == parent);
   fs::remove(parent);
-  CHECK_THROWS_WITH_AS(find_file("models/a.iv", world, options), "no such file: models/a.iv", Error);
+  CHECK_THROWS_WITH_AS(find_file("models/a.iv", world, options), "no such file: models/a.iv",
+                       Error);
 }
 
 TEST_CASE("what the user names is looked up where we stand, then below the root") {
@@ -34,7 +37,8 @@ TEST_CASE("what the user names is looked up where we stand, then below the root"
 
 TEST_CASE("back-slashes and another case are understood, an exact name goes first") {
   const TemporaryFolder folder;
-  const fs::path mug = folder.write("Models/Mug.IV", ""), upper = folder.write("B.iv", ""), lower = folder.write("b.iv", "");
+  const fs::path mug = folder.write("Models/Mug.IV", ""), upper = folder.write("B.iv", ""),
+                 lower = folder.write("b.iv", "");
   const fs::path referrer = folder.path() / "w.wld";
   CHECK(find_file("models\\mug.iv", referrer, {}) == mug);
   CHECK(find_file("b.iv", referrer, {}) == lower);
@@ -46,7 +50,8 @@ TEST_CASE("a near name in the same folder is suggested") {
   const TemporaryFolder folder;
   folder.write("models/flask.iv", "");
   const fs::path referrer = folder.path() / "w.wld";
-  CHECK_THROWS_WITH_AS(find_file("models/flsk.iv", referrer, {}), "no such file: models/flsk.iv; did you mean 'flask.iv'?", Error);
+  CHECK_THROWS_WITH_AS(find_file("models/flsk.iv", referrer, {}),
+                       "no such file: models/flsk.iv; did you mean 'flask.iv'?", Error);
   CHECK_THROWS_WITH_AS(find_file("no/such.wld", "", {}), "no such file: no/such.wld", Error);
 }
 

@@ -7,11 +7,14 @@ using clench::test::Warnings;
 
 static BodySpec body(const std::string& comments, const ReadOptions& options = {}) {
   const TemporaryFolder folder;
-  return read_body(folder.write("box.iv", "#Inventor V2.1 ascii\n" + comments + "\nCube { }\n"), options);
+  return read_body(folder.write("box.iv", "#Inventor V2.1 ascii\n" + comments + "\nCube { }\n"),
+                   options);
 }
 
 TEST_CASE("grams, millimetres and their squares become kilograms, metres and theirs") {
-  const BodySpec b = body("#material plastic\n#mass 178.5\n#cog 0 40.1 -1\n#inertia_matrix\n#1043 1 0\n# 1 611 0\n#0 0 1043\n#youngs 1.5e6\n#useFlockOfBirds 2");
+  const BodySpec b = body(
+      "#material plastic\n#mass 178.5\n#cog 0 40.1 -1\n#inertia_matrix\n#1043 1 0\n# 1 611 0\n#0 0 "
+      "1043\n#youngs 1.5e6\n#useFlockOfBirds 2");
   CHECK(b.material == "plastic");
   CHECK(b.mass == doctest::Approx(0.1785));
   REQUIRE(b.com);
@@ -34,12 +37,15 @@ TEST_CASE("nothing said leaves the defaults") {
 }
 
 TEST_CASE("other comments are comments: another key, a blank after the '#', another case") {
-  const BodySpec b = body("##youngs 3\n# mass 5\n#Mass of the thing\n#massive 7\n#--youngs\n#inertia_tensor\n#");
+  const BodySpec b =
+      body("##youngs 3\n# mass 5\n#Mass of the thing\n#massive 7\n#--youngs\n#inertia_tensor\n#");
   CHECK(b.mass == doctest::Approx(0.3));
   CHECK_FALSE(b.elastic_modulus);
 }
 
-TEST_CASE("the last of a key counts") { CHECK(body("#mass 5\n#mass 7").mass == doctest::Approx(0.007)); }
+TEST_CASE("the last of a key counts") {
+  CHECK(body("#mass 5\n#mass 7").mass == doctest::Approx(0.007));
+}
 
 TEST_CASE("an inertia that is not symmetric is made so, with a warning") {
   Warnings warnings;
@@ -47,12 +53,14 @@ TEST_CASE("an inertia that is not symmetric is made so, with a warning") {
   CHECK((*b.inertia_per_mass)(1, 2) == doctest::Approx(1e-6));
   CHECK((*b.inertia_per_mass)(2, 1) == doctest::Approx(1e-6));
   REQUIRE(warnings.list.size() == 1);
-  CHECK(warnings.list[0] == "box.iv:2: inertia_matrix is not symmetric; its symmetric part is used");
+  CHECK(warnings.list[0] ==
+        "box.iv:2: inertia_matrix is not symmetric; its symmetric part is used");
 }
 
 TEST_CASE("a modulus that looks like megapascals is kept, with a warning") {
   Warnings warnings;
   CHECK(body("#youngs 1.5", warnings.options()).elastic_modulus == 1.5);
   REQUIRE(warnings.list.size() == 1);
-  CHECK(warnings.list[0] == "box.iv:2: youngs 1.5 Pa is softer than any rubber; is it meant in MPa?");
+  CHECK(warnings.list[0] ==
+        "box.iv:2: youngs 1.5 Pa is softer than any rubber; is it meant in MPa?");
 }

@@ -27,7 +27,9 @@ TEST_CASE("a joint expression is a DOF, a ratio and an offset") {
 }
 
 TEST_CASE("anything else is none") {
-  for (const auto* bad : {"", "d", "0", "x0", "d-1", "d0+", "d0*", "d0*+", "d0*x", "d0+x", "d0 +1", "d0++1", "d0+--1", "d0*2*3", "d0nan",
-                          "d0*nan", "d0+inf", "d99999999999", "d0+1e999", "d0-", "d0-+1", "d0/2"})
+  for (const auto* bad : {"",         "d",      "0",     "x0",     "d-1",    "d0+",
+                          "d0*",      "d0*+",   "d0*x",  "d0+x",   "d0 +1",  "d0++1",
+                          "d0+--1",   "d0*2*3", "d0nan", "d0*nan", "d0+inf", "d99999999999",
+                          "d0+1e999", "d0-",    "d0-+1", "d0/2"})
     CHECK_MESSAGE(!parse_joint_expression(bad), bad);
 }

@@ -6,18 +6,23 @@
 using namespace clench;
 using clench::test::TemporaryFolder;
 
-static const std::string cube_points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
-static const std::string cube_faces = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+static const std::string cube_points =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+static const std::string cube_faces =
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
 /// The unit cube as an ASCII STL, whose triangles share no points.
 static std::string stl_cube() {
-  const int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-  const int points[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  const int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                           {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  const int points[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                            {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
   std::string out = "solid cube\n";
   for (const auto& f : faces)
     for (const auto& t : {std::array{f[0], f[1], f[2]}, std::array{f[0], f[2], f[3]}}) {
       out += "facet normal 0 0 0\nouter loop\n";
-      for (const int i : t) out += fmt::format("vertex {} {} {}\n", points[i][0], points[i][1], points[i][2]);
+      for (const int i : t)
+        out += fmt::format("vertex {} {} {}\n", points[i][0], points[i][1], points[i][2]);
       out += "endloop\nendfacet\n";
     }
   return out + "endsolid cube\n";
@@ -59,5 +64,7 @@ TEST_CASE("the colours of an OBJ come from its material file; without it there a
 
 TEST_CASE("triangles with two equal corners are dropped") {
   const TemporaryFolder folder;
-  CHECK(read_body(folder.write("c.obj", cube_points + cube_faces + "f 1 1 2\nf 3 4 3\n")).shape->mesh().triangles.size() == 12);
+  CHECK(read_body(folder.write("c.obj", cube_points + cube_faces + "f 1 1 2\nf 3 4 3\n"))
+            .shape->mesh()
+            .triangles.size() == 12);
 }

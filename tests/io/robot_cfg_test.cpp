@@ -23,7 +23,9 @@ struct Cfg {
     const TemporaryFolder folder;
     folder.write("iv/box.iv", "#Inventor V2.1 ascii\n#mass 20\nCube { }\n");
     folder.write("eigen/a.egr", "DIMENSIONS 1\n");
-    return read_robot(folder.write("hand.cfg", "#class\nHand\nbox.iv\n" + dofs + "1\n" + joints + transforms + joint_lines + links + rest), options);
+    return read_robot(folder.write("hand.cfg", "#class\nHand\nbox.iv\n" + dofs + "1\n" + joints +
+                                                   transforms + joint_lines + links + rest),
+                      options);
   }
 };
 
@@ -38,7 +40,7 @@ TEST_CASE("the two-finger pincher is read as it is written") {
   CHECK(r.chains[1].links[0].body.name == "pincher_chain1_link0");
   CHECK(r.chains[0].links[0].joint == LinkJoint::prismatic);
   CHECK(r.chains[0].links[0].last_joint == 0);
-  CHECK(r.chains[1].links[0].last_joint == 0);   // left out in the file
+  CHECK(r.chains[1].links[0].last_joint == 0);  // left out in the file
   const JointSpec& joint = r.chains[0].joints[0];
   CHECK(joint.kind == JointKind::prismatic);
   CHECK(joint.max == doctest::Approx(0.044));
@@ -105,9 +107,9 @@ TEST_CASE("a DOF that turns and slides joints counts in the unit of its first") 
   Cfg cfg;
   cfg.joints = "2\n1\n";
   cfg.joint_lines = "d0 0 10 0 -10 90\n0 d0*5 0 0 -100 100\n";
-  CHECK(cfg.read().chains[0].joints[1].ratio == doctest::Approx(0.005));   // 5 mm a radian
+  CHECK(cfg.read().chains[0].joints[1].ratio == doctest::Approx(0.005));  // 5 mm a radian
   cfg.joint_lines = "0 d0 10 0 -10 90\nd0*0.1 0 0 0 -1000 1000\n";
-  CHECK(cfg.read().chains[0].joints[1].ratio == doctest::Approx(100));     // 0.1 rad a millimetre
+  CHECK(cfg.read().chains[0].joints[1].ratio == doctest::Approx(100));  // 0.1 rad a millimetre
 }
 
 TEST_CASE("comments, tabs, blank lines and other line ends change nothing") {
@@ -137,8 +139,11 @@ TEST_CASE("links without a last joint take the next one") {
 
 TEST_CASE("every kind of link joint is known") {
   Cfg cfg;
-  for (const auto& [word, kind] : {std::pair{"Revolute", LinkJoint::revolute}, {"Prismatic", LinkJoint::prismatic},
-                                   {"Universal", LinkJoint::universal}, {"Ball", LinkJoint::ball}, {"Fixed", LinkJoint::fixed}}) {
+  for (const auto& [word, kind] : {std::pair{"Revolute", LinkJoint::revolute},
+                                   {"Prismatic", LinkJoint::prismatic},
+                                   {"Universal", LinkJoint::universal},
+                                   {"Ball", LinkJoint::ball},
+                                   {"Fixed", LinkJoint::fixed}}) {
     cfg.links = std::string(word) + "\nbox.iv -1\n";
     CHECK(cfg.read().chains[0].links[0].joint == kind);
   }
@@ -146,7 +151,8 @@ TEST_CASE("every kind of link joint is known") {
 
 TEST_CASE("blocks at the end may come in any order") {
   Cfg cfg;
-  cfg.rest = "Approach\n10 20 30\n0 1 0\nFlockOfBirds\n3\nt 0 0 10\nr 90 z\nEigenGrasps\neigen/a.egr\n";
+  cfg.rest =
+      "Approach\n10 20 30\n0 1 0\nFlockOfBirds\n3\nt 0 0 10\nr 90 z\nEigenGrasps\neigen/a.egr\n";
   Warnings warnings;
   const RobotSpec r = cfg.read(warnings.options());
   REQUIRE(r.X_BA);
@@ -160,19 +166,22 @@ TEST_CASE("blocks at the end may come in any order") {
   CHECK(warnings.list.empty());
 }
 
-TEST_CASE("what a robot file names and is not there, and what it says and is not known, are warnings") {
+TEST_CASE(
+    "what a robot file names and is not there, and what it says and is not known, are warnings") {
   Cfg cfg;
-  cfg.rest = "EigenGrasps\neigen/b.egr\nVirtualContacts\nnone.vgr\nCyberGlov\nFlockOfBirds\nt 0 0 1\n";
+  cfg.rest =
+      "EigenGrasps\neigen/b.egr\nVirtualContacts\nnone.vgr\nCyberGlov\nFlockOfBirds\nt 0 0 1\n";
   Warnings warnings;
   const RobotSpec r = cfg.read(warnings.options());
   CHECK(r.eigengrasps.empty());
   CHECK(r.virtual_contacts.empty());
   CHECK(r.tracker->number == 0);
-  CHECK(warnings.list == std::vector<std::string>{
-                             "hand.cfg:14: EigenGrasps: no such file: eigen/b.egr; did you mean 'a.egr'?",
-                             "hand.cfg:16: VirtualContacts: no such file: none.vgr",
-                             "hand.cfg:17: unknown keyword 'CyberGlov' is not used; did you mean 'CyberGlove'?",
-                             "hand.cfg:19: FlockOfBirds: no bird number, 0 is used"});
+  CHECK(warnings.list ==
+        std::vector<std::string>{
+            "hand.cfg:14: EigenGrasps: no such file: eigen/b.egr; did you mean 'a.egr'?",
+            "hand.cfg:16: VirtualContacts: no such file: none.vgr",
+            "hand.cfg:17: unknown keyword 'CyberGlov' is not used; did you mean 'CyberGlove'?",
+            "hand.cfg:19: FlockOfBirds: no bird number, 0 is used"});
 }
 
 TEST_CASE("a DOF that moves nothing is a warning") {

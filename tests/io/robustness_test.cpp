@@ -94,8 +94,11 @@ CameraFull
 1 2 3 0 0 0 1 100
 )";
 
-const char* const pieces[] = {"-1", "999999999", "-2147483648", "1e38", "nan", "1e-40", "{", "}", "[", "]", "USE C", "USE L", "DEF C", "\"",
-                              "#", "NULL", "Cube", "Separator { ", "-7", "PER_VERTEX", "OVERALL", "CONVEX", "100000", ",", "T", "\n", "d0", "r"};
+const char* const pieces[] = {
+    "-1", "999999999",  "-2147483648", "1e38",   "nan",    "1e-40", "{",    "}",    "[",
+    "]",  "USE C",      "USE L",       "DEF C",  "\"",     "#",     "NULL", "Cube", "Separator { ",
+    "-7", "PER_VERTEX", "OVERALL",     "CONVEX", "100000", ",",     "T",    "\n",   "d0",
+    "r"};
 
 std::string changed(std::string s, Random& random) {
   const int changes = 1 + static_cast<int>(random.bits() % 3);
@@ -103,15 +106,27 @@ std::string changed(std::string s, Random& random) {
     const size_t at = random.bits() % s.size();
     const char* piece = pieces[random.bits() % std::size(pieces)];
     // the word at that place
-    const size_t before = s.find_last_of(" \n[],", at), first = before == std::string::npos ? 0 : before + 1;
+    const size_t before = s.find_last_of(" \n[],", at),
+                 first = before == std::string::npos ? 0 : before + 1;
     const size_t end = std::max(first, std::min(s.find_first_of(" \n[],", at), s.size()));
     switch (random.bits() % 6) {
-      case 0: s[at] = static_cast<char>(random.bits()); break;
-      case 1: s.erase(at, random.bits() % 8); break;
-      case 2: s.insert(at, piece); break;
-      case 3: s.replace(first, end - first, piece); break;
-      case 4: s.erase(first, end - first); break;
-      default: s.insert(at, s.substr(random.bits() % s.size(), random.bits() % 40));
+      case 0:
+        s[at] = static_cast<char>(random.bits());
+        break;
+      case 1:
+        s.erase(at, random.bits() % 8);
+        break;
+      case 2:
+        s.insert(at, piece);
+        break;
+      case 3:
+        s.replace(first, end - first, piece);
+        break;
+      case 4:
+        s.erase(first, end - first);
+        break;
+      default:
+        s.insert(at, s.substr(random.bits() % s.size(), random.bits() % 40));
     }
   }
   return s;
@@ -121,16 +136,20 @@ std::string changed(std::string s, Random& random) {
 class Bench {
  public:
   Bench() {
-    for (const auto* name : {"box.iv", "iv/box.iv"}) folder_.write(name, "#Inventor V2.1 ascii\nCube { }\n");
+    for (const auto* name : {"box.iv", "iv/box.iv"})
+      folder_.write(name, "#Inventor V2.1 ascii\nCube { }\n");
     folder_.write("hand.cfg", robot);
   }
   /// returns  was it refused?   fails the test when the sentence does not name the file
   bool refused(const std::string& name, const std::string& text) {
     const fs::path file = folder_.write(name, text);
     try {
-      if (name.ends_with(".cfg")) read_robot(file);
-      else if (name.ends_with(".wld")) read_world(file);
-      else read_body(file);
+      if (name.ends_with(".cfg"))
+        read_robot(file);
+      else if (name.ends_with(".wld"))
+        read_world(file);
+      else
+        read_body(file);
       return false;
     } catch (const Error& error) {
       CHECK_MESSAGE(std::string(error.what()).starts_with(name), error.what());
@@ -170,17 +189,37 @@ TEST_CASE("the texts of this file are sound") {
   CHECK_FALSE(bench.refused("a.wld", world));
 }
 
-TEST_CASE("an Inventor file cut short anywhere is an Error or a body") { cut_everywhere("a.iv", inventor, 17); }
-TEST_CASE("a VRML file cut short anywhere is an Error or a body") { cut_everywhere("a.wrl", vrml, 17); }
-TEST_CASE("a robot file cut short anywhere is an Error or a robot") { cut_everywhere("a.cfg", robot, 1); }
-TEST_CASE("a world file cut short anywhere is an Error or a world") { cut_everywhere("a.wld", world, 1); }
-TEST_CASE("an Inventor file changed at random is an Error or a body") { change_at_random("a.iv", inventor, 100); }
-TEST_CASE("a VRML file changed at random is an Error or a body") { change_at_random("a.wrl", vrml, 100); }
-TEST_CASE("a robot file changed at random is an Error or a robot") { change_at_random("a.cfg", robot, 300); }
-TEST_CASE("a world file changed at random is an Error or a world") { change_at_random("a.wld", world, 200); }
+TEST_CASE("an Inventor file cut short anywhere is an Error or a body") {
+  cut_everywhere("a.iv", inventor, 17);
+}
+TEST_CASE("a VRML file cut short anywhere is an Error or a body") {
+  cut_everywhere("a.wrl", vrml, 17);
+}
+TEST_CASE("a robot file cut short anywhere is an Error or a robot") {
+  cut_everywhere("a.cfg", robot, 1);
+}
+TEST_CASE("a world file cut short anywhere is an Error or a world") {
+  cut_everywhere("a.wld", world, 1);
+}
+TEST_CASE("an Inventor file changed at random is an Error or a body") {
+  change_at_random("a.iv", inventor, 100);
+}
+TEST_CASE("a VRML file changed at random is an Error or a body") {
+  change_at_random("a.wrl", vrml, 100);
+}
+TEST_CASE("a robot file changed at random is an Error or a robot") {
+  change_at_random("a.cfg", robot, 300);
+}
+TEST_CASE("a world file changed at random is an Error or a world") {
+  change_at_random("a.wld", world, 200);
+}
 TEST_CASE("mesh files changed at random are Errors or bodies") {
-  const std::string obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nusemtl x\nf 1//1 2//1 3//1\nf 1 2 4\nf 2 3 4 1\n";
-  const std::string stl = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+  const std::string obj =
+      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nusemtl x\nf 1//1 2//1 3//1\nf 1 "
+      "2 4\nf 2 3 4 1\n";
+  const std::string stl =
+      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+      "0\nendloop\nendfacet\nendsolid a\n";
   cut_everywhere("a.stl", stl, 3);
   change_at_random("a.obj", obj, 200);
   change_at_random("a.stl", stl, 200);
@@ -191,6 +230,7 @@ TEST_CASE("noise is an Error in every format") {
     Random random(13, i);
     std::string noise(random.bits() % 300, '\0');
     for (char& c : noise) c = static_cast<char>(random.bits());
-    for (const auto* name : {"a.iv", "a.wrl", "a.cfg", "a.wld", "a.stl"}) CHECK(bench.refused(name, noise));
+    for (const auto* name : {"a.iv", "a.wrl", "a.cfg", "a.wld", "a.stl"})
+      CHECK(bench.refused(name, noise));
   }
 }

@@ -14,11 +14,13 @@ namespace fs = std::filesystem;
 
 static fs::path root() { return test::shared() / "data/graspit"; }
 
-static std::vector<fs::path> files_below(const fs::path& folder, const std::vector<std::string>& extensions) {
+static std::vector<fs::path> files_below(const fs::path& folder,
+                                         const std::vector<std::string>& extensions) {
   std::vector<fs::path> out;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string extension = lower_case(entry.path().extension().string());
-    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) out.push_back(entry.path());
+    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
+      out.push_back(entry.path());
   }
   std::sort(out.begin(), out.end());
   return out;
@@ -29,7 +31,9 @@ static nlohmann::json reference(const std::string& name) {
   return nlohmann::json::parse(in);
 }
 
-static Eigen::Vector3d vector(const nlohmann::json& j) { return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()}; }
+static Eigen::Vector3d vector(const nlohmann::json& j) {
+  return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
+}
 
 /// The text file of the same body.
 static fs::path text_file(std::string file) {
@@ -37,7 +41,8 @@ static fs::path text_file(std::string file) {
   return root() / file;
 }
 
-static const std::vector<std::string> worlds = {"dlr_flask", "plannerMug", "plannerP51", "barrettGlassDyn"};
+static const std::vector<std::string> worlds = {"dlr_flask", "plannerMug", "plannerP51",
+                                                "barrettGlassDyn"};
 
 TEST_CASE("every body of the original loads, with triangles unless it is a frame") {
   REQUIRE_SHARED();
@@ -88,7 +93,8 @@ TEST_CASE("triangles, bounds, area, mass and material are those of the original"
   std::map<std::string, nlohmann::json> bodies;
   for (const auto& name : worlds) {
     const auto measured = reference("world_" + name);
-    for (const auto& body : measured.at("bodies")) bodies[body.at("file").get<std::string>()] = body;
+    for (const auto& body : measured.at("bodies"))
+      bodies[body.at("file").get<std::string>()] = body;
   }
   CHECK(bodies.size() > 20);
   for (const auto& [file, measured] : bodies) {
@@ -99,14 +105,22 @@ TEST_CASE("triangles, bounds, area, mass and material are those of the original"
     // the original multiplies 32-bit coordinates by matrices of doubles or of 32 bits: a unit in the last place
     // of a table's 1300 mm is 1e-4 mm
     const double size = body.shape->bounds().high.cwiseAbs().maxCoeff() * 1000;
-    const double rounding = 1e-9 + 2.5e-7 * std::max(size, body.shape->bounds().low.cwiseAbs().maxCoeff() * 1000);
-    CHECK((body.shape->bounds().low * 1000 - vector(measured.at("bbox_local_min"))).cwiseAbs().maxCoeff() < rounding);
-    CHECK((body.shape->bounds().high * 1000 - vector(measured.at("bbox_local_max"))).cwiseAbs().maxCoeff() < rounding);
+    const double rounding =
+        1e-9 + 2.5e-7 * std::max(size, body.shape->bounds().low.cwiseAbs().maxCoeff() * 1000);
+    CHECK((body.shape->bounds().low * 1000 - vector(measured.at("bbox_local_min")))
+              .cwiseAbs()
+              .maxCoeff() < rounding);
+    CHECK((body.shape->bounds().high * 1000 - vector(measured.at("bbox_local_max")))
+              .cwiseAbs()
+              .maxCoeff() < rounding);
     // one face of one arm link is crooked, and cut along another diagonal: 2e-8
-    CHECK(body.shape->mesh().area() * 1e6 == doctest::Approx(measured.at("mesh_area_mm2").get<double>()).epsilon(1e-7));
+    CHECK(body.shape->mesh().area() * 1e6 ==
+          doctest::Approx(measured.at("mesh_area_mm2").get<double>()).epsilon(1e-7));
     CHECK(body.material == measured.at("material").get<std::string>());
-    if (measured.contains("mass_g")) CHECK(body.mass * 1000 == doctest::Approx(measured.at("mass_g").get<double>()));
-    if (measured.contains("cog") && body.com) CHECK((*body.com * 1000 - vector(measured.at("cog"))).norm() < 1e-9);
+    if (measured.contains("mass_g"))
+      CHECK(body.mass * 1000 == doctest::Approx(measured.at("mass_g").get<double>()));
+    if (measured.contains("cog") && body.com)
+      CHECK((*body.com * 1000 - vector(measured.at("cog"))).norm() < 1e-9);
   }
 }
 
@@ -121,7 +135,8 @@ TEST_CASE("poses, DOFs and approach frames are those of the original") {
       const auto& q = pose.at("q_wxyz");
       const Eigen::Quaterniond rotation(q.at(0), q.at(1), q.at(2), q.at(3));
       CHECK((world.bodies[i].X_WB.position * 1000 - vector(pose.at("t"))).norm() < 1e-9);
-      CHECK(world.bodies[i].X_WB.rotation.angularDistance(rotation) < 1e-7);   // acos near 1 halves the digits
+      CHECK(world.bodies[i].X_WB.rotation.angularDistance(rotation) <
+            1e-7);  // acos near 1 halves the digits
     }
     for (size_t i = 0; i < world.robots.size(); ++i) {
       const auto& robot = measured.at("robots").at(i);
@@ -140,8 +155,11 @@ TEST_CASE("poses, DOFs and approach frames are those of the original") {
       }
       if (!placed.robot.X_BA) continue;
       const auto& q = robot.at("approach_tran").at("q_wxyz");
-      CHECK(placed.robot.X_BA->rotation.angularDistance(Eigen::Quaterniond(q.at(0), q.at(1), q.at(2), q.at(3))) < 1e-7);
-      CHECK((placed.robot.X_BA->position * 1000 - vector(robot.at("approach_tran").at("t"))).norm() < 1e-9);
+      CHECK(placed.robot.X_BA->rotation.angularDistance(
+                Eigen::Quaterniond(q.at(0), q.at(1), q.at(2), q.at(3))) < 1e-7);
+      CHECK(
+          (placed.robot.X_BA->position * 1000 - vector(robot.at("approach_tran").at("t"))).norm() <
+          1e-9);
     }
   }
 }

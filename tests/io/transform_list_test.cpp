@@ -23,21 +23,24 @@ static bool same(const Pose& a, const Pose& b) {
 }
 
 static const double right = std::numbers::pi / 2;
-static const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
+static const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
+                             z = Eigen::Vector3d::UnitZ();
 
 TEST_CASE("entries compose left to right, each in the frame reached so far") {
   CHECK(same(list("t 1 2 3\n"), Pose::translation({0.001, 0.002, 0.003})));
   CHECK(same(list("r 90 z\n"), Pose::turn(right, z)));
   CHECK(same(list("rr 0.5 Y\n"), Pose::turn(0.5, y)));
   CHECK(same(list("r 90 z\nt 10 0 0\n"), Pose::turn(right, z) * Pose::translation({0.01, 0, 0})));
-  CHECK(same(list("t 10 0 0\nr 180 y\nr -90 x\n"), Pose::translation({0.01, 0, 0}) * Pose::turn(2 * right, y) * Pose::turn(-right, x)));
+  CHECK(same(list("t 10 0 0\nr 180 y\nr -90 x\n"),
+             Pose::translation({0.01, 0, 0}) * Pose::turn(2 * right, y) * Pose::turn(-right, x)));
   CHECK(same(list(""), Pose()));
 }
 
 TEST_CASE("a full transform is a quaternion w x y z, made unit, and a position") {
   CHECK(same(list("T (+1 0 0 0)[+1 -2 3]"), Pose::translation({0.001, -0.002, 0.003})));
   CHECK(same(list("T(0 0 0 2)[0,0,0]"), Pose::turn(2 * right, z)));
-  CHECK(list("T (0.5457 0.8332 0.0364 0.0818)[0 0 0]").rotation.norm() == doctest::Approx(1).epsilon(1e-15));
+  CHECK(list("T (0.5457 0.8332 0.0364 0.0818)[0 0 0]").rotation.norm() ==
+        doctest::Approx(1).epsilon(1e-15));
 }
 
 TEST_CASE("the first three numbers of a rotation matrix are the image of the x axis") {
@@ -53,13 +56,18 @@ TEST_CASE("the list ends at the first line that is no transform") {
 }
 
 TEST_CASE("transforms in tags mean what the lines mean") {
-  CHECK(same(tags("<transform><fullTransform>(+1 0 0 0)[+1 2 3]</fullTransform></transform>"), Pose::translation({0.001, 0.002, 0.003})));
-  CHECK(same(tags("<fullTransform>(1 0 0 0)[1 2 3]</fullTransform>"), Pose::translation({0.001, 0.002, 0.003})));
-  CHECK(same(tags("<transform>\n  <translation>10 0 0</translation>\n  <rotation>90 z</rotation>\n</transform>"), list("t 10 0 0\nr 90 z")));
+  CHECK(same(tags("<transform><fullTransform>(+1 0 0 0)[+1 2 3]</fullTransform></transform>"),
+             Pose::translation({0.001, 0.002, 0.003})));
+  CHECK(same(tags("<fullTransform>(1 0 0 0)[1 2 3]</fullTransform>"),
+             Pose::translation({0.001, 0.002, 0.003})));
+  CHECK(same(tags("<transform>\n  <translation>10 0 0</translation>\n  <rotation>90 "
+                  "z</rotation>\n</transform>"),
+             list("t 10 0 0\nr 90 z")));
   CHECK(same(tags("<rotationMatrix>0 1 0 -1 0 0 0 0 1</rotationMatrix>"), Pose::turn(right, z)));
   CHECK(same(tags("<transform></transform>"), Pose()));
 }
 
 TEST_CASE("a wrong number within tags is told by place") {
-  CHECK_THROWS_WITH_AS(tags("<transform><translation>1 2 x</translation></transform>"), "x.wld:1: translation z: wanted a number, got 'x'", Error);
+  CHECK_THROWS_WITH_AS(tags("<transform><translation>1 2 x</translation></transform>"),
+                       "x.wld:1: translation z: wanted a number, got 'x'", Error);
 }

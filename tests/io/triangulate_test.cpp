@@ -10,7 +10,8 @@ using namespace clench;
 using Points = std::vector<Eigen::Vector3d>;
 
 /// Twice the area vectors of the triangles, added, and the sum of their lengths.
-static std::pair<Eigen::Vector3d, double> areas(const Points& p, const std::vector<Triangle>& triangles) {
+static std::pair<Eigen::Vector3d, double> areas(const Points& p,
+                                                const std::vector<Triangle>& triangles) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double lengths = 0;
   for (const auto& t : triangles) {
@@ -31,11 +32,14 @@ TEST_CASE("stars in any plane are covered once: n - 2 triangles, all turning wit
   Random random(1);
   for (int k = 0; k < 200; ++k) {
     const int n = 4 + static_cast<int>(random.bits() % 40);
-    const Eigen::Quaterniond turn = Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal())
+            .normalized();
     Points p;
     for (int i = 0; i < n; ++i) {
       const double angle = 2 * std::numbers::pi * i / n, r = random.uniform(0.2, 1);
-      p.push_back(turn * Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), 0) + Eigen::Vector3d(1, 2, 3));
+      p.push_back(turn * Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), 0) +
+                  Eigen::Vector3d(1, 2, 3));
     }
     const auto triangles = triangulate(p);
     CHECK(triangles.size() == p.size() - 2);
@@ -50,14 +54,16 @@ TEST_CASE("a convex polygon is a fan from its first corner") {
   const Points square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   CHECK(triangulate(square) == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
   // corners on a straight side, and a corner twice, change nothing about that
-  CHECK(triangulate({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 1, 0}, {0, 1, 0}}).size() == 4);
+  CHECK(triangulate({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 1, 0}, {0, 1, 0}}).size() ==
+        4);
 }
 
 TEST_CASE("an arrowhead is not cut through its notch") {
   const Points p = {{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {0.5, 1, 0}};
   const auto [sum, lengths] = areas(p, triangulate(p));
   CHECK(lengths == doctest::Approx(sum.norm()));
-  CHECK(areas(p, triangulate(p, true)).second == doctest::Approx(areas(p, {{0, 1, 2}, {0, 2, 3}}).second));
+  CHECK(areas(p, triangulate(p, true)).second ==
+        doctest::Approx(areas(p, {{0, 1, 2}, {0, 2, 3}}).second));
 }
 
 TEST_CASE("anything else gives n - 2 triangles and an end") {
@@ -77,7 +83,9 @@ TEST_CASE("anything else gives n - 2 triangles and an end") {
 TEST_CASE("a crooked face of very many corners is refused") {
   Random random(3);
   Points p;
-  for (int i = 0; i <= most_concave_corners; ++i) p.push_back({random.normal(), random.normal(), 0});
-  CHECK_THROWS_WITH_AS(triangulate(p), "wanted at most 1000 corners of a face that is not convex, got 1001", Error);
+  for (int i = 0; i <= most_concave_corners; ++i)
+    p.push_back({random.normal(), random.normal(), 0});
+  CHECK_THROWS_WITH_AS(triangulate(p),
+                       "wanted at most 1000 corners of a face that is not convex, got 1001", Error);
   CHECK(triangulate(p, true).size() == p.size() - 2);
 }

@@ -13,8 +13,10 @@ static WorldSpec world(const std::string& text, const ReadOptions& options = {})
   folder.write("models/box.iv", box);
   folder.write("models/robots/iv/box.iv", box);
   folder.write("models/robots/hand.cfg",
-               "Hand\nbox.iv\n3\nr 1 1e9 1e9 1e7 20\nb 1 1e9 1e9 1e7 20 0.5\nc 1 1e9 1e9 1e7 20\n1\n5\n1\nt 0 0 0\n0 d0 10 0 -10 90\n"
-               "d1 0 10 0 -10 90\nd1*0.5 0 10 0 -10 90\nd2 0 10 0 -10 90\nd2 0 10 0 -10 90\nRevolute\nbox.iv 4\n");
+               "Hand\nbox.iv\n3\nr 1 1e9 1e9 1e7 20\nb 1 1e9 1e9 1e7 20 0.5\nc 1 1e9 1e9 1e7 "
+               "20\n1\n5\n1\nt 0 0 0\n0 d0 10 0 -10 90\n"
+               "d1 0 10 0 -10 90\nd1*0.5 0 10 0 -10 90\nd2 0 10 0 -10 90\nd2 0 10 0 -10 "
+               "90\nRevolute\nbox.iv 4\n");
   folder.write("models/robots/bare.cfg", "Robot\nbox.iv\n0\n0\n");
   return read_world(folder.write("worlds/w.wld", text), options);
 }
@@ -25,7 +27,8 @@ static const std::string hand = "Robot\nmodels/robots/hand.cfg\n0 0 0 0 0\n" + s
 static const std::string bare = "Robot\nmodels/robots/bare.cfg\n\n" + stay;
 
 TEST_CASE("bodies stand where their blocks say, in the file's order") {
-  const WorldSpec w = world(head + "Obstacle\nmodels/box.iv\nwood\nT (+1 0 0 0)[+1 -2 3]\n\n" + hand + "\nGraspableBody\nmodels/box.iv\nT (0 0 0 2)[0 0 0]\n");
+  const WorldSpec w = world(head + "Obstacle\nmodels/box.iv\nwood\nT (+1 0 0 0)[+1 -2 3]\n\n" +
+                            hand + "\nGraspableBody\nmodels/box.iv\nT (0 0 0 2)[0 0 0]\n");
   REQUIRE(w.bodies.size() == 2);
   CHECK(w.bodies[0].role == Role::obstacle);
   CHECK(w.bodies[0].body.name == "box");
@@ -41,16 +44,18 @@ TEST_CASE("bodies stand where their blocks say, in the file's order") {
 }
 
 TEST_CASE("an obstacle's material is the block's, or the file's where the block has none") {
-  const WorldSpec w = world(head + "Obstacle\nmodels/box.iv\nglass\n" + stay + "Obstacle\nmodels/box.iv\n" + stay);
+  const WorldSpec w =
+      world(head + "Obstacle\nmodels/box.iv\nglass\n" + stay + "Obstacle\nmodels/box.iv\n" + stay);
   CHECK(w.bodies[0].body.material == "glass");
   CHECK(w.bodies[1].body.material == "rubber");
 }
 
 TEST_CASE("DOF values are written by kind: breakaway ones with the state of each joint") {
-  const WorldSpec w = world(head + "Robot\nmodels/robots/hand.cfg\n+5 +0.9 0 1 +0.25 -0.5 \n" + stay);
+  const WorldSpec w =
+      world(head + "Robot\nmodels/robots/hand.cfg\n+5 +0.9 0 1 +0.25 -0.5 \n" + stay);
   const PlacedRobot& r = w.robots[0];
   REQUIRE(r.dofs.size() == 3);
-  CHECK(r.dofs[0] == doctest::Approx(0.005));   // it slides: mm
+  CHECK(r.dofs[0] == doctest::Approx(0.005));  // it slides: mm
   CHECK(r.dofs[1] == 0.9);
   CHECK(r.dofs[2] == -0.5);
   REQUIRE(r.breakaway.size() == 1);
@@ -71,10 +76,12 @@ TEST_CASE("a robot without DOFs has an empty line for them, or none") {
   CHECK(world(head + "Robot\nmodels/robots/bare.cfg\n" + stay).robots.size() == 1);
 }
 
-TEST_CASE("a connection may come before its robots, and its mount may be an empty line or missing") {
+TEST_CASE(
+    "a connection may come before its robots, and its mount may be an empty line or missing") {
   const std::string move = "T (+1 0 0 0)[0 0 +175.05]\n";
   for (const std::string mount : {"\n", "", "models/box.iv\n"}) {
-    const WorldSpec w = world(head + "Connection\n+0 +0 +1 \n" + mount + move + "\n" + hand + "\n" + bare);
+    const WorldSpec w =
+        world(head + "Connection\n+0 +0 +1 \n" + mount + move + "\n" + hand + "\n" + bare);
     REQUIRE(w.connections.size() == 1);
     const Connection& c = w.connections[0];
     CHECK(c.parent == 0);
@@ -97,8 +104,12 @@ TEST_CASE("a camera's quaternion is x y z w, its place and focal distance millim
 }
 
 TEST_CASE("line ends, trailing blanks, comments and tagged transforms are tolerated") {
-  const WorldSpec w = world("#GraspIt! version 2.0\r\n# a comment\r\nGraspableBody  \r\nmodels\\BOX.iv \r\n<transform>\r\n"
-                            "<fullTransform>(+1 +0 +0 +0)[+1 +0 +0]</fullTransform>\r\n</transform>\r\n\r\nObstacle\r\nmodels/box.iv\r\nwood \r\n(1 0 0 0)[0 0 0]\r\n");
+  const WorldSpec w = world(
+      "#GraspIt! version 2.0\r\n# a comment\r\nGraspableBody  \r\nmodels\\BOX.iv "
+      "\r\n<transform>\r\n"
+      "<fullTransform>(+1 +0 +0 +0)[+1 +0 "
+      "+0]</fullTransform>\r\n</transform>\r\n\r\nObstacle\r\nmodels/box.iv\r\nwood \r\n(1 0 0 "
+      "0)[0 0 0]\r\n");
   CHECK(w.bodies.size() == 2);
   CHECK(w.bodies[0].X_WB.position.x() == doctest::Approx(0.001));
 }
@@ -106,7 +117,8 @@ TEST_CASE("line ends, trailing blanks, comments and tagged transforms are tolera
 TEST_CASE("a world without its first line is read, with a warning") {
   Warnings warnings;
   CHECK(world("GraspableBody\nmodels/box.iv\n" + stay, warnings.options()).bodies.size() == 1);
-  CHECK(warnings.list == std::vector<std::string>{"w.wld:1: the first line '#GraspIt! version ...' is missing"});
+  CHECK(warnings.list ==
+        std::vector<std::string>{"w.wld:1: the first line '#GraspIt! version ...' is missing"});
 }
 
 TEST_CASE("an empty world is a world") { CHECK(world(head).order.empty()); }

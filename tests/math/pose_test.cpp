@@ -8,7 +8,8 @@ using namespace clench;
 
 static Pose random_pose(Random& random) {
   const Eigen::Vector4d q(random.normal(), random.normal(), random.normal(), random.normal());
-  return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized(), {random.normal(), random.normal(), random.normal()}};
+  return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized(),
+          {random.normal(), random.normal(), random.normal()}};
 }
 
 // products of unit quaternions round in the last bits only
@@ -38,16 +39,18 @@ TEST_CASE("the angle is that of the turn, small ones too") {
     const Pose X = Pose::turn(angle, Eigen::Vector3d(1, 2, 3).normalized());
     CHECK(X.angle() == doctest::Approx(angle).epsilon(1e-12));
   }
-  CHECK(Pose::turn(4.0, Eigen::Vector3d::UnitX()).angle() == doctest::Approx(2 * std::numbers::pi - 4));
+  CHECK(Pose::turn(4.0, Eigen::Vector3d::UnitX()).angle() ==
+        doctest::Approx(2 * std::numbers::pi - 4));
 }
 
 TEST_CASE("interpolation starts and ends where it says and turns evenly") {
   Random random(3);
   const Pose a = random_pose(random), b = random_pose(random);
   CHECK((interpolate(a, b, 0).position - a.position).norm() == 0);
-  CHECK((a.inverse() * interpolate(a, b, 0)).angle() < 1e-7);   // acos near 1 halves the digits
+  CHECK((a.inverse() * interpolate(a, b, 0)).angle() < 1e-7);  // acos near 1 halves the digits
   CHECK((b.inverse() * interpolate(a, b, 1)).angle() < 1e-7);
-  const double whole = (a.inverse() * b).angle(), half = (a.inverse() * interpolate(a, b, 0.5)).angle();
+  const double whole = (a.inverse() * b).angle(),
+               half = (a.inverse() * interpolate(a, b, 0.5)).angle();
   CHECK(half == doctest::Approx(whole / 2));
 }
 

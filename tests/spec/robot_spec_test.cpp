@@ -10,37 +10,42 @@ static RobotSpec two_joints() {
   robot.name = "arm";
   robot.dofs.resize(1);
   robot.chains.resize(1);
-  robot.chains[0].joints = {{.dof = 0, .ratio = 1, .min = -1, .max = 2}, {.dof = 0, .ratio = -0.5, .min = -0.5, .max = 1}};
+  robot.chains[0].joints = {{.dof = 0, .ratio = 1, .min = -1, .max = 2},
+                            {.dof = 0, .ratio = -0.5, .min = -0.5, .max = 1}};
   robot.chains[0].links.resize(1);
   return robot;
 }
 
-TEST_CASE("the approach frame is right-handed, its z along the direction, its origin at the point") {
+TEST_CASE(
+    "the approach frame is right-handed, its z along the direction, its origin at the point") {
   Random random(1);
   for (int i = 0; i < 200; ++i) {
-    const Eigen::Vector3d direction(random.normal(), random.normal(), random.normal()), point(1, 2, 3);
+    const Eigen::Vector3d direction(random.normal(), random.normal(), random.normal()),
+        point(1, 2, 3);
     const Pose X_BA = approach_frame(point, direction);
     const Eigen::Matrix3d R = X_BA.matrix();
-    CHECK((R.col(2) - direction.normalized()).norm() < 1e-14);   // rounding of a few products
+    CHECK((R.col(2) - direction.normalized()).norm() < 1e-14);  // rounding of a few products
     CHECK((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < 1e-14);
     CHECK(R.determinant() == doctest::Approx(1));
     CHECK(X_BA.position == point);
     // y lies across z and the x (or y) axis of the base
-    const Eigen::Vector3d x0 = std::abs(R(0, 2)) > 0.9 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d x0 =
+        std::abs(R(0, 2)) > 0.9 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
     CHECK(std::abs(R.col(1).dot(x0)) < 1e-14);
   }
   CHECK(approach_frame({0, 0, 0}, {0, 0, 5}).angle() < 1e-15);
 }
 
 TEST_CASE("an approach without direction is refused") {
-  CHECK_THROWS_WITH_AS(approach_frame({0, 0, 0}, {0, 0, 0}), "approach direction: wanted a direction, got (0, 0, 0)", Error);
+  CHECK_THROWS_WITH_AS(approach_frame({0, 0, 0}, {0, 0, 0}),
+                       "approach direction: wanted a direction, got (0, 0, 0)", Error);
   CHECK_THROWS_AS(approach_frame({0, 0, 0}, {NAN, 0, 1}), Error);
   CHECK_THROWS_AS(approach_frame({INFINITY, 0, 0}, {0, 0, 1}), Error);
 }
 
 TEST_CASE("a DOF's range is what all of its joints allow") {
   const auto [low, high] = dof_range(two_joints(), 0);
-  CHECK(low == -1);    // the first joint: [-1, 2]; the second: [-2, 1], swapped by its ratio
+  CHECK(low == -1);  // the first joint: [-1, 2]; the second: [-2, 1], swapped by its ratio
   CHECK(high == 1);
   CHECK(dof_range(two_joints(), 5) == std::array<double, 2>{0, 0});
 }
@@ -52,19 +57,32 @@ TEST_CASE("what is out of order in a robot is told by place") {
     CHECK_THROWS_WITH_AS(check_robot(robot), sentence, Error);
   };
   CHECK_NOTHROW(check_robot(two_joints()));
-  refused([](RobotSpec& r) { r.chains[0].joints[1].dof = 1; }, "arm: chain 0 joint 1: wanted a DOF from 0 to 0, got 1");
-  refused([](RobotSpec& r) { r.chains[0].joints[1].dof = -1; }, "arm: chain 0 joint 1: wanted a DOF from 0 to 0, got -1");
-  refused([](RobotSpec& r) { r.chains[0].joints[0].ratio = 0; }, "arm: chain 0 joint 0: wanted a ratio other than 0, got 0");
-  refused([](RobotSpec& r) { r.chains[0].joints[0].a = NAN; }, "arm: chain 0 joint 0: wanted finite numbers, got nan");
-  refused([](RobotSpec& r) { r.chains[0].joints[0].min = 3; }, "arm: chain 0 joint 0: min 3 exceeds max 2 [rad]");
-  refused([](RobotSpec& r) { r.chains[0].joints[0].kind = JointKind::prismatic, r.chains[0].joints[0].min = 3; },
-          "arm: chain 0 joint 0: min 3 exceeds max 2 [m]");
-  refused([](RobotSpec& r) { r.chains[0].joints[0].spring = -1; }, "arm: chain 0 joint 0: friction and spring must be >= 0, got -1");
-  refused([](RobotSpec& r) { r.chains[0].links[0].last_joint = 2; }, "arm: chain 0 link 0: wanted a last joint from -1 to 1, got 2");
-  refused([](RobotSpec& r) { r.chains[0].X_BC.position.x() = INFINITY; }, "arm: chain 0: wanted a finite pose of its base");
+  refused([](RobotSpec& r) { r.chains[0].joints[1].dof = 1; },
+          "arm: chain 0 joint 1: wanted a DOF from 0 to 0, got 1");
+  refused([](RobotSpec& r) { r.chains[0].joints[1].dof = -1; },
+          "arm: chain 0 joint 1: wanted a DOF from 0 to 0, got -1");
+  refused([](RobotSpec& r) { r.chains[0].joints[0].ratio = 0; },
+          "arm: chain 0 joint 0: wanted a ratio other than 0, got 0");
+  refused([](RobotSpec& r) { r.chains[0].joints[0].a = NAN; },
+          "arm: chain 0 joint 0: wanted finite numbers, got nan");
+  refused([](RobotSpec& r) { r.chains[0].joints[0].min = 3; },
+          "arm: chain 0 joint 0: min 3 exceeds max 2 [rad]");
+  refused(
+      [](RobotSpec& r) {
+        r.chains[0].joints[0].kind = JointKind::prismatic, r.chains[0].joints[0].min = 3;
+      },
+      "arm: chain 0 joint 0: min 3 exceeds max 2 [m]");
+  refused([](RobotSpec& r) { r.chains[0].joints[0].spring = -1; },
+          "arm: chain 0 joint 0: friction and spring must be >= 0, got -1");
+  refused([](RobotSpec& r) { r.chains[0].links[0].last_joint = 2; },
+          "arm: chain 0 link 0: wanted a last joint from -1 to 1, got 2");
+  refused([](RobotSpec& r) { r.chains[0].X_BC.position.x() = INFINITY; },
+          "arm: chain 0: wanted a finite pose of its base");
   refused([](RobotSpec& r) { r.dofs[0].kp = NAN; }, "arm: DOF 0: wanted finite numbers, got nan");
-  refused([](RobotSpec& r) { r.dofs[0].max_effort = -1; }, "arm: DOF 0: max effort must be >= 0, got -1");
-  refused([](RobotSpec& r) { r.dofs[0].breakaway_torque = -1; }, "arm: DOF 0: breakaway torque must be >= 0, got -1");
+  refused([](RobotSpec& r) { r.dofs[0].max_effort = -1; },
+          "arm: DOF 0: max effort must be >= 0, got -1");
+  refused([](RobotSpec& r) { r.dofs[0].breakaway_torque = -1; },
+          "arm: DOF 0: breakaway torque must be >= 0, got -1");
   refused([](RobotSpec& r) { r.chains[0].joints[1].min = 0.9, r.chains[0].joints[0].min = 1.5; },
           "arm: DOF 0: the ranges of its joints have no value in common");
 }
