@@ -1,5 +1,5 @@
-// Text files taken apart: lines, words, and numbers that are numbers. Whatever is wrong is told with
-// the place "file:line", what was wanted and what was got.
+// Text files taken apart: lines, words, and numbers that are numbers. Whatever is wrong is told
+// with the place "file:line", what was wanted and what was got.
 #pragma once
 #include <filesystem>
 #include <initializer_list>
@@ -25,7 +25,8 @@ std::string_view trim(std::string_view text);
 std::string lower_case(std::string_view text);
 /// Words between white space and any of `separators`.
 std::vector<std::string_view> split_words(std::string_view text, std::string_view separators = "");
-/// A word for an error: in quotes, cut when long, unprintable characters as '?'; "nothing" when empty.
+/// A word for an error: in quotes, cut when long, unprintable characters as '?'; "nothing" when
+/// empty.
 std::string in_quotes(std::string_view text);
 
 /// A line and where it stands. The text belongs to the LineReader that gave it.

@@ -59,7 +59,8 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
   if (slashed.find('\0') != std::string::npos || slashed.size() > 4096)
     fail("no such file: {}", in_quotes(name));
 
-  // beside the referrer, below the root, below the referrer's parent folder; where we stand for the user's own
+  // beside the referrer, below the root, below the referrer's parent folder; where we stand for the
+  // user's own
   std::vector<fs::path> places;
   if (wanted.is_absolute())
     places = {wanted};

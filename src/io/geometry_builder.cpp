@@ -21,8 +21,9 @@ void GeometryBuilder::add(const std::array<Eigen::Vector3d, 3>& corners,
   weight_ += area;
 }
 
-/// Seams of round shapes end in points that differ in their last bits: joins them where that mends edges.
-/// The tolerance is a few units in the last place of the 32-bit numbers that the points were.
+/// Seams of round shapes end in points that differ in their last bits: joins them where that mends
+/// edges. The tolerance is a few units in the last place of the 32-bit numbers that the points
+/// were.
 static Mesh weld_seams(const Mesh& loose) {
   Mesh exact = weld(loose);
   const int open_edges = find_faults(exact).open_edges;

@@ -15,8 +15,8 @@ class GeometryBuilder {
   void add(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3f& color,
            float transparency);
   size_t triangle_count() const { return mesh_.triangles.size(); }
-  /// Colours are kept one a triangle when they differ. A closed mesh that is inside out is turned, with a warning.
-  /// `colors_given`: do the colours come from the file?
+  /// Colours are kept one a triangle when they differ. A closed mesh that is inside out is turned,
+  /// with a warning. `colors_given`: do the colours come from the file?
   Geometry finish(bool colors_given, const std::string& subject, const ReadOptions& options);
 
  private:

@@ -6,10 +6,11 @@
 
 namespace clench {
 
-/// Triangles of the file and of those it includes; coordinates count as millimetres. Lines, points and
-/// text have none. `text` is what the file holds, its lines ended by '\n'.
-/// A file of frames only gives an empty mesh.
-/// throws Error  "box.iv:31: ..." when the file or one that it includes is malformed, missing or includes itself
+/// Triangles of the file and of those it includes; coordinates count as millimetres. Lines, points
+/// and text have none. `text` is what the file holds, its lines ended by '\n'. A file of frames
+/// only gives an empty mesh.
+/// throws Error  "box.iv:31: ..." when the file or one that it includes is malformed, missing or
+/// includes itself
 Geometry read_inventor(const std::filesystem::path& path, const std::string& text,
                        const ReadOptions& options);
 

@@ -1,5 +1,5 @@
-// Faces of the Inventor and VRML shapes that list their points. Coin only parses them: its own triangles
-// come from code that trusts every index of a file. Included by the inventor files only.
+// Faces of the Inventor and VRML shapes that list their points. Coin only parses them: its own
+// triangles come from code that trusts every index of a file. Included by the inventor files only.
 #pragma once
 #include <Inventor/actions/SoCallbackAction.h>
 #include <Inventor/nodes/SoNode.h>

@@ -1,5 +1,5 @@
-// The text of an Inventor or VRML file, looked through before the reader library sees it: the library
-// trusts its input further than we do.
+// The text of an Inventor or VRML file, looked through before the reader library sees it: the
+// library trusts its input further than we do.
 #pragma once
 #include <functional>
 #include <string>
@@ -26,7 +26,8 @@ std::string include_key(int number);
 
 enum class NodeType { known, idle, unknown };  ///< idle: without effect on triangles and colours
 
-/// Checks header, brackets, strings and names; cuts out nodes that are idle or of unknown type, and routes.
+/// Checks header, brackets, strings and names; cuts out nodes that are idle or of unknown type, and
+/// routes.
 /// `file` is the name shown in errors, `node_type` tells what the library knows by a name.
 /// throws Error  "box.iv:31: '}' missing for 'Separator' of line 4", and so on
 InventorText scan_inventor(const std::string& text, const std::string& file,

@@ -5,7 +5,8 @@
 
 namespace clench {
 
-/// joint value = ratio * DOF, and a constant offset of its Denavit-Hartenberg variable, as written (degrees or mm).
+/// joint value = ratio * DOF, and a constant offset of its Denavit-Hartenberg variable, as written
+/// (degrees or mm).
 struct JointExpression {
   int dof = 0;
   double ratio = 1;

@@ -6,7 +6,8 @@
 
 namespace clench {
 
-/// Bodies and robots by the file they stand in. Lives as long as one call of read_robot or read_world.
+/// Bodies and robots by the file they stand in. Lives as long as one call of read_robot or
+/// read_world.
 class Library {
  public:
   explicit Library(const ReadOptions& options) : options_(options) {}

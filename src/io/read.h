@@ -16,7 +16,7 @@ struct ReadOptions {
   double mesh_scale = 1;  ///< .obj .stl: length of the file's unit, > 0 [m]
 };
 
-/// A body from .iv .wrl .obj .stl (any case). A mesh file in other units than its format's: see docs/formats.
+/// A body from .iv .wrl (millimetres), .obj .stl (metres, or mesh_scale), in any case.
 /// throws Error  "flask.iv:31: ..." one sentence: place, subject, wanted, got
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options = {});
 
@@ -26,8 +26,9 @@ RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& optio
 /// A world from .wld.
 WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Where `name`, as written in `referrer` (empty: given by the user), is found: beside the referrer, below the
-/// root, below the referrer's parent folder. Back-slashes count as slashes, and a name that differs only in case is found.
+/// Where `name`, as written in `referrer` (empty: given by the user), is found: beside the
+/// referrer, below the root, below the referrer's parent folder. Back-slashes count as slashes, and
+/// a name that differs only in case is found.
 /// throws Error  "no such file: flsk.iv; did you mean 'flask.iv'?"
 std::filesystem::path find_file(const std::string& name, const std::filesystem::path& referrer,
                                 const ReadOptions& options);

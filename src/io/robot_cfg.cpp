@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 constexpr int most =
     1000;  // DOFs, chains, joints, links: far above any hand, far below what fills the memory
 
-/// Numbers of a DOF line as written; their units depend on the kind of its joints, which come later.
+/// Numbers of a DOF line as written; their units depend on the kind of its joints, which come
+/// later.
 struct DofLine {
   Line line;
   DofKind kind = DofKind::rigid;

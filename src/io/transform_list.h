@@ -12,8 +12,8 @@ bool begins_transform(const Line& line);
 /// throws Error with the line's place when it is anything else, or the quaternion is zero
 Pose read_full_transform(const Line& line, std::string_view text);
 
-/// One entry of a list: `t x y z` [mm], `r degrees axis`, `rr radians axis`, `T (w x y z)[x y z]`, or `R` and
-/// nine numbers, the images of the axes, on this line and the next ones.
+/// One entry of a list: `t x y z` [mm], `r degrees axis`, `rr radians axis`, `T (w x y z)[x y z]`,
+/// or `R` and nine numbers, the images of the axes, on this line and the next ones.
 Pose read_transform(const Line& line, LineReader& lines);
 
 /// Entries up to the first line that is none, composed left to right; identity when there are none.

@@ -5,9 +5,10 @@
 
 namespace clench {
 
-/// `<transform> <fullTransform>(w x y z)[x y z]</fullTransform> ... </transform>`, or one of the inner elements alone:
-/// translation "x y z" [mm], rotation "degrees axis", rotationMatrix (9 numbers), fullTransform. Composed left to right.
-/// `line` is the first line; reads on to the closing tag.
+/// `<transform> <fullTransform>(w x y z)[x y z]</fullTransform> ... </transform>`, or one of the
+/// inner elements alone: translation "x y z" [mm], rotation "degrees axis", rotationMatrix (9
+/// numbers), fullTransform. Composed left to right. `line` is the first line; reads on to the
+/// closing tag.
 Pose read_tagged_transform(const Line& line, LineReader& lines);
 
 }  // namespace clench

@@ -15,7 +15,8 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The polygon seen along its normal, counter-clockwise.   source  Newell (1974), normal of a polygon
+/// The polygon seen along its normal, counter-clockwise.   source  Newell (1974), normal of a
+/// polygon
 Points flatten(const std::vector<Eigen::Vector3d>& corners) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   const Eigen::Vector3d& origin = corners.front();

@@ -1,4 +1,5 @@
-// Files cut short anywhere and files with bytes changed at random: a spec or an Error, never a crash or a hang.
+// Files cut short anywhere and files with bytes changed at random: a spec or an Error, never a
+// crash or a hang.
 #include "base/error.h"
 #include "base/random.h"
 #include "base/text.h"

@@ -1,4 +1,5 @@
-// The text models of the original, where they are at hand, against what the original measured on them.
+// The text models of the original, where they are at hand, against what the original measured on
+// them.
 #include <algorithm>
 #include <fstream>
 #include <map>
@@ -102,8 +103,8 @@ TEST_CASE("triangles, bounds, area, mass and material are those of the original"
     const BodySpec body = read_body(text_file(file));
     REQUIRE(body.shape);
     CHECK(body.shape->mesh().triangles.size() == measured.at("triangles").get<size_t>());
-    // the original multiplies 32-bit coordinates by matrices of doubles or of 32 bits: a unit in the last place
-    // of a table's 1300 mm is 1e-4 mm
+    // the original multiplies 32-bit coordinates by matrices of doubles or of 32 bits: a unit in
+    // the last place of a table's 1300 mm is 1e-4 mm
     const double size = body.shape->bounds().high.cwiseAbs().maxCoeff() * 1000;
     const double rounding =
         1e-9 + 2.5e-7 * std::max(size, body.shape->bounds().low.cwiseAbs().maxCoeff() * 1000);
