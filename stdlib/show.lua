@@ -11,7 +11,7 @@ local function text_of(value)
   return ok and text or format("<%s whose text fails: %s>", type(value), text)
 end
 
--- numbers before strings before the rest
+-- by type, then by value
 local function before(a, b)
   local ta, tb = type(a), type(b)
   if ta ~= tb then return ta < tb end

@@ -1,11 +1,13 @@
 #include "app/line.h"
 
 #include <histedit.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <clocale>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cwchar>
@@ -75,6 +77,27 @@ static unsigned char complete_word(EditLine* edit, int) {
   return CC_REDISPLAY;
 }
 
+// a byte of the terminal: 1, its end: 0, Ctrl-C or a failure: -1
+static int read_byte(char& byte, bool& interrupted) {
+  // the signal is let in while poll waits and at no other time, so that none comes unnoticed just before
+  sigset_t only, before;
+  sigemptyset(&only);
+  sigaddset(&only, SIGINT);
+  sigprocmask(SIG_BLOCK, &only, &before);
+  int count = -1;
+  for (;;) {
+    interrupted = take_interrupt();
+    if (interrupted) break;
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    const int ready = ppoll(&input, 1, nullptr, &before);
+    if (ready < 0 && errno == EINTR) continue;
+    count = static_cast<int>(::read(STDIN_FILENO, &byte, 1));
+    if (count >= 0 || errno != EINTR) break;
+  }
+  sigprocmask(SIG_SETMASK, &before, nullptr);
+  return count;
+}
+
 // one character from the terminal; Ctrl-C ends the waiting
 template <class Terminal>
 static int read_character(EditLine* edit, wchar_t* out) {
@@ -82,14 +105,8 @@ static int read_character(EditLine* edit, wchar_t* out) {
   std::mbstate_t partial = {};
   for (;;) {
     char byte = 0;
-    const auto count = ::read(STDIN_FILENO, &byte, 1);
-    if (count == 0) return 0;
-    if (count < 0) {
-      if (errno != EINTR) return -1;
-      if (!take_interrupt()) continue;
-      terminal->interrupted = true;
-      return -1;
-    }
+    const int count = read_byte(byte, terminal->interrupted);
+    if (count <= 0) return count;
     const size_t used = std::mbrtowc(out, &byte, 1, &partial);
     if (used == static_cast<size_t>(-2)) continue;  // the beginning of a character
     if (used == static_cast<size_t>(-1)) partial = {}, *out = L'?';
@@ -130,6 +147,8 @@ LineEditor::Key LineEditor::read(const std::string& prompt, std::string& line) {
   t.prompt = prompt;
   t.interrupted = false;
   take_interrupt();
+  // before the prompt shows, or a key pressed right then goes by the terminal's own rules
+  el_set(t.edit, EL_PREP_TERM, 1);
   int count = 0;
   const char* text = el_gets(t.edit, &count);
   if (t.interrupted) {

@@ -28,7 +28,8 @@ end
 
 local function name_of(value)
   local meta = getmetatable(value)
-  return type(meta) == "table" and rawget(meta, "__name") or nil, meta
+  local name = type(meta) == "table" and rawget(meta, "__name")
+  return type(name) == "string" and name or nil, type(meta) == "table" and meta or nil
 end
 
 -- visits a class's fields and methods, its parents' too

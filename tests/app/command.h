@@ -1,0 +1,135 @@
+// Runs the command as a user does, without and with a terminal.
+#pragma once
+#include <doctest/doctest.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace clench::test {
+
+namespace fs = std::filesystem;
+
+/// A folder of one's own, gone afterwards.
+class Folder {
+ public:
+  Folder() {
+    char name[] = "/tmp/clench_app_XXXXXX";
+    path_ = mkdtemp(name);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  /// writes a file, returns its path
+  std::string file(const std::string& name, const std::string& text) const {
+    fs::create_directories((path_ / name).parent_path());
+    std::ofstream(path_ / name) << text;
+    return (path_ / name).string();
+  }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+struct Outcome {
+  int code = -1;
+  std::string out;  ///< stdout and stderr
+};
+
+/// Runs `clench <arguments>` in a shell, with a text as its input.
+inline Outcome run(const std::string& arguments, const std::string& input = "") {
+  const Folder folder;
+  const std::string in = folder.file("input", input);
+  FILE* pipe =
+      popen((std::string(CLENCH_COMMAND) + " " + arguments + " 2>&1 < " + in).c_str(), "r");
+  Outcome outcome;
+  char buffer[4096];
+  while (const size_t count = fread(buffer, 1, sizeof buffer, pipe))
+    outcome.out.append(buffer, count);
+  const int status = pclose(pipe);
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  return outcome;
+}
+
+/// `clench <arguments>` on a terminal, with a home of its own.
+class Terminal {
+ public:
+  explicit Terminal(const Folder& home, const std::string& verb = "repl") {
+    pid_ = forkpty(&fd_, nullptr, nullptr, nullptr);
+    if (pid_ != 0) return;
+    setenv("HOME", (home / ".").c_str(), 1);
+    setenv("TERM", "xterm", 1);
+    unsetenv("XDG_STATE_HOME");
+    execl(CLENCH_COMMAND, "clench", verb.c_str(), nullptr);
+    _exit(127);
+  }
+  ~Terminal() {
+    if (pid_ > 0) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
+    close(fd_);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  void type(const std::string& keys) {
+    REQUIRE(write(fd_, keys.data(), keys.size()) == static_cast<ssize_t>(keys.size()));
+  }
+
+  /// Types a line and waits until it is taken: what is typed while a chunk runs may be lost.
+  void enter(const std::string& line) {
+    type(line + "\n");
+    wait_for("\r\n");
+  }
+
+  /// Reads until the text appears; what was read before counts no more.   returns what was read, or fails the test
+  std::string wait_for(const std::string& text) {
+    for (;;) {
+      const size_t at = rest_.find(text);
+      if (at != std::string::npos) {
+        const std::string seen = rest_.substr(0, at + text.size());
+        rest_.erase(0, at + text.size());
+        return seen;
+      }
+      if (!read_some()) FAIL("waited for '", text, "', saw: ", rest_);
+    }
+  }
+
+  /// The exit code, once the process ends.
+  int wait_for_end() {
+    while (read_some()) {
+    }
+    int status = 0;
+    kill(pid_, ended_ ? 0 : SIGKILL);
+    waitpid(pid_, &status, 0);
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  }
+
+ private:
+  // false when the process has ended, or says nothing for long
+  bool read_some() {
+    pollfd waiting{fd_, POLLIN, 0};
+    if (poll(&waiting, 1, 20000) <= 0) return false;
+    char buffer[1024];
+    const ssize_t count = ::read(fd_, buffer, sizeof buffer);
+    ended_ = count <= 0;
+    if (!ended_) rest_.append(buffer, static_cast<size_t>(count));
+    return !ended_;
+  }
+
+  int fd_ = -1;
+  pid_t pid_ = -1;
+  bool ended_ = false;
+  std::string rest_;
+};
+
+}  // namespace clench::test

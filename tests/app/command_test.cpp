@@ -1,0 +1,135 @@
+#include "command.h"
+
+using clench::test::Folder;
+using clench::test::run;
+
+static bool has(const std::string& text, const std::string& part) {
+  const bool found = text.find(part) != std::string::npos;
+  if (!found) MESSAGE("wanted '", part, "' in: ", text.substr(0, 1000));
+  return found;
+}
+
+TEST_CASE("run gives a script its arguments, whatever they look like") {
+  const Folder folder;
+  const auto script =
+      folder.file("a.lua", "print(arg[0] == ..., #arg, select(2, ...))  print(arg[0])");
+  const auto result = run("run " + script + " " + script + " --help -q -- -e x");
+  CHECK(result.code == 0);
+  CHECK(has(result.out, "true\t6\t--help\t-q\t--\t-e\tx\n" + script));
+}
+
+TEST_CASE(
+    "run ends with 0 when the script does, 1 with a traceback when it fails, its own code when it "
+    "exits") {
+  const Folder folder;
+  CHECK(run("run " + folder.file("ok.lua", "local x = 1")).code == 0);
+  const auto failed =
+      run("run " + folder.file("bad.lua", "local function f()\n  error 'no'\nend\nf()"));
+  CHECK(failed.code == 1);
+  CHECK(has(failed.out, "bad.lua:2: no\nstack traceback:"));
+  CHECK(has(failed.out, "bad.lua:4: in main chunk"));
+  CHECK(run("run " + folder.file("exit.lua", "os.exit(7)")).code == 7);
+  CHECK(run("run " + folder.file("close.lua", "os.exit(true, true)")).code == 0);
+  CHECK(run("run " + folder.file("syntax.lua", "x = = 1")).code == 1);
+  const auto missing = run("run no_such.lua");
+  CHECK(missing.code == 1);
+  CHECK(has(missing.out, "cannot open no_such.lua"));
+}
+
+TEST_CASE("run reads a script from stdin") {
+  const auto result = run("run - a b", "print('in', ...)");
+  CHECK(result.code == 0);
+  CHECK(result.out == "in\ta\tb\n");
+}
+
+TEST_CASE("output before an error comes before the error") {
+  const auto result = run("-e 'print(1) error(\"x\", 0)'");
+  CHECK(has(result.out, "1\nclench: x\n"));
+}
+
+TEST_CASE("-e runs code in order and stops at an error") {
+  const auto result = run("-e 'x = 1' -e 'print(x, clench.version)'");
+  CHECK(result.code == 0);
+  CHECK(has(result.out, "1\t0."));
+  const auto failed = run("-e 'error{code = 3}' -e 'print(\"not reached\")'");
+  CHECK(failed.code == 1);
+  CHECK(has(failed.out, "error object is the table {code = 3}"));
+  CHECK(failed.out.find("not reached") == std::string::npos);
+}
+
+TEST_CASE("wrong usage is code 2, and help is code 0 with examples") {
+  CHECK(run("frob").code == 2);
+  CHECK(run("run").code == 2);
+  CHECK(run("test").code == 2);
+  CHECK(run("--frob").code == 2);
+  CHECK(run("-e").code == 2);
+  CHECK(run("doc --chekc").code == 2);
+  for (const std::string verb : {"", "run ", "repl ", "test ", "doc "}) {
+    const auto help = run(verb + "--help");
+    CHECK(help.code == 0);
+    CHECK(has(help.out, "clench " + verb));
+    CHECK(has(help.out, "Example"));
+  }
+  CHECK(has(run("--version").out, "clench 0."));
+  // no arguments and no terminal
+  CHECK(has(run("").out, "Usage: clench"));
+}
+
+TEST_CASE("quiet keeps warnings and finalizers' errors to itself") {
+  const std::string code =
+      "-e 'clench.log.warning(\"careful\") setmetatable({}, {__gc = function() error(\"gc\") end}) "
+      "collectgarbage()'";
+  const auto loud = run(code);
+  CHECK(has(loud.out, "clench: warning: careful\n"));
+  CHECK(has(loud.out, "gc"));
+  CHECK(run("-q " + code).out == "");
+}
+
+TEST_CASE("test runs every file, sorted, each for itself, and counts") {
+  const Folder folder;
+  folder.file(
+      "b_test.lua",
+      "local test = require 'test' assert(leak == nil) test('b', function(t) t.equal(1, 1) end)");
+  folder.file("sub/a_test.lua",
+              "test = require 'test' leak = 1 test('a', function(t) t.close(1, 1.1, 0.2) end)\n"
+              "test('later', function(t) t.skip 'no data' end)");
+  folder.file("not_a_test.txt", "rubbish");
+  auto result = run("test " + (folder / "."));
+  CHECK(result.code == 0);
+  CHECK(has(result.out, "skipped  later: no data"));
+  CHECK(has(result.out, "\n2 passed, 0 failed, 1 skipped\n"));
+  CHECK(result.out.find("b_test.lua") < result.out.find("a_test.lua"));
+
+  folder.file("c_test.lua",
+              "local test = require 'test'\ntest('c holds', function(t)\n  t.equal(1, 2)\nend)");
+  folder.file("d_test.lua", "x = = 1");
+  folder.file("e_test.lua", "error 'outside'");
+  result = run("test " + (folder / "."));
+  CHECK(result.code == 1);
+  CHECK(has(result.out, "FAILED   c holds"));
+  CHECK(has(result.out, "c_test.lua:3: wanted 2, got 1"));
+  CHECK(has(result.out, "d_test.lua: the file itself"));
+  CHECK(has(result.out, "outside"));
+  CHECK(result.out.ends_with("2 passed, 3 failed, 1 skipped\n"));
+
+  CHECK(run("test " + (folder / "b_test.lua")).code == 0);
+  const auto none = run("test " + (folder / "nowhere"));
+  CHECK(none.code == 1);
+  CHECK(has(none.out, "no *_test.lua in"));
+}
+
+TEST_CASE("doc writes pages, and --check finds one that is not what the bindings say") {
+  const Folder folder;
+  const std::string pages = folder / "api";
+  CHECK(run("doc " + pages + " --check").code == 1);
+  CHECK(run("doc " + pages).code == 0);
+  CHECK(run("doc " + pages + " --check").code == 0);
+  folder.file("api/pose.md", "# something else");
+  const auto check = run("doc " + pages + " --check");
+  CHECK(check.code == 1);
+  CHECK(has(check.out, "pose.md is not what the bindings say; run clench doc"));
+  // the stub is Lua
+  CHECK(run("run " + pages + "/clench.lua").code == 0);
+  const std::string file = folder.file("file", "x");
+  CHECK(has(run("doc " + file).out, "cannot be written"));
+}

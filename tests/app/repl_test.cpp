@@ -1,0 +1,136 @@
+#include "command.h"
+
+using clench::test::Folder;
+using clench::test::run;
+using clench::test::Terminal;
+namespace fs = std::filesystem;
+
+TEST_CASE("piped lines are run one chunk at a time; an error leaves the session alive") {
+  const auto result = run("repl",
+                          "x = 3\n=x\nx + 1\nfunction f()\n  return clench.vec3(1, 2, 3), {a = "
+                          "1}\nend\nf()\nerror 'no'\n"
+                          "nil\nprint()\nx = = 1\n\"last\"");
+  CHECK(result.code == 0);
+  CHECK(result.out.find("3\n4\n(1, 2, 3)\t{a = 1}\n") == 0);
+  CHECK(result.out.find("input:1: no\nstack traceback:") != std::string::npos);
+  CHECK(result.out.find("unexpected symbol near '='") != std::string::npos);
+  CHECK(result.out.find("nil\n\n") != std::string::npos);
+  CHECK(result.out.ends_with("last\n"));
+}
+
+TEST_CASE("an input that ends inside a chunk says so") {
+  const auto result = run("repl", "for i = 1, 2 do\n");
+  CHECK(result.code == 1);
+  CHECK(result.out == "clench repl: the input ended inside a chunk\n");
+}
+
+TEST_CASE("-i runs a file, then the console, also when the file failed") {
+  const Folder folder;
+  CHECK(run("-i " + folder.file("a.lua", "y = 5"), "=y\n").out == "5\n");
+  const auto failed = run("-i " + folder.file("b.lua", "y = 6 error('no', 0)"), "=y\n");
+  CHECK(failed.out.find("clench: no\n") == 0);
+  CHECK(failed.out.ends_with("6\n"));
+}
+
+TEST_CASE("help explains functions, values and names") {
+  const auto out = run("repl",
+                       "help(clench.rad)\nhelp(clench.pose{})\nhelp "
+                       "'inverse'\nhelp(clench.json)\nhelp()\nhelp(5)\n")
+                       .out;
+  for (const char* part : {"clench.rad(degrees)\n  Degrees to radians.", "pose: A rigid transform",
+                           ".position", "pose:inverse()", "clench.json.encode",
+                           "help(x) explains a value", "nothing is known of 5"})
+    CHECK_MESSAGE(out.find(part) != std::string::npos, part);
+}
+
+TEST_CASE("on a terminal: results, errors, unfinished lines, Ctrl-D") {
+  const Folder home;
+  Terminal terminal(home);
+  terminal.wait_for("> ");
+  terminal.enter("6 * 7");
+  terminal.wait_for("42");
+  terminal.enter("error 'no'");
+  terminal.wait_for("stack traceback");
+  terminal.wait_for("> ");
+  terminal.enter("for i = 1, 2 do");
+  terminal.wait_for(">> ");
+  terminal.enter("print('turn ' .. i) end");
+  terminal.wait_for("turn 2");
+  terminal.wait_for("> ");
+  terminal.type("\x04");
+  CHECK(terminal.wait_for_end() == 0);
+}
+
+TEST_CASE("Tab completes globals, fields and methods, and lists what is ambiguous") {
+  const Folder home;
+  Terminal terminal(home);
+  terminal.wait_for("> ");
+  terminal.enter("clench.ver\t");
+  terminal.wait_for("0.");
+  terminal.wait_for("> ");
+  terminal.enter("v = clench.vec3(3, 4, 0)");
+  terminal.wait_for("> ");
+  terminal.enter("v:n\t()");
+  terminal.wait_for("5.0");
+  terminal.wait_for("> ");
+  terminal.type("v:\t");
+  terminal.wait_for("cross");
+  terminal.wait_for("unit");
+  terminal.enter("dot{1, 1, 1}");
+  terminal.wait_for("7.0");
+}
+
+TEST_CASE("Ctrl-C interrupts a running chunk, and clears a half-typed line") {
+  const Folder home;
+  Terminal terminal(home);
+  terminal.wait_for("> ");
+  terminal.enter("print 'running' while true do end");
+  terminal.wait_for("running\r\n");
+  terminal.type("\x03");
+  terminal.wait_for("interrupted");
+  terminal.wait_for("> ");
+  terminal.type("this is no Lua");
+  terminal.wait_for("Lua");
+  terminal.type("\x03");
+  terminal.wait_for("^C");
+  terminal.wait_for("> ");
+  terminal.enter("f = function()");
+  terminal.wait_for(">> ");
+  terminal.type("\x03");
+  terminal.wait_for("> ");
+  terminal.enter("'still ' .. 'here'");
+  terminal.wait_for("still here");
+}
+
+TEST_CASE("history outlives the session, and a chunk of several lines is one entry") {
+  const Folder home;
+  {
+    Terminal terminal(home);
+    terminal.wait_for("> ");
+    terminal.enter("x = 11");
+    terminal.wait_for("> ");
+    terminal.enter("x = x * 2");
+    terminal.wait_for("> ");
+    terminal.type("\x04");
+    terminal.wait_for_end();
+  }
+  CHECK(fs::exists(home / ".clench_history"));
+  Terminal terminal(home);
+  terminal.wait_for("> ");
+  terminal.enter("x = 1");
+  terminal.wait_for("> ");
+  // two up: past x = 1
+  terminal.enter("\x1b[A\x1b[A");
+  terminal.wait_for("> ");
+  terminal.enter("'x is ' .. x");
+  terminal.wait_for("x is 2");
+}
+
+TEST_CASE("no arguments on a terminal open the console") {
+  const Folder home;
+  Terminal terminal(home, "-q");
+  terminal.wait_for("Ctrl-D leaves");
+  terminal.wait_for("> ");
+  terminal.enter("print(clench ~= nil)");
+  terminal.wait_for("true");
+}

@@ -1,0 +1,61 @@
+// Uses the engine as a library, and lends it a Lua state.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <lua.hpp>
+
+#include "base/error.h"
+#include "base/suggest.h"
+#include "math/pose.h"
+#include "model/world.h"
+#include "script/open.h"
+
+static void require(bool ok, const char* claim) {
+  if (ok) return;
+  std::printf("failed: %s\n", claim);
+  std::exit(1);
+}
+
+static void use_engine() {
+  const auto turn = clench::Pose::turn(0.5, Eigen::Vector3d::UnitZ());
+  require(std::abs((turn.inverse() * turn).angle()) < 1e-15, "a pose and its inverse cancel");
+  require(clench::did_you_mean("flsk", {"flask"}) == "; did you mean 'flask'?",
+          "names are suggested");
+  clench::World world;
+  try {
+    world.set_contact_threshold(-1);
+    require(false, "a negative threshold is refused");
+  } catch (const clench::Error& e) {
+    require(std::strstr(e.what(), "-1"), "the refusal says what it got");
+  }
+}
+
+// the state is the host's: its own globals, libraries and functions stay as they are
+static void lend_lua() {
+  lua_State* L = luaL_newstate();
+  luaL_openlibs(L);
+  luaL_requiref(L, "clench", clench_open, 0);
+  lua_pop(L, 1);
+  const char* script = R"(
+    assert(_G.clench == nil)
+    local clench = require "clench"
+    assert((clench.pose{xyz = {1, 2, 3}} * {1, 1, 1}).z == 4)
+    for _ = 1, 1000 do
+      local ok, message = pcall(clench.pose, {xzy = {1, 2, 3}})
+      assert(not ok and message:find("did you mean 'xyz'?", 1, true))
+    end
+    assert(#clench.shapes.sphere{1, subdivisions = 0}.triangles == 20)
+    return clench.version)";
+  const bool ok = luaL_dostring(L, script) == LUA_OK;
+  if (!ok) std::printf("%s\n", lua_tostring(L, -1));
+  require(ok && lua_isstring(L, -1), "a script runs in the host's Lua");
+  lua_close(L);
+}
+
+int main() {
+  use_engine();
+  lend_lua();
+  lend_lua();  // a second state starts afresh
+  std::puts("the host is content");
+}

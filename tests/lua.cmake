@@ -1,0 +1,56 @@
+# The Lua layer and the command: in both builds of Lua, as a module, in a C++ host; and the tests written in Lua.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(LUA_CXX REQUIRED IMPORTED_TARGET lua5.4-c++)
+pkg_check_modules(LUA_C REQUIRED IMPORTED_TARGET lua5.4)
+
+function(lua_test name)
+  add_test(NAME "${name}" COMMAND ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  if(CLENCH_SANITIZE)
+    set_tests_properties("${name}" PROPERTIES ENVIRONMENT "${SANITIZER_OPTIONS}")
+  endif()
+endfunction()
+
+# the same claims with a Lua that throws and one that jumps
+file(GLOB script_sources CONFIGURE_DEPENDS script/*_test.cpp)
+foreach(kind CXX C)
+  string(TOLOWER test_script_${kind} target)
+  add_executable(${target} ${script_sources} support/main.cpp)
+  target_link_libraries(${target} PRIVATE clench_script PkgConfig::LUA_${kind})
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_precompile_headers(${target} PRIVATE support/pch.h)
+  if(CLENCH_SANITIZE)
+    lua_test(${target} ${target})
+  else()
+    doctest_discover_tests(${target} TEST_PREFIX "script, Lua as ${kind}: " WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  endif()
+endforeach()
+
+file(GLOB app_sources CONFIGURE_DEPENDS app/*_test.cpp)
+add_executable(test_app ${app_sources} support/main.cpp)
+target_compile_features(test_app PRIVATE cxx_std_20)
+target_compile_definitions(test_app PRIVATE CLENCH_COMMAND="$<TARGET_FILE:clench_app>")
+target_include_directories(test_app PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+add_dependencies(test_app clench_app)
+if(CLENCH_SANITIZE)
+  lua_test(test_app test_app)
+else()
+  doctest_discover_tests(test_app TEST_PREFIX "app: " WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+endif()
+
+file(GLOB_RECURSE lua_files RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS lua/*_test.lua)
+foreach(path ${lua_files})
+  lua_test("${path}" clench_app test ${path})
+endforeach()
+
+if(NOT CLENCH_SANITIZE)
+  lua_test("docs/api is what the bindings say" clench_app doc docs/api --check)
+
+  lua_test("stock Lua loads the module" ${CMAKE_COMMAND} -E env "LUA_CPATH=$<TARGET_FILE_DIR:clench_module>/?.so"
+           ${LUA54} tests/embed/stock_lua.lua)
+
+  # a project of its own finds the package, lends its Lua, and runs
+  lua_test("a C++ host builds and runs with the package"
+           ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/embed ${CMAKE_CURRENT_BINARY_DIR}/embed
+           --build-generator ${CMAKE_GENERATOR} --build-options -Dclench_DIR=${PROJECT_BINARY_DIR}
+           -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
+endif()

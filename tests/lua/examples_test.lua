@@ -1,0 +1,81 @@
+-- Every binding is documented, and every example on its page runs and prints what the page says.
+local test, doc, show = require "test", require "clench.host.doc", require "clench.show"
+
+-- worlds/dlr_flask.wld with the hand closed on the flask; made once, cloned for each entry that asks
+local stage
+local function prepared()
+  if not stage then
+    stage = clench.load "worlds/dlr_flask.wld"
+    stage.robots[1]:autograsp()
+  end
+  local world = stage:clone()
+  return {world = world, hand = world.robots[1], flask = world.objects[1],
+          grasp = clench.grasp(world.robots[1], world.objects[1])}
+end
+
+-- what an entry's examples see: the globals, and the stage when they ask for a part of it
+local function environment()
+  local parts
+  local staged = {world = true, hand = true, flask = true, grasp = true}
+  return setmetatable({}, {__index = function(env, name)
+    if staged[name] then
+      parts = parts or prepared()
+      for part, value in pairs(parts) do rawset(env, part, value) end
+      return parts[name]
+    end
+    return _G[name]
+  end})
+end
+
+-- results as the console shows them, or "error: message"
+local function result_of(code, env)
+  local chunk, message = load("return " .. code, "=example", "t", env)
+  if not chunk then chunk, message = load(code, "=example", "t", env) end
+  if not chunk then return "error: " .. message end
+  local results = table.pack(pcall(chunk))
+  if not results[1] then return "error: " .. tostring(results[2]) end
+  for i = 2, results.n do results[i] = show(results[i]) end
+  return table.concat(results, ", ", 2, results.n)
+end
+
+local function check(subject, entry)
+  test(subject .. " is documented and its examples are true", function(t)
+    local parsed = doc.parse(entry.doc)
+    t.ok(parsed.text ~= "", "wanted a sentence of doc, got none")
+    t.ok(#parsed.examples > 0, "wanted a running example, got none")
+    t.ok(parsed.unused == 0, "wanted a result after the last line of code, got none")
+    local env = environment()
+    for _, example in ipairs(parsed.examples) do
+      for _, code in ipairs(example.prepare) do assert(load(code, "=example", "t", env))() end
+      local got, want = result_of(example.code, env), example.result
+      local wanted_error = want:match "^error: (.*)$"
+      local ok = got == want or wanted_error and got:sub(1, 7) == "error: " and got:find(wanted_error, 1, true)
+      t.ok(ok, ("> %s\nwanted %s\ngot    %s"):format(example.code, want, got))
+    end
+  end)
+end
+
+local all = clench.entries()
+for _, library in ipairs(all.libraries) do
+  for _, kind in ipairs {"fields", "functions"} do
+    for _, entry in ipairs(library[kind]) do check(library.name .. "." .. entry.name, entry) end
+  end
+end
+for _, class in ipairs(all.classes) do
+  test("class " .. class.name .. " is documented", function(t) t.ok(class.doc ~= "") end)
+  for _, entry in ipairs(class.fields) do
+    check(class.variable .. "." .. entry.name, entry)
+    test(class.variable .. "." .. entry.name .. " has a type", function(t) t.ok(doc.parse(entry.doc).type) end)
+  end
+  for _, entry in ipairs(class.methods) do check(class.variable .. ":" .. entry.name, entry) end
+end
+
+test("every function that clench has is in the tables", function(t)
+  local known = {}
+  for _, library in ipairs(all.libraries) do
+    for _, entry in ipairs(library.functions) do known[library.name .. "." .. entry.name] = true end
+  end
+  for name, value in next, clench do
+    if type(value) == "function" then t.ok(known["clench." .. name], "clench." .. name .. " is in no table") end
+  end
+end)

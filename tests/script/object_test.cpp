@@ -1,0 +1,151 @@
+#include "script/object.h"
+
+#include "script/check.h"
+#include "script/guard.h"
+#include "script/push.h"
+#include "script_state.h"
+
+using namespace clench;
+using clench::test::Script;
+
+namespace {
+
+int alive = 0;
+
+// not trivial, and aligned beyond what Lua gives
+struct alignas(64) Probe {
+  explicit Probe(int n) : number(n) { ++alive; }
+  Probe(Probe&& other) noexcept : number(other.number) { ++alive; }
+  ~Probe() { --alive; }
+  int number;
+};
+
+extern const Class probe_class, child_class;
+struct Child {
+  int number;
+};
+
+}  // namespace
+
+namespace clench {
+template <>
+const Class& class_of<Probe>() {
+  return probe_class;
+}
+template <>
+const Class& class_of<Child>() {
+  return child_class;
+}
+}  // namespace clench
+
+namespace {
+
+int get_number(lua_State* L) {
+  if (to<Child>(L, 1)) return push(L, self<Child>(L).number);
+  return push(L, self<Probe>(L).number);
+}
+int set_number(lua_State* L) {
+  self<Probe>(L).number = check_int(L, 2);
+  return 0;
+}
+int twice(lua_State* L) { return push(L, 2 * self<Probe>(L).number); }
+int who(lua_State* L) { return push(L, subject(L)); }
+
+const Entry fields[] = {{"number", guarded<get_number>, "", guarded<set_number>},
+                        {"who_field", guarded<who>, ""}};
+const Entry methods[] = {{"twice", guarded<twice>, ""}, {"who", guarded<who>, ""}};
+const Entry child_methods[] = {{"twice", guarded<who>, ""}};
+const Class probe_class{
+    .name = "probe", .variable = "tip", .doc = "", .fields = fields, .methods = methods};
+const Class child_class{.name = "child",
+                        .variable = "kid",
+                        .doc = "",
+                        .fields = {},
+                        .methods = child_methods,
+                        .operators = {},
+                        .parent = &probe_class};
+
+int make_probe(lua_State* L) { return push_object(L, Probe(check_int(L, 1))); }
+int make_child(lua_State* L) { return push_object(L, Child{check_int(L, 1)}); }
+
+struct Probes : Script {
+  Probes() {
+    lua_register(L, "probe", guarded<make_probe>);
+    lua_register(L, "child", guarded<make_child>);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("fields are read and set, methods called, by name") {
+  Probes lua;
+  CHECK(lua.run("local p = probe(4) p.number = p.number + 1 return p.number, p:twice()") ==
+        "5, 10");
+  CHECK(lua.run("probe(4).number = 'x'") == "test:1: tip.number: wanted an integer, got 'x'");
+  CHECK(lua.run("probe(4).who_field = 1") ==
+        "test:1: tip.who_field cannot be set: it is read only");
+  CHECK(lua.run("probe(4).numbr = 1") ==
+        "test:1: tip has no field 'numbr' to set; did you mean 'number'?");
+  CHECK(lua.run("return probe(4).twise") == "test:1: tip has no 'twise'; did you mean 'twice'?");
+  CHECK(lua.run("return probe(4)[1]").find("wanted a name") != std::string::npos);
+}
+
+TEST_CASE("an entry knows its name") {
+  Probes lua;
+  CHECK(lua.run("local p = probe(4) return p:who(), p.who_field") == "tip:who, tip.who_field");
+}
+
+TEST_CASE("a class has its parent's fields and methods, under its own name, and may replace them") {
+  Probes lua;
+  CHECK(lua.run("local c = child(3) return c.number, c:who(), c:twice()") ==
+        "3, kid:who, kid:twice");
+}
+
+TEST_CASE("values are destroyed once: by the collector, by <close>, or never again") {
+  {
+    Probes lua;
+    CHECK(lua.run("for i = 1, 100 do probe(i) end collectgarbage() collectgarbage()") == "");
+    CHECK(alive == 0);
+    CHECK(lua.run("kept = nil do local p <close> = probe(1) kept = p end return pcall(function() "
+                  "return kept.number end)")
+              .find("tip.number: the probe was closed") != std::string::npos);
+    CHECK(alive == 0);
+    // the finalizer, called by hand, twice and with strangers
+    CHECK(lua.run("local p = probe(1) local gc = debug.getmetatable(p).__gc gc(p) gc(p) gc(1) gc() "
+                  "gc(io.stdout)") == "");
+    CHECK(alive == 0);
+    lua.run("still_here = probe(2)");
+    CHECK(alive == 1);
+  }
+  CHECK(alive == 0);
+}
+
+TEST_CASE("a metatable put on a stranger does not make it ours") {
+  Probes lua;
+  CHECK(lua.run("local v = clench.vec3(1, 2, 3) debug.setmetatable(v, "
+                "debug.getmetatable(probe(1))) return v.number")
+            .find("tip.number: wanted a probe") == std::string::npos);
+  // both have a class's metatable, neither is what it says
+  CHECK(lua.run("local v = clench.vec3(1, 2, 3) debug.setmetatable(v, "
+                "debug.getmetatable(probe(1))) return v:twice()")
+            .find("closed") != std::string::npos);
+  CHECK(lua.run("local f = io.tmpfile() debug.setmetatable(f, debug.getmetatable(clench.pose())) "
+                "return f:angle()")
+            .find("pose:angle") != std::string::npos);
+  CHECK(lua.run("return getmetatable(probe(1))") == "probe");
+}
+
+TEST_CASE("the storage is aligned as its type asks") {
+  Probes lua;
+  lua.run("p = {} for i = 1, 50 do p[i] = probe(i) end");
+  lua_settop(lua.L, 0);
+  lua_getglobal(lua.L, "p");
+  for (int i = 1; i <= 50; ++i) {
+    lua_rawgeti(lua.L, 1, i);
+    auto* probe = to<Probe>(lua.L, -1);
+    REQUIRE(probe);
+    CHECK(reinterpret_cast<uintptr_t>(probe) % 64 == 0);
+    CHECK(probe->number == i);
+    lua_pop(lua.L, 1);
+  }
+}

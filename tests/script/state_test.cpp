@@ -1,0 +1,170 @@
+#include "script/state.h"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+using clench::State;
+namespace fs = std::filesystem;
+
+static std::string error_of(State& state, const std::string& code) {
+  return state.run_code(code, "=test").error;
+}
+
+static bool says(const std::string& text, const std::string& part) {
+  const bool found = text.find(part) != std::string::npos;
+  if (!found) MESSAGE("wanted '", part, "' in: ", text.substr(0, 400));
+  return found;
+}
+
+TEST_CASE("an error has message and traceback, whatever the error value is") {
+  State state;
+  CHECK(says(error_of(state, "local function f() error 'no' end f()"),
+             "test:1: no\nstack traceback:"));
+  CHECK(says(error_of(state, "error{code = 3}"), "error object is the table {code = 3}"));
+  CHECK(says(error_of(state, "error()"), "error object is a nil value"));
+  CHECK(says(error_of(state, "error(true)"), "error object is a boolean value"));
+  CHECK(says(error_of(state, "error(print)"), "error object is a function value"));
+  CHECK(
+      says(error_of(state, "error(setmetatable({}, {__tostring = function() return 'mine' end}))"),
+           "mine\nstack"));
+  CHECK(says(error_of(state, "return +"), "unexpected symbol"));
+  // an error whose own text fails ends in Lua's error about errors; what it says is Lua's
+  CHECK(!error_of(state, "error(setmetatable({}, {__tostring = function() error 'worse' end}))")
+             .empty());
+  CHECK(state.run_code("return 1", "=test").ok);
+}
+
+TEST_CASE("no script ends the process: recursion, memory, patterns, finalizers, yields") {
+  State state;
+  state.set_quiet();
+  CHECK(says(error_of(state, "local function f() return f() + 1 end f()"), "stack overflow"));
+  CHECK(
+      says(error_of(state, "local t = setmetatable({}, {}) getmetatable(t).__index = t return t.x"),
+           "loop"));
+  CHECK(says(error_of(state, "return io.tmpfile():read(1 << 42)"), "not enough memory"));
+  CHECK(says(error_of(state, "return ('x'):rep(1 << 62)"), ""));
+  CHECK(says(error_of(state, "string.rep('x', math.maxinteger, 'y')"), "too large"));
+  CHECK(says(error_of(state, "return ('('):rep(300):find(('('):rep(300))"), ""));
+  CHECK(says(error_of(state, "coroutine.yield()"), "outside a coroutine"));
+  CHECK(says(error_of(state, "table.concat(setmetatable({}, {__len = function() return 1e9 end}))"),
+             "invalid value"));
+  CHECK(state
+            .run_code("setmetatable({}, {__gc = function() error 'in gc' end}) collectgarbage()",
+                      "=test")
+            .ok);
+  CHECK(says(
+      error_of(state,
+               "local x <close> = setmetatable({}, {__close = function() error 'in close' end})"),
+      "in close"));
+  CHECK(says(error_of(state, "load('x = ' .. ('('):rep(1000) .. '1' .. (')'):rep(1000))() "), ""));
+  CHECK(says(error_of(state, "load(string.dump(function() end), 'x', 't')()"), ""));
+  CHECK(
+      says(error_of(state, "string = nil print = nil error 'still explained'"), "still explained"));
+}
+
+TEST_CASE("a finalizer that runs as the state closes may fail") {
+  State state;
+  state.set_quiet();
+  state.run_code("x = setmetatable({}, {__gc = function() error 'at the end' end})", "=test");
+}
+
+TEST_CASE("a file gets its arguments as arg and as ...") {
+  const fs::path path = fs::temp_directory_path() / "clench_state_test.lua";
+  std::ofstream(path) << "local a, b = ... return arg[0], arg[1], arg[2], #arg, a, b";
+  State state;
+  const auto result = state.run_file(path.string(), {"one", "--two"});
+  CHECK(result.ok);
+  CHECK(result.values ==
+        std::vector<std::string>{path.string(), "one", "--two", "number", "one", "--two"});
+  fs::remove(path);
+  CHECK(says(state.run_file(path.string(), {}).error, "cannot open " + path.string()));
+}
+
+TEST_CASE("a file that is no Lua is refused, compiled chunks too") {
+  const fs::path path = fs::temp_directory_path() / "clench_state_binary.lua";
+  std::ofstream(path, std::ios::binary) << "\x1bLua rubbish";
+  State state;
+  CHECK(says(state.run_file(path.string(), {}).error, "binary"));
+  fs::remove(path);
+}
+
+TEST_CASE("clench is a global and a module, the standard library has bare names") {
+  State state;
+  CHECK(state
+            .run_code("assert(clench == require 'clench') assert(require 'show' == clench.show)",
+                      "=test")
+            .ok);
+  CHECK(says(error_of(state, "clench.grsp()"), "clench has no 'grsp'"));
+}
+
+TEST_CASE("the console runs expressions and statements, and knows an unfinished one") {
+  State state;
+  using Line = State::Line;
+  CHECK(state.evaluate("x = 5") == Line::done);
+  CHECK(state.evaluate("local y = 1 return y") == Line::done);
+  CHECK(state.evaluate("") == Line::done);
+  CHECK(state.evaluate("for i = 1, 2 do") == Line::incomplete);
+  CHECK(state.evaluate("x = {") == Line::incomplete);
+  CHECK(state.evaluate("s = [[a") == Line::incomplete);
+  CHECK(state.run_code("assert(x == 5)", "=test").ok);
+}
+
+// runs code that never ends by itself, and interrupts it
+static State::Result interrupted(State& state, const std::string& code) {
+  std::atomic<bool> done = false;
+  std::thread watch([&] {
+    // the first may come before the chunk runs, and is then lost with its hook
+    while (!done) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      if (!done) state.interrupt();
+    }
+  });
+  const auto result = state.run_code(code, "=test");
+  done = true;
+  watch.join();
+  return result;
+}
+
+TEST_CASE("an interruption ends an endless loop, in coroutines and their kin too") {
+  State state;
+  for (const char* code :
+       {"while true do end", "coroutine.wrap(function() while true do end end)()",
+        "assert(coroutine.resume(coroutine.create(function() while true do end end)))",
+        "for _ in coroutine.wrap(function() while true do coroutine.yield(1) end end) do end"}) {
+    const auto result = interrupted(state, code);
+    CHECK(!result.ok);
+    CHECK(says(result.error, "interrupted"));
+  }
+  CHECK(state.run_code("local n = 0 for i = 1, 1e5 do n = n + i end", "=test").ok);
+}
+
+TEST_CASE("coroutines are Lua's own in all else") {
+  State state;
+  const auto result = state.run_code(R"(
+    local co = coroutine.create(function(a) local b = coroutine.yield(a + 1) return b * 2 end)
+    assert(select(2, coroutine.resume(co, 1)) == 2 and select(2, coroutine.resume(co, 5)) == 10)
+    local ok, message = coroutine.resume(co)
+    assert(not ok and message == "cannot resume dead coroutine")
+    assert(not pcall(coroutine.resume, 5))
+    local gen = coroutine.wrap(function() for i = 1, 3 do coroutine.yield(i, nil) end end)
+    assert(gen() == 1 and select("#", gen()) == 2 and gen() == 3)
+    local e = {}
+    local good, bad = pcall(coroutine.wrap(function() error(e) end))
+    assert(not good and bad == e)
+    local inner
+    inner = coroutine.wrap(function() return inner() end)
+    local fine, why = pcall(inner)
+    assert(not fine and why:find "non%-suspended", why)
+    good, bad = pcall(coroutine.wrap(function() error "text" end))
+    assert(not good and bad:find "test:%d+: text$", bad)
+    assert(coroutine.isyieldable() == false)
+  )",
+                                     "=test");
+  CHECK_MESSAGE(result.ok, result.error);
+}

@@ -1,0 +1,103 @@
+#include "script/table.h"
+
+#include "script/guard.h"
+#include "script/push.h"
+#include "script_state.h"
+
+using namespace clench;
+using clench::test::Script;
+
+namespace {
+
+int close_hand(lua_State* L) {
+  Table t(L, 1, "hand:autograsp");
+  const double speed = t.positive("speed", 1);
+  const int edges = t.integer("edges", 8);
+  const bool stop = t.boolean("stop_at_contact", false);
+  const auto norm = t.choice("norm", {"L1", "Linf"}, "L1");
+  const auto point = t.vec3("point", {0, 0, 0});
+  const Pose pose = t.pose("pose", Pose());
+  const auto dofs = t.has("dofs") ? t.numbers("dofs", 3) : std::vector<double>();
+  const auto rows = t.has("rows") ? t.rows("rows", 2) : std::vector<std::vector<double>>();
+  const auto name = t.string("name", "hand");
+  const uint64_t seed = t.seed("seed", 0);
+  const bool hook = t.push_function("hook");
+  lua_pop(L, 1);
+  t.done();
+  return push(L,
+              fmt::format("{} {} {} {} {} {} {} {} {} {} {}", speed, edges, stop, norm, point.z(),
+                          pose.position.x(), dofs.size(), rows.size(), name, seed, hook));
+}
+
+struct Options : Script {
+  Options() { lua_register(L, "f", guarded<close_hand>); }
+  // the message without the line
+  std::string operator()(const std::string& arguments) {
+    auto text = run("return f" + arguments);
+    return text.starts_with("test:1: ") ? text.substr(8) : text;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("what is not given keeps its default, and what is given is read") {
+  Options f;
+  const std::string defaults = "1 8 false L1 0 0 0 0 hand 0 false";
+  CHECK(f("()") == defaults);
+  CHECK(f("(nil)") == defaults);
+  CHECK(f("{}") == defaults);
+  CHECK(f("{speed = 2, edges = 6.0, stop_at_contact = true, norm = 'Linf', point = {1, 2, 3}, pose "
+          "= {xyz = {4, 5, 6}}, "
+          "dofs = {1, 2, 3}, rows = {{1, 2}}, name = 'x', seed = 9, hook = print}") ==
+        "2 6 true Linf 3 4 3 1 x 9 true");
+  CHECK(f("{point = clench.vec3(1, 2, 3), pose = clench.pose{xyz = {4, 5, 6}}}") ==
+        "1 8 false L1 3 4 0 0 hand 0 false");
+}
+
+TEST_CASE("a misspelt key is named, and the near one offered") {
+  Options f;
+  CHECK(f("{sped = 1}") == "hand:autograsp: unknown key 'sped'; did you mean 'speed'?");
+  CHECK(f("{1}") == "hand:autograsp: unknown key [1]");
+  CHECK(f("{zzz = 1, yyyy = 2}") == "hand:autograsp: unknown key 'yyyy'");
+}
+
+TEST_CASE("what is wrong is said with subject, wanted and got") {
+  Options f;
+  CHECK(f("(3)") == "hand:autograsp: wanted a table of options, got 3");
+  CHECK(f("{speed = 'fast'}") == "hand:autograsp: speed: wanted a number, got 'fast'");
+  CHECK(f("{speed = '1'}") == "hand:autograsp: speed: wanted a number, got '1'");
+  CHECK(f("{speed = 0 / 0}").starts_with("hand:autograsp: speed: wanted a finite number, got"));
+  CHECK(f("{speed = -1 / 0}") == "hand:autograsp: speed: wanted a finite number, got -inf");
+  CHECK(f("{speed = 0}") == "hand:autograsp: speed must be > 0, got 0");
+  CHECK(f("{edges = 2.5}") == "hand:autograsp: edges: wanted an integer, got 2.5");
+  CHECK(f("{edges = 1 << 40}") ==
+        "hand:autograsp: edges: wanted an integer of 32 bits, got 1099511627776");
+  CHECK(f("{stop_at_contact = 1}") ==
+        "hand:autograsp: stop_at_contact: wanted true or false, got 1");
+  CHECK(f("{norm = 'L3'}") ==
+        "hand:autograsp: unknown norm 'L3', wanted one of L1, Linf; did you mean 'L1'?");
+  CHECK(f("{point = {1, 2}}") == "hand:autograsp: point: wanted 3 numbers, got 2");
+  CHECK(f("{point = {1, 2, {}}}") == "hand:autograsp: point[3]: wanted a number, got a table");
+  CHECK(f("{point = 'up'}") == "hand:autograsp: point: wanted a vec3 or {x, y, z}, got 'up'");
+  CHECK(f("{pose = 1}") == "hand:autograsp: pose: wanted a pose, got 1");
+  CHECK(f("{pose = {xyz = {1}}}") == "hand:autograsp: pose: xyz: wanted 3 numbers, got 1");
+  CHECK(f("{dofs = {1, 2}}") == "hand:autograsp: dofs: wanted 3 numbers, got 2");
+  CHECK(f("{rows = {{1, 2}, {1}}}") == "hand:autograsp: rows[2]: wanted 2 numbers, got 1");
+  CHECK(f("{rows = {1}}") == "hand:autograsp: rows[1]: wanted 2 numbers, got 1");
+  CHECK(f("{name = 5}") == "hand:autograsp: name: wanted a string, got 5");
+  CHECK(f("{name = 'a\\0b'}").find("without zero bytes") != std::string::npos);
+  CHECK(f("{hook = 'x'}") == "hand:autograsp: hook: wanted a function, got 'x'");
+  CHECK(f("{seed = {}}") == "hand:autograsp: seed: wanted an integer, got a table");
+}
+
+TEST_CASE("options are read raw: a metatable's code does not run") {
+  Options f;
+  CHECK(f("(setmetatable({}, {__index = function() error 'ran' end}))") ==
+        "1 8 false L1 0 0 0 0 hand 0 false");
+}
+
+TEST_CASE("a long text is cut short in a message") {
+  Options f;
+  CHECK(f("{speed = ('x'):rep(1e6)}") ==
+        "hand:autograsp: speed: wanted a number, got '" + std::string(37, 'x') + "...'");
+}
