@@ -152,8 +152,8 @@ TEST_CASE("a ball on a plane touches at one point") {
 
 TEST_CASE("a ball of facets as flat as a tilted face still touches around its lowest point") {
   const auto plane = shape(floor_mesh);
-  for (const double radius : {0.02, 0.05, 0.2})
-    for (const int rings : {60, 100}) {
+  for (const double radius : {0.02, 0.2})
+    for (const int rings : {60, 70}) {
       const auto ball = shape(test::ball(radius, rings, 2 * rings));
       const Pose X_AB = Pose::translation({0.1, 0.05, radius + thin});
       const auto touches = contact_set(*plane, *ball, X_AB);
@@ -426,8 +426,8 @@ TEST_CASE("cracks and triangles without area change nothing") {
 TEST_CASE("thousands of coplanar triangles are reduced in a time that grows like their number") {
   const auto plane = shape(floor_mesh);
   double before = 0;
-  for (const int times : {5, 6}) {
-    const auto box = shape(subdivided(test::box(0.2, 0.2, 0.02), times));  // 2048, 8192 below
+  for (const int times : {4, 5}) {
+    const auto box = shape(subdivided(test::box(0.2, 0.2, 0.02), times));  // 512, 2048 below
     const Pose X_AB = Pose::translation({0, 0, 0.01 + thin});
     const std::clock_t start = std::clock();
     const auto touches = contact_set(*plane, *box, X_AB);
