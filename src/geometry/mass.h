@@ -7,8 +7,8 @@
 namespace clench {
 
 struct MassProperties {
-  double volume = 0;                                     ///< signed, > 0 when triangles face outward [m^3]
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();    ///< of the volume [m]
+  double volume = 0;  ///< signed, > 0 when triangles face outward [m^3]
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< of the volume [m]
   /// about the centroid, for unit mass and uniform density [m^2]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
 };

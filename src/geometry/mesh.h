@@ -49,7 +49,9 @@ struct MeshFaults {
   int unused_vertices = 0;
 
   bool closed() const { return open_edges == 0 && tangled_edges == 0; }
-  bool none() const { return closed() && degenerate_triangles + duplicate_triangles + unused_vertices == 0; }
+  bool none() const {
+    return closed() && degenerate_triangles + duplicate_triangles + unused_vertices == 0;
+  }
   std::string describe() const;  ///< "2 open edges, 1 degenerate triangle", or "no faults"
 };
 
@@ -59,7 +61,8 @@ MeshFaults find_faults(const Mesh& mesh);
 /// order; those left with a vertex twice are dropped. returns the number dropped through `dropped`
 Mesh weld(const Mesh& mesh, double tolerance = 0, int* dropped = nullptr);
 
-/// throws Error naming the vertex or triangle: positions finite, indices in range, at least one triangle
+/// throws Error naming the vertex or triangle: positions finite, indices in range, at least one
+/// triangle
 void check_mesh(const Mesh& mesh, const std::string& subject);
 
 }  // namespace clench

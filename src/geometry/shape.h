@@ -7,7 +7,8 @@
 
 namespace clench {
 
-class Tree;  // bounding volumes over the triangles; its layout is nobody's business but the queries'
+class
+    Tree;  // bounding volumes over the triangles; its layout is nobody's business but the queries'
 
 class Shape {
  public:

@@ -37,8 +37,9 @@ struct Reach {
       Eigen::Vector3d::Zero();  ///< unit, from a to b where they are near; or zero
 };
 
-/// A lower bound of the distance between two boxes: by the known direction, which parts most of what
-/// is near, and if that leaves them within reach, by their own axes. What rounding may add, slack, is taken off [m]
+/// A lower bound of the distance between two boxes: by the known direction, which parts most of
+/// what is near, and if that leaves them within reach, by their own axes. What rounding may add,
+/// slack, is taken off [m]
 double gap(const OrientedBox& a, const OrientedBox& b, const Reach& reach, double slack);
 
 class Tree {

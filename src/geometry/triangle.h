@@ -20,10 +20,11 @@ Closest segment_segment(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
 /// source  Ericson (2005), ch. 5.1.5. p is the point itself, q lies on the triangle
 Closest point_triangle(const Eigen::Vector3d& p, const Corners& triangle);
 
-/// Do they share a point? Touching counts.
+/// Do they share a point? Touching counts: apart means that some direction shows a gap beyond
+/// rounding, some 1e-14 of the extent of the two.
 bool triangles_meet(const Corners& a, const Corners& b);
 
-/// Distance and witness points; 0 and a common point when they meet.
+/// Distance and witness points; 0 and a common point when they meet, and only then.
 Closest triangle_triangle(const Corners& a, const Corners& b);
 
 }  // namespace clench

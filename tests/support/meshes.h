@@ -102,7 +102,8 @@ inline Mesh read_obj(const std::filesystem::path& path) {
   return mesh;
 }
 
-/// How often the mesh winds about p, by solid angles (Van Oosterom & Strackee 1983): slow and obvious.
+/// How often the mesh winds about p, by solid angles: slow and obvious.
+/// source  van Oosterom & Strackee (1983)
 inline double winding(const Mesh& mesh, const Eigen::Vector3d& p) {
   double sum = 0;
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
