@@ -148,6 +148,20 @@ class Builder {
   std::vector<Vector3d> centres_;
 };
 
+// How far the boxes stay apart along the cross products of their axes, at most 1 long: a lower bound.
+double gap_across_edges(const Matrix3d& turn, const Matrix3d& shadow, const Vector3d& offset,
+                        const Vector3d& half_a, const Vector3d& half_b) {
+  double most = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      most = std::max(most, std::abs(offset[i2] * turn(i1, j) - offset[i1] * turn(i2, j)) -
+                                half_a[i1] * shadow(i2, j) - half_a[i2] * shadow(i1, j) -
+                                half_b[j1] * shadow(i, j2) - half_b[j2] * shadow(i, j1));
+    }
+  return most;
+}
+
 }  // namespace
 
 double box_slack(const Bounds& bounds, const Vector3d& p) {
@@ -169,9 +183,10 @@ double gap(const OrientedBox& a, const OrientedBox& b, const Reach& reach, doubl
   const Vector3d from_a = offset.cwiseAbs() - a.half - shadow * b.half;
   const Vector3d from_b =
       (turn.transpose() * offset).cwiseAbs() - b.half - shadow.transpose() * a.half;
-  return std::max(parted, std::sqrt(std::max(from_a.cwiseMax(0).squaredNorm(),
-                                             from_b.cwiseMax(0).squaredNorm())) -
-                              slack);
+  const double squared =
+      std::max(from_a.cwiseMax(0).squaredNorm(), from_b.cwiseMax(0).squaredNorm());
+  if (squared > 0) return std::max(parted, std::sqrt(squared) - slack);
+  return std::max(parted, gap_across_edges(turn, shadow, offset, a.half, b.half) - slack);
 }
 
 Tree::Tree(const Mesh& mesh) { Builder(mesh, nodes_); }
