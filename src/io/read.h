@@ -9,11 +9,12 @@
 namespace clench {
 
 struct ReadOptions {
-  std::filesystem::path
-      root;  ///< where relative names are looked up after the referring file's folder
-  std::function<void(const std::string&)> warn =
-      {};                 ///< told of what a file contains and we do not use
-  double mesh_scale = 1;  ///< .obj .stl: length of the file's unit, > 0 [m]
+  /// where relative names are looked up after the referring file's folder
+  std::filesystem::path root;
+  /// told of what a file contains and we do not use
+  std::function<void(const std::string&)> warn = {};
+  /// .obj .stl: length of the file's unit, > 0 [m]
+  double mesh_scale = 1;
 };
 
 /// A body from .iv .wrl (millimetres), .obj .stl (metres, or mesh_scale), in any case.
