@@ -3,11 +3,14 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(LUA_CXX REQUIRED IMPORTED_TARGET lua5.4-c++)
 pkg_check_modules(LUA_C REQUIRED IMPORTED_TARGET lua5.4)
 
+# models are found wherever the build tree lies
 function(lua_test name)
-  add_test(NAME "${name}" COMMAND ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set(environment "CLENCH_MODELS=${PROJECT_SOURCE_DIR}")
   if(CLENCH_SANITIZE)
-    set_tests_properties("${name}" PROPERTIES ENVIRONMENT "${SANITIZER_OPTIONS}")
+    list(APPEND environment ${SANITIZER_OPTIONS})
   endif()
+  add_test(NAME "${name}" COMMAND ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties("${name}" PROPERTIES ENVIRONMENT "${environment}")
 endfunction()
 
 # the same claims with a Lua that throws and one that jumps

@@ -3,27 +3,25 @@ local test, doc, show = require "test", require "clench.host.doc", require "clen
 
 -- worlds/dlr_flask.wld with the hand closed on the flask; made once, cloned for each entry that asks
 local stage
-local function prepared()
-  if not stage then
-    stage = clench.load "worlds/dlr_flask.wld"
-    stage.robots[1]:autograsp()
-  end
-  local world = stage:clone()
-  return {world = world, hand = world.robots[1], flask = world.objects[1],
-          grasp = clench.grasp(world.robots[1], world.objects[1])}
-end
-
--- what an entry's examples see: the globals, and the stage when they ask for a part of it
-local function environment()
-  local parts
-  local staged = {world = true, hand = true, flask = true, grasp = true}
-  return setmetatable({}, {__index = function(env, name)
-    if staged[name] then
-      parts = parts or prepared()
-      for part, value in pairs(parts) do rawset(env, part, value) end
-      return parts[name]
+local parts = {
+  world = function()
+    if not stage then
+      stage = clench.load "worlds/dlr_flask.wld"
+      stage.robots[1]:autograsp()
     end
-    return _G[name]
+    return stage:clone()
+  end,
+  hand = function(env) return env.world.robots[1] end,
+  flask = function(env) return env.world.objects[1] end,
+  grasp = function(env) return clench.grasp(env.hand, env.flask) end,
+}
+
+-- what an entry's examples see: the globals, and the parts of the stage that they ask for
+local function environment()
+  return setmetatable({}, {__index = function(env, name)
+    if not parts[name] then return _G[name] end
+    rawset(env, name, parts[name](env))
+    return rawget(env, name)
   end})
 end
 
