@@ -27,7 +27,7 @@
 //         @return table result  `moved`, `stops`
 //         > hand:autograsp().moved  --> true
 //     `> code` without an arrow prepares the next one. `--> error: text` wants an error that
-//     contains text. Examples run with clench, world, hand, flask and grasp at hand. The tests run
+//     contains text. Examples run with clench, world, hand (closed on the flask), flask and grasp. The tests run
 //     every one of them; `clench doc` writes docs/api from the same tables, and the REPL completes
 //     from them.
 #pragma once
