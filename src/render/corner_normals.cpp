@@ -20,15 +20,16 @@ Eigen::Vector3d face_normal(const std::vector<Eigen::Vector3d>& vertices, const 
 
 double angle_at(const std::vector<Eigen::Vector3d>& vertices, const Triangle& t, int corner) {
   const Eigen::Vector3d& p = vertices[t[corner]];
-  const Eigen::Vector3d a = vertices[t[(corner + 1) % 3]] - p, b = vertices[t[(corner + 2) % 3]] - p;
+  const Eigen::Vector3d a = vertices[t[(corner + 1) % 3]] - p,
+                        b = vertices[t[(corner + 2) % 3]] - p;
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 }  // namespace
 
-std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(const std::vector<Eigen::Vector3d>& vertices,
-                                                           const std::vector<Triangle>& triangles,
-                                                           double crease) {
+std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(
+    const std::vector<Eigen::Vector3d>& vertices, const std::vector<Triangle>& triangles,
+    double crease) {
   const int count = static_cast<int>(triangles.size());
   std::vector<Eigen::Vector3d> faces(count);
   std::vector<int> first(vertices.size() + 1, 0);
@@ -56,9 +57,12 @@ std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(const std::vector<Eig
       if (first[v + 1] - first[v] <= most_neighbours) {
         sum.setZero();
         for (int at = first[v]; at < first[v + 1]; ++at) {
-          const int j = around[at], corner = triangles[j][0] == v ? 0 : triangles[j][1] == v ? 1 : 2;
+          const int j = around[at], corner = triangles[j][0] == v   ? 0
+                                             : triangles[j][1] == v ? 1
+                                                                    : 2;
           const double lean = faces[i].dot(faces[j]);
-          if (std::abs(lean) >= least) sum += std::copysign(weights[3 * j + corner], lean) * faces[j];
+          if (std::abs(lean) >= least)
+            sum += std::copysign(weights[3 * j + corner], lean) * faces[j];
         }
       }
       const double length = sum.norm();

@@ -11,8 +11,8 @@ namespace clench {
 /// lean less than the crease angle [rad] from its own, weighted by their angles there; neighbours that run
 /// the other way round are turned over first. Vertices shared by very many triangles stay sharp.
 /// source  Thuermer & Wuethrich (1998), Computing vertex normals from polygonal facets: the weights
-std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(const std::vector<Eigen::Vector3d>& vertices,
-                                                           const std::vector<Triangle>& triangles,
-                                                           double crease);
+std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(
+    const std::vector<Eigen::Vector3d>& vertices, const std::vector<Triangle>& triangles,
+    double crease);
 
 }  // namespace clench

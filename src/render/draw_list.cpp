@@ -14,9 +14,10 @@ namespace clench {
 namespace {
 
 constexpr double crease = 35 * std::numbers::pi / 180;
-constexpr float solid_from = 0.999f;      // opacity above which nothing shines through
-constexpr float longest_edge = 0.07f;     // across which light is interpolated [scene units]
-constexpr size_t most_triangles = 200000; // of one piece, by splitting; what comes with more keeps them
+constexpr float solid_from = 0.999f;   // opacity above which nothing shines through
+constexpr float longest_edge = 0.07f;  // across which light is interpolated [scene units]
+constexpr size_t most_triangles =
+    200000;  // of one piece, by splitting; what comes with more keeps them
 
 std::array<uint8_t, 4> to_bytes(const Eigen::Vector3f& color, float opacity) {
   const auto byte = [](float x) {
@@ -48,19 +49,19 @@ Batch append(Piece& piece, DrawList& list) {
     if (normals[i][0].isZero()) continue;
     const auto color = to_bytes(piece.colors[piece.colors.size() == 1 ? 0 : i], piece.opacity);
     for (int k = 0; k < 3; ++k)
-      corners.push_back(
-          {piece.p_W[piece.triangles[i][k]].cast<float>(), normals[i][k], color});
+      corners.push_back({piece.p_W[piece.triangles[i][k]].cast<float>(), normals[i][k], color});
   }
-  // as they are, then split: corners of the first are corners of the second
-  const int casters = static_cast<int>(corners.size()), first = static_cast<int>(list.indices.size());
-  if (!piece.mark) {
-    const auto fine = split_long_edges(corners, longest_edge, most_triangles);
-    corners.insert(corners.end(), fine.begin(), fine.end());
-  }
+  const auto fine = piece.mark ? corners : split_long_edges(corners, longest_edge, most_triangles);
+  Batch batch{.opacity = piece.opacity};
+  batch.first_caster = static_cast<int>(list.indices.size());
+  if (piece.mark || piece.background) corners.clear();
+  batch.caster_count = static_cast<int>(corners.size());
+  batch.first = batch.first_caster + batch.caster_count;
+  batch.count = static_cast<int>(fine.size());
+  // corners as they are remain corners when they are split
+  corners.insert(corners.end(), fine.begin(), fine.end());
   append_shared(corners, list);
-  const int all = static_cast<int>(corners.size());
-  if (all == casters) return {first, all, first, all, piece.opacity};
-  return {first + casters, all - casters, first, casters, piece.opacity};
+  return batch;
 }
 
 // lines close together below the scene and ever farther apart outside
@@ -120,19 +121,26 @@ DrawList make_draw_list(const Scene& scene) {
   find_scale(std::span(pieces).first(first_behind > 0 ? first_behind : pieces.size()), list);
   for (size_t i = 0; i < pieces.size(); ++i) {
     const Batch batch = append(pieces[i], list);
-    if (i < first_clear) list.solid.push_back(batch);
-    else if (i < first_mark) list.clear.push_back(batch);
-    else if (i == first_mark && i < first_behind) list.marks = batch;
-    else if (i < first_behind) list.marks.count += batch.count;
-    else list.behind.push_back(batch);
+    if (i < first_clear)
+      list.solid.push_back(batch);
+    else if (i < first_mark)
+      list.clear.push_back(batch);
+    else if (i == first_mark && i < first_behind)
+      list.marks = batch;
+    else if (i < first_behind)
+      list.marks.count += batch.count;
+    else
+      list.behind.push_back(batch);
     if (i < first_behind || first_behind == 0) list.body_corners = list.corners.size();
   }
   list.floor_corner = list.corners.size();
   if (scene.ground) {
     list.ground = (*scene.ground - list.centre.z()) / list.scale;
     // so far away that it is not in any picture
-    if (std::abs(*list.ground) > floor_reach) list.ground.reset();
-    else append_floor(list);
+    if (std::abs(*list.ground) > floor_reach)
+      list.ground.reset();
+    else
+      append_floor(list);
   }
   return list;
 }

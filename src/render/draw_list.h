@@ -12,8 +12,8 @@ namespace clench {
 
 /// One corner of triangles as the shaders read it.
 struct Corner {
-  Eigen::Vector3f p;             ///< scene units
-  Eigen::Vector3f n;             ///< unit, to the side from which the triangle runs counter-clockwise
+  Eigen::Vector3f p;  ///< scene units
+  Eigen::Vector3f n;  ///< unit, to the side from which the triangle runs counter-clockwise
   std::array<uint8_t, 4> color;  ///< red green blue as on a screen, opacity
 };
 static_assert(sizeof(Corner) == 28);
@@ -31,11 +31,11 @@ struct DrawList {
   std::vector<Batch> solid;       ///< meshes that hide what is behind them
   std::vector<Batch> clear;       ///< meshes that one sees through
   Batch marks;                    ///< friction cones: seen through, no shadow
-  Batch floor;                    ///< a wide level net, finer below the scene: floor_lines each way, row by row
-  std::optional<double> ground;   ///< its height [scene units]
-  std::vector<Batch> behind;      ///< meshes that are background: solid, throw no shadow
-  size_t body_corners = 0;        ///< corners of all but background and floor, which come after
-  size_t floor_corner = 0;        ///< the floor's first
+  Batch floor;  ///< a wide level net, finer below the scene: floor_lines each way, row by row
+  std::optional<double> ground;  ///< its height [scene units]
+  std::vector<Batch> behind;     ///< meshes that are background: solid, throw no shadow
+  size_t body_corners = 0;       ///< corners of all but background and floor, which come after
+  size_t floor_corner = 0;       ///< the floor's first
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the scene's bounds, world [m]
   double scale = 1;                                  ///< largest distance from it [m]
 

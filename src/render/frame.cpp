@@ -13,7 +13,7 @@ namespace {
 
 constexpr double used = 0.84;  // part of the frame's width and height that a framed scene may fill
 
-constexpr int around = 12;      // directions tried at either height
+constexpr int around = 12;  // directions tried at either height
 
 // from the front right, a little above
 const Eigen::Vector3d default_back(0.62, -0.70, 0.42), steeper_back(0.62, -0.70, 0.75);
@@ -64,7 +64,8 @@ Eigen::Matrix4d view_projection(const Eye& eye, double aspect, double near, doub
 namespace {
 
 // the view of this direction that holds everything; `corners` are not empty
-Eye fit(const std::vector<Eigen::Vector3d>& corners, const Eigen::Vector3d& direction, double aspect) {
+Eye fit(const std::vector<Eigen::Vector3d>& corners, const Eigen::Vector3d& direction,
+        double aspect) {
   Eye eye;
   eye.eye = direction;
   const Eigen::Matrix3d axes = view_axes(eye);
@@ -94,7 +95,10 @@ Eye fit(const std::vector<Eigen::Vector3d>& corners, const Eigen::Vector3d& dire
 class Overview {
  public:
   Overview(const Eye& eye, double aspect)
-      : axes_(view_axes(eye)), eye_(eye.eye), focal_(1 / std::tan(eye.field_of_view / 2)), aspect_(aspect) {
+      : axes_(view_axes(eye)),
+        eye_(eye.eye),
+        focal_(1 / std::tan(eye.field_of_view / 2)),
+        aspect_(aspect) {
     nearest_.fill(1e9);
     covered_.fill(false);
   }
@@ -108,7 +112,8 @@ class Overview {
     return depth < nearest_[cell] + 0.04;
   }
   double covered() const {
-    return static_cast<double>(std::count(covered_.begin(), covered_.end(), true)) / (columns * rows);
+    return static_cast<double>(std::count(covered_.begin(), covered_.end(), true)) /
+           (columns * rows);
   }
 
  private:
@@ -154,15 +159,18 @@ double worth(const DrawList& list, const std::vector<Eigen::Vector3d>& corners, 
 
 Eye frame(const DrawList& list, double aspect) {
   std::vector<Eigen::Vector3d> corners;
-  for (size_t i = 0; i < list.body_corners; ++i) corners.push_back(list.corners[i].p.cast<double>());
+  for (size_t i = 0; i < list.body_corners; ++i)
+    corners.push_back(list.corners[i].p.cast<double>());
   if (corners.empty())
-    return fit({{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}}, default_back, aspect);
+    return fit({{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}}, default_back,
+               aspect);
 
   // from all around; the default unless another shows clearly more
   Eye best;
   double most = -1;
   for (int k = 0; k < 2 * around; ++k) {
-    const Pose turn = Pose::turn(2 * std::numbers::pi * (k % around) / around, Eigen::Vector3d::UnitZ());
+    const Pose turn =
+        Pose::turn(2 * std::numbers::pi * (k % around) / around, Eigen::Vector3d::UnitZ());
     const Eye eye = fit(corners, turn * (k < around ? default_back : steeper_back), aspect);
     const double value = worth(list, corners, eye, aspect) + (k == 0 ? 0.15 : 0);
     if (value > most) best = eye, most = value;

@@ -12,7 +12,8 @@ namespace clench {
 namespace {
 
 [[noreturn]] void refuse(const std::string& why) {
-  fail("pictures need EGL and OpenGL 3.3, and {}; install the packages libegl1 and libgl1-mesa-dri", why);
+  fail("pictures need EGL and OpenGL 3.3, and {}; install the packages libegl1 and libgl1-mesa-dri",
+       why);
 }
 
 // epoxy ends the process when it misses a library, so look before it does
@@ -53,7 +54,8 @@ GlContext::GlContext() {
                            EGL_NONE};
   EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
   display_ = display;
-  if (context == EGL_NO_CONTEXT || !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+  if (context == EGL_NO_CONTEXT ||
+      !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
     if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
     eglBindAPI(old_api_);
     refuse("the driver offers no OpenGL 3.3 core context");
@@ -65,7 +67,8 @@ GlContext::~GlContext() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
   eglBindAPI(old_api_);
-  if (old_context_ != EGL_NO_CONTEXT) eglMakeCurrent(old_display_, old_draw_, old_read_, old_context_);
+  if (old_context_ != EGL_NO_CONTEXT)
+    eglMakeCurrent(old_display_, old_draw_, old_read_, old_context_);
 }
 
 }  // namespace clench

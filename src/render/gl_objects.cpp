@@ -38,10 +38,14 @@ void filter(GLenum target, GLint mode) {
 
 GLint stored(Format format) {
   switch (format) {
-    case Format::rgba8: return GL_RGBA8;
-    case Format::rgba16f: return GL_RGBA16F;
-    case Format::rgba32f: return GL_RGBA32F;
-    case Format::depth: return GL_DEPTH_COMPONENT32F;
+    case Format::rgba8:
+      return GL_RGBA8;
+    case Format::rgba16f:
+      return GL_RGBA16F;
+    case Format::rgba32f:
+      return GL_RGBA32F;
+    case Format::depth:
+      return GL_DEPTH_COMPONENT32F;
   }
   return GL_RGBA8;
 }
@@ -66,8 +70,8 @@ Object make_shadow_maps(int size, int layers) {
   glGenTextures(1, &name);
   Object texture(name, delete_texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, name);
-  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT32F, size, size, layers, 0, GL_DEPTH_COMPONENT,
-               GL_FLOAT, nullptr);
+  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT32F, size, size, layers, 0,
+               GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
   filter(GL_TEXTURE_2D_ARRAY, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
@@ -96,7 +100,8 @@ Object make_framebuffer(const std::vector<unsigned>& colors, unsigned depth) {
   return framebuffer;
 }
 
-Object make_program(const std::string& head, const std::string& vertex, const std::string& fragment) {
+Object make_program(const std::string& head, const std::string& vertex,
+                    const std::string& fragment) {
   const std::string version = "#version 330 core\n" + head;
   const Object v = compile(GL_VERTEX_SHADER, version + vertex),
                f = compile(GL_FRAGMENT_SHADER, version + fragment);
@@ -161,7 +166,8 @@ void set(unsigned program, const char* name, const std::vector<Eigen::Vector3f>&
 }
 void set(unsigned program, const char* name, const std::vector<Eigen::Matrix3f>& values) {
   use(program);
-  glUniformMatrix3fv(at(program, name), static_cast<int>(values.size()), GL_FALSE, values.front().data());
+  glUniformMatrix3fv(at(program, name), static_cast<int>(values.size()), GL_FALSE,
+                     values.front().data());
 }
 void bind(unsigned program, const char* sampler, int unit, unsigned texture, bool layers) {
   set(program, sampler, unit);

@@ -37,7 +37,8 @@ Object make_shadow_maps(int size, int layers);
 /// Draws to textures of one size, in the order of a program's outputs; depth 0: none.   throws Error when the driver cannot
 Object make_framebuffer(const std::vector<unsigned>& colors, unsigned depth);
 /// Both texts follow the version and `head`.   throws Error with the driver's words
-Object make_program(const std::string& head, const std::string& vertex, const std::string& fragment);
+Object make_program(const std::string& head, const std::string& vertex,
+                    const std::string& fragment);
 /// Corners, or indices of the current vertex array.
 Object make_buffer(const void* data, size_t bytes, bool indices = false);
 Object make_vertex_array();

@@ -8,9 +8,9 @@ namespace clench {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double lamp_radius = 0.07;  // tangent of the half angle under which the lamp is seen
+constexpr double lamp_radius = 0.06;  // tangent of the half angle under which the lamp is seen
 constexpr float lamp_power = 0.62f, room_power = 0.62f;  // each alone on a white surface
-constexpr double floor_power = 0.42;  // part of its light that the floor returns
+constexpr double floor_power = 0.42;                     // part of its light that the floor returns
 
 double fraction(double x) { return x - std::floor(x); }
 
@@ -59,9 +59,10 @@ std::vector<Light> place_room(int count) {
     const double level = std::sqrt(1 - up * up), angle = i * pi * (3 - std::sqrt(5.0));
     const double s = std::clamp(0.5 + 0.9 * up, 0.0, 1.0);
     const double bright = floor_power + s * s * (3 - 2 * s) * (1 - floor_power);
-    out.push_back({Eigen::Vector3d(level * std::cos(angle), level * std::sin(angle), up).cast<float>(),
-                   static_cast<float>(room_power * bright * 2 / part), static_cast<float>(2.0 / part),
-                   chance(i)});
+    out.push_back(
+        {Eigen::Vector3d(level * std::cos(angle), level * std::sin(angle), up).cast<float>(),
+         static_cast<float>(room_power * bright * 2 / part), static_cast<float>(2.0 / part),
+         chance(i)});
   }
   return out;
 }
@@ -74,12 +75,17 @@ float light_on_floor(const std::vector<Light>& lights) {
 
 std::vector<Eigen::Vector2d> place_samples(int count) {
   // a tent over two pixels, by its inverse distribution
-  const auto tent = [](double u) { return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u); };
+  const auto tent = [](double u) {
+    return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u);
+  };
   std::vector<Eigen::Vector2d> out;
-  for (int s = 0; s < count; ++s) {
-    const Eigen::Vector2d u = spread(s);
-    out.push_back(count == 1 ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(tent(u.x()), tent(u.y())));
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector2d u = spread(i);
+    out.emplace_back(tent(u.x()), tent(u.y()));
+    sum += out.back();
   }
+  for (Eigen::Vector2d& p : out) p -= sum / count;
   return out;
 }
 

@@ -9,7 +9,8 @@ struct Light {
   Eigen::Vector3f to_light = Eigen::Vector3f::UnitZ();  ///< unit
   float radiance = 0;  ///< linear; what a white surface facing it returns, nothing in between
   float share = 0;     ///< of it in all the light that a surface could get, by direction alone
-  float chance = 0;    ///< 0..1, spread evenly: a body of opacity a throws the shadow of a part a of all lights
+  float chance =
+      0;  ///< 0..1, spread evenly: a body of opacity a throws the shadow of a part a of all lights
 };
 
 /// Points of a round lamp to the viewer's upper left, evenly spread. `axes` are right, up, back of the view.
@@ -21,7 +22,7 @@ std::vector<Light> place_room(int count);
 /// What lights together return from a white surface facing up, nothing in between.
 float light_on_floor(const std::vector<Light>& lights);
 
-/// Where in its pixel each sample looks, about (0, 0), within a pixel to each side: a smooth filter.
+/// Where each sample looks, in pixels about (0, 0), which is their mean; a tent over two pixels: a smooth filter.
 std::vector<Eigen::Vector2d> place_samples(int count);
 
 }  // namespace clench

@@ -25,15 +25,18 @@ struct Tile {
 // what is drawn to, of a tile's size
 struct Canvas {
   explicit Canvas(const Tile& tile);
-  gl::Object places, facings, paints, depths, first;  // what is seen first, and the framebuffer of these
-  gl::Object light, lit;                              // one pass
-  gl::Object sum, added;                              // all passes
-  gl::Object pixels, developed;                       // as a screen shows it
+  gl::Object places, facings, paints, depths,
+      first;                     // what is seen first, and the framebuffer of these
+  gl::Object light, lit;         // one pass
+  gl::Object sum, added;         // all passes
+  gl::Object pixels, developed;  // as a screen shows it
 };
 
 Canvas::Canvas(const Tile& tile) {
   using gl::Format;
-  const auto texture = [&](Format format) { return gl::make_texture(format, tile.width, tile.height); };
+  const auto texture = [&](Format format) {
+    return gl::make_texture(format, tile.width, tile.height);
+  };
   places = texture(Format::rgba32f);
   facings = texture(Format::rgba16f);
   paints = texture(Format::rgba8);
@@ -95,7 +98,8 @@ Painter::Painter(const DrawList& list, const Eye& eye, const RenderOptions& opti
   const double aspect = static_cast<double>(options.width) / options.height;
   // all lies within a ball about the origin; the near plane comes as close as that allows
   const double distance = eye.eye.norm(), ball = 2 * floor_reach;
-  const double near = std::max({1e-3, 0.02 * distance, distance - ball});
+  const double near =
+      std::max({5e-4, std::min(0.5 * (distance - 1), 0.02 * distance), distance - ball});
   projection_ = view_projection(eye, aspect, near, distance + ball);
   lamp_ = place_lamp(view_axes(eye), options.samples * lamps_per_sample);
   shifts_ = place_samples(options.samples);
@@ -104,7 +108,8 @@ Painter::Painter(const DrawList& list, const Eye& eye, const RenderOptions& opti
   const std::vector<uint32_t> sorted = back_to_front(list, eye.eye.cast<float>());
   sorted_count_ = static_cast<int>(sorted.size());
   sorted_ = gl::make_buffer(sorted.data(), sorted.size() * sizeof(uint32_t));
-  const std::vector<Light> room = place_room(std::max(24, options.samples * room_lights_per_sample));
+  const std::vector<Light> room =
+      place_room(std::max(24, options.samples * room_lights_per_sample));
   Shadows coarse(list, loaded_, room_map_size);
   room_light_ = gather(list, coarse, room);
   lamp_light_ = gather(list, coarse, lamp_);
@@ -231,7 +236,8 @@ void Painter::paint(const Tile& tile, Picture& out) {
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
   for (int s = 0; s < options_.samples; ++s) {
-    shadows_.cast(std::span(lamp_).subspan(static_cast<size_t>(s) * lamps_per_sample, lamps_per_sample));
+    shadows_.cast(
+        std::span(lamp_).subspan(static_cast<size_t>(s) * lamps_per_sample, lamps_per_sample));
     glViewport(0, 0, tile.width, tile.height);
     const Eigen::Matrix4f clip = to_clip(tile, shifts_[s]);
     find_first(canvas, clip);
@@ -264,8 +270,9 @@ Picture paint(const DrawList& list, const Eye& eye, const RenderOptions& options
   Painter painter(list, eye, options);
   for (int y = 0; y < out.height; y += largest_tile)
     for (int x = 0; x < out.width; x += largest_tile)
-      painter.paint({x, y, std::min(largest_tile, out.width - x), std::min(largest_tile, out.height - y)},
-                    out);
+      painter.paint(
+          {x, y, std::min(largest_tile, out.width - x), std::min(largest_tile, out.height - y)},
+          out);
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)
     fail("picture: the OpenGL driver reports error {:#x}", error);
   return out;

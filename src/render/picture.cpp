@@ -14,8 +14,9 @@ namespace clench {
 void save_png(const Picture& picture, const std::string& path) {
   if (picture.width < 1 || picture.height < 1 ||
       picture.pixels.size() != 3 * static_cast<size_t>(picture.width) * picture.height)
-    fail("cannot write '{}': a picture of {} x {} pixels wants {} bytes, got {}", path, picture.width,
-         picture.height, 3LL * picture.width * picture.height, picture.pixels.size());
+    fail("cannot write '{}': a picture of {} x {} pixels wants {} bytes, got {}", path,
+         picture.width, picture.height, 3LL * picture.width * picture.height,
+         picture.pixels.size());
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (!file) fail("cannot write '{}': {}", path, std::strerror(errno));
 

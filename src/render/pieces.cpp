@@ -30,13 +30,15 @@ void check(const Scene& scene) {
       fail("picture: mesh {}: wanted one colour for each of {} triangles, got {}", i + 1,
            m.shape->mesh().triangles.size(), m.triangle_colors.size());
     for (const auto& color : m.triangle_colors)
-      if (!color.allFinite()) fail("picture: mesh {}: triangle colours must be finite numbers", i + 1);
+      if (!color.allFinite())
+        fail("picture: mesh {}: triangle colours must be finite numbers", i + 1);
   }
   for (size_t i = 0; i < scene.cones.size(); ++i) {
     const DrawCone& c = scene.cones[i];
     if (!c.apex.allFinite() || !c.color.allFinite())
       fail("picture: cone {}: apex and colour must be finite numbers", i + 1);
-    if (!(std::abs(c.axis.norm() - 1) < 1e-6)) fail("picture: cone {}: axis must have length 1", i + 1);
+    if (!(std::abs(c.axis.norm() - 1) < 1e-6))
+      fail("picture: cone {}: axis must have length 1", i + 1);
     if (!(c.half_angle >= 0 && c.half_angle < std::numbers::pi / 2))
       fail("picture: cone {}: half angle must be at least 0 and less than pi/2, got {}", i + 1,
            c.half_angle);

@@ -22,7 +22,8 @@ float excess(const Corner& a, const Corner& b, float limit) {
   return (a.p - b.p).squaredNorm() / (limit * limit * away);
 }
 
-void split(const Corner& a, const Corner& b, const Corner& c, float limit, std::vector<Corner>& out) {
+void split(const Corner& a, const Corner& b, const Corner& c, float limit,
+           std::vector<Corner>& out) {
   // turn the edge that is most too long to the front
   const float ab = excess(a, b, limit), bc = excess(b, c, limit), ca = excess(c, a, limit);
   if (ab < bc || ab < ca) return bc >= ca ? split(b, c, a, limit, out) : split(c, a, b, limit, out);
@@ -39,7 +40,8 @@ void split(const Corner& a, const Corner& b, const Corner& c, float limit, std::
 double count_after(const std::vector<Corner>& corners, double limit) {
   double count = 0;
   for (size_t i = 0; i < corners.size(); i += 3) {
-    const Eigen::Vector3f ab = corners[i + 1].p - corners[i].p, ac = corners[i + 2].p - corners[i].p;
+    const Eigen::Vector3f ab = corners[i + 1].p - corners[i].p,
+                          ac = corners[i + 2].p - corners[i].p;
     const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
     // outside the scene's ball the allowed length grows, so that area counts by its logarithm
     const double area = std::min(0.5 * ab.cross(ac).norm(), 4 * (1 + std::log1p(longest)));
@@ -50,7 +52,8 @@ double count_after(const std::vector<Corner>& corners, double limit) {
 
 }  // namespace
 
-std::vector<Corner> split_long_edges(const std::vector<Corner>& corners, float longest, size_t most) {
+std::vector<Corner> split_long_edges(const std::vector<Corner>& corners, float longest,
+                                     size_t most) {
   while (longest < 4 && count_after(corners, longest) > static_cast<double>(most)) longest *= 1.5f;
   std::vector<Corner> out;
   out.reserve(corners.size());

@@ -6,7 +6,8 @@ namespace clench {
 
 /// Corners, three a triangle: halves every edge longer than `longest` [scene units], and its neighbour's with it,
 /// so that no cracks open. Outside the scene's ball edges may be longer, in proportion to the distance. Gives up the length, not the count, when there would be more than `most` triangles.
-std::vector<Corner> split_long_edges(const std::vector<Corner>& corners, float longest, size_t most);
+std::vector<Corner> split_long_edges(const std::vector<Corner>& corners, float longest,
+                                     size_t most);
 
 /// Appends corners, three a triangle, each distinct one once, and their indices.
 void append_shared(const std::vector<Corner>& corners, DrawList& list);

@@ -8,7 +8,8 @@
 namespace clench {
 
 Picture render(const Scene& scene, const RenderOptions& options) {
-  for (const auto& [name, value] : {std::pair("width", options.width), std::pair("height", options.height)})
+  for (const auto& [name, value] :
+       {std::pair("width", options.width), std::pair("height", options.height)})
     if (value < 16 || value > 8192)
       fail("picture: {} must be between 16 and 8192 pixels, got {}", name, value);
   if (options.samples < 1 || options.samples > 256)

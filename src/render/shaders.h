@@ -247,9 +247,7 @@ void main() {
   vec3 over = max(vec3(0), c - knee);
   c = min(c, knee) + (1 - knee) * (1 - exp(-over / (1 - knee)));
   c = mix(12.92 * c, 1.055 * pow(c, vec3(1 / 2.4)) - 0.055, step(0.0031308, c));
-  // less than a step of grain, so that slow gradients have no steps
-  float grain = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
-  result = vec4(c + (grain - 0.5) / 255, 1);
+  result = vec4(c, 1);
 }
 )";
 

@@ -11,7 +11,7 @@
 namespace clench {
 namespace {
 
-constexpr double reach = 1.03;      // of a map: the scene's ball and a margin [scene units]
+constexpr double reach = 1.03;  // of a map: the scene's ball and a margin [scene units]
 constexpr int gathered_width = 2048;
 
 // neighbours on the floor share their light, so that no single shadow of the many shows
@@ -83,8 +83,7 @@ void Shadows::cast(std::span<const Light> lights) {
     radiance_[i] = light.radiance;
     share_[i] = light.share;
 
-    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps_, 0,
-                              static_cast<int>(i));
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps_, 0, static_cast<int>(i));
     glClear(GL_DEPTH_BUFFER_BIT);
     gl::set(program_, "axes", std::vector{axes_[i]});
     const auto draw = [](const Batch& batch) {
@@ -119,7 +118,9 @@ gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Ligh
          list.corners.size(), static_cast<size_t>(most_rows) * gathered_width);
 
   // corners as textures, four numbers each
-  std::vector<Eigen::Vector4f> p(static_cast<size_t>(rows) * gathered_width, Eigen::Vector4f::Zero()), n = p;
+  std::vector<Eigen::Vector4f> p(static_cast<size_t>(rows) * gathered_width,
+                                 Eigen::Vector4f::Zero()),
+      n = p;
   for (size_t i = 0; i < list.corners.size(); ++i) {
     p[i].head<3>() = list.corners[i].p;
     n[i].head<3>() = list.corners[i].n;

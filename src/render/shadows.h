@@ -28,7 +28,7 @@ std::string shader_head(int lights);
 
 class Shadows {
  public:
-  static constexpr int most = 12; ///< lights at a time; those that are not cast are dark
+  static constexpr int most = 12;  ///< lights at a time; those that are not cast are dark
 
   /// `size` of the maps in pixels
   Shadows(const DrawList& list, const LoadedList& loaded, int size);

@@ -13,17 +13,22 @@ struct Entry {
 /// saturated colour; obstacles quiet.
 inline Entry of(BodyKind kind) {
   switch (kind) {
-    case BodyKind::base: return {{0.29f, 0.33f, 0.38f}, 1};
-    case BodyKind::link: return {{0.74f, 0.77f, 0.80f}, 1};
-    case BodyKind::mount: return {{0.45f, 0.49f, 0.54f}, 1};
-    case BodyKind::object: return {{0.25f, 0.60f, 0.85f}, 0.26f};
-    case BodyKind::obstacle: return {{0.80f, 0.74f, 0.66f}, 1};
+    case BodyKind::base:
+      return {{0.29f, 0.33f, 0.38f}, 1};
+    case BodyKind::link:
+      return {{0.74f, 0.77f, 0.80f}, 1};
+    case BodyKind::mount:
+      return {{0.45f, 0.49f, 0.54f}, 1};
+    case BodyKind::object:
+      return {{0.25f, 0.60f, 0.85f}, 0.26f};
+    case BodyKind::obstacle:
+      return {{0.80f, 0.74f, 0.66f}, 1};
   }
   return {{0.7f, 0.7f, 0.7f}, 1};
 }
 
 /// Friction cones: the complement of the objects' colour, which surrounds them.
-inline const Eigen::Vector3f cone(1.0f, 0.36f, 0.05f);
+inline const Eigen::Vector3f cone(1.0f, 0.29f, 0.0f);
 /// Cones of contacts without friction, which are needles.
 inline const Eigen::Vector3f needle(0.95f, 0.80f, 0.10f);
 

@@ -1,5 +1,6 @@
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/find.h"
@@ -8,12 +9,13 @@
 namespace clench {
 namespace {
 
-constexpr double cone_size = 0.15;   // height of a cone, part of the object's largest radius
+constexpr double cone_size = 0.15;  // height of a cone, part of the object's largest radius
 
 DrawMesh draw_body(const Body& body, const SceneOptions& options) {
   const palette::Entry entry = palette::of(body.kind);
   const Appearance& looks = body.appearance;
-  DrawMesh mesh{.shape = body.shape, .X_WM = body.X_WB, .color = entry.color, .triangle_colors = {}};
+  DrawMesh mesh{
+      .shape = body.shape, .X_WM = body.X_WB, .color = entry.color, .triangle_colors = {}};
   if (options.file_colors && looks.given) {
     mesh.color = looks.color;
     mesh.triangle_colors = looks.triangle_colors;
@@ -30,37 +32,26 @@ Bounds bounds_in_world(const Body& body) {
   return bounds;
 }
 
-// an obstacle is the floor when all else stands above its top and within its outline
-bool is_floor(const World& world, Id<Body> candidate) {
-  const Bounds floor = bounds_in_world(world.body(candidate));
+// flat, and all else stands above its top and within its outline
+bool is_floor(const Bounds& floor, const std::vector<Bounds>& all) {
   if (floor.empty() || floor.size().z() > 0.2 * floor.size().head<2>().maxCoeff()) return false;
   const double slack = 0.01 * floor.size().maxCoeff();
-  for (const Id<Body> id : world.bodies()) {
-    if (id == candidate) continue;
-    const Bounds b = bounds_in_world(world.body(id));
-    if (b.empty()) continue;
-    if (b.low.z() < floor.high.z() - slack) return false;
-    if ((b.low.head<2>().array() < floor.low.head<2>().array() - slack).any()) return false;
-    if ((b.high.head<2>().array() > floor.high.head<2>().array() + slack).any()) return false;
-  }
-  return true;
-}
-
-Bounds bounds_in_world(const World& world) {
-  Bounds all;
-  for (const Id<Body> id : world.bodies()) {
-    const Bounds b = bounds_in_world(world.body(id));
-    if (!b.empty()) all.add(b.low), all.add(b.high);
-  }
-  return all;
+  return std::all_of(all.begin(), all.end(), [&](const Bounds& b) {
+    return &b == &floor || b.empty() ||
+           (b.low.z() >= floor.high.z() - slack &&
+            (b.low.head<2>().array() >= floor.low.head<2>().array() - slack).all() &&
+            (b.high.head<2>().array() <= floor.high.head<2>().array() + slack).all());
+  });
 }
 
 std::vector<DrawCone> draw_contacts(const World& world) {
   std::vector<Id<Body>> parts, objects;
   for (const Id<Body> id : world.bodies()) {
     const BodyKind kind = world.body(id).kind;
-    if (kind == BodyKind::object) objects.push_back(id);
-    else if (kind != BodyKind::obstacle) parts.push_back(id);
+    if (kind == BodyKind::object)
+      objects.push_back(id);
+    else if (kind != BodyKind::obstacle)
+      parts.push_back(id);
   }
   std::vector<DrawCone> cones;
   for (const Contact& contact : contacts(world, parts, objects)) {
@@ -77,22 +68,22 @@ std::vector<DrawCone> draw_contacts(const World& world) {
 }  // namespace
 
 Scene make_scene(const World& world, const SceneOptions& options) {
+  std::vector<Bounds> bounds;
+  for (const Id<Body> id : world.bodies()) bounds.push_back(bounds_in_world(world.body(id)));
+
   Scene scene;
   bool floor = false;
-  for (const Id<Body> id : world.bodies()) {
-    const Body& body = world.body(id);
+  Bounds all;
+  for (size_t i = 0; i < bounds.size(); ++i) {
+    const Body& body = world.body(world.bodies()[i]);
     if (!body.shape) continue;
     scene.meshes.push_back(draw_body(body, options));
-    if (body.kind == BodyKind::obstacle && is_floor(world, id)) {
-      scene.meshes.back().background = true;
-      floor = true;
-    }
+    scene.meshes.back().background = body.kind == BodyKind::obstacle && is_floor(bounds[i], bounds);
+    floor = floor || scene.meshes.back().background;
+    all.add(bounds[i].low), all.add(bounds[i].high);
   }
   if (options.contacts) scene.cones = draw_contacts(world);
-  if (options.ground && !floor) {
-    const Bounds all = bounds_in_world(world);
-    if (!all.empty()) scene.ground = all.low.z();
-  }
+  if (options.ground && !floor && !all.empty()) scene.ground = all.low.z();
   scene.eye = options.eye;
   return scene;
 }

@@ -11,19 +11,20 @@ namespace clench {
 
 /// Colours are as a screen shows them (sRGB), each part in 0..1.
 struct DrawMesh {
-  std::shared_ptr<const Shape> shape;            ///< null draws nothing
+  std::shared_ptr<const Shape> shape;  ///< null draws nothing
   Pose X_WM;
   Eigen::Vector3f color = Eigen::Vector3f(0.7f, 0.7f, 0.7f);
-  std::vector<Eigen::Vector3f> triangle_colors;  ///< one a triangle, or empty
-  float opacity = 1;                             ///< 0 invisible .. 1 solid
-  bool background = false;                       ///< a floor: takes shadows, throws none, may leave the frame
+  std::vector<Eigen::Vector3f> triangle_colors = {};  ///< one a triangle, or empty
+  float opacity = 1;                                  ///< 0 invisible .. 1 solid
+  bool background = false;  ///< a floor: takes shadows, throws none, may leave the frame
 };
 
 /// Friction cone: apex at the contact, opening along the axis. A half angle of 0 draws a needle.
 struct DrawCone {
-  Eigen::Vector3d apex = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ();  ///< world; axis unit
-  double half_angle = 0;  ///< [rad], in [0, pi/2)
-  double height = 0;      ///< [m]
+  Eigen::Vector3d apex = Eigen::Vector3d::Zero(),
+                  axis = Eigen::Vector3d::UnitZ();  ///< world; axis unit
+  double half_angle = 0;                            ///< [rad], in [0, pi/2)
+  double height = 0;                                ///< [m]
   Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
 };
 
@@ -36,16 +37,16 @@ struct Eye {
 struct Scene {
   std::vector<DrawMesh> meshes;
   std::vector<DrawCone> cones;
-  std::optional<double> ground;  ///< height of a floor plane that takes the shadow [m]
-  std::optional<Eye> eye;        ///< empty: frame everything
+  std::optional<double> ground = {};  ///< height of a floor plane that takes the shadow [m]
+  std::optional<Eye> eye = {};        ///< empty: frame everything
 };
 
 struct SceneOptions {
-  bool contacts = true;             ///< draw friction cones at the contacts of robots with objects
-  bool ground = true;               ///< a floor under the lowest point, unless an obstacle is the floor
+  bool contacts = true;  ///< draw friction cones at the contacts of robots with objects
+  bool ground = true;    ///< a floor under the lowest point, unless an obstacle is the floor
   bool transparent_objects = true;  ///< so that contacts show
-  bool file_colors = true;          ///< colours of the files, where they give any; else by kind of body
-  std::optional<Eye> eye;
+  bool file_colors = true;  ///< colours of the files, where they give any; else by kind of body
+  std::optional<Eye> eye = {};
 };
 
 /// Bodies in creation order with the colours of scene/palette.h, then a cone for each contact between a

@@ -1,0 +1,97 @@
+#include "render/frame.h"
+
+#include <limits>
+
+#include "pictures.h"
+
+using namespace clench;
+using namespace clench::test;
+
+namespace {
+
+// widest part of the frame that the vertices reach, 1 being its edge; not finite when one lies behind the eye
+double reach(const Scene& scene, const Eye& eye, double aspect) {
+  const Eigen::Matrix4d to_clip = view_projection(eye, aspect, 1e-3, 1e3);
+  double most = 0;
+  for (const DrawMesh& mesh : scene.meshes)
+    for (const auto& p : mesh.shape->mesh().vertices) {
+      const Eigen::Vector4d clip = to_clip * (mesh.X_WM * p).homogeneous();
+      if (clip.w() <= 0) return std::numeric_limits<double>::infinity();
+      most = std::max({most, std::abs(clip.x() / clip.w()), std::abs(clip.y() / clip.w())});
+    }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("every vertex lies inside the picture, and the picture is used") {
+  for (const Eigen::Vector3d& size : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(5, 0.1, 0.1),
+                                      Eigen::Vector3d(0.1, 0.1, 4), Eigen::Vector3d(3, 3, 0.01)})
+    for (const double scale : {1e-3, 1.0, 1e3})
+      for (const double aspect : {0.4, 1.0, 2.5}) {
+        Scene scene;
+        const Eigen::Vector3d s = scale * size;
+        scene.meshes.push_back(
+            solid(box(s.x(), s.y(), s.z()), {1, 1, 1}, Pose::translation({3 * scale, 0, 0})));
+        scene.meshes.push_back(
+            solid(ball(0.2 * scale), {1, 1, 1}, Pose::translation({2 * scale, scale, 0})));
+        const double used = reach(scene, frame_all(scene, aspect), aspect);
+        // a margin of 16 % is wanted; 1e-5 for corners kept as floats
+        CHECK(used < 0.84 + 1e-5);
+        CHECK(used > 0.84 - 1e-5);
+      }
+}
+
+TEST_CASE("a view is from above, and a scene far from the origin is framed as one at it") {
+  Scene scene;
+  scene.meshes.push_back(solid(box(1, 2, 3)));
+  const Eye here = frame_all(scene, 1.3);
+  CHECK(here.eye.z() > here.target.z());
+  CHECK(here.up == Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d away(1024, -2048, 512);
+  scene.meshes[0].X_WM = Pose::translation(away);
+  const Eye there = frame_all(scene, 1.3);
+  // whole numbers and halves are added exactly
+  CHECK((there.eye - here.eye - away).norm() < 1e-9);
+  CHECK((there.target - here.target - away).norm() < 1e-9);
+}
+
+TEST_CASE("the view is from that side which shows what is seen through") {
+  // a wall on the default's side of a glass ball
+  Scene scene;
+  scene.meshes.push_back(solid(ball(0.3)));
+  scene.meshes[0].opacity = 0.3f;
+  const Eye open = frame_all(scene, 1);
+  Eigen::Vector3d side = open.eye - open.target;
+  side.z() = 0;
+  side.normalize();
+  const Pose X_WM{Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), side), 0.6 * side};
+  scene.meshes.push_back(solid(box(0.1, 2, 2), {1, 1, 1}, X_WM));
+  const Eye moved = frame_all(scene, 1);
+  // the ball's centre seen from the eye does not lie beyond the wall's plane
+  CHECK(moved.eye.dot(side) < 0.6 + 1);
+  CHECK((moved.eye - moved.target).normalized().dot(side) < 0.5);
+}
+
+TEST_CASE("axes are a rotation whose back points from the target to the eye, whatever up is") {
+  Eye eye;
+  for (const Eigen::Vector3d& at :
+       {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(0, 0, 5), Eigen::Vector3d(0, 0, -1e-9)})
+    for (const Eigen::Vector3d& up :
+         {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 2, 3)}) {
+      eye.eye = at;
+      eye.up = up;
+      const Eigen::Matrix3d axes = view_axes(eye);
+      // products of unit vectors round in the last bits
+      CHECK((axes.transpose() * axes - Eigen::Matrix3d::Identity()).norm() < 1e-12);
+      CHECK(axes.determinant() == doctest::Approx(1));
+      CHECK((axes.col(2) - at.normalized()).norm() < 1e-12);
+    }
+}
+
+TEST_CASE("an empty scene has a view, and a bad aspect is refused") {
+  const Eye eye = frame_all({}, 1.5);
+  CHECK(eye.eye.allFinite());
+  CHECK((eye.eye - eye.target).norm() > 0.1);
+  CHECK_THROWS_WITH_AS(frame_all({}, 0), "picture: aspect must be > 0, got 0", Error);
+}

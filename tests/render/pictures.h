@@ -1,0 +1,52 @@
+// What the tests of pictures share.
+#pragma once
+#include <doctest/doctest.h>
+
+#include <array>
+
+#include "base/error.h"
+#include "render/render.h"
+#include "support/shapes.h"
+
+namespace clench::test {
+
+/// Does this machine, and this build, draw? Says so when not.
+inline bool pictures() {
+  try {
+    render({}, {.width = 16, .height = 16, .samples = 1});
+    return true;
+  } catch (const Error& error) {
+    const std::string why = error.what();
+    // anything else is a fault of ours
+    REQUIRE((why.find("install the packages libegl1 and libgl1-mesa-dri") != why.npos ||
+             why == "this build has no pictures: configure with -DCLENCH_GL=ON"));
+    MESSAGE("skipped: " << why);
+    return false;
+  }
+}
+
+using Color = std::array<int, 3>;
+
+inline Color pixel(const Picture& picture, int x, int y) {
+  const uint8_t* p = &picture.pixels[3 * (static_cast<size_t>(y) * picture.width + x)];
+  return {p[0], p[1], p[2]};
+}
+
+inline bool is_red(const Color& c) { return c[0] > 60 && c[0] > 2 * c[1] && c[0] > 2 * c[2]; }
+
+inline int brightness(const Color& c) { return c[0] + c[1] + c[2]; }
+
+inline DrawMesh solid(const Mesh& mesh, const Eigen::Vector3f& color = {0.85f, 0.05f, 0.05f},
+                      const Pose& X_WM = {}) {
+  DrawMesh out;
+  out.shape = Shape::make(mesh);
+  out.X_WM = X_WM;
+  out.color = color;
+  return out;
+}
+
+}  // namespace clench::test
+
+/// Ends the test case, saying so, where there are no pictures.
+#define REQUIRE_PICTURES() \
+  if (!clench::test::pictures()) return;

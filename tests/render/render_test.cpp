@@ -1,0 +1,306 @@
+#include "render/render.h"
+
+#include <limits>
+#include <thread>
+
+#include "pictures.h"
+#include "render/frame.h"
+
+using namespace clench;
+using namespace clench::test;
+
+namespace {
+
+const RenderOptions small{.width = 96, .height = 72, .samples = 4};
+
+Scene red_box() {
+  Scene scene;
+  scene.meshes.push_back(solid(box(1, 1, 1)));
+  return scene;
+}
+
+// a bit of everything: solid, seen through, coloured by triangle, a cone and a needle, a floor
+Scene still_life() {
+  Scene scene = red_box();
+  scene.meshes.push_back(solid(ball(0.5), {0.2f, 0.5f, 0.9f}, Pose::translation({1.2, 0.3, 0})));
+  scene.meshes.back().opacity = 0.4f;
+  scene.meshes.push_back(solid(box(0.4, 0.4, 0.4), {1, 1, 1}, Pose::translation({0, -1, -0.3})));
+  scene.meshes.back().triangle_colors.assign(12, {0.1f, 0.9f, 0.2f});
+  scene.cones.resize(2);
+  scene.cones[0].apex = scene.cones[1].apex = {1.2, 0.3, 0.5};
+  scene.cones[0].axis = -Eigen::Vector3d::UnitZ();
+  scene.cones[0].half_angle = 0.5;
+  scene.cones[0].height = scene.cones[1].height = 0.3;
+  scene.ground = -0.5;
+  return scene;
+}
+
+Eye looking_along_y(double distance) {
+  Eye eye;
+  eye.eye = {0, -distance, 0};
+  eye.field_of_view = 0.8;
+  return eye;
+}
+
+int greatest_difference(const Picture& a, const Picture& b) {
+  REQUIRE(a.pixels.size() == b.pixels.size());
+  int most = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i)
+    most = std::max(most, std::abs(a.pixels[i] - b.pixels[i]));
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("the same scene gives the same bytes") {
+  REQUIRE_PICTURES();
+  const Scene scene = still_life();
+  CHECK(render(scene, small).pixels == render(scene, small).pixels);
+}
+
+TEST_CASE("threads draw at the same time, each what it would alone") {
+  REQUIRE_PICTURES();
+  const Scene scene = still_life();
+  const Picture alone = render(scene, small);
+  std::array<Picture, 3> pictures;
+  std::vector<std::thread> threads;
+  for (Picture& picture : pictures) threads.emplace_back([&] { picture = render(scene, small); });
+  for (std::thread& thread : threads) thread.join();
+  for (const Picture& picture : pictures) CHECK(picture.pixels == alone.pixels);
+}
+
+TEST_CASE("a red box is red in the middle, and the corners are background") {
+  REQUIRE_PICTURES();
+  const Picture picture = render(red_box(), small), nothing = render({}, small);
+  CHECK(is_red(pixel(picture, 48, 36)));
+  for (const int x : {0, 95})
+    for (const int y : {0, 71}) CHECK(pixel(picture, x, y) == pixel(nothing, x, y));
+}
+
+TEST_CASE("a picture has the size that was asked for, in one tile or several") {
+  REQUIRE_PICTURES();
+  for (const auto& [w, h] : {std::pair(16, 16), std::pair(200, 33), std::pair(1600, 40)}) {
+    const Picture picture = render(red_box(), {.width = w, .height = h, .samples = 1});
+    CHECK(picture.width == w);
+    CHECK(picture.height == h);
+    CHECK(picture.pixels.size() == 3u * w * h);
+  }
+}
+
+TEST_CASE("no seam shows between tiles") {
+  REQUIRE_PICTURES();
+  // tiles end at 1536: a wall across that column is one colour on either side of it
+  Scene scene;
+  scene.meshes.push_back(solid(box(40, 1, 40)));
+  scene.eye = looking_along_y(10);
+  const Picture picture = render(scene, {.width = 1568, .height = 24, .samples = 1});
+  for (int y = 0; y < 24; ++y) {
+    const Color left = pixel(picture, 1535, y), right = pixel(picture, 1536, y);
+    // a lit wall changes slowly: neighbours differ by less than 2 of 255
+    for (int k = 0; k < 3; ++k) CHECK(std::abs(left[k] - right[k]) < 2);
+  }
+}
+
+TEST_CASE("a camera that is given is used: a known point lies where it projects to") {
+  REQUIRE_PICTURES();
+  Scene scene;
+  const Eigen::Vector3d p_W(0.31, 0.2, -0.17);
+  scene.meshes.push_back(solid(ball(0.03), {0.9f, 0, 0}, Pose::translation(p_W)));
+  scene.meshes.push_back(solid(box(0.02, 0.02, 0.02), {0, 0, 0.9f}, Pose::translation({-1, 0, 0})));
+  Eye eye;
+  eye.eye = {0.5, -2, 0.8};
+  eye.target = {0.1, 0, 0};
+  eye.up = {0.2, 0.1, 1};
+  eye.field_of_view = 0.5;
+  scene.eye = eye;
+  const Eigen::Vector4d clip = view_projection(eye, 96.0 / 72, 0.1, 10) * p_W.homogeneous();
+  const double x = (0.5 + 0.5 * clip.x() / clip.w()) * 96,
+               y = (0.5 - 0.5 * clip.y() / clip.w()) * 72;
+  const Picture picture = render(scene, small);
+  // a ball of 0.03 m at 2.3 m is about two pixels in radius: it covers its middle, not what is five away
+  CHECK(is_red(pixel(picture, static_cast<int>(x), static_cast<int>(y))));
+  CHECK(!is_red(pixel(picture, static_cast<int>(x) + 5, static_cast<int>(y))));
+  CHECK(!is_red(pixel(picture, static_cast<int>(x), static_cast<int>(y) - 5)));
+}
+
+TEST_CASE("z is up and x is to the right for a camera that looks along y") {
+  REQUIRE_PICTURES();
+  Scene scene;
+  scene.meshes.push_back(solid(box(0.3, 0.3, 0.3), {0.9f, 0, 0}, Pose::translation({0.6, 0, 0.4})));
+  scene.eye = looking_along_y(4);
+  const Picture picture = render(scene, small);
+  // 72 pixels cover 2 * 4 * tan(0.4) = 3.38 m: the box's middle lies 12.8 right and 8.5 up of the centre
+  CHECK(is_red(pixel(picture, 48 + 12, 36 - 8)));
+  CHECK(!is_red(pixel(picture, 48 - 12, 36 - 8)));
+  CHECK(!is_red(pixel(picture, 48 + 12, 36 + 8)));
+}
+
+TEST_CASE("what is nearer hides what is farther, in either order") {
+  REQUIRE_PICTURES();
+  const DrawMesh near = solid(box(1, 0.1, 1), {0.9f, 0, 0}, Pose::translation({0, -1, 0}));
+  const DrawMesh far = solid(box(1, 0.1, 1), {0, 0, 0.9f}, Pose::translation({0, 1, 0}));
+  Scene one, other;
+  one.meshes = {near, far};
+  other.meshes = {far, near};
+  one.eye = other.eye = looking_along_y(5);
+  CHECK(is_red(pixel(render(one, small), 48, 36)));
+  CHECK(is_red(pixel(render(other, small), 48, 36)));
+}
+
+TEST_CASE("a transparent box lets through what is behind it") {
+  REQUIRE_PICTURES();
+  Scene scene;
+  scene.meshes.push_back(solid(ball(0.3), {0.95f, 0, 0}, Pose::translation({0, 1, 0})));
+  scene.meshes.push_back(solid(box(1, 0.2, 1), {0, 0, 0.9f}, Pose::translation({0, -0.5, 0})));
+  scene.eye = looking_along_y(5);
+  const Color hidden = pixel(render(scene, small), 48, 36);
+  scene.meshes[1].opacity = 0.3f;
+  const Color shown = pixel(render(scene, small), 48, 36);
+  scene.meshes[1].opacity = 0;
+  const Color alone = pixel(render(scene, small), 48, 36);
+  CHECK(hidden[0] < hidden[2]);
+  CHECK(shown[0] > hidden[0] + 50);
+  CHECK(shown[2] > alone[2] + 10);
+  CHECK(is_red(alone));
+}
+
+TEST_CASE("a cone inside a transparent body shows, inside a solid one it does not") {
+  REQUIRE_PICTURES();
+  Scene scene;
+  scene.meshes.push_back(solid(ball(0.5), {0, 0, 0.9f}));
+  scene.meshes[0].opacity = 0.3f;
+  scene.cones.resize(1);
+  scene.cones[0] = {.apex = {0, 0, 0.2},
+                    .axis = {0, 0, -1},
+                    .half_angle = 0.7,
+                    .height = 0.4,
+                    .color = {1, 0, 0}};
+  scene.eye = looking_along_y(3);
+  const Color shown = pixel(render(scene, small), 48, 36);
+  scene.meshes[0].opacity = 1;
+  const Color hidden = pixel(render(scene, small), 48, 36);
+  CHECK(shown[0] > shown[2]);
+  CHECK(hidden[0] < hidden[2]);
+}
+
+TEST_CASE("a box throws a shadow on the floor, and a thinner one a thinner shadow") {
+  REQUIRE_PICTURES();
+  Scene scene;
+  scene.meshes.push_back(solid(box(1, 1, 1), {0.8f, 0.8f, 0.8f}));
+  scene.ground = -0.5;
+  Eye eye;
+  eye.eye = {0, -6, 3};
+  scene.eye = eye;
+  // the lamp stands to the upper left: the floor right of the box lies in its shadow
+  const auto at = [&](const Picture& picture) {
+    const Eigen::Vector4d clip =
+        view_projection(eye, 96.0 / 72, 0.1, 100) * Eigen::Vector4d(0.75, 0, -0.5, 1);
+    return brightness(pixel(picture, static_cast<int>((0.5 + 0.5 * clip.x() / clip.w()) * 96),
+                            static_cast<int>((0.5 - 0.5 * clip.y() / clip.w()) * 72)));
+  };
+  const int shadow = at(render(scene, small));
+  scene.meshes[0].opacity = 0.4f;
+  const int thin = at(render(scene, small));
+  const int none = at(render({.meshes = {}, .cones = {}, .ground = -0.5, .eye = eye}, small));
+  CHECK(shadow + 60 < none);
+  CHECK(shadow + 20 < thin);
+  CHECK(thin + 20 < none);
+}
+
+TEST_CASE("a mesh whose triangles run the wrong way round looks the same") {
+  REQUIRE_PICTURES();
+  Mesh turned = ball(0.5);
+  // half of them: neighbours disagree, as in many files
+  for (size_t i = 0; i < turned.triangles.size(); i += 2)
+    std::swap(turned.triangles[i][0], turned.triangles[i][1]);
+  Scene one, other;
+  one.meshes.push_back(solid(ball(0.5)));
+  other.meshes.push_back(solid(turned));
+  one.ground = other.ground = -0.5;
+  // the diagonals of split quads differ with the order of corners: light differs a little where it is interpolated
+  CHECK(greatest_difference(render(one, small), render(other, small)) <= 8);
+}
+
+TEST_CASE("a millimetre and a kilometre make the same picture") {
+  REQUIRE_PICTURES();
+  // scaling by a power of two is exact, so the pictures agree to the byte
+  const auto scaled = [](double factor) {
+    Scene scene;
+    Mesh mesh = box(1, 0.7, 0.5);
+    for (auto& p : mesh.vertices) p *= factor;
+    scene.meshes.push_back(solid(mesh));
+    scene.ground = -0.25 * factor;
+    return render(scene, small);
+  };
+  const Picture metre = scaled(1);
+  CHECK(scaled(1.0 / 1024).pixels == metre.pixels);
+  CHECK(scaled(1024).pixels == metre.pixels);
+  CHECK(scaled(std::ldexp(1, 90)).pixels == metre.pixels);
+}
+
+TEST_CASE("a view from close by and one from far away show what they should") {
+  REQUIRE_PICTURES();
+  Scene scene = red_box();
+  // a millimetre off the face of a box of a metre
+  scene.eye = looking_along_y(0.501);
+  CHECK(is_red(pixel(render(scene, small), 48, 36)));
+  // from ten kilometres, through a narrow lens
+  scene.eye = looking_along_y(1e4);
+  scene.eye->field_of_view = 0.001;
+  CHECK(is_red(pixel(render(scene, small), 48, 36)));
+  // from within: the sides are seen from behind, and nothing fails
+  scene.eye = looking_along_y(0.1);
+  CHECK(render(scene, small).pixels.size() == 3u * 96 * 72);
+}
+
+TEST_CASE("a background mesh takes the shadow and leaves the frame to the others") {
+  REQUIRE_PICTURES();
+  Scene scene = red_box();
+  scene.meshes.push_back(
+      solid(box(500, 500, 0.1), {0.8f, 0.8f, 0.8f}, Pose::translation({0, 0, -0.55})));
+  scene.meshes.back().background = true;
+  CHECK(is_red(pixel(render(scene, small), 48, 36)));
+  const Eye eye = frame_all(scene, 1);
+  CHECK((eye.eye - eye.target).norm() < 10);
+}
+
+TEST_CASE("nothing at all, and nothing but degenerate triangles, is a legal scene") {
+  REQUIRE_PICTURES();
+  const Picture nothing = render({}, small);
+  CHECK(nothing.pixels.size() == 3u * 96 * 72);
+  Mesh flat;
+  flat.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}, {0, 0, 0}};
+  flat.triangles = {{0, 1, 2}, {0, 3, 1}, {2, 2, 2}};
+  Scene scene;
+  scene.meshes.push_back(solid(flat));
+  CHECK(render(scene, small).pixels == nothing.pixels);
+  scene.meshes[0].shape = nullptr;
+  CHECK(render(scene, small).pixels == nothing.pixels);
+  // one point
+  flat.vertices.assign(3, {7, 8, 9});
+  flat.triangles = {{0, 1, 2}};
+  scene.meshes = {solid(flat)};
+  CHECK(render(scene, small).pixels == nothing.pixels);
+}
+
+TEST_CASE("numbers out of range are refused by name") {
+  CHECK_THROWS_WITH_AS(render({}, {.width = 15}),
+                       "picture: width must be between 16 and 8192 pixels, got 15", Error);
+  CHECK_THROWS_WITH_AS(render({}, {.height = 8193}),
+                       "picture: height must be between 16 and 8192 pixels, got 8193", Error);
+  CHECK_THROWS_WITH_AS(render({}, {.samples = 0}),
+                       "picture: samples must be between 1 and 256, got 0", Error);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Scene scene = red_box();
+  scene.eye = Eye{};
+  scene.eye->eye = {nan, 0, 0};
+  CHECK_THROWS_WITH_AS(render(scene), "picture: eye, target and up must be finite numbers", Error);
+  scene.eye->eye = scene.eye->target;
+  CHECK_THROWS_WITH_AS(render(scene),
+                       "picture: eye and target must be two points, got (0, 0, 0) for the eye",
+                       Error);
+  scene.eye = Eye{};
+  scene.eye->field_of_view = 3.2;
+  CHECK_THROWS_WITH_AS(render(scene),
+                       "picture: field of view must be between 0.001 and 3 [rad], got 3.2", Error);
+}

@@ -1,0 +1,138 @@
+#include "scene/scene.h"
+
+#include <cmath>
+
+#include "model/find.h"
+#include "scene/palette.h"
+#include "support/shapes.h"
+
+using namespace clench;
+using namespace clench::test;
+
+namespace {
+
+BodySpec body(const char* name, const Mesh& mesh) {
+  BodySpec spec;
+  spec.name = name;
+  spec.shape = Shape::make(mesh);
+  return spec;
+}
+
+// a robot that is nothing but its base
+RobotSpec block(const Mesh& mesh) {
+  RobotSpec robot;
+  robot.name = "block";
+  robot.base = body("palm", mesh);
+  return robot;
+}
+
+}  // namespace
+
+TEST_CASE("bodies come in creation order, each with the colour of its kind") {
+  World world;
+  world.add_body(body("table", box(1, 1, 0.1)), BodyKind::obstacle, {});
+  world.add_body(body("tin", ball(0.1)), BodyKind::object, Pose::translation({3, 0, 0}));
+  world.add_robot(block(box(0.1, 0.1, 0.1)), Pose::translation({0, 5, 0}));
+  const Scene scene = make_scene(world);
+  REQUIRE(scene.meshes.size() == 3);
+  CHECK(scene.meshes[0].color == palette::of(BodyKind::obstacle).color);
+  CHECK(scene.meshes[1].color == palette::of(BodyKind::object).color);
+  CHECK(scene.meshes[2].color == palette::of(BodyKind::base).color);
+  CHECK(scene.meshes[1].X_WM == Pose::translation({3, 0, 0}));
+  CHECK(scene.meshes[0].opacity == 1);
+  CHECK(scene.meshes[1].opacity < 0.5f);
+  CHECK(make_scene(world, {.transparent_objects = false}).meshes[1].opacity == 1);
+}
+
+TEST_CASE("a file's own colours are used unless it is asked not to") {
+  World world;
+  BodySpec spec = body("tin", box(1, 1, 1));
+  spec.appearance.given = true;
+  spec.appearance.color = {0.1f, 0.2f, 0.3f};
+  spec.appearance.transparency = 0.9f;
+  spec.appearance.triangle_colors.assign(12, {0.5f, 0, 0});
+  world.add_body(spec, BodyKind::obstacle, {});
+  const DrawMesh own = make_scene(world).meshes[0];
+  CHECK(own.color == Eigen::Vector3f(0.1f, 0.2f, 0.3f));
+  CHECK(own.triangle_colors.size() == 12);
+  CHECK(own.opacity == doctest::Approx(0.1));
+  const DrawMesh ours = make_scene(world, {.file_colors = false}).meshes[0];
+  CHECK(ours.color == palette::of(BodyKind::obstacle).color);
+  CHECK(ours.triangle_colors.empty());
+  CHECK(ours.opacity == 1);
+}
+
+TEST_CASE("a cone stands at each contact of a robot with an object, opening into the object") {
+  World world;
+  // a palm under a box, a tenth of the threshold below it, and an obstacle on top as near
+  const double gap = 0.1 * world.contact_threshold();
+  const Id<Body> object = world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
+  world.add_robot(block(box(0.05, 0.05, 0.05)), Pose::translation({0, 0, -0.075 - gap}));
+  world.add_body(body("lid", box(0.1, 0.1, 0.1)), BodyKind::obstacle,
+                 Pose::translation({0, 0, 0.1 + gap}));
+  const auto all = contacts(world);
+  const Scene scene = make_scene(world);
+  REQUIRE(scene.cones.size() == 4);
+  CHECK(all.size() == 8);
+  const double mu =
+      world.materials().friction(world.body(object).material, world.body(object).material).statics;
+  for (const DrawCone& cone : scene.cones) {
+    CHECK(cone.apex.z() == doctest::Approx(-0.05));
+    CHECK((cone.axis - Eigen::Vector3d::UnitZ()).norm() < 1e-9);
+    CHECK(cone.half_angle == doctest::Approx(std::atan(mu)));
+    CHECK(cone.height > 0);
+    CHECK(cone.height < 0.05);
+  }
+  CHECK(make_scene(world, {.contacts = false}).cones.empty());
+}
+
+TEST_CASE("a contact without friction is a needle") {
+  World world;
+  BodySpec slippery = body("tin", box(0.1, 0.1, 0.1));
+  slippery.material = "frictionless";
+  world.add_body(slippery, BodyKind::object, {});
+  world.add_robot(block(box(0.05, 0.05, 0.05)), Pose::translation({0, 0, -0.075 - 1e-5}));
+  const Scene scene = make_scene(world);
+  REQUIRE(!scene.cones.empty());
+  for (const DrawCone& cone : scene.cones) {
+    CHECK(cone.half_angle == 0);
+    CHECK(cone.color == palette::needle);
+  }
+}
+
+TEST_CASE("the ground is at the lowest point, unless an obstacle is the floor") {
+  World world;
+  world.add_body(body("tin", box(0.1, 0.1, 0.4)), BodyKind::object, Pose::translation({0, 0, 1}));
+  world.add_body(body("post", box(0.1, 0.1, 1)), BodyKind::obstacle,
+                 Pose::translation({1, 0, 0.5}));
+  CHECK(make_scene(world).ground.value() == doctest::Approx(0));
+  CHECK(!make_scene(world, {.ground = false}).ground);
+  world.add_body(body("floor", box(10, 10, 0.2)), BodyKind::obstacle,
+                 Pose::translation({0, 0, -0.1}));
+  const Scene scene = make_scene(world);
+  CHECK(!scene.ground);
+  CHECK(scene.meshes[2].background);
+  CHECK(!scene.meshes[1].background);
+  // one that does not reach under everything is none
+  world.add_body(body("far", box(1, 1, 1)), BodyKind::object, Pose::translation({50, 0, 1}));
+  CHECK(make_scene(world).ground.value() == doctest::Approx(-0.2));
+}
+
+TEST_CASE("an empty world, and bodies without geometry, make an empty scene") {
+  World world;
+  CHECK(make_scene(world).meshes.empty());
+  CHECK(!make_scene(world).ground);
+  BodySpec frame;
+  frame.name = "frame";
+  world.add_body(frame, BodyKind::object, {});
+  CHECK(make_scene(world).meshes.empty());
+  CHECK(!make_scene(world).ground);
+}
+
+TEST_CASE("a camera is passed on") {
+  World world;
+  Eye eye;
+  eye.eye = {1, 2, 3};
+  CHECK(make_scene(world, {.eye = eye}).eye->eye == eye.eye);
+  CHECK(!make_scene(world).eye);
+}
