@@ -2,7 +2,6 @@
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 
 #include <cmath>
@@ -30,7 +29,11 @@ std::string sentence(const std::string& message, const std::string& extension) {
 Eigen::Vector3f color_of(const aiMaterial* material, float& transparency, bool& given) {
   aiColor3D color(0.7f, 0.7f, 0.7f);
   float opacity = 1;
-  given = given || material->Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS;
+  // the reader makes a material up where the file has none
+  aiString name;
+  material->Get(AI_MATKEY_NAME, name);
+  if (std::string_view(name.C_Str()) != AI_DEFAULT_MATERIAL_NAME)
+    given |= material->Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS;
   material->Get(AI_MATKEY_OPACITY, opacity);
   transparency = std::clamp(1 - opacity, 0.0f, 1.0f);
   return Eigen::Vector3f(color.r, color.g, color.b).cwiseMax(0.0f).cwiseMin(1.0f);

@@ -48,9 +48,10 @@ TEST_CASE("the loose triangles of an STL are welded") {
   CHECK(b.shape->mesh().vertices.size() == 8);
   CHECK(b.shape->mesh().triangles.size() == 12);
   CHECK(b.shape->faults().none());
+  CHECK_FALSE(b.appearance.given);
 }
 
-TEST_CASE("the colours of an OBJ come from its material file; without it there are none") {
+TEST_CASE("the colours of an OBJ come from its material file, without it there are none") {
   const TemporaryFolder folder;
   const std::string text = "mtllib cube.mtl\n" + cube_points + "usemtl red\n" + cube_faces;
   const auto file = folder.write("cube.obj", text);
@@ -62,7 +63,7 @@ TEST_CASE("the colours of an OBJ come from its material file; without it there a
   CHECK(look.transparency == 0.5f);
 }
 
-TEST_CASE("triangles with two equal corners are dropped") {
+TEST_CASE("triangles of a mesh file with two equal corners are dropped") {
   const TemporaryFolder folder;
   CHECK(read_body(folder.write("c.obj", cube_points + cube_faces + "f 1 1 2\nf 3 4 3\n"))
             .shape->mesh()
