@@ -5,7 +5,7 @@ using clench::test::run;
 using clench::test::Terminal;
 namespace fs = std::filesystem;
 
-TEST_CASE("piped lines are run one chunk at a time; an error leaves the session alive") {
+TEST_CASE("piped lines are run one chunk at a time, an error leaves the session alive") {
   const auto result = run("repl",
                           "x = 3\n=x\nx + 1\nfunction f()\n  return clench.vec3(1, 2, 3), {a = "
                           "1}\nend\nf()\nerror 'no'\n"

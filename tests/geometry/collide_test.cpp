@@ -86,7 +86,7 @@ TEST_CASE("an open body holds nothing, but can be held") {
   CHECK(colliding(*big, *open, Pose()));
 }
 
-TEST_CASE("any part inside is a collision; the hollow of a shell is free") {
+TEST_CASE("any part inside is a collision, the hollow of a shell is free") {
   const Mesh bead = box(0.1, 0.1, 0.1);
   const auto far_and_near = Shape::make(joined(moved(bead, Pose::translation({9, 0, 0})), bead));
   const auto outside = Shape::make(joined(moved(bead, Pose::translation({9, 0, 0})),

@@ -70,7 +70,7 @@ TEST_CASE("rays that would run through corners and edges do not mislead") {
       }
 }
 
-TEST_CASE("open meshes contain nothing; a point that is not finite is refused") {
+TEST_CASE("open meshes contain nothing, a point that is not finite is refused") {
   Mesh open = box(1, 1, 1);
   open.triangles.pop_back();
   CHECK_FALSE(contains(*Shape::make(open), {0, 0, 0}));

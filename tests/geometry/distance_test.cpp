@@ -54,7 +54,7 @@ TEST_CASE("distance of random soups is the least of all pairs") {
   }
 }
 
-TEST_CASE("distance is the least of all pairs far away, near and touching; 0 when colliding") {
+TEST_CASE("distance is the least of all pairs far away, near and touching, 0 when colliding") {
   Random random(2);
   const auto a = Shape::make(potato(random, 1, 6)), b = Shape::make(potato(random, 0.4, 4));
   for (int i = 0; i < 25; ++i) {
@@ -105,7 +105,7 @@ TEST_CASE("inside counts as no distance, whatever the limit, and the witness lie
   CHECK(distance(*small, *big, X.inverse()).triangle_b == -1);
 }
 
-TEST_CASE("only distances below the limit are found; meeting is found at any limit") {
+TEST_CASE("only distances below the limit are found, meeting is found at any limit") {
   const auto a = Shape::make(box(1, 1, 1));
   const Pose X = Pose::translation({1.5, 0.25, 0});
   CHECK(distance(*a, *a, X).distance == 0.5);

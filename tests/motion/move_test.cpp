@@ -120,7 +120,7 @@ TEST_CASE("a carried robot is not moved by its base") {
                        "robot 'gripper_2' is carried by 'gripper': move that one", Error);
 }
 
-TEST_CASE("a start in collision is an error that names the pair") {
+TEST_CASE("a move that starts in collision is an error that names the pair") {
   World world;
   const auto a = add(world, "a", box(0.02, 0.02, 0.02), {0, 0, 0});
   add(world, "b", box(0.02, 0.02, 0.02), {0.01, 0, 0});
