@@ -4,8 +4,8 @@
 
 namespace clench {
 
-/// The nearest view from above and the side that holds every corner, with a margin; scene units. Of twelve sides
-/// the first unless another shows clearly more of contacts and of what is seen through.
+/// The nearest view from above and the side that holds every corner, with a margin; scene units. Of twelve
+/// sides and two heights the first, unless another shows clearly more of contacts and of what is seen through.
 /// `aspect` is width over height. An empty list: a view of a square of size 1.
 Eye frame(const DrawList& list, double aspect);
 

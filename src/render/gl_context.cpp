@@ -12,8 +12,10 @@ namespace clench {
 namespace {
 
 [[noreturn]] void refuse(const std::string& why) {
-  fail("pictures need EGL and OpenGL 3.3, and {}; install the packages libegl1 and libgl1-mesa-dri",
-       why);
+  fail(
+      "pictures need EGL and OpenGL 3.3, and {}; install the packages libegl1, libgl1 and "
+      "libgl1-mesa-dri",
+      why);
 }
 
 // epoxy ends the process when it misses a library, so look before it does

@@ -108,11 +108,14 @@ Painter::Painter(const DrawList& list, const Eye& eye, const RenderOptions& opti
   const std::vector<uint32_t> sorted = back_to_front(list, eye.eye.cast<float>());
   sorted_count_ = static_cast<int>(sorted.size());
   sorted_ = gl::make_buffer(sorted.data(), sorted.size() * sizeof(uint32_t));
-  const std::vector<Light> room =
-      place_room(std::max(24, options.samples * room_lights_per_sample));
+  // a small picture shows less of what many lights do
+  const double fine = std::clamp(std::max(options.width, options.height) / 640.0, 0.25, 1.0);
+  const auto room =
+      place_room(std::clamp(int(options.samples * room_lights_per_sample * fine), 24, 512));
   Shadows coarse(list, loaded_, room_map_size);
   room_light_ = gather(list, coarse, room);
-  lamp_light_ = gather(list, coarse, lamp_);
+  if (!list.clear.empty())
+    lamp_light_ = gather(list, coarse, place_lamp(view_axes(eye), Shadows::most));
   open_light_ = light_on_floor(room) + light_on_floor(lamp_);
 }
 

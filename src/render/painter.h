@@ -7,7 +7,7 @@
 namespace clench {
 
 /// Lives inside the life of a GlContext; `eye` is in scene units.   throws Error when the driver refuses
-/// source  Haeberli & Akeley (1990), The accumulation buffer: soft shadows and smooth edges as a mean of pictures
+/// source  Haeberli & Akeley (1990), The accumulation buffer: soft shadows, smooth edges
 Picture paint(const DrawList& list, const Eye& eye, const RenderOptions& options);
 
 }  // namespace clench

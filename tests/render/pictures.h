@@ -18,7 +18,7 @@ inline bool pictures() {
   } catch (const Error& error) {
     const std::string why = error.what();
     // anything else is a fault of ours
-    REQUIRE((why.find("install the packages libegl1 and libgl1-mesa-dri") != why.npos ||
+    REQUIRE((why.find("install the packages libegl1, libgl1 and libgl1-mesa-dri") != why.npos ||
              why == "this build has no pictures: configure with -DCLENCH_GL=ON"));
     MESSAGE("skipped: " << why);
     return false;

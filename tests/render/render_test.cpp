@@ -284,6 +284,7 @@ TEST_CASE("nothing at all, and nothing but degenerate triangles, is a legal scen
 }
 
 TEST_CASE("numbers out of range are refused by name") {
+  REQUIRE_PICTURES();
   CHECK_THROWS_WITH_AS(render({}, {.width = 15}),
                        "picture: width must be between 16 and 8192 pixels, got 15", Error);
   CHECK_THROWS_WITH_AS(render({}, {.height = 8193}),
