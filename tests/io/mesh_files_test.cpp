@@ -51,7 +51,7 @@ TEST_CASE("the loose triangles of an STL are welded") {
   CHECK_FALSE(b.appearance.given);
 }
 
-TEST_CASE("the colours of an OBJ come from its material file, without it there are none") {
+TEST_CASE("the colours of an OBJ come from its material file and it loads without that too") {
   const TemporaryFolder folder;
   const std::string text = "mtllib cube.mtl\n" + cube_points + "usemtl red\n" + cube_faces;
   const auto file = folder.write("cube.obj", text);
