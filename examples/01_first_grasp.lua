@@ -30,7 +30,9 @@ print(("force closure %s"):format(grasp:is_force_closure() and "yes" or "no"))
 print(("weakest along force (%.2f, %.2f, %.2f), torque (%.2f, %.2f, %.2f)"):format(table.unpack(worst.direction)))
 
 -- friction cones show at the contacts; the flask is drawn transparent
-clench.render(world, {size = {1280, 960}}):save(picture)
+clench.render(world, {
+  size = {960, 720}, samples = 4, eye = {0.42, -0.42, 0.38}, target = {-0.02, 0, 0.1}, field_of_view = 0.45,
+}):save(picture)
 print("picture       " .. picture)
 
 assert(#contacts >= 6 and grasp:is_force_closure() and grasp:quality "epsilon" > 0.02, "a firm grasp")
