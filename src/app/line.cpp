@@ -79,7 +79,8 @@ static unsigned char complete_word(EditLine* edit, int) {
 
 // a byte of the terminal: 1, its end: 0, Ctrl-C or a failure: -1
 static int read_byte(char& byte, bool& interrupted) {
-  // the signal is let in while poll waits and at no other time, so that none comes unnoticed just before
+  // the signal is let in while poll waits and at no other time, so that none comes unnoticed just
+  // before
   sigset_t only, before;
   sigemptyset(&only);
   sigaddset(&only, SIGINT);

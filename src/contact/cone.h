@@ -12,20 +12,23 @@ struct PointContact {
 };
 
 struct ConeOptions {
-  int edges = 8;                                      ///< generators of the pyramid, >= 3
-  double rho = 1.0;                                   ///< torque length scale, > 0 [m]
-  Eigen::Vector3d p_OM = Eigen::Vector3d::Zero();     ///< torques are about this point, usually the centre of mass [m]
+  int edges = 8;     ///< generators of the pyramid, >= 3
+  double rho = 1.0;  ///< torque length scale, > 0 [m]
+  /// torques are about this point, usually the centre of mass [m]
+  Eigen::Vector3d p_OM = Eigen::Vector3d::Zero();
 };
 
-/// Columns x y z of the contact frame: z the unit normal, x = n x e1 (e3 when n is along e1), y = n x x.
+/// Columns x y z of the contact frame: z the unit normal, x = n x e1 (e3 when n is along e1),
+/// y = n x x.
 Eigen::Matrix3d contact_frame(const Eigen::Vector3d& normal);
 
-/// Generators of a linearised friction cone. Column i is (f; tau/rho) with f = n + mu t_i: unit normal force.
-/// Without friction the cone is its normal: one column.
+/// Generators of a linearised friction cone. Column i is (f; tau/rho) with f = n + mu t_i: unit
+/// normal force. Without friction the cone is its normal: one column.
 ///
 /// returns  6 x edges (6 x 1 when mu = 0), counter-clockwise about n from the frame's x
 /// throws   Error when mu < 0, edges < 3, rho <= 0, n is not unit or a number is not finite
 /// source   Murray, Li & Sastry (1994), ch. 5: grasp map, force rows first
-Eigen::Matrix<double, 6, Eigen::Dynamic> cone_wrenches(const PointContact& contact, const ConeOptions& options = {});
+Eigen::Matrix<double, 6, Eigen::Dynamic> cone_wrenches(const PointContact& contact,
+                                                       const ConeOptions& options = {});
 
 }  // namespace clench

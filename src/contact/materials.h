@@ -10,12 +10,13 @@ namespace clench {
 
 /// Coulomb coefficients of a pair of materials, >= 0.
 struct Friction {
-  double statics = 0;   ///< while sticking
-  double kinetic = 0;   ///< while sliding
+  double statics = 0;  ///< while sticking
+  double kinetic = 0;  ///< while sliding
 };
 
 /// Symmetric table of friction coefficients; users add materials and change pairs.
-/// Starts with the seven materials of the original: frictionless glass metal plastic wood rubber stone.
+/// Starts with the seven materials of the original: frictionless glass metal plastic wood rubber
+/// stone.
 class MaterialTable {
  public:
   MaterialTable();

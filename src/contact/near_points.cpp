@@ -11,8 +11,8 @@ namespace clench {
 
 using Eigen::Vector3d;
 
-// below this multiple of rounding the difference of two points is no direction: it is off by 1e-6
-// there
+// below this multiple of rounding the difference of two points is no direction: there it is off
+// by 1e-6
 static constexpr double direction_floor = 1e6;
 
 double coordinate_rounding(const Shape& a, const Shape& b, const Pose& X_AB) {

@@ -12,9 +12,9 @@ namespace clench {
 /// source  Andrew (1979), monotone chain; Douglas & Peucker (1973)
 std::vector<int> outline(const std::vector<Eigen::Vector2d>& points, double flat);
 
-/// `first`, then of `others` always the farthest from all chosen so far, until `most` are chosen or
-/// what is left lies within `radius` [m] of a chosen one. At equal distance the lower index goes
-/// first.
+/// `first`, then of `others` always the farthest from all chosen so far, until `most` are chosen
+/// or what is left lies within `radius` [m] of a chosen one. At equal distance the lower index
+/// goes first.
 ///
 /// source  Gonzalez (1985), farthest-first traversal
 std::vector<int> spread(const std::vector<Eigen::Vector2d>& points, int first,

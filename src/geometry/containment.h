@@ -8,8 +8,8 @@ namespace clench {
 
 struct Containment {
   Eigen::Vector3d point;  ///< in both, in the frame of a
-  int triangle_a = -1,
-      triangle_b = -1;  ///< with that point as a corner, of the inner shape; -1 of the outer
+  /// triangle of the inner shape with that point as a corner; -1 for the outer shape
+  int triangle_a = -1, triangle_b = -1;
 };
 
 /// Does a part of one shape lie in the solid of the other? Asks one corner of each connected part,

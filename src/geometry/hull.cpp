@@ -122,8 +122,8 @@ Hull convex_hull(const Eigen::MatrixXd& points) {
   hull.rank = rank_of(n, 1e-10);
   if (!hull.full()) return hull;
 
-  // Qt: simplices; FA: area and volume; Pp: no warning about precision; Qs: the widest first
-  // simplex
+  // Qt: simplices; FA: area and volume; Pp: no warning about precision;
+  // Qs: the widest first simplex
   std::string refusal;
   for (const char* options : {"qhull Qt FA Pp", "qhull Qt FA Pp Qs"}) {
     Qhull qhull;

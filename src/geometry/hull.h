@@ -1,5 +1,5 @@
 // Convex hulls in 2 to 6 dimensions, by qhull. Rank is tested first: a flat set has no hull, and
-// says so.
+// its result says so.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -8,7 +8,8 @@ namespace clench {
 
 struct Hull {
   int dimension = 0;  ///< of the space: rows of the points
-  int rank = 0;  ///< of the affine hull of the points; facets exist only when rank == dimension
+  /// of the affine hull of the points; facets exist only when rank == dimension
+  int rank = 0;
   Eigen::MatrixXd normals;               ///< dimension x facets, unit, outward
   Eigen::VectorXd offsets;               ///< normal . x <= offset inside
   std::vector<std::vector<int>> facets;  ///< indices of points on each facet; simplices

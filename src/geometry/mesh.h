@@ -58,11 +58,11 @@ struct MeshFaults {
 MeshFaults find_faults(const Mesh& mesh);
 
 /// Vertices nearer than tolerance [m] become one (exactly equal ones when 0); triangles keep their
-/// order; those left with a vertex twice are dropped. returns the number dropped through `dropped`
+/// order; those left with a vertex twice are dropped, and counted in `dropped`.
 Mesh weld(const Mesh& mesh, double tolerance = 0, int* dropped = nullptr);
 
-/// throws Error naming the vertex or triangle: positions finite, indices in range, at least one
-/// triangle
+/// Positions finite, indices in range, at least one triangle.
+/// throws  Error naming the vertex or triangle where it is not so
 void check_mesh(const Mesh& mesh, const std::string& subject);
 
 }  // namespace clench

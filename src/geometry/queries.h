@@ -57,8 +57,8 @@ struct ClosestPoint {
 /// Surface point nearest to p. `seed`, a triangle likely to be near, saves time.
 ClosestPoint closest_point(const Shape& shape, const Eigen::Vector3d& p, int seed = -1);
 
-/// Is p inside the solid? By the winding number, so parts may overlap and faces may look inward; a
-/// part inside out within another is a hollow. Open meshes contain nothing.
+/// Is p inside the solid? By the winding number, so parts may overlap and faces may look inward;
+/// a part inside out within another is a hollow. Open meshes contain nothing.
 bool contains(const Shape& shape, const Eigen::Vector3d& p);
 
 /// Triangles with a point closer to p than radius [m], in index order.

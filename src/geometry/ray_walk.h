@@ -10,14 +10,12 @@
 namespace clench {
 
 struct Crossing {
-  enum class Kind {
-    miss,
-    hit,
-    unsure
-  };  ///< unsure: rounding may have decided; given only if asked for
+  /// unsure: rounding may have decided; given only if asked for
+  enum class Kind { miss, hit, unsure };
   Kind kind = Kind::miss;
   double distance = 0;  ///< along the ray [m]; negative behind the origin
-  int side = 0;  ///< +1 when the ray leaves through the outside of the triangle, -1 when it enters
+  /// +1 when the ray leaves through the outside of the triangle, -1 when it enters
+  int side = 0;
 };
 
 class Ray {

@@ -80,8 +80,8 @@ class Builder {
     return frame(longest, (c[1] - c[0]).cross(c[2] - c[0]));
   }
 
-  // first column along `along`, third as near to `normal` as may be; any frame where they do not
-  // tell
+  // first column along `along`, third as near to `normal` as may be; any frame where these do
+  // not tell
   static Matrix3d frame(const Vector3d& along, const Vector3d& normal) {
     Matrix3d axes = Matrix3d::Identity();
     const Vector3d x = along.stableNormalized();
@@ -148,7 +148,8 @@ class Builder {
   std::vector<Vector3d> centres_;
 };
 
-// How far the boxes stay apart along the cross products of their axes, at most 1 long: a lower bound.
+// How far the boxes stay apart along the cross products of their axes, at most 1 long: a lower
+// bound.
 double gap_across_edges(const Matrix3d& turn, const Matrix3d& shadow, const Vector3d& offset,
                         const Vector3d& half_a, const Vector3d& half_b) {
   double most = 0;

@@ -18,8 +18,8 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
 double unit_clamp(double x) { return x > 0 ? (x < 1 ? x : 1) : 0; }  // not a number becomes 0
 
-// Two triangles relative to the first corner of the first one, so that a far origin costs no
-// digits.
+// Two triangles relative to the first corner of the first one, so that a far origin costs
+// no digits.
 struct Local {
   Vector3d origin;
   Corners a, b, edge_a, edge_b;

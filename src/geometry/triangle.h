@@ -17,7 +17,8 @@ struct Closest {
 Closest segment_segment(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
                         const Eigen::Vector3d& b0, const Eigen::Vector3d& b1);
 
-/// source  Ericson (2005), ch. 5.1.5. p is the point itself, q lies on the triangle
+/// p is the point itself, q lies on the triangle.
+/// source  Ericson (2005), ch. 5.1.5
 Closest point_triangle(const Eigen::Vector3d& p, const Corners& triangle);
 
 /// Do they share a point? Touching counts: apart means that some direction shows a gap beyond

@@ -6,7 +6,8 @@
 
 namespace clench {
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;  ///< wrench (force, torque) or twist (linear, angular)
+/// wrench (force, torque) or twist (linear, angular)
+using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 /// Unit quaternion and position; kept as given, so that what was set is read back to the bit.
 struct Pose {
@@ -40,8 +41,7 @@ struct Pose {
 
 /// Straight line between positions, shortest turn between rotations; t in [0, 1].
 inline Pose interpolate(const Pose& from, const Pose& to, double t) {
-  return {from.rotation.slerp(t, to.rotation),
-          from.position + t * (to.position - from.position)};
+  return {from.rotation.slerp(t, to.rotation), from.position + t * (to.position - from.position)};
 }
 
 inline void add(Hasher& hasher, const Pose& pose) {

@@ -6,13 +6,14 @@
 
 namespace clench {
 
-/// Bodies and robots in the file's order. A carried robot keeps the pose that its block gives when this
-/// agrees with the connection to the six digits that files hold; otherwise the connection wins. DOF values
-/// outside their limits are brought to the nearest limit. `warn` is told of both.
+/// Bodies and robots in the file's order. A carried robot keeps the pose that its block gives when
+/// this agrees with the connection to the six digits that files hold; otherwise the connection
+/// wins. DOF values outside their limits are brought to the nearest limit. `warn` is told of both.
 World build_world(const WorldSpec& spec, const std::function<void(const std::string&)>& warn = {});
 
-/// Switches off the pairs of a robot's own bodies that overlap where it stands: models whose links reach into each
-/// other at a joint could otherwise never move.   returns those pairs
+/// Switches off the pairs of a robot's own bodies that overlap where it stands: models whose links
+/// reach into each other at a joint could otherwise never move.
+/// returns  those pairs
 std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot);
 
 /// Adds a robot, and tells `warn` of the pairs that switch_off_overlaps found.

@@ -16,7 +16,8 @@ std::vector<BodyPair> colliding_pairs(const World& world);
 std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Body>> a,
                                       std::span<const Id<Body>> b);
 
-/// Least distance that the bounding spheres of two bodies with geometry allow; negative when they overlap [m].
+/// Least distance that the bounding spheres of two bodies with geometry allow; negative when they
+/// overlap [m].
 double sphere_gap(const Body& a, const Body& b);
 
 struct BodyDistance {
@@ -25,8 +26,8 @@ struct BodyDistance {
   Id<Body> a, b;
 };
 
-/// Least distance between the bodies of two groups, if it is below `limit` [m]; infinite otherwise. Switched-off
-/// pairs are measured too.
+/// Least distance between the bodies of two groups, if it is below `limit` [m]; infinite otherwise.
+/// Switched-off pairs are measured too.
 BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,
                       double limit = std::numeric_limits<double>::infinity());
 

@@ -16,8 +16,8 @@ namespace {
 constexpr double crease = 35 * std::numbers::pi / 180;
 constexpr float solid_from = 0.999f;   // opacity above which nothing shines through
 constexpr float longest_edge = 0.07f;  // across which light is interpolated [scene units]
-constexpr size_t most_triangles =
-    200000;  // of one piece, by splitting; what comes with more keeps them
+// of one piece, by splitting; what comes with more keeps them
+constexpr size_t most_triangles = 200000;
 
 std::array<uint8_t, 4> to_bytes(const Eigen::Vector3f& color, float opacity) {
   const auto byte = [](float x) {

@@ -1,5 +1,5 @@
-// A scene as triangle corners ready for the graphics card, in the scene's own units: moved to its centre
-// and divided by its radius, so that a millimetre and a kilometre make the same picture.
+// A scene as triangle corners ready for the graphics card, in the scene's own units: moved to its
+// centre and divided by its radius, so that a millimetre and a kilometre make the same picture.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -18,7 +18,8 @@ struct Corner {
 };
 static_assert(sizeof(Corner) == 28);
 
-/// A run of indices that belong together, and the same surface in fewer triangles, which throw its shadow.
+/// A run of indices that belong together, and the same surface in fewer triangles, which throw its
+/// shadow.
 struct Batch {
   int first = 0, count = 0;
   int first_caster = 0, caster_count = 0;
@@ -46,8 +47,9 @@ struct DrawList {
 inline constexpr double floor_reach = 5;  ///< half width of the floor [scene units]
 inline constexpr int floor_lines = 113;
 
-/// throws Error naming the mesh or cone and what is out of range: numbers not finite, opacity outside [0, 1],
-/// a wrong count of triangle colours, a cone's axis that is not unit, its half angle outside [0, pi/2)
+/// throws  Error naming the mesh or cone and what is out of range: numbers not finite, opacity
+///         outside [0, 1], a wrong count of triangle colours, a cone's axis that is not unit, its
+///         half angle outside [0, pi/2)
 DrawList make_draw_list(const Scene& scene);
 
 /// Indices of `clear`, the triangles farthest from the eye first.

@@ -69,8 +69,8 @@ Eye fit(const std::vector<Eigen::Vector3d>& corners, const Eigen::Vector3d& dire
   Eye eye;
   eye.eye = direction;
   const Eigen::Matrix3d axes = view_axes(eye);
-  // slopes of the frame's sides; each side is a plane through the eye that every corner lies behind:
-  // |x - ex| <= slope (ez - z)
+  // slopes of the frame's sides; each side is a plane through the eye that every corner lies
+  // behind: |x - ex| <= slope (ez - z)
   const double y_slope = used * std::tan(eye.field_of_view / 2);
   const Eigen::Array2d slope(y_slope * aspect, y_slope);
   Eigen::Array2d high(-1e9, -1e9), low(-1e9, -1e9);
@@ -83,7 +83,8 @@ Eye fit(const std::vector<Eigen::Vector3d>& corners, const Eigen::Vector3d& dire
     farthest = std::min(farthest, p.z());
   }
 
-  // as near as the narrower pair of sides allows, but not inside a flat scene that is seen along itself
+  // as near as the narrower pair of sides allows, but not inside a flat scene that is seen along
+  // itself
   const double back = std::max(((high + low) / (2 * slope)).maxCoeff(), nearest + 0.05);
   const Eigen::Vector2d across = (high - low) / 2;
   eye.eye = axes * Eigen::Vector3d(across.x(), across.y(), back);

@@ -41,7 +41,8 @@ GlContext::GlContext() {
 
   if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
     refuse("this EGL cannot draw without a display (EGL_MESA_platform_surfaceless)");
-  // the display belongs to the process, not to us: other threads may use it, so it is never terminated
+  // the display belongs to the process, not to us: other threads may use it, so it is never
+  // terminated
   EGLDisplay display =
       eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))

@@ -3,8 +3,8 @@
 
 namespace clench {
 
-/// Current on the calling thread from construction to destruction; what was current before is so again after.
-/// Needs nothing but the libraries: EGL_PLATFORM_SURFACELESS_MESA of EGL 1.5.
+/// Current on the calling thread from construction to destruction; what was current before is so
+/// again after. Needs nothing but the libraries: EGL_PLATFORM_SURFACELESS_MESA of EGL 1.5.
 class GlContext {
  public:
   /// throws Error that says what to install when there is no EGL or no OpenGL 3.3

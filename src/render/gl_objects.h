@@ -1,4 +1,5 @@
-// Textures, buffers and programs of OpenGL as values that clean up after themselves, without its types.
+// Textures, buffers and programs of OpenGL as values that clean up after themselves, without its
+// types.
 #pragma once
 #include <Eigen/Core>
 #include <string>
@@ -35,9 +36,10 @@ Object make_texture(Format format, int width, int height, const void* data = nul
 /// Layers of depth that are compared when they are read: shares of neighbours that pass.
 Object make_shadow_maps(int size, int layers);
 /// Draws to textures of one size, in the order of a program's outputs; depth 0: none.
-/// throws Error when the driver cannot
+/// throws  Error when the driver cannot
 Object make_framebuffer(const std::vector<unsigned>& colors, unsigned depth);
-/// Both texts follow the version and `head`.   throws Error with the driver's words
+/// Both texts follow the version and `head`.
+/// throws  Error with the driver's words
 Object make_program(const std::string& head, const std::string& vertex,
                     const std::string& fragment);
 /// Corners, or indices of the current vertex array.

@@ -25,8 +25,8 @@ struct Tile {
 // what is drawn to, of a tile's size
 struct Canvas {
   explicit Canvas(const Tile& tile);
-  gl::Object places, facings, paints, depths,
-      first;                     // what is seen first, and the framebuffer of these
+  // what is seen first, and the framebuffer of these
+  gl::Object places, facings, paints, depths, first;
   gl::Object light, lit;         // one pass
   gl::Object sum, added;         // all passes
   gl::Object pixels, developed;  // as a screen shows it

@@ -6,7 +6,8 @@
 
 namespace clench {
 
-/// Lives inside the life of a GlContext; `eye` is in scene units.   throws Error when the driver refuses
+/// Lives inside the life of a GlContext; `eye` is in scene units.
+/// throws  Error when the driver refuses
 /// source  Haeberli & Akeley (1990), The accumulation buffer: soft shadows, smooth edges
 Picture paint(const DrawList& list, const Eye& eye, const RenderOptions& options);
 

@@ -22,7 +22,8 @@ void check(const Scene& scene);
 /// `number` names the mesh in an error: when its pose moves it beyond all numbers
 Piece mesh_piece(const DrawMesh& mesh, size_t number);
 
-/// The mantle, its lid, and a ball about the apex. A needle when there is no angle; a flat cone is cut off.
+/// The mantle, its lid, and a ball about the apex. A needle when there is no angle; a flat cone is
+/// cut off.
 Piece cone_piece(const DrawCone& cone);
 
 }  // namespace clench

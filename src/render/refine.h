@@ -4,9 +4,10 @@
 
 namespace clench {
 
-/// Corners, three a triangle: halves every edge longer than `longest` [scene units], and its neighbour's
-/// with it, so that no cracks open. Outside the scene's ball edges may be longer, in proportion to the
-/// distance. Gives up the length, not the count, when there would be more than `most` triangles.
+/// Corners, three a triangle: halves every edge longer than `longest` [scene units], and its
+/// neighbour's with it, so that no cracks open. Outside the scene's ball edges may be longer, in
+/// proportion to the distance. Gives up the length, not the count, when there would be more than
+/// `most` triangles.
 std::vector<Corner> split_long_edges(const std::vector<Corner>& corners, float longest,
                                      size_t most);
 

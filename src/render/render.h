@@ -1,4 +1,5 @@
-// A scene as a picture, by OpenGL 3.3 through EGL without display: the same bytes for the same scene.
+// A scene as a picture, by OpenGL 3.3 through EGL without display: the same bytes for the same
+// scene.
 #pragma once
 #include "render/picture.h"
 #include "scene/scene.h"
@@ -10,12 +11,13 @@ struct RenderOptions {
   int samples = 8;  ///< a pixel: smoothness of edges and shadows against time, 1..256
 };
 
-/// throws Error that says what to install when there is no EGL or no OpenGL 3.3, on a size out of range,
-/// and on a number of the scene out of range, naming the mesh or cone
+/// throws  Error that says what to install when there is no EGL or no OpenGL 3.3, on a size out of
+///         range, and on a number of the scene out of range, naming the mesh or cone
 Picture render(const Scene& scene, const RenderOptions& options = {});
 
-/// The view that `render` uses when the scene names none: everything in the frame, from above and that
-/// side which shows most of the contacts and of what is grasped. `aspect` is width over height.
+/// The view that `render` uses when the scene names none: everything in the frame, from above and
+/// that side which shows most of the contacts and of what is grasped. `aspect` is width over
+/// height.
 Eye frame_all(const Scene& scene, double aspect);
 
 }  // namespace clench

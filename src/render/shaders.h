@@ -1,5 +1,5 @@
-// The programs of the graphics card, as text. Parts come before a program's own text, and before all the count
-// LIGHTS of lights at a time: a constant, so that loops over them unroll.
+// The programs of the graphics card, as text. Parts come before a program's own text, and before
+// all the count LIGHTS of lights at a time: a constant, so that loops over them unroll.
 #pragma once
 
 namespace clench::shaders {

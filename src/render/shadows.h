@@ -14,7 +14,7 @@ struct LoadedList {
   gl::Object array, corners, indices;
 };
 
-/// One triangle over all of the framebuffer.   reads nothing but the program
+/// One triangle over all of the framebuffer; reads nothing but the program.
 class Cover {
  public:
   void draw(unsigned program) const;

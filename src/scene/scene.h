@@ -21,17 +21,18 @@ struct DrawMesh {
 
 /// Friction cone: apex at the contact, opening along the axis. A half angle of 0 draws a needle.
 struct DrawCone {
-  Eigen::Vector3d apex = Eigen::Vector3d::Zero(),
-                  axis = Eigen::Vector3d::UnitZ();  ///< world; axis unit
-  double half_angle = 0;                            ///< [rad], in [0, pi/2)
-  double height = 0;                                ///< [m]
+  /// world [m]; axis unit
+  Eigen::Vector3d apex = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ();
+  double half_angle = 0;  ///< [rad], in [0, pi/2)
+  double height = 0;      ///< [m]
   Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
 };
 
 struct Eye {
+  /// world [m]
   Eigen::Vector3d eye = Eigen::Vector3d::UnitX(), target = Eigen::Vector3d::Zero(),
-                  up = Eigen::Vector3d::UnitZ();  ///< world [m]
-  double field_of_view = 0.6;                     ///< vertical [rad], in [0.001, 3]
+                  up = Eigen::Vector3d::UnitZ();
+  double field_of_view = 0.6;  ///< vertical [rad], in [0.001, 3]
 };
 
 struct Scene {
@@ -49,8 +50,8 @@ struct SceneOptions {
   std::optional<Eye> eye = {};
 };
 
-/// Bodies in creation order with the colours of scene/palette.h, then a cone for each contact between a
-/// part of a robot and an object, opening into the object by its friction angle.
+/// Bodies in creation order with the colours of scene/palette.h, then a cone for each contact
+/// between a part of a robot and an object, opening into the object by its friction angle.
 Scene make_scene(const World& world, const SceneOptions& options = {});
 
 }  // namespace clench

@@ -11,7 +11,8 @@ extern const Library log_library;
 enum class LogLevel { debug, info, warning, error, quiet };
 
 /// Tells the script's log, if its level lets the message through. May be called under the engine's
-/// functions. throws Raised when the script's own sink fails
+/// functions.
+/// throws  Raised when the script's own sink fails
 void log(lua_State* L, LogLevel level, const std::string& message);
 
 inline void log_warning(lua_State* L, const std::string& message) {

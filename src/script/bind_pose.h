@@ -13,8 +13,8 @@ inline const Class& class_of<Pose>() {
   return pose_class;
 }
 
-/// The pose that a table {xyz=, rpy= | quat= | matrix=} says.   throws Error that begins with the
-/// subject
+/// The pose that a table {xyz=, rpy= | quat= | matrix=} says.
+/// throws  Error that begins with the subject
 Pose pose_from_table(lua_State* L, int index, const std::string& subject);
 
 }  // namespace clench

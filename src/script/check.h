@@ -35,14 +35,15 @@ inline std::vector<double> check_numbers(lua_State* L, int i, const char* name =
   return read_numbers(L, i, {L, {}, name}, count);
 }
 
-/// A userdata of one class.   throws Error "...: wanted a robot, got a table"
+/// A userdata of one class.
+/// throws  Error "...: wanted a robot, got a table"
 template <class T>
 T& check_object(lua_State* L, int i, const char* name = "") {
   if (T* object = to<T>(L, i)) return *object;
   fail_wanted({L, {}, name}, std::string("a ") + class_of<T>().name, i);
 }
 
-/// throws Error "...: wanted at most 2 arguments, got 3"; self does not count
+/// throws  Error "...: wanted at most 2 arguments, got 3"; self does not count
 void check_count(lua_State* L, int most);
 
 }  // namespace clench

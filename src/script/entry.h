@@ -2,34 +2,30 @@
 //
 // How to add a binding
 //  1. A value or handle that scripts hold is a Class; functions live in a Library. Each is one
-//  constant in a
-//     bind_<noun>.cpp that ends in tables of entries, is declared in the header of the same stem,
-//     and has one line in library.cpp. Several libraries may share a name: their entries add up.
+//     constant in a bind_<noun>.cpp that ends in tables of entries, is declared in the header of
+//     the same stem, and has one line in library.cpp. Several libraries may share a name: their
+//     entries add up.
 //  2. A function is `static int f(lua_State* L)`, named in its table as guarded<f> (guard.h). It
-//  reads its
-//     arguments with check.h (positional) or a Table (options), calls the engine, and returns
-//     push...(). Bad input throws clench::Error; guarded adds the script's line. Messages begin
-//     with subject(L), "hand:autograsp", found by itself.
-//  3. A method begins with `auto& hand = self<RobotHandle>(L)` (object.h). class_of<T>() ties a C++
-//  type to its
-//     Class; push_object(L, T{...}) makes a value of it, to<T> and check_object<T> read one.
-//  4. Nothing that can raise a Lua error may run while C++ objects with destructors live, because a
-//  host's Lua may
-//     jump over them: no lua_error, luaL_check..., lua_gettable with metamethods, lua_call. Use raw
-//     access, and protected_call (guard.h) for callbacks. (Pushing may raise only when memory is
-//     out, and then leaks.)
+//     reads its arguments with check.h (positional) or a Table (options), calls the engine, and
+//     returns push...(). Bad input throws clench::Error; guarded adds the script's line. Messages
+//     begin with subject(L), "hand:autograsp", found by itself.
+//  3. A method begins with `auto& hand = self<RobotHandle>(L)` (object.h). class_of<T>() ties a
+//     C++ type to its Class; push_object(L, T{...}) makes a value of it, to<T> and
+//     check_object<T> read one.
+//  4. Nothing that can raise a Lua error may run while C++ objects with destructors live, because
+//     a host's Lua may jump over them: no lua_error, luaL_check..., lua_gettable with metamethods,
+//     lua_call. Use raw access, and protected_call (guard.h) for callbacks. (Pushing may raise
+//     only when memory is out, and then leaks.)
 //  5. The doc is the sentence or two that a reader needs, then LuaCATS lines, then running
-//  examples. A field has
-//     `@type`; what follows two spaces is prose, with the unit in brackets:
+//     examples. A field has `@type`; what follows two spaces is prose, with the unit in brackets:
 //         Closes the fingers until contact stops them.
-//         @param options? {speed?: number, stop_at_contact?: boolean}  speed 1 is the hand's own
-//         pace
+//         @param options? {speed?: number, stop_at_contact?: boolean}  speed 1: the hand's own pace
 //         @return table result  `moved`, `stops`
 //         > hand:autograsp().moved  --> true
 //     `> code` without an arrow prepares the next one. `--> error: text` wants an error that
-//     contains text. Examples run with clench, world, hand (closed on the flask), flask and grasp. The tests run
-//     every one of them; `clench doc` writes docs/api from the same tables, and the REPL completes
-//     from them.
+//     contains text. Examples run with clench, world, hand (closed on the flask), flask and grasp.
+//     The tests run every one of them; `clench doc` writes docs/api from the same tables, and the
+//     REPL completes from them.
 #pragma once
 #include <lua.hpp>
 #include <span>
@@ -60,8 +56,8 @@ struct Class {
   const char* doc;
   std::span<const Entry> fields;
   std::span<const Entry> methods;
-  std::span<const Entry> operators =
-      {};  ///< "__add", "__tostring"; "__index", "__newindex": keys that are no string
+  /// "__add", "__tostring"; "__index", "__newindex": keys that are no string
+  std::span<const Entry> operators = {};
   const Class* parent = nullptr;  ///< its fields and methods are had too
 };
 
@@ -78,8 +74,8 @@ void push_metatable(lua_State* L, const Class& kind);
 /// Adds the entries to the table below `root` that the library's name says, made if need be.
 void open_library(lua_State* L, int root, const Library& library);
 
-/// Pops a function(name) that is asked for members that the library at the index lacks; nil: not
-/// known either.
+/// Pops a function(name) that is asked for members that the library at the index lacks;
+/// nil: not known either.
 void set_library_fallback(lua_State* L, int library);
 
 }  // namespace clench

@@ -10,17 +10,19 @@
 
 namespace clench {
 
-/// A Lua error on its way through C++; its value waits in the state, and guarded raises it again
-/// unchanged.
+/// A Lua error on its way through C++; its value waits in the state, and guarded raises it
+/// again unchanged.
 class Raised : public std::exception {
  public:
   const char* what() const noexcept override { return "an error in a script's function"; }
 };
 
-/// Calls the function below its `arguments` on the stack.   throws Raised when it fails
+/// Calls the function below its `arguments` on the stack.
+/// throws  Raised when it fails
 void protected_call(lua_State* L, int arguments, int results);
 
-/// Runs fn.   returns what fn returned, or -1 with an error value on top of the stack
+/// Runs fn.
+/// returns  what fn returned, or -1 with an error value on top of the stack
 int run_guarded(lua_State* L, lua_CFunction fn);
 
 /// fn as Lua may call it: a std::exception becomes a Lua error with the calling script's line.

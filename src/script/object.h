@@ -53,7 +53,8 @@ int close_object(lua_State* L) {
   return 0;
 }
 
-/// Leaves a userdata with the value on the stack.   returns 1
+/// Leaves a userdata with the value on the stack.
+/// returns  1
 template <class T>
 int push_object(lua_State* L, T value) {
   static_assert(sizeof(Box<T>) + alignof(Box<T>) <= Box<T>::bytes);
@@ -79,8 +80,8 @@ int push_object(lua_State* L, T value) {
   return 1;
 }
 
-/// throws Error "hand:autograsp: wanted a robot before the colon, got a table; use
-/// hand:autograsp(...)"
+/// throws  Error "hand:autograsp: wanted a robot before the colon, got a table;
+///         use hand:autograsp(...)"
 [[noreturn]] void fail_self(lua_State* L, const Class& kind);
 
 /// The object that a method or field belongs to.

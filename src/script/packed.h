@@ -14,8 +14,8 @@ struct PackedFile {
 /// Every file of stdlib/, sorted by path.
 std::span<const PackedFile> packed_files();
 
-/// The file of a module "shapes.box": shapes/box.lua or shapes/box/init.lua; null when there is
-/// none.
+/// The file of a module "shapes.box": shapes/box.lua or shapes/box/init.lua;
+/// null when there is none.
 const PackedFile* find_packed(std::string_view module);
 
 /// Leaves the module's value on the stack: run at the first call, shared with require

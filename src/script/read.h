@@ -25,7 +25,7 @@ struct What {
 /// A value in a message: "3", "'abc'", "a table of 2", "a robot", "nothing".
 std::string described(lua_State* L, int index);
 
-/// throws Error "subject: key: wanted a number, got 'abc'"
+/// throws  Error "subject: key: wanted a number, got 'abc'"
 [[noreturn]] void fail_wanted(const What& what, std::string_view wanted, int index);
 
 // each throws Error as above; i is an index of the stack
@@ -37,7 +37,8 @@ std::string read_string(lua_State* L, int i, const What& what);    ///< without 
 Eigen::Vector3d read_vec3(lua_State* L, int i, const What& what);  ///< a vec3 or {x, y, z}
 /// a pose, or the table that clench.pose takes
 Pose read_pose(lua_State* L, int i, const What& what);
-/// finite numbers; count < 0: any number of them.   throws "...: wanted 12 numbers, got 3"
+/// finite numbers; count < 0: any number of them
+/// throws  Error "...: wanted 12 numbers, got 3"
 std::vector<double> read_numbers(lua_State* L, int i, const What& what, int count = -1);
 /// lists of numbers; columns < 0: any length
 std::vector<std::vector<double>> read_rows(lua_State* L, int i, const What& what, int columns = -1);

@@ -8,9 +8,10 @@ namespace clench {
 /// Options of reading that a call's table holds: root. Warnings go to the script's log.
 ReadOptions read_options(lua_State* L, Table& options);
 
-/// A body from argument i: a file name, or a mesh {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
-/// in metres, indices from 1; the keys name, material, mass, com, elastic_modulus, color and transparency of the
-/// options override it.   throws Error that names what is wrong
+/// A body from argument i: a file name, or a mesh in metres, indices from 1,
+/// {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}; the keys name, material, mass, com,
+/// elastic_modulus, color and transparency of the options override it.
+/// throws  Error that names what is wrong
 BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions& reading);
 
 }  // namespace clench

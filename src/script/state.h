@@ -37,8 +37,8 @@ class State {
   /// Messages below errors are not shown from now on.
   void set_quiet();
 
-  /// Makes the running chunk fail with "interrupted", coroutines too. May be called from a signal
-  /// handler.
+  /// Makes the running chunk fail with "interrupted", coroutines too.
+  /// May be called from a signal handler.
   void interrupt();
 
  private:

@@ -26,7 +26,8 @@ class Table {
   bool boolean(const char* key, bool fallback);
   std::string string(const char* key);
   std::string string(const char* key, const std::string& fallback);
-  /// one of the names.   throws "...: unknown norm 'L3'; did you mean 'L1'?"
+  /// one of the names
+  /// throws  Error "...: unknown norm 'L3'; did you mean 'L1'?"
   std::string choice(const char* key, const std::vector<std::string>& names,
                      const std::string& fallback);
   Eigen::Vector3d vec3(const char* key);
@@ -38,9 +39,11 @@ class Table {
   /// a userdata, or null when the key is absent
   template <class T>
   T* object(const char* key);
-  /// Leaves a function, or nil when absent, on the stack.   returns whether there is one
+  /// Leaves a function, or nil when absent, on the stack.
+  /// returns  whether there is one
   bool push_function(const char* key);
-  /// Leaves whatever the key holds on the stack, for what has no reader here.   returns its type
+  /// Leaves whatever the key holds on the stack, for what has no reader here.
+  /// returns  its type
   int push(const char* key);
 
   What what(const char* key) const { return {L_, subject_, key}; }
