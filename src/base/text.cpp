@@ -121,6 +121,13 @@ Line Line::before(char mark) const {
   return *this;
 }
 
+std::string Line::surplus(int used) const {
+  const int more = before('#').size() - used;
+  if (more <= 0) return "";
+  return fmt::format("{}: {} not used", place(),
+                     more == 1 ? "1 surplus word is" : fmt::format("{} surplus words are", more));
+}
+
 double Line::number(int i, std::string_view what) const {
   const auto value = parse_number(word(i));
   if (!value) fail("{}: wanted a number, got {}", what, in_quotes(word(i)));

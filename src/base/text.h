@@ -44,6 +44,9 @@ class Line {
   std::string_view word(int i) const { return i < size() ? words_[i] : std::string_view(); }
   /// The same line without the words from the first that begins with `mark` on.
   Line before(char mark) const;
+  /// What to warn of when only the first `used` words are: "Barrett.cfg:31: 2 surplus words are not
+  /// used"; empty when there are no more, but for a comment that begins with '#'.
+  std::string surplus(int used) const;
 
   /// throws Error  "Barrett.cfg:31: Kp: wanted a number, got 'x'"
   double number(int i, std::string_view what) const;

@@ -79,7 +79,9 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
     if (const fs::path found = exact_or_case(place); fs::is_regular_file(found, code))
       return found.lexically_normal();
   for (const auto& place : places)
-    if (fs::is_directory(place, code)) fail("wanted a file, got the folder {}", name);
+    if (const fs::path found = exact_or_case(place); !found.empty())
+      fail("wanted a file, got a {}: {}", fs::is_directory(found, code) ? "folder" : "special file",
+           name);
   fail("no such file: {}{}", name, suggestion(places));
 }
 

@@ -1,5 +1,7 @@
 #include "io/inventor_params.h"
 
+#include <Eigen/Eigenvalues>
+
 #include "base/text.h"
 #include "base/units.h"
 #include "spec/material_names.h"
@@ -14,7 +16,18 @@ double positive(const Line& line, const char* what, const char* unit) {
   return value;
 }
 
-Eigen::Matrix3d inertia_rows(LineReader& lines, const Line& head, const ReadOptions& options) {
+/// All moments finite and > 0; 1e-12 of the largest is rounding.
+bool is_inertia(const Eigen::Matrix3d& symmetric) {
+  if (!symmetric.allFinite()) return false;
+  const Eigen::Vector3d moments =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(symmetric, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  return moments[0] > 0 && moments[0] > 1e-12 * moments[2];
+}
+
+/// Empty, with a warning, when no body has such an inertia.
+std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
+                                            const ReadOptions& options) {
   // three rows on the next three lines, each after a '#'
   Eigen::Matrix3d rows;
   std::vector<std::string> texts;
@@ -23,7 +36,11 @@ Eigen::Matrix3d inertia_rows(LineReader& lines, const Line& head, const ReadOpti
     if (!line.text().starts_with('#') || line.number() == head.number())
       line.fail("inertia_matrix: wanted row {} of 3 as '#a b c', got {}", i + 1,
                 in_quotes(line.text()));
-    const auto words = split_words(line.text().substr(1));
+    auto words = split_words(line.text().substr(1));
+    for (size_t k = 0; k < words.size(); ++k)
+      if (words[k].front() == '#') words.resize(k);
+    if (words.size() > 3)
+      line.fail("inertia_matrix: wanted 3 numbers in a row, got {}", words.size());
     for (int j = 0; j < 3; ++j) {
       const std::string_view word =
           j < static_cast<int>(words.size()) ? words[j] : std::string_view();
@@ -34,7 +51,12 @@ Eigen::Matrix3d inertia_rows(LineReader& lines, const Line& head, const ReadOpti
   }
   if (rows != rows.transpose() && options.warn)
     options.warn(head.place() + ": inertia_matrix is not symmetric; its symmetric part is used");
-  return 0.5 * (rows + rows.transpose());
+  const Eigen::Matrix3d symmetric = 0.5 * (rows + rows.transpose());
+  if (is_inertia(symmetric)) return symmetric;
+  if (options.warn)
+    options.warn(head.place() +
+                 ": inertia_matrix is not positive definite; it is computed from the shape");
+  return {};
 }
 
 }  // namespace

@@ -26,6 +26,45 @@ std::string sentence(const std::string& message, const std::string& extension) {
   return fmt::format("the file is malformed ({})", trim(message.substr(0, message.find('\n'))));
 }
 
+/// The number of the point that a word of an OBJ face names: "7", "7/1", "-2//3"; from 1, or -1 for
+/// the last.
+std::optional<int> point_number(std::string_view word) {
+  return parse_integer(word.substr(0, word.find('/')));
+}
+
+/// Refuses points and faces with the line that the reader library leaves out.
+void check_obj(const std::string& text, const std::string& file) {
+  struct Face {
+    Line line;
+    int points;  // so far
+  };
+  LineReader lines(file, text);
+  std::vector<Face> faces;
+  int points = 0;
+  while (!lines.done()) {
+    const Line line = lines.next().before('#');
+    // a '\\' at the end goes on in the next line; the library reads those
+    if (line.text().ends_with('\\')) {
+      if (line.word(0) == "v") ++points;
+      continue;
+    }
+    if (line.word(0) == "f") faces.push_back({line, points});
+    if (line.word(0) != "v") continue;
+    ++points;
+    for (int i = 1; i <= 3; ++i)
+      if (!parse_number(line.word(i)))
+        line.fail("wanted three numbers after v, got {}", in_quotes(line.word(i)));
+  }
+  // a face may come before its points
+  for (const auto& [line, before] : faces)
+    for (int i = 1; i < line.size(); ++i) {
+      const auto n = point_number(line.word(i));
+      if (!n) line.fail("wanted numbers of points after f, got {}", in_quotes(line.word(i)));
+      if (*n == 0 || *n > points || *n < -before)
+        line.fail("wanted one of {} points after f, got {}", points, *n);
+    }
+}
+
 Eigen::Vector3f color_of(const aiMaterial* material, float& transparency, bool& given) {
   aiColor3D color(0.7f, 0.7f, 0.7f);
   float opacity = 1;
@@ -43,7 +82,8 @@ Eigen::Vector3f color_of(const aiMaterial* material, float& transparency, bool& 
 
 Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string file = path.filename().string();
-  read_text(path);  // refuses what is no readable file, in our own words
+  const std::string text = read_text(path);  // refuses what is no readable file, in our own words
+  if (lower_case(path.extension().string()) == ".obj") check_obj(text, file);
   Assimp::Importer importer;
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);

@@ -30,7 +30,7 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
 /// Where `name`, as written in `referrer` (empty: given by the user), is found: beside the
 /// referrer, below the root, below the referrer's parent folder. Back-slashes count as slashes, and
 /// a name that differs only in case is found.
-/// throws Error  "no such file: flsk.iv; did you mean 'flask.iv'?"
+/// throws Error  "no such file: flsk.iv; did you mean 'flask.iv'?"  "wanted a file, got a folder: models"
 std::filesystem::path find_file(const std::string& name, const std::filesystem::path& referrer,
                                 const ReadOptions& options);
 

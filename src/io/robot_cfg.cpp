@@ -31,6 +31,10 @@ class CfgReader {
 
  private:
   Line wanted(std::string_view what) { return lines_.next_full(what).before('#'); }
+  /// warns of words behind the first `used`
+  void used_up(const Line& line, int used) {
+    if (const std::string sentence = line.surplus(used); !sentence.empty()) library_.warn(sentence);
+  }
   int count(const char* what, int low);
   void read_dofs();
   void read_chain(int number);
@@ -52,7 +56,12 @@ class CfgReader {
   RobotSpec robot_;
 };
 
-int CfgReader::count(const char* what, int low) { return wanted(what).integer(0, what, low, most); }
+int CfgReader::count(const char* what, int low) {
+  const Line line = wanted(what);
+  const int value = line.integer(0, what, low, most);
+  used_up(line, 1);
+  return value;
+}
 
 BodySpec CfgReader::body(const Line& line, const std::string& name) {
   // geometry lives in the folder iv/ beside the robot file
@@ -83,7 +92,9 @@ RobotSpec CfgReader::read() {
   robot_.name = path_.stem().string();
   robot_.source = path_.generic_string();
   robot_.class_name = wanted("the robot's class").word(0);
-  robot_.base = body(wanted("the palm's file"), robot_.name + "_base");
+  const Line palm = wanted("the palm's file");
+  used_up(palm, 1);
+  robot_.base = body(palm, robot_.name + "_base");
   read_dofs();
   const int chains = count("number of chains", 0);
   for (int c = 0; c < chains; ++c) read_chain(c);
@@ -117,6 +128,7 @@ void CfgReader::read_dofs() {
     d.kd = number(4, "Kd");
     d.scale = number(5, "dragger scale");
     if (d.kind == DofKind::breakaway) d.breakaway = number(6, "breakaway torque");
+    used_up(d.line, d.kind == DofKind::breakaway ? 7 : 6);
     if (d.effort < 0) d.line.fail("DOF {}: max effort: wanted a number >= 0, got {}", i, d.effort);
     if (d.breakaway < 0)
       d.line.fail("DOF {}: breakaway torque: wanted a number >= 0, got {}", i, d.breakaway);
@@ -128,7 +140,7 @@ void CfgReader::read_dofs() {
 void CfgReader::read_chain(int number) {
   ChainSpec chain;
   const int joints = count("number of joints", 0), links = count("number of links", 0);
-  chain.X_BC = read_transform_list(lines_);
+  chain.X_BC = read_transform_list(lines_, library_.options().warn);
   for (int j = 0; j < joints; ++j) read_joint(chain, j);
   for (int l = 0; l < links; ++l)
     read_link(chain, l, fmt::format("{}_chain{}_link{}", robot_.name, number, l));
@@ -179,6 +191,7 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
     joint.spring = value(8, "spring stiffness") *
                    (revolute ? units::newton_millimetre : units::newton_per_millimetre);
   if (line.size() > 9) joint.rest = value(9, "rest value") * (revolute ? 1.0 : units::millimetre);
+  used_up(line, 10);
   if (joint.viscous < 0 || joint.coulomb < 0 || joint.spring < 0)
     line.fail("joint {}: wanted friction and spring stiffness >= 0", number);
 
@@ -208,7 +221,9 @@ void CfgReader::read_link(ChainSpec& chain, int number, const std::string& name)
     kind_line.fail("link {}: wanted Revolute, Prismatic, Universal, Ball or Fixed, got {}{}",
                    number, in_quotes(kind_line.word(0)), did_you_mean(kind_line.word(0), names));
 
+  used_up(kind_line, 1);
   const Line line = wanted(fmt::format("the file of link {}", number));
+  used_up(line, 2);
   const int before = chain.links.empty() ? -1 : chain.links.back().last_joint;
   const int joints = static_cast<int>(chain.joints.size());
   if (line.size() > 1)
@@ -265,13 +280,14 @@ void CfgReader::read_tracker() {
         fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
   else
     tracker.number = wanted("a bird number").integer(0, "FlockOfBirds", 0);
-  tracker.X_BS = read_transform_list(lines_);
+  tracker.X_BS = read_transform_list(lines_, library_.options().warn);
   robot_.tracker = tracker;
 }
 
 void CfgReader::read_approach() {
   const auto vector = [&](const char* what) {
     const Line line = wanted(what);
+    used_up(line, 3);
     return std::pair(
         line, Eigen::Vector3d(line.number(0, what), line.number(1, what), line.number(2, what)));
   };

@@ -10,6 +10,7 @@ bool begins_transform(const Line& line) {
 }
 
 Pose read_full_transform(const Line& line, std::string_view text) {
+  text = trim(text.substr(0, text.find('#')));
   // the brackets in their order, then the numbers between them
   std::string shape;
   for (const char c : text)
@@ -39,18 +40,23 @@ static Eigen::Vector3d axis(const Line& line, int i) {
   line.fail("rotation: wanted an axis x, y or z, got {}", in_quotes(word));
 }
 
-static Pose read_matrix(const Line& head, LineReader& lines) {
+static void warn_of_surplus(const Line& line, int used, const TransformWarning& warn) {
+  if (const std::string sentence = line.surplus(used); warn && !sentence.empty()) warn(sentence);
+}
+
+static Pose read_matrix(const Line& head, LineReader& lines, const TransformWarning& warn) {
   // nine numbers, wherever the lines end
   Eigen::Matrix3d R;
-  Line line = head;
+  Line line = head.before('#');
   int next = 1;
   for (int i = 0; i < 9; ++i) {
     while (next >= line.size()) {
-      line = lines.next_full("9 numbers of a rotation matrix");
+      line = lines.next_full("9 numbers of a rotation matrix").before('#');
       next = 0;
     }
     R.col(i / 3)[i % 3] = line.number(next++, "rotation matrix");
   }
+  warn_of_surplus(line, next, warn);
   const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error < 1e-2) || !(R.determinant() > 0))
     head.fail(
@@ -59,10 +65,12 @@ static Pose read_matrix(const Line& head, LineReader& lines) {
   return Pose::turn(Eigen::Quaterniond(R).normalized());
 }
 
-Pose read_transform(const Line& line, LineReader& lines) {
+Pose read_transform(const Line& line, LineReader& lines, const TransformWarning& warn) {
   const std::string_view key = line.word(0);
   if (line.text().starts_with('T') && (key == "T" || key.starts_with("T(")))
     return read_full_transform(line, trim(line.text().substr(1)));
+  if (key == "R") return read_matrix(line, lines, warn);
+  warn_of_surplus(line, key == "t" ? 4 : 3, warn);
   if (key == "t")
     return Pose::translation(Eigen::Vector3d(line.number(1, "translation x"),
                                              line.number(2, "translation y"),
@@ -70,15 +78,14 @@ Pose read_transform(const Line& line, LineReader& lines) {
                              units::millimetre);
   if (key == "r") return Pose::turn(line.number(1, "rotation") * units::degree, axis(line, 2));
   if (key == "rr") return Pose::turn(line.number(1, "rotation"), axis(line, 2));
-  if (key == "R") return read_matrix(line, lines);
   line.fail("transform: wanted t, r, rr, T or R, got {}", in_quotes(key));
 }
 
-Pose read_transform_list(LineReader& lines) {
+Pose read_transform_list(LineReader& lines, const TransformWarning& warn) {
   Pose total;
   while (lines.skip_to_full() && begins_transform(lines.peek())) {
     const Line line = lines.next();
-    total = total * read_transform(line, lines);
+    total = total * read_transform(line, lines, warn);
   }
   return total;
 }

@@ -5,7 +5,8 @@
 namespace clench {
 
 /// One element as a line of the text formats.
-static Pose element(const Line& line, std::string_view tag, std::string_view value) {
+static Pose element(const Line& line, std::string_view tag, std::string_view value,
+                    const TransformWarning& warn) {
   if (tag == "fullTransform") return read_full_transform(line, trim(value));
   const char* key = tag == "translation"      ? "t "
                     : tag == "rotation"       ? "r "
@@ -17,10 +18,10 @@ static Pose element(const Line& line, std::string_view tag, std::string_view val
   LineReader one(file, std::string(line.number() - 1, '\n') + key + std::string(value));
   Line entry;
   while (!one.done()) entry = one.next();
-  return read_transform(entry, one);
+  return read_transform(entry, one, warn);
 }
 
-Pose read_tagged_transform(const Line& line, LineReader& lines) {
+Pose read_tagged_transform(const Line& line, LineReader& lines, const TransformWarning& warn) {
   // the element as one text, white space between its parts
   const std::string_view name = line.text().substr(1, line.text().find_first_of("> ") - 1);
   const std::string closing = "</" + std::string(name) + ">";
@@ -45,7 +46,7 @@ Pose read_tagged_transform(const Line& line, LineReader& lines) {
     const std::string end = "</" + std::string(tag) + ">";
     const size_t tail = rest.find(end, head);
     if (tail == std::string_view::npos) line.fail("transform: wanted {} for <{}>", end, tag);
-    total = total * element(line, tag, rest.substr(head + 1, tail - head - 1));
+    total = total * element(line, tag, rest.substr(head + 1, tail - head - 1), warn);
     rest = trim(rest.substr(tail + end.size()));
   }
   return total;

@@ -27,6 +27,10 @@ class WldReader {
   void read_connection();
   void read_camera(bool focal_distance);
   void check_connections();
+  /// warns of words behind the first `used`
+  void used_up(const Line& line, int used) const {
+    if (const std::string sentence = line.surplus(used); !sentence.empty()) library_.warn(sentence);
+  }
   Pose pose();
   bool begins_pose(const Line& line) const;
   fs::path file(const Line& line) const;
@@ -58,7 +62,8 @@ bool WldReader::begins_pose(const Line& line) const {
 
 Pose WldReader::pose() {
   const Line line = lines_.next_full("a transform 'T (w x y z)[x y z]'");
-  if (line.text().starts_with('<')) return read_tagged_transform(line, lines_);
+  if (line.text().starts_with('<'))
+    return read_tagged_transform(line, lines_, library_.options().warn);
   if (!begins_pose(line))
     line.fail("wanted a transform 'T (w x y z)[x y z]', got {}", in_quotes(line.text()));
   const std::string_view text = line.text();
@@ -149,7 +154,7 @@ void WldReader::read_robot() {
   if (placed.robot.dofs.empty()) {
     if (lines_.peek().blank()) lines_.next();
   } else {
-    read_dofs(lines_.next_full("the values of the DOFs"), placed);
+    read_dofs(lines_.next_full("the values of the DOFs").before('#'), placed);
   }
   placed.X_WB = pose();
   world_.order.push_back({WorldEntry::Kind::robot, static_cast<int>(world_.robots.size())});
@@ -172,15 +177,14 @@ void WldReader::read_dofs(const Line& line, PlacedRobot& placed) {
           if (joints.empty()) slides = robot.chains[c].joints[j].kind == JointKind::prismatic;
           joints.push_back({c, j});
         }
-    placed.dofs.push_back(line.number(next++, fmt::format("DOF {} of {}", d, dofs)) *
-                          (slides ? units::millimetre : 1.0));
+    const double unit = slides ? units::millimetre : 1.0;
+    placed.dofs.push_back(line.number(next++, fmt::format("DOF {} of {}", d, dofs)) * unit);
     if (robot.dofs[d].kind != DofKind::breakaway || plain) continue;
     for (const auto& [c, j] : joints) {
       const std::string what = fmt::format("DOF {}: joint {} of chain {}", d, j, c);
       if (line.integer(next++, what + ": broken away (0 or 1)", 0, 1) == 0) continue;
-      const double unit =
-          robot.chains[c].joints[j].kind == JointKind::prismatic ? units::millimetre : 1.0;
-      placed.breakaway[c][j] = line.number(next++, what) * unit;
+      // written as the value of the DOF at which the joint stopped
+      placed.breakaway[c][j] = line.number(next++, what) * unit * robot.chains[c].joints[j].ratio;
     }
   }
   if (next < line.size())
@@ -194,6 +198,7 @@ void WldReader::read_connection() {
   c.parent = line.integer(0, "parent robot", 0);
   c.chain = line.integer(1, "parent chain", 0);
   c.child = line.integer(2, "child robot", 0);
+  used_up(line, 3);
   // the line of the mount may be empty
   const Line mount = lines_.peek();
   if (!begins_pose(mount)) lines_.next();
@@ -239,6 +244,7 @@ void WldReader::read_camera(bool focal_distance) {
   if (!(norm > 1e-6) || !std::isfinite(norm))
     line.fail("camera orientation: wanted a quaternion of length 1, got {} {} {} {}", x[3], x[4],
               x[5], x[6]);
+  used_up(line, focal_distance ? 8 : 7);
   Camera camera;
   camera.X_WC = {Eigen::Quaterniond(q.coeffs() / norm),
                  Eigen::Vector3d(x[0], x[1], x[2]) * units::millimetre};

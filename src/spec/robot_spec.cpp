@@ -52,11 +52,18 @@ static void check_joint(const JointSpec& joint, const RobotSpec& robot,
   for (const double x :
        {joint.theta, joint.d, joint.a, joint.alpha, joint.min, joint.max, joint.rest})
     if (!std::isfinite(x)) fail("{}: wanted finite numbers, got {}", subject, x);
+  // lengths whose squares and products overflow are no lengths
+  for (const double x :
+       {joint.theta, joint.d, joint.a, joint.alpha, joint.min, joint.max, joint.rest})
+    if (std::abs(x) > 1e30) fail("{}: wanted numbers of at most 1e30, got {}", subject, x);
   if (joint.ratio == 0 || !std::isfinite(joint.ratio))
     fail("{}: wanted a ratio other than 0, got {}", subject, joint.ratio);
   if (joint.min > joint.max)
     fail("{}: min {} exceeds max {} [{}]", subject, joint.min, joint.max,
          joint.kind == JointKind::revolute ? "rad" : "m");
+  if (!std::isfinite(joint.max / joint.ratio - joint.min / joint.ratio))
+    fail("{}: wanted a ratio that leaves DOF {} a finite range, got {}", subject, joint.dof,
+         joint.ratio);
   for (const double x : {joint.viscous, joint.coulomb, joint.spring})
     if (!(x >= 0) || !std::isfinite(x))
       fail("{}: friction and spring must be >= 0, got {}", subject, x);

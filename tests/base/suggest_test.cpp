@@ -27,4 +27,7 @@ TEST_CASE("only a near name is suggested") {
   CHECK(did_you_mean("wod", {"wood", "rubber"}) == "; did you mean 'wood'?");
   CHECK(did_you_mean("table", {"wood", "rubber"}).empty());
   CHECK(did_you_mean("x", {}).empty());
+  CHECK(did_you_mean("ab", {"abc", "a", "b"}).empty());
+  CHECK(did_you_mean("zero", {"zero"}).empty());
+  CHECK(did_you_mean("zero", {"zero", "hero"}) == "; did you mean 'hero'?");
 }

@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "io/read.h"
 #include "temporary.h"
 
@@ -55,6 +56,23 @@ TEST_CASE("an inertia that is not symmetric is made so, with a warning") {
   REQUIRE(warnings.list.size() == 1);
   CHECK(warnings.list[0] ==
         "box.iv:2: inertia_matrix is not symmetric; its symmetric part is used");
+}
+
+TEST_CASE("an inertia that no body has is left to the shape, with a warning") {
+  for (const std::string rows : {"#0 0 0\n#0 0 0\n#0 0 0", "#5 0 0\n#0 -5 0\n#0 0 5",
+                                 "#1 2 0\n#2 1 0\n#0 0 1", "#-1 0 0\n#0 -1 0\n#0 0 -1"}) {
+    Warnings warnings;
+    CHECK_FALSE(body("#inertia_matrix\n" + rows, warnings.options()).inertia_per_mass);
+    CHECK(warnings.list ==
+          std::vector<std::string>{"box.iv:2: inertia_matrix is not positive definite; it is "
+                                   "computed from the shape"});
+  }
+}
+
+TEST_CASE("a row of an inertia has three numbers") {
+  CHECK_THROWS_WITH_AS(body("#inertia_matrix\n#5 0 0\n#0 5 0 7\n#0 0 5"),
+                       "box.iv:4: inertia_matrix: wanted 3 numbers in a row, got 4", Error);
+  CHECK(body("#inertia_matrix\n#5 0 0 # x\n#0 5 0\n#0 0 5").inertia_per_mass);
 }
 
 TEST_CASE("a modulus that looks like megapascals is kept, with a warning") {

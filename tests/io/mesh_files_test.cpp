@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "io/read.h"
 #include "temporary.h"
 
@@ -61,6 +62,24 @@ TEST_CASE("the colours of an OBJ come from its material file and it loads withou
   CHECK(look.given);
   CHECK(look.color == Eigen::Vector3f(1, 0, 0));
   CHECK(look.transparency == 0.5f);
+}
+
+TEST_CASE("a point or a face of an OBJ that is wrong is told by line") {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& line, const std::string& sentence) {
+    CHECK_THROWS_WITH_AS(read_body(folder.write("q.obj", cube_points + line + "\n" + cube_faces)),
+                         ("q.obj:9: wanted " + sentence).c_str(), Error);
+  };
+  refused("v 1 abc 2", "three numbers after v, got 'abc'");
+  refused("v 1 2", "three numbers after v, got nothing");
+  refused("v 1 nan 2", "three numbers after v, got 'nan'");
+  refused("f 1 2 9", "one of 8 points after f, got 9");
+  refused("f 1/1 2/1 0/1", "one of 8 points after f, got 0");
+  refused("f -1 -2 -9", "one of 8 points after f, got -9");
+  refused("f 1 2 x", "numbers of points after f, got 'x'");
+  CHECK(read_body(folder.write("q.obj", cube_points + "f 1 4 3 2\nf -4 -3 -2 -1\n"))
+            .shape->mesh()
+            .triangles.size() == 4);
 }
 
 TEST_CASE("triangles of a mesh file with two equal corners are dropped") {

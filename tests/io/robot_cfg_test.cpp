@@ -120,10 +120,20 @@ TEST_CASE("comments, tabs, blank lines and other line ends change nothing") {
   CHECK(r.chains[0].joints[0].viscous == 0);
 }
 
-TEST_CASE("words behind the palm's file and the links' are left alone") {
+TEST_CASE("surplus words are not used, with a warning; comments are none") {
   Cfg cfg;
-  cfg.links = "Revolute\nbox.iv 0 plastic\n";
-  CHECK(cfg.read().chains[0].links.size() == 1);
+  cfg.dofs = "1 # DOF\nr 1.5 5e9 1e9 1e7 20 0.5\n";
+  cfg.transforms = "t 0 0 0 9 9\nT (1 0 0 0)[0 0 0] # here\nr 0 z # and 9 there\n";
+  cfg.joint_lines = "d0 0 10 0 -10 90 0 0 0 0 7\n";
+  cfg.links = "Revolute # it turns\nbox.iv 0 plastic\n";
+  Warnings warnings;
+  CHECK(cfg.read(warnings.options()).chains[0].links.size() == 1);
+  CHECK(warnings.list == std::vector<std::string>{
+                             "hand.cfg:5: 1 surplus word is not used",
+                             "hand.cfg:9: 2 surplus words are not used",
+                             "hand.cfg:12: 1 surplus word is not used",
+                             "hand.cfg:14: 1 surplus word is not used",
+                         });
 }
 
 TEST_CASE("links without a last joint take the next one") {

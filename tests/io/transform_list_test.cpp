@@ -49,6 +49,19 @@ TEST_CASE("the first three numbers of a rotation matrix are the image of the x a
   CHECK(same(list("R 0 1 0 -1 0 0 0 0 1"), Pose::turn(right, z)));
 }
 
+TEST_CASE("a comment behind an entry changes nothing, surplus words give a warning") {
+  const Pose X = Pose::translation({0.001, 0.002, 0.003});
+  CHECK(same(list("T (1 0 0 0)[1 2 3] # (0 0 0 0)[9]"), X));
+  CHECK(same(list("R # x y z\n0 1 0 # x\n-1 0 0\n0 0 1 # z"), Pose::turn(right, z)));
+  std::vector<std::string> warnings;
+  const auto warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  LineReader lines("x.cfg", "t 1 2 3 # 4\nt 0 0 0 9 9\nr 0 x 9\nR\n1 0 0 0 1 0\n0 0 1 5\n");
+  CHECK(same(read_transform_list(lines, warn), X));
+  CHECK(warnings == std::vector<std::string>{"x.cfg:2: 2 surplus words are not used",
+                                             "x.cfg:3: 1 surplus word is not used",
+                                             "x.cfg:6: 1 surplus word is not used"});
+}
+
 TEST_CASE("the list ends at the first line that is no transform") {
   LineReader lines("x.cfg", "# base\nt 1 0 0\n\n# turn\nr 90 z\nd0 0 0 0\n");
   read_transform_list(lines);

@@ -61,8 +61,34 @@ TEST_CASE("DOF values are written by kind: breakaway ones with the state of each
   REQUIRE(r.breakaway.size() == 1);
   REQUIRE(r.breakaway[0].size() == 5);
   CHECK_FALSE(r.breakaway[0][1]);
-  CHECK(r.breakaway[0][2] == 0.25);
+  CHECK(r.breakaway[0][2] == 0.125);  // 0.25 of the DOF, ratio 0.5
   CHECK_FALSE(r.breakaway[0][3]);
+}
+
+TEST_CASE("a broken-away joint is written as the value of its DOF, and kept as its own") {
+  const TemporaryFolder folder;
+  const std::string box = "#Inventor V2.1 ascii\nCube { }\n";
+  folder.write("iv/box.iv", box);
+  folder.write("hand.cfg",
+               "Hand\nbox.iv\n2\nb 1 1e9 1e9 1e7 20 0.5\nb 1 1e9 1e9 1e7 20 0.5\n1\n4\n1\nt 0 0 "
+               "0\nd0 0 10 0 -10 90\nd0*0.333333333333 0 10 0 -10 90\n0 d1 10 0 -10 90\n"
+               "0 d1*2 10 0 -10 90\nRevolute\nbox.iv 3\n");
+  const auto file =
+      folder.write("w.wld", head + "Robot\nhand.cfg\n+0.9 0 1 0.9 5 0 1 6 # broken away\n" + stay);
+  const PlacedRobot r = read_world(file).robots[0];
+  CHECK(r.dofs[0] == 0.9);
+  CHECK_FALSE(r.breakaway[0][0]);
+  CHECK(*r.breakaway[0][1] == doctest::Approx(0.3));
+  CHECK_FALSE(r.breakaway[0][2]);
+  CHECK(*r.breakaway[0][3] == doctest::Approx(0.012));  // 6 mm of the DOF are 12 of the joint
+}
+
+TEST_CASE("surplus words in a world are not used, with a warning") {
+  Warnings warnings;
+  world(head + "Camera\n0 0 0 0 0 0 1 8 9 10\n" + hand + bare + "Connection\n0 0 1 # two\n\n" +
+            "T (1 0 0 0)[0 0 0] # at the wrist\n",
+        warnings.options());
+  CHECK(warnings.list == std::vector<std::string>{"w.wld:3: 3 surplus words are not used"});
 }
 
 TEST_CASE("one value a DOF is enough") {
@@ -125,7 +151,7 @@ TEST_CASE("an empty world is a world") { CHECK(world(head).order.empty()); }
 
 TEST_CASE("the test worlds of two fingers are read") {
   const WorldSpec w = read_world("tests/data/two_finger/claw.wld");
-  CHECK(w.robots[0].breakaway[0][1] == 0.02);
+  CHECK(w.robots[0].breakaway[0][1] == 0.01);  // 0.02 of the DOF, ratio 0.5
   CHECK(w.bodies[0].role == Role::obstacle);
   CHECK(read_world("tests/data/two_finger/pinch.wld").camera);
 }

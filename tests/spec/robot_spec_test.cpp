@@ -63,6 +63,14 @@ TEST_CASE("what is out of order in a robot is told by place") {
           "arm: chain 0 joint 1: wanted a DOF from 0 to 0, got -1");
   refused([](RobotSpec& r) { r.chains[0].joints[0].ratio = 0; },
           "arm: chain 0 joint 0: wanted a ratio other than 0, got 0");
+  refused([](RobotSpec& r) { r.chains[0].joints[0].ratio = 1e-309; },
+          "arm: chain 0 joint 0: wanted a ratio that leaves DOF 0 a finite range, got 1e-309");
+  refused([](RobotSpec& r) { r.chains[0].joints[0].d = -1e31; },
+          "arm: chain 0 joint 0: wanted numbers of at most 1e30, got -1e+31");
+  refused([](RobotSpec& r) { r.chains[0].joints[1].theta = 1e300; },
+          "arm: chain 0 joint 1: wanted numbers of at most 1e30, got 1e+300");
+  refused([](RobotSpec& r) { r.chains[0].joints[1].max = INFINITY; },
+          "arm: chain 0 joint 1: wanted finite numbers, got inf");
   refused([](RobotSpec& r) { r.chains[0].joints[0].a = NAN; },
           "arm: chain 0 joint 0: wanted finite numbers, got nan");
   refused([](RobotSpec& r) { r.chains[0].joints[0].min = 3; },
