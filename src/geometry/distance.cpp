@@ -23,7 +23,11 @@ Distance distance(const Shape& a, const Shape& b, const Pose& X_AB, double limit
     const Corners corners_b = placement.corners_b(triangle_b);
     if (placement.beyond(corners_a, corners_b, reach)) return false;
     const Closest c = triangle_triangle(corners_a, corners_b);
-    if (c.distance < reach.distance) {
+    // of equally near pairs the first in the order of triangles, so that the way here does not show
+    const bool first =
+        c.distance == best.distance &&
+        std::pair(triangle_a, triangle_b) < std::pair(best.triangle_a, best.triangle_b);
+    if (c.distance < reach.distance || first) {
       best = {c.distance, c.p, c.q, triangle_a, triangle_b};
       reach = {c.distance, (c.q - c.p).stableNormalized()};
     }
@@ -33,9 +37,13 @@ Distance distance(const Shape& a, const Shape& b, const Pose& X_AB, double limit
     return a.has_triangle(triangle_a) && b.has_triangle(triangle_b) &&
            visit(triangle_a, triangle_b);
   };
-  const bool met = (cache && (try_again(cache->hit_a, cache->hit_b) ||
-                              try_again(cache->closest_a, cache->closest_b))) ||
-                   placement.for_near_pairs(reach, visit);
+  // the last closest pair bounds the search; a pair that meets says nothing of which is found first
+  if (cache && try_again(cache->closest_a, cache->closest_b)) {
+    best = {};
+    best.distance = std::numeric_limits<double>::infinity();
+    reach = {std::max(limit, std::numeric_limits<double>::min())};
+  }
+  const bool met = placement.for_near_pairs(reach, visit);
   if (!met) {
     if (const auto inside = find_containment(a, b, placement))
       return {0, inside->point, inside->point, inside->triangle_a, inside->triangle_b};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/hash.h"
 #include "geometry/tree.h"
 
 namespace clench {
@@ -68,6 +69,12 @@ std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject) 
   shape->centre_ = shape->bounds_.centre();
   shape->radius_ = largest_radius(shape->mesh_, shape->centre_);
   shape->parts_ = one_triangle_of_each_part(shape->mesh_);
+  Hasher hasher;
+  for (const Eigen::Vector3d& v : shape->mesh_.vertices)
+    for (const double x : v) hasher.add(x);
+  for (const Triangle& t : shape->mesh_.triangles)
+    for (const int v : t) hasher.add(static_cast<uint64_t>(v));
+  shape->hash_ = hasher.value();
   shape->tree_ = std::make_unique<const Tree>(shape->mesh_);
   return shape;
 }

@@ -7,8 +7,8 @@
 
 namespace clench {
 
-class
-    Tree;  // bounding volumes over the triangles; its layout is nobody's business but the queries'
+// bounding volumes over the triangles; its layout is nobody's business but the queries'
+class Tree;
 
 class Shape {
  public:
@@ -27,6 +27,8 @@ class Shape {
   double radius() const { return radius_; }
   /// one triangle of each connected part (vertices at one place connect), in index order
   const std::vector<int>& parts() const { return parts_; }
+  /// fingerprint of vertices and triangles: equal for equal bits
+  uint64_t hash() const { return hash_; }
   const Tree& tree() const { return *tree_; }
 
  private:
@@ -38,6 +40,7 @@ class Shape {
   Eigen::Vector3d centre_;
   double radius_ = 0;
   std::vector<int> parts_;
+  uint64_t hash_ = 0;
   std::unique_ptr<const Tree> tree_;
 };
 

@@ -1,6 +1,6 @@
 // A binary tree of oriented boxes over the triangles of a mesh, one triangle a leaf, and the walk
-// over two such trees that every pair query shares. For the queries of this module only. source
-// Gottschalk, Lin & Manocha (1996), OBBTree
+// over two such trees that every pair query shares. For the queries of this module only.
+// source  Gottschalk, Lin & Manocha (1996), OBBTree
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -33,13 +33,13 @@ double box_slack(const Bounds& bounds, const Eigen::Vector3d& p);
 /// How near two things must be to matter.
 struct Reach {
   double distance;  ///< [m]
-  Eigen::Vector3d along =
-      Eigen::Vector3d::Zero();  ///< unit, from a to b where they are near; or zero
+  /// unit, from a to b where they are near; or zero
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
 };
 
 /// A lower bound of the distance between two boxes: by the known direction, which parts most of
 /// what is near, and if that leaves them within reach, by their own axes. What rounding may add,
-/// slack, is taken off [m]
+/// slack, is taken off [m].
 double gap(const OrientedBox& a, const OrientedBox& b, const Reach& reach, double slack);
 
 class Tree {

@@ -11,6 +11,35 @@ using Warn = std::function<void(const std::string&)>;
 // six digits of a metre and of a radian
 static constexpr double digits = 1e-5;
 
+// broken away is a joint whose DOF has gone on beyond it, inside the joint's limits; any other follows its DOF
+static std::vector<std::vector<Breakaway>> checked_breakaway(
+    const Robot& robot, const Eigen::VectorXd& q, const std::vector<std::vector<Breakaway>>& given,
+    const Warn& warn) {
+  auto out = given;
+  if (out.size() != robot.chains.size())
+    fail("robot '{}': wanted breakaway states of {} chains, got {}", robot.name,
+         robot.chains.size(), out.size());
+  for (size_t c = 0; c < out.size(); ++c) {
+    const auto& joints = robot.chains[c].joints;
+    if (out[c].size() != joints.size())
+      fail("robot '{}': wanted breakaway states of {} joints, got {}", robot.name, joints.size(),
+           out[c].size());
+    for (size_t j = 0; j < out[c].size(); ++j) {
+      if (!out[c][j]) continue;
+      const JointSpec& joint = joints[j];
+      const bool beyond = (joint.ratio * q[joint.dof] - *out[c][j]) * joint.ratio > 0;
+      if (beyond && *out[c][j] >= joint.min - digits && *out[c][j] <= joint.max + digits) continue;
+      if (warn && beyond)
+        warn(
+            fmt::format("robot '{}': joint {} of chain {} broke away at {}, outside [{}, {}]; it "
+                        "follows its DOF",
+                        robot.name, j + 1, c + 1, *out[c][j], joint.min, joint.max));
+      out[c][j].reset();
+    }
+  }
+  return out;
+}
+
 static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed,
                            const Warn& warn) {
   const Robot& robot = world.robot(id);
@@ -27,7 +56,8 @@ static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed
                        robot.name, i + 1, placed.dofs[i], low, high));
   }
   world.set_dofs(id, q);
-  if (!placed.breakaway.empty()) world.set_dofs_unchecked(id, q, placed.breakaway);
+  if (!placed.breakaway.empty())
+    world.set_dofs_unchecked(id, q, checked_breakaway(robot, q, placed.breakaway, warn));
 }
 
 static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robot> child,

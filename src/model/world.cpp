@@ -30,6 +30,16 @@ static Id<T> insert_slot(std::vector<Slot<T>>& slots, T value, uint32_t serial) 
   return {static_cast<uint32_t>(slots.size() - 1), serial};
 }
 
+// throws Error unless every query can work at the pose
+static void check_pose(const Pose& X_WB, const char* what, const std::string& name) {
+  const double n = X_WB.rotation.norm();
+  if (!X_WB.is_finite() || std::abs(n - 1) > 1e-6)
+    fail("{} '{}': its pose must be finite, its quaternion unit", what, name);
+  const double far = X_WB.position.cwiseAbs().maxCoeff();
+  if (far > farthest)
+    fail("{} '{}': wanted a position within {} m of the origin, got {}", what, name, farthest, far);
+}
+
 static std::pair<Id<Body>, Id<Body>> ordered(Id<Body> a, Id<Body> b) { return std::minmax(a, b); }
 
 const Body& World::body(Id<Body> id) const { return follow(state_.bodies, id, "body"); }
@@ -53,17 +63,20 @@ Id<Robot> World::find_robot(std::string_view name) const {
   return {};
 }
 
-std::string World::unique_name(const std::string& wanted) const {
+std::string World::unique_name(const std::string& wanted) {
   const std::string stem = wanted.empty() ? "body" : wanted;
   std::string name = stem;
-  for (int i = 2; find_body(name) || find_robot(name); ++i) name = fmt::format("{}_{}", stem, i);
+  // the count of a name is remembered, so that a thousand boxes are named in no time
+  int& count = state_.counts[stem];
+  while (find_body(name) || find_robot(name)) name = fmt::format("{}_{}", stem, ++count + 1);
   return name;
 }
 
 void World::set_name(Id<Body> id, const std::string& name) {
   if (name.empty()) fail("body '{}': a name may not be empty", body(id).name);
   const Id<Body> holder = find_body(name);
-  if (holder && holder != id) fail("the name '{}' is taken by another body of this world", name);
+  if ((holder && holder != id) || find_robot(name))
+    fail("the name '{}' is taken in this world", name);
   edit(id).name = name;
 }
 
@@ -80,7 +93,7 @@ Id<Body> World::insert(Body body, const std::string& name) {
 
 Id<Body> World::add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB,
                          const std::string& name) {
-  if (!X_WB.is_finite()) fail("body '{}': its pose must be finite", spec.name);
+  check_pose(X_WB, "body", spec.name);
   Body body = make_body(spec, kind, X_WB);
   body.material = state_.materials.index(spec.material);
   return insert(std::move(body), name);
@@ -94,7 +107,7 @@ static std::string part_name(const std::string& part, const std::string& was,
 
 Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::string& name) {
   check_robot(spec);
-  if (!X_WB.is_finite()) fail("robot '{}': its pose must be finite", spec.name);
+  check_pose(X_WB, "robot", spec.name);
   if (!name.empty() && (find_robot(name) || find_body(name)))
     fail("the name '{}' is taken in this world", name);
 
@@ -244,7 +257,7 @@ void World::set_pose(Id<Body> id, const Pose& X_WB) {
   if (body(id).robot)
     fail("body '{}' is a part of robot '{}': move the robot", body(id).name,
          robot(body(id).robot).name);
-  if (!X_WB.is_finite()) fail("body '{}': its pose must be finite", body(id).name);
+  check_pose(X_WB, "body", body(id).name);
   edit(id).X_WB = X_WB;
 }
 
@@ -252,7 +265,7 @@ void World::set_pose(Id<Robot> id, const Pose& X_WB) {
   if (robot(id).mounting)
     fail("robot '{}' is carried by '{}': move that one", robot(id).name,
          robot(robot(id).mounting->parent).name);
-  if (!X_WB.is_finite()) fail("robot '{}': its pose must be finite", robot(id).name);
+  check_pose(X_WB, "robot", robot(id).name);
   place_base(id, X_WB);
 }
 
@@ -344,8 +357,8 @@ void World::set_appearance(Id<Body> id, const Appearance& appearance) {
 }
 
 void World::set_contact_threshold(double threshold) {
-  if (!(threshold > 0) || !std::isfinite(threshold))
-    fail("contact_threshold must be > 0 [m], got {}", threshold);
+  if (!(threshold >= least_threshold) || !std::isfinite(threshold))
+    fail("contact_threshold must be >= {} [m], got {}", least_threshold, threshold);
   state_.contact_threshold = threshold;
 }
 
@@ -377,6 +390,9 @@ bool World::may_collide(Id<Body> a, Id<Body> b) const {
 
 // --- time machine ---
 
-void World::restore(const WorldState& snapshot) { state_ = snapshot; }
+void World::restore(const WorldState& snapshot) {
+  state_ = snapshot;
+  caches_.clear();
+}
 
 }  // namespace clench

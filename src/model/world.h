@@ -22,6 +22,9 @@ struct Slot {
   T value;  ///< of the last occupant; its name outlives it, for errors
 };
 
+inline constexpr double farthest = 1e9;          ///< bodies stand this near the origin [m]
+inline constexpr double least_threshold = 1e-9;  ///< of contact: above the rounding of a metre [m]
+
 /// All state of a world as a value: what a snapshot keeps.
 struct WorldState {
   std::vector<Slot<Body>> bodies;
@@ -35,22 +38,27 @@ struct WorldState {
   std::set<std::pair<Id<Body>, Id<Body>>> pairs_off;  ///< lesser id first
   std::optional<Camera> camera;
   std::string source;
+  std::map<std::string, int> counts;  ///< how often a name was numbered
 };
 
 class World {
  public:
   // --- things ---
-  /// `name` empty: the spec's, made unique by a number.   throws Error when the name is taken
+  /// `name` empty: the spec's, made unique by a number.
+  /// throws  Error when the name is taken
   Id<Body> add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB,
                     const std::string& name = "");
   Id<Robot> add_robot(const RobotSpec& spec, const Pose& X_WB, const std::string& name = "");
   /// Carries `child` on the last link of the parent's chain from now on.
-  /// throws Error when that closes a circle, the chain does not exist, or the child is carried already
+  /// throws  Error when that closes a circle, the chain does not exist, or the child is carried
+  ///         already
   void mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB,
              const BodySpec* piece = nullptr);
-  void remove(Id<Body> body);  ///< an object or obstacle; throws Error for a part of a robot
-  void remove(
-      Id<Robot> robot);  ///< with base, links and mount; robots that it carries stay where they are
+  /// an object or obstacle
+  /// throws  Error for a part of a robot
+  void remove(Id<Body> body);
+  /// with base, links and mount; robots that it carries stay where they are
+  void remove(Id<Robot> robot);
 
   const std::vector<Id<Body>>& bodies() const { return state_.body_order; }
   const std::vector<Id<Robot>>& robots() const { return state_.robot_order; }
@@ -66,11 +74,14 @@ class World {
   std::vector<Id<Body>> bodies_of(Id<Robot> robot) const;
 
   // --- state ---
-  /// of an object or obstacle; throws Error for a part of a robot or a pose that is not finite
+  /// of an object or obstacle
+  /// throws  Error for a part of a robot or a pose that is not finite
   void set_pose(Id<Body> body, const Pose& X_WB);
-  /// of the base; links and carried robots follow. throws Error when the robot is carried
+  /// of the base; links and carried robots follow
+  /// throws  Error when the robot is carried
   void set_pose(Id<Robot> robot, const Pose& X_WB);
-  /// throws Error on a wrong count or a number that is not finite; values outside the limits are refused by name
+  /// throws  Error on a wrong count or a number that is not finite; values outside the limits are
+  ///         refused by name
   void set_dofs(Id<Robot> robot, const Eigen::VectorXd& q);
   /// the same with breakaway states, by chain and joint; used by motion, which has its own checks
   void set_dofs_unchecked(Id<Robot> robot, const Eigen::VectorXd& q,
@@ -104,7 +115,8 @@ class World {
   std::shared_ptr<const WorldState> snapshot() const {
     return std::make_shared<WorldState>(state_);
   }
-  /// Exactly the state of the snapshot: what was removed since is back, what was added since is gone.
+  /// Exactly the state of the snapshot: what was removed since is back, what was added since is
+  /// gone.
   void restore(const WorldState& snapshot);
   const WorldState& state() const { return state_; }
   /// Fingerprint of poses, DOFs, masses, materials, switches: equal for equal bits.
@@ -117,7 +129,7 @@ class World {
   Body& edit(Id<Body> id);
   Robot& edit(Id<Robot> id);
   Id<Body> insert(Body body, const std::string& name);
-  std::string unique_name(const std::string& wanted) const;
+  std::string unique_name(const std::string& wanted);
   void switch_off_neighbours(const Robot& robot);
   void erase(Id<Body> id);
   void place_links(Id<Robot> robot);

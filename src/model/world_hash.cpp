@@ -16,11 +16,20 @@ uint64_t World::hash() const {
     for (const double x : b.inertia_per_mass.reshaped()) h.add(x);
     h.add(b.elastic_modulus.value_or(0));
     flag(state_.switched_off.contains(id));
+    h.add(b.shape ? b.shape->hash() : 0);
   }
   for (const auto id : state_.robot_order) {
     const Robot& r = robot(id);
     h.add(r.name);
     for (const double x : r.q) h.add(x);
+    for (const auto& range : r.limits) h.add(range[0]), h.add(range[1]);
+    add(h, r.X_BA);
+    flag(r.mounting.has_value());
+    if (r.mounting) {
+      h.add(robot(r.mounting->parent).name);
+      h.add(static_cast<uint64_t>(r.mounting->chain));
+      add(h, r.mounting->X_LB);
+    }
     for (const auto& chain : r.chains)
       for (const auto& broken : chain.breakaway)
         flag(broken.has_value()), h.add(broken.value_or(0));

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+
+#include "base/error.h"
 
 namespace clench {
 
@@ -10,8 +13,8 @@ namespace clench {
 // steps aim at the one part of the threshold, and what is below the other is there
 static constexpr double aim = 0.2;
 static constexpr double there = 0.3;
-// a motion that needs more than this grazes for metres within micrometres: it ends where it is
-static constexpr int most_queries = 1000000;
+// rounding of positions must stay this much below the threshold
+static constexpr double precise = 1e-3;
 
 namespace {
 
@@ -50,16 +53,32 @@ struct Advancing {
   }
 };
 
+void check_precision(const World& world, const std::vector<Watch>& watches) {
+  const double threshold = world.contact_threshold();
+  for (const Watch& watch : watches)
+    for (const auto id : {watch.a, watch.b}) {
+      const double far = world.body(id).X_WB.position.cwiseAbs().maxCoeff();
+      if (far * std::numeric_limits<double>::epsilon() > precise * threshold)
+        fail(
+            "moving near '{}': {} m from the origin, a contact threshold of {} m is lost in "
+            "rounding",
+            world.body(id).name, far, threshold);
+    }
+}
+
 }  // namespace
 
 Advance advance(const World& world, std::vector<Watch>& watches, double end,
-                const std::function<void(double)>& place, int& queries) {
+                const std::function<void(double)>& place, int& queries, int most_steps) {
   const Advancing run{world, end};
-  const auto later = [&](Watch& watch, double s) { watch.safe = s + (watch.gap - run.keep(watch)) / watch.speed; };
+  const auto later = [&](Watch& watch, double s) {
+    watch.safe = s + (watch.gap - run.keep(watch)) / watch.speed;
+  };
   for (Watch& watch : watches) {
     watch.gap = 0;
     watch.touching = false;
-    watch.safe = watch.clear > 2 * run.threshold ? (watch.clear - aim * run.threshold) / watch.speed : 0;
+    watch.safe =
+        watch.clear > 2 * run.threshold ? (watch.clear - aim * run.threshold) / watch.speed : 0;
   }
 
   double s = -1;
@@ -67,21 +86,23 @@ Advance advance(const World& world, std::vector<Watch>& watches, double end,
     if (to != s) place(s = to);
   };
   // what is known of each pair where the motion stands
-  const auto arrive = [&](std::optional<Watch> stopped_by) {
+  const auto arrive = [&](std::optional<Watch> stopped_by, bool gave_up = false) {
     for (Watch& watch : watches) watch.clear = std::max(0.0, (watch.safe - s) * watch.speed);
-    return Advance{s, std::move(stopped_by)};
+    return Advance{s, std::move(stopped_by), gave_up};
   };
-  for (const int last = queries + most_queries; true;) {
+  check_precision(world, watches);
+  for (int step = 0; true; ++step) {
     // the pair that is known to be apart for the shortest while
-    const auto next = std::min_element(watches.begin(), watches.end(),
-                                       [](const Watch& x, const Watch& y) { return x.safe < y.safe; });
+    const auto next =
+        std::min_element(watches.begin(), watches.end(),
+                         [](const Watch& x, const Watch& y) { return x.safe < y.safe; });
     if (next == watches.end() || next->safe >= end) {
       go(end);
       return arrive(std::nullopt);
     }
     go(next->safe);
     const bool stop = run.stops(*next, s, queries);
-    if (stop || queries >= last) return arrive(*next);
+    if (stop || step == most_steps) return arrive(*next, !stop);
     later(*next, s);
     next->safe = std::max(next->safe, std::nextafter(s, 2 * end));
   }

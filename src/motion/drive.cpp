@@ -10,6 +10,8 @@
 
 namespace clench {
 
+// a DOF this near its target is there: rounding of a path's length [rad or m]
+static constexpr double arrived = 1e-13;
 // changes below this are no motion [rad or m]
 static constexpr double no_motion = 1e-5;
 // fingers that slide along a surface stop and go; one that has not come to rest after so many contacts is stopped
@@ -151,14 +153,16 @@ Advance follow(Drive& drive, const Eigen::VectorXd& rates, int& queries) {
   const JointSpeeds speeds = joint_speeds(drive, rates);
   for (Watch& pair : drive.pairs) pair.speed = pair_speed(drive, speeds, pair.a, pair.b);
   // what rests keeps what is known of it
-  const auto moves = std::partition(drive.pairs.begin(), drive.pairs.end(), [](const Watch& pair) { return pair.speed > 0; });
+  const auto moves = std::partition(drive.pairs.begin(), drive.pairs.end(),
+                                    [](const Watch& pair) { return pair.speed > 0; });
   std::vector<Watch> watches(drive.pairs.begin(), moves);
   const Eigen::VectorXd start = drive.q;
   const auto place = [&](double s) {
     drive.q = start + s * rates;
     // who arrives, arrives exactly
     for (int i = 0; i < rates.size(); ++i)
-      if (rates[i] != 0 && (drive.targets[i] - drive.q[i]) * rates[i] <= 1e-15) drive.q[i] = drive.targets[i];
+      if (rates[i] != 0 && std::abs(drive.targets[i] - drive.q[i]) <= arrived)
+        drive.q[i] = drive.targets[i];
     drive.place();
   };
   const Advance end = advance(drive.world, watches, length, place, queries);
@@ -170,6 +174,9 @@ void check(const Robot& robot, const DofMotion& motion) {
   if (motion.targets.size() != robot.q.size())
     fail("driving '{}': wanted {} DOF values, got {}", robot.name, robot.q.size(),
          motion.targets.size());
+  if (motion.rates.size() != motion.targets.size())
+    fail("driving '{}': wanted {} paces, got {}", robot.name, motion.targets.size(),
+         motion.rates.size());
   for (int i = 0; i < motion.targets.size(); ++i) {
     const auto [low, high] = robot.limits[i];
     // a limit that went through degrees and back is still the limit
@@ -181,6 +188,11 @@ void check(const Robot& robot, const DofMotion& motion) {
       fail("driving '{}': the pace of DOF {} must be finite, got {}", robot.name, i + 1,
            motion.rates[i]);
   }
+}
+
+void give_up(DriveResult& result, const Eigen::VectorXd& rates) {
+  for (int i = 0; i < rates.size(); ++i)
+    if (rates[i] != 0) result.stops[i] = DofStop::gave_up;
 }
 
 }  // namespace
@@ -196,13 +208,16 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
   drive.pairs = all_pairs(drive);
   refuse_collision(world, drive.moving, fmt::format("driving '{}'", robot.name));
 
+  // the path does not depend on the pace: the fastest DOF counts as 1
+  const double fastest = motion.rates.lpNorm<Eigen::Infinity>();
+  const double pace = fastest > 0 ? fastest : 1;
   const Eigen::VectorXd start = robot.q;
   DriveResult result;
   result.stops.assign(robot.dofs.size(), DofStop::still);
   while (true) {
     // who has somewhere to go, and is not blocked
     re_engage(drive);
-    Eigen::VectorXd rates = motion.rates;
+    Eigen::VectorXd rates = motion.rates / pace;
     for (int i = 0; i < rates.size(); ++i) {
       const double way = drive.targets[i] - drive.q[i];
       if (rates[i] * way > 0) continue;
@@ -222,9 +237,15 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
         result.stops[i] = DofStop::contact;
       }
     result.stopped_by = blocked.pairs;
-    if (rates.isZero(0) || result.events >= most_events) break;
+    if (rates.isZero(0)) break;
+    if (result.events >= most_events) {
+      give_up(result, rates);
+      break;
+    }
 
     const Advance end = follow(drive, rates, result.queries);
+    if (end.gave_up) give_up(result, rates);
+    if (end.gave_up) break;
     if (!end.stopped_by) continue;
     ++result.events;
     if (options.stop_at_contact && !end.stopped_by->touching) {
@@ -235,7 +256,7 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
     }
   }
   drive.place();
-  result.moved = (drive.q - start).cwiseAbs().maxCoeff() > no_motion;
+  result.moved = (drive.q - start).lpNorm<Eigen::Infinity>() > no_motion;
   return result;
 }
 

@@ -10,7 +10,8 @@ enum class DofStop {
   reached,  ///< its target, inside the limits
   limit,    ///< its target, a limit
   contact,
-  still  ///< it had nowhere to go
+  still,    ///< it had nowhere to go
+  gave_up,  ///< it slid and stuck more often than a drive waits for
 };
 
 struct DriveOptions {

@@ -83,8 +83,9 @@ MoveResult move(World& world, const Way& way) {
   };
   const Advance end = advance(world, watches, 1, place, result.queries);
   result.fraction = end.s;
-  result.touched = end.stopped_by.has_value();
-  if (end.stopped_by) result.stopped_by.emplace_back(end.stopped_by->a, end.stopped_by->b);
+  result.gave_up = end.gave_up;
+  result.touched = end.stopped_by && !end.gave_up;
+  if (result.touched) result.stopped_by.emplace_back(end.stopped_by->a, end.stopped_by->b);
   return result;
 }
 

@@ -10,7 +10,9 @@ struct MoveResult {
   double fraction = 0;               ///< of the way gone, in [0, 1]
   bool touched = false;              ///< did a contact end it?
   std::vector<BodyPair> stopped_by;  ///< moved body first
-  int queries = 0;                   ///< distance queries it took
+  bool gave_up =
+      false;        ///< did it end for its number of steps, sliding for metres within micrometres?
+  int queries = 0;  ///< distance queries it took
 };
 
 /// Moves an object or obstacle along the straight line and shortest turn to X_WB, until it first touches something.

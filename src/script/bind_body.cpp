@@ -39,16 +39,18 @@ static int get_robot(lua_State* L) {
 static int get_source(lua_State* L) { return push(L, self<BodyHandle>(L)->source); }
 
 int push_move(lua_State* L, const WorldPtr& world, const MoveResult& result) {
-  push_list(L, 0, 4);
+  push_list(L, 0, 5);
   set_field(L, "fraction", result.fraction);
   set_field(L, "touched", result.touched);
   push_pairs(L, world, result.stopped_by);
   lua_setfield(L, -2, "stopped_by");
+  set_field(L, "gave_up", result.gave_up);
   set_field(L, "queries", result.queries);
   return 1;
 }
 
 static int move_to(lua_State* L) {
+  check_count(L, 1);
   const auto& body = self<BodyHandle>(L);
   return push_move(L, body.world, move_body(*body.world, body.id, check_pose(L, 2, "pose")));
 }
@@ -97,7 +99,7 @@ static const Entry methods[] = {
 Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that
 remains is within the contact threshold. One that starts in contact may slide and leave, but is not pushed in.
 @param pose pose
-@return table result  `fraction` of the way gone, `touched`, `stopped_by` (pairs), `queries`
+@return table result  `fraction` of the way gone, `touched`, `stopped_by` (pairs), `gave_up` (after a million steps), `queries`
 > cube = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {pose = {xyz = {0, 0, 9}}})
 > floor = world:add_obstacle(clench.shapes.box {1, 1, 1}, {pose = {xyz = {0, 0, 7}}})
 > cube:move_to{xyz = {0, 0, 7}}.touched  --> true

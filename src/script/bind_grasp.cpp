@@ -9,6 +9,7 @@
 namespace clench {
 
 static int measure(lua_State* L) {
+  check_count(L, 3);
   const auto& hand = check_object<RobotHandle>(L, 1, "hand");
   const auto& object = check_object<BodyHandle>(L, 2, "object");
   if (hand.world != object.world)
@@ -45,13 +46,18 @@ static int get_contacts(lua_State* L) {
 static int get_rho(lua_State* L) { return push(L, self<GraspHandle>(L).grasp.rho); }
 static int get_edges(lua_State* L) { return push(L, self<GraspHandle>(L).grasp.edges); }
 
-static int grasp_space(lua_State* L) { return push_object(L, space_of(self<GraspHandle>(L))); }
+static int grasp_space(lua_State* L) {
+  check_count(L, 0);
+  return push_object(L, space_of(self<GraspHandle>(L)));
+}
 
 static int is_force_closure(lua_State* L) {
+  check_count(L, 0);
   return push(L, space_of(self<GraspHandle>(L))->is_force_closure());
 }
 
 static int quality(lua_State* L) {
+  check_count(L, 1);
   auto& g = self<GraspHandle>(L);
   const std::string name = check_string(L, 2, "measure");
   if (name == "epsilon") return push(L, space_of(g)->epsilon());
@@ -91,6 +97,7 @@ static Wrenches read_contact(lua_State* L, int i, const What& what, const ConeOp
 }
 
 static int new_wrench_space(lua_State* L) {
+  check_count(L, 1);
   Table options(L, 1);
   options.choice("norm", {"L1"}, "L1");
   ConeOptions cone;
@@ -114,12 +121,22 @@ static int new_wrench_space(lua_State* L) {
 
 static const WrenchSpace& space(lua_State* L) { return *self<WrenchSpacePtr>(L); }
 
-static int epsilon(lua_State* L) { return push(L, space(L).epsilon()); }
-static int volume(lua_State* L) { return push(L, space(L).volume()); }
-static int closes_force(lua_State* L) { return push(L, space(L).is_force_closure()); }
+static int epsilon(lua_State* L) {
+  check_count(L, 0);
+  return push(L, space(L).epsilon());
+}
+static int volume(lua_State* L) {
+  check_count(L, 0);
+  return push(L, space(L).volume());
+}
+static int closes_force(lua_State* L) {
+  check_count(L, 0);
+  return push(L, space(L).is_force_closure());
+}
 static int get_rank(lua_State* L) { return push(L, space(L).rank()); }
 
 static int weakest(lua_State* L) {
+  check_count(L, 0);
   const Weakest& w = space(L).weakest();
   push_list(L, 0, 2);
   push_vector(L, w.direction);
@@ -129,6 +146,7 @@ static int weakest(lua_State* L) {
 }
 
 static int wrenches(lua_State* L) {
+  check_count(L, 0);
   return push_list_of(L, space(L).contacts(),
                       [&](const Wrenches& contact) { push_rows(L, contact.transpose()); });
 }

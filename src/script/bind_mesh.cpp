@@ -19,7 +19,10 @@ static int get_vertex_count(lua_State* L) {
 static int get_volume(lua_State* L) { return push(L, shape_of(L).solid().volume); }
 static int get_area(lua_State* L) { return push(L, shape_of(L).mesh().area()); }
 static int get_faults(lua_State* L) { return push(L, shape_of(L).faults().describe()); }
-static int is_watertight(lua_State* L) { return push(L, shape_of(L).closed()); }
+static int is_watertight(lua_State* L) {
+  check_count(L, 0);
+  return push(L, shape_of(L).closed());
+}
 
 static int get_bounds(lua_State* L) {
   push_list(L, 0, 2);

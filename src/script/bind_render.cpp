@@ -18,6 +18,7 @@ static Eye read_eye(Table& options, const Eye& from) {
 }
 
 static int draw(lua_State* L) {
+  check_count(L, 2);
   const auto& world = *check_object<WorldHandle>(L, 1, "world").world;
   Table options(L, 2);
   RenderOptions rendering;
@@ -46,7 +47,10 @@ static int draw(lua_State* L) {
 }
 
 static int save(lua_State* L) {
-  save_png(self<Picture>(L), check_string(L, 2, "path"));
+  check_count(L, 1);
+  const std::string path = check_string(L, 2, "path");
+  if (!path.ends_with(".png")) fail("{}: wanted a name that ends in .png, got '{}'", subject(L), path);
+  save_png(self<Picture>(L), path);
   return 0;
 }
 
@@ -54,6 +58,7 @@ static int get_width(lua_State* L) { return push(L, self<Picture>(L).width); }
 static int get_height(lua_State* L) { return push(L, self<Picture>(L).height); }
 
 static int pixel(lua_State* L) {
+  check_count(L, 2);
   const Picture& p = self<Picture>(L);
   const int x = check_int(L, 2, "x"), y = check_int(L, 3, "y");
   if (x < 1 || x > p.width || y < 1 || y > p.height)
@@ -99,7 +104,8 @@ static const Entry methods[] = {
     {"save", guarded<save>, R"(
 Writes a PNG file.
 @param path string
-> clench.render(world, {size = {64, 48}}):save("no/such/folder/a.png")  --> error: no/such/folder/a.png)"},
+> clench.render(world, {size = {64, 48}}):save("no/such/folder/a.png")  --> error: no/such/folder/a.png
+> clench.render(world, {size = {64, 48}}):save("a.jpg")  --> error: .png)"},
     {"pixel", guarded<pixel>, R"(
 Red, green and blue of a pixel, 0 to 255; (1, 1) is the upper left.
 @param x integer

@@ -91,6 +91,7 @@ static Eigen::VectorXd check_dofs(lua_State* L, int i, const Robot& robot) {
 }
 
 static int set_dofs(lua_State* L) {
+  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   robot.world->set_dofs(robot.id, check_dofs(L, 2, *robot));
   return 0;
@@ -150,6 +151,7 @@ static int get_files(lua_State* L) {
 // --- verbs ---
 
 static int link(lua_State* L) {
+  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   const std::string name = check_string(L, 2, "name");
   std::vector<std::string> names;
@@ -164,7 +166,7 @@ static int link(lua_State* L) {
 }
 
 static const char* stop_name(DofStop stop) {
-  static constexpr const char* names[] = {"reached", "limit", "contact", "still"};
+  static constexpr const char* names[] = {"reached", "limit", "contact", "still", "gave up"};
   return names[static_cast<int>(stop)];
 }
 
@@ -181,6 +183,7 @@ static int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& re
 }
 
 static int autograsp(lua_State* L) {
+  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 2);
   const double speed = options.number("speed", 1);
@@ -190,6 +193,7 @@ static int autograsp(lua_State* L) {
 }
 
 static int open(lua_State* L) {
+  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 2);
   options.done();
@@ -197,6 +201,7 @@ static int open(lua_State* L) {
 }
 
 static int move_dofs(lua_State* L) {
+  check_count(L, 2);
   const auto& robot = self<RobotHandle>(L);
   const Eigen::VectorXd targets = check_dofs(L, 2, *robot);
   Table options(L, 3);
@@ -206,11 +211,13 @@ static int move_dofs(lua_State* L) {
 }
 
 static int move_to(lua_State* L) {
+  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   return push_move(L, robot.world, move_robot(*robot.world, robot.id, check_pose(L, 2, "pose")));
 }
 
 static int approach_object(lua_State* L) {
+  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 2);
   const double reach = options.number("reach", 1);
@@ -219,6 +226,7 @@ static int approach_object(lua_State* L) {
 }
 
 static int mount_on(lua_State* L) {
+  check_count(L, 2);
   const auto& robot = self<RobotHandle>(L);
   const auto& parent = check_object<RobotHandle>(L, 2, "carrier");
   if (parent.world != robot.world)
@@ -334,7 +342,7 @@ Drives all DOFs in proportion towards values, until contact stops them.
 Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway
 fingers go on beyond the joint that is stopped. Negative speed opens.
 @param options? {speed?: number, stop_at_contact?: boolean}
-@return table result  `moved`, `stops` (a DOF each: "contact", "limit", "reached", "still"), `stopped_by` (pairs), `queries`, `events`
+@return table result  `moved`, `stops` (a DOF each: "contact", "limit", "reached", "still", "gave up"), `stopped_by` (pairs), `queries`, `events`
 > hand:autograsp().moved  --> false
 > hand:autograsp{sped = 1}  --> error: did you mean 'speed'?)"},
     {"open", guarded<open>, R"(
@@ -346,12 +354,12 @@ Opens the hand as far as it goes. One that overlaps something is opened without 
     {"move_to", guarded<move_to>, R"(
 Moves the whole robot until it first touches something, as a body's move_to.
 @param pose pose
-@return table result  `fraction`, `touched`, `stopped_by`, `queries`
+@return table result  `fraction`, `touched`, `stopped_by`, `gave_up`, `queries`
 > hand:move_to(hand.pose).fraction  --> 1.0)"},
     {"approach_object", guarded<approach_object>, R"(
 Moves the hand along its approach direction until it touches something.
 @param options? {reach?: number}  at most this far, 1 by default [m]
-@return table result  `fraction`, `touched`, `stopped_by`, `queries`
+@return table result  `fraction`, `touched`, `stopped_by`, `gave_up`, `queries`
 > hand:approach_object{reach = -1}  --> error: reach)"},
     {"mount_on", guarded<mount_on>, R"(
 Fixes the robot to the last link of another one's chain. It follows from now on.

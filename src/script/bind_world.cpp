@@ -16,6 +16,7 @@ static World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
 // --- making ---
 
 static int new_world(lua_State* L) {
+  check_count(L, 1);
   Table options(L, 1);
   auto world = std::make_shared<World>();
   world->set_contact_threshold(options.positive("contact_threshold", world->contact_threshold()));
@@ -24,6 +25,7 @@ static int new_world(lua_State* L) {
 }
 
 static int load(lua_State* L) {
+  check_count(L, 2);
   const std::string path = check_string(L, 1, "path");
   Table options(L, 2);
   const ReadOptions reading = read_options(L, options);
@@ -33,6 +35,7 @@ static int load(lua_State* L) {
 }
 
 static int add_body(lua_State* L, BodyKind kind) {
+  check_count(L, 2);
   const auto& handle = self<WorldHandle>(L);
   Table options(L, 3);
   const ReadOptions reading = read_options(L, options);
@@ -62,6 +65,7 @@ static int add_object(lua_State* L) { return add_body(L, BodyKind::object); }
 static int add_obstacle(lua_State* L) { return add_body(L, BodyKind::obstacle); }
 
 static int add_robot(lua_State* L) {
+  check_count(L, 2);
   const auto& handle = self<WorldHandle>(L);
   const std::string path = check_string(L, 2, "path");
   Table options(L, 3);
@@ -70,10 +74,12 @@ static int add_robot(lua_State* L) {
   const std::string name = options.string("name", "");
   options.done();
   const RobotSpec spec = read_robot(find_file(path, {}, reading), reading);
-  return push(L, RobotHandle{handle.world, clench::add_robot(*handle.world, spec, pose, name, reading.warn)});
+  return push(L, RobotHandle{handle.world,
+                             clench::add_robot(*handle.world, spec, pose, name, reading.warn)});
 }
 
 static int remove(lua_State* L) {
+  check_count(L, 1);
   const auto& handle = self<WorldHandle>(L);
   check_bodies(L, 2, "thing", handle.world);  // of this world, and alive
   if (const auto* robot = to<RobotHandle>(L, 2))
@@ -112,6 +118,7 @@ static int get_robots(lua_State* L) {
 }
 
 static int body(lua_State* L) {
+  check_count(L, 1);
   const auto& handle = self<WorldHandle>(L);
   const std::string name = check_string(L, 2, "name");
   const auto id = handle.world->find_body(name);
@@ -124,6 +131,7 @@ static int body(lua_State* L) {
 }
 
 static int robot(lua_State* L) {
+  check_count(L, 1);
   const auto& handle = self<WorldHandle>(L);
   const std::string name = check_string(L, 2, "name");
   const auto id = handle.world->find_robot(name);
@@ -139,15 +147,18 @@ static int robot(lua_State* L) {
 // --- time machine ---
 
 static int clone(lua_State* L) {
+  check_count(L, 0);
   return push_object(L, WorldHandle{std::make_shared<World>(world_of(L))});
 }
 
 static int snapshot(lua_State* L) {
+  check_count(L, 0);
   const auto& handle = self<WorldHandle>(L);
   return push_object(L, SnapshotHandle{handle.world, handle.world->snapshot()});
 }
 
 static int restore(lua_State* L) {
+  check_count(L, 1);
   const auto& handle = self<WorldHandle>(L);
   const auto& moment = check_object<SnapshotHandle>(L, 2, "snapshot");
   if (moment.world != handle.world) fail("{}: the snapshot was taken of another world", subject(L));
@@ -155,11 +166,15 @@ static int restore(lua_State* L) {
   return 0;
 }
 
-static int hash(lua_State* L) { return push(L, fmt::format("{:016x}", world_of(L).hash())); }
+static int hash(lua_State* L) {
+  check_count(L, 0);
+  return push(L, fmt::format("{:016x}", world_of(L).hash()));
+}
 
 // --- who touches whom ---
 
 static int colliding(lua_State* L) {
+  check_count(L, 2);
   const auto& world = self<WorldHandle>(L).world;
   if (!given(L, 2)) return push_pairs(L, world, colliding_pairs(*world));
   const auto a = check_bodies(L, 2, "a", world);
@@ -168,6 +183,7 @@ static int colliding(lua_State* L) {
 }
 
 static int measure_distance(lua_State* L) {
+  check_count(L, 2);
   const auto& world = self<WorldHandle>(L).world;
   const auto a = check_bodies(L, 2, "a", world), b = check_bodies(L, 3, "b", world);
   const BodyDistance d = distance(*world, a, b);
@@ -178,6 +194,7 @@ static int measure_distance(lua_State* L) {
 }
 
 static int find_contacts(lua_State* L) {
+  check_count(L, 2);
   const auto& world = self<WorldHandle>(L).world;
   if (!given(L, 2)) return push_contacts(L, world, contacts(*world));
   const auto a = check_bodies(L, 2, "a", world);
@@ -187,6 +204,7 @@ static int find_contacts(lua_State* L) {
 }
 
 static int set_collision(lua_State* L) {
+  check_count(L, 3);
   const auto& world = self<WorldHandle>(L).world;
   const bool on = check_boolean(L, 2, "on");
   if (!given(L, 3)) {
@@ -208,6 +226,7 @@ static int set_collision(lua_State* L) {
 // --- how things rub ---
 
 static int set_friction(lua_State* L) {
+  check_count(L, 3);
   const std::string a = check_string(L, 2, "material"), b = check_string(L, 3, "material");
   Table options(L, 4);
   const double statics = options.number("static");
@@ -219,6 +238,7 @@ static int set_friction(lua_State* L) {
 }
 
 static int friction(lua_State* L) {
+  check_count(L, 2);
   const MaterialTable& table = world_of(L).materials();
   const Friction f = table.friction(table.index(check_string(L, 2, "material")),
                                     table.index(check_string(L, 3, "material")));

@@ -13,33 +13,33 @@ ReadOptions read_options(lua_State* L, Table& options) {
   return out;
 }
 
-// the value of a key of a plain table, without metamethods
-static void push_raw(lua_State* L, int table, const char* key) {
-  lua_pushstring(L, key);
-  lua_rawget(L, table);
-}
-
 // a table of vertices and triangles, as the shapes of the standard library are
-static Mesh read_mesh(lua_State* L, int i, const std::string& name) {
-  const int table = lua_absindex(L, i);
+static Mesh read_mesh(lua_State* L, int i) {
+  Table table(L, i);
   Mesh mesh;
-  push_raw(L, table, "vertices");
-  for (const auto& row : read_rows(L, -1, {L, name, "vertices"}, 3))
-    mesh.vertices.emplace_back(row[0], row[1], row[2]);
-  push_raw(L, table, "triangles");
-  const int count = static_cast<int>(mesh.vertices.size());
   int number = 0;
-  for (const auto& row : read_rows(L, -1, {L, name, "triangles"}, 3)) {
+  for (const auto& row : table.rows("vertices", 3)) {
+    ++number;
+    mesh.vertices.emplace_back(row[0], row[1], row[2]);
+    if (mesh.vertices.back().cwiseAbs().maxCoeff() > largest_coordinate)
+      fail("{}: vertex {}: wanted coordinates within {} m", table.subject(), number,
+           largest_coordinate);
+  }
+  const int count = number;
+  number = 0;
+  for (const auto& row : table.rows("triangles", 3)) {
     ++number;
     Triangle t;
     for (int k = 0; k < 3; ++k) {
       if (!(row[k] >= 1 && row[k] <= count && row[k] == std::floor(row[k])))
-        fail("{}: triangle {}: wanted vertices from 1 to {}, got {}", name, number, count, row[k]);
+        fail("{}: triangle {}: wanted vertices from 1 to {}, got {}", table.subject(), number,
+             count, row[k]);
       t[k] = static_cast<int>(row[k]) - 1;
     }
     mesh.triangles.push_back(t);
   }
-  lua_pop(L, 2);
+  table.done();
+  if (mesh.triangles.empty()) fail("{}: wanted at least one triangle, got none", table.subject());
   return mesh;
 }
 
@@ -69,7 +69,7 @@ BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions&
   } else if (lua_istable(L, i)) {
     const std::string name = options.string("name", "body");
     spec.name = name;
-    spec.shape = Shape::make(read_mesh(L, i, subject(L)), name);
+    spec.shape = Shape::make(read_mesh(L, i), name);
   } else {
     fail_wanted({L, {}, "body"}, "a file name or a mesh {vertices = ..., triangles = ...}", i);
   }

@@ -78,6 +78,26 @@ TEST_CASE("breakaway states are taken over") {
   CHECK(joint_value(hand, 0, 1) == doctest::Approx(0.3));
 }
 
+TEST_CASE(
+    "a breakaway state that its DOF contradicts is dropped, one outside the limits with a "
+    "warning") {
+  WorldSpec spec = arm_and_hand(0);
+  spec.connections.clear();
+  spec.robots[1].robot = two_finger(DofKind::breakaway);
+  spec.robots[1].dofs = {0.6, 0.6};
+  spec.robots[1].breakaway = {{0.9, -3.0}, {std::nullopt, 0.1}};
+  std::vector<std::string> warnings;
+  const World world = build_world(spec, [&](const std::string& w) { warnings.push_back(w); });
+  const Robot& hand = world.robot(world.robots()[1]);
+  CHECK(joint_value(hand, 0, 0) == 0.6);
+  CHECK(joint_value(hand, 0, 1) == doctest::Approx(0.3));
+  CHECK(joint_value(hand, 1, 1) == 0.1);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0] ==
+        "robot 'gripper_2': joint 2 of chain 1 broke away at -3, outside [0, 1.5707963267948966]; "
+        "it follows its DOF");
+}
+
 TEST_CASE("wrong counts are refused") {
   WorldSpec spec = arm_and_hand(0);
   spec.robots[1].dofs = {0};

@@ -251,14 +251,68 @@ TEST_CASE("properties refuse what is no mass, inertia, modulus, threshold, mater
                        Error);
   CHECK_THROWS_WITH_AS(world.set_elastic_modulus(a, 0),
                        "body 'a': its elastic modulus must be > 0 [Pa], got 0", Error);
-  CHECK_THROWS_WITH_AS(world.set_contact_threshold(0), "contact_threshold must be > 0 [m], got 0",
-                       Error);
-  CHECK_THROWS_WITH_AS(world.set_name(a, "b"),
-                       "the name 'b' is taken by another body of this world", Error);
+  CHECK_THROWS_WITH_AS(world.set_contact_threshold(0),
+                       "contact_threshold must be >= 1e-09 [m], got 0", Error);
+  CHECK_THROWS_WITH_AS(world.set_name(a, "b"), "the name 'b' is taken in this world", Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, ""), "body 'a': a name may not be empty", Error);
   CHECK_THROWS_AS(world.set_material(a, "woood"), Error);
   CHECK_THROWS_WITH_AS(world.set_pose(a, Pose::translation({NAN, 0, 0})),
-                       "body 'a': its pose must be finite", Error);
+                       "body 'a': its pose must be finite, its quaternion unit", Error);
+}
+
+TEST_CASE("a body may not stand where rounding leaves nothing of it, nor take a robot's name") {
+  World world;
+  const auto a = add_box(world, "a", {0, 0, 0});
+  world.add_robot(two_finger(), Pose::translation({1, 0, 0}));
+  CHECK_THROWS_WITH_AS(world.set_pose(a, Pose::translation({0, 1e300, 0})),
+                       "body 'a': wanted a position within 1000000000 m of the origin, got 1e+300",
+                       Error);
+  CHECK_THROWS_WITH_AS(world.set_name(a, "gripper"), "the name 'gripper' is taken in this world",
+                       Error);
+}
+
+TEST_CASE("the hash knows shapes and mountings") {
+  World one, two;
+  auto spec = body_spec("block", box(1, 1, 1));
+  spec.com = Eigen::Vector3d(0, 0, 0);
+  spec.inertia_per_mass = Eigen::Matrix3d::Identity();
+  one.add_body(spec, BodyKind::object, {});
+  spec.shape = Shape::make(box(2, 1, 1));
+  two.add_body(spec, BodyKind::object, {});
+  CHECK(one.hash() != two.hash());
+
+  World apart, mounted;
+  for (World* world : {&apart, &mounted})
+    for (int i = 0; i < 2; ++i) world->add_robot(two_finger(), {});
+  const Pose X_LB = Pose::translation({0.1, 0, 0});
+  const auto last = apart.robot(apart.robots()[0]).chains[0].links[1];
+  apart.set_pose(apart.robots()[1], apart.body(last).X_WB * X_LB);
+  apart.set_collision(false, last, apart.robot(apart.robots()[1]).base);
+  mounted.mount(mounted.robots()[1], mounted.robots()[0], 0, X_LB);
+  CHECK(apart.hash() != mounted.hash());
+}
+
+TEST_CASE("the witness points of a tie do not depend on what was asked before") {
+  World world;
+  const auto a = add_box(world, "a", {0, 0, 0}, 1), b = add_box(world, "b", {2, 0, 0}, 1);
+  const std::array ga{a}, gb{b};
+  const auto cold = distance(world, ga, gb);
+  const auto snapshot = world.snapshot();
+  for (int i = 0; i < 20; ++i) {
+    world.set_pose(b, Pose::translation({2, 0.3 * i - 2, 0.1 * i}));
+    distance(world, ga, gb);
+    world.set_pose(b, Pose::translation({2, 0, 0}));
+    const auto warm = distance(world, ga, gb);
+    CHECK(warm.p_a == cold.p_a);
+    CHECK(warm.p_b == cold.p_b);
+  }
+}
+
+TEST_CASE("a thousand boxes of one name are numbered one by one") {
+  World world;
+  const auto spec = body_spec("box", box(0.01, 0.01, 0.01));
+  for (int i = 0; i < 1000; ++i) world.add_body(spec, BodyKind::object, {});
+  CHECK(world.body(world.bodies().back()).name == "box_1000");
 }
 
 TEST_CASE("the hash follows every bit of the state") {

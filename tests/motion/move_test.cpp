@@ -128,6 +128,17 @@ TEST_CASE("a move that starts in collision is an error that names the pair") {
                        "moving 'a': the motion starts in collision: a and b", Error);
 }
 
+TEST_CASE("where rounding hides the threshold nothing is moved") {
+  World world;
+  world.set_contact_threshold(1e-9);
+  const auto block = add(world, "block", box(0.02, 0.02, 0.02), {1e6, 0, 0});
+  add(world, "other", box(0.02, 0.02, 0.02), {1e6, 1, 0});
+  CHECK_THROWS_WITH_AS(move_body(world, block, Pose::translation({1e6, 2, 0})),
+                       "moving near 'block': 1000000 m from the origin, a contact threshold of "
+                       "1e-09 m is lost in rounding",
+                       Error);
+}
+
 TEST_CASE("bad numbers are refused") {
   World world;
   const auto hand = world.add_robot(two_finger(), {});
@@ -135,5 +146,5 @@ TEST_CASE("bad numbers are refused") {
                        "approach of 'gripper': the reach must be >= 0 [m], got -1", Error);
   const auto a = add(world, "a", box(0.02, 0.02, 0.02), {1, 0, 0});
   CHECK_THROWS_WITH_AS(move_body(world, a, Pose::translation({NAN, 0, 0})),
-                       "body 'a': its pose must be finite", Error);
+                       "body 'a': its pose must be finite, its quaternion unit", Error);
 }
