@@ -207,7 +207,7 @@ local body = {}
 
 ---Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that remains is within the contact threshold. One that starts in contact may slide and leave, but is not pushed in.
 ---@param pose pose
----@return table result # `fraction` of the way gone, `touched`, `stopped_by` (pairs), `queries`
+---@return table result # `fraction` of the way gone, `touched`, `stopped_by` (pairs), `gave_up` (after a million steps), `queries`
 function body:move_to(pose) end
 
 ---The triangles of a body's surface. Meshes never change, and clones of a world share them.
@@ -261,7 +261,7 @@ function robot:move_dofs(values, options) end
 
 ---Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. Negative speed opens.
 ---@param options? {speed?: number, stop_at_contact?: boolean}
----@return table result # `moved`, `stops` (a DOF each: "contact", "limit", "reached", "still"), `stopped_by` (pairs), `queries`, `events`
+---@return table result # `moved`, `stops` (a DOF each: "contact", "limit", "reached", "still", "gave up"), `stopped_by` (pairs), `queries`, `events`
 function robot:autograsp(options) end
 
 ---Opens the hand as far as it goes. One that overlaps something is opened without regard to contacts until it is free.
@@ -271,12 +271,12 @@ function robot:open(options) end
 
 ---Moves the whole robot until it first touches something, as a body's move_to.
 ---@param pose pose
----@return table result # `fraction`, `touched`, `stopped_by`, `queries`
+---@return table result # `fraction`, `touched`, `stopped_by`, `gave_up`, `queries`
 function robot:move_to(pose) end
 
 ---Moves the hand along its approach direction until it touches something.
 ---@param options? {reach?: number} # at most this far, 1 by default [m]
----@return table result # `fraction`, `touched`, `stopped_by`, `queries`
+---@return table result # `fraction`, `touched`, `stopped_by`, `gave_up`, `queries`
 function robot:approach_object(options) end
 
 ---Fixes the robot to the last link of another one's chain. It follows from now on.

@@ -37,11 +37,12 @@ static int draw(lua_State* L) {
   showing.file_colors = options.boolean("file_colors", showing.file_colors);
   Scene scene = make_scene(world, showing);
   // a camera that is given in part begins from the one that frames everything
-  const Eye framed = frame_all(scene, size[1] > 0 ? size[0] / size[1] : 1);
-  const bool given_eye = options.has("eye") || options.has("target") || options.has("up") ||
-                         options.has("field_of_view");
+  const int parts =
+      options.has("eye") + options.has("target") + options.has("up") + options.has("field_of_view");
+  const bool whole = parts == 4;
+  const Eye framed = whole ? Eye{} : frame_all(scene, size[1] > 0 ? size[0] / size[1] : 1);
   const Eye eye = read_eye(options, framed);
-  if (given_eye) scene.eye = eye;
+  if (parts > 0) scene.eye = eye;
   options.done();
   return push_object(L, render(scene, rendering));
 }
@@ -49,7 +50,8 @@ static int draw(lua_State* L) {
 static int save(lua_State* L) {
   check_count(L, 1);
   const std::string path = check_string(L, 2, "path");
-  if (!path.ends_with(".png")) fail("{}: wanted a name that ends in .png, got '{}'", subject(L), path);
+  if (!path.ends_with(".png"))
+    fail("{}: wanted a name that ends in .png, got '{}'", subject(L), path);
   save_png(self<Picture>(L), path);
   return 0;
 }

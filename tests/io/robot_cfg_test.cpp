@@ -120,7 +120,7 @@ TEST_CASE("comments, tabs, blank lines and other line ends change nothing") {
   CHECK(r.chains[0].joints[0].viscous == 0);
 }
 
-TEST_CASE("surplus words are not used, with a warning; comments are none") {
+TEST_CASE("surplus words are not used, with a warning, and comments are none") {
   Cfg cfg;
   cfg.dofs = "1 # DOF\nr 1.5 5e9 1e9 1e7 20 0.5\n";
   cfg.transforms = "t 0 0 0 9 9\nT (1 0 0 0)[0 0 0] # here\nr 0 z # and 9 there\n";
