@@ -357,8 +357,8 @@ void World::set_appearance(Id<Body> id, const Appearance& appearance) {
 }
 
 void World::set_contact_threshold(double threshold) {
-  if (!(threshold >= least_threshold) || !std::isfinite(threshold))
-    fail("contact_threshold must be >= {} [m], got {}", least_threshold, threshold);
+  if (!(threshold >= least_threshold && threshold <= most_threshold))
+    fail("contact_threshold must lie in [{}, {}] m, got {}", least_threshold, most_threshold, threshold);
   state_.contact_threshold = threshold;
 }
 

@@ -24,6 +24,8 @@ struct Slot {
 
 inline constexpr double farthest = 1e9;          ///< bodies stand this near the origin [m]
 inline constexpr double least_threshold = 1e-9;  ///< of contact: above the rounding of a metre [m]
+inline constexpr double most_threshold =
+    0.01;  ///< beyond it whole fingers would be one contact [m]
 
 /// All state of a world as a value: what a snapshot keeps.
 struct WorldState {
@@ -99,7 +101,8 @@ class World {
     state_.materials.set_friction(a, b, friction);
   }
   double contact_threshold() const { return state_.contact_threshold; }
-  void set_contact_threshold(double threshold);  ///< throws Error unless > 0 and finite
+  /// throws Error outside [least_threshold, most_threshold]
+  void set_contact_threshold(double threshold);
   const std::optional<Camera>& camera() const { return state_.camera; }
   void set_camera(const std::optional<Camera>& camera) { state_.camera = camera; }
   const std::string& source() const { return state_.source; }

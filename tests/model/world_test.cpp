@@ -252,7 +252,7 @@ TEST_CASE("properties refuse what is no mass, inertia, modulus, threshold, mater
   CHECK_THROWS_WITH_AS(world.set_elastic_modulus(a, 0),
                        "body 'a': its elastic modulus must be > 0 [Pa], got 0", Error);
   CHECK_THROWS_WITH_AS(world.set_contact_threshold(0),
-                       "contact_threshold must be >= 1e-09 [m], got 0", Error);
+                       "contact_threshold must lie in [1e-09, 0.01] m, got 0", Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, "b"), "the name 'b' is taken in this world", Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, ""), "body 'a': a name may not be empty", Error);
   CHECK_THROWS_AS(world.set_material(a, "woood"), Error);
