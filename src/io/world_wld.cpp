@@ -1,5 +1,8 @@
 #include "io/world_wld.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "base/suggest.h"
 #include "base/text.h"
 #include "base/units.h"
@@ -98,12 +101,18 @@ void WldReader::read_header() {
   if (!named) library_.warn(first.place() + ": the first line '#GraspIt! version ...' is missing");
 }
 
+static constexpr const char* block_names[] = {"Obstacle",   "GraspableBody", "Robot",
+                                              "Connection", "Camera",        "CameraFull"};
+
 WorldSpec WldReader::read() {
   world_.source = path_.generic_string();
   read_header();
   while (lines_.skip_to_full()) {
     const Line line = lines_.next();
     const std::string_view key = line.word(0);
+    const bool known = std::ranges::find(block_names, key) != std::end(block_names);
+    if (known && line.before('#').size() > 1)
+      line.fail("wanted {} alone on its line, got {}", key, in_quotes(line.text()));
     if (key == "Obstacle")
       read_body(Role::obstacle);
     else if (key == "GraspableBody")
@@ -119,8 +128,7 @@ WorldSpec WldReader::read() {
     else
       line.fail("wanted Obstacle, GraspableBody, Robot, Connection, Camera or CameraFull, got {}{}",
                 in_quotes(line.text()),
-                did_you_mean(key, {"Obstacle", "GraspableBody", "Robot", "Connection", "Camera",
-                                   "CameraFull"}));
+                did_you_mean(key, {std::begin(block_names), std::end(block_names)}));
   }
   check_connections();
   return std::move(world_);
