@@ -16,6 +16,9 @@ class Library {
   void warn(const std::string& sentence) const {
     if (options_.warn) options_.warn(sentence);
   }
+  void note(const std::string& sentence) const {
+    if (options_.note) options_.note(sentence);
+  }
   /// `path` as find_file gives it
   const BodySpec& body(const std::filesystem::path& path);
   const RobotSpec& robot(const std::filesystem::path& path);

@@ -13,6 +13,8 @@ struct ReadOptions {
   std::filesystem::path root;
   /// told of what a file contains and we do not use
   std::function<void(const std::string&)> warn = {};
+  /// told of what a file leaves open and we guess
+  std::function<void(const std::string&)> note = {};
   /// .obj .stl: length of the file's unit, > 0 [m]
   double mesh_scale = 1;
 };

@@ -10,6 +10,7 @@ ReadOptions read_options(lua_State* L, Table& options) {
   out.root = options.string("root", "");
   out.mesh_scale = options.positive("mesh_scale", out.mesh_scale);
   out.warn = [L](const std::string& message) { log_warning(L, message); };
+  out.note = [L](const std::string& message) { log(L, LogLevel::info, message); };
   return out;
 }
 
