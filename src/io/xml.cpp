@@ -1,0 +1,316 @@
+#include "io/xml.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/suggest.h"
+
+namespace clench {
+
+namespace {
+
+constexpr size_t most_bytes = 16 << 20;
+constexpr int most_depth = 64;         // the parser calls itself for each
+constexpr int most_attributes = 1000;  // the parser compares each with all
+
+int line_at(std::string_view text, size_t at) {
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + at, '\n'));
+}
+
+/// Past the end of what begins at `at` and is no element's tag: comment, CDATA, declaration; else 0.
+size_t skip_other(std::string_view text, size_t at) {
+  constexpr std::pair<std::string_view, std::string_view> others[] = {
+      {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}};
+  for (const auto& [begin, end] : others) {
+    if (!text.substr(at).starts_with(begin)) continue;
+    const size_t found = text.find(end, at + begin.size());
+    return found == std::string_view::npos ? text.size() : found + end.size();
+  }
+  return 0;
+}
+
+struct Tag {
+  size_t end = 0;  // of its '>', or of the text
+  int attributes = 0;
+  bool closed = false;
+};
+
+Tag scan_tag(std::string_view text, size_t at) {
+  Tag tag;
+  char quote = 0;
+  for (tag.end = at + 1; tag.end < text.size(); ++tag.end) {
+    const char c = text[tag.end];
+    if (quote) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '=') {
+      ++tag.attributes;
+    } else if (c == '>') {
+      break;
+    }
+  }
+  tag.closed = tag.end < text.size() && text[tag.end - 1] == '/';
+  return tag;
+}
+
+/// What would make the parser recurse without end or take the square of the file's length.
+void check_limits(const std::string& file, std::string_view text) {
+  if (text.size() > most_bytes)
+    fail("{}: wanted at most {} MB of XML, got {}", file, most_bytes >> 20, text.size() >> 20);
+  if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
+    fail("{}:{}: wanted text, got a zero byte", file, line_at(text, zero));
+  int depth = 0;
+  size_t at = 0;
+  while ((at = text.find('<', at)) != std::string_view::npos) {
+    if (const size_t next = skip_other(text, at)) {
+      at = next;
+      continue;
+    }
+    const Tag tag = scan_tag(text, at);
+    if (tag.attributes > most_attributes)
+      fail("{}:{}: wanted at most {} attributes, got {}", file, line_at(text, at), most_attributes,
+           tag.attributes);
+    if (text.substr(at).starts_with("</"))
+      --depth;
+    else if (!tag.closed)
+      ++depth;
+    if (depth > most_depth)
+      fail("{}:{}: wanted at most {} elements in each other", file, line_at(text, at), most_depth);
+    at = tag.end;
+  }
+}
+
+const char* broken_part(tinyxml2::XMLError error) {
+  switch (error) {
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute that is none, or stands twice";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+      return "text that does not end";
+    case tinyxml2::XML_ERROR_PARSING_CDATA:
+      return "CDATA that does not end";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment that does not end";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+      return "a declaration that does not end or stands too late";
+    case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
+      return "a '<!' that does not end";
+    default:
+      return "something else";
+  }
+}
+
+[[noreturn]] void fail_parse(const std::string& file, const tinyxml2::XMLDocument& document) {
+  const int line = std::max(document.ErrorLineNum(), 1);
+  const auto error = document.ErrorID();
+  if (error == tinyxml2::XML_ERROR_EMPTY_DOCUMENT)
+    fail("{}:{}: wanted an XML element, got nothing", file, line);
+  if (error == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT) {
+    // the library's text ends in the element's name
+    const std::string_view text = document.ErrorStr();
+    const size_t at = text.rfind("name=");
+    const std::string name(at == std::string_view::npos ? "" : text.substr(at + 5));
+    fail("{}:{}: wanted a closing tag for <{}>, got another one or the end of the file", file, line,
+         name.substr(0, 40));
+  }
+  if (error == tinyxml2::XML_ERROR_PARSING_ELEMENT || error == tinyxml2::XML_ERROR_PARSING)
+    fail("{}:{}: wanted an XML element, got something else", file, line);
+  fail("{}:{}: wanted well-formed XML, got {}", file, line, broken_part(error));
+}
+
+bool contains(const std::vector<std::string>& list, std::string_view name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+/// Text that stands directly in an element.
+std::string own_text(const tinyxml2::XMLElement& element) {
+  std::string out;
+  for (const tinyxml2::XMLNode* n = element.FirstChild(); n; n = n->NextSibling())
+    if (const tinyxml2::XMLText* text = n->ToText()) (out += text->Value()) += ' ';
+  return std::string(trim(out));
+}
+
+}  // namespace
+
+// --- elements ---
+
+std::string_view XmlElement::name() const { return element_->Name(); }
+int XmlElement::line() const { return element_->GetLineNum(); }
+std::string XmlElement::place() const { return fmt::format("{}:{}", *file_, line()); }
+
+XmlElement XmlElement::child(std::string_view name) const {
+  for (auto* e = element_->FirstChildElement(); e; e = e->NextSiblingElement())
+    if (e->Name() == name) return {e, file_};
+  return {};
+}
+
+XmlElement XmlElement::wanted(std::string_view name) const {
+  if (const XmlElement found = child(name)) return found;
+  fail("{}: wanted an element <{}>, got none", this->name(), name);
+}
+
+std::vector<XmlElement> XmlElement::children(std::string_view name) const {
+  std::vector<XmlElement> out;
+  for (auto* e = element_->FirstChildElement(); e; e = e->NextSiblingElement())
+    if (name.empty() || e->Name() == name) out.push_back({e, file_});
+  return out;
+}
+
+std::string XmlElement::text() const {
+  if (auto* inner = element_->FirstChildElement())
+    fail("{}: wanted text, got an element <{}>", name(), inner->Name());
+  return own_text(*element_);
+}
+
+double XmlElement::number() const {
+  const std::string word = text();
+  const auto value = parse_number(word);
+  if (!value) fail("{}: wanted a number, got {}", name(), in_quotes(word));
+  return *value;
+}
+
+static int whole(const XmlElement& element, std::string_view what, const std::string& word, int low,
+                 int high) {
+  const auto value = parse_number(word);
+  if (!value || *value != std::floor(*value))
+    element.fail("{}: wanted a whole number, got {}", what, in_quotes(word));
+  if (!(*value >= low && *value <= high)) {
+    if (high == std::numeric_limits<int>::max())
+      element.fail("{}: wanted a whole number >= {}, got {}", what, low, in_quotes(word));
+    element.fail("{}: wanted a whole number from {} to {}, got {}", what, low, high,
+                 in_quotes(word));
+  }
+  return static_cast<int>(*value);
+}
+
+int XmlElement::integer(int low, int high) const { return whole(*this, name(), text(), low, high); }
+
+std::vector<double> XmlElement::numbers() const {
+  std::vector<double> out;
+  const std::string all = text();
+  for (const auto word : split_words(all, ",")) {
+    const auto value = parse_number(word);
+    if (!value) fail("{}: wanted a number, got {}", name(), in_quotes(word));
+    out.push_back(*value);
+  }
+  return out;
+}
+
+std::vector<double> XmlElement::numbers(int count) const {
+  auto out = numbers();
+  if (static_cast<int>(out.size()) != count)
+    fail("{}: wanted {} numbers, got {}", name(), count, out.size());
+  return out;
+}
+
+Eigen::Vector3d XmlElement::vector() const {
+  const auto x = numbers(3);
+  return {x[0], x[1], x[2]};
+}
+
+std::optional<std::string> XmlElement::attribute(std::string_view name) const {
+  for (auto* a = element_->FirstAttribute(); a; a = a->Next())
+    if (a->Name() == name) return std::string(trim(a->Value()));
+  return {};
+}
+
+std::string XmlElement::wanted_attribute(std::string_view name) const {
+  if (auto value = attribute(name)) return *value;
+  fail("{}: wanted an attribute '{}', got none", this->name(), name);
+}
+
+std::vector<std::string> XmlElement::attributes() const {
+  std::vector<std::string> names;
+  for (auto* a = element_->FirstAttribute(); a; a = a->Next()) names.emplace_back(a->Name());
+  return names;
+}
+
+double XmlElement::number_attribute(std::string_view name) const {
+  const std::string word = wanted_attribute(name);
+  const auto value = parse_number(word);
+  if (!value) fail("{}: {}: wanted a number, got {}", this->name(), name, in_quotes(word));
+  return *value;
+}
+
+int XmlElement::integer_attribute(std::string_view name, int low, int high) const {
+  return whole(*this, fmt::format("{}: {}", this->name(), name), wanted_attribute(name), low, high);
+}
+
+void XmlElement::check(const XmlKnown& known,
+                       const std::function<void(const std::string&)>& warn) const {
+  if (!warn) return;
+  std::vector<std::string> names = known.once, seen;
+  names.insert(names.end(), known.many.begin(), known.many.end());
+  for (const XmlElement& e : children()) {
+    const std::string child(e.name());
+    if (!contains(names, child))
+      warn(fmt::format("{}: unknown element <{}> in <{}> is not used{}", e.place(),
+                       child.substr(0, 40), name(), did_you_mean(child, names)));
+    else if (contains(seen, child))
+      warn(fmt::format("{}: <{}> stands in <{}> again; the first one counts", e.place(), child,
+                       name()));
+    if (contains(known.once, child)) seen.push_back(child);
+  }
+  for (const std::string& attribute : attributes())
+    if (!contains(known.attributes, attribute))
+      warn(fmt::format("{}: unknown attribute '{}' of <{}> is not used{}", place(),
+                       attribute.substr(0, 40), name(),
+                       did_you_mean(attribute, known.attributes)));
+  if (const std::string own = own_text(*element_); !own.empty() && !names.empty())
+    warn(fmt::format("{}: text {} in <{}> is not used", place(), in_quotes(own), name()));
+}
+
+// --- files ---
+
+XmlFile::XmlFile(const std::filesystem::path& path)
+    : XmlFile(path.filename().string(), read_text(path)) {}
+
+XmlFile::XmlFile(std::string file, const std::string& text)
+    : file_(std::move(file)), document_(std::make_unique<tinyxml2::XMLDocument>()) {
+  check_limits(file_, text);
+  document_->Parse(text.data(), text.size());
+  if (document_->Error()) fail_parse(file_, *document_);
+  const auto* root = document_->RootElement();
+  if (!root) fail("{}: wanted an XML element, got none", file_);
+  if (const auto* second = root->NextSiblingElement())
+    fail("{}:{}: wanted one outermost element, got a second, <{}>", file_, second->GetLineNum(),
+         second->Name());
+}
+
+XmlFile::~XmlFile() = default;
+
+XmlElement XmlFile::root() const { return {document_->RootElement(), &file_}; }
+
+std::string_view xml_root_name(std::string_view text) {
+  size_t at = 0;
+  while ((at = text.find('<', at)) != std::string_view::npos) {
+    if (const size_t next = skip_other(text, at)) {
+      at = next;
+      continue;
+    }
+    const size_t end = std::min(text.find_first_of(" \t\r\n/>", at + 1), text.size());
+    return text.substr(at + 1, end - at - 1);
+  }
+  return {};
+}
+
+std::string xml_escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+}  // namespace clench
