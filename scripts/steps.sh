@@ -45,3 +45,11 @@ last_line() {
   while IFS= read -r line; do printf '\r\e[K%-16s %s' "$1" "${line:0:width-18}"; done
   printf '\r\e[K%-16s ' "$1"
 }
+
+# configure PRESET: writes the build files, with the tests, when there are none, or when they leave the tests out
+configure() {
+  if [ ! -f "build/$1/build.ninja" ] || [ CMakePresets.json -nt "build/$1/build.ninja" ] ||
+     ! grep -q '^CLENCH_TESTS:BOOL=ON$' "build/$1/CMakeCache.txt"; then
+    step "configure $1" "build/configure_$1.log" cmake --preset "$1" -DCLENCH_TESTS=ON
+  fi
+}

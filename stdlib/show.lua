@@ -1,6 +1,6 @@
 --- A value as text for people: tables with their contents, keys sorted, a few levels deep.
 ---@param value any
----@param width? integer  about how many characters, default 200; what does not fit is counted
+---@param width? integer  about how many characters, default 400; what does not fit is counted
 ---@return string
 local type, tostring, next, rawlen, rawget = type, tostring, next, rawlen, rawget
 local getmetatable, format, find, concat, sort = debug.getmetatable, string.format, string.find, table.concat, table.sort
@@ -68,4 +68,4 @@ function show(value, width, depth, path)
   return text_of(value)
 end
 
-return function(value, width) return show(value, width or 200, 0, {}) end
+return function(value, width) return show(value, width or 400, 0, {}) end

@@ -1,10 +1,15 @@
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 
 #include "app/verbs.h"
+#include "base/suggest.h"
 
 namespace clench {
 
@@ -71,6 +76,18 @@ static int main_of(int argc, char** argv) {
   doc_verb->footer("Examples:\n  clench doc\n  clench doc --check");
   for (auto* verb : {run_verb, repl_verb, test_verb, doc_verb}) verb->fallthrough();
 
+  if (!line.ours.empty()) {
+    const std::string& first = line.ours.front();
+    std::vector<std::string> verbs;
+    for (const auto* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+    if (first.front() != '-' && std::ranges::find(verbs, first) == verbs.end()) {
+      const bool script = first.ends_with(".lua") || std::filesystem::exists(first);
+      std::fprintf(stderr, "clench: there is no verb '%s'%s\n", first.c_str(),
+                   script ? fmt::format("; to run a script: clench run {}", first).c_str()
+                          : did_you_mean(first, verbs).c_str());
+      return 2;
+    }
+  }
   try {
     // it takes the words from the back
     std::vector<std::string> words(line.ours.rbegin(), line.ours.rend());

@@ -10,7 +10,6 @@ namespace clench {
 
 namespace {
 
-constexpr int most_edges = 1000;      // far beyond what a hull in six dimensions can use
 constexpr double unit_length = 1e-6;  // what a normal's length may be off: it passed through files
 
 void check(const PointContact& contact, const ConeOptions& options) {

@@ -11,8 +11,10 @@ struct PointContact {
   double mu = 1.0;                                 ///< Coulomb coefficient, >= 0
 };
 
+inline constexpr int most_edges = 1000;  ///< far beyond what a hull in six dimensions can use
+
 struct ConeOptions {
-  int edges = 8;     ///< generators of the pyramid, >= 3
+  int edges = 8;     ///< generators of the pyramid, 3 to most_edges
   double rho = 1.0;  ///< torque length scale, > 0 [m]
   /// torques are about this point, usually the centre of mass [m]
   Eigen::Vector3d p_OM = Eigen::Vector3d::Zero();
@@ -26,7 +28,7 @@ Eigen::Matrix3d contact_frame(const Eigen::Vector3d& normal);
 /// normal force. Without friction the cone is its normal: one column.
 ///
 /// returns  6 x edges (6 x 1 when mu = 0), counter-clockwise about n from the frame's x
-/// throws   Error when mu < 0, edges < 3, rho <= 0, n is not unit or a number is not finite
+/// throws   Error when mu < 0, edges out of range, rho <= 0, n is not unit or a number is not finite
 /// source   Murray, Li & Sastry (1994), ch. 5: grasp map, force rows first
 Eigen::Matrix<double, 6, Eigen::Dynamic> cone_wrenches(const PointContact& contact,
                                                        const ConeOptions& options = {});

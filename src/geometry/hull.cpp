@@ -2,7 +2,6 @@
 
 #include <libqhull_r/qhull_ra.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +10,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "math/svd.h"
 
 namespace clench {
 
@@ -49,7 +49,7 @@ void check_points(const Eigen::MatrixXd& points, const char* subject) {
 
 int rank_of(const Normalised& n, double tolerance) {
   if (n.points.cols() < 2 || n.points.rows() < 1) return 0;
-  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(n.points).singularValues();
+  const Eigen::VectorXd values = singular_value_decomposition(n.points).values;
   return static_cast<int>((values.array() > std::max(tolerance, n.noise) * values[0]).count());
 }
 

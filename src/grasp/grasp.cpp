@@ -15,7 +15,8 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   };
   if (held.robot)
     refuse(fmt::format("{} is a part of {}", held.name, world.robot(held.robot).name));
-  if (options.edges < 3) refuse(fmt::format("edges must be >= 3, got {}", options.edges));
+  if (options.edges < 3 || options.edges > most_edges)
+    refuse(fmt::format("edges must be 3 to {}, got {}", most_edges, options.edges));
   if (options.rho && !(std::isfinite(*options.rho) && *options.rho > 0))
     refuse(fmt::format("rho must be > 0 [m], got {}", *options.rho));
 

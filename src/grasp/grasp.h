@@ -6,23 +6,25 @@
 namespace clench {
 
 struct GraspOptions {
-  int edges = 8;                       ///< of the friction pyramids
-  std::optional<double> rho;           ///< torque length [m]; default: the object's largest radius about its centre of mass
+  int edges = 8;  ///< of the friction pyramids
+  std::optional<double>
+      rho;  ///< torque length [m]; default: the object's largest radius about its centre of mass
 };
 
 struct Grasp {
   Id<Robot> hand;
   Id<Body> object;
-  std::vector<Contact> contacts;       ///< on the object, world frame
-  std::vector<PointContact> points;    ///< the same in the object frame
+  std::vector<Contact> contacts;                  ///< on the object, world frame
+  std::vector<PointContact> points;               ///< the same in the object frame
   Eigen::Vector3d com = Eigen::Vector3d::Zero();  ///< of the object, object frame [m]
-  double rho = 1;                      ///< [m]
+  double rho = 1;                                 ///< [m]
   int edges = 8;
 };
 
 /// The contacts of palm, links and mount with the object, now. None is no error: such a grasp resists nothing.
-/// throws Error when edges < 3, rho <= 0 or the object is a part of a robot
-Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object, const GraspOptions& options = {});
+/// throws Error when edges are out of 3 to most_edges, rho <= 0 or the object is a part of a robot
+Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
+                    const GraspOptions& options = {});
 
 /// L1 wrench space of the unit wrenches about the centre of mass, torques over rho.
 WrenchSpace wrench_space(const Grasp& grasp);

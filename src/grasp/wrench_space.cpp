@@ -1,10 +1,10 @@
 #include "grasp/wrench_space.h"
 
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "base/error.h"
 #include "grasp/wrench_hull.h"
+#include "math/svd.h"
 
 namespace clench {
 
@@ -61,12 +61,11 @@ WrenchSpace::WrenchSpace(std::vector<Wrenches> contacts) : contacts_(std::move(c
   all = times_power_of_two(all, -exponent);
 
   // what no contact pushes along is not resisted at all
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeFullU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& values = svd.singularValues();
-  rank_ = static_cast<int>((values.array() > rank_tolerance * values[0]).count());
+  const Svd svd = singular_value_decomposition(all);
+  rank_ = static_cast<int>((svd.values.array() > rank_tolerance * svd.values[0]).count());
   hull_.rank = affine_rank(all, rank_tolerance);
   if (rank_ < 6) {
-    weakest_.direction = upright(svd.matrixU().col(5));
+    weakest_.direction = upright(svd.u.col(5));
     return;
   }
 
@@ -78,8 +77,8 @@ WrenchSpace::WrenchSpace(std::vector<Wrenches> contacts) : contacts_(std::move(c
     weakest_.direction = -hull_.normals.col(facet);
   } else {
     // all wrenches lie in one hyperplane beside the origin, n . w = 1: they push along n only
-    const Eigen::VectorXd along = svd.matrixV().transpose() * Eigen::VectorXd::Ones(all.cols());
-    const Vector6d n = svd.matrixU() * along.cwiseQuotient(values);
+    const Eigen::VectorXd along = svd.v.transpose() * Eigen::VectorXd::Ones(all.cols());
+    const Vector6d n = svd.u * along.cwiseQuotient(svd.values);
     offset = -1 / n.norm();
     weakest_.direction = n.normalized();
   }

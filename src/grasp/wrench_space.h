@@ -9,7 +9,8 @@
 
 namespace clench {
 
-using Wrenches = Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< a column a wrench (force; torque / rho)
+using Wrenches =
+    Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< a column a wrench (force; torque / rho)
 
 /// The wrench on the object, from outside, that a grasp resists worst. Contacts answer w by -w, so w
 /// is resisted when -w lies in the hull: the worst direction runs against the normal of the facet
@@ -33,7 +34,7 @@ class WrenchSpace {
   /// Of the hull in six dimensions; 0 below rank 6.
   double volume() const { return hull_.volume; }
   bool is_force_closure() const { return epsilon_ > 0; }
-  int rank() const { return rank_; }          ///< dimension that the wrenches span, 0..6
+  int rank() const { return rank_; }  ///< dimension that the wrenches span, 0..6
   const Weakest& weakest() const { return weakest_; }
   const std::vector<Wrenches>& contacts() const { return contacts_; }
   /// Its points are the columns of all contacts in order; no facets unless the hull is full.

@@ -9,7 +9,12 @@ bool begins_transform(const Line& line) {
   return !text.empty() && std::string_view("tTrR").find(text.front()) != std::string_view::npos;
 }
 
-Pose read_full_transform(const Line& line, std::string_view text) {
+// files write six digits
+static constexpr double nearly_unit = 1e-4;
+// what was written with all digits is kept to the bit
+static constexpr double unit_but_rounding = 4 * std::numeric_limits<double>::epsilon();
+
+Pose read_full_transform(const Line& line, std::string_view text, const TransformWarning& warn) {
   text = trim(text.substr(0, text.find('#')));
   // the brackets in their order, then the numbers between them
   std::string shape;
@@ -29,7 +34,11 @@ Pose read_full_transform(const Line& line, std::string_view text) {
   if (!(norm > 1e-6) || !std::isfinite(norm))
     line.fail("transform: wanted a quaternion of length 1, got ({} {} {} {})", x[0], x[1], x[2],
               x[3]);
-  return {Eigen::Quaterniond(q.coeffs() / norm),
+  if (warn && std::abs(norm - 1) > nearly_unit)
+    warn(fmt::format("{}: the quaternion ({} {} {} {}) is not of length 1; it is scaled to it",
+                     line.place(), x[0], x[1], x[2], x[3]));
+  const double scale = std::abs(norm - 1) <= unit_but_rounding ? 1 : norm;
+  return {Eigen::Quaterniond(q.coeffs() / scale),
           Eigen::Vector3d(x[4], x[5], x[6]) * units::millimetre};
 }
 
@@ -68,7 +77,7 @@ static Pose read_matrix(const Line& head, LineReader& lines, const TransformWarn
 Pose read_transform(const Line& line, LineReader& lines, const TransformWarning& warn) {
   const std::string_view key = line.word(0);
   if (line.text().starts_with('T') && (key == "T" || key.starts_with("T(")))
-    return read_full_transform(line, trim(line.text().substr(1)));
+    return read_full_transform(line, trim(line.text().substr(1)), warn);
   if (key == "R") return read_matrix(line, lines, warn);
   warn_of_surplus(line, key == "t" ? 4 : 3, warn);
   if (key == "t")

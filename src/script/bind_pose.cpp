@@ -63,6 +63,8 @@ static Pose matrix_of(Table& t) {
 }
 
 Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
+  if (lua_istable(L, index) && lua_rawlen(L, index) > 0)
+    fail_wanted({L, subject, ""}, "a pose {xyz = {x, y, z}, rpy = ..}", index);
   Table t(L, index, subject);
   const int rotations = t.has("rpy") + t.has("quat") + t.has("matrix");
   if (rotations > 1) fail("{}: wanted one of rpy, quat, matrix, got {}", subject, rotations);

@@ -59,6 +59,8 @@ TEST_CASE("-e runs code in order and stops at an error") {
 
 TEST_CASE("wrong usage is code 2, and help is code 0 with examples") {
   CHECK(run("frob").code == 2);
+  CHECK(has(run("rnu a.lua").out, "there is no verb 'rnu'; did you mean 'run'?"));
+  CHECK(has(run("examples/01_first_grasp.lua").out, "to run a script: clench run examples/01_first_grasp.lua"));
   CHECK(run("run").code == 2);
   CHECK(run("test").code == 2);
   CHECK(run("--frob").code == 2);

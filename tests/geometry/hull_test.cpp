@@ -1,10 +1,10 @@
 #include "geometry/hull.h"
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "support/linear.h"
 
 using namespace clench;
 using Eigen::MatrixXd;
@@ -44,7 +44,8 @@ MatrixXd random_points(int d, int count, uint64_t seed) {
 }
 
 MatrixXd random_turn(int d, uint64_t seed) {
-  return Eigen::HouseholderQR<MatrixXd>(random_points(d, d, seed)).householderQ();
+  Random random(seed);
+  return test::random_turn(d, random);
 }
 
 void check_facets(const Hull& hull, const MatrixXd& points, double size) {

@@ -147,7 +147,7 @@ TEST_CASE("a grasp that makes no sense is refused by name") {
   const auto refuse = [&](Id<Body> object, const GraspOptions& options, const char* message) {
     CHECK_THROWS_WITH_AS(measure_grasp(s.world, s.hand, object, options), message, Error);
   };
-  refuse(s.object, {.edges = 2, .rho = {}}, "grasp of cube by gripper: edges must be >= 3, got 2");
+  refuse(s.object, {.edges = 2, .rho = {}}, "grasp of cube by gripper: edges must be 3 to 1000, got 2");
   refuse(s.object, {.rho = 0.0}, "grasp of cube by gripper: rho must be > 0 [m], got 0");
   refuse(s.object, {.rho = std::numeric_limits<double>::quiet_NaN()},
          "grasp of cube by gripper: rho must be > 0 [m], got nan");

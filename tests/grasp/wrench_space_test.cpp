@@ -1,6 +1,5 @@
 #include "grasp/wrench_space.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <fstream>
 #include <limits>
@@ -9,9 +8,11 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "support/linear.h"
 #include "support/shared.h"
 
 using namespace clench;
+using namespace clench::test;
 using Eigen::Vector3d;
 
 namespace {
@@ -40,7 +41,7 @@ double slow_epsilon(const Wrenches& points) {
   std::vector<char> chosen(n, 0);
   std::fill(chosen.begin(), chosen.begin() + std::min(6, n), 1);
   do {
-    Eigen::Matrix<double, 5, 6> across;
+    Eigen::MatrixXd across(5, 6);
     int first = -1, row = 0;
     for (int i = 0; i < n; ++i) {
       if (!chosen[i]) continue;
@@ -49,9 +50,9 @@ double slow_epsilon(const Wrenches& points) {
       else
         across.row(row++) = (points.col(i) - points.col(first)).transpose();
     }
-    const Eigen::FullPivLU<Eigen::Matrix<double, 5, 6>> lu(across);
-    if (lu.rank() < 5) continue;
-    const Vector6d normal = lu.kernel().col(0).normalized();
+    const auto across_all = common_normal(across);
+    if (!across_all) continue;
+    const Vector6d normal = *across_all;
     const double offset = normal.dot(points.col(first));
     const Eigen::RowVectorXd beyond = (normal.transpose() * points).array() - offset;
     // points on the plane are off it by rounding only
@@ -96,12 +97,6 @@ Wrenches cross_polytope() {
   Wrenches w(6, 12);
   w << Eigen::Matrix<double, 6, 6>::Identity(), -Eigen::Matrix<double, 6, 6>::Identity();
   return w;
-}
-
-Eigen::MatrixXd random_turn(Random& random) {
-  Eigen::MatrixXd m(6, 6);
-  for (double& x : m.reshaped()) x = random.normal();
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(m).householderQ();
 }
 
 // contacts around a ball of the given radius
@@ -229,7 +224,7 @@ TEST_CASE("turning, permuting, repeating and regrouping wrenches changes nothing
       CHECK(std::abs(other.volume() - space.volume()) < 1e-12);
       CHECK(other.rank() == space.rank());
     };
-    same(random_turn(random) * all);
+    same(random_turn(6, random) * all);
     std::vector<int> order(all.cols());
     std::iota(order.begin(), order.end(), 0);
     for (size_t i = order.size() - 1; i > 0; --i)
@@ -275,7 +270,7 @@ TEST_CASE(
   for (int rank = 1; rank <= 5; ++rank)
     for (int trial = 0; trial < 40; ++trial) {
       const int count = rank + trial;
-      const Eigen::MatrixXd basis = random_turn(random).leftCols(rank);
+      const Eigen::MatrixXd basis = random_turn(6, random).leftCols(rank);
       Eigen::MatrixXd mix(rank, count);
       for (double& x : mix.reshaped()) x = random.normal();
       const WrenchSpace space({Wrenches(basis * mix)});
@@ -338,7 +333,7 @@ TEST_CASE("an origin on the boundary is not inside: epsilon is exactly 0") {
     half << cross_polytope();
     half.col(6 + trial % 6) =
         trial % 2 ? Vector6d::Zero().eval() : Vector6d(0.3 * Vector6d::Unit((trial + 1) % 6));
-    const WrenchSpace space({trial < 12 ? half : Wrenches(random_turn(random) * half)});
+    const WrenchSpace space({trial < 12 ? half : Wrenches(random_turn(6, random) * half)});
     CHECK(space.rank() == 6);
     CHECK(space.epsilon() == 0);
     check_sound(space);

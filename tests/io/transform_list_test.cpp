@@ -43,6 +43,21 @@ TEST_CASE("a full transform is a quaternion w x y z, made unit, and a position")
         doctest::Approx(1).epsilon(1e-15));
 }
 
+TEST_CASE("a quaternion of six digits is scaled in silence, one that is far from unit with a warning") {
+  std::vector<std::string> warnings;
+  const auto warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  LineReader lines("x.cfg", "T (0.707107 0.707107 0 0)[0 0 0]\nT (2 0 0 0)[0 0 0]");
+  CHECK(same(read_transform_list(lines, warn), Pose::turn(right, Eigen::Vector3d::UnitX())));
+  CHECK(warnings == std::vector<std::string>{
+                        "x.cfg:2: the quaternion (2 0 0 0) is not of length 1; it is scaled to it"});
+}
+
+TEST_CASE("a unit quaternion with all its digits is kept to the bit") {
+  const Eigen::Quaterniond q(Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()));
+  const Pose X = list(fmt::format("T ({} {} {} {})[0 0 0]", q.w(), q.x(), q.y(), q.z()));
+  CHECK(X.rotation.coeffs() == q.coeffs());
+}
+
 TEST_CASE("the first three numbers of a rotation matrix are the image of the x axis") {
   const Pose X = list("t 0 0 5\nR\n0 1 0\n-1 0 0\n0 0 1\nd0 0 0 0");
   CHECK(same(X, Pose::translation({0, 0, 0.005}) * Pose::turn(right, z)));

@@ -1,0 +1,20 @@
+#include "support/linear.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+namespace clench::test {
+
+Eigen::MatrixXd random_turn(int d, Random& random) {
+  Eigen::MatrixXd m(d, d);
+  for (double& x : m.reshaped()) x = random.normal();
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(m).householderQ();
+}
+
+std::optional<Eigen::VectorXd> common_normal(const Eigen::MatrixXd& m) {
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(m);
+  if (lu.dimensionOfKernel() != 1) return {};
+  return lu.kernel().col(0).normalized();
+}
+
+}  // namespace clench::test

@@ -1,0 +1,16 @@
+// Linear algebra of the tests, compiled once.
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+
+#include "base/random.h"
+
+namespace clench::test {
+
+/// An orthonormal matrix of d rows, at random.
+Eigen::MatrixXd random_turn(int d, Random& random);
+
+/// The unit vector that all rows of m are normal to; empty unless there is exactly one, up to its sign.
+std::optional<Eigen::VectorXd> common_normal(const Eigen::MatrixXd& m);
+
+}  // namespace clench::test
