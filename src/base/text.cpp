@@ -12,7 +12,7 @@ static bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
 }
 
-std::string read_text(const std::filesystem::path& path) {
+std::string read_bytes(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code code;
   if (!fs::exists(path, code)) fail("no such file: {}", path.generic_string());
@@ -29,7 +29,10 @@ std::string read_text(const std::filesystem::path& path) {
   if (in.bad()) fail("{}: the file cannot be read", path.generic_string());
   raw.resize(static_cast<size_t>(std::max<std::streamsize>(in.gcount(), 0)));
 
-  // CR LF and lone CR become LF
+  return raw;
+}
+
+std::string with_plain_line_ends(std::string raw) {
   if (raw.find('\r') == std::string::npos) return raw;
   std::string text;
   text.reserve(raw.size());
@@ -40,6 +43,10 @@ std::string read_text(const std::filesystem::path& path) {
       text += '\n';
   }
   return text;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  return with_plain_line_ends(read_bytes(path));
 }
 
 std::optional<double> parse_number(std::string_view text) {

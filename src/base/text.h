@@ -13,8 +13,12 @@
 
 namespace clench {
 
-/// A whole file; line ends of every kind become '\n'.
+/// A whole file as it stands.
 /// throws Error when it does not exist, is a folder, cannot be read or is larger than 1 GB
+std::string read_bytes(const std::filesystem::path& path);
+/// Line ends of every kind become '\n'.
+std::string with_plain_line_ends(std::string text);
+/// A whole file with plain line ends.   throws as read_bytes
 std::string read_text(const std::filesystem::path& path);
 
 /// A finite decimal number, an explicit '+' allowed, nothing before or after it; else empty.

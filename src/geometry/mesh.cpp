@@ -20,15 +20,6 @@ double doubled_area(const std::array<Vector3d, 3>& c) {
 
 bool repeats_a_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-bool without_area(const Mesh& mesh, int triangle) {
-  if (repeats_a_vertex(mesh.triangles[triangle])) return true;
-  const auto c = mesh.corners(triangle);
-  const double longest = std::max(
-      {(c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm()});
-  // what rounding leaves of three points in a line
-  return doubled_area(c) <= 8 * std::numeric_limits<double>::epsilon() * longest;
-}
-
 void count_edges(const Mesh& mesh, MeshFaults& faults) {
   // each edge as (lower, higher, backwards), sorted, so that its triangles stand together
   std::vector<std::array<int, 3>> edges;
@@ -128,6 +119,15 @@ void append(std::string& text, int count, const char* one, const char* many) {
 }
 
 }  // namespace
+
+bool without_area(const Mesh& mesh, int triangle) {
+  if (repeats_a_vertex(mesh.triangles[triangle])) return true;
+  const auto c = mesh.corners(triangle);
+  const double longest = std::max(
+      {(c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm()});
+  // what rounding leaves of three points in a line
+  return doubled_area(c) <= 8 * std::numeric_limits<double>::epsilon() * longest;
+}
 
 Bounds Mesh::bounds() const {
   Bounds b;

@@ -55,6 +55,9 @@ struct MeshFaults {
   std::string describe() const;  ///< "2 open edges, 1 degenerate triangle", or "no faults"
 };
 
+/// Has the triangle a vertex twice, or no more area than rounding leaves of three points in a line?
+bool without_area(const Mesh& mesh, int triangle);
+
 MeshFaults find_faults(const Mesh& mesh);
 
 /// Vertices nearer than tolerance [m] become one (exactly equal ones when 0); triangles keep their

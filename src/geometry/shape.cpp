@@ -1,6 +1,7 @@
 #include "geometry/shape.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/hash.h"
@@ -57,6 +58,10 @@ std::vector<int> one_triangle_of_each_part(const Mesh& mesh) {
 
 Shape::Shape() = default;
 Shape::~Shape() = default;
+
+bool Shape::has_volume() const {
+  return closed() && std::abs(solid_.volume) > 1e-9 * radius_ * radius_ * radius_;
+}
 
 std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject) {
   check_mesh(mesh, subject);

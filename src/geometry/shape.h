@@ -22,6 +22,8 @@ class Shape {
   bool has_triangle(int i) const { return i >= 0 && i < static_cast<int>(mesh_.triangles.size()); }
   const Bounds& bounds() const { return bounds_; }
   bool closed() const { return faults_.closed(); }
+  /// Is it closed, with a volume that its surface can hold? A sheet folded on itself has none.
+  bool has_volume() const;
   /// centre and radius [m] of a sphere that holds the mesh
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }

@@ -2,64 +2,235 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "io/triangulate.h"
 
 namespace clench {
 
-void GeometryBuilder::add(const std::array<Eigen::Vector3d, 3>& corners,
-                          const Eigen::Vector3f& color, float transparency) {
+using Eigen::Vector3d;
+
+namespace {
+
+bool repeats_a_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+/// A surface, and which of the gathered triangles its own are.
+struct Surface {
+  Mesh mesh;
+  std::vector<int> kept;
+  MeshFaults faults;
+};
+
+/// For each point the first one at the same place.
+std::vector<int> first_at_place(const std::vector<Vector3d>& points) {
+  size_t size = 16;
+  while (size < 2 * points.size()) size *= 2;
+  std::vector<int> table(size, -1), first(points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    Hasher hasher;
+    for (const double x : points[i]) hasher.add(x + 0.0);  // makes -0 and 0 one
+    size_t slot = hasher.value() & (size - 1);
+    while (table[slot] >= 0 && points[table[slot]] != points[i]) slot = (slot + 1) & (size - 1);
+    if (table[slot] < 0) table[slot] = static_cast<int>(i);
+    first[i] = table[slot];
+  }
+  return first;
+}
+
+/// Vertex i becomes vertex to[i] <= i. Triangles left with a vertex twice go, and so do vertices
+/// that no triangle uses; the others keep their order.
+Surface with_vertices_merged(const Surface& from, const std::vector<int>& to) {
+  Surface out;
+  for (size_t i = 0; i < from.mesh.triangles.size(); ++i) {
+    const Triangle& t = from.mesh.triangles[i];
+    const Triangle merged = {to[t[0]], to[t[1]], to[t[2]]};
+    if (repeats_a_vertex(merged)) continue;
+    out.mesh.triangles.push_back(merged);
+    out.kept.push_back(from.kept[i]);
+  }
+  std::vector<int> number(from.mesh.vertices.size(), -1);
+  for (const Triangle& t : out.mesh.triangles)
+    for (const int v : t) number[v] = 0;
+  for (size_t v = 0; v < number.size(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<int>(out.mesh.vertices.size());
+    out.mesh.vertices.push_back(from.mesh.vertices[v]);
+  }
+  for (Triangle& t : out.mesh.triangles)
+    for (int& v : t) v = number[v];
+  return out;
+}
+
+Surface without_unused_vertices(const Surface& from) {
+  std::vector<int> same(from.mesh.vertices.size());
+  std::iota(same.begin(), same.end(), 0);
+  return with_vertices_merged(from, same);
+}
+
+void weld_places(Surface& s, bool always) {
+  const auto first = first_at_place(s.mesh.vertices);
+  bool any = false;
+  for (size_t i = 0; i < first.size() && !any; ++i) any = first[i] != static_cast<int>(i);
+  if (!any) return;
+  Surface welded = with_vertices_merged(s, first);
+  if (welded.mesh.triangles.empty()) return;
+  welded.faults = find_faults(welded.mesh);
+  if (always || welded.faults.open_edges < s.faults.open_edges) s = std::move(welded);
+}
+
+/// Seams of round shapes end in points that differ in their last bits: joins them where that mends
+/// edges. The tolerance is a few units in the last place of the 32-bit numbers that the points
+/// were.
+void weld_seams(Surface& s) {
+  const Bounds bounds = s.mesh.bounds();
+  const double largest =
+      std::max(bounds.low.cwiseAbs().maxCoeff(), bounds.high.cwiseAbs().maxCoeff());
+  int dropped = 0;
+  Mesh joined = weld(s.mesh, 4e-7 * largest, &dropped);
+  if (dropped > 0 || joined.vertices.size() == s.mesh.vertices.size()) return;
+  const MeshFaults faults = find_faults(joined);
+  if (faults.open_edges >= s.faults.open_edges) return;
+  s.mesh = std::move(joined);
+  s.faults = faults;
+}
+
+void drop_flat_triangles(Surface& s) {
+  Surface rest;
+  rest.mesh.vertices = s.mesh.vertices;
+  for (size_t i = 0; i < s.mesh.triangles.size(); ++i) {
+    if (without_area(s.mesh, static_cast<int>(i))) continue;
+    rest.mesh.triangles.push_back(s.mesh.triangles[i]);
+    rest.kept.push_back(s.kept[i]);
+  }
+  if (rest.mesh.triangles.empty()) return;
+  rest = without_unused_vertices(rest);
+  rest.faults = find_faults(rest.mesh);
+  if (rest.faults.open_edges + rest.faults.tangled_edges <
+      s.faults.open_edges + s.faults.tangled_edges)
+    s = std::move(rest);
+}
+
+}  // namespace
+
+void GeometryBuilder::add(const std::array<Vector3d, 3>& corners, const Eigen::Vector3f& color,
+                          float transparency) {
+  ++report.triangles_read;
+  report.vertices_read += 3;
   if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
   const int first = static_cast<int>(mesh_.vertices.size());
   mesh_.vertices.insert(mesh_.vertices.end(), corners.begin(), corners.end());
-  mesh_.triangles.push_back({first, first + 1, first + 2});
+  loose_ = true;
+  add_triangle({first, first + 1, first + 2}, color, transparency);
+}
+
+int GeometryBuilder::add_vertex(const Vector3d& p) {
+  if (mesh_.vertices.size() >= most_mesh_vertices)
+    fail("wanted at most {} vertices", most_mesh_vertices);
+  mesh_.vertices.push_back(p);
+  return static_cast<int>(mesh_.vertices.size()) - 1;
+}
+
+void GeometryBuilder::add_face(std::span<const int> corners, const Eigen::Vector3f& color,
+                               float transparency) {
+  if (corners.size() == 3) {
+    ++report.triangles_read;
+    const Triangle t = {corners[0], corners[1], corners[2]};
+    if (!repeats_a_vertex(t)) add_triangle(t, color, transparency);
+    return;
+  }
+  std::vector<Vector3d> points;
+  for (const int v : corners) points.push_back(mesh_.vertices[v]);
+  for (const Triangle& t : triangulate(points)) {
+    ++report.triangles_read;
+    const Triangle named = {corners[t[0]], corners[t[1]], corners[t[2]]};
+    if (!repeats_a_vertex(named)) add_triangle(named, color, transparency);
+  }
+}
+
+void GeometryBuilder::add_triangle(const Triangle& t, const Eigen::Vector3f& color,
+                                   float transparency) {
+  if (mesh_.triangles.size() >= most_mesh_triangles)
+    fail("wanted at most {} triangles", most_mesh_triangles);
+  mesh_.triangles.push_back(t);
   colors_.push_back(color);
 
   // the whole body's colour is the mean over its area
-  const double area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+  const Vector3d& p = mesh_.vertices[t[0]];
+  const double area = (mesh_.vertices[t[1]] - p).cross(mesh_.vertices[t[2]] - p).norm();
   if (!std::isfinite(area)) return;
   weighted_color_ += area * color.cast<double>();
   weighted_transparency_ += area * transparency;
   weight_ += area;
 }
 
-/// Seams of round shapes end in points that differ in their last bits: joins them where that mends
-/// edges. The tolerance is a few units in the last place of the 32-bit numbers that the points
-/// were.
-static Mesh weld_seams(const Mesh& loose) {
-  Mesh exact = weld(loose);
-  const int open_edges = find_faults(exact).open_edges;
-  if (open_edges == 0) return exact;
-  const Bounds bounds = exact.bounds();
-  const double largest =
-      std::max(bounds.low.cwiseAbs().maxCoeff(), bounds.high.cwiseAbs().maxCoeff());
-  int dropped = 0;
-  Mesh joined = weld(exact, 4e-7 * largest, &dropped);
-  return dropped == 0 && find_faults(joined).open_edges < open_edges ? joined : exact;
+Bounds GeometryBuilder::bounds() const {
+  Bounds bounds;
+  for (const Triangle& t : mesh_.triangles)
+    for (const int v : t) bounds.add(mesh_.vertices[v]);
+  return bounds;
 }
 
-static void turn_if_inside_out(Mesh& mesh, const std::string& subject, const ReadOptions& options) {
-  if (!(solid_mass(mesh).volume < 0) || !find_faults(mesh).closed()) return;
-  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-  if (options.warn) options.warn(subject + ": its triangles face inward; turned to face outward");
+void GeometryBuilder::transform(double factor, const Eigen::Matrix3d& turn) {
+  const bool turns = turn != Eigen::Matrix3d::Identity();
+  for (Vector3d& p : mesh_.vertices) {
+    if (turns) p = turn * p;
+    if (factor != 1) p *= factor;
+  }
+}
+
+Appearance GeometryBuilder::mean_appearance(const std::vector<int>& kept) const {
+  Appearance out;
+  out.given = true;
+  if (!(weight_ > 0)) return out;
+  out.color = (weighted_color_ / weight_).cast<float>();
+  out.transparency = static_cast<float>(weighted_transparency_ / weight_);
+  bool differ = false;
+  for (const int i : kept) differ = differ || colors_[i] != colors_[kept.front()];
+  if (!differ)
+    out.color = colors_[kept.front()];
+  else
+    for (const int i : kept) out.triangle_colors.push_back(colors_[i]);
+  return out;
 }
 
 Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
                                  const ReadOptions& options) {
   Geometry out;
+  out.report = report;
   if (mesh_.triangles.empty()) return out;
-  check_mesh(mesh_, subject);
-  out.mesh = weld_seams(mesh_);
-  turn_if_inside_out(out.mesh, subject, options);
-  out.appearance.given = colors_given;
-  if (!colors_given || weight_ <= 0) return out;
 
-  out.appearance.color = (weighted_color_ / weight_).cast<float>();
-  out.appearance.transparency = static_cast<float>(weighted_transparency_ / weight_);
-  bool differ = false;
-  for (const auto& c : colors_) differ = differ || c != colors_.front();
-  if (differ)
-    out.appearance.triangle_colors = std::move(colors_);
-  else
-    out.appearance.color = colors_.front();
+  Surface s;
+  s.kept.resize(mesh_.triangles.size());
+  std::iota(s.kept.begin(), s.kept.end(), 0);
+  s.mesh = std::move(mesh_);
+  const size_t gathered = s.mesh.vertices.size();
+  if (!loose_) {
+    s = without_unused_vertices(s);
+    out.report.unused_vertices = static_cast<int>(gathered - s.mesh.vertices.size());
+    out.report.vertices_read = static_cast<int>(s.mesh.vertices.size());
+  }
+  const size_t used = s.mesh.vertices.size();
+  check_mesh(s.mesh, subject);
+
+  // mend what is open; a loose triangle has only open edges, so its file connects by place alone
+  if (!loose_) s.faults = find_faults(s.mesh);
+  if (loose_ || !s.faults.closed()) weld_places(s, loose_);
+  if (loose_ && s.mesh.vertices.size() == used) s.faults = find_faults(s.mesh);
+  if (s.faults.open_edges > 0) weld_seams(s);
+  if (!s.faults.closed() && s.faults.degenerate_triangles > 0) drop_flat_triangles(s);
+  out.report.welded_vertices = static_cast<int>(used - s.mesh.vertices.size());
+  out.report.dropped_triangles =
+      out.report.triangles_read - static_cast<int>(s.mesh.triangles.size());
+
+  if (s.faults.closed() && solid_mass(s.mesh).volume < 0) {
+    for (auto& t : s.mesh.triangles) std::swap(t[1], t[2]);
+    out.report.turned = true;
+    if (options.warn) options.warn(subject + ": its triangles face inward; turned to face outward");
+  }
+  if (colors_given) out.appearance = mean_appearance(s.kept);
+  out.mesh = std::move(s.mesh);
   return out;
 }
 

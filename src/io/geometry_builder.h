@@ -1,26 +1,56 @@
-// Triangles from any mesh reader, gathered into a welded mesh and its colours.
+// Triangles from any mesh reader, gathered into a surface whose parts hang together, and its
+// colours.
 #pragma once
+#include <span>
+
 #include "io/read.h"
 
 namespace clench {
 
+/// Beyond these a file is taken for hostile: some 2 GB of memory.
+inline constexpr size_t most_mesh_triangles = 10'000'000, most_mesh_vertices = 30'000'000;
+
 struct Geometry {
-  Mesh mesh;  ///< welded, no triangle with a vertex twice; may be empty
+  Mesh mesh;  ///< mended where it can be; no triangle with a vertex twice; may be empty
   Appearance appearance;
+  MeshReport report;
 };
 
 class GeometryBuilder {
  public:
-  /// Corners [m]. A triangle with two equal corners is dropped.
+  /// A triangle that shares no vertex with others by number. With two equal corners it is dropped.
   void add(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3f& color,
            float transparency);
+
+  /// A vertex that faces share by its number.   returns  the number, from 0 on
+  int add_vertex(const Eigen::Vector3d& p);
+  /// A face over shared vertices, cut into triangles; those with a vertex twice are dropped.
+  /// throws  Error when it has too many corners, or the file too many triangles
+  void add_face(std::span<const int> corners, const Eigen::Vector3f& color, float transparency);
+
   size_t triangle_count() const { return mesh_.triangles.size(); }
-  /// Colours are kept one a triangle when they differ. A closed mesh that is inside out is turned,
-  /// with a warning. `colors_given`: do the colours come from the file?
+  size_t vertex_count() const { return mesh_.vertices.size(); }
+  const Eigen::Vector3d& vertex(int i) const { return mesh_.vertices[i]; }
+  /// of the vertices that triangles use
+  Bounds bounds() const;
+  /// p becomes factor * turn * p, and loses no digits where the turn exchanges axes.
+  void transform(double factor, const Eigen::Matrix3d& turn);
+
+  /// A surface with open edges is mended as far as that closes edges: vertices at the same place
+  /// become one, then those that lie within rounding of each other, and triangles without area go.
+  /// A closed mesh that is inside out is turned, with a warning. A closed one stays as its file
+  /// connects it. Colours are kept one a triangle when they differ.
+  /// `colors_given`: do the colours come from the file?
   Geometry finish(bool colors_given, const std::string& subject, const ReadOptions& options);
 
+  MeshReport report;  ///< format, unit and axes are the reader's to say
+
  private:
+  void add_triangle(const Triangle& t, const Eigen::Vector3f& color, float transparency);
+  Appearance mean_appearance(const std::vector<int>& kept) const;
+
   Mesh mesh_;
+  bool loose_ = false;  // are there triangles that share no vertex by number?
   std::vector<Eigen::Vector3f> colors_;
   Eigen::Vector3d weighted_color_ = Eigen::Vector3d::Zero();
   double weighted_transparency_ = 0, weight_ = 0;

@@ -1,4 +1,4 @@
-// Geometry from mesh files without units or masses: OBJ and STL; read through assimp.
+// Geometry from mesh files, which say nothing of masses: OBJ, STL, PLY, OFF, glTF and COLLADA.
 #pragma once
 #include <filesystem>
 
@@ -6,8 +6,13 @@
 
 namespace clench {
 
-/// Triangles; coordinates count as metres times `options.mesh_scale`.
+/// Triangles in metres, by options.mesh_scale, else by the unit that the file names, else by
+/// options.silent_mesh_unit, else by a guess from the size, which is noted.
 /// throws Error  "part.stl: ..." when malformed, empty or cut short
 Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options);
+
+/// The unit [m] of a mesh whose largest side has that length, if nobody says: metres up to ten
+/// units, millimetres beyond.
+double guess_mesh_unit(double largest_side);
 
 }  // namespace clench

@@ -7,21 +7,15 @@ double Body::max_radius() const { return shape ? largest_radius(shape->mesh(), c
 // radius of gyration of things without extent, squared: a millimetre
 static constexpr double point_inertia = 1e-6;
 
-// a solid needs a volume that its surface can hold: a closed sheet folded on itself has none
-static bool is_solid(const Shape& shape) {
-  const double r = shape.radius();
-  return shape.closed() && std::abs(shape.solid().volume) > 1e-9 * r * r * r;
-}
-
 static Eigen::Vector3d default_com(const BodySpec& spec) {
   if (!spec.shape) return Eigen::Vector3d::Zero();
-  return is_solid(*spec.shape) ? spec.shape->solid().centroid
+  return spec.shape->has_volume() ? spec.shape->solid().centroid
                                : surface_centroid(spec.shape->mesh());
 }
 
 static Eigen::Matrix3d default_inertia(const BodySpec& spec, const Eigen::Vector3d& com) {
   if (!spec.shape) return point_inertia * Eigen::Matrix3d::Identity();
-  if (!is_solid(*spec.shape)) {
+  if (!spec.shape->has_volume()) {
     const double r = largest_radius(spec.shape->mesh(), com);
     return std::max(0.4 * r * r, point_inertia) * Eigen::Matrix3d::Identity();
   }
@@ -35,8 +29,10 @@ Body make_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB) {
   Body body;
   body.name = spec.name;
   body.source = spec.source;
+  body.file = spec.file;
   body.kind = kind;
   body.shape = spec.shape;
+  body.mesh_report = spec.mesh_report;
   body.appearance = spec.appearance;
   body.X_WB = X_WB;
   body.mass = spec.mass;

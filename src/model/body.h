@@ -16,8 +16,10 @@ enum class BodyKind { object, obstacle, base, link, mount };
 struct Body {
   std::string name;    ///< unique in its world
   std::string source;  ///< file it came from; empty when made in a script
+  std::string file;    ///< the same, absolute
   BodyKind kind = BodyKind::object;
   ShapePtr shape;  ///< null: a frame without geometry
+  std::optional<MeshReport> mesh_report;
   Appearance appearance;
   Pose X_WB;
   int material = 0;                       ///< index into the world's table

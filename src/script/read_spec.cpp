@@ -8,7 +8,9 @@ namespace clench {
 ReadOptions read_options(lua_State* L, Table& options) {
   ReadOptions out;
   out.root = options.string("root", "");
-  out.mesh_scale = options.positive("mesh_scale", out.mesh_scale);
+  if (!out.root.empty() && !std::filesystem::is_directory(out.root))
+    fail("{}: root: wanted a folder, got '{}'", options.subject(), out.root.string());
+  if (options.has("mesh_scale")) out.mesh_scale = options.positive("mesh_scale", 1);
   out.warn = [L](const std::string& message) { log_warning(L, message); };
   out.note = [L](const std::string& message) { log(L, LogLevel::info, message); };
   return out;

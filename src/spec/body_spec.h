@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/shape.h"
+#include "spec/mesh_report.h"
 
 namespace clench {
 
@@ -16,12 +16,15 @@ struct Appearance {
   float transparency = 0;                                     ///< 0 opaque .. 1 invisible
   std::vector<Eigen::Vector3f> triangle_colors;               ///< one a triangle, or empty
   bool given = false;                                         ///< does it come from the file?
+  ShapePtr visual = {};  ///< drawn instead of the body's shape; null: that shape itself
 };
 
 struct BodySpec {
   std::string name;                     ///< file stem unless the user says otherwise
   std::string source;                   ///< file it was read from, as it was named; empty when made in a script
+  std::string file;                     ///< the same, absolute
   ShapePtr shape;                       ///< null: a frame without geometry, which never collides
+  std::optional<MeshReport> mesh_report;  ///< of geometry from a file
   Appearance appearance;
   std::string material = "wood";
   double mass = 0.3;                    ///< [kg]

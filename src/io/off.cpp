@@ -1,0 +1,166 @@
+#include "io/off.h"
+
+#include <set>
+
+#include "io/word_reader.h"
+
+namespace clench {
+
+namespace {
+
+class OffReader {
+ public:
+  OffReader(std::string file, const std::string& text, GeometryBuilder& builder,
+            const ReadOptions& options)
+      : options_(options), builder_(builder), words_(std::move(file), text) {}
+  bool read();
+
+ private:
+  void read_header();
+  void read_kind(std::string_view kind);
+  int read_count(std::string_view word, const char* what);
+  void read_vertices();
+  void read_faces();
+  Eigen::Vector3f read_color(int count);
+  void to_line(const char* what, int i, int count);
+  void warn_once(const std::string& sentence);
+
+  const ReadOptions& options_;
+  GeometryBuilder& builder_;
+  WordReader words_;
+  int vertices_ = 0, faces_ = 0;
+  bool normals_ = false, texture_ = false, vertex_colors_ = false, face_colors_ = false;
+  std::vector<Eigen::Vector3f> colors_;  // of vertices
+  std::set<std::string> told_;
+};
+
+/// What stands before "OFF": ST texture coordinates, C colours, N normals of the vertices.
+void OffReader::read_kind(std::string_view kind) {
+  for (size_t i = 0; i < kind.size(); ++i) {
+    if (kind.substr(i, 2) == "ST")
+      texture_ = true, ++i;
+    else if (kind[i] == 'C')
+      vertex_colors_ = true;
+    else if (kind[i] == 'N')
+      normals_ = true;
+    else
+      words_.fail("wanted OFF of three dimensions, got {}", in_quotes(std::string(kind) + "OFF"));
+  }
+}
+
+/// Counts follow the keyword or stand alone; "OFF8 6 12" is seen, too.
+void OffReader::read_header() {
+  if (!words_.next_line()) words_.fail("wanted 'OFF', got the end of the file");
+  std::string_view word = words_.word();
+  if (const size_t end = word.find("OFF"); end != std::string_view::npos) {
+    read_kind(word.substr(0, end));
+    word.remove_prefix(end + 3);
+  } else if (!parse_integer(word)) {
+    words_.fail("wanted 'OFF', got {}", in_quotes(word));
+  }
+  if (word.empty()) word = words_.word_anywhere();
+  if (lower_case(word) == "binary") words_.fail("wanted OFF as text, got binary OFF");
+  vertices_ = read_count(word, "number of vertices");
+  faces_ = read_count(words_.word_anywhere(), "number of faces");
+  words_.word();  // the number of edges is nobody's business, and often wrong or absent
+  if (words_.words_left() > 0) warn_once("what follows the counts is not used");
+}
+
+int OffReader::read_count(std::string_view word, const char* what) {
+  const auto count = parse_integer(word);
+  if (!count || *count < 0)
+    words_.fail("{}: wanted a whole number from 0 on, got {}", what, in_quotes(word));
+  return *count;
+}
+
+void OffReader::to_line(const char* what, int i, int count) {
+  if (!words_.next_line())
+    words_.fail("wanted {} {} of {}, got the end of the file", what, i + 1, count);
+}
+
+void OffReader::warn_once(const std::string& sentence) {
+  if (told_.insert(sentence).second && options_.warn)
+    options_.warn(words_.place() + ": " + sentence);
+}
+
+/// Three or four numbers of a line's rest: of 0..1 with a point in them, else of 0..255.
+Eigen::Vector3f OffReader::read_color(int count) {
+  Eigen::Vector3d color;
+  bool whole = true;
+  for (int i = 0; i < count; ++i) {
+    const auto word = words_.word();
+    const auto value = parse_number(word);
+    if (!value) words_.fail("colour: wanted a number, got {}", in_quotes(word));
+    whole = whole && word.find_first_of(".eE") == std::string_view::npos;
+    if (i < 3) color[i] = *value;
+  }
+  if (whole) color /= 255;
+  return color.cwiseMax(0).cwiseMin(1).cast<float>();
+}
+
+void OffReader::read_vertices() {
+  for (int i = 0; i < vertices_; ++i) {
+    to_line("vertex", i, vertices_);
+    const double x = words_.number("x"), y = words_.number("y"), z = words_.number("z");
+    builder_.add_vertex({x, y, z});
+    for (int k = 0; normals_ && k < 3; ++k) words_.number("normal");
+    if (vertex_colors_)
+      colors_.push_back(read_color(3));  // what may follow is opacity
+    else if (!texture_ && words_.words_left() > 0)
+      warn_once("what follows a vertex's numbers is not used");
+  }
+}
+
+void OffReader::read_faces() {
+  std::vector<int> corners;
+  for (int i = 0; i < faces_; ++i) {
+    to_line("face", i, faces_);
+    // every corner takes a character of the text and a blank, so its size bounds their number
+    const int count = words_.integer("corners of a face", 0, static_cast<int>(most_mesh_vertices));
+    corners.clear();
+    for (int k = 0; k < count; ++k) {
+      const auto word = words_.word();
+      const auto vertex = parse_integer(word);
+      if (!vertex || *vertex < 0 || *vertex >= vertices_)
+        words_.fail("wanted {} vertices from 0 to {}, got {}", count, vertices_ - 1,
+                    in_quotes(word));
+      corners.push_back(*vertex);
+    }
+    Eigen::Vector3f color = Appearance().color;
+    if (!colors_.empty()) {
+      color.setZero();
+      for (const int v : corners) color += colors_[v] / static_cast<float>(count);
+    }
+    if (const int rest = words_.words_left(); rest == 3 || rest == 4) {
+      color = read_color(rest);
+      face_colors_ = true;
+    } else if (rest > 0) {
+      warn_once("what follows a face's vertices is no colour, and not used");
+    }
+    if (count < 3) warn_once("a face of fewer than three vertices is not used");
+    try {
+      builder_.add_face(corners, color, 0);
+    } catch (const Error& error) {
+      words_.fail("{}", error.what());
+    }
+  }
+}
+
+bool OffReader::read() {
+  read_header();
+  read_vertices();
+  read_faces();
+  if (words_.next_line()) warn_once("what follows the last face is not used");
+  return face_colors_ || vertex_colors_;
+}
+
+}  // namespace
+
+bool read_off(const std::filesystem::path& path, GeometryBuilder& builder,
+              const ReadOptions& options) {
+  const std::string text = read_text(path);
+  builder.report.format = "OFF";
+  return OffReader(path.filename().string(), text, builder, options).read();
+}
+
+}  // namespace clench

@@ -1,0 +1,140 @@
+#include "io/stl.h"
+
+#include <cmath>
+#include <utility>
+
+#include "io/byte_reader.h"
+#include "io/word_reader.h"
+
+namespace clench {
+
+namespace {
+
+constexpr size_t header_bytes = 84, facet_bytes = 50;
+
+size_t facet_count(std::string_view bytes) {
+  ByteReader reader(bytes);
+  reader.skip(header_bytes - 4);
+  return reader.next<uint32_t>();
+}
+
+/// Binary files may begin with "solid", too; then their size or what follows tells.
+bool is_ascii(std::string_view bytes) {
+  if (lower_case(trim(bytes.substr(0, 200)).substr(0, 5)) != "solid") return false;
+  if (bytes.size() >= header_bytes &&
+      bytes.size() == header_bytes + facet_bytes * facet_count(bytes))
+    return false;
+  return bytes.substr(0, 1000).find('\0') == std::string_view::npos;
+}
+
+void add_facet(GeometryBuilder& builder, const std::array<Eigen::Vector3d, 3>& corners) {
+  if (builder.triangle_count() >= most_mesh_triangles)
+    fail("wanted at most {} facets", most_mesh_triangles);
+  builder.add(corners, Appearance().color, 0);
+}
+
+/// A word, wherever the next one stands.
+std::string expect(WordReader& words, std::string_view wanted) {
+  std::string word = lower_case(words.word_anywhere());
+  if (word.empty()) words.fail("wanted {}, got the end of the file", wanted);
+  return word;
+}
+
+void expect_word(WordReader& words, std::string_view wanted) {
+  const std::string word = expect(words, wanted);
+  if (word != wanted) words.fail("wanted '{}', got {}", wanted, in_quotes(word));
+}
+
+void read_loop(WordReader& words, GeometryBuilder& builder) {
+  std::array<Eigen::Vector3d, 3> corners;
+  for (int count = 0;; ++count) {
+    const std::string word = expect(words, "vertex or endloop");
+    if (word == "endloop" && count == 3) break;
+    if (word == "endloop") words.fail("wanted three vertices a facet, got {}", count);
+    if (word != "vertex") words.fail("wanted 'vertex' or 'endloop', got {}", in_quotes(word));
+    if (count == 3) words.fail("wanted three vertices a facet, got more");
+    for (double& x : corners[count]) {
+      const auto text = words.word_anywhere();
+      const auto value = parse_number(text);
+      if (!value) words.fail("wanted three numbers after vertex, got {}", in_quotes(text));
+      x = *value;
+    }
+  }
+  add_facet(builder, corners);
+}
+
+void read_ascii(WordReader& words, GeometryBuilder& builder) {
+  // one solid, or several
+  for (bool first = true;; first = false) {
+    const std::string word = lower_case(words.word_anywhere());
+    if (word.empty() && !first) return;
+    if (word != "solid") words.fail("wanted 'solid', got {}", in_quotes(word));
+    words.rest();  // its name
+    for (;;) {
+      const std::string next = expect(words, "facet or endsolid");
+      if (next == "endsolid") break;
+      if (next != "facet") words.fail("wanted 'facet' or 'endsolid', got {}", in_quotes(next));
+      // the normal, which some programs write as no number
+      if (lower_case(words.word_anywhere()) != "normal") words.fail("wanted 'normal' after facet");
+      for (int i = 0; i < 3; ++i) expect(words, "a normal");
+      expect_word(words, "outer");
+      expect_word(words, "loop");
+      read_loop(words, builder);
+      expect_word(words, "endfacet");
+    }
+    words.rest();
+  }
+}
+
+void read_binary(std::string_view bytes, const std::string& file, GeometryBuilder& builder,
+                 const ReadOptions& options) {
+  const size_t count = bytes.size() < header_bytes ? 0 : facet_count(bytes),
+               whole =
+                   bytes.size() < header_bytes ? 0 : (bytes.size() - header_bytes) / facet_bytes;
+  const bool text = bytes.substr(0, 1000).find('\0') == std::string_view::npos;
+  if (bytes.size() < header_bytes || (text && whole < count / 2))
+    fail("{}: wanted an ASCII or binary STL file, got something else", file);
+  if (whole < count)
+    fail("{}: facet {} of {}: wanted 50 bytes, got the end of the file", file, whole + 1, count);
+  ByteReader reader(bytes);
+  reader.skip(header_bytes);
+  size_t attributes = 0;
+  for (size_t i = 0; i < count; ++i) {
+    reader.skip(12);  // the normal
+    std::array<Eigen::Vector3d, 3> corners;
+    for (auto& corner : corners)
+      for (double& x : corner) {
+        x = reader.next<float>();
+        if (!std::isfinite(x))
+          fail("{}: facet {} of {}: wanted finite coordinates, got {}", file, i + 1, count, x);
+      }
+    attributes += reader.next<uint16_t>() != 0;
+    add_facet(builder, corners);
+  }
+  if (!options.warn) return;
+  if (attributes > 0)
+    options.warn(
+        fmt::format("{}: the attribute words of {} facets are not used", file, attributes));
+  if (reader.left() > 0)
+    options.warn(
+        fmt::format("{}: {} bytes after the last facet are not used", file, reader.left()));
+}
+
+}  // namespace
+
+void read_stl(const std::filesystem::path& path, GeometryBuilder& builder,
+              const ReadOptions& options) {
+  std::string bytes = read_bytes(path);
+  const std::string file = path.filename().string();
+  if (is_ascii(bytes)) {
+    builder.report.format = "ascii STL";
+    bytes = with_plain_line_ends(std::move(bytes));
+    WordReader words(file, bytes);
+    read_ascii(words, builder);
+  } else {
+    builder.report.format = "binary STL";
+    read_binary(bytes, file, builder, options);
+  }
+}
+
+}  // namespace clench

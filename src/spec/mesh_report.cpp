@@ -1,0 +1,74 @@
+#include "spec/mesh_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace clench {
+
+static std::string counted(int count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string unit_name(double length) {
+  static constexpr std::pair<double, const char*> names[] = {
+      {1, "m"}, {1e-2, "cm"}, {1e-3, "mm"}, {0.0254, "inch"}, {0.3048, "foot"}};
+  for (const auto& [metres, name] : names)
+    // files write the factor in a few decimals, or in 32 bits
+    if (std::abs(length - metres) <= 1e-6 * metres) return name;
+  return fmt::format("{:.6g} m", length);
+}
+
+const char* source_name(UnitSource source) {
+  static constexpr const char* names[] = {"format", "file", "option", "guess"};
+  return names[static_cast<int>(source)];
+}
+
+static std::string unit_sentence(const MeshReport& report) {
+  static constexpr const char* sources[] = {"by the format", "by the file", "by option",
+                                            "guessed from the size"};
+  std::string text = fmt::format("unit {}, {}", unit_name(report.unit),
+                                 sources[static_cast<int>(report.unit_source)]);
+  if (report.up != 'z') text += fmt::format("; {} axis turned to z", report.up);
+  return text;
+}
+
+static std::string mended_sentence(const MeshReport& report) {
+  std::string text;
+  const auto append = [&](int count, const char* one, const char* many) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, many);
+  };
+  append(report.welded_vertices, "vertex welded", "vertices welded");
+  append(report.dropped_triangles, "degenerate triangle dropped", "degenerate triangles dropped");
+  append(report.unused_vertices, "unused vertex left out", "unused vertices left out");
+  if (report.turned) text += (text.empty() ? "" : ", ") + std::string("turned to face outward");
+  return text;
+}
+
+std::vector<std::string> describe(const MeshReport& report, const Shape& shape) {
+  std::vector<std::string> out;
+  out.push_back(fmt::format("{}: {} of {}", report.format,
+                            counted(report.triangles_read, "triangle", "triangles"),
+                            counted(report.vertices_read, "vertex", "vertices")));
+  out.push_back(unit_sentence(report));
+  if (auto mended = mended_sentence(report); !mended.empty()) out.push_back(std::move(mended));
+
+  const Eigen::Vector3d size = shape.bounds().size();
+  const std::string faults = shape.faults().describe();
+  out.push_back(fmt::format("{}, {:.4g} x {:.4g} x {:.4g} m, {}",
+                            shape.closed() ? "watertight" : "open", size.x(), size.y(), size.z(),
+                            faults));
+  if (!shape.has_volume()) return out;
+  const MassProperties& solid = shape.solid();
+  const Eigen::Vector3d& c = solid.centroid;
+  const Eigen::Matrix3d& I = solid.inertia;
+  out.push_back(fmt::format("volume {:.6g} m^3, centre of mass ({:.6g}, {:.6g}, {:.6g}) m",
+                            solid.volume, c.x(), c.y(), c.z()));
+  out.push_back(fmt::format(
+      "inertia of each kg: xx {:.4g}, yy {:.4g}, zz {:.4g}, xy {:.4g}, xz {:.4g}, yz {:.4g} m^2",
+      I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)));
+  return out;
+}
+
+}  // namespace clench
