@@ -2,6 +2,7 @@
 --- Writes every model file that is made from numbers; the same bytes at each run.
 ---   lua5.4 scripts/make_models.lua          writes them, from the project's root
 ---   lua5.4 scripts/make_models.lua --check  writes nothing, fails when a file is not what it would write
+---   lua5.4 scripts/make_models.lua barrett  one set only, see scripts/models/sets.lua
 package.path = "scripts/?.lua;" .. package.path
 
 --- clench.x.y is stdlib/x/y.lua or stdlib/x/y/init.lua, as in the executable
@@ -19,7 +20,7 @@ table.insert(package.searchers, 2, function(name)
   return "no unit " .. base
 end)
 
-local inventor = require "models.inventor"
+local inventor, sets = require "models.inventor", require "models.sets"
 
 local function read(path)
   local file = io.open(path, "rb")
@@ -29,6 +30,7 @@ local function read(path)
 end
 
 local function write(path, text)
+  os.execute("mkdir -p '" .. path:match "^(.*)/" .. "'")
   local file, why = io.open(path, "wb")
   if not file then error("cannot write " .. why .. "; run this in the project's root", 0) end
   file:write(text)
@@ -40,17 +42,25 @@ for _, word in ipairs(arg) do
   if word == "--check" then check = true else only = word end
 end
 
+local known = {}
+for _, set in ipairs(sets) do known[set] = true end
+if only and not known[only] then
+  print(("there is no set '%s', only %s"):format(only, table.concat(sets, ", ")))
+  os.exit(2)
+end
+
 local stale = 0
-for _, set in ipairs {"barrett", "dlr", "objects"} do
+for _, set in ipairs(sets) do
   if not only or only == set then
-    for _, body in ipairs(require("models." .. set)) do
-      local path = body[1]
-      local text, triangles = inventor.text(body, path)
+    for _, entry in ipairs(require("models." .. set)) do
+      local path = entry[1]
+      local text, triangles = entry.text, 0
+      if not text then text, triangles = inventor.text(entry, path) end
       local same = read(path) == text
       if check and not same then stale = stale + 1 end
       if not check and not same then write(path, text) end
       local word = same and "same" or check and "STALE" or "written"
-      print(("%-9s %-40s %5d triangles %4d KB"):format(word, path, triangles, #text // 1000))
+      print(("%-9s %-44s %5d triangles %4d KB"):format(word, path, triangles, #text // 1000))
     end
   end
 end

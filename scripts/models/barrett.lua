@@ -2,6 +2,8 @@
 --- A three-fingered hand after the BarrettHand BH8-262: see models/hands/barrett/README.md for the figures.
 local shapes = require "clench.shapes"
 local build = require "models.build"
+local eigengrasps = require "models.eigengrasps"
+local sites = require "models.sites"
 
 local black, grey, metal, rubber = {0.13, 0.14, 0.15}, {0.34, 0.36, 0.38}, {0.74, 0.76, 0.78}, {0.2, 0.2, 0.21}
 
@@ -73,7 +75,7 @@ local function palm()
 end
 
 -- the published weight of the whole hand, 1180 g, shared out by volume and thickness of the parts
-return {
+local bodies = {
   {"models/hands/barrett/iv/palm.iv", about = "palm and motor housing of a three-fingered hand",
    material = "plastic", mass = 690, parts = palm()},
   {"models/hands/barrett/iv/spread.iv", about = "spread link of a three-fingered hand",
@@ -82,4 +84,24 @@ return {
    material = "metal", mass = 65, parts = inner_link()},
   {"models/hands/barrett/iv/outer.iv", about = "outer link of a three-fingered hand",
    material = "rubber", mass = 41, parts = outer_link()},
+}
+
+--- two sites on each inner link, three on each outer link, one on the palm
+local function places()
+  local list = {{finger = -1, link = 0, body = bodies[1], at = {0, 0, -5}, along = {0, 0, 1}}}
+  for finger, first in ipairs {1, 1, 0} do
+    for _, x in ipairs {-46, -24} do
+      list[#list + 1] = {finger = finger - 1, link = first, body = bodies[3], at = {x, 0, 0}}
+    end
+    for _, x in ipairs {-38, -22, -5} do
+      list[#list + 1] = {finger = finger - 1, link = first + 1, body = bodies[4], at = {x, 0, 0}}
+    end
+  end
+  return list
+end
+
+return {
+  bodies[1], bodies[2], bodies[3], bodies[4],
+  {"models/hands/barrett/barrett.egr", text = eigengrasps {origin = {0, 45, 45, 45}, {0, 1, 1, 1}, {1, 0, 0, 0}}},
+  {"models/hands/barrett/barrett.vgr", text = sites("barrett", places())},
 }

@@ -2,6 +2,8 @@
 --- A four-fingered hand after the DLR Hand II: see models/hands/dlr/README.md for the figures.
 local shapes = require "clench.shapes"
 local build = require "models.build"
+local eigengrasps = require "models.eigengrasps"
+local sites = require "models.sites"
 
 local silver, steel, black, rubber = {0.70, 0.72, 0.74}, {0.38, 0.40, 0.42}, {0.12, 0.125, 0.13}, {0.15, 0.15, 0.16}
 
@@ -97,7 +99,7 @@ local function palm()
 end
 
 -- the published weight of the whole hand, 1800 g, shared out by volume
-return {
+local bodies = {
   {"models/hands/dlr/iv/palm.iv", about = "palm and wrist of a four-fingered hand",
    material = "rubber", mass = 880, parts = palm()},
   {"models/hands/dlr/iv/proximal.iv", about = "proximal link of a four-fingered hand",
@@ -106,4 +108,30 @@ return {
    material = "metal", mass = 40, parts = middle()},
   {"models/hands/dlr/iv/distal.iv", about = "fingertip of a four-fingered hand",
    material = "rubber", mass = 40, parts = distal()},
+}
+
+--- one site on each proximal and middle link, one on each fingertip's pad, two on the palm
+local function places()
+  local list = {}
+  for finger = 0, 3 do
+    for link, x in ipairs {-38, -20, -2} do
+      list[#list + 1] = {finger = finger, link = link - 1, body = bodies[link + 1], at = {x, 0, 0}}
+    end
+  end
+  for _, at in ipairs {{-16, 62, 0}, {16, 84, 0}} do
+    list[#list + 1] = {finger = -1, link = 0, body = bodies[1], at = at, along = {0, 0, 1}}
+  end
+  return list
+end
+
+-- all fingers close; bases against middle joints; the outer fingers spread
+local motions = eigengrasps {
+  origin = {10, 0, 40, 15, 8, 45, 15, 0, 45, 15, -8, 45},
+  {0.8, 0, 0.8, 1, 0, 1, 1, 0, 1, 1, 0, 1}, {-0.8, 0, 0.8, -1, 0, 1, -1, 0, 1, -1, 0, 1}, {0, 0, 0, 0, 1, 0, 0, 0, 0, 0, -1, 0},
+}
+
+return {
+  bodies[1], bodies[2], bodies[3], bodies[4],
+  {"models/hands/dlr/dlr.egr", text = motions},
+  {"models/hands/dlr/dlr.vgr", text = sites("dlr", places())},
 }

@@ -54,8 +54,10 @@ local function part_text(mesh, part)
   return table.concat(out, "\n")
 end
 
----@param body {about: string, material: string, mass?: number, density?: number, parts: table[]}
----  parts: {mesh, color = {r, g, b}, transparency?}; mass [g] or density [g/mm^3]
+---@param body {about: string, material: string, mass?: number, density?: number, cog?: number[], inertia?: number[],
+---  parts: table[]}
+---  parts: {mesh, color = {r, g, b}, transparency?}; mass [g] or density [g/mm^3]; published centre of gravity [mm] and
+---  principal moments about it, divided by the mass [mm^2], instead of those of the solid
 ---@param subject string  for messages
 ---@return string text, integer triangles
 function inventor.text(body, subject)
@@ -67,16 +69,18 @@ function inventor.text(body, subject)
     count = count + #mesh.triangles
   end
   local solid = shapes.mass(shapes.union(meshes))
+  local moments = body.inertia
+  local inertia = moments and {{moments[1], 0, 0}, {0, moments[2], 0}, {0, 0, moments[3]}} or solid.inertia
   local out = {
     "#Inventor V2.1 ascii",
     "# " .. body.about .. "; made by scripts/make_models.lua [mm]",
     "#material " .. body.material,
     "#mass " .. number(body.mass or body.density * solid.volume),
-    "#cog " .. row(solid.centroid),
+    "#cog " .. row(body.cog or solid.centroid),
     "#inertia_matrix",
-    "#" .. row(solid.inertia[1]),
-    "#" .. row(solid.inertia[2]),
-    "#" .. row(solid.inertia[3]),
+    "#" .. row(inertia[1]),
+    "#" .. row(inertia[2]),
+    "#" .. row(inertia[3]),
     "Separator {",
     "  ShapeHints { vertexOrdering COUNTERCLOCKWISE shapeType SOLID faceType CONVEX creaseAngle 0.6 }",
     table.concat(texts, "\n"),

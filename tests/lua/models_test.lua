@@ -1,7 +1,8 @@
 local test, clench = require "test", require "clench"
 
 package.path = "scripts/?.lua;" .. package.path
-local inventor = require "models.inventor"
+local inventor, sets = require "models.inventor", require "models.sets"
+local catalog = clench.catalog()
 
 local function read(path)
   local file = assert(io.open(path, "rb"))
@@ -10,15 +11,15 @@ local function read(path)
   return text
 end
 
-for _, set in ipairs {"barrett", "dlr", "objects"} do
+for _, set in ipairs(sets) do
   test("the model files of '" .. set .. "' are what scripts/make_models.lua writes", function(t)
-    for _, body in ipairs(require("models." .. set)) do
-      t.ok(read(body[1]) == inventor.text(body, body[1]), body[1] .. " is stale")
+    for _, entry in ipairs(require("models." .. set)) do
+      t.ok(read(entry[1]) == (entry.text or inventor.text(entry, entry[1])), entry[1] .. " is stale")
     end
   end)
 end
 
-for _, path in ipairs {"models/hands/barrett/barrett.cfg", "models/hands/dlr/dlr.cfg"} do
+for _, path in ipairs(catalog.hands) do
   test(path .. " is made of solids, stands free and closes without collision", function(t)
     local world = clench.world()
     local hand = world:add_robot(path)

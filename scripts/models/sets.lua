@@ -1,0 +1,3 @@
+-- scripts/models/sets.lua
+--- The sets of models that scripts/make_models.lua writes, each a list of files.
+return {"barrett", "dlr", "grippers", "human", "robonaut", "shadow", "objects"}
