@@ -2,6 +2,8 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 
 #include "spec/world_spec.h"
@@ -11,26 +13,42 @@ namespace clench {
 struct ReadOptions {
   /// where relative names are looked up after the referring file's folder
   std::filesystem::path root;
+  /// robots: files to read in place of those that theirs names; empty: none
+  std::string eigengrasps = {}, virtual_contacts = {};
   /// told of what a file contains and we do not use
   std::function<void(const std::string&)> warn = {};
   /// told of what a file leaves open and we guess
   std::function<void(const std::string&)> note = {};
-  /// .obj .stl: length of the file's unit, > 0 [m]
-  double mesh_scale = 1;
+  /// geometry files: length of their unit, > 0 [m]; absent: what the format or the file says, else
+  /// silent_mesh_unit
+  std::optional<double> mesh_scale = {};
+  /// length of the unit of mesh files that say nothing of it, > 0 [m]; absent: guessed by size
+  std::optional<double> silent_mesh_unit = {};
+  /// where names in a file are looked up after the file's own folder, before the root
+  std::filesystem::path folder = {};
+  /// where the packages lie that URDF files name: by name; under "" any of them
+  std::map<std::string, std::filesystem::path> packages = {};
+  /// how DOFs of URDF and MJCF hands close, by name or number from 1: > 0 up, < 0 down, 0 not; the
+  /// rest is guessed
+  std::map<std::string, double> closing = {};
+  /// approach frame of URDF and MJCF hands in the base; absent: guessed
+  std::optional<Pose> approach = {};
+  /// .dae .gltf .glb: turn what the file calls up to z? (A URDF takes the axes as they stand.)
+  bool turn_mesh_up = true;
 };
 
-/// A body from .iv .wrl (millimetres), .obj .stl (metres, or mesh_scale), in any case.
+/// A body from .xml, .iv .wrl (millimetres), .obj .stl .ply .off .gltf .glb .dae, in any case.
 /// throws Error  "flask.iv:31: ..." one sentence: place, subject, wanted, got
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// A robot from .cfg.
+/// A robot from .cfg or .xml.
 RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// A world from .wld.
+/// A world from .wld or .xml.
 WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// Where `name`, as written in `referrer` (empty: given by the user), is found: beside the
-/// referrer, below the root, below the referrer's parent folder. Back-slashes count as slashes, and
+/// referrer, below options.folder, below the root, below the referrer's parent folder. Back-slashes count as slashes, and
 /// a name that differs only in case is found.
 /// throws Error  "no such file: flsk.iv; did you mean 'flask.iv'?"  "wanted a file, got a folder: models"
 std::filesystem::path find_file(const std::string& name, const std::filesystem::path& referrer,
