@@ -80,9 +80,17 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
   world.mount(child, parent, c.chain, X_LB, c.mount ? &*c.mount : nullptr);
 }
 
-std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot) {
+std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot, double closer_than) {
   const auto own = world.bodies_of(robot);
-  const auto pairs = colliding_pairs(world, own, own);
+  auto pairs = colliding_pairs(world, own, own);
+  for (size_t i = 0; closer_than > 0 && i < own.size(); ++i)
+    for (size_t j = i + 1; j < own.size(); ++j) {
+      const BodyPair pair{own[i], own[j]};
+      if (!world.may_collide(own[i], own[j]) || std::ranges::find(pairs, pair) != pairs.end())
+        continue;
+      if (distance(world, std::span(&pair.first, 1), std::span(&pair.second, 1), closer_than).a)
+        pairs.push_back(pair);
+    }
   for (const auto& [a, b] : pairs) world.set_collision(false, a, b);
   return pairs;
 }
@@ -90,11 +98,12 @@ std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot) {
 Id<Robot> add_robot(World& world, const RobotSpec& spec, const Pose& X_WB, const std::string& name,
                     const Warn& warn) {
   const auto id = world.add_robot(spec, X_WB, name);
-  const auto pairs = switch_off_overlaps(world, id);
+  const bool near = spec.collision_rules.near_pairs_off;
+  const auto pairs = switch_off_overlaps(world, id, near ? world.contact_threshold() : 0);
   if (warn && !pairs.empty())
     warn(fmt::format(
-        "robot '{}': these of its bodies overlap as it is loaded, and may from now on: {}",
-        world.robot(id).name, describe(world, pairs)));
+        "robot '{}': these of its bodies overlap{} as it is loaded, and may from now on: {}",
+        world.robot(id).name, near ? " or touch" : "", describe(world, pairs)));
   return id;
 }
 

@@ -11,10 +11,10 @@ namespace clench {
 /// wins. DOF values outside their limits are brought to the nearest limit. `warn` is told of both.
 World build_world(const WorldSpec& spec, const std::function<void(const std::string&)>& warn = {});
 
-/// Switches off the pairs of a robot's own bodies that overlap where it stands: models whose links
-/// reach into each other at a joint could otherwise never move.
+/// Switches off the pairs of a robot's own bodies that overlap, or are nearer than `closer_than` [m],
+/// where it stands: models whose links reach into each other at a joint could otherwise never move.
 /// returns  those pairs
-std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot);
+std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot, double closer_than = 0);
 
 /// Adds a robot, and tells `warn` of the pairs that switch_off_overlaps found.
 Id<Robot> add_robot(World& world, const RobotSpec& spec, const Pose& X_WB,

@@ -1,6 +1,7 @@
 // A robot of the world: its chains, and the values of its DOFs.
 #pragma once
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,10 +12,13 @@
 namespace clench {
 
 struct Chain {
-  Pose X_BC;  ///< chain frame in the base
+  int parent_chain = -1;  ///< -1: it begins on the base
+  int parent_link = -1;
+  Pose X_BC;  ///< chain frame in the base, or in the parent link
   std::vector<JointSpec> joints;
   std::vector<Breakaway> breakaway;  ///< one a joint: q where it broke away, else empty
   std::vector<int> last_joints;      ///< one a link
+  std::vector<std::optional<Pose>> X_JL;  ///< one a link: in the frame after its last joint
   std::vector<LinkJoint> link_joints;
   std::vector<Id<Body>> links;
 };
@@ -30,6 +34,7 @@ struct Mounting {
 struct Robot {
   std::string name;
   std::string source;
+  std::string file;  ///< the same, absolute
   std::string class_name;
   Id<Body> base;
   std::vector<DofSpec> dofs;
@@ -38,7 +43,12 @@ struct Robot {
   std::vector<Chain> chains;
   Pose X_BA;  ///< approach frame: +z is the direction of approach
   std::optional<Mounting> mounting;
-  std::string eigengrasps, virtual_contacts, glove_calibration;  ///< files that its file names
+  /// null: none given, and each DOF is its own
+  std::shared_ptr<const EigengraspSet> eigengrasps;
+  /// null: none given; their chains and links exist
+  std::shared_ptr<const std::vector<VirtualContactSpec>> virtual_contacts;
+  std::shared_ptr<const GloveCalibration> glove;
+  RobotFiles files;  ///< where the three above came from
   std::optional<TrackerSpec> tracker;
 };
 
@@ -48,7 +58,18 @@ double joint_value(const Robot& robot, int chain, int joint);
 /// Frame of a joint after it has turned or slid by q, in the frame before.
 Pose joint_pose(const JointSpec& joint, double q);
 
-/// Frames of a chain in the base frame: [0] the chain frame, [j + 1] after joint j.
-std::vector<Pose> chain_frames(const Robot& robot, int chain);
+/// Where a chain's joints stand, in the base frame.
+struct ChainFrames {
+  Pose start;               ///< the chain frame
+  std::vector<Pose> axes;   ///< one a joint: its axis is z
+  std::vector<Pose> after;  ///< one a joint: after its motion
+  std::vector<Pose> links;  ///< one a link
+};
+
+/// One a chain.
+std::vector<ChainFrames> chain_frames(const Robot& robot);
+
+/// Does a joint move a link: is it on the way from the base to the link?
+bool joint_moves_link(const Robot& robot, int joint_chain, int joint, int chain, int link);
 
 }  // namespace clench

@@ -114,13 +114,17 @@ Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::s
   Robot robot;
   robot.name = name.empty() ? unique_name(spec.name) : name;
   robot.source = spec.source;
+  robot.file = spec.file;
   robot.class_name = spec.class_name;
   robot.dofs = spec.dofs;
   robot.X_BA = spec.X_BA.value_or(Pose{});
-  robot.eigengrasps = spec.eigengrasps;
-  robot.virtual_contacts = spec.virtual_contacts;
-  robot.glove_calibration = spec.glove_calibration;
+  robot.files = spec.files;
   robot.tracker = spec.tracker;
+  if (spec.eigengrasps) robot.eigengrasps = std::make_shared<EigengraspSet>(*spec.eigengrasps);
+  if (spec.virtual_contacts)
+    robot.virtual_contacts =
+        std::make_shared<std::vector<VirtualContactSpec>>(spec.virtual_contacts->contacts);
+  if (spec.glove) robot.glove = std::make_shared<GloveCalibration>(*spec.glove);
   robot.q.resize(static_cast<int>(spec.dofs.size()));
   for (int i = 0; i < robot.q.size(); ++i) {
     const auto range = dof_range(spec, i);
@@ -144,34 +148,51 @@ Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::s
   edit(id).base = add_part(spec.base, BodyKind::base, -1, -1);
   for (size_t c = 0; c < spec.chains.size(); ++c) {
     const ChainSpec& from = spec.chains[c];
-    Chain chain{.X_BC = from.X_BC,
+    Chain chain{.parent_chain = from.parent_chain,
+                .parent_link = from.parent_link,
+                .X_BC = from.X_BC,
                 .joints = from.joints,
                 .breakaway = {},
                 .last_joints = {},
+                .X_JL = {},
                 .link_joints = {},
                 .links = {}};
     chain.breakaway.resize(from.joints.size());
     for (size_t l = 0; l < from.links.size(); ++l) {
       chain.last_joints.push_back(from.links[l].last_joint);
+      chain.X_JL.push_back(from.links[l].X_JL);
       chain.link_joints.push_back(from.links[l].joint);
       chain.links.push_back(
           add_part(from.links[l].body, BodyKind::link, static_cast<int>(c), static_cast<int>(l)));
     }
     edit(id).chains.push_back(std::move(chain));
   }
-  switch_off_neighbours(this->robot(id));
+  switch_off_neighbours(this->robot(id), spec.chain_links_collide);
+  const auto part = [&](const RobotPart& p) {
+    const Robot& r = this->robot(id);
+    return p.chain < 0 ? r.base : r.chains[p.chain].links[p.link];
+  };
+  for (const auto& off : spec.collision_rules.parts_off) set_collision(false, part(off));
+  for (const auto& [a, b] : spec.collision_rules.pairs_off) set_collision(false, part(a), part(b));
   place_links(id);
   return id;
 }
 
-// the base never meets the first link of a chain, nor do links of one chain meet
-void World::switch_off_neighbours(const Robot& robot) {
+// Neighbours never meet: a link and the nearest body with a shape on the way to the base. In robots of the original
+// no two links of a chain do, and the base meets no chain's first link.
+void World::switch_off_neighbours(const Robot& robot, bool chain_links_collide) {
+  std::vector<std::vector<Id<Body>>> shaped;  // by chain, by link: itself or what carries it
   for (const Chain& chain : robot.chains) {
-    if (chain.links.empty()) continue;
-    set_collision(false, robot.base, chain.links.front());
-    for (size_t i = 0; i < chain.links.size(); ++i)
-      for (size_t j = i + 1; j < chain.links.size(); ++j)
-        set_collision(false, chain.links[i], chain.links[j]);
+    Id<Body> before =
+        chain.parent_chain < 0 ? robot.base : shaped[chain.parent_chain][chain.parent_link];
+    shaped.emplace_back();
+    for (size_t i = 0; i < chain.links.size(); ++i) {
+      if (i == 0 || chain_links_collide) set_collision(false, before, chain.links[i]);
+      if (body(chain.links[i]).shape) before = chain.links[i];
+      shaped.back().push_back(before);
+      if (chain_links_collide) continue;
+      for (size_t j = 0; j < i; ++j) set_collision(false, chain.links[j], chain.links[i]);
+    }
   }
 }
 
@@ -278,11 +299,10 @@ void World::place_base(Id<Robot> id, const Pose& X_WB) {
 void World::place_links(Id<Robot> id) {
   const Robot& r = robot(id);
   const Pose& X_WB = body(r.base).X_WB;
-  for (size_t c = 0; c < r.chains.size(); ++c) {
-    const auto frames = chain_frames(r, static_cast<int>(c));
+  const auto frames = chain_frames(r);
+  for (size_t c = 0; c < r.chains.size(); ++c)
     for (size_t l = 0; l < r.chains[c].links.size(); ++l)
-      edit(r.chains[c].links[l]).X_WB = X_WB * frames[r.chains[c].last_joints[l] + 1];
-  }
+      edit(r.chains[c].links[l]).X_WB = X_WB * frames[c].links[l];
   for (const auto other : state_.robot_order) {
     const auto& mounting = robot(other).mounting;
     if (mounting && mounting->parent == id)
@@ -317,6 +337,34 @@ void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
   r.q = q;
   for (size_t c = 0; c < r.chains.size(); ++c) r.chains[c].breakaway = breakaway[c];
   place_links(id);
+}
+
+void World::set_eigengrasps(Id<Robot> id, std::shared_ptr<const EigengraspSet> set) {
+  const Robot& r = robot(id);
+  if (set) {
+    const std::string subject = fmt::format("eigengrasps of robot '{}'", r.name);
+    if (set->dofs != r.q.size())
+      fail("{}: wanted a set for {} DOFs, got one for {}", subject, r.q.size(), set->dofs);
+    check_eigengrasps(*set, subject);
+  }
+  edit(id).eigengrasps = std::move(set);
+}
+
+void World::set_virtual_contacts(Id<Robot> id,
+                                 std::shared_ptr<const std::vector<VirtualContactSpec>> contacts) {
+  const Robot& r = robot(id);
+  const int chains = static_cast<int>(r.chains.size());
+  for (size_t i = 0; contacts && i < contacts->size(); ++i) {
+    const VirtualContactSpec& c = (*contacts)[i];
+    const std::string subject = fmt::format("virtual contact {} of robot '{}'", i + 1, r.name);
+    check_virtual_contact(c, subject);
+    const bool on_base = c.chain == -1 && c.link == 0;
+    const bool on_link = c.chain >= 0 && c.chain < chains && c.link >= 0 &&
+                         c.link < static_cast<int>(r.chains[c.chain].links.size());
+    if (!on_base && !on_link)
+      fail("{}: there is no link {} of chain {}", subject, c.link + 1, c.chain + 1);
+  }
+  edit(id).virtual_contacts = std::move(contacts);
 }
 
 // --- properties ---
@@ -358,7 +406,8 @@ void World::set_appearance(Id<Body> id, const Appearance& appearance) {
 
 void World::set_contact_threshold(double threshold) {
   if (!(threshold >= least_threshold && threshold <= most_threshold))
-    fail("contact_threshold must lie in [{}, {}] m, got {}", least_threshold, most_threshold, threshold);
+    fail("contact_threshold must lie in [{}, {}] m, got {}", least_threshold, most_threshold,
+         threshold);
   state_.contact_threshold = threshold;
 }
 

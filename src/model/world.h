@@ -88,6 +88,13 @@ class World {
   /// the same with breakaway states, by chain and joint; used by motion, which has its own checks
   void set_dofs_unchecked(Id<Robot> robot, const Eigen::VectorXd& q,
                           const std::vector<std::vector<Breakaway>>& breakaway);
+  /// null: each DOF is its own
+  /// throws  Error when check_eigengrasps does, or the set is for another number of DOFs
+  void set_eigengrasps(Id<Robot> robot, std::shared_ptr<const EigengraspSet> set);
+  /// null: none given
+  /// throws  Error when check_virtual_contact does, or one lies on a link that does not exist
+  void set_virtual_contacts(Id<Robot> robot,
+                            std::shared_ptr<const std::vector<VirtualContactSpec>> contacts);
   void set_name(Id<Body> body, const std::string& name);
   void set_material(Id<Body> body, std::string_view material);
   void set_mass(Id<Body> body, double mass);
@@ -133,7 +140,7 @@ class World {
   Robot& edit(Id<Robot> id);
   Id<Body> insert(Body body, const std::string& name);
   std::string unique_name(const std::string& wanted);
-  void switch_off_neighbours(const Robot& robot);
+  void switch_off_neighbours(const Robot& robot, bool chain_links_collide);
   void erase(Id<Body> id);
   void place_links(Id<Robot> robot);
   void place_base(Id<Robot> robot, const Pose& X_WB);

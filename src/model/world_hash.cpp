@@ -2,6 +2,37 @@
 
 namespace clench {
 
+// vectors of different lengths never look alike
+static void add(Hasher& h, const Eigen::Ref<const Eigen::VectorXd>& x) {
+  h.add(static_cast<uint64_t>(x.size()));
+  for (const double value : x) h.add(value);
+}
+
+static void add(Hasher& h, const EigengraspSet& set) {
+  h.add(static_cast<uint64_t>(set.grasps.size()));
+  for (const auto& grasp : set.grasps) {
+    add(h, grasp.vector);
+    h.add(grasp.eigenvalue);
+    h.add(static_cast<uint64_t>(grasp.limits.has_value()));
+    if (grasp.limits) h.add((*grasp.limits)[0]), h.add((*grasp.limits)[1]);
+  }
+  for (const auto* x : {&set.origin, &set.norm}) {
+    h.add(static_cast<uint64_t>(x->has_value()));
+    if (*x) add(h, **x);
+  }
+}
+
+static void add(Hasher& h, const std::vector<VirtualContactSpec>& contacts) {
+  h.add(static_cast<uint64_t>(contacts.size()));
+  for (const auto& c : contacts) {
+    h.add(static_cast<uint64_t>(c.chain));
+    h.add(static_cast<uint64_t>(c.link));
+    add(h, c.X_LC);
+    h.add(c.mu);
+    add(h, c.edges.reshaped());
+  }
+}
+
 uint64_t World::hash() const {
   Hasher h;
   const auto flag = [&](bool on) { h.add(static_cast<uint64_t>(on)); };
@@ -24,6 +55,10 @@ uint64_t World::hash() const {
     for (const double x : r.q) h.add(x);
     for (const auto& range : r.limits) h.add(range[0]), h.add(range[1]);
     add(h, r.X_BA);
+    flag(r.eigengrasps != nullptr);
+    if (r.eigengrasps) add(h, *r.eigengrasps);
+    flag(r.virtual_contacts != nullptr);
+    if (r.virtual_contacts) add(h, *r.virtual_contacts);
     flag(r.mounting.has_value());
     if (r.mounting) {
       h.add(robot(r.mounting->parent).name);

@@ -9,8 +9,7 @@ namespace clench {
 static constexpr double grazing = 1e-6;
 static constexpr double no_lever = 1e-9;
 
-// the link of `robot` that carries the body, as (chain, link); chain -1: its base, or not at all
-static std::pair<int, int> carrying_link(const World& world, Id<Robot> robot, Id<Body> id) {
+std::pair<int, int> carrying_link(const World& world, Id<Robot> robot, Id<Body> id) {
   const Body& body = world.body(id);
   if (body.robot == robot) return {body.kind == BodyKind::link ? body.chain : -1, body.link};
   for (auto up = body.robot; up;) {
@@ -28,7 +27,7 @@ static std::pair<int, int> carrying_link(const World& world, Id<Robot> robot, Id
 
 bool joint_moves(const World& world, Id<Robot> robot, JointPlace joint, Id<Body> body) {
   const auto [chain, link] = carrying_link(world, robot, body);
-  return chain == joint.first && world.robot(robot).chains[chain].last_joints[link] >= joint.second;
+  return chain >= 0 && joint_moves_link(world.robot(robot), joint.first, joint.second, chain, link);
 }
 
 std::vector<Id<Body>> movable_bodies(const World& world, Id<Robot> robot) {
@@ -38,7 +37,7 @@ std::vector<Id<Body>> movable_bodies(const World& world, Id<Robot> robot) {
   return out;
 }
 
-// velocity of a point of whatever the joint moves, the joint at unit speed; frame: before the joint, in the world
+// velocity of a point of whatever the joint moves, the joint at unit speed; frame: of its axis, in the world
 static Eigen::Vector3d point_velocity(const JointSpec& joint, const Pose& frame,
                                       const Eigen::Vector3d& p_W) {
   const Eigen::Vector3d axis = frame.rotation * Eigen::Vector3d::UnitZ();
@@ -51,9 +50,7 @@ BlockedJoints blocked_joints(const World& world, Id<Robot> id,
                              std::span<const Id<Body>> moving, double closed) {
   const Robot& robot = world.robot(id);
   const Pose& X_WB = world.body(robot.base).X_WB;
-  std::vector<std::vector<Pose>> frames;
-  for (size_t c = 0; c < robot.chains.size(); ++c)
-    frames.push_back(chain_frames(robot, static_cast<int>(c)));
+  const auto frames = chain_frames(robot);
 
   BlockedJoints out;
   std::set<BodyPair> seen;
@@ -64,8 +61,9 @@ BlockedJoints blocked_joints(const World& world, Id<Robot> id,
         const bool moves_body = joint_moves(world, id, {c, j}, contact.body);
         const bool moves_other = joint_moves(world, id, {c, j}, contact.other);
         if (speeds[c][j] == 0 || moves_body == moves_other) continue;
-        const Eigen::Vector3d v = speeds[c][j] * point_velocity(robot.chains[c].joints[j],
-                                                                X_WB * frames[c][j], contact.p_W);
+        const Eigen::Vector3d v =
+            speeds[c][j] *
+            point_velocity(robot.chains[c].joints[j], X_WB * frames[c].axes[j], contact.p_W);
         const double leaving = (moves_body ? 1 : -1) * v.dot(contact.n_W);
         const double margin = std::max(grazing * v.norm(), no_lever * std::abs(speeds[c][j]));
         if (leaving >= (contact.gap <= closed ? margin : -margin)) continue;

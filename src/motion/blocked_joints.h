@@ -23,6 +23,9 @@ BlockedJoints blocked_joints(const World& world, Id<Robot> robot,
                              const std::vector<std::vector<double>>& speeds,
                              std::span<const Id<Body>> moving, double closed);
 
+/// The link of the robot that the body is, or that carries it, as {chain, link}; chain -1: the base, or none.
+std::pair<int, int> carrying_link(const World& world, Id<Robot> robot, Id<Body> body);
+
 /// Does the joint move the body? A body of a carried robot moves with the last link of the chain that carries it.
 bool joint_moves(const World& world, Id<Robot> robot, JointPlace joint, Id<Body> body);
 

@@ -99,26 +99,36 @@ double path_length(const Drive& drive, const Eigen::VectorXd& rates) {
   return length;
 }
 
-// bound of the distance of any point of the body from the origin of the frame before a joint, whatever the
-// joints do on the way: lengths along the chain, then the body's own extent
+// bound of the way that a joint's frames span, whatever its q
+double span_of(const JointSpec& joint) {
+  const double d = joint.kind == JointKind::prismatic
+                       ? std::max(std::abs(joint.d + joint.min), std::abs(joint.d + joint.max))
+                       : std::abs(joint.d);
+  return std::hypot(joint.a, d) +
+         (joint.placed_freely ? joint.X_before.position.norm() + joint.X_after.position.norm() : 0);
+}
+
+// bound of the distance of any point of the body from the axis of a joint that moves it, whatever the joints do
+// on the way: lengths along the chains, then the body's own extent
 double lever(const Drive& drive, JointPlace joint, Id<Body> id) {
   const Robot& robot = drive.robot();
-  const Chain& chain = robot.chains[joint.first];
   const Body& body = drive.world.body(id);
-  const bool own = body.robot == drive.id;
-  const int link = own ? body.link : static_cast<int>(chain.links.size()) - 1;
-  double length = 0;
-  for (int k = joint.second; k <= chain.last_joints[link]; ++k) {
-    const JointSpec& spec = chain.joints[k];
-    const double d = spec.kind == JointKind::prismatic
-                         ? std::max(std::abs(spec.d + spec.min), std::abs(spec.d + spec.max))
-                         : std::abs(spec.d);
-    length += std::hypot(spec.a, d);
-  }
-  // a carried robot is rigid on the last link
-  const Pose X_WL = drive.world.body(chain.links[link]).X_WB;
+  auto [chain, link] = carrying_link(drive.world, drive.id, id);
+  // a carried robot is rigid on its link
+  const Pose X_WL = drive.world.body(robot.chains[chain].links[link]).X_WB;
   const Eigen::Vector3d centre = X_WL.inverse() * (body.X_WB * body.shape->centre());
-  return length + centre.norm() + body.shape->radius();
+  double length = centre.norm() + body.shape->radius();
+  while (true) {
+    const Chain& c = robot.chains[chain];
+    const bool here = chain == joint.first;
+    if (c.X_JL[link]) length += c.X_JL[link]->position.norm();
+    for (int k = here ? joint.second : 0; k <= c.last_joints[link]; ++k)
+      length += span_of(c.joints[k]);
+    if (here) return length;
+    length += c.X_BC.position.norm();
+    chain = c.parent_chain;
+    link = c.parent_link;
+  }
 }
 
 // bound of the relative speed of two bodies: the joints that move one of them and not the other

@@ -40,6 +40,8 @@ static void check_dof(const DofSpec& dof, const std::string& subject) {
        {dof.default_velocity, dof.kp, dof.kd, dof.dragger_scale, dof.default_value})
     if (!std::isfinite(x)) fail("{}: wanted finite numbers, got {}", subject, x);
   if (!(dof.max_effort >= 0)) fail("{}: max effort must be >= 0, got {}", subject, dof.max_effort);
+  if (!(dof.max_velocity >= 0))
+    fail("{}: max velocity must be >= 0, got {}", subject, dof.max_velocity);
   if (!(dof.breakaway_torque >= 0))
     fail("{}: breakaway torque must be >= 0, got {}", subject, dof.breakaway_torque);
 }
@@ -56,6 +58,8 @@ static void check_joint(const JointSpec& joint, const RobotSpec& robot,
   for (const double x :
        {joint.theta, joint.d, joint.a, joint.alpha, joint.min, joint.max, joint.rest})
     if (std::abs(x) > 1e30) fail("{}: wanted numbers of at most 1e30, got {}", subject, x);
+  if (!joint.X_before.is_finite() || !joint.X_after.is_finite())
+    fail("{}: wanted finite poses before and after it", subject);
   if (joint.ratio == 0 || !std::isfinite(joint.ratio))
     fail("{}: wanted a ratio other than 0, got {}", subject, joint.ratio);
   if (joint.min > joint.max)
@@ -69,23 +73,97 @@ static void check_joint(const JointSpec& joint, const RobotSpec& robot,
       fail("{}: friction and spring must be >= 0, got {}", subject, x);
 }
 
+static bool has_part(const RobotSpec& robot, const RobotPart& part) {
+  if (part.chain < 0) return part.chain == -1 && part.link == -1;
+  return part.chain < static_cast<int>(robot.chains.size()) && part.link >= 0 &&
+         part.link < static_cast<int>(robot.chains[part.chain].links.size());
+}
+
+static void check_part(const RobotSpec& robot, const RobotPart& part, const char* subject) {
+  if (!has_part(robot, part))
+    fail("{}: {}: no link {} of chain {}", robot.name, subject, part.link, part.chain);
+}
+
+static void check_parts(const RobotSpec& robot) {
+  for (const auto& part : robot.collision_rules.parts_off) check_part(robot, part, "collision rule");
+  for (const auto& pair : robot.collision_rules.pairs_off)
+    for (const auto& part : pair) check_part(robot, part, "collision rule");
+  for (const auto& sensor : robot.tactile) check_part(robot, sensor.part, "tactile sensor");
+  for (const auto& wrapper : robot.wrappers) check_part(robot, wrapper.part, "tendon wrapper");
+  for (const auto& tendon : robot.tendons)
+    for (const auto& point : tendon.points) check_part(robot, point.part, "tendon");
+}
+
+void check_fit(const RobotSpec& robot, const EigengraspSet& set) {
+  if (set.dofs != static_cast<int>(robot.dofs.size()))
+    fail("eigengrasps of {} DOFs do not fit '{}', which has {}", set.dofs, robot.name,
+         robot.dofs.size());
+}
+
+void check_fit(const RobotSpec& robot, const VirtualContactSet& set) {
+  const int chains = static_cast<int>(robot.chains.size());
+  for (size_t i = 0; i < set.contacts.size(); ++i) {
+    const auto& [chain, link, pose, mu, edges] = set.contacts[i];
+    if (chain == -1 && link == 0) continue;
+    if (chain < 0 || chain >= chains)
+      fail("contact {}: '{}' has no chain {}", i + 1, robot.name, chain);
+    if (link < 0 || link >= static_cast<int>(robot.chains[chain].links.size()))
+      fail("contact {}: chain {} of '{}' has no link {}", i + 1, chain, robot.name, link);
+  }
+}
+
+void check_fit(const RobotSpec& robot, const GloveCalibration& glove) {
+  const int dofs = static_cast<int>(robot.dofs.size());
+  if (glove.slopes.rows() != dofs || glove.intercepts.size() != dofs)
+    fail("a glove's calibration for {} DOFs does not fit '{}', which has {}", glove.slopes.rows(),
+         robot.name, dofs);
+}
+
+static void check_sets(const RobotSpec& robot) {
+  if (robot.eigengrasps) {
+    check_fit(robot, *robot.eigengrasps);
+    check_eigengrasps(*robot.eigengrasps, robot.name);
+  }
+  if (robot.virtual_contacts) {
+    check_fit(robot, *robot.virtual_contacts);
+    for (size_t i = 0; i < robot.virtual_contacts->contacts.size(); ++i)
+      check_virtual_contact(robot.virtual_contacts->contacts[i],
+                            fmt::format("{}: virtual contact {}", robot.name, i + 1));
+  }
+  if (robot.glove) check_fit(robot, *robot.glove);
+}
+
 void check_robot(const RobotSpec& robot) {
+  check_sets(robot);
   for (size_t i = 0; i < robot.dofs.size(); ++i)
     check_dof(robot.dofs[i], fmt::format("{}: DOF {}", robot.name, i));
   for (size_t c = 0; c < robot.chains.size(); ++c) {
     const ChainSpec& chain = robot.chains[c];
     const std::string place = fmt::format("{}: chain {}", robot.name, c);
     if (!chain.X_BC.is_finite()) fail("{}: wanted a finite pose of its base", place);
+    if (chain.parent_chain < -1 || chain.parent_chain >= static_cast<int>(c))
+      fail("{}: wanted to begin on the base or on a chain before it, got chain {}", place,
+           chain.parent_chain);
+    if (chain.parent_chain >= 0) {
+      const int links = static_cast<int>(robot.chains[chain.parent_chain].links.size());
+      if (chain.parent_link < 0 || chain.parent_link >= links)
+        fail("{}: wanted to begin on one of {} links of chain {}, got {}", place, links,
+             chain.parent_chain, chain.parent_link);
+    }
     for (size_t j = 0; j < chain.joints.size(); ++j)
       check_joint(chain.joints[j], robot, fmt::format("{} joint {}", place, j));
     const int joints = static_cast<int>(chain.joints.size());
-    for (size_t l = 0; l < chain.links.size(); ++l)
+    for (size_t l = 0; l < chain.links.size(); ++l) {
       if (const int last = chain.links[l].last_joint; last < -1 || last >= joints)
         fail("{} link {}: wanted a last joint from -1 to {}, got {}", place, l, joints - 1, last);
+      if (chain.links[l].X_JL && !chain.links[l].X_JL->is_finite())
+        fail("{} link {}: wanted a finite pose after its last joint", place, l);
+    }
   }
   for (size_t i = 0; i < robot.dofs.size(); ++i)
     if (const auto [low, high] = dof_range(robot, static_cast<int>(i)); low > high)
       fail("{}: DOF {}: the ranges of its joints have no value in common", robot.name, i);
+  check_parts(robot);
 }
 
 }  // namespace clench

@@ -1,0 +1,68 @@
+#include "spec/eigengrasp_spec.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace clench {
+
+EigengraspSet identity_eigengrasps(int dofs) {
+  EigengraspSet set;
+  set.dofs = dofs;
+  for (int i = 0; i < dofs; ++i)
+    set.grasps.push_back({Eigen::VectorXd::Unit(dofs, i), 1, std::nullopt});
+  return set;
+}
+
+// beyond these, products leave the range of doubles
+static constexpr double largest = 1e30, least = 1e-30;
+// share of a unit vector that its projection on the others may leave
+static constexpr double independent = 1e-9;
+
+static void check_numbers(const Eigen::VectorXd& x, int dofs, const std::string& subject) {
+  if (x.size() != dofs) fail("{}: wanted {} numbers, got {}", subject, dofs, x.size());
+  for (int i = 0; i < dofs; ++i)
+    if (!(std::abs(x[i]) <= largest))
+      fail("{}: number {}: wanted at most {}, got {}", subject, i + 1, largest, x[i]);
+}
+
+static void check_limits(const std::array<double, 2>& limits, const std::string& subject) {
+  const auto [low, high] = limits;
+  if (!(std::abs(low) <= largest && std::abs(high) <= largest))
+    fail("{}: wanted limits of at most {}, got {} and {}", subject, largest, low, high);
+  if (low > high) fail("{}: min {} exceeds max {}", subject, low, high);
+}
+
+void check_eigengrasps(const EigengraspSet& set, const std::string& subject,
+                       const std::vector<std::string>& places) {
+  if (set.grasps.empty()) fail("{}: wanted at least one eigengrasp, got none", subject);
+  // each against an orthonormal basis of those before it: at most `dofs` can pass
+  Eigen::MatrixXd basis(set.dofs, std::min<int>(set.dofs, static_cast<int>(set.grasps.size())));
+  for (size_t i = 0; i < set.grasps.size(); ++i) {
+    const EigengraspSpec& grasp = set.grasps[i];
+    const std::string place =
+        fmt::format("{}: eigengrasp {}", i < places.size() ? places[i] : subject, i + 1);
+    check_numbers(grasp.vector, set.dofs, place);
+    if (!std::isfinite(grasp.eigenvalue))
+      fail("{}: wanted a finite eigenvalue, got {}", place, grasp.eigenvalue);
+    if (grasp.limits) check_limits(*grasp.limits, place);
+    const double length = grasp.vector.stableNorm();
+    if (!(length >= least)) fail("{}: wanted a vector other than zero", place);
+    Eigen::VectorXd rest = grasp.vector / length;
+    const auto before = basis.leftCols(static_cast<int>(i));
+    for (int pass = 0; pass < 2; ++pass) rest -= before * (before.transpose() * rest);
+    if (static_cast<int>(i) >= set.dofs || rest.norm() < independent)
+      fail("{}: it is a sum of those before it", place);
+    basis.col(static_cast<int>(i)) = rest.normalized();
+  }
+  if (set.origin) check_numbers(*set.origin, set.dofs, subject + ": origin");
+  if (!set.norm) return;
+  check_numbers(*set.norm, set.dofs, subject + ": norm");
+  for (int i = 0; i < set.dofs; ++i)
+    if (!(std::abs((*set.norm)[i]) >= least))
+      fail("{}: norm: number {}: wanted a scale other than 0, got {}", subject, i + 1,
+           (*set.norm)[i]);
+}
+
+}  // namespace clench

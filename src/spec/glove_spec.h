@@ -1,0 +1,13 @@
+// Data gloves: how their raw numbers become DOF values of a hand.
+#pragma once
+#include <Eigen/Core>
+
+namespace clench {
+
+/// dofs = intercepts + slopes * raw
+struct GloveCalibration {
+  Eigen::MatrixXd slopes;      ///< DOFs x sensors [rad per count]
+  Eigen::VectorXd intercepts;  ///< one a DOF [rad]
+};
+
+}  // namespace clench

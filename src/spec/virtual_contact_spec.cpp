@@ -1,0 +1,24 @@
+#include "spec/virtual_contact_spec.h"
+
+#include "base/error.h"
+
+namespace clench {
+
+void check_virtual_contact(const VirtualContactSpec& contact, const std::string& subject) {
+  // lengths whose squares overflow are no lengths
+  constexpr double largest = 1e30;
+  if (!contact.X_LC.is_finite() || contact.X_LC.position.cwiseAbs().maxCoeff() > largest)
+    fail("{}: wanted a finite pose in its link", subject);
+  if (std::abs(contact.X_LC.rotation.norm() - 1) > 1e-6)
+    fail("{}: its quaternion must be unit", subject);
+  if (!(contact.mu >= 0) || contact.mu > largest)
+    fail("{}: mu must be >= 0, got {}", subject, contact.mu);
+  if (contact.edges.cols() > most_friction_edges)
+    fail("{}: wanted at most {} friction edges, got {}", subject, most_friction_edges,
+         contact.edges.cols());
+  if (!contact.edges.allFinite() ||
+      (contact.edges.size() > 0 && contact.edges.cwiseAbs().maxCoeff() > largest))
+    fail("{}: wanted finite friction edges", subject);
+}
+
+}  // namespace clench

@@ -1,0 +1,34 @@
+// Virtual contacts: places on a hand's links where it would like to touch what it grasps.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "math/pose.h"
+
+namespace clench {
+
+/// Columns are generators of the friction that a unit normal force can carry, in the contact frame:
+/// force / mu, and torque / mu [m]. Only x, y and the torque about z are used by contacts of fingers.
+using FrictionEdges = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+inline constexpr int most_friction_edges = 100;
+
+struct VirtualContactSpec {
+  int chain = -1;       ///< -1: the base
+  int link = 0;         ///< index in the chain; 0 on the base
+  Pose X_LC;            ///< contact frame in the link: +z out of the link, into what it touches
+  double mu = 1;        ///< Coulomb coefficient, >= 0
+  FrictionEdges edges;  ///< 6 x edges; may have no columns
+};
+
+struct VirtualContactSet {
+  std::string robot;  ///< name of the hand that it was made for
+  std::vector<VirtualContactSpec> contacts;
+};
+
+/// throws Error with one sentence, begun by the subject, when a number is not finite, mu < 0, a
+/// quaternion is not unit, or there are more than most_friction_edges
+void check_virtual_contact(const VirtualContactSpec& contact, const std::string& subject);
+
+}  // namespace clench
