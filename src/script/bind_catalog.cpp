@@ -45,6 +45,8 @@ static std::vector<std::string> files_on(const fs::path& home, const Shelf& shel
   std::error_code error;
   for (fs::recursive_directory_iterator it(home / shelf.folder, error), end; !error && it != end;
        it.increment(error)) {
+    // planners' stand-ins for objects are no models of their own
+    if (it->path().filename() == "primitives") it.disable_recursion_pending();
     const std::string ending = it->path().extension().string();
     if (std::find(shelf.endings.begin(), shelf.endings.end(), ending) == shelf.endings.end())
       continue;

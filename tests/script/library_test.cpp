@@ -88,7 +88,8 @@ TEST_CASE("the catalogue lists what lies below the folder that CLENCH_MODELS nam
   const fs::path home = fs::temp_directory_path() / "clench_catalog_test";
   for (const char* name :
        {"models/hands/b/b.cfg", "models/hands/a.cfg", "models/hands/a.iv", "models/objects/mug.iv",
-        "models/obstacles/table.iv", "worlds/w.wld", "worlds/readme.md"}) {
+        "models/obstacles/table.iv", "models/objects/primitives/mug.iv", "worlds/w.wld",
+        "worlds/readme.md"}) {
     fs::create_directories((home / name).parent_path());
     std::ofstream(home / name) << "x";
   }
