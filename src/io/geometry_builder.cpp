@@ -134,6 +134,7 @@ int GeometryBuilder::add_vertex(const Vector3d& p) {
 
 void GeometryBuilder::add_face(std::span<const int> corners, const Eigen::Vector3f& color,
                                float transparency) {
+  if (++faces_ > most_mesh_faces) fail("wanted at most {} faces", most_mesh_faces);
   if (corners.size() == 3) {
     ++report.triangles_read;
     const Triangle t = {corners[0], corners[1], corners[2]};

@@ -8,7 +8,8 @@
 namespace clench {
 
 /// Beyond these a file is taken for hostile: some 2 GB of memory.
-inline constexpr size_t most_mesh_triangles = 10'000'000, most_mesh_vertices = 30'000'000;
+inline constexpr size_t most_mesh_triangles = 10'000'000, most_mesh_vertices = 30'000'000,
+                        most_mesh_faces = 20'000'000;
 
 struct Geometry {
   Mesh mesh;  ///< mended where it can be; no triangle with a vertex twice; may be empty
@@ -50,6 +51,7 @@ class GeometryBuilder {
   Appearance mean_appearance(const std::vector<int>& kept) const;
 
   Mesh mesh_;
+  size_t faces_ = 0;
   bool loose_ = false;  // are there triangles that share no vertex by number?
   std::vector<Eigen::Vector3f> colors_;
   Eigen::Vector3d weighted_color_ = Eigen::Vector3d::Zero();

@@ -11,7 +11,6 @@ namespace clench {
 
 namespace {
 
-constexpr size_t most_bytes = 16 << 20;
 constexpr int most_depth = 64;         // the parser calls itself for each
 constexpr int most_attributes = 1000;  // the parser compares each with all
 
@@ -57,7 +56,7 @@ Tag scan_tag(std::string_view text, size_t at) {
 }
 
 /// What would make the parser recurse without end or take the square of the file's length.
-void check_limits(const std::string& file, std::string_view text) {
+void check_limits(const std::string& file, std::string_view text, size_t most_bytes) {
   if (text.size() > most_bytes)
     fail("{}: wanted at most {} MB of XML, got {}", file, most_bytes >> 20, text.size() >> 20);
   if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
@@ -267,9 +266,9 @@ void XmlElement::check(const XmlKnown& known,
 XmlFile::XmlFile(const std::filesystem::path& path)
     : XmlFile(path.filename().string(), read_text(path)) {}
 
-XmlFile::XmlFile(std::string file, const std::string& text)
+XmlFile::XmlFile(std::string file, const std::string& text, size_t most_bytes)
     : file_(std::move(file)), document_(std::make_unique<tinyxml2::XMLDocument>()) {
-  check_limits(file_, text);
+  check_limits(file_, text, most_bytes);
   document_->Parse(text.data(), text.size());
   if (document_->Error()) fail_parse(file_, *document_);
   const auto* root = document_->RootElement();

@@ -87,8 +87,8 @@ class XmlFile {
   /// throws Error when it cannot be read, is no well-formed XML, or is beyond what any model needs:
   /// 16 MB, 64 elements in each other, 1000 attributes of one element
   explicit XmlFile(const std::filesystem::path& path);
-  /// `file` is the name shown in errors
-  XmlFile(std::string file, const std::string& text);
+  /// `file` is the name shown in errors; `most_bytes`: what to allow instead of 16 MB
+  XmlFile(std::string file, const std::string& text, size_t most_bytes = size_t{16} << 20);
   ~XmlFile();
   XmlFile(const XmlFile&) = delete;
   XmlFile& operator=(const XmlFile&) = delete;
