@@ -1,0 +1,16 @@
+// The friction that a contact can carry under a unit normal force, as a few generators in its frame.
+#pragma once
+#include "spec/virtual_contact_spec.h"
+
+namespace clench {
+
+/// Generators on the ellipsoid (fx/mu)^2 + (fy/mu)^2 + (tz/(mu e))^2 = 1, divided by mu.
+/// torsion_radius  e: how far the bound on the torque about the normal goes, torque = e mu force [m];
+///                 0: a point, with 8 directions in its plane
+/// returns  6 x 8, or 6 x 20: 1, 5, 8, 5, 1 directions at five latitudes, 45 degrees apart where
+///          the torque is measured in millimetres, as in the sets that others have made
+/// throws   Error when the radius is negative or not finite
+/// source   Ciocarlie, Miller & Allen (2005), Grasp analysis using deformable fingers, sec. IV
+FrictionEdges friction_edges(double torsion_radius = 0);
+
+}  // namespace clench

@@ -1,0 +1,20 @@
+// Eigengrasps from and to files: the text files (.egr) and the XML files of GraspIt!
+#pragma once
+#include <filesystem>
+
+#include "io/read.h"
+
+namespace clench {
+
+/// `path` as find_file gives it; text or XML, by what stands in it. Vectors are kept as written,
+/// the origin and the norm too: angles in radians, lengths in metres, as the DOFs count.
+/// throws Error  "hand.egr:5: eigengrasp 2: wanted a number, got 'x'"
+EigengraspSet read_eigengrasps(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// As .egr or .xml, by the ending; every number with the digits that give it back to the bit. The
+/// text format has no limits: `warn` is told when there are some.
+/// throws Error when the ending is another one, or the file cannot be written
+void write_eigengrasps(const EigengraspSet& set, const std::filesystem::path& path,
+                       const std::function<void(const std::string&)>& warn = {});
+
+}  // namespace clench

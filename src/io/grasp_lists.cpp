@@ -1,0 +1,103 @@
+#include "io/grasp_lists.h"
+
+#include "base/text.h"
+#include "base/units.h"
+#include "io/number_reader.h"
+#include "io/write_file.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+static Vector3d direction(const Line& line, const double* x, const char* what) {
+  const Vector3d v(x[0], x[1], x[2]);
+  const double length = v.stableNorm();
+  if (!(length > 1e-9) || !std::isfinite(length))
+    line.fail("{}: wanted a direction, got ({}, {}, {})", what, x[0], x[1], x[2]);
+  return v / length;
+}
+
+static Pregrasp read_pregrasp(const Line& line) {
+  // the brackets in their order, then the numbers between them
+  std::string shape;
+  for (const char c : line.text())
+    if (c == '[' || c == ']') shape += c;
+  const auto words = split_words(line.text(), "[],");
+  if (shape != "[][][]" || words.size() != 10 || line.text().front() != '[')
+    line.fail("wanted [x y z][x y z][x y z] and a spread angle, got {}", in_quotes(line.text()));
+  double x[10];
+  for (int i = 0; i < 10; ++i) {
+    const auto value = parse_number(words[i]);
+    if (!value) line.fail("wanted a number, got {}", in_quotes(words[i]));
+    x[i] = *value;
+  }
+  return {.point = Vector3d(x[0], x[1], x[2]) * units::millimetre,
+          .direction = direction(line, x + 3, "approach direction"),
+          .thumb = direction(line, x + 6, "thumb direction"),
+          .spread = x[9] * units::degree};
+}
+
+std::vector<Pregrasp> read_pregrasps(const fs::path& path, const ReadOptions&) {
+  LineReader lines(path.filename().string(), read_text(path));
+  std::vector<Pregrasp> out;
+  while (lines.skip_to_full()) out.push_back(read_pregrasp(lines.next().before('#')));
+  return out;
+}
+
+void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const fs::path& path) {
+  std::string out;
+  for (const Pregrasp& p : pregrasps) {
+    for (const Vector3d& v : {Vector3d(p.point / units::millimetre), p.direction, p.thumb})
+      out += fmt::format("[{} {} {}]", v.x(), v.y(), v.z());
+    out += fmt::format("{}\n", p.spread / units::degree);
+  }
+  write_file(path, out);
+}
+
+// --- results ---
+
+static constexpr const char* run_mark = "0 0 0 0 0 0 0 0 -2";
+
+std::vector<PlannedGrasp> read_planned_grasps(const fs::path& path, const ReadOptions& options) {
+  LineReader lines(path.filename().string(), read_text(path));
+  std::vector<PlannedGrasp> out;
+  int run = -1;
+  while (lines.skip_to_full()) {
+    const Line line = lines.next().before('#');
+    if (line.size() < 9)
+      line.fail("wanted 9 numbers: x y z qw qx qy qz spread quality, got {}", line.size());
+    if (const std::string more = line.surplus(9); options.warn && !more.empty()) options.warn(more);
+    constexpr const char* names[] = {"x", "y", "z", "qw", "qx", "qy", "qz", "spread", "quality"};
+    double x[9];
+    for (int i = 0; i < 9; ++i) x[i] = line.number(i, names[i]);
+    if (x[8] == -2 && std::all_of(x, x + 8, [](double v) { return v == 0; })) {
+      ++run;
+      continue;
+    }
+    const auto q = made_unit({x[3], x[4], x[5], x[6]});
+    if (!q) line.fail("wanted a quaternion of length 1, got ({} {} {} {})", x[3], x[4], x[5], x[6]);
+    out.push_back({.run = std::max(run, 0),
+                   .X_OH = {*q, Vector3d(x[0], x[1], x[2]) * units::millimetre},
+                   .spread = x[7] * units::degree,
+                   .quality = x[8]});
+    run = std::max(run, 0);
+  }
+  return out;
+}
+
+void write_planned_grasps(const std::vector<PlannedGrasp>& grasps, const fs::path& path) {
+  std::string out;
+  int run = -1;
+  for (const PlannedGrasp& g : grasps) {
+    if (g.run < run) fail("{}: wanted runs in their order", path.filename().string());
+    for (; run < g.run; ++run) out += fmt::format("{}\n", run_mark);
+    const Vector3d p = g.X_OH.position / units::millimetre;
+    const Eigen::Quaterniond& q = g.X_OH.rotation;
+    out += fmt::format("{} {} {} {} {} {} {} {} {}\n", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(),
+                       q.z(), g.spread / units::degree, g.quality);
+  }
+  write_file(path, out);
+}
+
+}  // namespace clench

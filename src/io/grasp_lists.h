@@ -1,0 +1,37 @@
+// Lists of grasps as the primitive planner reads and writes them: one a line, as text.
+#pragma once
+#include <filesystem>
+
+#include "io/read.h"
+
+namespace clench {
+
+/// Where a hand starts from and how; in the object's frame.
+struct Pregrasp {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();       ///< of the palm [m]
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< of approach, unit
+  Eigen::Vector3d thumb = Eigen::Vector3d::UnitX();      ///< where the thumb points, unit
+  double spread = 0;                                     ///< of the fingers [rad]
+};
+
+/// Lines of `[point][direction][thumb]spread`, millimetres and degrees.
+/// throws Error  "list.txt:3: wanted [x y z][x y z][x y z] and a spread angle, got '...'"
+std::vector<Pregrasp> read_pregrasps(const std::filesystem::path& path,
+                                     const ReadOptions& options = {});
+void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const std::filesystem::path& path);
+
+struct PlannedGrasp {
+  int run = 0;         ///< of the planner, from 0: a file collects several
+  Pose X_OH;           ///< hand in the object's frame
+  double spread = 0;   ///< [rad]
+  double quality = 0;  ///< <= 0: no grasp
+};
+
+/// Lines of `x y z qw qx qy qz spread quality`, millimetres and degrees; a line of zeros that ends
+/// in -2 begins a run.
+std::vector<PlannedGrasp> read_planned_grasps(const std::filesystem::path& path,
+                                              const ReadOptions& options = {});
+void write_planned_grasps(const std::vector<PlannedGrasp>& grasps,
+                          const std::filesystem::path& path);
+
+}  // namespace clench

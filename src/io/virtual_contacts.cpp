@@ -1,0 +1,296 @@
+#include "io/virtual_contacts.h"
+
+#include "base/text.h"
+#include "base/units.h"
+#include "io/number_reader.h"
+#include "io/write_file.h"
+#include "io/xml.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+using Tell = std::function<void(const std::string&)>;
+
+namespace {
+
+constexpr int most_chains = 1000;  // as of robots
+
+// forces have no unit, torques per force are lengths
+Vector6d edge_in_metres(Vector6d edge) {
+  edge.tail<3>() *= units::millimetre;
+  return edge;
+}
+
+/// What a file says of the place, as it says it: some of it twice.
+struct Place {
+  Vector3d location, translation, normal;  // millimetres
+  Eigen::Quaterniond rotation;
+};
+
+// the two ways to say it should agree to the digits that files hold
+constexpr double same_length = 0.01;  // [mm]
+constexpr double same_angle = 0.01;   // [rad]
+
+Pose contact_pose(const Place& place, const std::string& subject, const Tell& warn) {
+  if (warn && !((place.location - place.translation).norm() <= same_length))
+    warn(subject + ": location and translation differ; the translation is used");
+  const Vector3d z = place.rotation * Vector3d::UnitZ();
+  const double angle = std::atan2(z.cross(place.normal).norm(), z.dot(place.normal));
+  if (warn && !(angle <= same_angle))
+    warn(fmt::format("{}: normal and rotation differ by {:.3g} rad; the rotation is used", subject,
+                     angle));
+  return {place.rotation, place.translation * units::millimetre};
+}
+
+// --- text ---
+
+FrictionEdges read_edges(NumberReader& numbers, const std::string& what) {
+  const int count = numbers.integer(what + ": number of friction edges", 0, most_friction_edges);
+  FrictionEdges edges(6, count);
+  for (int e = 0; e < count; ++e)
+    edges.col(e) =
+        edge_in_metres(numbers.numbers(6, fmt::format("{}: friction edge {}", what, e + 1)));
+  return edges;
+}
+
+double read_mu(NumberReader& numbers, const std::string& what) {
+  const double mu = numbers.number(what + ": friction coefficient");
+  if (mu < 0) numbers.line().fail("{}: friction coefficient: wanted >= 0, got {}", what, mu);
+  return mu;
+}
+
+VirtualContactSpec read_vgr_contact(NumberReader& numbers, int number, const Tell& warn) {
+  const std::string what = fmt::format("contact {}", number);
+  VirtualContactSpec contact;
+  contact.chain = numbers.integer(what + ": finger", -1, most_chains);
+  contact.link = numbers.integer(what + ": link", 0, most_chains);
+  contact.edges = read_edges(numbers, what);
+  Place place;
+  place.location = numbers.vector(what + ": location");
+  place.rotation = numbers.quaternion(what + ": rotation");
+  place.translation = numbers.vector(what + ": translation");
+  place.normal = numbers.vector(what + ": normal");
+  contact.X_LC = contact_pose(place, fmt::format("{}: {}", numbers.line().place(), what), warn);
+  contact.mu = read_mu(numbers, what);
+  if (contact.chain < 0) contact.link = 0;
+  check_virtual_contact(contact, fmt::format("{}: {}", numbers.line().place(), what));
+  return contact;
+}
+
+VirtualContactSet read_vgr(const std::string& file, std::string text, const Tell& warn) {
+  LineReader lines(file, std::move(text));
+  VirtualContactSet set;
+  set.robot = lines.next_full("the robot's name").text();
+  NumberReader numbers(lines);
+  const int count = numbers.integer("number of contacts", 0);
+  for (int i = 0; i < count; ++i) set.contacts.push_back(read_vgr_contact(numbers, i + 1, warn));
+  numbers.finish(warn);
+  return set;
+}
+
+// --- XML ---
+
+VirtualContactSpec read_xml_contact(const XmlElement& e, const Tell& warn) {
+  e.check({.once = {"finger_number", "link_number", "num_friction_edges", "friction_edges",
+                    "location", "rotation", "translation", "normal", "sCof"}},
+          warn);
+  VirtualContactSpec contact;
+  contact.chain = e.wanted("finger_number").integer(-1, most_chains);
+  contact.link = e.wanted("link_number").integer(0, most_chains);
+  if (contact.chain < 0) contact.link = 0;
+
+  const XmlElement list = e.wanted("friction_edges");
+  list.check({.many = {"friction_edge"}}, warn);
+  const auto edges = list.children("friction_edge");
+  const int count = static_cast<int>(edges.size());
+  const int promised = e.wanted("num_friction_edges").integer(0, most_friction_edges);
+  if (count != promised) list.fail("wanted {} friction edges, got {}", promised, count);
+  contact.edges.resize(6, count);
+  for (int i = 0; i < count; ++i)
+    contact.edges.col(i) = edge_in_metres(Vector6d(edges[i].numbers(6).data()));
+
+  const XmlElement rotation = e.wanted("rotation");
+  const auto x = rotation.numbers(4);
+  const auto q = made_unit(Eigen::Vector4d(x.data()));
+  if (!q)
+    rotation.fail("rotation: wanted a quaternion of length 1, got ({} {} {} {})", x[0], x[1], x[2],
+                  x[3]);
+  const Place place{.location = e.wanted("location").vector(),
+                    .translation = e.wanted("translation").vector(),
+                    .normal = e.wanted("normal").vector(),
+                    .rotation = *q};
+  contact.X_LC = contact_pose(place, e.place(), warn);
+  const XmlElement mu = e.wanted("sCof");
+  contact.mu = mu.number();
+  if (contact.mu < 0) mu.fail("sCof: wanted >= 0, got {}", contact.mu);
+  check_virtual_contact(contact, e.place());
+  return contact;
+}
+
+VirtualContactSet read_xml(const std::string& name, const std::string& text, const Tell& warn) {
+  const XmlFile file(name, text);
+  const XmlElement root = file.root();
+  if (root.name() != "virtual_contacts")
+    root.fail("wanted an element <virtual_contacts>, got <{}>", root.name().substr(0, 40));
+  root.check({.once = {"robot_name", "num_contacts"}, .many = {"virtual_contact"}}, warn);
+  VirtualContactSet set;
+  if (const XmlElement robot = root.child("robot_name")) set.robot = robot.text();
+  for (const XmlElement& e : root.children("virtual_contact"))
+    set.contacts.push_back(read_xml_contact(e, warn));
+  if (const XmlElement count = root.child("num_contacts"))
+    if (const int promised = count.integer(0); promised != static_cast<int>(set.contacts.size()))
+      count.fail("num_contacts: {} are promised, got {}", promised, set.contacts.size());
+  return set;
+}
+
+// --- writing ---
+
+template <class Vector>
+std::string words(const Vector& x) {
+  std::string out;
+  for (int i = 0; i < x.size(); ++i) out += fmt::format("{}{}", i ? " " : "", x[i]);
+  return out;
+}
+
+/// The numbers of a contact as both formats write them.
+struct Written {
+  explicit Written(const Pose& X_LC, const FrictionEdges& friction) {
+    const Eigen::Quaterniond& q = X_LC.rotation;
+    rotation = fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z());
+    location = words(Vector3d(X_LC.position / units::millimetre));
+    normal = words(Vector3d(q * Vector3d::UnitZ()));
+    for (int e = 0; e < friction.cols(); ++e) {
+      Vector6d edge = friction.col(e);
+      edge.tail<3>() /= units::millimetre;
+      edges.push_back(words(edge));
+    }
+  }
+  std::string rotation, location, normal;
+  std::vector<std::string> edges;
+};
+
+std::string text_of(const VirtualContactSet& set) {
+  // the first line is the name, whatever it is, but no comment and only one line
+  std::string name = set.robot.empty() || set.robot.front() == '#' ? '_' + set.robot : set.robot;
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ') c = '_';
+  std::string out = fmt::format("{}\n{}\n", name, set.contacts.size());
+  for (const auto& contact : set.contacts) {
+    const Written w(contact.X_LC, contact.edges);
+    out += fmt::format("{} {}\n{}\n", contact.chain, contact.link, w.edges.size());
+    for (const auto& edge : w.edges) out += edge + '\n';
+    for (const auto* line : {&w.location, &w.rotation, &w.location, &w.normal}) out += *line + '\n';
+    out += fmt::format("{}\n", contact.mu);
+  }
+  return out;
+}
+
+std::string xml_of(const VirtualContactSet& set) {
+  std::string out = fmt::format(
+      "<?xml version=\"1.0\"?>\n<virtual_contacts>\n  <robot_name>{}</robot_name>\n  "
+      "<num_contacts>{}</num_contacts>\n",
+      xml_escaped(set.robot), set.contacts.size());
+  const auto add = [&](const char* name, const std::string& text, const char* indent = "    ") {
+    out += fmt::format("{}<{}>{}</{}>\n", indent, name, text, name);
+  };
+  for (const auto& contact : set.contacts) {
+    const Written w(contact.X_LC, contact.edges);
+    out += "  <virtual_contact>\n";
+    add("finger_number", fmt::format("{}", contact.chain));
+    add("link_number", fmt::format("{}", contact.link));
+    add("num_friction_edges", fmt::format("{}", w.edges.size()));
+    out += "    <friction_edges>\n";
+    for (const auto& edge : w.edges) add("friction_edge", edge, "      ");
+    out += "    </friction_edges>\n";
+    add("location", w.location);
+    add("rotation", w.rotation);
+    add("translation", w.location);
+    add("normal", w.normal);
+    add("sCof", fmt::format("{}", contact.mu));
+    out += "  </virtual_contact>\n";
+  }
+  return out + "</virtual_contacts>\n";
+}
+
+}  // namespace
+
+VirtualContactSet read_virtual_contacts(const fs::path& path, const ReadOptions& options) {
+  std::string text = read_text(path);
+  const std::string file = path.filename().string();
+  if (trim(text).starts_with('<')) return read_xml(file, text, options.warn);
+  return read_vgr(file, std::move(text), options.warn);
+}
+
+void write_virtual_contacts(const VirtualContactSet& set, const fs::path& path) {
+  const std::string file = path.filename().string();
+  for (size_t i = 0; i < set.contacts.size(); ++i)
+    check_virtual_contact(set.contacts[i], fmt::format("{}: contact {}", file, i + 1));
+  const std::string ending = lower_case(path.extension().string());
+  if (ending != ".vgr" && ending != ".xml")
+    fail("{}: wanted a file of virtual contacts, .vgr or .xml, got {}", file, in_quotes(ending));
+  write_file(path, ending == ".xml" ? xml_of(set) : text_of(set));
+}
+
+// --- contacts on objects ---
+
+static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed) {
+  const int count = numbers.integer("number of contacts", 0);
+  std::vector<ObjectContact> contacts;
+  for (int i = 0; i < count; ++i) {
+    const std::string what = fmt::format("contact {}", i + 1);
+    ObjectContact c;
+    c.placed = placed;
+    c.edges = read_edges(numbers, what);
+    c.X_OC.rotation = numbers.quaternion(what + ": rotation");
+    if (placed) c.X_OC.position = numbers.vector(what + ": translation") * units::millimetre;
+    const Vector3d normal = numbers.vector(what + ": normal");
+    const double length = normal.stableNorm();
+    if (!(length > 1e-6)) numbers.line().fail("{}: normal: wanted a direction, got zero", what);
+    c.n_O = normal / length;
+    c.mu = read_mu(numbers, what);
+    check_virtual_contact({.X_LC = c.X_OC, .mu = c.mu, .edges = c.edges},
+                          fmt::format("{}: {}", numbers.line().place(), what));
+    contacts.push_back(std::move(c));
+  }
+  return contacts;
+}
+
+std::vector<ObjectContact> read_object_contacts(const fs::path& path, const ReadOptions& options) {
+  const std::string text = read_text(path), file = path.filename().string();
+  // only one of the two layouts uses the numbers up, to the last one
+  LineReader bare_lines(file, text), lines(file, text);
+  NumberReader bare_numbers(bare_lines), numbers(lines);
+  try {
+    auto contacts = read_list(bare_numbers, false);
+    if (!bare_numbers.more() && !contacts.empty()) {
+      if (options.warn)
+        options.warn(file + ": the points of the contacts are left out; they are not placed");
+      return contacts;
+    }
+  } catch (const Error&) {
+    // then it is the other one, whose errors are told
+  }
+  auto contacts = read_list(numbers, true);
+  numbers.finish(options.warn);
+  return contacts;
+}
+
+void write_object_contacts(const std::vector<ObjectContact>& contacts, const fs::path& path) {
+  std::string out = fmt::format("{}\n", contacts.size());
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const ObjectContact& c = contacts[i];
+    const std::string subject = fmt::format("{}: contact {}", path.filename().string(), i + 1);
+    if (!c.placed) fail("{}: wanted a contact with a point", subject);
+    check_virtual_contact({.X_LC = c.X_OC, .mu = c.mu, .edges = c.edges}, subject);
+    const Written w(c.X_OC, c.edges);
+    out += fmt::format("{}\n", w.edges.size());
+    for (const auto& edge : w.edges) out += edge + '\n';
+    for (const auto* line : {&w.rotation, &w.location}) out += *line + '\n';
+    out += fmt::format("{}\n{}\n", words(c.n_O), c.mu);
+  }
+  write_file(path, out);
+}
+
+}  // namespace clench

@@ -1,0 +1,232 @@
+#include "motion/virtual_contacts.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "base/error.h"
+#include "contact/cone.h"
+#include "contact/friction_edges.h"
+
+namespace clench {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// v(p) = linear + angular x p
+struct Motion {
+  Vector3d linear = Vector3d::Zero(), angular = Vector3d::Zero();
+
+  Vector3d at(const Vector3d& p) const { return linear + angular.cross(p); }
+  bool none() const { return linear.isZero(0) && angular.isZero(0); }
+};
+
+/// A small piece of surface that moves forward.
+struct Piece {
+  Vector3d centre, normal;
+  double swept;  // volume in unit time
+};
+
+constexpr double fineness = 1.0 / 16;  // longest edge of a piece, of the mesh's size
+constexpr int deepest = 5;             // each step cuts a triangle in four
+constexpr double around = 0.25;        // the normal is a mean over this, of the swept area's size
+
+// the hand as far open as its closing DOFs go, the others as near zero as they can
+Robot opened(Robot robot) {
+  for (int i = 0; i < robot.q.size(); ++i) {
+    const double v = robot.dofs[i].default_velocity;
+    const auto [low, high] = robot.limits[i];
+    robot.q[i] = v > 0 ? low : v < 0 ? high : std::clamp(0.0, low, high);
+  }
+  for (Chain& chain : robot.chains)
+    for (Breakaway& broken : chain.breakaway) broken.reset();
+  return robot;
+}
+
+// how a link moves while the hand closes, in its own frame
+Motion closing_motion(const Robot& robot, const std::vector<ChainFrames>& frames, int chain,
+                      int link) {
+  Motion motion;
+  const Pose X_LB = frames[chain].links[link].inverse();
+  for (int c = 0; c <= chain; ++c)
+    for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j) {
+      const JointSpec& joint = robot.chains[c].joints[j];
+      const double speed = joint.ratio * robot.dofs[joint.dof].default_velocity;
+      if (speed == 0 || !joint_moves_link(robot, c, j, chain, link)) continue;
+      const Pose X_LA = X_LB * frames[c].axes[j];
+      const Vector3d axis = X_LA.rotation * Vector3d::UnitZ() * speed;
+      if (joint.kind == JointKind::prismatic) {
+        motion.linear += axis;
+      } else {
+        motion.angular += axis;
+        motion.linear -= axis.cross(X_LA.position);
+      }
+    }
+  return motion;
+}
+
+void cut(const std::array<Vector3d, 3>& corners, const Vector3d& normal, const Motion& motion,
+         double longest, int depth, std::vector<Piece>& pieces) {
+  const auto& [a, b, c] = corners;
+  const double edge = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  if (edge > longest && depth < deepest) {
+    const Vector3d ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+    for (const auto& part : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
+      cut(part, normal, motion, longest, depth + 1, pieces);
+    return;
+  }
+  const Vector3d centre = (a + b + c) / 3;
+  const double swept = 0.5 * (b - a).cross(c - a).norm() * normal.dot(motion.at(centre));
+  if (swept > 0) pieces.push_back({centre, normal, swept});
+}
+
+std::vector<Piece> forward_pieces(const Shape& shape, const Motion& motion) {
+  std::vector<Piece> pieces;
+  const double longest = fineness * shape.bounds().size().norm();
+  const int count = static_cast<int>(shape.mesh().triangles.size());
+  for (int t = 0; t < count; ++t) {
+    const auto corners = shape.mesh().corners(t);
+    const Vector3d across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    const double size = across.norm();
+    if (size > 0) cut(corners, across / size, motion, longest, 0, pieces);
+  }
+  return pieces;
+}
+
+// equal shares of what is swept, along the direction in which the pieces are spread most
+std::vector<std::vector<Piece>> shares(std::vector<Piece> pieces, int count) {
+  if (count == 1 || pieces.empty()) return {std::move(pieces)};
+  Vector3d mean = Vector3d::Zero();
+  double all = 0;
+  for (const Piece& p : pieces) mean += p.swept * p.centre, all += p.swept;
+  mean /= all;
+  Matrix3d spread = Matrix3d::Zero();
+  for (const Piece& p : pieces)
+    spread += p.swept / all * (p.centre - mean) * (p.centre - mean).transpose();
+  const Vector3d along = Eigen::SelfAdjointEigenSolver<Matrix3d>(spread).eigenvectors().col(2);
+  std::stable_sort(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) {
+    return along.dot(a.centre) < along.dot(b.centre);
+  });
+  std::vector<std::vector<Piece>> out(count);
+  double before = 0;
+  for (const Piece& p : pieces) {
+    const double middle = (before + 0.5 * p.swept) / all;
+    out[std::clamp(static_cast<int>(middle * count), 0, count - 1)].push_back(p);
+    before += p.swept;
+  }
+  std::erase_if(out, [](const auto& share) { return share.empty(); });
+  return out;
+}
+
+Vector3d mean_normal(const std::vector<Piece>& pieces) {
+  Vector3d mean = Vector3d::Zero();
+  for (const Piece& p : pieces) mean += p.swept * p.normal;
+  return mean;
+}
+
+// frame at the surface point that a ray against `direction` through p meets first, or the piece nearest to p
+Pose site(const Shape& shape, const std::vector<Piece>& pieces, const Vector3d& p,
+          const Vector3d& direction) {
+  const double size = shape.bounds().size().norm();
+  const Piece* nearest = &pieces.front();
+  for (const Piece& piece : pieces)
+    if ((piece.centre - p).squaredNorm() < (nearest->centre - p).squaredNorm()) nearest = &piece;
+  Vector3d point = nearest->centre, normal = nearest->normal;
+  if (const auto hit = cast_ray(shape, p + 2 * size * direction, -direction, 4 * size)) {
+    const auto corners = shape.mesh().corners(hit->triangle);
+    const Vector3d across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    if (across.dot(direction) > 0) point = hit->point, normal = across.normalized();
+  }
+
+  // the surface around says where it faces, not the one triangle
+  Vector3d mean = Vector3d::Zero();
+  Vector3d low = pieces.front().centre, high = low;
+  for (const Piece& piece : pieces)
+    low = low.cwiseMin(piece.centre), high = high.cwiseMax(piece.centre);
+  Vector3d sides = high - low;
+  std::sort(sides.data(), sides.data() + 3);
+  const double radius = std::max(around * sides[1], fineness * size);
+  for (const Piece& piece : pieces)
+    if ((piece.centre - point).norm() < radius && piece.normal.dot(normal) > 0.5)
+      mean += piece.swept * piece.normal;
+  if (mean.norm() > 0) normal = mean.normalized();
+  return {Eigen::Quaterniond(contact_frame(normal)).normalized(), point};
+}
+
+std::vector<Pose> link_sites(const Shape& shape, const Motion& motion, int count) {
+  std::vector<Pose> out;
+  for (const auto& share : shares(forward_pieces(shape, motion), count)) {
+    const Vector3d direction = mean_normal(share);
+    if (share.empty() || !(direction.norm() > 0)) continue;
+    Vector3d centre = Vector3d::Zero();
+    double all = 0;
+    for (const Piece& p : share) centre += p.swept * p.centre, all += p.swept;
+    out.push_back(site(shape, share, centre / all, direction.normalized()));
+  }
+  return out;
+}
+
+std::optional<Pose> palm_site(const Shape& shape, const Pose& X_BA) {
+  const Vector3d forward = X_BA.rotation * Vector3d::UnitZ();
+  const auto pieces = forward_pieces(shape, {.linear = forward, .angular = Vector3d::Zero()});
+  if (pieces.empty()) return {};
+  return site(shape, pieces, X_BA.position, forward);
+}
+
+}  // namespace
+
+std::vector<VirtualContactSpec> find_virtual_contacts(const World& world, Id<Robot> id,
+                                                      const FindSitesOptions& options) {
+  if (options.per_link < 1 || options.per_link > 100)
+    fail("virtual contacts: per_link: wanted 1 to 100, got {}", options.per_link);
+  const int against = world.materials().index(options.against);
+  const Robot robot = opened(world.robot(id));
+  const auto frames = chain_frames(robot);
+  const bool closes = std::any_of(robot.dofs.begin(), robot.dofs.end(),
+                                  [](const DofSpec& dof) { return dof.default_velocity != 0; });
+  std::vector<VirtualContactSpec> out;
+  const auto add = [&](int chain, int link, const Body& body, const Pose& X_LC) {
+    const double mu = world.materials().friction(body.material, against).statics;
+    out.push_back({chain, link, X_LC, mu, friction_edges()});
+  };
+  for (int c = 0; closes && c < static_cast<int>(robot.chains.size()); ++c)
+    for (int l = 0; l < static_cast<int>(robot.chains[c].links.size()); ++l) {
+      const Body& body = world.body(robot.chains[c].links[l]);
+      const Motion motion = closing_motion(robot, frames, c, l);
+      if (!body.shape || motion.none()) continue;
+      for (const Pose& X_LC : link_sites(*body.shape, motion, options.per_link))
+        add(c, l, body, X_LC);
+    }
+  const Body& base = world.body(robot.base);
+  if (closes && options.palm && base.shape)
+    if (const auto X_LC = palm_site(*base.shape, robot.X_BA)) add(-1, 0, base, *X_LC);
+  return out;
+}
+
+std::vector<VirtualContactSpec> virtual_contacts(const World& world, Id<Robot> id) {
+  const Robot& robot = world.robot(id);
+  return robot.virtual_contacts ? *robot.virtual_contacts : find_virtual_contacts(world, id);
+}
+
+Id<Body> body_of(const Robot& robot, const VirtualContactSpec& contact) {
+  return contact.chain < 0 ? robot.base : robot.chains[contact.chain].links[contact.link];
+}
+
+VirtualContactSpec marked(const World& world, Id<Robot> id, const Contact& contact) {
+  for (const bool touched : {false, true}) {
+    const Body& body = world.body(touched ? contact.body : contact.other);
+    if (body.robot != id || (body.kind != BodyKind::link && body.kind != BodyKind::base)) continue;
+    // out of the link: along the normal, which points into the touched one
+    const Vector3d n_W = touched ? Vector3d(-contact.n_W) : contact.n_W;
+    const Vector3d p_W = touched ? contact.p_W : Vector3d(contact.p_W - contact.gap * contact.n_W);
+    const Pose X_WC{Eigen::Quaterniond(contact_frame(n_W)).normalized(), p_W};
+    const bool on_link = body.kind == BodyKind::link;
+    return {on_link ? body.chain : -1, on_link ? body.link : 0, body.X_WB.inverse() * X_WC,
+            contact.friction.statics, friction_edges()};
+  }
+  fail("virtual contacts: the contact of '{}' and '{}' is on no link of '{}'",
+       world.body(contact.other).name, world.body(contact.body).name, world.robot(id).name);
+}
+
+}  // namespace clench
