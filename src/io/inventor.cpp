@@ -25,7 +25,7 @@ constexpr size_t most_triangles = 2'000'000;
 /// Walks a scene graph and gathers its triangles.
 class Collector {
  public:
-  explicit Collector(std::string file) : file_(std::move(file)) {}
+  Collector(std::string file, double unit) : file_(std::move(file)), unit_(unit) {}
   void apply(SoNode* root);
 
   GeometryBuilder builder;
@@ -49,6 +49,7 @@ class Collector {
            const SbColor* given = nullptr);
 
   std::string file_, error_;
+  double unit_;    // [m]
   int steps_ = 0;
   bool clockwise_ = false;  // how the shape at hand turns
 };
@@ -138,7 +139,7 @@ void Collector::add(SoCallbackAction* action, const std::array<SbVec3f, 3>& corn
   for (int i = 0; i < 3; ++i) {
     SbVec3f p;
     X.multVecMatrix(corners[i], p);
-    points[i] = Eigen::Vector3d(p[0], p[1], p[2]) * units::millimetre;
+    points[i] = Eigen::Vector3d(p[0], p[1], p[2]) * unit_;
   }
   // a mirrored shape is inside out
   if (clockwise_ != (X.det3() < 0)) std::swap(points[1], points[2]);
@@ -163,7 +164,11 @@ void Collector::add(SoCallbackAction* action, const std::array<SbVec3f, 3>& corn
 Geometry read_inventor(const std::filesystem::path& path, const std::string& text,
                        const ReadOptions& options) {
   const std::string file = path.filename().string();
-  Collector collector(file);
+  Collector collector(file, options.mesh_scale.value_or(units::millimetre));
+  MeshReport& report = collector.builder.report;
+  report.format = text.starts_with("#VRML") ? "VRML" : "Inventor";
+  report.unit = options.mesh_scale.value_or(units::millimetre);
+  report.unit_source = options.mesh_scale ? UnitSource::option : UnitSource::format;
   std::vector<std::string> warnings;
   {
     CoinLease coin;

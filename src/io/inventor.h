@@ -6,7 +6,8 @@
 
 namespace clench {
 
-/// Triangles of the file and of those it includes; coordinates count as millimetres. Lines, points
+/// Triangles of the file and of those it includes; coordinates count as millimetres, unless
+/// options.mesh_scale says otherwise. Lines, points
 /// and text have none. `text` is what the file holds, its lines ended by '\n'. A file of frames
 /// only gives an empty mesh.
 /// throws Error  "box.iv:31: ..." when the file or one that it includes is malformed, missing or

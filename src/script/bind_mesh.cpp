@@ -24,6 +24,8 @@ static int is_watertight(lua_State* L) {
   return push(L, shape_of(L).closed());
 }
 
+static int get_centroid(lua_State* L) { return push(L, shape_of(L).solid().centroid); }
+
 static int get_bounds(lua_State* L) {
   push_list(L, 0, 2);
   set_field(L, "low", shape_of(L).bounds().low);
@@ -72,6 +74,10 @@ Axis-aligned bounds in the body frame.
 Volume that the surface bounds; parts that overlap count twice. Meaningful when it is watertight.
 @type number  [m^3]
 > math.abs(world:add_object(clench.shapes.box {1, 2, 4}).mesh.volume - 8) < 1e-12  --> true)"},
+    {"centroid", guarded<get_centroid>, R"(
+Centre of that volume: the centre of mass of a uniform solid. Meaningful when it is watertight.
+@type vec3  [m]
+> world:add_object(clench.shapes.box {1, 2, 4}).mesh.centroid:norm() < 1e-12  --> true)"},
     {"area", guarded<get_area>, R"(
 Area of all its triangles.
 @type number  [m^2]

@@ -59,6 +59,27 @@ static int get_mesh(lua_State* L) {
   return 1;
 }
 
+static int get_mesh_report(lua_State* L) {
+  const auto body = self_body(L);
+  if (!body->mesh_report || !body->shape) {
+    lua_pushnil(L);
+    return 1;
+  }
+  const MeshReport& report = *body->mesh_report;
+  push_list_of(L, describe(report, *body->shape), [&](const std::string& line) { push(L, line); });
+  set_field(L, "format", report.format);
+  set_field(L, "unit", report.unit);
+  set_field(L, "unit_from", source_name(report.unit_source));
+  set_field(L, "up", std::string(1, report.up));
+  set_field(L, "triangles_read", report.triangles_read);
+  set_field(L, "vertices_read", report.vertices_read);
+  set_field(L, "welded_vertices", report.welded_vertices);
+  set_field(L, "unused_vertices", report.unused_vertices);
+  set_field(L, "dropped_triangles", report.dropped_triangles);
+  set_field(L, "turned", report.turned);
+  return 1;
+}
+
 static int get_elastic_modulus(lua_State* L) {
   const auto body = self_body(L);
   if (body->elastic_modulus) return push(L, *body->elastic_modulus);
@@ -144,6 +165,15 @@ Inertia about the centre of mass, in the body's axes, as rows. It scales with th
 Its surface; nil when it has none.
 @type mesh?
 > flask.mesh:is_watertight()  --> true)"},
+    {"mesh_report", guarded<get_mesh_report>, R"(
+What was done to the triangles of its file: lines of text, and the same as fields `format`, `unit` [m], `unit_from`
+("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`,
+`welded_vertices`, `unused_vertices`, `dropped_triangles`, `turned` (was it inside out?). Nil when it has no mesh, or none
+from a file.
+@type table?
+> flask.mesh_report.unit  --> 0.001
+> flask.mesh_report.unit_from  --> format
+> flask.mesh_report.turned  --> false)"},
     {"elastic_modulus", guarded<get_elastic_modulus>, R"(
 Young's modulus; nil when it is rigid.
 @type number?  [Pa]

@@ -6,6 +6,7 @@
 #include "script/guard.h"
 #include "script/handles.h"
 #include "script/push.h"
+#include "script/read_robot.h"
 #include "script/read_spec.h"
 #include "script/table.h"
 
@@ -69,7 +70,8 @@ static int add_robot(lua_State* L) {
   const auto& handle = self<WorldHandle>(L);
   const std::string path = check_string(L, 2, "path");
   Table options(L, 3);
-  const ReadOptions reading = read_options(L, options);
+  ReadOptions reading = read_options(L, options);
+  read_robot_options(L, options, reading);
   const Pose pose = options.pose("pose", Pose{});
   const std::string name = options.string("name", "");
   options.done();
@@ -363,10 +365,11 @@ The robot of a name.
     {"add_object", guarded<add_object>, R"(
 Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options
 give overrides the file.
-@param body string|table  file name (.iv .wrl .obj .stl), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
-@param options? {pose?: pose, name?: string, material?: string, mass?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, color?: number[], transparency?: number, root?: string, mesh_scale?: number}  mesh_scale: length of the unit of an .obj or .stl file, 1 by default [m]
+@param body string|table  file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
+@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, color?: number[], transparency?: number, root?: string, unit?: string, mesh_scale?: number}  density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
 @return body
 > world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "cube", mass = 0.2}).mass  --> 0.2
+> math.abs(world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {density = 1000}).mass - 1) < 1e-12  --> true
 > world:add_object "flsk.iv"  --> error: flsk.iv)"},
     {"add_obstacle", guarded<add_obstacle>, R"(
 Adds a body that only stands in the way; as add_object.
@@ -376,8 +379,8 @@ Adds a body that only stands in the way; as add_object.
 > world:add_obstacle(clench.shapes.box {1, 1, 0.1}, {pose = {xyz = {0, 0, -2}}}).kind  --> obstacle)"},
     {"add_robot", guarded<add_robot>, R"(
 Adds a robot from a file.
-@param path string  .cfg
-@param options? {pose?: pose, name?: string, root?: string}
+@param path string  .cfg .xml .urdf .mjcf
+@param options? {pose?: pose, name?: string, root?: string, folder?: string, package?: string|table, close?: table, approach?: {point?: vec3, direction: vec3}}  folder: where names in the file are looked up, too; of a URDF or MJCF: package: the folder of its packages, or folders by name; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
 @return robot
 > world:add_robot("nothing.cfg")  --> error: nothing.cfg)"},
     {"remove", guarded<remove>, R"(

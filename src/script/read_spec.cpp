@@ -1,16 +1,31 @@
 #include "script/read_spec.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/error.h"
 #include "script/bind_log.h"
 
 namespace clench {
+
+// a unit by its name, or by its length in metres
+static std::optional<double> read_unit(Table& options) {
+  static const std::vector<std::string> names = {"mm", "cm", "m", "inch", "foot"};
+  static constexpr double lengths[] = {1e-3, 1e-2, 1, 0.0254, 0.3048};
+  const bool named = options.has("unit"), scaled = options.has("mesh_scale");
+  if (named && scaled) fail("{}: wanted unit or mesh_scale, got both", options.subject());
+  if (scaled) return options.positive("mesh_scale", 1);
+  if (!named) return {};
+  const std::string name = options.choice("unit", names, "");
+  return lengths[std::find(names.begin(), names.end(), name) - names.begin()];
+}
 
 ReadOptions read_options(lua_State* L, Table& options) {
   ReadOptions out;
   out.root = options.string("root", "");
   if (!out.root.empty() && !std::filesystem::is_directory(out.root))
     fail("{}: root: wanted a folder, got '{}'", options.subject(), out.root.string());
-  if (options.has("mesh_scale")) out.mesh_scale = options.positive("mesh_scale", 1);
+  out.mesh_scale = read_unit(options);
   out.warn = [L](const std::string& message) { log_warning(L, message); };
   out.note = [L](const std::string& message) { log(L, LogLevel::info, message); };
   return out;
@@ -46,9 +61,22 @@ static Mesh read_mesh(lua_State* L, int i) {
   return mesh;
 }
 
+// of a solid of that density [kg/m^3]
+static double mass_of(lua_State* L, const BodySpec& spec, double density) {
+  if (!spec.shape) fail("{}: density: wanted a body with a mesh, got a frame", subject(L));
+  if (!spec.shape->has_volume())
+    fail("{}: density: wanted a watertight mesh, got one with {}; give its mass", subject(L),
+         spec.shape->closed() ? "no volume" : spec.shape->faults().describe());
+  return density * std::abs(spec.shape->solid().volume);
+}
+
 static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
   spec.name = options.string("name", spec.name);
   spec.material = options.string("material", spec.material);
+  if (options.has("density")) {
+    if (options.has("mass")) fail("{}: wanted mass or density, got both", subject(L));
+    spec.mass = mass_of(L, spec, options.positive("density", 1));
+  }
   spec.mass = options.positive("mass", spec.mass);
   if (options.has("com")) spec.com = options.vec3("com");
   if (options.has("elastic_modulus")) spec.elastic_modulus = options.positive("elastic_modulus", 1);

@@ -5,12 +5,13 @@
 
 namespace clench {
 
-/// Options of reading that a call's table holds: root. Warnings go to the script's log.
+/// Options of reading that a call's table holds: root; unit, by its name, or mesh_scale. Warnings
+/// and notes go to the script's log.
 ReadOptions read_options(lua_State* L, Table& options);
 
 /// A body from argument i: a file name, or a mesh in metres, indices from 1,
-/// {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}; the keys name, material, mass, com,
-/// elastic_modulus, color and transparency of the options override it.
+/// {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}; the keys name, material, mass or
+/// density, com, elastic_modulus, color and transparency of the options override it.
 /// throws  Error that names what is wrong
 BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions& reading);
 
