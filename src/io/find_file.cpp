@@ -59,8 +59,8 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
   if (slashed.find('\0') != std::string::npos || slashed.size() > 4096)
     fail("no such file: {}", in_quotes(name));
 
-  // beside the referrer, below the root, below the referrer's parent folder; where we stand for the
-  // user's own
+  // beside the referrer, below the folder and the root of the call, below the referrer's parent
+  // folder; where we stand for the user's own
   std::vector<fs::path> places;
   if (wanted.is_absolute())
     places = {wanted};
@@ -69,6 +69,7 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
     if (!options.root.empty()) places.push_back(options.root / wanted);
   } else {
     places.push_back(referrer.parent_path() / wanted);
+    if (!options.folder.empty()) places.push_back(options.folder / wanted);
     if (!options.root.empty()) places.push_back(options.root / wanted);
     places.push_back(referrer.parent_path() / ".." / wanted);
   }

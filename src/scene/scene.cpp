@@ -11,11 +11,16 @@ namespace {
 
 constexpr double cone_size = 0.15;  // height of a cone, part of the object's largest radius
 
+// what is drawn of a body; null when there is nothing to draw
+const ShapePtr& drawn(const Body& body) {
+  return body.appearance.visual ? body.appearance.visual : body.shape;
+}
+
 DrawMesh draw_body(const Body& body, const SceneOptions& options) {
   const palette::Entry entry = palette::of(body.kind);
   const Appearance& looks = body.appearance;
   DrawMesh mesh{
-      .shape = body.shape, .X_WM = body.X_WB, .color = entry.color, .triangle_colors = {}};
+      .shape = drawn(body), .X_WM = body.X_WB, .color = entry.color, .triangle_colors = {}};
   if (options.file_colors && looks.given) {
     mesh.color = looks.color;
     mesh.triangle_colors = looks.triangle_colors;
@@ -27,8 +32,8 @@ DrawMesh draw_body(const Body& body, const SceneOptions& options) {
 
 Bounds bounds_in_world(const Body& body) {
   Bounds bounds;
-  if (body.shape)
-    for (const Eigen::Vector3d& p : body.shape->mesh().vertices) bounds.add(body.X_WB * p);
+  if (drawn(body))
+    for (const Eigen::Vector3d& p : drawn(body)->mesh().vertices) bounds.add(body.X_WB * p);
   return bounds;
 }
 
@@ -76,7 +81,7 @@ Scene make_scene(const World& world, const SceneOptions& options) {
   Bounds all;
   for (size_t i = 0; i < bounds.size(); ++i) {
     const Body& body = world.body(world.bodies()[i]);
-    if (!body.shape) continue;
+    if (!drawn(body)) continue;
     scene.meshes.push_back(draw_body(body, options));
     scene.meshes.back().background = body.kind == BodyKind::obstacle && is_floor(bounds[i], bounds);
     floor = floor || scene.meshes.back().background;

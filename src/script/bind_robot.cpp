@@ -49,7 +49,8 @@ static int get_links(lua_State* L) {
 
 static void push_joint(lua_State* L, const Robot& robot, int chain, int joint) {
   const JointSpec& spec = robot.chains[chain].joints[joint];
-  push_list(L, 0, 7);
+  push_list(L, 0, 8);
+  if (!spec.name.empty()) set_field(L, "name", std::string_view(spec.name));
   set_field(L, "kind", spec.kind == JointKind::revolute ? "revolute" : "prismatic");
   set_field(L, "dof", spec.dof + 1);
   set_field(L, "ratio", spec.ratio);
@@ -64,8 +65,13 @@ static int get_chains(lua_State* L) {
   push_list(L, static_cast<int>(robot->chains.size()));
   for (int c = 0; c < static_cast<int>(robot->chains.size()); ++c) {
     const Chain& chain = robot->chains[c];
-    push_list(L, 0, 3);
+    push_list(L, 0, 4);
     set_field(L, "pose", chain.X_BC);
+    const auto parent = chain.parent_chain < 0
+                            ? robot->base
+                            : robot->chains[chain.parent_chain].links[chain.parent_link];
+    push(L, BodyHandle{robot.world, parent});
+    lua_setfield(L, -2, "parent");
     push_bodies(L, robot.world, chain.links);
     lua_setfield(L, -2, "links");
     push_list(L, static_cast<int>(chain.joints.size()));
@@ -102,6 +108,14 @@ static int get_dof_limits(lua_State* L) {
                       [&](const std::array<double, 2>& range) { push_numbers(L, range); });
 }
 
+static int get_dof_names(lua_State* L) {
+  int number = 0;
+  return push_list_of(L, self<RobotHandle>(L)->dofs, [&](const DofSpec& dof) {
+    ++number;
+    push(L, dof.name.empty() ? fmt::format("dof{}", number) : dof.name);
+  });
+}
+
 static const char* dof_kind(DofKind kind) {
   static constexpr const char* names[] = {"rigid", "breakaway", "compliant"};
   return names[static_cast<int>(kind)];
@@ -109,10 +123,12 @@ static const char* dof_kind(DofKind kind) {
 
 static int get_dof_info(lua_State* L) {
   return push_list_of(L, self<RobotHandle>(L)->dofs, [&](const DofSpec& dof) {
-    push_list(L, 0, 6);
+    push_list(L, 0, 8);
+    if (!dof.name.empty()) set_field(L, "name", std::string_view(dof.name));
     set_field(L, "kind", dof_kind(dof.kind));
     set_field(L, "default_velocity", dof.default_velocity);
     set_field(L, "max_effort", dof.max_effort);
+    if (dof.max_velocity > 0) set_field(L, "max_velocity", dof.max_velocity);
     set_field(L, "kp", dof.kp);
     set_field(L, "kd", dof.kd);
     set_field(L, "breakaway_torque", dof.breakaway_torque);
@@ -139,12 +155,13 @@ static int get_carrier(lua_State* L) {
 static int get_files(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   push_list(L, 0, 3);
-  if (!robot->eigengrasps.empty())
-    set_field(L, "eigengrasps", std::string_view(robot->eigengrasps));
-  if (!robot->virtual_contacts.empty())
-    set_field(L, "virtual_contacts", std::string_view(robot->virtual_contacts));
-  if (!robot->glove_calibration.empty())
-    set_field(L, "glove_calibration", std::string_view(robot->glove_calibration));
+  const RobotFiles& files = robot->files;
+  const auto set = [&](const char* key, const std::string& path) {
+    if (!path.empty()) set_field(L, key, std::string_view(path));
+  };
+  set("eigengrasps", files.eigengrasps);
+  set("virtual_contacts", files.virtual_contacts);
+  set("glove_calibration", files.glove_calibration);
   return 1;
 }
 
@@ -155,7 +172,9 @@ static int link(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const std::string name = check_string(L, 2, "name");
   std::vector<std::string> names;
-  for (const auto id : links_of(*robot)) {
+  auto parts = links_of(*robot);
+  parts.push_back(robot->base);
+  for (const auto id : parts) {
     const std::string& full = robot.world->body(id).name;
     if (full == name || full == robot->name + "_" + name)
       return push(L, BodyHandle{robot.world, id});
@@ -278,16 +297,20 @@ Least and largest value of each DOF.
 @type number[][]  [rad or m]
 > #hand.dof_limits[1]  --> 2)"},
     {"dof_info", guarded<get_dof_info>, R"(
-What its file says of each DOF: kind ("rigid", "breakaway", "compliant"), default_velocity [rad/s or m/s],
-max_effort [N m or N], kp, kd, breakaway_torque [N m].
+What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity
+of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m].
 @type table[]
 > hand.dof_info[1].kind  --> rigid)"},
+    {"dof_names", guarded<get_dof_names>, R"(
+Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
+@type string[]
+> hand.dof_names[1]  --> dof1)"},
     {"links", guarded<get_links>, R"(
 Its links, chain by chain, without the base.
 @type body[]
 > #hand.links  --> 12)"},
     {"chains", guarded<get_chains>, R"(
-Its chains: `pose` in the base, `links`, and `joints` as they stand (kind, dof, ratio, min, max, value, broken_away).
+Its chains: `parent`, the base or the link that it begins on; `pose` in the parent, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away).
 @type table[]
 > #hand.chains  --> 4
 > hand.chains[1].joints[1].kind  --> revolute)"},
@@ -323,7 +346,7 @@ Files that its file names: `eigengrasps`, `virtual_contacts`, `glove_calibration
 
 static const Entry methods[] = {
     {"link", guarded<link>, R"(
-A link by its name, whole or without the robot's.
+A link, or the base, by its name, whole or without the robot's.
 @param name string
 @return body
 > hand:link "chain0_link2" == hand.chains[1].links[3]  --> true

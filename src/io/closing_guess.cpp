@@ -1,0 +1,344 @@
+#include "io/closing_guess.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/random.h"
+
+namespace clench {
+
+namespace {
+
+constexpr int samples = 256;          // of all DOFs, for the centre
+constexpr int steps = 32;             // of a DOF from end to end
+constexpr double along = 0.8;         // axes whose cosine exceeds this turn the same way
+constexpr double hardly = 0.02;       // of the way of the tips: nearer by less is not nearer
+constexpr double sideways = 0.3;      // the same for a DOF that swings a finger sideways
+constexpr double lopsided = 0.1;      // of the range: a middle farther than this from 0 is no swing
+constexpr double common = 0.4;        // mean of unit vectors: longer means they agree
+constexpr double nearly_axis = 0.94;  // cosine of 20 degrees: a direction this near an axis is it
+
+struct Finger {
+  int tip = 0;              // link
+  std::vector<int> joints;  // between palm and tip, from the palm on
+  Eigen::Vector3d p_tip;    // in the tip's frame
+};
+
+int root_distance(const TreeModel& tree, int link) {
+  int n = 0;
+  for (; tree.links[link].parent >= 0; link = tree.links[link].parent) ++n;
+  return n;
+}
+
+int common_ancestor(const TreeModel& tree, int a, int b) {
+  int depth_a = root_distance(tree, a), depth_b = root_distance(tree, b);
+  while (a != b) {
+    if (depth_a >= depth_b)
+      a = tree.links[a].parent, --depth_a;
+    else
+      b = tree.links[b].parent, --depth_b;
+  }
+  return a;
+}
+
+/// Joints between an ancestor (its own excluded) and a link.
+std::vector<int> joints_below(const TreeModel& tree, int ancestor, int link) {
+  std::vector<int> out;
+  for (; link != ancestor && link >= 0; link = tree.links[link].parent)
+    out.insert(out.begin(), tree.links[link].joints.begin(), tree.links[link].joints.end());
+  return out;
+}
+
+const ShapePtr& drawn(const BodySpec& body) {
+  return body.shape ? body.shape : body.appearance.visual;
+}
+
+/// Links that end the tree: the last ones with geometry, or without when none has any.
+std::vector<int> ends(const TreeModel& tree) {
+  const bool any_shape = std::any_of(tree.links.begin(), tree.links.end(),
+                                     [](const TreeLink& link) { return drawn(link.body); });
+  std::vector<bool> goes_on(tree.links.size());
+  std::vector<int> out;
+  for (int i = static_cast<int>(tree.links.size()) - 1; i >= 0; --i) {
+    const bool counts = !any_shape || drawn(tree.links[i].body);
+    if (counts && !goes_on[i]) out.push_back(i);
+    if (const int parent = tree.links[i].parent; parent >= 0)
+      goes_on[parent] = goes_on[parent] || goes_on[i] || counts;
+  }
+  std::reverse(out.begin(), out.end());
+  return out;
+}
+
+struct Hand {
+  const TreeModel& tree;
+  int palm = -1;
+  std::vector<Finger> fingers;
+  std::vector<int> dofs;     // joints that lead, and themselves move
+  std::vector<double> rest;  // one a joint: at first
+  std::vector<std::array<double, 2>>
+      ranges;  // one a joint; of leaders, with their followers' limits
+};
+
+std::array<double, 2> range_of(const TreeModel& tree, int leader) {
+  std::array<double, 2> range = {tree.joints[leader].min, tree.joints[leader].max};
+  for (const TreeJoint& joint : tree.joints) {
+    if (joint.leader != leader || joint.ratio == 0) continue;
+    const double a = (joint.min - joint.offset) / joint.ratio,
+                 b = (joint.max - joint.offset) / joint.ratio;
+    range = {std::max(range[0], std::min(a, b)), std::min(range[1], std::max(a, b))};
+  }
+  return range;
+}
+
+void find_fingers(Hand& hand) {
+  const TreeModel& tree = hand.tree;
+  std::vector<int> tips = ends(tree);
+  std::erase_if(tips, [&](int tip) { return joints_below(tree, -1, tip).empty(); });
+  // what is fixed on the palm is no finger, and without it the palm may lie farther out
+  for (size_t before = tips.size() + 1; tips.size() > 1 && tips.size() < before;) {
+    before = tips.size();
+    hand.palm = tips.front();
+    for (const int tip : tips) hand.palm = common_ancestor(tree, hand.palm, tip);
+    std::erase_if(tips, [&](int tip) { return joints_below(tree, hand.palm, tip).empty(); });
+  }
+  // a single finger of one or two joints closes against what carries it; a longer one is an arm
+  if (tips.size() == 1) {
+    hand.palm = tips.front();
+    while (joints_below(tree, hand.palm, tips.front()).empty() && hand.palm > 0)
+      hand.palm = tree.links[hand.palm].parent;
+    const bool arm = joints_below(tree, -1, tips.front()).size() > 2;
+    if (arm) tips.clear();
+  }
+  for (const int tip : tips) {
+    const ShapePtr& shape = drawn(tree.links[tip].body);
+    hand.fingers.push_back({tip, joints_below(tree, hand.palm, tip),
+                            shape ? shape->centre() : Eigen::Vector3d(Eigen::Vector3d::Zero())});
+  }
+}
+
+Hand make_hand(const TreeModel& tree) {
+  Hand hand{tree, -1, {}, {}, {}, {}};
+  for (int j = 0; j < static_cast<int>(tree.joints.size()); ++j) {
+    const TreeJoint& joint = tree.joints[j];
+    hand.ranges.push_back(joint.leader < 0 ? range_of(tree, j)
+                                           : std::array<double, 2>{joint.min, joint.max});
+    const auto [low, high] = hand.ranges.back();
+    if (joint.leader < 0 && low < high) hand.dofs.push_back(j);
+    hand.rest.push_back(low <= high ? std::clamp(joint.start, low, high) : joint.start);
+  }
+  find_fingers(hand);
+  return hand;
+}
+
+/// Sets a DOF, and what follows it.
+void set(const Hand& hand, std::vector<double>& q, int dof, double value) {
+  q[dof] = value;
+  for (size_t j = 0; j < q.size(); ++j)
+    if (const TreeJoint& joint = hand.tree.joints[j]; joint.leader == dof)
+      q[j] = joint.ratio * value + joint.offset;
+}
+
+/// Fingertips in the palm's frame.
+std::vector<Eigen::Vector3d> tips_at(const Hand& hand, const std::vector<double>& q) {
+  const auto poses = link_poses(hand.tree, q);
+  const Pose X_PB = poses[hand.palm].inverse();
+  std::vector<Eigen::Vector3d> out;
+  for (const Finger& finger : hand.fingers)
+    out.push_back(X_PB * (poses[finger.tip] * finger.p_tip));
+  return out;
+}
+
+bool follows(const Hand& hand, int joint, int dof) {
+  return joint == dof || hand.tree.joints[joint].leader == dof;
+}
+
+/// Fingers that a DOF moves; none when it moves the palm, too.
+std::vector<int> moved_fingers(const Hand& hand, int dof) {
+  for (const int j : joints_below(hand.tree, -1, hand.palm))
+    if (follows(hand, j, dof)) return {};
+  std::vector<int> out;
+  for (int f = 0; f < static_cast<int>(hand.fingers.size()); ++f) {
+    const auto& joints = hand.fingers[f].joints;
+    if (std::any_of(joints.begin(), joints.end(), [&](int j) { return follows(hand, j, dof); }))
+      out.push_back(f);
+  }
+  return out;
+}
+
+/// Where the tips are on average, in the palm's frame.
+Eigen::Vector3d grasp_centre(const Hand& hand) {
+  // a single finger closes on what carries it
+  if (hand.fingers.size() == 1) {
+    const ShapePtr& palm = drawn(hand.tree.links[hand.palm].body);
+    return palm ? palm->centre() : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  }
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int s = 0; s < samples; ++s) {
+    Random random(1, static_cast<uint64_t>(s));
+    auto q = hand.rest;
+    for (const int dof : hand.dofs) {
+      const auto [low, high] = hand.ranges[dof];
+      const double value = random.uniform(low, high);
+      // what turns without end, turns nothing in on average
+      if (high - low < 1.5 * endless_turn) set(hand, q, dof, value);
+    }
+    for (const auto& p : tips_at(hand, q)) sum += p;
+  }
+  return sum / (samples * static_cast<double>(hand.fingers.size()));
+}
+
+/// Does some joint of the DOF turn its finger the way that the finger's last joint does?
+bool flexes(const Hand& hand, int dof) {
+  auto q = hand.rest;
+  const auto poses = link_poses(hand.tree, q);
+  // axis of a joint in the root's frame
+  const auto axis = [&](int joint) {
+    for (size_t l = 0; l < hand.tree.links.size(); ++l) {
+      const TreeLink& link = hand.tree.links[l];
+      if (std::find(link.joints.begin(), link.joints.end(), joint) == link.joints.end()) continue;
+      Pose X = link.parent < 0 ? Pose{} : poses[link.parent] * link.X_PL;
+      for (const int j : link.joints) {
+        if (j == joint) break;
+        X = X * joint_pose(hand.tree.joints[j], q[j]);
+      }
+      return Eigen::Vector3d(X.rotation * hand.tree.joints[joint].axis);
+    }
+    return Eigen::Vector3d(Eigen::Vector3d::Zero());
+  };
+  for (const Finger& finger : hand.fingers)
+    for (const int j : finger.joints) {
+      if (!follows(hand, j, dof)) continue;
+      if (hand.tree.joints[j].kind == JointKind::prismatic) return true;
+      if (std::abs(axis(j).dot(axis(finger.joints.back()))) > along) return true;
+    }
+  return false;
+}
+
+/// What the tips do while one DOF goes from its rest to an end.
+struct Way {
+  double length = 0;  // that the tips go [m]
+  double nearer = 0;  // most that they come nearer to the centre [m]
+  double end = 0;     // nearer at the end [m]
+};
+
+Way way_to(const Hand& hand, int dof, const std::vector<int>& fingers,
+           const Eigen::Vector3d& centre, double end) {
+  Way way;
+  auto q = hand.rest;
+  std::vector<Eigen::Vector3d> before;
+  double first = 0;
+  for (int s = 0; s <= steps; ++s) {
+    set(hand, q, dof, hand.rest[dof] + (end - hand.rest[dof]) * s / steps);
+    const auto tips = tips_at(hand, q);
+    double distance = 0;
+    for (const int f : fingers) {
+      distance += (tips[f] - centre).norm();
+      if (s > 0) way.length += (tips[f] - before[f]).norm();
+    }
+    if (s == 0) first = distance;
+    way.end = first - distance;
+    way.nearer = std::max(way.nearer, way.end);
+    before = tips;
+  }
+  return way;
+}
+
+double sense_of(const Hand& hand, int dof, const Eigen::Vector3d& centre) {
+  const auto fingers = moved_fingers(hand, dof);
+  const auto [low, high] = hand.ranges[dof];
+  if (fingers.empty() || hand.tree.joints[dof].passive) return 0;
+  if (!(high - low < 1.5 * endless_turn)) return 0;
+  const Way up = way_to(hand, dof, fingers, centre, high),
+            down = way_to(hand, dof, fingers, centre, low);
+  const double length = up.length + down.length;
+  if (!(length > 0)) return 0;
+  const double best = std::max(up.nearer, down.nearer);
+  const double sense = up.nearer > down.nearer ? 1 : -1;
+  if (!flexes(hand, dof)) {
+    if (std::abs(low + high) < lopsided * (high - low)) return 0;
+    return best > sideways * (sense > 0 ? up.length : down.length) ? sense : 0;
+  }
+  if (best > hardly * length) return sense;
+  // it stands shut: back to there, from the side where it opens
+  const double opens = up.end < down.end ? 1 : -1;
+  return std::min(up.end, down.end) < -hardly * length ? -opens : 0;
+}
+
+Eigen::Vector3d snapped(const Eigen::Vector3d& direction) {
+  Eigen::Index axis;
+  const double largest = direction.cwiseAbs().maxCoeff(&axis);
+  if (largest < nearly_axis) return direction;
+  return std::copysign(1.0, direction[axis]) * Eigen::Vector3d::Unit(axis);
+}
+
+/// The way that the tips go as the hand begins to close, when they agree; else the way that the
+/// fingers point.
+Eigen::Vector3d approach_direction(const Hand& hand, const std::vector<double>& senses,
+                                   const Eigen::Vector3d& centre) {
+  auto from = hand.rest, to = hand.rest;
+  for (const int dof : hand.dofs) {
+    if (senses[dof] == 0) continue;
+    const auto [low, high] = hand.ranges[dof];
+    const double little = 0.05 * (high - low) * senses[dof];
+    double start = hand.rest[dof];
+    if (start + little > high || start + little < low) start -= little;
+    set(hand, from, dof, start);
+    set(hand, to, dof, start + little);
+  }
+  const auto before = tips_at(hand, from), after = tips_at(hand, to);
+  Eigen::Vector3d closing = Eigen::Vector3d::Zero(), pointing = closing;
+  const auto poses = link_poses(hand.tree, hand.rest);
+  const Pose X_PB = poses[hand.palm].inverse();
+  for (size_t f = 0; f < hand.fingers.size(); ++f) {
+    closing += (after[f] - before[f]).stableNormalized() / static_cast<double>(hand.fingers.size());
+    // from the finger's first link to its tip
+    int first = hand.fingers[f].tip;
+    while (hand.tree.links[first].parent != hand.palm && hand.tree.links[first].parent >= 0)
+      first = hand.tree.links[first].parent;
+    pointing += (before[f] - X_PB * poses[first].position).stableNormalized();
+  }
+  if (closing.norm() > common) return closing.normalized();
+  if (pointing.norm() > 1e-6) return pointing.normalized();
+  const ShapePtr& palm = drawn(hand.tree.links[hand.palm].body);
+  const Eigen::Vector3d out =
+      centre - (palm ? palm->centre() : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+  return out.norm() > 1e-9 ? Eigen::Vector3d(out.normalized())
+                           : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+}
+
+/// On the palm's surface, where it bulges most in the direction.
+Eigen::Vector3d approach_point(const Hand& hand, const Eigen::Vector3d& direction_P) {
+  int link = hand.palm;
+  while (link > 0 && !drawn(hand.tree.links[link].body)) link = hand.tree.links[link].parent;
+  const ShapePtr& shape = drawn(hand.tree.links[link].body);
+  if (!shape) return Eigen::Vector3d::Zero();
+  const auto poses = link_poses(hand.tree, hand.rest);
+  const Pose X_PL = poses[hand.palm].inverse() * poses[link];
+  const Eigen::Vector3d centre = X_PL * shape->bounds().centre();
+  double farthest = 0;
+  for (const auto& p : shape->mesh().vertices)
+    farthest = std::max(farthest, direction_P.dot(X_PL * p - centre));
+  return centre + farthest * direction_P;
+}
+
+}  // namespace
+
+ClosingGuess guess_closing(const TreeModel& tree) {
+  const Hand hand = make_hand(tree);
+  ClosingGuess guess;
+  guess.senses.assign(tree.joints.size(), 0);
+  if (hand.fingers.empty()) return guess;
+  const Eigen::Vector3d centre = grasp_centre(hand);
+  if (!centre.allFinite()) return guess;
+  for (const int dof : hand.dofs) guess.senses[dof] = sense_of(hand, dof, centre);
+
+  const Eigen::Vector3d z_P = approach_direction(hand, guess.senses, centre);
+  const Eigen::Vector3d p_P = approach_point(hand, z_P);
+  const Pose X_BP = link_poses(tree, hand.rest)[hand.palm];
+  const Eigen::Vector3d z_B = snapped(X_BP.rotation * z_P), p_B = X_BP * p_P;
+  if (z_B.allFinite() && p_B.allFinite()) guess.X_BA = approach_frame(p_B, z_B);
+  return guess;
+}
+
+}  // namespace clench

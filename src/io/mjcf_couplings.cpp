@@ -1,0 +1,277 @@
+#include "io/mjcf_couplings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/suggest.h"
+
+namespace clench {
+
+namespace {
+
+struct Tendon {
+  XmlElement element;
+  std::vector<std::pair<int, double>> joints;  // and coefficients, none 0
+};
+
+class Couplings {
+ public:
+  Couplings(MjcfDocument& document, Library& library, TreeModel& tree)
+      : document_(document), library_(library), tree_(tree) {
+    for (size_t j = 0; j < tree.joints.size(); ++j)
+      numbers_[tree.joints[j].name] = static_cast<int>(j);
+  }
+  void read() {
+    read_tendons();
+    for (const MjcfNode* node : document_.section("equality")) read_equality(node->element);
+    for (const MjcfNode* node : document_.section("actuator")) read_actuator(node->element);
+    mark_passive();
+  }
+
+ private:
+  void warn(const XmlElement& at, const std::string& what) const {
+    library_.warn(at.place() + ": " + what);
+  }
+  int joint(const XmlValues& values, const char* attribute) const;
+  const Tendon& tendon(const XmlValues& values, const char* attribute) const;
+  int leader_of(int joint) const;
+  void follow(const XmlElement& at, int follower, int leader, double ratio, double offset);
+  void read_tendons();
+  void read_equality(const XmlElement& element);
+  void tie_joint(const XmlElement& element, const XmlValues& values);
+  void tie_tendon(const XmlElement& element, const XmlValues& values);
+  void read_actuator(const XmlElement& element);
+  void drive_joint(const XmlElement& element, const XmlValues& values, int joint);
+  void drive_tendon(const XmlElement& element, const Tendon& tendon);
+  void take_control_range(const XmlElement& element, const XmlValues& values, TreeJoint& joint,
+                          double gear);
+  void mark_passive();
+
+  MjcfDocument& document_;
+  Library& library_;
+  TreeModel& tree_;
+  std::map<std::string, int> numbers_;
+  std::map<std::string, Tendon> tendons_;
+  std::vector<int> driven_;
+  bool has_actuators_ = false;
+};
+
+int Couplings::joint(const XmlValues& values, const char* attribute) const {
+  const std::string name = values.text(attribute);
+  const auto found = numbers_.find(name);
+  if (found != numbers_.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [other, number] : numbers_) known.push_back(other);
+  values.fail(attribute, "no joint {}{}", in_quotes(name), did_you_mean(name, known));
+}
+
+const Tendon& Couplings::tendon(const XmlValues& values, const char* attribute) const {
+  const std::string name = values.text(attribute);
+  const auto found = tendons_.find(name);
+  if (found != tendons_.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [other, t] : tendons_) known.push_back(other);
+  values.fail(attribute, "no tendon {}{}", in_quotes(name), did_you_mean(name, known));
+}
+
+/// The joint at the end of the row of leaders; -1 when the row runs in a circle.
+int Couplings::leader_of(int joint) const {
+  for (size_t i = 0; i <= tree_.joints.size(); ++i) {
+    if (tree_.joints[joint].leader < 0) return joint;
+    joint = tree_.joints[joint].leader;
+  }
+  return -1;
+}
+
+void Couplings::follow(const XmlElement& at, int follower, int leader, double ratio,
+                       double offset) {
+  TreeJoint& joint = tree_.joints[follower];
+  if (joint.leader >= 0 || leader_of(leader) == follower) {
+    warn(at, fmt::format("joint '{}' is tied already; this does not tie it to '{}'", joint.name,
+                         tree_.joints[leader].name));
+    return;
+  }
+  joint.leader = leader;
+  joint.ratio = ratio;
+  joint.offset = offset;
+}
+
+// --- tendons and equalities ---
+
+void Couplings::read_tendons() {
+  for (const MjcfNode* node : document_.section("tendon")) {
+    if (node->name() != "fixed") {
+      document_.unused().element(node->element);
+      // its name is known all the same
+      if (const auto name = node->element.attribute("name")) tendons_[*name] = {node->element, {}};
+      continue;
+    }
+    document_.unused().attributes(node->element, {"name", "class"});
+    Tendon tendon{node->element, {}};
+    for (const auto& child : node->children) {
+      const XmlValues values(child.element);
+      const double coefficient = values.number("coef");
+      if (child.name() != "joint")
+        document_.unused().element(child.element);
+      else if (coefficient != 0)
+        tendon.joints.emplace_back(joint(values, "joint"), coefficient);
+    }
+    tendons_[XmlValues(node->element).text("name", "")] = std::move(tendon);
+  }
+}
+
+void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
+  document_.unused().attributes(element,
+                                {"name", "class", "joint1", "joint2", "polycoef", "active"});
+  const int follower = joint(values, "joint1");
+  std::vector<double> c = {0, 1, 0, 0, 0};
+  if (values.has("polycoef")) c = values.numbers("polycoef", 1, 5);
+  c.resize(5);
+  TreeJoint& tied = tree_.joints[follower];
+  if (!values.has("joint2")) {
+    tied.min = tied.max = tied.start = tied.zero + c[0];
+    return;
+  }
+  if (c[2] != 0 || c[3] != 0 || c[4] != 0)
+    warn(element, fmt::format("joint '{}': polycoef: only its linear part is used", tied.name));
+  const int leader = joint(values, "joint2");
+  if (leader == follower) values.fail("joint2", "wanted another joint than joint1");
+  // both count from where the model stands at first
+  follow(element, follower, leader, c[1], tied.zero + c[0] - c[1] * tree_.joints[leader].zero);
+}
+
+/// A tendon of two joints whose length stays ties them: c1 q1 + c2 q2 is constant.
+void Couplings::tie_tendon(const XmlElement& element, const XmlValues& values) {
+  const Tendon& held = tendon(values, "tendon1");
+  if (values.has("tendon2") || held.joints.size() != 2) {
+    warn(element, "equality of tendons: only a fixed tendon of two joints ties them; not used");
+    return;
+  }
+  const auto [a, c_a] = held.joints[0];
+  const auto [b, c_b] = held.joints[1];
+  if (a == b) return;
+  const double ratio = -c_a / c_b;
+  follow(element, b, a, ratio, tree_.joints[b].zero - ratio * tree_.joints[a].zero);
+}
+
+void Couplings::read_equality(const XmlElement& element) {
+  const XmlValues values = document_.values(element, "", "equality");
+  if (!values.boolean("active", true)) {
+    warn(element,
+         fmt::format("equality: <{}> is not active; not used", element.name().substr(0, 40)));
+    return;
+  }
+  if (element.name() == "joint")
+    tie_joint(element, values);
+  else if (element.name() == "tendon")
+    tie_tendon(element, values);
+  else
+    warn(element, fmt::format("equality: <{}> would close a loop of bodies; it is left open",
+                              element.name().substr(0, 40)));
+}
+
+// --- actuators ---
+
+/// What a position servo is told, it cannot exceed.
+void Couplings::take_control_range(const XmlElement& element, const XmlValues& values,
+                                   TreeJoint& joint, double gear) {
+  if (!values.has("ctrlrange") || values.text("ctrllimited", "auto") == "false") return;
+  const auto range = values.numbers("ctrlrange", 2, 2);
+  if (range[0] > range[1]) values.fail("ctrlrange", "min {} exceeds max {}", range[0], range[1]);
+  const double a = range[0] / gear, b = range[1] / gear;
+  const double low = std::max(joint.min, std::min(a, b)),
+               high = std::min(joint.max, std::max(a, b));
+  if (low < high || (low == high && range[0] == range[1])) {
+    joint.min = low, joint.max = high;
+    joint.start = std::clamp(joint.start, low, high);
+  } else if (range[0] < range[1]) {
+    warn(element, fmt::format("position: ctrlrange has nothing in common with the range of joint "
+                              "'{}'; not used",
+                              joint.name));
+  }
+}
+
+void Couplings::drive_joint(const XmlElement& element, const XmlValues& values, int number) {
+  TreeJoint& joint = tree_.joints[number];
+  driven_.push_back(number);
+  const double gear = values.has("gear") ? values.numbers("gear", 1, 6)[0] : 1;
+  if (gear == 0) return;
+  if (values.has("forcerange") && values.text("forcelimited", "auto") != "false") {
+    const auto range = values.numbers("forcerange", 2, 2);
+    joint.effort = std::max(std::abs(range[0]), std::abs(range[1])) * std::abs(gear);
+  }
+  if (element.name() == "motor" && values.has("ctrlrange") && joint.effort == 0) {
+    const auto range = values.numbers("ctrlrange", 2, 2);
+    joint.effort = std::max(std::abs(range[0]), std::abs(range[1])) * std::abs(gear);
+  }
+  if (element.name() != "position") return;
+  joint.kp = values.number("kp", 1) * gear * gear;
+  joint.kd = values.number("kv", 0) * gear * gear;
+  take_control_range(element, values, joint, gear);
+}
+
+/// A motor on a tendon moves its joints together: nothing else is said of how they share its length,
+/// so each takes its part in proportion to its coefficient.
+void Couplings::drive_tendon(const XmlElement& element, const Tendon& tendon) {
+  if (tendon.joints.empty()) {
+    warn(element, fmt::format("{}: drives a tendon that is not used", element.name()));
+    return;
+  }
+  const auto [first, c_first] = tendon.joints.front();
+  const int leader = leader_of(first);
+  driven_.push_back(first);
+  for (const auto& [number, c] : tendon.joints) {
+    driven_.push_back(number);
+    if (number == first || tree_.joints[number].leader >= 0 || leader_of(number) == leader)
+      continue;
+    const double ratio = c / c_first;
+    follow(element, number, first, ratio,
+           tree_.joints[number].zero - ratio * tree_.joints[first].zero);
+    library_.note(
+        fmt::format("{}: joints '{}' and '{}' share a tendon; they are taken to turn as "
+                    "1 to {:.4g}",
+                    element.place(), tree_.joints[first].name, tree_.joints[number].name, ratio));
+  }
+}
+
+void Couplings::read_actuator(const XmlElement& element) {
+  document_.unused().attributes(
+      element, {"name", "class", "joint", "jointinparent", "tendon", "ctrlrange", "ctrllimited",
+                "forcerange", "forcelimited", "kp", "kv", "gear"});
+  const XmlValues values = document_.values(element, "", "general");
+  if (values.has("joint") || values.has("jointinparent")) {
+    has_actuators_ = true;
+    drive_joint(element, values, joint(values, values.has("joint") ? "joint" : "jointinparent"));
+  } else if (values.has("tendon")) {
+    has_actuators_ = true;
+    drive_tendon(element, tendon(values, "tendon"));
+  } else {
+    document_.unused().element(element);
+  }
+}
+
+void Couplings::mark_passive() {
+  if (!has_actuators_) return;
+  for (auto& joint : tree_.joints) joint.passive = true;
+  for (const int number : driven_) {
+    if (leader_of(number) < 0) continue;
+    tree_.joints[leader_of(number)].passive = false;
+  }
+  std::string names;
+  int count = 0;
+  for (const auto& joint : tree_.joints)
+    if (joint.passive && joint.leader < 0 && ++count <= 6)
+      names += (names.empty() ? "'" : ", '") + joint.name + "'";
+  if (count > 0)
+    library_.note(fmt::format("{}: joints that no actuator drives do not close: {}{}",
+                              document_.file(), names, count > 6 ? " and others" : ""));
+}
+
+}  // namespace
+
+void read_mjcf_couplings(MjcfDocument& document, Library& library, TreeModel& tree) {
+  Couplings(document, library, tree).read();
+}
+
+}  // namespace clench

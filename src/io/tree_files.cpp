@@ -1,0 +1,29 @@
+#include "io/tree_files.h"
+
+#include "base/text.h"
+#include "io/mjcf.h"
+#include "io/urdf.h"
+#include "io/xml.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+bool is_robot_tree(const fs::path& path) {
+  const std::string extension = lower_case(path.extension().string());
+  if (extension == ".urdf" || extension == ".mjcf" || extension == ".xacro") return true;
+  if (extension != ".xml") return false;
+  const std::string text = read_text(path);
+  return xml_root_name(text) == "mujoco" || looks_like_urdf(text);
+}
+
+RobotSpec read_robot_tree(const fs::path& path, Library& library) {
+  const std::string file = path.filename().string();
+  if (lower_case(path.extension().string()) == ".xacro")
+    fail("{}: xacro is no robot yet; expand it first: xacro {} > robot.urdf", file, file);
+  const std::string text = read_text(path);
+  if (xml_root_name(text) == "mujoco") return read_robot_mjcf(path, library);
+  return read_robot_urdf(path, library);
+}
+
+}  // namespace clench

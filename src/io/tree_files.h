@@ -1,0 +1,15 @@
+// Files of today that describe a robot as a tree: URDF and MJCF, by ending or by what they hold.
+#pragma once
+#include <filesystem>
+
+#include "io/library.h"
+
+namespace clench {
+
+/// Is it one of .urdf .mjcf .xacro, or an .xml file that holds one of them?
+bool is_robot_tree(const std::filesystem::path& path);
+
+/// throws Error naming the line, or saying that xacro must be expanded first
+RobotSpec read_robot_tree(const std::filesystem::path& path, Library& library);
+
+}  // namespace clench

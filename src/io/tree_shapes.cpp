@@ -1,0 +1,78 @@
+#include "io/tree_shapes.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace clench {
+
+Mesh box_mesh(const Eigen::Vector3d& size) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices.push_back(
+        0.5 * size.cwiseProduct(Eigen::Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+namespace {
+
+/// A circle about z on the surface.
+struct Ring {
+  double radius = 0, z = 0;
+};
+
+/// The surface that rings from the lowest to the highest bound, with a point at each end.
+Mesh turned(const std::vector<Ring>& rings, double lowest, double highest) {
+  Mesh mesh;
+  const int n = circle_edges, count = static_cast<int>(rings.size());
+  for (const Ring& ring : rings)
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * i / n;
+      mesh.vertices.emplace_back(ring.radius * std::cos(angle), ring.radius * std::sin(angle),
+                                 ring.z);
+    }
+  const int bottom = n * count, top = bottom + 1;
+  mesh.vertices.emplace_back(0, 0, lowest);
+  mesh.vertices.emplace_back(0, 0, highest);
+  for (int i = 0; i < n; ++i) {
+    const int next = (i + 1) % n;
+    mesh.triangles.push_back({bottom, next, i});
+    for (int r = 0; r + 1 < count; ++r) {
+      const int a = r * n, b = a + n;
+      mesh.triangles.push_back({a + i, a + next, b + next});
+      mesh.triangles.push_back({a + i, b + next, b + i});
+    }
+    const int last = (count - 1) * n;
+    mesh.triangles.push_back({top, last + i, last + next});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Mesh cylinder_mesh(double radius, double length) {
+  return turned({{radius, -length / 2}, {radius, length / 2}}, -length / 2, length / 2);
+}
+
+Mesh capsule_mesh(double radius, double length) {
+  const int quarter = circle_edges / 4;
+  std::vector<Ring> rings;
+  for (int k = 1; k <= quarter; ++k) {
+    const double angle = std::numbers::pi / 2 * k / quarter;
+    rings.push_back({radius * std::sin(angle), -length / 2 - radius * std::cos(angle)});
+  }
+  rings.back() = {radius, -length / 2};
+  // the upper half mirrors the lower one; a ball has its equator once
+  for (int k = quarter - (length > 0 ? 0 : 1); k >= 1; --k)
+    rings.push_back({rings[k - 1].radius, -rings[k - 1].z});
+  return turned(rings, -length / 2 - radius, length / 2 + radius);
+}
+
+Mesh ellipsoid_mesh(const Eigen::Vector3d& radii) {
+  Mesh mesh = capsule_mesh(1, 0);
+  for (auto& p : mesh.vertices) p = p.cwiseProduct(radii);
+  return mesh;
+}
+
+}  // namespace clench

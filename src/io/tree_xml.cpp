@@ -1,0 +1,141 @@
+#include "io/tree_xml.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/suggest.h"
+
+namespace clench {
+
+// lengths and angles whose squares and products overflow are none
+static constexpr double largest_number = 1e15;
+
+XmlValues::XmlValues(XmlElement own, const std::vector<XmlElement>& behind) : layers_{own} {
+  layers_.insert(layers_.end(), behind.begin(), behind.end());
+}
+
+const XmlElement& XmlValues::giver(const char* name) const {
+  for (const XmlElement& layer : layers_)
+    if (layer && layer.attribute(name)) return layer;
+  return layers_.front();
+}
+
+std::optional<std::string> XmlValues::find(const char* name) const {
+  return giver(name).attribute(name);
+}
+
+void XmlValues::refuse(const char* name, const std::string& what) const {
+  const XmlElement& at = giver(name);
+  at.fail("{}: {}: {}", at.name(), name, what);
+}
+
+std::string XmlValues::text(const char* name) const {
+  const auto value = find(name);
+  if (!value) element().fail("{}: wanted an attribute '{}', got none", element().name(), name);
+  if (value->empty()) fail(name, "wanted a word, got nothing");
+  return *value;
+}
+
+std::string XmlValues::text(const char* name, const std::string& fallback) const {
+  return find(name).value_or(fallback);
+}
+
+double XmlValues::number(const char* name) const {
+  if (!has(name)) element().fail("{}: wanted an attribute '{}', got none", element().name(), name);
+  return numbers(name, 1, 1).front();
+}
+
+double XmlValues::number(const char* name, double fallback) const {
+  return has(name) ? number(name) : fallback;
+}
+
+double XmlValues::not_negative(const char* name, double fallback) const {
+  const double value = number(name, fallback);
+  if (value < 0) fail(name, "wanted a number >= 0, got {}", value);
+  return value;
+}
+
+int XmlValues::integer(const char* name, int fallback) const {
+  const auto text = find(name);
+  if (!text) return fallback;
+  const auto value = parse_integer(*text);
+  if (!value) fail(name, "wanted a whole number, got {}", in_quotes(*text));
+  return *value;
+}
+
+bool XmlValues::boolean(const char* name, bool fallback) const {
+  return word(name, {"true", "false"}, fallback ? "true" : "false") == "true";
+}
+
+std::vector<double> XmlValues::numbers(const char* name, int least, int most) const {
+  const std::string text = find(name).value_or("");
+  std::vector<double> out;
+  for (const auto word : split_words(text)) {
+    const auto value = parse_number(word);
+    if (!value) fail(name, "wanted a number, got {}", in_quotes(word));
+    if (std::abs(*value) > largest_number)
+      fail(name, "wanted a number of at most {}, got {}", largest_number, in_quotes(word));
+    out.push_back(*value);
+  }
+  const int count = static_cast<int>(out.size());
+  if (count >= least && count <= most) return out;
+  const std::string wanted =
+      least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+  fail(name, "wanted {} number{}, got {}", wanted, most == 1 ? "" : "s", count);
+}
+
+Eigen::Vector3d XmlValues::vec3(const char* name, const Eigen::Vector3d& fallback) const {
+  if (!has(name)) return fallback;
+  const auto v = numbers(name, 3, 3);
+  return {v[0], v[1], v[2]};
+}
+
+std::string XmlValues::word(const char* name, std::initializer_list<const char*> words,
+                            const char* fallback) const {
+  const std::string got = find(name).value_or(fallback);
+  const std::vector<std::string> known(words.begin(), words.end());
+  if (std::find(known.begin(), known.end(), got) != known.end()) return got;
+  std::string list;
+  for (size_t i = 0; i < known.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == known.size() ? " or " : ", ") + known[i];
+  fail(name, "wanted {}, got {}{}", list, in_quotes(got), did_you_mean(got, known));
+}
+
+// --- what is not used ---
+
+UnusedXml::Kind& UnusedXml::kind_of(std::vector<Kind>& kinds, const XmlElement& element) {
+  for (Kind& kind : kinds)
+    if (kind.name == element.name()) return kind;
+  kinds.push_back({std::string(element.name()), element.place(), 0, {}});
+  return kinds.back();
+}
+
+void UnusedXml::element(const XmlElement& element) { ++kind_of(elements_, element).count; }
+
+void UnusedXml::attributes(const XmlElement& element,
+                           std::initializer_list<std::string_view> used) {
+  for (const auto& name : element.attributes())
+    if (std::find(used.begin(), used.end(), name) == used.end())
+      ++kind_of(attributes_, element).attributes[name];
+}
+
+std::vector<std::string> UnusedXml::sentences() const {
+  // names of a hostile file are cut: the sentence stays one
+  const auto shown = [](const std::string& name) { return name.substr(0, 40); };
+  std::vector<std::string> out;
+  for (const Kind& kind : elements_)
+    out.push_back(
+        fmt::format("{}: <{}> is not used{}", kind.place, shown(kind.name),
+                    kind.count > 1 ? fmt::format(", nor are {} more", kind.count - 1) : ""));
+  for (const Kind& kind : attributes_) {
+    std::string list;
+    int count = 0;
+    for (const auto& entry : kind.attributes)
+      if (++count <= 20) list += (list.empty() ? "" : ", ") + shown(entry.first);
+    out.push_back(fmt::format("{}: of <{}>, here and further on, not used: {}", kind.place,
+                              shown(kind.name), list));
+  }
+  return out;
+}
+
+}  // namespace clench
