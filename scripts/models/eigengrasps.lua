@@ -29,10 +29,10 @@ end
 
 --- @param e {origin: number[], [integer]: {value: number, [integer]: number}}  origin in degrees or mm, of each DOF;
 ---   directions of any length; value: share of the variance, or 1
---- @param slides? boolean[]  DOFs that count in mm
+--- @param slides? boolean[]  DOFs that slide: they count in metres in the file
 return function(e, slides)
   local origin = {}
-  for i, x in ipairs(e.origin) do origin[i] = slides and slides[i] and x or math.rad(x) end
+  for i, x in ipairs(e.origin) do origin[i] = slides and slides[i] and x * 1e-3 or math.rad(x) end
   local out = {"DIMENSIONS " .. #origin}
   for i, direction in ipairs(orthonormal(e)) do
     if #e[i] ~= #origin then error(("eigengrasp %d: wanted %d numbers, got %d"):format(i, #origin, #e[i]), 0) end

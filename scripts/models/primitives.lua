@@ -36,12 +36,12 @@ end
 local folder = "models/objects/primitives/"
 return {
   {folder .. "flask.iv", text = file("conical flask: a cone and its neck",
-    {{"Cone", 66, 250, at = {0, 0, 125}}, {"Cylinder", 22, 50, at = {0, 0, 195}}})},
+    {{"Cone", 66, 220, at = {0, 0, 110}}, {"Cylinder", 22, 50, at = {0, 0, 195}}})},
   {folder .. "mug.iv", text = file("mug: a cylinder and a box for the handle",
-    {{"Cylinder", 41, 95, at = {0, 0, 47.5}}, {"Cube", 40, 14, 62, at = {58, 0, 50}}})},
+    {{"Cylinder", 41, 95, at = {0, 0, 47.5}}, {"Cube", 36, 14, 62, at = {57.5, 0, 50}}})},
   {folder .. "glass.iv", text = file("drinking glass: a cylinder", {{"Cylinder", 34, 140, at = {0, 0, 70}}})},
   {folder .. "plane.iv", text = file("toy plane: fuselage, wings and tail", {
-    {"Cylinder", 16, 175, at = {-9, 0, 33}, turn = {0, 0, 1, math.pi / 2}}, {"Cube", 46, 190, 8, at = {20, 0, 24}},
+    {"Cylinder", 16, 184, at = {-4, 0, 33}, turn = {0, 0, 1, math.pi / 2}}, {"Cube", 46, 190, 8, at = {20, 0, 24}},
     {"Cube", 28, 72, 6, at = {-80, 0, 35}}, {"Cube", 30, 5, 32, at = {-82, 0, 50}},
   })},
 }

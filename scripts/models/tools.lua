@@ -22,8 +22,8 @@ local function plane()
                                     segments = 3}, 21, 27)
   local tail = slab(shapes.outline {{-94, -36, 6}, {-74, -36, 6}, {-66, 0, 4}, {-74, 36, 6}, {-94, 36, 6}, {-90, 0, 4}, segments = 3}, 33, 37)
   local fin = upright(slab({{-96, 35}, {-66, 35}, {-84, 66}, {-96, 66}}, -2.2, 2.2))
-  local blades = shapes.turn(slab(shapes.outline {{-38, -3}, {-30, -5.5}, {30, -5.5}, {38, -3}, {38, 3}, {30, 5.5},
-                                                  {-30, 5.5}, {-38, 3}}, 79, 83), {0, 1, 0}, math.pi / 2)
+  local blades = shapes.turn(slab(shapes.outline {{-29, -3}, {-22, -5.5}, {22, -5.5}, {29, -3}, {29, 3}, {22, 5.5},
+                                                  {-22, 5.5}, {-29, 3}}, 79, 83), {0, 1, 0}, math.pi / 2)
   local hub = shapes.cone {8, 2.5, from = {76, 0, 32}, to = {92, 0, 32}, segments = 20}
   local parts = {{fuselage, color = red}, {cabin, color = {0.45, 0.62, 0.72}}, {wing, color = cream}, {tail, color = cream},
                  {fin, color = red}, {shapes.move(blades, {0, 0, 32}), color = dark}, {hub, color = dark}}
@@ -63,14 +63,14 @@ end
 local function hammer()
   local steel, ash = {0.36, 0.37, 0.40}, {0.82, 0.66, 0.44}
   local grip = build.limb({
-    {x = -250, y = 15, h = 24, w = 30}, {x = -215, y = 15, h = 25, w = 31}, {x = -120, y = 15, h = 20, w = 25}, {x = -40, y = 15, h = 18, w = 22},
-    {x = 12, y = 15, h = 16, w = 20},
+    {x = -250, y = 12.5, h = 24, w = 30}, {x = -215, y = 12.5, h = 25, w = 31}, {x = -120, y = 12.5, h = 20, w = 25}, {x = -40, y = 12.5, h = 18, w = 22},
+    {x = 12, y = 12.5, h = 16, w = 20},
   }, {first = 8, last = 3, sides = 18})
   local head = shapes.loft((function()
     local rings = {}
     for i, s in ipairs {{-50, 11, 11}, {-48, 12.5, 12.5}, {-30, 12.5, 12.5}, {-20, 11.5, 11.5}, {14, 11.5, 11.5}, {30, 11, 8}, {53, 10.5, 1.6}} do
       local ring = shapes.outline {{-s[2], -s[3]}, {s[2], -s[3]}, {s[2], s[3]}, {-s[2], s[3]}, rounding = math.min(s[3] * 0.4, 4), segments = 2}
-      for k, p in ipairs(ring) do ring[k] = {p[1], s[1], 15 + p[2]} end
+      for k, p in ipairs(ring) do ring[k] = {p[1], s[1], 12.5 + p[2]} end
       rings[i] = ring
     end
     return rings

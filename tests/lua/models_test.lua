@@ -32,11 +32,44 @@ for _, path in ipairs(catalog.hands) do
   end)
 end
 
-for _, entry in ipairs {{"dlr_flask", 6}, {"barrett_mug", 3}, {"barrett_glass_table", 3}} do
+for _, path in ipairs(catalog.arms) do
+  test(path .. " is made of solids and stands free", function(t)
+    local world = clench.world()
+    world:add_robot(path)
+    for _, body in ipairs(world.bodies) do t.ok(body.mesh:is_watertight(), body.name) end
+    t.equal(#world:colliding(), 0)
+  end)
+end
+
+test("the catalogue holds hands, arms, objects, obstacles and worlds", function(t)
+  for shelf, least in pairs {hands = 9, arms = 2, objects = 17, obstacles = 5, worlds = 13} do
+    t.ok(#catalog[shelf] >= least, shelf .. ": " .. #catalog[shelf])
+  end
+end)
+
+for _, shelf in ipairs {"objects", "obstacles"} do
+  test(shelf .. " are solids and stand on z = 0", function(t)
+    for _, path in ipairs(catalog[shelf]) do
+      local world = clench.world()
+      local body = shelf == "objects" and world:add_object(path) or world:add_obstacle(path)
+      t.ok(body.mesh:is_watertight(), path)
+      local low, high = body.mesh.bounds.low, body.mesh.bounds.high
+      -- files have four decimals of a millimetre; a banana rests on a ring of its tube, whose sides are flat: 1 mm
+      local ground = path:find "floor" and high.z or low.z
+      t.ok(math.abs(ground) < 1e-3, ("%s: %g"):format(path, ground))
+    end
+  end)
+end
+
+for _, entry in ipairs {
+  {"dlr_flask", 6}, {"barrett_mug", 3}, {"barrett_glass_table", 3}, {"barrett_plane", 3}, {"human_flask", 6},
+  {"shadow_bottle", 6}, {"robonaut_glass", 6}, {"three_finger_sphere", 3}, {"adaptive_cylinder", 4},
+  {"parallel_jaw_cube", 8}, {"puma_barrett_glass", 3},
+} do
   local name, least = table.unpack(entry)
   test("closing the hand of " .. name .. " gives force closure", function(t)
     local world = clench.load("worlds/" .. name .. ".wld", {root = "."})
-    local hand, object = world.robots[1], world.objects[1]
+    local hand, object = world.robots[#world.robots], world.objects[1]
     t.equal(#world:colliding(), 0)
     hand:autograsp()
     t.equal(#world:colliding(), 0)
@@ -45,6 +78,77 @@ for _, entry in ipairs {{"dlr_flask", 6}, {"barrett_mug", 3}, {"barrett_glass_ta
     t.ok(grasp:is_force_closure() and grasp:quality "epsilon" > 0.05, "epsilon " .. grasp:quality "epsilon")
   end)
 end
+
+for _, name in ipairs {"gallery", "ur5_jaw_shelf", "puma_barrett_glass"} do
+  test("nothing collides in " .. name .. " and nothing is mounted askew", function(t)
+    local warnings = {}
+    clench.log.sink(function(level, text) if level == "warning" then warnings[#warnings + 1] = text end end)
+    local world = clench.load("worlds/" .. name .. ".wld", {root = "."})
+    clench.log.sink()
+    t.equal(table.concat(warnings, " "), "")
+    t.equal(#world:colliding(), 0)
+  end)
+end
+
+test("the gallery shows every hand", function(t)
+  local world, shown = clench.load("worlds/gallery.wld", {root = "."}), {}
+  for _, hand in ipairs(world.robots) do shown[hand.name] = true end
+  for _, path in ipairs(catalog.hands) do t.ok(shown[path:match "([%w_]+)%.cfg$"], path) end
+end)
+
+test("the arms stand where their published tables say, at 0", function(t)
+  -- sums along the tables by hand [m]: Puma a2 + a3, -d3, base + d4; UR5 a2 + a3, -d4 - d6, d1 - d5
+  for name, at in pairs {
+    puma560 = {0.4318 + 0.0203, -0.15005, 0.67183 + 0.4318}, ur5 = {-0.425 - 0.39225, -0.10915 - 0.0823, 0.089159 - 0.09465},
+  } do
+    local world = clench.world()
+    local arm = world:add_robot(("models/arms/%s/%s.cfg"):format(name, name))
+    local flange = arm.links[6].pose.position
+    -- the tables are in degrees: rounding of pi/2 times a metre
+    t.close(flange.x, at[1], 1e-9)
+    t.close(flange.y, at[2], 1e-9)
+    t.close(flange.z, at[3], 1e-9)
+  end
+end)
+
+test("every hand names its eigengrasps and sites, and they fit its DOFs and links", function(t)
+  for _, path in ipairs(catalog.hands) do
+    local world = clench.world()
+    local hand = world:add_robot(path)
+    local motions, sites = read((path:gsub("cfg$", "egr"))), read((path:gsub("cfg$", "vgr")))
+    t.equal(tonumber(motions:match "^DIMENSIONS (%d+)"), #hand.dofs)
+    local count, seen = tonumber(sites:match "^[^\n]*\n(%d+)"), 0
+    for finger, link in sites:gmatch "\n(%-?%d+) (%d+)\n8\n" do
+      seen = seen + 1
+      local chain = hand.chains[tonumber(finger) + 1]
+      t.ok(finger == "-1" or chain and chain.links[tonumber(link) + 1], ("%s: %s %s"):format(path, finger, link))
+    end
+    t.equal(seen, count)
+    local text = read(path)
+    t.ok(text:find "EigenGrasps\n" and text:find "VirtualContacts\n", path)
+  end
+end)
+
+test("the human hands have six eigengrasps and 18 sites", function(t)
+  for _, name in ipairs {"human20", "human16"} do
+    local _, motions = read("models/hands/human/" .. name .. ".egr"):gsub("\nEG\n", "")
+    t.equal(motions, 6)
+    t.equal(read("models/hands/human/" .. name .. ".vgr"):match "^[^\n]*\n(%d+)", "18")
+  end
+end)
+
+test("primitives fill the bounds of their objects", function(t)
+  for _, name in ipairs {"flask", "mug", "glass", "plane"} do
+    local world = clench.world()
+    local object = world:add_object("models/objects/" .. name .. ".iv")
+    local stand_in = world:add_object("models/objects/primitives/" .. name .. ".iv", {name = "stand-in"})
+    for _, corner in ipairs {"low", "high"} do
+      local a, b = object.mesh.bounds[corner], stand_in.mesh.bounds[corner]
+      -- rounded shapes, wheels and a propeller are left out: 2 cm
+      t.ok((a - b):norm() < 0.02, ("%s: %g"):format(name, (a - b):norm()))
+    end
+  end
+end)
 
 test("the vessels weigh what such vessels weigh", function(t)
   -- [kg]: a flask of 1000 ml, a mug, a tumbler, each as its trade lists it, with a third to spare
