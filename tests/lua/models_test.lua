@@ -129,6 +129,47 @@ test("every hand names its eigengrasps and sites, and they fit its DOFs and link
   end
 end)
 
+--- the sites of a file: lists of finger, link, location [mm], quaternion, normal
+local function sites_of(path)
+  local words, list, at = {}, {}, 2
+  for word in read(path):gmatch "%S+" do words[#words + 1] = tonumber(word) or word end
+  for i = 1, words[2] do
+    local finger, link, edges = words[at + 1], words[at + 2], words[at + 3]
+    at = at + 3 + 6 * edges
+    list[i] = {finger = finger, link = link, point = clench.vec3(table.unpack(words, at + 1, at + 3)) * 1e-3,
+               quat = {table.unpack(words, at + 4, at + 7)}, normal = clench.vec3(table.unpack(words, at + 11, at + 13))}
+    at = at + 14
+  end
+  return list
+end
+
+for _, path in ipairs(catalog.hands) do
+  test("the sites of " .. path .. " lie on their links, and their frames look outward", function(t)
+    local world = clench.world()
+    local hand = world:add_robot(path)
+    for i, site in ipairs(sites_of((path:gsub("cfg$", "vgr")))) do
+      local body = site.finger < 0 and hand.base or hand.chains[site.finger + 1].links[site.link + 1]
+      local on, mesh = false, body.mesh
+      for k = 1, mesh.triangle_count do
+        local corner = mesh.triangles[k]
+        local a, b, c = mesh.vertices[corner[1]], mesh.vertices[corner[2]], mesh.vertices[corner[3]]
+        local normal = (b - a):cross(c - a)
+        -- files have four decimals of a millimetre; the normal of a small triangle leans by no more
+        if math.abs((site.point - a):dot(normal)) < 2e-7 * normal:norm() and normal:dot(site.normal) > 0.999 * normal:norm() then
+          local function inside(p, q) return (q - p):cross(site.point - p):dot(normal) >= -1e-3 * normal:norm() ^ 2 end
+          on = on or (inside(a, b) and inside(b, c) and inside(c, a))
+        end
+      end
+      t.ok(on, ("%s: site %d is not on %s"):format(path, i, body.name))
+      local z = clench.pose {quat = site.quat} * clench.vec3(0, 0, 1)
+      t.close((z - site.normal):norm(), 0, 1e-8)
+      -- pads look the way that closing moves them: out of the palm, or along +y of the link
+      local pad = site.finger < 0 and site.normal.z or site.normal.y
+      t.ok(pad > 0.5, ("%s: site %d looks elsewhere: %g"):format(path, i, pad))
+    end
+  end)
+end
+
 test("the human hands have six eigengrasps and 18 sites", function(t)
   for _, name in ipairs {"human20", "human16"} do
     local _, motions = read("models/hands/human/" .. name .. ".egr"):gsub("\nEG\n", "")
