@@ -187,16 +187,14 @@ bool ColladaReader::read() {
 
 }  // namespace
 
-bool read_collada(const std::filesystem::path& path, GeometryBuilder& builder,
-                  const ReadOptions& options) {
-  const std::string file = path.filename().string(), text = read_text(path);
+bool read_collada(const MeshInput& input, GeometryBuilder& builder) {
+  const std::string file = input.file(), text = with_plain_line_ends(input.bytes);
   const auto tags = std::count(text.begin(), text.end(), '<');
   if (tags > most_tags) fail("{}: wanted at most {} tags, got {}", file, most_tags, tags);
   try {
     ColladaReader reader(file, text, builder);
     const bool colors = reader.read();
-    if (options.warn)
-      for (const auto& warning : reader.warnings()) options.warn(file + ": " + warning);
+    for (const auto& warning : reader.warnings()) input.warn(file + ": " + warning);
     return colors;
   } catch (const Error& error) {
     // what the builder refuses does not name the file

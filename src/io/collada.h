@@ -1,6 +1,7 @@
 // Geometry from COLLADA files (.dae), versions 1.4 and 1.5.
 #pragma once
 #include "io/geometry_builder.h"
+#include "io/mesh_input.h"
 
 namespace clench {
 
@@ -8,7 +9,6 @@ namespace clench {
 /// with its upward axis. Skins and morphs are not used, with a warning.
 /// returns  do colours come from the file?
 /// throws   Error  "part.dae:31: ..."
-bool read_collada(const std::filesystem::path& path, GeometryBuilder& builder,
-                  const ReadOptions& options);
+bool read_collada(const MeshInput& input, GeometryBuilder& builder);
 
 }  // namespace clench

@@ -17,9 +17,8 @@ constexpr size_t most_primitives = 1'000'000;
 
 class GltfReader {
  public:
-  GltfReader(const std::filesystem::path& path, GeometryBuilder& builder,
-             const ReadOptions& options)
-      : document_(path, options), builder_(builder) {}
+  GltfReader(const MeshInput& input, GeometryBuilder& builder)
+      : document_(input), builder_(builder) {}
   bool read();
   const std::set<std::string>& warnings() const { return warnings_; }
 
@@ -208,18 +207,15 @@ bool GltfReader::read() {
 
 }  // namespace
 
-bool read_gltf(const std::filesystem::path& path, GeometryBuilder& builder,
-               const ReadOptions& options) {
-  const std::string file = path.filename().string();
+bool read_gltf(const MeshInput& input, GeometryBuilder& builder) {
+  const std::string file = input.file();
   builder.report.format = "glTF";
-  builder.report.unit = 1;
   builder.report.unit_source = UnitSource::format;
   builder.report.up = 'y';
   try {
-    GltfReader reader(path, builder, options);
+    GltfReader reader(input, builder);
     const bool colors = reader.read();
-    if (options.warn)
-      for (const auto& warning : reader.warnings()) options.warn(file + ": " + warning);
+    for (const auto& warning : reader.warnings()) input.warn(file + ": " + warning);
     return colors;
   } catch (const Error& error) {
     // what the builder refuses does not name the file

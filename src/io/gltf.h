@@ -1,6 +1,7 @@
 // Geometry from glTF 2.0 files: .gltf with its buffers, and .glb.
 #pragma once
 #include "io/geometry_builder.h"
+#include "io/mesh_input.h"
 
 namespace clench {
 
@@ -8,7 +9,6 @@ namespace clench {
 /// morph targets and animations are not used, with a warning.
 /// returns  do colours come from the file?
 /// throws   Error  "part.glb: accessors[3]: wanted 36 bytes of bufferViews[1], got 24"
-bool read_gltf(const std::filesystem::path& path, GeometryBuilder& builder,
-               const ReadOptions& options);
+bool read_gltf(const MeshInput& input, GeometryBuilder& builder);
 
 }  // namespace clench

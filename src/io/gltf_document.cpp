@@ -100,13 +100,10 @@ double component(ByteReader& bytes, int type, bool normalized) {
 
 }  // namespace
 
-GltfDocument::GltfDocument(const std::filesystem::path& path, const ReadOptions& options)
-    : path_(path), options_(options), file_(path.filename().string()) {
-  std::string text = read_bytes(path);
-  if (text.starts_with("glTF")) {
-    const std::string bytes = std::move(text);
-    split_glb(bytes, text);
-  }
+GltfDocument::GltfDocument(const MeshInput& input) : input_(input), file_(input.file()) {
+  std::string chunk;
+  if (input.bytes.starts_with("glTF")) split_glb(input.bytes, chunk);
+  const std::string& text = binary_ ? chunk : input.bytes;
   if (text.size() > most_json_bytes)
     fail("wanted at most {} MB of JSON, got {}", most_json_bytes >> 20, text.size() >> 20);
   try {
@@ -233,7 +230,7 @@ const std::string& GltfDocument::buffer(int i, const std::string& wanted_by) {
       if (!decoded) fail("{}: wanted data in base64", uri.name);
       bytes = std::move(*decoded);
     } else {
-      bytes = read_bytes(find_file(decode_percent(name), path_, options_));
+      bytes = read_bytes(find_file(decode_percent(name), input_.path, input_.options));
     }
   }
   const int length = wanted_integer(value, "byteLength", 1);

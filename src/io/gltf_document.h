@@ -1,13 +1,12 @@
 // A glTF file's JSON and buffers, checked: every index, count and byte before it is used.
 #pragma once
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
-#include "io/read.h"
+#include "io/mesh_input.h"
 
 namespace clench {
 
@@ -22,7 +21,7 @@ struct GltfValue {
 class GltfDocument {
  public:
   /// throws Error when it is no glTF 2, or needs an extension that changes its geometry
-  GltfDocument(const std::filesystem::path& path, const ReadOptions& options);
+  explicit GltfDocument(const MeshInput& input);
 
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
@@ -58,8 +57,7 @@ class GltfDocument {
   void split_glb(const std::string& bytes, std::string& text);
   void check_version() const;
 
-  std::filesystem::path path_;
-  const ReadOptions& options_;
+  const MeshInput& input_;
   std::string file_;
   nlohmann::json json_;
   bool binary_ = false;     // a .glb

@@ -50,27 +50,27 @@ static Eigen::Matrix3d turn_up(char up) {
 }
 
 /// returns  do colours come from the file?
-static bool read_triangles(const std::filesystem::path& path, GeometryBuilder& builder,
-                           const ReadOptions& options) {
-  const std::string extension = lower_case(path.extension().string());
-  if (extension == ".obj") return read_obj(path, builder, options);
-  if (extension == ".ply") return read_ply(path, builder, options);
-  if (extension == ".off") return read_off(path, builder, options);
-  if (extension == ".dae") return read_collada(path, builder, options);
-  if (extension == ".gltf" || extension == ".glb") return read_gltf(path, builder, options);
+static bool read_triangles(const MeshInput& input, GeometryBuilder& builder) {
+  const std::string extension = lower_case(input.path.extension().string());
+  if (extension == ".obj") return read_obj(input, builder);
+  if (extension == ".ply") return read_ply(input, builder);
+  if (extension == ".off") return read_off(input, builder);
+  if (extension == ".dae") return read_collada(input, builder);
+  if (extension == ".gltf" || extension == ".glb") return read_gltf(input, builder);
   if (extension == ".stl") {
-    read_stl(path, builder, options);
+    read_stl(input, builder);
     return false;
   }
-  fail("{}: wanted a mesh from .obj, .stl, .ply, .off, .gltf, .glb or .dae, got {}",
-       path.filename().string(), in_quotes(extension));
+  fail("{}: wanted a mesh from .obj, .stl, .ply, .off, .gltf, .glb or .dae, got {}", input.file(),
+       in_quotes(extension));
 }
 
-Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options) {
-  const std::string file = path.filename().string();
+Geometry read_mesh(const MeshInput& input) {
+  const ReadOptions& options = input.options;
+  const std::string file = input.file();
   GeometryBuilder builder;
   builder.report.unit_source = UnitSource::guess;  // until the file says it
-  const bool colors_given = read_triangles(path, builder, options);
+  const bool colors_given = read_triangles(input, builder);
   if (builder.triangle_count() == 0) fail("{}: wanted triangles, got none", file);
   set_unit(builder, file, options);
   MeshReport& report = builder.report;
@@ -79,6 +79,11 @@ Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& op
     options.note(fmt::format("{}: its {} axis is up, and was turned to z", file, report.up));
   builder.transform(report.unit, turn_up(report.up));
   return builder.finish(colors_given, file, options);
+}
+
+Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options) {
+  const std::string bytes = read_bytes(path);
+  return read_mesh({path, bytes, options});
 }
 
 }  // namespace clench

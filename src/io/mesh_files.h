@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "io/geometry_builder.h"
+#include "io/mesh_input.h"
 
 namespace clench {
 
@@ -10,6 +11,9 @@ namespace clench {
 /// options.silent_mesh_unit, else by a guess from the size, which is noted.
 /// throws Error  "part.stl: ..." when malformed, empty or cut short
 Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options);
+
+/// The same of a file that has been read.
+Geometry read_mesh(const MeshInput& input);
 
 /// The unit [m] of a mesh whose largest side has that length, if nobody says: metres up to ten
 /// units, millimetres beyond.

@@ -23,12 +23,8 @@ struct Face {
 
 class ObjReader {
  public:
-  ObjReader(const std::filesystem::path& path, const std::string& text, GeometryBuilder& builder,
-            const ReadOptions& options)
-      : path_(path),
-        options_(options),
-        builder_(builder),
-        words_(path.filename().string(), text, true) {}
+  ObjReader(const MeshInput& input, const std::string& text, GeometryBuilder& builder)
+      : input_(input), builder_(builder), words_(input.file(), text, true) {}
   bool read();
 
  private:
@@ -41,8 +37,7 @@ class ObjReader {
   void add_faces();
   void warn_once(const std::string& about, const std::string& sentence);
 
-  const std::filesystem::path& path_;
-  const ReadOptions& options_;
+  const MeshInput& input_;
   GeometryBuilder& builder_;
   WordReader words_;
   std::vector<Eigen::Vector3f> point_colors_;
@@ -134,14 +129,15 @@ void ObjReader::read_materials(const std::string& names) {
   bool found = false;
   for (const auto& name : candidates) {
     try {
-      read_material_file(find_file(name, path_, options_));
+      read_material_file(find_file(name, input_.path, input_.options));
       found = true;
     } catch (const Error& error) {
       if (missing.empty()) missing = error.what();
     }
     if (found && name == names) break;
   }
-  if (!found && options_.note) options_.note(missing + "; the body has no colours of its own");
+  if (!found && input_.options.note)
+    input_.options.note(missing + "; the body has no colours of its own");
 }
 
 void ObjReader::read_material_file(const std::filesystem::path& path) {
@@ -163,9 +159,9 @@ void ObjReader::read_material_file(const std::filesystem::path& path) {
       material->color = Eigen::Vector3d(*a, *b, *c).cwiseMax(0).cwiseMin(1).cast<float>();
     else if (!color && a)
       material->transparency = static_cast<float>(std::clamp(opaque ? 1 - *a : *a, 0.0, 1.0));
-    else if (options_.warn)
-      options_.warn(fmt::format("{}: wanted {} after {}; not used", words.place(),
-                                color ? "three numbers" : "a number", keyword));
+    else
+      input_.warn(fmt::format("{}: wanted {} after {}; not used", words.place(),
+                              color ? "three numbers" : "a number", keyword));
   }
 }
 
@@ -209,8 +205,7 @@ bool ObjReader::read() {
       read_other(keyword);
   }
   add_faces();
-  if (options_.warn)
-    for (const auto& warning : warnings_) options_.warn(warning);
+  for (const auto& warning : warnings_) input_.warn(warning);
   if (!point_colors_.empty()) return point_colors_.size() == builder_.vertex_count();
   for (const auto& [name, number] : material_numbers_)
     if (materials_.contains(name)) return true;
@@ -219,11 +214,10 @@ bool ObjReader::read() {
 
 }  // namespace
 
-bool read_obj(const std::filesystem::path& path, GeometryBuilder& builder,
-              const ReadOptions& options) {
-  const std::string text = read_text(path);
+bool read_obj(const MeshInput& input, GeometryBuilder& builder) {
+  const std::string text = with_plain_line_ends(input.bytes);
   builder.report.format = "OBJ";
-  return ObjReader(path, text, builder, options).read();
+  return ObjReader(input, text, builder).read();
 }
 
 }  // namespace clench

@@ -10,9 +10,8 @@ namespace {
 
 class OffReader {
  public:
-  OffReader(std::string file, const std::string& text, GeometryBuilder& builder,
-            const ReadOptions& options)
-      : options_(options), builder_(builder), words_(std::move(file), text) {}
+  OffReader(const MeshInput& input, const std::string& text, GeometryBuilder& builder)
+      : input_(input), builder_(builder), words_(input.file(), text) {}
   bool read();
 
  private:
@@ -25,7 +24,7 @@ class OffReader {
   void to_line(const char* what, int i, int count);
   void warn_once(const std::string& sentence);
 
-  const ReadOptions& options_;
+  const MeshInput& input_;
   GeometryBuilder& builder_;
   WordReader words_;
   int vertices_ = 0, faces_ = 0;
@@ -79,8 +78,7 @@ void OffReader::to_line(const char* what, int i, int count) {
 }
 
 void OffReader::warn_once(const std::string& sentence) {
-  if (told_.insert(sentence).second && options_.warn)
-    options_.warn(words_.place() + ": " + sentence);
+  if (told_.insert(sentence).second) input_.warn(words_.place() + ": " + sentence);
 }
 
 /// Three or four numbers of a line's rest: of 0..1 with a point in them, else of 0..255.
@@ -156,11 +154,10 @@ bool OffReader::read() {
 
 }  // namespace
 
-bool read_off(const std::filesystem::path& path, GeometryBuilder& builder,
-              const ReadOptions& options) {
-  const std::string text = read_text(path);
+bool read_off(const MeshInput& input, GeometryBuilder& builder) {
+  const std::string text = with_plain_line_ends(input.bytes);
   builder.report.format = "OFF";
-  return OffReader(path.filename().string(), text, builder, options).read();
+  return OffReader(input, text, builder).read();
 }
 
 }  // namespace clench

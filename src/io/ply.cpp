@@ -288,9 +288,9 @@ size_t header_size(std::string_view bytes) {
 
 }  // namespace
 
-bool read_ply(const std::filesystem::path& path, GeometryBuilder& builder,
-              const ReadOptions& options) {
-  const std::string bytes = read_bytes(path), file = path.filename().string();
+bool read_ply(const MeshInput& input, GeometryBuilder& builder) {
+  const std::string& bytes = input.bytes;
+  const std::string file = input.file();
   const size_t body = header_size(bytes);
   std::string text = with_plain_line_ends(bytes.substr(0, body));
   WordReader words(file, text);
@@ -320,13 +320,11 @@ bool read_ply(const std::filesystem::path& path, GeometryBuilder& builder,
       reader.read_faces(element, strips);
     } else {
       reader.step_over(element);
-      if (options.warn && element.count > 0)
-        options.warn(
-            fmt::format("{}: its elements {} are not used", file, in_quotes(element.name)));
+      if (element.count > 0)
+        input.warn(fmt::format("{}: its elements {} are not used", file, in_quotes(element.name)));
     }
   }
-  if (const std::string surplus = values.surplus(); !surplus.empty() && options.warn)
-    options.warn(surplus);
+  if (const std::string surplus = values.surplus(); !surplus.empty()) input.warn(surplus);
   return reader.colored();
 }
 

@@ -1,6 +1,7 @@
 // Geometry from PLY files: ascii, and binary of both byte orders.
 #pragma once
 #include "io/geometry_builder.h"
+#include "io/mesh_input.h"
 
 namespace clench {
 
@@ -8,7 +9,6 @@ namespace clench {
 /// are stepped over, with a warning; so are properties other than places, colours and indices.
 /// returns  do colours come from the file?
 /// throws   Error  "part.ply:31: ..." in header and ascii files, "part.ply: face 7 of 12: ..." else
-bool read_ply(const std::filesystem::path& path, GeometryBuilder& builder,
-              const ReadOptions& options);
+bool read_ply(const MeshInput& input, GeometryBuilder& builder);
 
 }  // namespace clench

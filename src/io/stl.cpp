@@ -86,8 +86,9 @@ void read_ascii(WordReader& words, GeometryBuilder& builder) {
   }
 }
 
-void read_binary(std::string_view bytes, const std::string& file, GeometryBuilder& builder,
-                 const ReadOptions& options) {
+void read_binary(const MeshInput& input, GeometryBuilder& builder) {
+  const std::string_view bytes = input.bytes;
+  const std::string file = input.file();
   const size_t count = bytes.size() < header_bytes ? 0 : facet_count(bytes),
                whole =
                    bytes.size() < header_bytes ? 0 : (bytes.size() - header_bytes) / facet_bytes;
@@ -111,29 +112,23 @@ void read_binary(std::string_view bytes, const std::string& file, GeometryBuilde
     attributes += reader.next<uint16_t>() != 0;
     add_facet(builder, corners);
   }
-  if (!options.warn) return;
   if (attributes > 0)
-    options.warn(
-        fmt::format("{}: the attribute words of {} facets are not used", file, attributes));
+    input.warn(fmt::format("{}: the attribute words of {} facets are not used", file, attributes));
   if (reader.left() > 0)
-    options.warn(
-        fmt::format("{}: {} bytes after the last facet are not used", file, reader.left()));
+    input.warn(fmt::format("{}: {} bytes after the last facet are not used", file, reader.left()));
 }
 
 }  // namespace
 
-void read_stl(const std::filesystem::path& path, GeometryBuilder& builder,
-              const ReadOptions& options) {
-  std::string bytes = read_bytes(path);
-  const std::string file = path.filename().string();
-  if (is_ascii(bytes)) {
+void read_stl(const MeshInput& input, GeometryBuilder& builder) {
+  if (is_ascii(input.bytes)) {
     builder.report.format = "ascii STL";
-    bytes = with_plain_line_ends(std::move(bytes));
-    WordReader words(file, bytes);
+    const std::string text = with_plain_line_ends(input.bytes);
+    WordReader words(input.file(), text);
     read_ascii(words, builder);
   } else {
     builder.report.format = "binary STL";
-    read_binary(bytes, file, builder, options);
+    read_binary(input, builder);
   }
 }
 

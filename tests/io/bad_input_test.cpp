@@ -44,6 +44,11 @@ TEST_CASE("a malformed robot file is told by file, line, wanted and got") { chec
 TEST_CASE("a malformed world file is told by file, line, wanted and got") { check_format("wld"); }
 TEST_CASE("a malformed OBJ file is told by file, wanted and got") { check_format("obj"); }
 TEST_CASE("a malformed STL file is told by file, wanted and got") { check_format("stl"); }
+TEST_CASE("a malformed PLY file is told by file, wanted and got") { check_format("ply"); }
+TEST_CASE("a malformed OFF file is told by file, wanted and got") { check_format("off"); }
+TEST_CASE("a malformed glTF file is told by file, wanted and got") { check_format("gltf"); }
+TEST_CASE("a malformed GLB file is told by file, wanted and got") { check_format("glb"); }
+TEST_CASE("a malformed COLLADA file is told by file, wanted and got") { check_format("dae"); }
 
 TEST_CASE("a format that is not read is refused with the list of those that are") {
   CHECK_THROWS_WITH_AS(read_body("tests/CMakeLists.txt"),

@@ -1,90 +1,265 @@
+#include "io/mesh_files.h"
+
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "io/read.h"
+#include "mesh_writers.h"
+#include "support/meshes.h"
+#include "support/shared.h"
 #include "temporary.h"
 
 using namespace clench;
-using clench::test::TemporaryFolder;
+using namespace clench::test;
 
-static const std::string cube_points =
-    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
-static const std::string cube_faces =
-    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+namespace {
 
-/// The unit cube as an ASCII STL, whose triangles share no points.
-static std::string stl_cube() {
-  const int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                           {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-  const int points[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                            {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-  std::string out = "solid cube\n";
-  for (const auto& f : faces)
-    for (const auto& t : {std::array{f[0], f[1], f[2]}, std::array{f[0], f[2], f[3]}}) {
-      out += "facet normal 0 0 0\nouter loop\n";
-      for (const int i : t)
-        out += fmt::format("vertex {} {} {}\n", points[i][0], points[i][1], points[i][2]);
-      out += "endloop\nendfacet\n";
+/// Corner by corner, whatever the vertices' numbers.
+void check_same_surface(const Mesh& a, const Mesh& b) {
+  REQUIRE(a.triangles.size() == b.triangles.size());
+  int different = 0;
+  for (size_t i = 0; i < a.triangles.size(); ++i)
+    different += a.corners(static_cast<int>(i)) != b.corners(static_cast<int>(i));
+  CHECK(different == 0);
+}
+
+Mesh stretched_box() { return in_32_bits(box(0.25, 0.5, 0.125)); }
+
+/// A box whose faces share no vertices.
+Mesh box_of_loose_faces() {
+  const Mesh whole = stretched_box();
+  Mesh out;
+  for (size_t i = 0; i < whole.triangles.size(); ++i) {
+    const int first = static_cast<int>(out.vertices.size());
+    for (const auto& p : whole.corners(static_cast<int>(i))) out.vertices.push_back(p);
+    out.triangles.push_back({first, first + 1, first + 2});
+  }
+  return out;
+}
+
+Geometry read(const TemporaryFolder& folder, const MeshFile& file,
+              const ReadOptions& options = {}) {
+  return read_mesh_file(folder.write(file.name, file.content), options);
+}
+
+}  // namespace
+
+TEST_CASE("a mesh is the same to the bit in every format, and closed") {
+  const TemporaryFolder folder;
+  Random random(5);
+  for (const Mesh& mesh : {stretched_box(), in_32_bits(potato(random, 0.5, 8))})
+    for (const MeshFile& file : in_every_format(mesh)) {
+      INFO(file.name);
+      const Geometry geometry = read(folder, file);
+      check_same_surface(geometry.mesh, mesh);
+      CHECK(geometry.mesh.vertices.size() == mesh.vertices.size());
+      CHECK(find_faults(geometry.mesh).none());
+      CHECK(geometry.report.triangles_read == static_cast<int>(mesh.triangles.size()));
+      CHECK(geometry.report.dropped_triangles == 0);
+      CHECK(geometry.report.unit == 1);
     }
-  return out + "endsolid cube\n";
 }
 
-TEST_CASE("an OBJ cube is closed, in metres as written, or in the unit that is given") {
+TEST_CASE("line ends of every system are read alike") {
   const TemporaryFolder folder;
-  const auto file = folder.write("Cube.OBJ", cube_points + cube_faces);
-  const BodySpec b = read_body(file);
-  CHECK(b.name == "Cube");
-  CHECK(b.shape->mesh().triangles.size() == 12);
-  CHECK(b.shape->faults().none());
-  CHECK(b.shape->solid().volume == doctest::Approx(1));
-  CHECK(b.mass == doctest::Approx(0.3));
-  ReadOptions inches;
-  inches.mesh_scale = 0.0254;
-  CHECK(read_body(file, inches).shape->bounds().high.x() == doctest::Approx(0.0254));
+  const Mesh mesh = stretched_box();
+  for (const MeshFile& file : in_every_format(mesh)) {
+    if (file.name == "binary.stl" || file.name == "solid.stl" || file.name == "a.glb") continue;
+    for (const std::string end : {"\r\n", "\r"}) {
+      const bool ply = file.name.find(".ply") != std::string::npos;
+      const size_t text_end = ply && file.name != "ascii.ply"
+                                  ? file.content.find("end_header\n") + 11
+                                  : file.content.size();
+      std::string changed;
+      for (const char c : file.content.substr(0, text_end))
+        changed += c == '\n' ? end : std::string(1, c);
+      INFO(file.name);
+      check_same_surface(read(folder, {file.name, changed + file.content.substr(text_end)}).mesh,
+                         mesh);
+    }
+  }
 }
 
-TEST_CASE("the loose triangles of an STL are welded") {
+TEST_CASE("vertices that faces do not share are welded, and counted") {
   const TemporaryFolder folder;
-  const BodySpec b = read_body(folder.write("cube.stl", stl_cube()));
-  CHECK(b.shape->mesh().vertices.size() == 8);
-  CHECK(b.shape->mesh().triangles.size() == 12);
-  CHECK(b.shape->faults().none());
-  CHECK_FALSE(b.appearance.given);
+  const Mesh loose = box_of_loose_faces();
+  for (const MeshFile& file : in_every_format(loose)) {
+    INFO(file.name);
+    const Geometry geometry = read(folder, file);
+    CHECK(geometry.mesh.vertices.size() == 8);
+    CHECK(find_faults(geometry.mesh).none());
+    CHECK(geometry.report.vertices_read == 36);
+    CHECK(geometry.report.welded_vertices == 28);
+  }
 }
 
-TEST_CASE("the colours of an OBJ come from its material file and it loads without that too") {
+TEST_CASE("what a file connects into closed surfaces stays as it is, though places are equal") {
+  // two boxes that touch in an edge: welded, four faces would meet there
   const TemporaryFolder folder;
-  const std::string text = "mtllib cube.mtl\n" + cube_points + "usemtl red\n" + cube_faces;
-  const auto file = folder.write("cube.obj", text);
-  CHECK(read_body(file).shape);
-  folder.write("cube.mtl", "newmtl red\nKd 1 0 0\nd 0.5\n");
-  const Appearance look = read_body(file).appearance;
-  CHECK(look.given);
-  CHECK(look.color == Eigen::Vector3f(1, 0, 0));
-  CHECK(look.transparency == 0.5f);
+  const Mesh two =
+      joined(box(1, 1, 1), moved(box(1, 1, 1), {Eigen::Quaterniond::Identity(), {1, 1, 0}}));
+  const Geometry geometry = read(folder, {"two.obj", obj_text(two)});
+  CHECK(geometry.mesh.vertices.size() == 16);
+  CHECK(find_faults(geometry.mesh).none());
+  CHECK(geometry.report.welded_vertices == 0);
+
+  // a sliver whose ends lie at one place holds its neighbours together
+  Mesh pinched = ball(0.5);
+  const Triangle cut = pinched.triangles[40];
+  pinched.vertices[cut[1]] = pinched.vertices[cut[0]];
+  const Geometry kept = read(folder, {"pinched.off", off_text(pinched)});
+  CHECK(kept.mesh.triangles.size() == pinched.triangles.size());
+  CHECK(kept.report.dropped_triangles == 0);
+  CHECK(find_faults(kept.mesh).closed());
 }
 
-TEST_CASE("a point or a face of an OBJ that is wrong is told by line") {
+TEST_CASE("triangles without area go, and are counted, unless the surface needs them") {
   const TemporaryFolder folder;
-  const auto refused = [&](const std::string& line, const std::string& sentence) {
-    CHECK_THROWS_WITH_AS(read_body(folder.write("q.obj", cube_points + line + "\n" + cube_faces)),
-                         ("q.obj:9: wanted " + sentence).c_str(), Error);
+  const Mesh whole = stretched_box();
+  // a vertex twice, two vertices at one place, three in a line
+  const std::string bad = obj_text(whole) + "v -0.125 -0.25 -0.0625\nv 0 -0.25 -0.0625\nv 9 9 9\n" +
+                          "f 1 1 2\nf 1 2 9\nf 1 2 10\n";
+  const Geometry geometry = read(folder, {"bad.obj", bad});
+  check_same_surface(geometry.mesh, whole);
+  CHECK(geometry.report.triangles_read == 15);
+  CHECK(geometry.report.dropped_triangles == 3);
+  CHECK(geometry.report.unused_vertices == 1);
+  CHECK(geometry.report.welded_vertices == 2);
+  // one that fills a gap without width stays
+  Mesh seam = whole;
+  seam.vertices.push_back(0.5 * (seam.vertices[0] + seam.vertices[2]));
+  const Triangle t = seam.triangles[0];  // 0 2 3
+  seam.triangles[0] = {8, t[1], t[2]};
+  seam.triangles.push_back({t[0], 8, t[2]});
+  CHECK_FALSE(find_faults(seam).closed());
+  seam.triangles.push_back({t[0], t[1], 8});
+  CHECK(find_faults(seam).closed());
+  const Geometry closed = read(folder, {"seam.obj", obj_text(seam)});
+  CHECK(closed.mesh.triangles.size() == 14);
+  CHECK(find_faults(closed.mesh).closed());
+}
+
+TEST_CASE("a mesh of nothing but lines in disguise is kept rather than emptied") {
+  const TemporaryFolder folder;
+  CHECK(read(folder, {"a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"}).mesh.triangles.size() == 1);
+  CHECK_THROWS_WITH_AS(read(folder, {"a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 2\n"}),
+                       "a.obj: wanted triangles, got none", Error);
+}
+
+TEST_CASE("colours follow their triangles when others are dropped") {
+  const TemporaryFolder folder;
+  folder.write("p.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 0\n";
+  const Geometry geometry =
+      read(folder, {"p.obj", "mtllib p.mtl\n" + points +
+                                 "usemtl red\nf 1 3 2\nf 1 5 2\nf 1 2 2\nusemtl blue\nf 1 2 4\nf 1 "
+                                 "4 3\nf 2 3 4\n"});
+  REQUIRE(geometry.mesh.triangles.size() == 4);
+  REQUIRE(geometry.appearance.triangle_colors.size() == 4);
+  CHECK(geometry.appearance.triangle_colors[0] == Eigen::Vector3f(1, 0, 0));
+  for (int i = 1; i < 4; ++i)
+    CHECK(geometry.appearance.triangle_colors[i] == Eigen::Vector3f(0, 0, 1));
+}
+
+TEST_CASE("a closed mesh that is inside out is turned, with a warning and a word in the report") {
+  const TemporaryFolder folder;
+  for (const MeshFile& file : in_every_format(inverted(stretched_box()))) {
+    Warnings warnings;
+    const Geometry geometry = read(folder, file, warnings.options());
+    CHECK(geometry.report.turned);
+    CHECK(solid_mass(geometry.mesh).volume == doctest::Approx(0.25 * 0.5 * 0.125));
+    REQUIRE(warnings.list.size() == 1);
+    CHECK(warnings.list[0] == file.name + ": its triangles face inward; turned to face outward");
+  }
+}
+
+TEST_CASE("the unit is the option's, else the file's, else the caller's, else guessed and noted") {
+  const TemporaryFolder folder;
+  std::vector<std::string> notes;
+  ReadOptions options;
+  options.note = [&](const std::string& note) { notes.push_back(note); };
+  const auto size = [&](const MeshFile& file) {
+    const Geometry g = read(folder, file, options);
+    return g.mesh.bounds().size().x();
   };
-  refused("v 1 abc 2", "three numbers after v, got 'abc'");
-  refused("v 1 2", "three numbers after v, got nothing");
-  refused("v 1 nan 2", "three numbers after v, got 'nan'");
-  refused("f 1 2 9", "one of 8 points after f, got 9");
-  refused("f 1/1 2/1 0/1", "one of 8 points after f, got 0");
-  refused("f -1 -2 -9", "one of 8 points after f, got -9");
-  refused("f 1 2 x", "numbers of points after f, got 'x'");
-  CHECK(read_body(folder.write("q.obj", cube_points + "f 1 4 3 2\nf -4 -3 -2 -1\n"))
-            .shape->mesh()
-            .triangles.size() == 4);
+  const MeshFile metres{"a.obj", obj_text(box(10, 1, 1))},
+      mug{"mug.stl", ascii_stl(box(150, 80, 80))};
+  CHECK(size(metres) == 10);
+  CHECK(size(mug) == 0.15);
+  REQUIRE(notes.size() == 2);
+  CHECK(notes[0] ==
+        "a.obj: it names no unit; its size, 10 x 1 x 1, is taken for m (the option "
+        "unit says otherwise)");
+  CHECK(notes[1] ==
+        "mug.stl: it names no unit; its size, 150 x 80 x 80, is taken for mm (the "
+        "option unit says otherwise)");
+  notes.clear();
+  options.silent_mesh_unit = 1;
+  CHECK(size(mug) == 150);
+  const MeshFile inches{
+      "a.dae", collada_text(box(2, 1, 1), "", "<unit meter=\"0.0254\"/><up_axis>Z_UP</up_axis>")};
+  CHECK(size(inches) == doctest::Approx(0.0508));
+  options.mesh_scale = 0.01;
+  CHECK(size(mug) == doctest::Approx(1.5));
+  CHECK(size(inches) == doctest::Approx(0.02));
+  CHECK(notes.empty());
 }
 
-TEST_CASE("triangles of a mesh file with two equal corners are dropped") {
+TEST_CASE("the guess turns from metres to millimetres beyond ten units") {
+  CHECK(guess_mesh_unit(0.1) == 1);
+  CHECK(guess_mesh_unit(10) == 1);
+  CHECK(guess_mesh_unit(10.1) == 1e-3);
+  CHECK(guess_mesh_unit(1500) == 1e-3);
+}
+
+TEST_CASE("what a file calls up becomes z, unless its axes are to stay") {
   const TemporaryFolder folder;
-  CHECK(read_body(folder.write("c.obj", cube_points + cube_faces + "f 1 1 2\nf 3 4 3\n"))
-            .shape->mesh()
-            .triangles.size() == 12);
+  std::vector<std::string> notes;
+  ReadOptions options;
+  options.note = [&](const std::string& note) { notes.push_back(note); };
+  const Mesh tall = box(1, 2, 4);
+  const auto size = [&](const std::string& up) {
+    const std::string asset = "<up_axis>" + up + "</up_axis>";
+    return Eigen::Vector3d(
+        read(folder, {"a.dae", collada_text(tall, "", asset)}, options).mesh.bounds().size());
+  };
+  CHECK(size("Z_UP") == Eigen::Vector3d(1, 2, 4));
+  CHECK(notes.empty());
+  CHECK(size("Y_UP") == Eigen::Vector3d(1, 4, 2));
+  CHECK(size("X_UP") == Eigen::Vector3d(2, 4, 1));
+  REQUIRE(notes.size() == 2);
+  CHECK(notes[0] == "a.dae: its y axis is up, and was turned to z");
+  options.turn_mesh_up = false;
+  CHECK(size("Y_UP") == Eigen::Vector3d(1, 2, 4));
+  CHECK(notes.size() == 2);
+  // a turn, not a reflection
+  options.turn_mesh_up = true;
+  for (const std::string up : {"X_UP", "Y_UP", "Z_UP"})
+    CHECK_FALSE(
+        read(folder, {"a.dae", collada_text(tall, "", "<up_axis>" + up + "</up_axis>")}, options)
+            .report.turned);
+}
+
+TEST_CASE("a body keeps the report, which describes itself") {
+  const TemporaryFolder folder;
+  const BodySpec body = read_body(folder.write("crate.stl", ascii_stl(box(200, 100, 100))));
+  REQUIRE(body.mesh_report);
+  CHECK(body.name == "crate");
+  CHECK(describe(*body.mesh_report, *body.shape) ==
+        std::vector<std::string>{
+            "ascii STL: 12 triangles of 36 vertices", "unit mm, guessed from the size",
+            "28 vertices welded", "watertight, 0.2 x 0.1 x 0.1 m, no faults",
+            "volume 0.002 m^3, centre of mass (0, 0, 0) m",
+            "inertia of each kg: xx 0.001667, yy 0.004167, zz 0.004167, xy 0, xz 0, yz 0 m^2"});
+}
+
+TEST_CASE("scanned objects load with every triangle that their files hold") {
+  REQUIRE_SHARED();
+  for (const char* name : {"003_cracker_box", "006_mustard_bottle", "011_banana", "065-c_cups"}) {
+    INFO(name);
+    const Geometry geometry =
+        read_mesh_file(shared() / "data/ycb" / (std::string(name) + ".obj"), {});
+    CHECK(geometry.mesh.triangles.size() == 16384);
+    CHECK(geometry.report.triangles_read == 16384);
+    CHECK(geometry.report.unit == 1);
+  }
 }

@@ -1,0 +1,140 @@
+// Mesh files cut short anywhere, changed at random, and made to do harm: a mesh or an Error that
+// names the file, in no time.
+#include <limits>
+
+#include "base/error.h"
+#include "io/mesh_files.h"
+#include "mesh_writers.h"
+#include "support/meshes.h"
+
+using namespace clench;
+using namespace clench::test;
+
+namespace {
+
+/// returns  was it refused?
+bool refused(const MeshFile& file) {
+  try {
+    const Geometry geometry = read_mesh({file.name, file.content, {}});
+    // what is read is fit for a Shape
+    CHECK_NOTHROW(check_mesh(geometry.mesh, file.name));
+    return false;
+  } catch (const Error& error) {
+    CHECK_MESSAGE(std::string(error.what()).starts_with(file.name), error.what());
+    return true;
+  }
+}
+
+std::string changed(std::string s, Random& random) {
+  static const char* const pieces[] = {"-1", "4294967295", "1e308", "nan", "0", "\"", "<", ">",
+                                       "{",  "[",          "]",     ",",   " ", "\n", "#", "/"};
+  const int changes = 1 + static_cast<int>(random.bits() % 3);
+  for (int i = 0; i < changes && !s.empty(); ++i) {
+    const size_t at = random.bits() % s.size();
+    const std::string piece = pieces[random.bits() % std::size(pieces)];
+    switch (random.bits() % 5) {
+      case 0:
+        s[at] = static_cast<char>(random.bits());
+        break;
+      case 1:
+        s.erase(at, random.bits() % 16);
+        break;
+      case 2:
+        s.insert(at, piece);
+        break;
+      case 3:
+        s.replace(at, std::min(piece.size(), s.size() - at), piece);
+        break;
+      default:
+        s.insert(at, s.substr(random.bits() % s.size(), random.bits() % 60));
+    }
+  }
+  return s;
+}
+
+std::string repeated(const std::string& piece, int times) {
+  std::string out;
+  for (int i = 0; i < times; ++i) out += piece;
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a mesh file cut short anywhere is an Error or a mesh") {
+  for (const MeshFile& file : in_every_format(box(1, 1, 1))) {
+    INFO(file.name);
+    const size_t step = std::max<size_t>(1, file.content.size() / 150);
+    int bad = 0, all = 0;
+    for (size_t n = 0; n < file.content.size(); n += step, ++all)
+      bad += refused({file.name, file.content.substr(0, n)});
+    // lists without an end that the format counts may lose their last lines unseen
+    CHECK(bad * 2 > all);
+    if (file.name != "a.obj") CHECK(bad >= all - 2);
+  }
+}
+
+TEST_CASE("a mesh file changed at random is an Error or a mesh") {
+  for (const MeshFile& file : in_every_format(box(1, 1, 1)))
+    for (uint64_t i = 0; i < 150; ++i) {
+      Random random(17, i);
+      const std::string bad = changed(file.content, random);
+      INFO(file.name << " seed " << i);
+      refused({file.name, bad});
+    }
+}
+
+TEST_CASE("noise is an Error in every mesh format, behind a sound beginning too") {
+  for (const MeshFile& file : in_every_format(box(1, 1, 1)))
+    for (uint64_t i = 0; i < 20; ++i) {
+      Random random(19, i);
+      std::string noise(random.bits() % 300, '\0');
+      for (char& c : noise) c = static_cast<char>(random.bits());
+      INFO(file.name << " seed " << i);
+      CHECK(refused({file.name, noise}));
+      const size_t start = random.bits() % (file.content.size() / 2);
+      refused({file.name, file.content.substr(0, start) + noise});
+    }
+}
+
+TEST_CASE("numbers beyond the range of lengths are an Error, small ones and far ones are not") {
+  for (const double size : {1e-300, 1e-30, 1e-6, 1e6, 1e20})
+    CHECK_FALSE(refused({"a.obj", obj_text(box(size, size, size))}));
+  CHECK(refused({"a.obj", obj_text(box(1e200, 1, 1))}));
+  CHECK(refused({"a.off", off_text(box(1e308, 1e308, 1e308))}));
+}
+
+TEST_CASE("elements, nodes and brackets in each other without end are Errors") {
+  CHECK(refused({"a.gltf", repeated("[", 1'000'000)}));
+  CHECK(refused({"a.gltf", "{\"asset\": " + repeated("{\"a\":", 300'000)}));
+  CHECK(refused({"a.dae", repeated("<a>", 300'000)}));
+  // a scene that doubles with every node
+  std::string nodes;
+  for (int i = 0; i < 40; ++i)
+    nodes += fmt::format(
+        "<node id=\"n{}\"><instance_node url=\"#n{}\"/><instance_node url=\"#n{}\"/></node>", i,
+        i + 1, i + 1);
+  CHECK(refused({"a.dae",
+                 "<COLLADA><library_visual_scenes><visual_scene><node><instance_"
+                 "node url=\"#n0\"/></node></visual_scene></library_visual_scenes>"
+                 "<library_nodes>" +
+                     nodes + "<node id=\"n40\"/></library_nodes></COLLADA>"}));
+  // a chain of nodes as long as the file
+  std::string chain = "{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [";
+  for (int i = 1; i < 20'000; ++i) chain += fmt::format("{{\"children\": [{}]}},", i);
+  CHECK(refused({"a.gltf", chain + "{}]}"}));
+}
+
+TEST_CASE("a face of very many corners is cut or refused, in no time") {
+  const auto star = [&](int corners, double inner) {
+    std::string points, face = "f";
+    for (int i = 0; i < corners; ++i) {
+      const double a = 2 * std::numbers::pi * i / corners, r = i % 2 ? inner : 1;
+      points += fmt::format("v {} {} 0\n", r * std::cos(a), r * std::sin(a));
+      face += fmt::format(" {}", i + 1);
+    }
+    return MeshFile{"a.obj", points + face + "\n"};
+  };
+  CHECK_FALSE(refused(star(20'000, 1)));
+  CHECK_FALSE(refused(star(1000, 0.5)));
+  CHECK(refused(star(1002, 0.5)));
+}
