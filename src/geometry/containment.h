@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "geometry/tree.h"
+#include "geometry/placement.h"
 
 namespace clench {
 

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "geometry/queries.h"
-#include "geometry/ray_walk.h"
+#include "geometry/ray.h"
 
 namespace clench {
 
@@ -35,12 +35,11 @@ std::optional<int> winding_by_ray(const Shape& shape, const Vector3d& p,
   const Ray ray(p, direction);
   int winding = 0;
   const double far = std::numeric_limits<double>::infinity();
-  const bool unsure =
-      ray.for_near_triangles(shape.tree(), box_slack(shape.bounds(), p), far, [&](int triangle) {
-        const Crossing c = ray.cross(shape.mesh().corners(triangle), 1e-14);
-        if (c.kind == Crossing::Kind::hit && c.distance > 0) winding += c.side;
-        return c.kind == Crossing::Kind::unsure;
-      });
+  const bool unsure = ray.for_near_triangles(shape, far, [&](int triangle) {
+    const Crossing c = ray.cross(shape.mesh().corners(triangle), 1e-14);
+    if (c.kind == Crossing::Kind::hit && c.distance > 0) winding += c.side;
+    return c.kind == Crossing::Kind::unsure;
+  });
   if (unsure) return {};
   return winding;
 }

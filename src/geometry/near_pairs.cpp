@@ -3,8 +3,8 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "geometry/placement.h"
 #include "geometry/queries.h"
-#include "geometry/tree.h"
 
 namespace clench {
 
@@ -14,7 +14,7 @@ std::vector<TrianglePair> pairs_within(const Shape& a, const Shape& b, const Pos
     fail("pairs_within: threshold must be a number [m], got {}", threshold);
   const Placement placement(a, b, X_AB);
   std::vector<TrianglePair> out;
-  placement.for_near_pairs(Reach{threshold}, [&](int triangle_a, int triangle_b) {
+  for_near_pairs(placement.trees(), Reach{threshold}, [&](int triangle_a, int triangle_b) {
     const Closest c =
         triangle_triangle(placement.corners_a(triangle_a), placement.corners_b(triangle_b));
     if (c.distance < threshold) out.push_back({triangle_a, triangle_b, c.distance, c.p, c.q});

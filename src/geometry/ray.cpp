@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "geometry/queries.h"
-#include "geometry/ray_walk.h"
+#include "geometry/ray.h"
 
 namespace clench {
 
@@ -17,15 +17,14 @@ std::optional<RayHit> cast_ray(const Shape& shape, const Eigen::Vector3d& origin
   const Ray ray(origin, direction);
   RayHit best;
   best.distance = limit;
-  ray.for_near_triangles(
-      shape.tree(), box_slack(shape.bounds(), origin), best.distance, [&](int triangle) {
-        const Crossing c = ray.cross(shape.mesh().corners(triangle));
-        if (c.kind != Crossing::Kind::hit || c.distance < 0) return false;
-        // on a common edge the lower index, so that the order of the walk does not matter
-        if (c.distance < best.distance || (c.distance == best.distance && triangle < best.triangle))
-          best = {c.distance, origin + c.distance * direction, triangle};
-        return false;
-      });
+  ray.for_near_triangles(shape, best.distance, [&](int triangle) {
+    const Crossing c = ray.cross(shape.mesh().corners(triangle));
+    if (c.kind != Crossing::Kind::hit || c.distance < 0) return false;
+    // on a common edge the lower index, so that the order of the walk does not matter
+    if (c.distance < best.distance || (c.distance == best.distance && triangle < best.triangle))
+      best = {c.distance, origin + c.distance * direction, triangle};
+    return false;
+  });
   if (best.triangle < 0) return {};
   return best;
 }

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "geometry/placement.h"
 #include "geometry/queries.h"
-#include "geometry/tree.h"
 
 namespace clench {
 
@@ -12,20 +12,13 @@ std::vector<int> region(const Shape& shape, const Eigen::Vector3d& p, double rad
     fail("region: point and radius must be numbers [m], got ({}, {}, {}), {}", p.x(), p.y(), p.z(),
          radius);
   std::vector<int> out;
-  const Tree& tree = shape.tree();
-  const double reach = radius + box_slack(shape.bounds(), p);
-  std::vector<int> waiting = {0};
-  while (!waiting.empty()) {
-    const int at = waiting.back();
-    const Tree::Node& node = tree.node(at);
-    waiting.pop_back();
-    if (std::sqrt(node.box.squared_distance(p)) > reach) continue;
-    if (!node.leaf()) {
-      waiting.insert(waiting.end(), {node.right, at + 1});
-    } else if (point_triangle(p, shape.mesh().corners(node.triangle)).distance < radius) {
-      out.push_back(node.triangle);
-    }
-  }
+  const Eigen::Vector3d from = p - Eigen::Vector3d::Map(shape.tree().centre());
+  for_near_triangles(shape.tree(), from.data(), rounding_of(shape.bounds(), p), radius,
+                     [&](int triangle) {
+                       const auto corners = shape.mesh().corners(triangle);
+                       if (point_triangle(p, corners).distance < radius) out.push_back(triangle);
+                       return false;
+                     });
   std::sort(out.begin(), out.end());
   return out;
 }

@@ -1,221 +1,320 @@
 #include "geometry/tree.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
-#include "base/error.h"
-#include "geometry/shape.h"
+#include "geometry/mesh.h"
+#include "geometry/principal_axes.h"
 
 namespace clench {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-namespace {
+static constexpr int bin_count = 16;
+// beyond so many halvings groups are split in the middle, which bounds the depth
+static constexpr int deep = 38;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+static float rounded_up(double x) {
+  const float f = static_cast<float>(x);
+  return f < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
+}
 
-// Builds nodes in depth-first order over a permutation of the triangles.
-class Builder {
+static double to_single(double x) { return static_cast<float>(x); }
+
+static double surface(const Vector3d& size) {
+  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+}
+
+// Groups of triangles, split by binned surface area (source  Wald (2007)) until eight are found;
+// then each of them likewise, down to eight triangles.
+class TreeBuilder {
  public:
-  Builder(const Mesh& mesh, std::vector<Tree::Node>& nodes) : mesh_(mesh), nodes_(nodes) {
+  TreeBuilder(const Mesh& mesh, Tree& tree) : mesh_(mesh), tree_(tree) {
     const int count = static_cast<int>(mesh.triangles.size());
-    order_.resize(count);
-    std::iota(order_.begin(), order_.end(), 0);
+    // unused vertices count for nothing
+    Bounds bounds;
+    for (const Triangle& t : mesh.triangles)
+      for (const int v : t) bounds.add(mesh.vertices[v]);
+    const Vector3d centre = bounds.centre();
+    Vector3d::Map(tree.centre_) = centre;
+    points_.reserve(mesh.vertices.size());
+    for (const Vector3d& p : mesh.vertices) points_.push_back(p - centre);
+    items_.reserve(count);
     for (int i = 0; i < count; ++i) {
-      const auto c = mesh.corners(i);
-      centres_.push_back((c[0] + c[1] + c[2]) / 3);
+      Item item{{}, i};
+      for (const int v : mesh.triangles[i]) {
+        item.bounds.add(points_[v]);
+        tree.radius_ = std::max(tree.radius_, points_[v].stableNorm());
+      }
+      items_.push_back(item);
     }
-    nodes_.reserve(2 * static_cast<size_t>(count));
-    build(0, count);
+    tree.boxes_.reserve(static_cast<size_t>(count) / 16 + 2);
+    tree.leaves_.reserve(static_cast<size_t>(count) / 5 + 1);
+    tree.boxes_.emplace_back();
+    fill(0, {{0, count, 0}});
   }
 
  private:
-  int build(int begin, int end) {
-    const int self = static_cast<int>(nodes_.size());
-    nodes_.emplace_back();
-    const OrientedBox box = fit(begin, end);
-    nodes_[self].box = box;
-    nodes_[self].size = box.half.norm();
-    if (end - begin == 1) {
-      nodes_[self].triangle = order_[begin];
-      return self;
-    }
-    const int middle = split(begin, end, box);
-    build(begin, middle);
-    const int right = build(middle, end);
-    nodes_[self].right = right;
-    return self;
-  }
-
-  // the tighter of a box along the principal directions and one along the mesh's axes
-  OrientedBox fit(int begin, int end) const {
-    const OrientedBox plain = bound(begin, end, Matrix3d::Identity());
-    const OrientedBox turned = bound(
-        begin, end, end - begin == 1 ? triangle_axes(order_[begin]) : principal_axes(begin, end));
-    return surface(turned.half) < surface(plain.half) ? turned : plain;
-  }
-
-  static double surface(const Vector3d& half) {
-    return half.x() * half.y() + half.y() * half.z() + half.z() * half.x();
-  }
-
-  OrientedBox bound(int begin, int end, const Matrix3d& axes) const {
-    const Vector3d origin = mesh_.corners(order_[begin])[0];
+  struct Item {
     Bounds bounds;
-    for (int i = begin; i < end; ++i)
-      for (const int v : mesh_.triangles[order_[i]])
-        bounds.add(axes.transpose() * (mesh_.vertices[v] - origin));
-    return {axes, origin + axes * bounds.centre(), 0.5 * bounds.size()};
+    int triangle;
+    Vector3d centre() const { return bounds.centre(); }
+  };
+  struct Group {
+    int begin, end, depth;
+    int count() const { return end - begin; }
+  };
+
+  // a bundle of the groups' boxes, then what is below
+  void fill(int bundle, const std::vector<Group>& groups) {
+    BoxBundle out;
+    for (int lane = 0; lane < 8; ++lane) {
+      out.child[lane] = -1;
+      // unused lanes repeat the first
+      if (lane < static_cast<int>(groups.size()))
+        fit(groups[lane], out, lane);
+      else
+        copy_lane(out, 0, lane);
+    }
+    for (size_t lane = 0; lane < groups.size(); ++lane) {
+      if (groups[lane].count() <= 8) {
+        out.child[lane] = 2 * add_leaf(groups[lane]) + 1;
+      } else {
+        const int below = static_cast<int>(tree_.boxes_.size());
+        tree_.boxes_.emplace_back();
+        out.child[lane] = 2 * below;
+        fill(below, split_up(groups[lane]));
+      }
+    }
+    tree_.boxes_[bundle] = out;
   }
 
-  // along the longest edge and the normal: the smallest box of a triangle
-  Matrix3d triangle_axes(int triangle) const {
-    const auto c = mesh_.corners(triangle);
-    Vector3d longest = c[1] - c[0];
-    for (const Vector3d& edge : {Vector3d(c[2] - c[1]), Vector3d(c[0] - c[2])})
-      if (edge.squaredNorm() > longest.squaredNorm()) longest = edge;
-    return frame(longest, (c[1] - c[0]).cross(c[2] - c[0]));
+  static void copy_lane(BoxBundle& bundle, int from, int to) {
+    for (auto& row : bundle.axes) row[to] = row[from];
+    for (auto& row : bundle.centre) row[to] = row[from];
+    for (auto& row : bundle.half) row[to] = row[from];
+    bundle.size[to] = bundle.size[from];
   }
 
-  // first column along `along`, third as near to `normal` as may be; any frame where these do
-  // not tell
-  static Matrix3d frame(const Vector3d& along, const Vector3d& normal) {
+  int add_leaf(const Group& group) {
+    TriangleBundle leaf;
+    for (int lane = 0; lane < 8; ++lane) {
+      const bool used = lane < group.count();
+      const int triangle = items_[group.begin + (used ? lane : 0)].triangle;
+      leaf.triangle[lane] = used ? triangle : -1;
+      for (int k = 0; k < 3; ++k)
+        for (int m = 0; m < 3; ++m)
+          leaf.corners[3 * k + m][lane] = static_cast<float>(point(triangle, k)[m]);
+    }
+    tree_.leaves_.push_back(leaf);
+    return static_cast<int>(tree_.leaves_.size()) - 1;
+  }
+
+  const Vector3d& point(int triangle, int k) const { return points_[mesh_.triangles[triangle][k]]; }
+
+  // up to eight groups: the one of largest surface is split next; those that fill one more
+  // bundle of leaves stay whole as long as there are larger ones
+  std::vector<Group> split_up(const Group& group) {
+    const int whole = group.count() > 64 ? 64 : 8;
+    std::vector<Group> groups = {group};
+    std::vector<double> sizes = {std::numeric_limits<double>::infinity()};
+    while (groups.size() < 8) {
+      int largest = -1;
+      for (int i = 0; i < static_cast<int>(groups.size()); ++i)
+        if (groups[i].count() > whole && (largest < 0 || sizes[i] > sizes[largest])) largest = i;
+      if (largest < 0) break;
+      const Group old = groups[largest];
+      const int middle = split(old);
+      groups[largest] = {old.begin, middle, old.depth + 1};
+      groups.insert(groups.begin() + largest + 1, {middle, old.end, old.depth + 1});
+      sizes[largest] = size_of(groups[largest]);
+      sizes.insert(sizes.begin() + largest + 1, size_of(groups[largest + 1]));
+    }
+    return groups;
+  }
+
+  double size_of(const Group& group) const {
+    Bounds bounds;
+    for (int i = group.begin; i < group.end; ++i) join(bounds, items_[i].bounds);
+    return surface(bounds.size());
+  }
+
+  static void join(Bounds& bounds, const Bounds& other) {
+    bounds.low = bounds.low.cwiseMin(other.low);
+    bounds.high = bounds.high.cwiseMax(other.high);
+  }
+
+  // what a group costs to visit: its surface, for each leaf that it fills
+  static double cost(const Bounds& bounds, int count) {
+    return count == 0 ? 0 : surface(bounds.size()) * ((count + 7) / 8);
+  }
+
+  struct Cut {
+    double cost = std::numeric_limits<double>::infinity();
+    int axis = 0, bin = 0;
+  };
+
+  static int bin_of(double x, double low, double scale) {
+    return std::clamp(static_cast<int>((x - low) * scale), 0, bin_count - 1);
+  }
+
+  static void find_cut(const std::array<Bounds, bin_count>& bins,
+                       const std::array<int, bin_count>& counts, int axis, Cut& best) {
+    std::array<double, bin_count> right_costs;
+    Bounds right, left;
+    int right_count = 0, left_count = 0;
+    for (int i = bin_count - 1; i > 0; --i) {
+      join(right, bins[i]);
+      right_count += counts[i];
+      right_costs[i] =
+          right_count == 0 ? std::numeric_limits<double>::infinity() : cost(right, right_count);
+    }
+    for (int i = 1; i < bin_count; ++i) {
+      join(left, bins[i - 1]);
+      left_count += counts[i - 1];
+      if (left_count == 0) continue;
+      const double sum = cost(left, left_count) + right_costs[i];
+      if (sum < best.cost) best = {sum, axis, i};
+    }
+  }
+
+  // parts the items of a group.   returns where the second half begins
+  int split(const Group& group) {
+    Bounds centres;
+    for (int i = group.begin; i < group.end; ++i) centres.add(items_[i].centre());
+    const Vector3d scale = bin_count * centres.size().cwiseInverse();
+    if (group.depth >= deep) return split_in_half(group, centres);
+    std::array<std::array<Bounds, bin_count>, 3> bins;
+    std::array<std::array<int, bin_count>, 3> counts{};
+    for (int i = group.begin; i < group.end; ++i) {
+      const Vector3d centre = items_[i].centre();
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!std::isfinite(scale[axis])) continue;
+        const int bin = bin_of(centre[axis], centres.low[axis], scale[axis]);
+        join(bins[axis][bin], items_[i].bounds);
+        ++counts[axis][bin];
+      }
+    }
+    Cut cut;
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::isfinite(scale[axis])) find_cut(bins[axis], counts[axis], axis, cut);
+    if (!(cut.cost < std::numeric_limits<double>::infinity())) return split_in_half(group, centres);
+    const auto middle = std::partition(
+        items_.begin() + group.begin, items_.begin() + group.end, [&](const Item& item) {
+          return bin_of(item.centre()[cut.axis], centres.low[cut.axis], scale[cut.axis]) < cut.bin;
+        });
+    return static_cast<int>(middle - items_.begin());
+  }
+
+  int split_in_half(const Group& group, const Bounds& centres) {
+    int axis;
+    centres.size().maxCoeff(&axis);
+    const int middle = group.begin + group.count() / 2;
+    std::nth_element(items_.begin() + group.begin, items_.begin() + middle,
+                     items_.begin() + group.end, [&](const Item& s, const Item& t) {
+                       const double x = s.centre()[axis], y = t.centre()[axis];
+                       return x < y || (x == y && s.triangle < t.triangle);
+                     });
+    return middle;
+  }
+
+  // Puts the smallest of a few boxes around a group into a lane: along the mesh's axes, along the
+  // principal directions, and for small groups along their longest edge.
+  void fit(const Group& group, BoxBundle& bundle, int lane) const {
+    Bounds plain;
+    for (int i = group.begin; i < group.end; ++i) join(plain, items_[i].bounds);
     Matrix3d axes = Matrix3d::Identity();
-    const Vector3d x = along.stableNormalized();
+    Bounds best = plain;
+    const auto offer = [&](const Matrix3d& given) {
+      // as they will be stored
+      const Matrix3d turned = given.unaryExpr(&to_single);
+      Bounds bounds;
+      for (int i = group.begin; i < group.end; ++i)
+        for (int k = 0; k < 3; ++k) bounds.add(turned.transpose() * point(items_[i].triangle, k));
+      if (surface(bounds.size()) < surface(best.size())) best = bounds, axes = turned;
+    };
+    const Matrix3d principal = spread(group);
+    offer(principal);
+    if (group.count() <= 64) offer(axes_of(longest_edge(group), principal.col(0)));
+    store(axes, best, bundle, lane);
+  }
+
+  static void store(const Matrix3d& axes, const Bounds& along, BoxBundle& bundle, int lane) {
+    const Vector3d centre = (axes * along.centre()).unaryExpr(&to_single);
+    double squared = 0;
+    for (int k = 0; k < 3; ++k) {
+      // what is stored holds the points, to the rounding of double
+      const double middle = axes.col(k).dot(centre);
+      const double half = std::max(along.high[k] - middle, middle - along.low[k]);
+      bundle.half[k][lane] = rounded_up(half);
+      squared += half * half;
+      bundle.centre[k][lane] = static_cast<float>(centre[k]);
+      for (int m = 0; m < 3; ++m) bundle.axes[3 * k + m][lane] = static_cast<float>(axes(m, k));
+    }
+    bundle.size[lane] = rounded_up(std::sqrt(squared));
+  }
+
+  // axes of the area-weighted covariance of the surface, shortest first
+  Matrix3d spread(const Group& group) const {
+    const Vector3d origin = point(items_[group.begin].triangle, 0);
+    double area = 0;
+    Vector3d first = Vector3d::Zero();
+    Matrix3d second = Matrix3d::Zero();
+    for (int i = group.begin; i < group.end; ++i) {
+      const int t = items_[i].triangle;
+      const Vector3d a = point(t, 0) - origin, b = point(t, 1) - origin, c = point(t, 2) - origin;
+      const double weight = (b - a).cross(c - a).norm();
+      const Vector3d sum = a + b + c;
+      area += weight;
+      first += weight / 3 * sum;
+      second += weight / 12 *
+                (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
+    }
+    if (!(area > 0) || !std::isfinite(area)) return Matrix3d::Identity();
+    first /= area;
+    return principal_axes(second / area - first * first.transpose());
+  }
+
+  Vector3d longest_edge(const Group& group) const {
+    Vector3d longest = Vector3d::Zero();
+    for (int i = group.begin; i < group.end; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const Vector3d edge = point(items_[i].triangle, (k + 1) % 3) - point(items_[i].triangle, k);
+        if (edge.squaredNorm() > longest.squaredNorm()) longest = edge;
+      }
+    return longest;
+  }
+
+  // along the edge, and as near to the normal as may be
+  static Matrix3d axes_of(const Vector3d& edge, const Vector3d& normal) {
+    Matrix3d axes = Matrix3d::Identity();
+    const Vector3d x = edge.stableNormalized();
     if (!(x.norm() > 0.5)) return axes;
-    Vector3d y = normal.stableNormalized().cross(x);
-    if (!(y.norm() > 0.5)) y = x.unitOrthogonal();
-    y = (y - x * x.dot(y)).normalized();
+    Vector3d y = normal.cross(x);
+    if (!(y.norm() > 1e-3)) y = x.unitOrthogonal();
+    y.normalize();
     axes << x, y, x.cross(y);
     return axes;
   }
 
-  // eigenvectors of the area-weighted covariance of the surface
-  Matrix3d principal_axes(int begin, int end) const {
-    const Vector3d origin = mesh_.corners(order_[begin])[0];
-    double area = 0;
-    Vector3d first = Vector3d::Zero();
-    Matrix3d second = Matrix3d::Zero();
-    for (int i = begin; i < end; ++i) {
-      auto c = mesh_.corners(order_[i]);
-      for (Vector3d& p : c) p -= origin;
-      const double a = (c[1] - c[0]).cross(c[2] - c[0]).norm();
-      const Vector3d sum = c[0] + c[1] + c[2];
-      area += a;
-      first += a / 3 * sum;
-      second += a / 12 * (sum * sum.transpose());
-      for (const Vector3d& p : c) second += a / 12 * (p * p.transpose());
-    }
-    if (!(area > 0)) return Matrix3d::Identity();
-    first /= area;
-    const Matrix3d spread = second / area - first * first.transpose();
-    // scaled to one: the solver has an absolute threshold
-    const double scale = spread.cwiseAbs().maxCoeff();
-    if (!(scale > 0)) return Matrix3d::Identity();
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(spread / scale);
-    return frame(solver.eigenvectors().col(2), solver.eigenvectors().col(0));
-  }
-
-  // Triangles to both sides of their mean along the longest axis; half and half where that is
-  // lopsided, which also keeps the tree shallow.
-  int split(int begin, int end, const OrientedBox& box) {
-    int longest;
-    box.half.maxCoeff(&longest);
-    const Vector3d axis = box.axes.col(longest), origin = box.centre;
-    const auto along = [&](int t) { return axis.dot(centres_[t] - origin); };
-    double mean = 0;
-    for (int i = begin; i < end; ++i) mean += along(order_[i]);
-    mean /= end - begin;
-    const auto first = order_.begin() + begin, last = order_.begin() + end;
-    const int middle = static_cast<int>(
-        std::partition(first, last, [&](int t) { return along(t) < mean; }) - order_.begin());
-    const int smaller = std::min(middle - begin, end - middle);
-    if (smaller > 0 && smaller >= (end - begin) / 8) return middle;
-    const int half = begin + (end - begin) / 2;
-    std::nth_element(first, order_.begin() + half, last, [&](int s, int t) {
-      const double x = along(s), y = along(t);
-      return x < y || (x == y && s < t);
-    });
-    return half;
-  }
-
   const Mesh& mesh_;
-  std::vector<Tree::Node>& nodes_;
-  std::vector<int> order_;
-  std::vector<Vector3d> centres_;
+  Tree& tree_;
+  std::vector<Vector3d> points_;  // vertices about the centre
+  std::vector<Item> items_;
 };
 
-// How far the boxes stay apart along the cross products of their axes, at most 1 long: a lower
-// bound.
-double gap_across_edges(const Matrix3d& turn, const Matrix3d& shadow, const Vector3d& offset,
-                        const Vector3d& half_a, const Vector3d& half_b) {
-  double most = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      most = std::max(most, std::abs(offset[i2] * turn(i1, j) - offset[i1] * turn(i2, j)) -
-                                half_a[i1] * shadow(i2, j) - half_a[i2] * shadow(i1, j) -
-                                half_b[j1] * shadow(i, j2) - half_b[j2] * shadow(i, j1));
-    }
-  return most;
+Tree::Tree(const Mesh& mesh) {
+  TreeBuilder(mesh, *this);
+  boxes_.shrink_to_fit();
+  leaves_.shrink_to_fit();
 }
 
-}  // namespace
-
-double box_slack(const Bounds& bounds, const Vector3d& p) {
-  const Vector3d reach =
-      bounds.low.cwiseAbs().cwiseMax(bounds.high.cwiseAbs()).cwiseMax(p.cwiseAbs());
-  return 256 * epsilon * reach.maxCoeff();
-}
-
-double gap(const OrientedBox& a, const OrientedBox& b, const Reach& reach, double slack) {
-  const Vector3d between = b.centre - a.centre;
-  const double parted = reach.along.dot(between) -
-                        (a.axes.transpose() * reach.along).cwiseAbs().dot(a.half) -
-                        (b.axes.transpose() * reach.along).cwiseAbs().dot(b.half) - slack;
-  if (parted > reach.distance) return parted;
-
-  // from either box: how far the other one's shadow on its axes stays away
-  const Matrix3d turn = a.axes.transpose() * b.axes, shadow = turn.cwiseAbs();
-  const Vector3d offset = a.axes.transpose() * between;
-  const Vector3d from_a = offset.cwiseAbs() - a.half - shadow * b.half;
-  const Vector3d from_b =
-      (turn.transpose() * offset).cwiseAbs() - b.half - shadow.transpose() * a.half;
-  const double squared =
-      std::max(from_a.cwiseMax(0).squaredNorm(), from_b.cwiseMax(0).squaredNorm());
-  if (squared > 0) return std::max(parted, std::sqrt(squared) - slack);
-  return std::max(parted, gap_across_edges(turn, shadow, offset, a.half, b.half) - slack);
-}
-
-Tree::Tree(const Mesh& mesh) { Builder(mesh, nodes_); }
-
-Placement::Placement(const Shape& a, const Shape& b, const Pose& X_AB)
-    : mesh_a_(a.mesh()),
-      mesh_b_(b.mesh()),
-      tree_a_(a.tree()),
-      tree_b_(b.tree()),
-      rotation_(X_AB.rotation.normalized().toRotationMatrix()),
-      position_(X_AB.position),
-      slack_(box_slack(a.bounds(), position_) + box_slack(b.bounds(), position_)) {
-  const Eigen::Quaterniond& q = X_AB.rotation;
-  if (!(std::abs(q.norm() - 1) < 0.1))
-    fail("geometry query: pose wants a unit quaternion, got ({}, {}, {}, {})", q.w(), q.x(), q.y(),
-         q.z());
-  const Vector3d& p = position_;
-  if (!p.allFinite() || p.cwiseAbs().maxCoeff() > largest_coordinate)
-    fail("geometry query: position of the pose must be finite and within {} [m], got ({}, {}, {})",
-         largest_coordinate, p.x(), p.y(), p.z());
-}
-
-Corners Placement::corners_a(int triangle) const { return mesh_a_.corners(triangle); }
-
-Corners Placement::corners_b(int triangle) const {
-  Corners c = mesh_b_.corners(triangle);
-  for (Vector3d& p : c) p = to_a(p);
-  return c;
+size_t Tree::bytes() const {
+  return sizeof *this + boxes_.size() * sizeof(BoxBundle) + leaves_.size() * sizeof(TriangleBundle);
 }
 
 }  // namespace clench

@@ -1,11 +1,11 @@
-// A ray against triangles without gaps between neighbours, and the walk along it through a tree.
+// A ray against triangles without gaps between neighbours.
 // For the queries of this module only.
 // source  Woop, Benthin & Wald (2013), watertight ray/triangle intersection
 #pragma once
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/tree.h"
+#include "geometry/placement.h"
 
 namespace clench {
 
@@ -49,45 +49,15 @@ class Ray {
     return {Crossing::Kind::hit, depth / area, (area > 0) == (direction_[z_] > 0) ? 1 : -1};
   }
 
-  /// where the ray enters the box grown by slack, >= 0; infinity when it misses [m]
-  double enter(const OrientedBox& box, double slack) const {
-    const Eigen::Vector3d from = box.axes.transpose() * (origin_ - box.centre);
-    const Eigen::Vector3d along = box.axes.transpose() * direction_;
-    double low = 0, high = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 3; ++i) {
-      const double half = box.half[i] + slack;
-      if (std::abs(along[i]) < 1e-300) {
-        if (std::abs(from[i]) > half) return std::numeric_limits<double>::infinity();
-        continue;
-      }
-      const double s = (-half - from[i]) / along[i], t = (half - from[i]) / along[i];
-      low = std::max(low, std::min(s, t)), high = std::min(high, std::max(s, t));
-    }
-    return low <= high ? low : std::numeric_limits<double>::infinity();
-  }
-
-  /// Calls visit(triangle) for all leaves that the ray may reach within `limit`, near ones first;
+  /// Calls visit(triangle) for all triangles that the ray may meet within `limit`, near ones early;
   /// visit may lower `limit`, and ends the walk by returning true.
-  template <class Visit>
-  bool for_near_triangles(const Tree& tree, double slack, const double& limit,
-                          Visit&& visit) const {
-    return walk(tree, 0, enter(tree.node(0).box, slack), slack, limit, visit);
+  bool for_near_triangles(const Shape& shape, const double& limit, TriangleVisit visit) const {
+    const Eigen::Vector3d from = origin_ - Eigen::Vector3d::Map(shape.tree().centre());
+    return for_crossed_triangles(shape.tree(), from.data(), direction_.data(),
+                                 rounding_of(shape.bounds(), origin_), limit, visit);
   }
 
  private:
-  template <class Visit>
-  bool walk(const Tree& tree, int at, double entry, double slack, const double& limit,
-            Visit& visit) const {
-    if (!(entry < std::numeric_limits<double>::infinity()) || entry - slack > limit) return false;
-    const Tree::Node& node = tree.node(at);
-    if (node.leaf()) return visit(node.triangle);
-    int first = at + 1, second = node.right;
-    double near = enter(tree.node(first).box, slack), far = enter(tree.node(second).box, slack);
-    if (far < near) std::swap(near, far), std::swap(first, second);
-    return walk(tree, first, near, slack, limit, visit) ||
-           walk(tree, second, far, slack, limit, visit);
-  }
-
   Eigen::Vector3d origin_, direction_;
   int x_, y_, z_;  // the direction's largest coordinate is its z
   double shear_x_, shear_y_;

@@ -1,0 +1,131 @@
+// One box, point or ray against eight boxes at once. For the queries of this module only.
+//
+// Bounds are lower bounds of distances up to the slack of the query, which the caller takes off. In
+// single precision, u = 2^-24, lengths at most l (the query's extent): a centre moved into the other
+// frame is off by 5 u l a coordinate, its difference along an axis by 14 u l, the shadow of a box
+// by 16 u l for the rounding of the product of the frames and 8 u l because stored axes are
+// orthonormal up to 2 u only, and the root of the sum of squares by 4 u l: 42 u l in all, 64 u l
+// are taken. In double precision stored axes are made orthonormal, and the boxes grown by that.
+#pragma once
+#include "geometry/lanes.h"
+#include "geometry/tree.h"
+
+namespace clench {
+
+/// Boxes: one alone (F a number), or one a lane.
+template <class F>
+struct BoxOf {
+  Triple<F> axis[3];
+  Triple<F> centre;
+  F half[3];
+};
+
+// nothing for single precision: the slack covers it
+template <class F, class Root>
+CLENCH_INLINE void straighten(BoxOf<F>& box, Root root, F grow) {
+  const F first = root(dot(box.axis[0], box.axis[0]));
+  box.axis[0] = {box.axis[0].x / first, box.axis[0].y / first, box.axis[0].z / first};
+  box.axis[1] = box.axis[1] - box.axis[0].scaled(dot(box.axis[1], box.axis[0]));
+  const F second = root(dot(box.axis[1], box.axis[1]));
+  box.axis[1] = {box.axis[1].x / second, box.axis[1].y / second, box.axis[1].z / second};
+  box.axis[2] = cross(box.axis[0], box.axis[1]);
+  for (F& half : box.half) half = half + grow;
+}
+// relative to the size of a box: how far its corners lie outside once its axes are straightened
+inline constexpr double straightened = 0x1p-20;
+
+template <class F>
+CLENCH_INLINE BoxOf<F> load_boxes(const BoxBundle& from) {
+  BoxOf<F> out;
+  for (int k = 0; k < 3; ++k) {
+    out.axis[k] = {F::load(from.axes[3 * k]), F::load(from.axes[3 * k + 1]),
+                   F::load(from.axes[3 * k + 2])};
+    out.half[k] = F::load(from.half[k]);
+  }
+  out.centre = {F::load(from.centre[0]), F::load(from.centre[1]), F::load(from.centre[2])};
+  if constexpr (sizeof(typename F::Real) == 8)
+    straighten(
+        out, [](const F& x) { return sqrt(x); }, F::load(from.size) * straightened);
+  return out;
+}
+
+template <class Real>
+CLENCH_INLINE BoxOf<Real> load_box(const BoxBundle& from, int lane) {
+  BoxOf<Real> out;
+  for (int k = 0; k < 3; ++k) {
+    out.axis[k] = {from.axes[3 * k][lane], from.axes[3 * k + 1][lane], from.axes[3 * k + 2][lane]};
+    out.half[k] = from.half[k][lane];
+  }
+  out.centre = {from.centre[0][lane], from.centre[1][lane], from.centre[2][lane]};
+  if constexpr (sizeof(Real) == 8)
+    straighten(
+        out, [](Real x) { return std::sqrt(x); }, Real{from.size[lane]} * straightened);
+  return out;
+}
+
+template <class Real>
+CLENCH_INLINE BoxOf<Real> moved(const BoxOf<Real>& box, const Move<Real>& move) {
+  BoxOf<Real> out;
+  for (int k = 0; k < 3; ++k) {
+    out.axis[k] = move.turned(box.axis[k]);
+    out.half[k] = box.half[k];
+  }
+  out.centre = move(box.centre);
+  return out;
+}
+
+/// How far the boxes reach from their centres along n.
+template <class F, class N>
+CLENCH_INLINE F shadow(const BoxOf<F>& box, const Triple<N>& n) {
+  using std::abs;
+  return abs(dot(box.axis[0], n)) * box.half[0] + abs(dot(box.axis[1], n)) * box.half[1] +
+         abs(dot(box.axis[2], n)) * box.half[2];
+}
+
+/// Lower bounds of the distances of one box from eight, by the axes of both; negative, the
+/// least depth along these axes, where all of them show an overlap.
+template <class F>
+CLENCH_INLINE F box_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& one) {
+  using Real = typename F::Real;
+  const Triple<F> between = {eight.centre.x - one.centre.x, eight.centre.y - one.centre.y,
+                             eight.centre.z - one.centre.z};
+  const F zero = F::all(0);
+  // along[j]: what of the eight lies along axis j of the one
+  F along[3] = {zero, zero, zero};
+  F squared_eight = zero, squared_one = zero,
+    least_deep = F::all(std::numeric_limits<Real>::lowest());
+  for (int k = 0; k < 3; ++k) {
+    F reach = eight.half[k];
+    for (int j = 0; j < 3; ++j) {
+      const F turn = abs(dot(eight.axis[k], one.axis[j]));
+      reach = reach + turn * one.half[j];
+      along[j] = along[j] + turn * eight.half[k];
+    }
+    const F gap = abs(dot(eight.axis[k], between)) - reach;
+    least_deep = max(gap, least_deep);
+    const F apart = max(gap, zero);
+    squared_eight = squared_eight + apart * apart;
+  }
+  for (int j = 0; j < 3; ++j) {
+    const F gap = abs(dot(between, one.axis[j])) - along[j] - one.half[j];
+    least_deep = max(gap, least_deep);
+    const F apart = max(gap, zero);
+    squared_one = squared_one + apart * apart;
+  }
+  const F squared = max(squared_eight, squared_one);
+  return select(squared > Real{0}, sqrt(squared), least_deep);
+}
+
+/// Distances of a point from eight boxes; 0 inside.
+template <class F>
+CLENCH_INLINE F point_gaps(const BoxOf<F>& eight, const Triple<typename F::Real>& p) {
+  const Triple<F> between = {eight.centre.x - p.x, eight.centre.y - p.y, eight.centre.z - p.z};
+  F squared = F::all(0);
+  for (int k = 0; k < 3; ++k) {
+    const F apart = max(abs(dot(eight.axis[k], between)) - eight.half[k], F::all(0));
+    squared = squared + apart * apart;
+  }
+  return sqrt(squared);
+}
+
+}  // namespace clench

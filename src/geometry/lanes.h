@@ -1,0 +1,240 @@
+// Eight numbers side by side, by the compiler's vectors: SSE, AVX, NEON or none. Every lane goes
+// through the same operations of IEEE arithmetic at any width, so widths agree to the bit.
+// Includes no Eigen: the files built on it may be compiled for the machine at hand.
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+// operations are too small to be called
+#define CLENCH_INLINE __attribute__((always_inline)) inline
+
+namespace clench {
+
+inline constexpr int lane_count = 8;
+
+/// Real: float or double; Width: how many fit one vector, 1, 2, 4 or 8.
+template <class Scalar, int Width>
+struct Lanes {
+  using Real = Scalar;
+  using Int = std::conditional_t<sizeof(Real) == 4, int32_t, int64_t>;
+  typedef Real Chunk __attribute__((vector_size(sizeof(Real) * Width)));
+  typedef Int Bits __attribute__((vector_size(sizeof(Real) * Width)));
+  static constexpr int chunks = lane_count / Width;
+
+  /// which lanes fulfil a condition
+  struct Mask {
+    Bits bits[chunks];
+
+    friend CLENCH_INLINE Mask operator&(const Mask& x, const Mask& y) {
+      Mask out;
+      for (int i = 0; i < chunks; ++i) out.bits[i] = x.bits[i] & y.bits[i];
+      return out;
+    }
+    friend CLENCH_INLINE Mask operator|(const Mask& x, const Mask& y) {
+      Mask out;
+      for (int i = 0; i < chunks; ++i) out.bits[i] = x.bits[i] | y.bits[i];
+      return out;
+    }
+    /// bit i for lane i
+    CLENCH_INLINE unsigned set() const {
+#if defined(__AVX__)
+      if constexpr (sizeof(Real) == 4 && Width == 8)
+        return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<const __m256&>(bits[0])));
+#endif
+#if defined(__SSE2__)
+      if constexpr (sizeof(Real) == 4 && Width == 4)
+        return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<const __m128&>(bits[0])) |
+                                     _mm_movemask_ps(reinterpret_cast<const __m128&>(bits[1]))
+                                         << 4);
+#endif
+      unsigned out = 0;
+      for (int i = 0; i < lane_count; ++i) out |= (bits[i / Width][i % Width] != 0 ? 1u : 0u) << i;
+      return out;
+    }
+  };
+
+  Chunk chunk[chunks];
+
+  static CLENCH_INLINE Lanes all(Real x) {
+    Lanes out;
+    for (int i = 0; i < chunks; ++i) out.chunk[i] = Chunk{} + x;
+    return out;
+  }
+  static CLENCH_INLINE Lanes load(const float* from) {
+    Lanes out;
+    if constexpr (std::is_same_v<Real, float>)
+      std::memcpy(&out, from, sizeof out);
+    else
+      for (int i = 0; i < lane_count; ++i) out.chunk[i / Width][i % Width] = from[i];
+    return out;
+  }
+  CLENCH_INLINE void store(Real* to) const { std::memcpy(to, chunk, sizeof chunk); }
+
+  // lane i of the result is lane from[i]
+  CLENCH_INLINE Lanes pick(const int32_t* from) const {
+#if defined(__AVX2__)
+    if constexpr (sizeof(Real) == 4 && Width == 8) {
+      Lanes out;
+      __m256i index;
+      std::memcpy(&index, from, sizeof index);
+      const __m256 picked =
+          _mm256_permutevar8x32_ps(reinterpret_cast<const __m256&>(chunk[0]), index);
+      std::memcpy(&out, &picked, sizeof out);
+      return out;
+    }
+#endif
+    Real values[lane_count], picked[lane_count];
+    store(values);
+    for (int i = 0; i < lane_count; ++i) picked[i] = values[from[i]];
+    Lanes out;
+    std::memcpy(&out, picked, sizeof out);
+    return out;
+  }
+
+#define CLENCH_LANES_OPERATOR(op)                                             \
+  friend CLENCH_INLINE Lanes operator op(const Lanes& x, const Lanes& y) {    \
+    Lanes out;                                                                \
+    for (int i = 0; i < chunks; ++i) out.chunk[i] = x.chunk[i] op y.chunk[i]; \
+    return out;                                                               \
+  }                                                                           \
+  friend CLENCH_INLINE Lanes operator op(const Lanes& x, Real y) {            \
+    Lanes out;                                                                \
+    for (int i = 0; i < chunks; ++i) out.chunk[i] = x.chunk[i] op y;          \
+    return out;                                                               \
+  }
+#define CLENCH_LANES_COMPARISON(op)                                          \
+  friend CLENCH_INLINE Mask operator op(const Lanes& x, const Lanes& y) {    \
+    Mask out;                                                                \
+    for (int i = 0; i < chunks; ++i) out.bits[i] = x.chunk[i] op y.chunk[i]; \
+    return out;                                                              \
+  }                                                                          \
+  friend CLENCH_INLINE Mask operator op(const Lanes& x, Real y) {            \
+    Mask out;                                                                \
+    for (int i = 0; i < chunks; ++i) out.bits[i] = x.chunk[i] op y;          \
+    return out;                                                              \
+  }
+  CLENCH_LANES_OPERATOR(+)
+  CLENCH_LANES_OPERATOR(-)
+  CLENCH_LANES_OPERATOR(*)
+  CLENCH_LANES_OPERATOR(/)
+  CLENCH_LANES_COMPARISON(<)
+  CLENCH_LANES_COMPARISON(>)
+#undef CLENCH_LANES_OPERATOR
+#undef CLENCH_LANES_COMPARISON
+
+  CLENCH_INLINE Lanes operator-() const {
+    Lanes out;
+    for (int i = 0; i < chunks; ++i) out.chunk[i] = -chunk[i];
+    return out;
+  }
+  // the second where one is not a number
+  friend CLENCH_INLINE Lanes max(const Lanes& x, const Lanes& y) {
+    Lanes out;
+    for (int i = 0; i < chunks; ++i)
+      out.chunk[i] = x.chunk[i] > y.chunk[i] ? x.chunk[i] : y.chunk[i];
+    return out;
+  }
+  friend CLENCH_INLINE Lanes min(const Lanes& x, const Lanes& y) {
+    Lanes out;
+    for (int i = 0; i < chunks; ++i)
+      out.chunk[i] = x.chunk[i] < y.chunk[i] ? x.chunk[i] : y.chunk[i];
+    return out;
+  }
+  friend CLENCH_INLINE Lanes abs(const Lanes& x) {
+    Lanes out;
+    constexpr Int most = ~(Int{1} << (8 * sizeof(Real) - 1));
+    for (int i = 0; i < chunks; ++i)
+      out.chunk[i] = reinterpret_cast<Chunk>(reinterpret_cast<Bits>(x.chunk[i]) & most);
+    return out;
+  }
+  friend CLENCH_INLINE Lanes sqrt(const Lanes& x) {
+    Lanes out;
+#if defined(__AVX__)
+    if constexpr (sizeof(Real) == 4 && Width == 8) {
+      const __m256 root = _mm256_sqrt_ps(reinterpret_cast<const __m256&>(x.chunk[0]));
+      std::memcpy(&out, &root, sizeof out);
+      return out;
+    }
+#endif
+#if defined(__SSE2__)
+    if constexpr (sizeof(Real) == 4 && Width == 4) {
+      for (int i = 0; i < chunks; ++i) {
+        const __m128 root = _mm_sqrt_ps(reinterpret_cast<const __m128&>(x.chunk[i]));
+        std::memcpy(&out.chunk[i], &root, sizeof root);
+      }
+      return out;
+    }
+#endif
+    for (int i = 0; i < lane_count; ++i)
+      out.chunk[i / Width][i % Width] = std::sqrt(x.chunk[i / Width][i % Width]);
+    return out;
+  }
+  friend CLENCH_INLINE Lanes select(const Mask& mask, const Lanes& yes, const Lanes& no) {
+    Lanes out;
+    for (int i = 0; i < chunks; ++i) out.chunk[i] = mask.bits[i] ? yes.chunk[i] : no.chunk[i];
+    return out;
+  }
+};
+
+#if defined(__AVX__)
+using FloatLanes = Lanes<float, 8>;
+using DoubleLanes = Lanes<double, 4>;
+#else
+using FloatLanes = Lanes<float, 4>;
+using DoubleLanes = Lanes<double, 2>;
+#endif
+
+/// A vector in each lane, or one alone when F is a number.
+template <class F>
+struct Triple {
+  F x, y, z;
+
+  friend CLENCH_INLINE Triple operator+(const Triple& u, const Triple& v) {
+    return {u.x + v.x, u.y + v.y, u.z + v.z};
+  }
+  friend CLENCH_INLINE Triple operator-(const Triple& u, const Triple& v) {
+    return {u.x - v.x, u.y - v.y, u.z - v.z};
+  }
+  CLENCH_INLINE Triple scaled(const F& by) const { return {x * by, y * by, z * by}; }
+};
+
+// a vector of lanes, and one that is the same in all of them, in any order
+template <class F, class G>
+CLENCH_INLINE auto dot(const Triple<F>& u, const Triple<G>& v) {
+  return u.x * v.x + u.y * v.y + u.z * v.z;
+}
+
+template <class F>
+CLENCH_INLINE Triple<F> cross(const Triple<F>& u, const Triple<F>& v) {
+  return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+}
+
+template <class F>
+CLENCH_INLINE Triple<F> select(const typename F::Mask& mask, const Triple<F>& yes,
+                               const Triple<F>& no) {
+  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+}
+
+/// a rotation, rows of a matrix, then a shift: p -> R p + offset
+template <class Real>
+struct Move {
+  Triple<Real> row[3];
+  Triple<Real> offset;
+
+  template <class F>
+  CLENCH_INLINE Triple<F> turned(const Triple<F>& v) const {
+    return {dot(v, row[0]), dot(v, row[1]), dot(v, row[2])};
+  }
+  template <class F>
+  CLENCH_INLINE Triple<F> operator()(const Triple<F>& p) const {
+    const Triple<F> t = turned(p);
+    return {t.x + offset.x, t.y + offset.y, t.z + offset.z};
+  }
+};
+
+}  // namespace clench

@@ -1,0 +1,37 @@
+#include "geometry/placement.h"
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace clench {
+
+using Eigen::Vector3d;
+
+double rounding_of(const Bounds& bounds, const Vector3d& p) {
+  const Vector3d reach =
+      bounds.low.cwiseAbs().cwiseMax(bounds.high.cwiseAbs()).cwiseMax(p.cwiseAbs());
+  return 256 * std::numeric_limits<double>::epsilon() * reach.maxCoeff();
+}
+
+Placement::Placement(const Shape& a, const Shape& b, const Pose& X_AB)
+    : mesh_a_(a.mesh()),
+      mesh_b_(b.mesh()),
+      rotation_(X_AB.rotation.normalized().toRotationMatrix()),
+      position_(X_AB.position),
+      trees_{&a.tree(), &b.tree(), {}, {}, 0} {
+  const Eigen::Quaterniond& q = X_AB.rotation;
+  if (!(std::abs(q.norm() - 1) < 0.1))
+    fail("geometry query: pose wants a unit quaternion, got ({}, {}, {}, {})", q.w(), q.x(), q.y(),
+         q.z());
+  const Vector3d& p = position_;
+  if (!p.allFinite() || p.cwiseAbs().maxCoeff() > largest_coordinate)
+    fail("geometry query: position of the pose must be finite and within {} [m], got ({}, {}, {})",
+         largest_coordinate, p.x(), p.y(), p.z());
+  Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(trees_.rotation) = rotation_;
+  Vector3d::Map(trees_.offset) =
+      to_a(Vector3d::Map(b.tree().centre())) - Vector3d::Map(a.tree().centre());
+  trees_.rounding = rounding_of(a.bounds(), position_) + rounding_of(b.bounds(), position_);
+}
+
+}  // namespace clench

@@ -1,0 +1,40 @@
+// Shape b in the frame of shape a: the exact side of every query on a pair. For the queries of this
+// module only.
+#pragma once
+#include "geometry/shape.h"
+#include "geometry/triangle.h"
+#include "geometry/walk.h"
+#include "math/pose.h"
+
+namespace clench {
+
+/// What rounding may add to a distance between things within the bounds, or at p or as far away [m]
+double rounding_of(const Bounds& bounds, const Eigen::Vector3d& p);
+
+/// All pair queries move corners by the same arithmetic.
+class Placement {
+ public:
+  /// throws Error when the pose is not one
+  Placement(const Shape& a, const Shape& b, const Pose& X_AB);
+
+  Corners corners_a(int triangle) const { return mesh_a_.corners(triangle); }
+  Corners corners_b(int triangle) const {
+    Corners c = mesh_b_.corners(triangle);
+    for (Eigen::Vector3d& p : c) p = to_a(p);
+    return c;
+  }
+  Eigen::Vector3d to_a(const Eigen::Vector3d& p_B) const { return rotation_ * p_B + position_; }
+  Eigen::Vector3d to_b(const Eigen::Vector3d& p_A) const {
+    return rotation_.transpose() * (p_A - position_);
+  }
+  const TreePair& trees() const { return trees_; }
+  double rounding() const { return trees_.rounding; }
+
+ private:
+  const Mesh &mesh_a_, &mesh_b_;
+  Eigen::Matrix3d rotation_;
+  Eigen::Vector3d position_;
+  TreePair trees_;
+};
+
+}  // namespace clench
