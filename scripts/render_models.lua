@@ -10,8 +10,9 @@ folder = folder or "build/models"
 local function bounds(bodies)
   local low, high = {math.huge, math.huge, math.huge}, {-math.huge, -math.huge, -math.huge}
   for _, body in ipairs(bodies) do
-    for i = 1, body.mesh.vertex_count do
-      local p = body.pose * body.mesh.vertices[i]
+    local pose = body.pose
+    for _, vertex in ipairs(body.mesh.vertices) do
+      local p = pose * vertex
       for k, x in ipairs {p.x, p.y, p.z} do low[k], high[k] = math.min(low[k], x), math.max(high[k], x) end
     end
   end

@@ -15,7 +15,8 @@ local function arm(r)
   local folder = "models/arms/" .. r.name .. "/"
   local out, links = {}, {}
   for i, b in ipairs(r.bodies) do
-    out[i] = {folder .. "iv/link" .. i - 1 .. ".iv", about = (i == 1 and "base" or "link " .. i - 1) .. " of " .. r.about,
+    out[i] = {folder .. "iv/link" .. i - 1 .. ".iv",
+              about = (i == 1 and "base" or "link " .. i - 1) .. " of " .. r.about,
               material = "metal", mass = b.mass, cog = b.cog, inertia = b.inertia, parts = b.parts}
     if i > 1 then links[i - 1] = {"Revolute", "link" .. i - 1 .. ".iv", i - 2} end
   end
@@ -54,15 +55,18 @@ local function puma()
   -- x from shoulder (-431.8) to elbow (0)
   local upper = {
     {build.plate(build.belt({-431.8, 0}, 104, {0, 0}, 66, 10), 200, 272, 10), color = white},
-    {build.plate(shapes.outline {{-640, -52, 20}, {-480, -80}, {-480, 80}, {-640, 52, 20}, segments = 3}, 204, 268, 8), color = white},
+    {build.plate(shapes.outline {{-640, -52, 20}, {-480, -80}, {-480, 80}, {-640, 52, 20}, segments = 3}, 204, 268,
+                 8), color = white},
     {bar(70, {-431.8, 0, 186}, {-431.8, 0, 210}), color = dark},
-    {bar(58, {-431.8, 0, 268}, {-431.8, 0, 282}, 4), color = dark}, {bar(40, {0, 0, 268}, {0, 0, 282}, 4), color = dark},
+    {bar(58, {-431.8, 0, 268}, {-431.8, 0, 282}, 4), color = dark},
+    {bar(40, {0, 0, 268}, {0, 0, 282}, 4), color = dark},
     {bar(56, {0, 0, 196}, {0, 0, 206}), color = dark},
   }
   -- z along the forearm; the elbow's axis runs along y at x = -20.3
   local rings = {}
   for i, s in ipairs {{-95, 92, 70}, {-80, 108, 80}, {20, 116, 86}, {120, 104, 84}, {350, 76, 72}, {362, 70, 66}} do
-    local ring = shapes.outline {{-s[2] / 2, -s[3] / 2}, {s[2] / 2, -s[3] / 2}, {s[2] / 2, s[3] / 2}, {-s[2] / 2, s[3] / 2},
+    local ring = shapes.outline {{-s[2] / 2, -s[3] / 2}, {s[2] / 2, -s[3] / 2}, {s[2] / 2, s[3] / 2},
+                                 {-s[2] / 2, s[3] / 2},
                                  rounding = 18, segments = 3}
     for k, p in ipairs(ring) do ring[k] = {p[1] - 10 + 10 * math.max(0, s[1]) / 362, p[2], s[1]} end
     rings[i] = ring
@@ -72,8 +76,10 @@ local function puma()
   -- the forearm's axis runs along y
   local wrist = {{bar(34, {0, -60, 0}, {0, -37, 0}), color = white},
                  {build.fork(build.belt({0, -38}, 27, {0, 0}, 25, 8), 27, 36, 3), color = white}}
-  local ball = {{bar(24, {0, -33, 0}, {0, 33, 0}, 2), color = dark}, {bar(20, {0, 0, 0}, {0, 0, 35}, 2), color = white}}
-  local flange = {{bar(26, {0, 0, 34}, {0, 0, 46}, 2), color = dark}, {bar(31.5, {0, 0, 46}, {0, 0, 56.25}, 1), color = steel}}
+  local ball = {{bar(24, {0, -33, 0}, {0, 33, 0}, 2), color = dark},
+                {bar(20, {0, 0, 0}, {0, 0, 35}, 2), color = white}}
+  local flange = {{bar(26, {0, 0, 34}, {0, 0, 46}, 2), color = dark},
+                  {bar(31.5, {0, 0, 46}, {0, 0, 56.25}, 1), color = steel}}
   return arm {
     name = "puma560", class = "Puma560", about = "the Puma 560", base = "t 0 0 671.83",
     efforts = {97.6, 186.4, 89.4, 24.2, 20.1, 21.3},
@@ -85,7 +91,8 @@ local function puma()
       {mass = 25000, parts = base}, {mass = 13000, parts = shoulder},
       rigid(17.4, {-363.8, 6, 227.5}, {0.13, 0.524, 0.539}, upper),
       rigid(4.8, {-20.3, -14.1, 70}, {0.066, 0.086, 0.0125}, forearm),
-      rigid(0.82, {0, 19, 0}, {1.8e-3, 1.3e-3, 1.8e-3}, wrist), rigid(0.34, {0, 0, 0}, {0.3e-3, 0.4e-3, 0.3e-3}, ball),
+      rigid(0.82, {0, 19, 0}, {1.8e-3, 1.3e-3, 1.8e-3}, wrist),
+      rigid(0.34, {0, 0, 0}, {0.3e-3, 0.4e-3, 0.3e-3}, ball),
       rigid(0.09, {0, 0, 32}, {0.15e-3, 0.15e-3, 0.04e-3}, flange),
     },
   }

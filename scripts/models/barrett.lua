@@ -15,8 +15,10 @@ local function inner_link()
     {x = -8.5, y = -0.8, h = 13, w = 16, r = 3},
   }
   local neck = build.plate({{-72, -8}, {-52, -8.5}, {-52, 6.5}, {-72, 7}}, -7.2, 7.2)
-  local gear = build.spine {{x = -50, y = -10.4, h = 4, w = 11, r = 1.5}, {x = -46, y = -11.2, h = 5, w = 13, r = 1.8},
-                            {x = -22, y = -10.8, h = 5, w = 12, r = 1.8}, {x = -16, y = -9.6, h = 3.4, w = 9, r = 1.2}}
+  local gear = build.spine {{x = -50, y = -10.4, h = 4, w = 11, r = 1.5},
+                            {x = -46, y = -11.2, h = 5, w = 13, r = 1.8},
+                            {x = -22, y = -10.8, h = 5, w = 12, r = 1.8},
+                            {x = -16, y = -9.6, h = 3.4, w = 9, r = 1.2}}
   local cheeks = build.fork(build.belt({-12, -0.8}, 7.4, {0, 0}, 8.6), 6.4, 9)
   return {
     {build.drum(-70, 0, 10.6, -7.4, 7.4), color = grey}, {neck, color = metal}, {body, color = metal},

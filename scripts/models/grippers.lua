@@ -11,7 +11,8 @@ local white, black, steel = {0.86, 0.87, 0.88}, {0.15, 0.155, 0.16}, {0.64, 0.66
 local grey, rubber, orange = {0.36, 0.37, 0.39}, {0.22, 0.22, 0.23}, {0.80, 0.42, 0.12}
 
 local function body(folder, name, about, mass, material, parts)
-  return {"models/hands/" .. folder .. "/iv/" .. name .. ".iv", about = about, material = material, mass = mass, parts = parts}
+  return {"models/hands/" .. folder .. "/iv/" .. name .. ".iv", about = about, material = material, mass = mass,
+          parts = parts}
 end
 
 --- a prism with its outline in x and z, from y = low to y = high
@@ -29,11 +30,13 @@ end
 -- two jaws that slide along x, each 40 mm; the pads' tips 58 mm before the housing
 local function parallel_jaw()
   local stroke, reach = 40, 58
-  local housing = slab(shapes.outline {{-101, 4, 12}, {101, 4, 12}, {101, 46, 6}, {90, 66, 6}, {-90, 66, 6}, {-101, 46, 6},
+  local housing = slab(shapes.outline {{-101, 4, 12}, {101, 4, 12}, {101, 46, 6}, {90, 66, 6}, {-90, 66, 6},
+                                       {-101, 46, 6},
                                        segments = 3}, -31, 31, 2.5)
   local palm = body("parallel_jaw", "housing", "housing of a parallel jaw", 600, "plastic", {
     flange(31.5, -8, 5, steel), {housing, color = white},
-    {slab(shapes.outline {{-88, 60, 2}, {88, 60, 2}, {88, 66.6, 1}, {-88, 66.6, 1}, segments = 1}, -11, 11, 0.6), color = grey},
+    {slab(shapes.outline {{-88, 60, 2}, {88, 60, 2}, {88, 66.6, 1}, {-88, 66.6, 1}, segments = 1}, -11, 11, 0.6),
+     color = grey},
     {slab({{-34, 20}, {34, 20}, {34, 40}, {-34, 40}}, -31.6, 31.6, 0.4), color = orange},
   })
   -- a jaw: x along the finger, y towards the other jaw, its pad's face at y = 0
@@ -77,21 +80,26 @@ end
 -- two fingers of two links on springs, pulled by one tendon
 local function adaptive()
   local lengths = {62, 44}
-  local block = slab(shapes.outline {{-48, -62, 8}, {48, -62, 8}, {48, -16, 4}, {38, -6}, {21, -6}, {14, -14, 4}, {-14, -14, 4},
+  local block = slab(shapes.outline {{-48, -62, 8}, {48, -62, 8}, {48, -16, 4}, {38, -6}, {21, -6}, {14, -14, 4},
+                                     {-14, -14, 4},
                                      {-21, -6}, {-38, -6}, {-48, -16, 4}, segments = 3}, -26, 26, 1.6)
   local parts = {flange(31.5, -74, -60, steel), {block, color = orange},
                  {slab({{-13, -20}, {13, -20}, {13, -11}, {-13, -11}}, -22, 22, 1.2), color = rubber},
-                 {shapes.cylinder {20, from = {0, -29, -40}, to = {0, 29, -40}, chamfer = 1.5, segments = 28}, color = black}}
+                 {shapes.cylinder {20, from = {0, -29, -40}, to = {0, 29, -40}, chamfer = 1.5, segments = 28},
+                  color = black}}
   for _, side in ipairs {1, -1} do
     for _, y in ipairs {-19, 13} do
-      parts[#parts + 1] = {slab(build.belt({side * 29, -14}, 10, {side * 29, 0}, 9, 5), y, y + 6, 0.8), color = orange}
+      parts[#parts + 1] = {slab(build.belt({side * 29, -14}, 10, {side * 29, 0}, 9, 5), y, y + 6, 0.8),
+                           color = orange}
     end
-    parts[#parts + 1] = {shapes.cylinder {4.5, from = {side * 29, -20.5, 0}, to = {side * 29, 20.5, 0}, chamfer = 0.8, segments = 16},
+    parts[#parts + 1] = {shapes.cylinder {4.5, from = {side * 29, -20.5, 0}, to = {side * 29, 20.5, 0}, chamfer = 0.8,
+                                          segments = 16},
                          color = steel}
   end
   local palm = body("adaptive_gripper", "palm", "palm with motor and tendon drum", 420, "plastic", parts)
   local proximal = body("adaptive_gripper", "proximal", "proximal link on a spring", 38, "rubber", phalanx {
-    length = lengths[1], drum = 8, grip = 12.4, wide = {24, 22}, high = {15, 13}, axle = 7.4, inner = 7.4, pad = {-50, -14, 3},
+    length = lengths[1], drum = 8, grip = 12.4, wide = {24, 22}, high = {15, 13}, axle = 7.4, inner = 7.4,
+    pad = {-50, -14, 3},
   })
   local distal = body("adaptive_gripper", "distal", "distal link on a spring", 22, "rubber", phalanx {
     length = lengths[2], drum = 7, grip = 7, wide = {20, 18}, high = {12.6, 9.4}, pad = {-34, -6, 3},
@@ -102,7 +110,8 @@ local function adaptive()
       about = k == 1 and "finger at +x" or "finger at -x",
       base = {robot.frame({side * 29, 0, 0}, {side, 0, 0}, {0, -side, 0})},
       -- friction [g mm^2/s], Coulomb friction, spring [N mm/rad], rest [rad]
-      joints = {{"d0+75", 0, lengths[1], 0, 0, 75, 5e6, 0, 25, 0}, {"d0*0.5+15", 0, lengths[2], 0, 0, 75, 5e6, 0, 75, 0}},
+      joints = {{"d0+75", 0, lengths[1], 0, 0, 75, 5e6, 0, 25, 0},
+                {"d0*0.5+15", 0, lengths[2], 0, 0, 75, 5e6, 0, 75, 0}},
       links = {{"Revolute", "proximal.iv", 0}, {"Revolute", "distal.iv", 1}},
     }
     for _, at in ipairs {{proximal, -42}, {proximal, -22}, {distal, -28}, {distal, -10}} do
@@ -116,31 +125,42 @@ local function adaptive()
     {folder .. "adaptive_gripper.cfg", text = robot.text {
       about = "An adaptive gripper: two fingers on springs, one tendon", palm = "palm.iv", chains = chains,
       dofs = {{kind = "c", speed = 1, effort = 1.5, kp = 10, kd = 0.1}},
-      approach = {{0, 0, -11}, {0, 0, 1}}, eigengrasps = "adaptive_gripper.egr", virtual_contacts = "adaptive_gripper.vgr",
+      approach = {{0, 0, -11}, {0, 0, 1}}, eigengrasps = "adaptive_gripper.egr",
+      virtual_contacts = "adaptive_gripper.vgr",
     }},
     {folder .. "adaptive_gripper.egr", text = eigengrasps {origin = {20}, {1}}},
     {folder .. "adaptive_gripper.vgr", text = sites("adaptive_gripper", places)},
   }
 end
 
--- three fingers of three links that give way one after the other; two of them turn on the palm
-local function three_finger()
-  local lengths, base_y, base_x = {57, 39, 36}, 38, 36
-  local shell = shapes.outline {{-62, -34, 16}, {-30, -62, 14}, {30, -62, 14}, {62, -34, 16}, {62, 44, 16}, {44, 62, 14}, {-44, 62, 14},
+-- where the fingers of the three-fingered gripper stand
+local base_y, base_x = 38, 36
+
+local function three_finger_palm()
+  local shell = shapes.outline {{-62, -34, 16}, {-30, -62, 14}, {30, -62, 14}, {62, -34, 16}, {62, 44, 16},
+                                {44, 62, 14}, {-44, 62, 14},
                                 {-62, 44, 16}, segments = 2}
   local parts = {
     flange(44, -84, -72, steel), {build.plate(shell, -74, -12, 3), color = black},
-    {build.plate(shapes.outline {{-46, -40, 12}, {46, -40, 12}, {46, 30, 12}, {-46, 30, 12}, segments = 2}, -14, -6, 2), color = rubber},
-    {build.plate(shapes.outline {{-63, -20, 3}, {63, -20, 3}, {63, 30, 3}, {-63, 30, 3}, segments = 1}, -56, -40, 2), color = grey},
+    {build.plate(shapes.outline {{-46, -40, 12}, {46, -40, 12}, {46, 30, 12}, {-46, 30, 12}, segments = 2}, -14, -6,
+                 2), color = rubber},
+    {build.plate(shapes.outline {{-63, -20, 3}, {63, -20, 3}, {63, 30, 3}, {-63, 30, 3}, segments = 1}, -56, -40, 2),
+     color = grey},
   }
   for _, x in ipairs {-base_x, base_x} do
-    parts[#parts + 1] = {shapes.cylinder {15, from = {x, base_y, -16}, to = {x, base_y, -11}, chamfer = 0.8, segments = 24}, color = steel}
+    parts[#parts + 1] = {shapes.cylinder {15, from = {x, base_y, -16}, to = {x, base_y, -11}, chamfer = 0.8,
+                                          segments = 24}, color = steel}
   end
   -- the third finger's fork, fixed
   local cheeks = build.z_to_x(build.fork(build.belt({-base_y, 0}, 9, {-base_y - 2, -22}, 12, 5), 9, 14, 0.8))
   parts[#parts + 1] = {cheeks, color = black}
   parts[#parts + 1] = {build.z_to_x(build.drum(-base_y, 0, 4.5, -15, 15, 16)), color = steel}
-  local palm = body("three_finger", "palm", "palm and housing of a three-fingered gripper", 1700, "rubber", parts)
+  return body("three_finger", "palm", "palm and housing of a three-fingered gripper", 1700, "rubber", parts)
+end
+
+-- three fingers of three links that give way one after the other; two of them turn on the palm
+local function three_finger()
+  local lengths, palm = {57, 39, 36}, three_finger_palm()
 
   -- turns about y at x = 0 and carries the knuckle in the frame's origin
   local turntable = body("three_finger", "turntable", "turning base of a finger", 50, "metal", {
@@ -149,10 +169,12 @@ local function three_finger()
     {build.drum(0, 0, 4.5, -14, 14, 16), color = steel},
   })
   local proximal = body("three_finger", "proximal", "proximal link of a finger", 75, "rubber", phalanx {
-    length = lengths[1], drum = 8.4, grip = 8.6, wide = {26, 24}, high = {20, 18}, axle = 9, inner = 8.2, pad = {-44, -16, 3},
+    length = lengths[1], drum = 8.4, grip = 8.6, wide = {26, 24}, high = {20, 18}, axle = 9, inner = 8.2,
+    pad = {-44, -16, 3},
   })
   local middle = body("three_finger", "middle", "middle link of a finger", 50, "rubber", phalanx {
-    length = lengths[2], drum = 8.2, grip = 7.8, wide = {24, 22}, high = {18, 16}, axle = 8, inner = 7, pad = {-28, -14, 3},
+    length = lengths[2], drum = 8.2, grip = 7.8, wide = {24, 22}, high = {18, 16}, axle = 8, inner = 7,
+    pad = {-28, -14, 3},
   })
   local distal = body("three_finger", "distal", "distal link of a finger", 40, "rubber", phalanx {
     length = lengths[3], drum = 7.4, grip = 6.6, wide = {22, 19}, high = {15, 11}, pad = {-27, -4, 3},
@@ -166,13 +188,16 @@ local function three_finger()
     local list = joints("d" .. k)
     table.insert(list, 1, {"d0" .. (k == 1 and "" or "*-1"), 0, 0, 90, -16, 16})
     chains[k] = {
-      about = k == 1 and "finger at +x" or "finger at -x", base = {robot.frame({side * base_x, base_y, 0}, {0, 1, 0}, {0, 0, 1})},
+      about = k == 1 and "finger at +x" or "finger at -x",
+      base = {robot.frame({side * base_x, base_y, 0}, {0, 1, 0}, {0, 0, 1})},
       joints = list,
-      links = {{"Revolute", "turntable.iv", 0}, {"Revolute", "proximal.iv", 1}, {"Revolute", "middle.iv", 2}, {"Revolute", "distal.iv", 3}},
+      links = {{"Revolute", "turntable.iv", 0}, {"Revolute", "proximal.iv", 1}, {"Revolute", "middle.iv", 2},
+               {"Revolute", "distal.iv", 3}},
     }
   end
   chains[3] = {
-    about = "third finger, which does not turn", base = {robot.frame({0, -base_y, 0}, {0, -1, 0}, {-1, 0, 0})}, joints = joints "d3",
+    about = "third finger, which does not turn", base = {robot.frame({0, -base_y, 0}, {0, -1, 0}, {-1, 0, 0})},
+    joints = joints "d3",
     links = {{"Revolute", "proximal.iv", 0}, {"Revolute", "middle.iv", 1}, {"Revolute", "distal.iv", 2}},
   }
   for f = 0, 2 do

@@ -75,7 +75,8 @@ local function palm()
   -- built along x with its face towards y, then turned: x to y, y to z, z to x
   local flat = build.limb({
     {x = -18, y = -3, z = 0, h = 38, w = 56, n = 2.4}, {x = 4, y = -3, z = 1, h = 38, w = 61, n = 2.5},
-    {x = 30, y = -4, z = 1, h = 34, w = 76, n = 2.7}, {x = 56, y = -4, z = 0.5, h = 29, w = 85, n = 2.9, slope = 0.08},
+    {x = 30, y = -4, z = 1, h = 34, w = 76, n = 2.7},
+    {x = 56, y = -4, z = 0.5, h = 29, w = 85, n = 2.9, slope = 0.08},
     {x = 78, y = -4, z = -0.5, h = 25, w = 86, n = 3, slope = 0.2},
     {x = 95, y = -4.5, z = -0.5, h = 19, w = 79, n = 3, slope = 0.24},
   }, {last = 6, sides = 28})
@@ -210,7 +211,8 @@ for f, finger in ipairs(fingers) do
   end
 end
 for link, share in ipairs {0.3, 0.45, 0.35} do
-  places[#places + 1] = {finger = 4, link = link - 1, body = bodies["thumb" .. link], at = {-share * thumb[link], 0, 0}}
+  places[#places + 1] = {finger = 4, link = link - 1, body = bodies["thumb" .. link],
+                         at = {-share * thumb[link], 0, 0}}
 end
 for _, at in ipairs {{-26, 34, 0}, {17, 78, -4}, {-16, 74, -4}} do
   places[#places + 1] = {finger = -1, link = 0, body = bodies.palm, at = at, along = {0, 0, 1}}

@@ -55,7 +55,8 @@ end
 
 local function bottle()
   local body = vessel({
-    {0, 4}, {14, 4, 4}, {21, 0, 3}, {30, 0, 8}, {32.5, 14, 10}, {32.5, 66, 4}, {30.5, 72, 6}, {32.5, 78, 6}, {32.5, 128, 4},
+    {0, 4}, {14, 4, 4}, {21, 0, 3}, {30, 0, 8}, {32.5, 14, 10}, {32.5, 66, 4}, {30.5, 72, 6}, {32.5, 78, 6},
+    {32.5, 128, 4},
     {30.5, 134, 6}, {32.5, 140, 6}, {31, 160, 20}, {12.6, 196, 12}, {12.6, 203}, {0, 203},
   }, 28, 2)
   local ring = shapes.cylinder {16.4, from = {0, 0, 199}, to = {0, 0, 202}, chamfer = 0.6, segments = 28}
@@ -68,13 +69,15 @@ end
 
 local function plate()
   return vessel({
-    {0, 2}, {72, 2, 1}, {74, 0, 1}, {78, 0, 1}, {92, 5, 12}, {134.5, 24, 1.5}, {133.5, 27.2, 1.2}, {90, 9.6, 14}, {0, 7},
+    {0, 2}, {72, 2, 1}, {74, 0, 1}, {78, 0, 1}, {92, 5, 12}, {134.5, 24, 1.5}, {133.5, 27.2, 1.2}, {90, 9.6, 14},
+    {0, 7},
   }, 44, 3)
 end
 
 local function bowl()
   return vessel({
-    {0, 3}, {26, 3, 1}, {28, 0, 0.8}, {34, 0, 1}, {60, 24, 26}, {75, 70, 1.2}, {71, 70, 1.2}, {55, 26, 24}, {26, 8, 8}, {0, 7},
+    {0, 3}, {26, 3, 1}, {28, 0, 0.8}, {34, 0, 1}, {60, 24, 26}, {75, 70, 1.2}, {71, 70, 1.2}, {55, 26, 24},
+    {26, 8, 8}, {0, 7},
   }, 40, 3)
 end
 
@@ -85,17 +88,22 @@ local function book()
   local spine = shapes.move(shapes.box {2.6, 209.4, 23.4, chamfer = 0.4}, {-73, 0, 12})
   local pages = shapes.move(shapes.box {141, 203, 20, chamfer = 0.2}, {-1.5, 0, 12})
   local title = shapes.move(shapes.box {86, 34, 0.6}, {0, 48, 23.9})
-  return {{board(1.3), color = cover}, {board(22.7), color = cover}, {spine, color = cover}, {pages, color = {0.94, 0.92, 0.85}},
+  return {{board(1.3), color = cover}, {board(22.7), color = cover}, {spine, color = cover},
+          {pages, color = {0.94, 0.92, 0.85}},
           {title, color = {0.86, 0.72, 0.36}}}
 end
 
 local function phone()
-  local shell = shapes.prism {shapes.outline {{-35.75, -73.35}, {35.75, -73.35}, {35.75, 73.35}, {-35.75, 73.35}, rounding = 11,
+  local shell = shapes.prism {shapes.outline {{-35.75, -73.35}, {35.75, -73.35}, {35.75, 73.35}, {-35.75, 73.35},
+                                              rounding = 11,
                                               segments = 5}, 7.65, rounding = 1.6, segments = 2}
-  local screen = shapes.prism {shapes.outline {{-33.4, -71}, {33.4, -71}, {33.4, 71}, {-33.4, 71}, rounding = 9, segments = 5}, 0.5}
-  local camera = shapes.prism {shapes.outline {{-31, 38}, {-2, 38}, {-2, 68}, {-31, 68}, rounding = 7, segments = 4}, 1.2,
+  local screen = shapes.prism {shapes.outline {{-33.4, -71}, {33.4, -71}, {33.4, 71}, {-33.4, 71}, rounding = 9,
+                                               segments = 5}, 0.5}
+  local camera = shapes.prism {shapes.outline {{-31, 38}, {-2, 38}, {-2, 68}, {-31, 68}, rounding = 7, segments = 4},
+                               1.2,
                                chamfer = 0.3}
-  return {{shapes.move(shell, {0, 0, 1.2}), color = {0.24, 0.26, 0.30}}, {shapes.move(screen, {0, 0, 8.5}), color = {0.04, 0.05, 0.07}},
+  return {{shapes.move(shell, {0, 0, 1.2}), color = {0.24, 0.26, 0.30}},
+          {shapes.move(screen, {0, 0, 8.5}), color = {0.04, 0.05, 0.07}},
           {shapes.move(camera, {0, 0, 0}), color = {0.18, 0.19, 0.22}}}
 end
 
@@ -112,7 +120,8 @@ return {
   {"models/objects/tea_tin.iv", about = "tea tin, 125 g of tea", material = "metal", density = tinplate,
    parts = {{tin_body, color = {0.16, 0.36, 0.27}}, {tin_lid, color = {0.16, 0.36, 0.27}},
             {tin_label, color = {0.88, 0.82, 0.66}}}},
-  {"models/objects/bottle.iv", about = "water bottle, 500 ml, full", material = "plastic", mass = 525, parts = bottle()},
+  {"models/objects/bottle.iv", about = "water bottle, 500 ml, full", material = "plastic", mass = 525,
+   parts = bottle()},
   {"models/objects/plate.iv", about = "dinner plate", material = "glass", density = stoneware,
    parts = {{plate(), color = {0.93, 0.92, 0.88}}}},
   {"models/objects/bowl.iv", about = "bowl", material = "glass", density = stoneware,

@@ -33,14 +33,16 @@ end
 --- a column between two plates, to put an arm on
 local function stand()
   return {
-    {block(420, 420, 15, {0, 0, 7.5}), color = {0.25, 0.27, 0.30}}, {block(120, 120, 576, {0, 0, 300}, 8), color = {0.42, 0.45, 0.48}},
+    {block(420, 420, 15, {0, 0, 7.5}), color = {0.25, 0.27, 0.30}},
+    {block(120, 120, 576, {0, 0, 300}, 8), color = {0.42, 0.45, 0.48}},
     {block(240, 240, 15, {0, 0, 592.5}), color = {0.25, 0.27, 0.30}},
   }
 end
 
 return {
   {"models/obstacles/table.iv", about = "low table", material = "wood", density = board, parts = low_table()},
-  {"models/obstacles/shelf.iv", about = "shelf with three boards", material = "wood", density = particle_board, parts = shelf()},
+  {"models/obstacles/shelf.iv", about = "shelf with three boards", material = "wood", density = particle_board,
+   parts = shelf()},
   {"models/obstacles/floor.iv", about = "floor, 2 m square, its top at z = 0", material = "stone", density = concrete,
    parts = {{shapes.move(shapes.box {2000, 2000, 40}, {0, 0, -20}), color = {0.70, 0.70, 0.68}}}},
   {"models/obstacles/wall.iv", about = "wall, 2 m long", material = "stone", density = concrete,

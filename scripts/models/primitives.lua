@@ -9,7 +9,8 @@ end
 
 -- sizes by name, in the order of the lists below
 local kinds = {
-  Cube = {"width", "height", "depth"}, Sphere = {"radius"}, Cylinder = {"radius", "height"}, Cone = {"bottomRadius", "height"},
+  Cube = {"width", "height", "depth"}, Sphere = {"radius"}, Cylinder = {"radius", "height"},
+  Cone = {"bottomRadius", "height"},
 }
 
 --- @param about string

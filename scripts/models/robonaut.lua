@@ -28,9 +28,11 @@ end
 --- about the spread axis (along y at x = -8), with a fork around the knuckle
 local function yoke()
   return {
-    {shapes.cylinder {5.6, from = {-yoke_length, -8.6, 0}, to = {-yoke_length, 8.6, 0}, chamfer = 0.8, segments = 20}, color = dark},
+    {shapes.cylinder {5.6, from = {-yoke_length, -8.6, 0}, to = {-yoke_length, 8.6, 0}, chamfer = 0.8, segments = 20},
+     color = dark},
     {build.fork(build.belt({-yoke_length, 0}, 6.4, {0, 0}, 7, 5), 6.2, 8.6, 0.6), color = bronze},
-    {build.plate({{-yoke_length - 4, -6}, {-yoke_length + 2.4, -6}, {-yoke_length + 2.4, 6}, {-yoke_length - 4, 6}}, -8.4, 8.4), color = bronze},
+    {build.plate({{-yoke_length - 4, -6}, {-yoke_length + 2.4, -6}, {-yoke_length + 2.4, 6}, {-yoke_length - 4, 6}},
+                 -8.4, 8.4), color = bronze},
     {build.drum(0, 0, 3.4, -9.6, 9.6, 16), color = dark},
   }
 end
@@ -39,18 +41,22 @@ end
 local function metacarpal(k)
   local o = outer[k]
   local x = hinge[1] - o.side
-  local blade = shapes.outline {{x - 8, 26, 3}, {x + 8, 26, 3}, {x + 8.6, o.y - 9, 2}, {x - 8.6, o.y - 9, 2}, segments = 2}
+  local blade = shapes.outline {{x - 8, 26, 3}, {x + 8, 26, 3}, {x + 8.6, o.y - 9, 2}, {x - 8.6, o.y - 9, 2},
+                                segments = 2}
   local arm = k == 1 and {{hinge[1] - 2, 28}, {x + 2, 28}, {x + 2, 56}, {hinge[1] - 2, 56}} or
               {{hinge[1], 8}, {x - 7, 8}, {x - 7, 40}, {x + 6, 40}, {x + 6, 20}, {hinge[1], 20}}
   local parts = {
     {build.plate(blade, -15, 5, 2.4), color = silver},
     {build.plate(arm, k == 1 and -13 or -14, k == 1 and -4 or 0, 1.4), color = dark},
     {build.plate({{x - 5, 34}, {x + 5, 34}, {x + 5, o.y - 14}, {x - 5, o.y - 14}}, 4, 7.6, 1), color = black},
-    {build.plate({{x - 7, o.y - 12}, {x + 7, o.y - 12}, {x + 6, o.y - 4.6}, {x - 6, o.y - 4.6}}, knuckle_z - 8, knuckle_z + 8), color = bronze},
+    {build.plate({{x - 7, o.y - 12}, {x + 7, o.y - 12}, {x + 6, o.y - 4.6}, {x - 6, o.y - 4.6}}, knuckle_z - 8,
+                 knuckle_z + 8), color = bronze},
   }
-  for _, part in ipairs(parts) do part[1] = robot.seen_from(part[1], {hinge[1], o.y, hinge[2]}, {0, 0, 1}, {0, 1, 0}) end
-  -- the frame after the hinge's joint: z of before is -y now
-  for _, part in ipairs(parts) do part[1] = shapes.turn(part[1], {1, 0, 0}, math.pi / 2) end
+  for _, part in ipairs(parts) do
+    local seen = robot.seen_from(part[1], {hinge[1], o.y, hinge[2]}, {0, 0, 1}, {0, 1, 0})
+    -- the frame after the hinge's joint: z of before is -y now
+    part[1] = shapes.turn(seen, {1, 0, 0}, math.pi / 2)
+  end
   return parts
 end
 
@@ -63,16 +69,19 @@ local function palm()
   local parts = {
     {build.plate(plate, -17, 6, 2.6), color = silver}, {build.plate(pad, 5, 9, 1.2), color = black},
     {build.plate(back, -20, -16, 1.4), color = dark},
-    {shapes.cylinder {4, from = {hinge[1], 10, hinge[2]}, to = {hinge[1], 78, hinge[2]}, chamfer = 0.6, segments = 16}, color = bronze},
+    {shapes.cylinder {4, from = {hinge[1], 10, hinge[2]}, to = {hinge[1], 78, hinge[2]}, chamfer = 0.6,
+                      segments = 16}, color = bronze},
   }
   for _, k in ipairs(knuckles) do
     parts[#parts + 1] = {build.plate({{k[1] - 7, 76}, {k[1] + 7, 76}, {k[1] + 6, k[2] - 4.6}, {k[1] - 6, k[2] - 4.6}},
                                      knuckle_z - 8, knuckle_z + 8), color = bronze}
   end
   -- the thumb's post, the wrist, the end of the forearm
-  parts[#parts + 1] = {shapes.capsule {11, top = 9, from = {22, 16, -4}, to = {31, 20, 2}, segments = 20}, color = dark}
+  parts[#parts + 1] = {shapes.capsule {11, top = 9, from = {22, 16, -4}, to = {31, 20, 2}, segments = 20},
+                       color = dark}
   parts[#parts + 1] = {build.z_to_x(build.drum(-14, -5.5, 12, -24, 30, 24)), color = bronze}
-  parts[#parts + 1] = {build.z_to_x(build.plate({{-44, -20}, {-14, -15}, {-14, 4}, {-44, 9}}, -18, 24, 2)), color = dark}
+  parts[#parts + 1] = {build.z_to_x(build.plate({{-44, -20}, {-14, -15}, {-14, 4}, {-44, 9}}, -18, 24, 2)),
+                       color = dark}
   local cuff = shapes.lathe {segments = 32, profile = shapes.outline {
     {0, -66}, {50.8, -66, 2}, {50.8, -46, 3}, {44, -38, 2}, {0, -38}, segments = 2,
   }}
@@ -87,10 +96,12 @@ end
 local base = body("palm", "palm and wrist of a five-fingered hand", 1100, "metal", palm())
 local yokes = body("yoke", "knuckle of a finger", 20, "metal", yoke())
 local proximal = body("proximal", "proximal link of a finger", 45, "metal", link {
-  length = finger[1], drum = 7.4, grip = 5.8, wide = {16, 15}, high = {15.5, 14}, axle = 7.4, inner = 5, pad = {-35, -11, 2.4},
+  length = finger[1], drum = 7.4, grip = 5.8, wide = {16, 15}, high = {15.5, 14}, axle = 7.4, inner = 5,
+  pad = {-35, -11, 2.4},
 })
 local middle = body("middle", "middle link of a finger", 25, "metal", link {
-  length = finger[2], drum = 7, grip = 4.8, wide = {15, 14.4}, high = {14, 13}, axle = 6.6, inner = 4.4, pad = {-19, -9, 2.2},
+  length = finger[2], drum = 7, grip = 4.8, wide = {15, 14.4}, high = {14, 13}, axle = 6.6, inner = 4.4,
+  pad = {-19, -9, 2.2},
 })
 local function from_joint(parts, length)
   for _, part in ipairs(parts) do part[1] = shapes.move(part[1], {length, 0, 0}) end
@@ -102,7 +113,8 @@ local distal = body("distal", "fingertip", 15, "rubber", from_joint(link {
 local inner_metacarpal = body("metacarpal1", "metacarpal of the ring finger", 60, "metal", metacarpal(1))
 local outer_metacarpal = body("metacarpal2", "metacarpal of the little finger", 60, "metal", metacarpal(2))
 local thumb1 = body("thumb1", "proximal link of the thumb", 70, "metal", link {
-  length = thumb[1], drum = 10.4, grip = 9.6, wide = {19, 17}, high = {19, 16}, axle = 8.2, inner = 5.6, pad = {-32, -12, 2.4},
+  length = thumb[1], drum = 10.4, grip = 9.6, wide = {19, 17}, high = {19, 16}, axle = 8.2, inner = 5.6,
+  pad = {-32, -12, 2.4},
 })
 local thumb2 = body("thumb2", "fingertip of the thumb", 25, "rubber", link {
   length = thumb[2], drum = 7.8, grip = 5.4, wide = {16, 15.4}, high = {14.6, 13},
@@ -131,7 +143,8 @@ for f, k in ipairs(knuckles) do
       {"d" .. d, 0, yoke_length, 90, -20, 10}, {"d" .. d + 1 .. "+-5.9", 0, finger[1], 0, -10, 85},
       {"d" .. d + 2, 0, finger[2], 0, 0, 85}, {"d" .. d + 2 .. "+5.9", 0, 0, 0, 0, 85},
     },
-    links = {{"Revolute", "yoke.iv", 0}, {"Revolute", "proximal.iv", 1}, {"Revolute", "middle.iv", 2}, {"Revolute", "distal.iv", 3}},
+    links = {{"Revolute", "yoke.iv", 0}, {"Revolute", "proximal.iv", 1}, {"Revolute", "middle.iv", 2},
+             {"Revolute", "distal.iv", 3}},
   }
   finger_sites(f, 1)
 end
@@ -144,7 +157,8 @@ for k, o in ipairs(outer) do
       {k == 1 and "d9*0.5" or "d9", o.y, 0, -90, 0, 30}, {"d" .. d .. "+-95.9", -o.side, finger[1], 0, 0, 85},
       {"d" .. d + 1, 0, finger[2], 0, 0, 85}, {"d" .. d + 1 .. "+5.9", 0, 0, 0, 0, 85},
     },
-    links = {{"Revolute", "metacarpal" .. k .. ".iv", 0}, {"Revolute", "proximal.iv", 1}, {"Revolute", "middle.iv", 2},
+    links = {{"Revolute", "metacarpal" .. k .. ".iv", 0}, {"Revolute", "proximal.iv", 1},
+             {"Revolute", "middle.iv", 2},
              {"Revolute", "distal.iv", 3}},
   }
   finger_sites(k + 2, 1)
@@ -161,7 +175,8 @@ end
 return {
   base, yokes, proximal, middle, distal, inner_metacarpal, outer_metacarpal, thumb1, thumb2,
   {folder .. "robonaut.cfg", text = robot.text {
-    about = "A five-fingered hand after the Robonaut hand", class = "Robonaut", palm = "palm.iv", dofs = dofs, chains = chains,
+    about = "A five-fingered hand after the Robonaut hand", class = "Robonaut", palm = "palm.iv", dofs = dofs,
+    chains = chains,
     approach = {{8, 60, 10}, {0, 0, 1}}, eigengrasps = "robonaut.egr", virtual_contacts = "robonaut.vgr",
   }},
   {folder .. "robonaut.egr", text = eigengrasps {

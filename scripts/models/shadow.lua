@@ -30,7 +30,8 @@ local function tip(o)
   local parts = phalanx(o)
   local w, h, l = o.wide[2], o.high[2], o.length
   parts[#parts + 1] = {build.limb({
-    {x = -0.62 * l, y = -0.46 * h, h = 0.14 * h, w = 0.6 * w, n = 3}, {x = -0.2 * l, y = -0.45 * h, h = 0.2 * h, w = 0.7 * w, n = 3},
+    {x = -0.62 * l, y = -0.46 * h, h = 0.14 * h, w = 0.6 * w, n = 3},
+    {x = -0.2 * l, y = -0.45 * h, h = 0.2 * h, w = 0.7 * w, n = 3},
     {x = 0, y = -0.36 * h, h = 0.2 * h, w = 0.5 * w, n = 3, lean = 8},
   }, {first = 0.8, last = 0.8, steps = 2, sides = 12}), color = steel}
   return parts
@@ -44,7 +45,8 @@ local function palm()
   local pad = shapes.outline {
     {-30, 14, 8}, {6, 14, 6}, {12, 44, 10}, {37, 58, 6}, {37, 76, 6}, {-36, 70, 6}, {-35, 40, 12}, segments = 2,
   }
-  local back = shapes.outline {{-20, 4, 6}, {20, 4, 6}, {34, 34, 12}, {34, 74, 8}, {-34, 64, 8}, {-32, 34, 12}, segments = 2}
+  local back = shapes.outline {{-20, 4, 6}, {20, 4, 6}, {34, 34, 12}, {34, 74, 8}, {-34, 64, 8}, {-32, 34, 12},
+                               segments = 2}
   local parts = {
     {build.plate(plate, -13, 10, 3), color = black}, {build.plate(pad, 9, 13.5, 1.5), color = blue},
     {build.plate(back, -16, -12, 1.2), color = steel},
@@ -52,27 +54,34 @@ local function palm()
   -- the knuckles stand on posts between two plates
   for _, f in ipairs(fingers) do
     local y = f[2]
-    local post = shapes.outline {{f[1] - 8.4, y - 22}, {f[1] + 8.4, y - 22}, {f[1] + 7.4, y - 2, 4}, {f[1] - 7.4, y - 2, 4}, segments = 2}
+    local post = shapes.outline {{f[1] - 8.4, y - 22}, {f[1] + 8.4, y - 22}, {f[1] + 7.4, y - 2, 4},
+                                 {f[1] - 7.4, y - 2, 4}, segments = 2}
     parts[#parts + 1] = {build.plate(post, -9, 8, 0.8), color = grey}
-    parts[#parts + 1] = {shapes.cylinder {6.4, from = {f[1], y, -10.5}, to = {f[1], y, 9.5}, chamfer = 0.8, segments = 12},
+    parts[#parts + 1] = {shapes.cylinder {6.4, from = {f[1], y, -10.5}, to = {f[1], y, 9.5}, chamfer = 0.8,
+                                          segments = 12},
                          color = steel}
   end
   -- the thumb's roll axis leans halfway between fingers and side
   local function along(k) return {thumb_base[1] + k * half, thumb_base[2] + k * half, thumb_base[3]} end
-  parts[#parts + 1] = {shapes.cylinder {13, from = along(-26), to = along(-11), chamfer = 1.5, segments = 16}, color = grey}
-  parts[#parts + 1] = {shapes.cylinder {10, from = along(-12), to = along(-6), chamfer = 1, segments = 16}, color = steel}
+  parts[#parts + 1] = {shapes.cylinder {13, from = along(-26), to = along(-11), chamfer = 1.5, segments = 16},
+                       color = grey}
+  parts[#parts + 1] = {shapes.cylinder {10, from = along(-12), to = along(-6), chamfer = 1, segments = 16},
+                       color = steel}
   -- wrist: a fork about its axis, then the forearm with its motors
   local fork = build.fork(build.belt({-34, 0}, 13, {-6, -1}, 12), 20, 26, 1)
   parts[#parts + 1] = {build.z_to_x(shapes.move(fork, {0, -1.5, 0})), color = grey}
   parts[#parts + 1] = {build.z_to_x(build.drum(-34, -1.5, 9, -30, 30, 20)), color = steel}
-  parts[#parts + 1] = {build.z_to_x(build.plate({{-62, -15}, {-28, -12}, {-28, 9}, {-62, 12}}, -18, 18, 2)), color = grey}
+  parts[#parts + 1] = {build.z_to_x(build.plate({{-62, -15}, {-28, -12}, {-28, 9}, {-62, 12}}, -18, 18, 2)),
+                       color = grey}
   local forearm = build.limb({
     {x = -247, y = -1.5, h = 112, w = 124, n = 2.6}, {x = -150, y = -1.5, h = 112, w = 124, n = 2.6},
     {x = -92, y = -1.5, h = 92, w = 104, n = 2.6}, {x = -56, y = -1.5, h = 62, w = 70, n = 2.6},
   }, {sides = 20, last = 4, steps = 2})
-  local band = build.limb({{x = -236, y = -1.5, h = 115, w = 127, n = 2.6}, {x = -222, y = -1.5, h = 115, w = 127, n = 2.6}},
+  local band = build.limb({{x = -236, y = -1.5, h = 115, w = 127, n = 2.6},
+                           {x = -222, y = -1.5, h = 115, w = 127, n = 2.6}},
                           {sides = 20, steps = 1})
-  local second = build.limb({{x = -160, y = -1.5, h = 114, w = 126, n = 2.6}, {x = -154, y = -1.5, h = 114, w = 126, n = 2.6}},
+  local second = build.limb({{x = -160, y = -1.5, h = 114, w = 126, n = 2.6},
+                             {x = -154, y = -1.5, h = 114, w = 126, n = 2.6}},
                             {sides = 20, steps = 1})
   for i, mesh in ipairs {forearm, band, second} do
     parts[#parts + 1] = {build.z_to_x(mesh), color = i == 1 and black or i == 2 and blue or steel}
@@ -86,19 +95,23 @@ end
 
 -- the published weight of hand and forearm, 4.3 kg; the links' shares by their size
 local proximal = body("proximal", "proximal link of a finger", 30, "plastic", phalanx {
-  length = finger[1], drum = 8.6, grip = 8, wide = {17.4, 16.6}, high = {17.4, 15}, axle = 7.8, inner = 5.2, pad = {-35, -12, 2},
+  length = finger[1], drum = 8.6, grip = 8, wide = {17.4, 16.6}, high = {17.4, 15}, axle = 7.8, inner = 5.2,
+  pad = {-35, -12, 2},
 })
 local middle = body("middle", "middle link of a finger", 17, "plastic", phalanx {
-  length = finger[2], drum = 7.4, grip = 5, wide = {16, 15}, high = {14.4, 13.4}, axle = 6.8, inner = 4.6, pad = {-18, -8, 2},
+  length = finger[2], drum = 7.4, grip = 5, wide = {16, 15}, high = {14.4, 13.4}, axle = 6.8, inner = 4.6,
+  pad = {-18, -8, 2},
 })
 local distal = body("distal", "fingertip", 12, "rubber", tip {
   length = finger[3], drum = 6.4, grip = 4.4, wide = {14.4, 13.4}, high = {13, 11.6},
 })
 local thumb1 = body("thumb1", "proximal link of the thumb", 70, "plastic", phalanx {
-  length = thumb[1], drum = 10.6, grip = 9.4, wide = {20, 18.6}, high = {20, 17}, axle = 8.6, inner = 6, pad = {-26, -12, 2},
+  length = thumb[1], drum = 10.6, grip = 9.4, wide = {20, 18.6}, high = {20, 17}, axle = 8.6, inner = 6,
+  pad = {-26, -12, 2},
 })
 local thumb2 = body("thumb2", "middle link of the thumb", 30, "plastic", phalanx {
-  length = thumb[2], drum = 8.2, grip = 5.8, wide = {18, 17}, high = {16.4, 15}, axle = 7.6, inner = 5.2, pad = {-24, -10, 2},
+  length = thumb[2], drum = 8.2, grip = 5.8, wide = {18, 17}, high = {16.4, 15}, axle = 7.6, inner = 5.2,
+  pad = {-24, -10, 2},
 })
 local thumb3 = body("thumb3", "fingertip of the thumb", 16, "rubber", tip {
   length = thumb[3], drum = 7.2, grip = 5, wide = {16.4, 15.4}, high = {14.6, 13},
@@ -155,7 +168,8 @@ end
 return {
   base, proximal, middle, distal, thumb1, thumb2, thumb3,
   {folder .. "shadow.cfg", text = robot.text {
-    about = "A five-fingered hand after the Shadow Dexterous Hand", class = "Shadow", palm = "palm.iv", dofs = dofs, chains = chains,
+    about = "A five-fingered hand after the Shadow Dexterous Hand", class = "Shadow", palm = "palm.iv", dofs = dofs,
+    chains = chains,
     approach = {{0, 62, 14}, {0, 0, 1}}, eigengrasps = "shadow.egr", virtual_contacts = "shadow.vgr",
   }},
   {folder .. "shadow.egr", text = eigengrasps {

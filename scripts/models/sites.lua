@@ -4,6 +4,9 @@ local shapes = require "clench.shapes"
 local vector = require "clench.shapes.vector"
 local robot = require "models.robot"
 
+-- static friction against plastic, by the link's material
+local friction = {rubber = 1, wood = 0.4, plastic = 0.3, metal = 0.2}
+
 --- the outermost point where a ray from p along d leaves the surface, and the normal there
 --- source  Moeller & Trumbore (1997)
 local function outermost(mesh, p, d, subject)
@@ -65,7 +68,7 @@ return function(name, list)
     add(row(robot.quaternion(x, y, normal), "%.9f"))
     add(row(p, "%.4f"))
     add(row(normal, "%.9f"))
-    add(body.material == "rubber" and "1" or "0.3")
+    add(tostring(friction[body.material]))
   end
   add ""
   return table.concat(out, "\n")

@@ -66,11 +66,13 @@ local function gallery()
   end
   place({
     {"human/human16", zeros(16), height = 46}, {"shadow/shadow", zeros(20), height = 247},
-    {"human/human20", zeros(20), height = 46}, {"robonaut/robonaut", zeros(14), height = 66}, {"dlr/dlr", zeros(12), height = 40},
+    {"human/human20", zeros(20), height = 46}, {"robonaut/robonaut", zeros(14), height = 66},
+    {"dlr/dlr", zeros(12), height = 40},
   }, 180, 260, upright)
   local free = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}
   place({
-    {"barrett/barrett", free, height = 118, turn = {half, 0, 0, half}}, {"three_finger/three_finger", zeros(13), height = 84},
+    {"barrett/barrett", free, height = 118, turn = {half, 0, 0, half}},
+    {"three_finger/three_finger", zeros(13), height = 84},
     {"adaptive_gripper/adaptive_gripper", {0}, height = 74}, {"parallel_jaw/parallel_jaw", {0}, height = 8},
   }, -160, 290, nil)
   blocks[#blocks + 1] = camera({0, -1250, 560}, {0, 40, 130})
@@ -110,7 +112,8 @@ return {
     camera({330, -400, 320}, {-20, 0, 55}),
   }),
   world("barrett_plane", {
-    object("plane", {0, 0, 0}), a_robot("hands/barrett/barrett", {0.2, 0.6, 0, 0, 0.6, 0, 0, 0.6, 0, 0}, {-35, 0, 124}, down),
+    object("plane", {0, 0, 0}), a_robot("hands/barrett/barrett", {0.2, 0.6, 0, 0, 0.6, 0, 0, 0.6, 0, 0},
+                                        {-35, 0, 124}, down),
     camera({470, -420, 380}, {0, 0, 60}),
   }),
   world("puma_barrett_glass", {

@@ -99,7 +99,8 @@ end)
 test("the arms stand where their published tables say, at 0", function(t)
   -- sums along the tables by hand [m]: Puma a2 + a3, -d3, base + d4; UR5 a2 + a3, -d4 - d6, d1 - d5
   for name, at in pairs {
-    puma560 = {0.4318 + 0.0203, -0.15005, 0.67183 + 0.4318}, ur5 = {-0.425 - 0.39225, -0.10915 - 0.0823, 0.089159 - 0.09465},
+    puma560 = {0.4318 + 0.0203, -0.15005, 0.67183 + 0.4318},
+      ur5 = {-0.425 - 0.39225, -0.10915 - 0.0823, 0.089159 - 0.09465},
   } do
     local world = clench.world()
     local arm = world:add_robot(("models/arms/%s/%s.cfg"):format(name, name))
@@ -137,7 +138,8 @@ local function sites_of(path)
     local finger, link, edges = words[at + 1], words[at + 2], words[at + 3]
     at = at + 3 + 6 * edges
     list[i] = {finger = finger, link = link, point = clench.vec3(table.unpack(words, at + 1, at + 3)) * 1e-3,
-               quat = {table.unpack(words, at + 4, at + 7)}, normal = clench.vec3(table.unpack(words, at + 11, at + 13))}
+               quat = {table.unpack(words, at + 4, at + 7)},
+                 normal = clench.vec3(table.unpack(words, at + 11, at + 13))}
     at = at + 14
   end
   return list
@@ -146,17 +148,18 @@ end
 for _, path in ipairs(catalog.hands) do
   test("the sites of " .. path .. " lie on their links, and their frames look outward", function(t)
     local world = clench.world()
-    local hand = world:add_robot(path)
+    local hand, meshes = world:add_robot(path), {}
     for i, site in ipairs(sites_of((path:gsub("cfg$", "vgr")))) do
       local body = site.finger < 0 and hand.base or hand.chains[site.finger + 1].links[site.link + 1]
-      local on, mesh = false, body.mesh
-      for k = 1, mesh.triangle_count do
-        local corner = mesh.triangles[k]
-        local a, b, c = mesh.vertices[corner[1]], mesh.vertices[corner[2]], mesh.vertices[corner[3]]
+      meshes[body.name] = meshes[body.name] or {body.mesh.vertices, body.mesh.triangles}
+      local on, vertices, triangles = false, table.unpack(meshes[body.name])
+      for _, corner in ipairs(triangles) do
+        local a, b, c = vertices[corner[1]], vertices[corner[2]], vertices[corner[3]]
         local normal = (b - a):cross(c - a)
         -- files have four decimals of a millimetre; the normal of a small triangle leans by no more
-        if math.abs((site.point - a):dot(normal)) < 2e-7 * normal:norm() and normal:dot(site.normal) > 0.999 * normal:norm() then
-          local function inside(p, q) return (q - p):cross(site.point - p):dot(normal) >= -1e-3 * normal:norm() ^ 2 end
+        local size = normal:norm()
+        if math.abs((site.point - a):dot(normal)) < 2e-7 * size and normal:dot(site.normal) > 0.999 * size then
+          local function inside(p, q) return (q - p):cross(site.point - p):dot(normal) >= -1e-3 * size ^ 2 end
           on = on or (inside(a, b) and inside(b, c) and inside(c, a))
         end
       end
