@@ -39,12 +39,12 @@ local function parallel_jaw()
      color = grey},
     {slab({{-34, 20}, {34, 20}, {34, 40}, {-34, 40}}, -31.6, 31.6, 0.4), color = orange},
   })
-  -- a jaw: x along the finger, y towards the other jaw, its pad's face at y = 0
+  -- a jaw: x along the finger, y towards the other jaw; closed, the pads are a tenth of a millimetre apart
   local jaw = body("parallel_jaw", "jaw", "jaw with a pad", 65, "rubber", {
     {build.plate({{-56.6, -24}, {-42, -24}, {-42, -2}, {-56.6, -2}}, -10, 10, 1), color = steel},
     {build.spine {{x = -43, y = -12, h = 19, w = 19, r = 2}, {x = -30, y = -10, h = 14, w = 19, r = 2},
                   {x = -20, y = -8, h = 11, w = 19, r = 2}, {x = 0, y = -7, h = 9, w = 19, r = 2}}, color = white},
-    {shapes.move(shapes.box {20, 4, 17.6, rounding = 0.6, segments = 1}, {-10, -2, 0}), color = rubber},
+    {shapes.move(shapes.box {20, 4, 17.6, rounding = 0.6, segments = 1}, {-10, -2.05, 0}), color = rubber},
   })
   local chains, places = {}, {}
   for k, side in ipairs {1, -1} do
@@ -128,7 +128,7 @@ local function adaptive()
       approach = {{0, 0, -11}, {0, 0, 1}}, eigengrasps = "adaptive_gripper.egr",
       virtual_contacts = "adaptive_gripper.vgr",
     }},
-    {folder .. "adaptive_gripper.egr", text = eigengrasps {origin = {20}, {1}}},
+    {folder .. "adaptive_gripper.egr", text = eigengrasps {origin = {10}, {1}}},
     {folder .. "adaptive_gripper.vgr", text = sites("adaptive_gripper", places)},
   }
 end
@@ -217,7 +217,7 @@ local function three_finger()
       about = "An adaptive gripper with three fingers", palm = "palm.iv", chains = chains, dofs = dofs,
       approach = {{0, 0, -6}, {0, 0, 1}}, eigengrasps = "three_finger.egr", virtual_contacts = "three_finger.vgr",
     }},
-    {folder .. "three_finger.egr", text = eigengrasps {origin = {0, 30, 30, 30}, {0, 1, 1, 1}, {1, 0, 0, 0}}},
+    {folder .. "three_finger.egr", text = eigengrasps {origin = {0, 20, 20, 20}, {0, 1, 1, 1}, {1, 0, 0, 0}}},
     {folder .. "three_finger.vgr", text = sites("three_finger", places)},
   }
 end

@@ -169,7 +169,7 @@ end
 -- The six principal components, by joint: spread, bend, curl of each finger; the thumb's opposition, its base,
 -- middle and end joints. The first two dominate: all joints close; knuckles against middle joints.
 local components = {
-  {value = 0.56, spread = {-0.25, 0, 0.15, 0.25}, bend = {0.9, 1, 1, 0.9}, curl = {0.45, 0.5, 0.55, 0.5},
+  {value = 0.56, spread = {0.1, 0, -0.05, -0.1}, bend = {0.9, 1, 1, 0.9}, curl = {0.45, 0.5, 0.55, 0.5},
    thumb = {0.35, 0.3, 0.2, 0.15}},
   {value = 0.24, spread = {0.1, 0, -0.05, -0.1}, bend = {-0.7, -0.8, -0.75, -0.6}, curl = {1, 1, 1, 0.9},
    thumb = {-0.45, 0.1, 0.3, 0.35}},
@@ -177,13 +177,13 @@ local components = {
    thumb = {1, 0.2, 0.45, 0.5}},
   {value = 0.04, spread = {0.25, 0, -0.15, -0.3}, bend = {0.9, 0.25, -0.45, -0.8}, curl = {0.5, 0.15, -0.25, -0.5},
    thumb = {0.2, 0, -0.1, -0.2}},
-  {value = 0.03, spread = {0.5, 0, -0.45, -0.8}, bend = {0.15, 0, 0, 0.1}, curl = {-0.1, 0, 0, -0.1},
+  {value = 0.03, spread = {0.3, 0, -0.2, -0.4}, bend = {0.15, 0, 0, 0.1}, curl = {-0.1, 0, 0, -0.1},
    thumb = {0.1, -0.7, -0.2, 0.3}},
   {value = 0.02, spread = {0.1, 0, 0, 0.1}, bend = {-0.3, 0.4, 0.25, -0.4}, curl = {0.5, -0.4, -0.4, 0.6},
    thumb = {0, -0.1, 0.5, -0.6}},
 }
 -- the posture in their midst [degrees]
-local mean = {spread = {0, 0, 0, 0}, bend = {33, 36, 36, 34}, curl = {40, 42, 40, 36}, thumb = {-5, 8, 16, 22}}
+local mean = {spread = {-4, 0, 2, 4}, bend = {33, 36, 36, 34}, curl = {40, 42, 40, 36}, thumb = {-5, 8, 16, 22}}
 
 local function postures(free)
   local function spread_out(posture)

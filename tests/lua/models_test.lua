@@ -175,9 +175,20 @@ end
 
 test("the human hands have six eigengrasps and 18 sites", function(t)
   for _, name in ipairs {"human20", "human16"} do
-    local _, motions = read("models/hands/human/" .. name .. ".egr"):gsub("\nEG\n", "")
-    t.equal(motions, 6)
-    t.equal(read("models/hands/human/" .. name .. ".vgr"):match "^[^\n]*\n(%d+)", "18")
+    local world = clench.world()
+    local hand = world:add_robot("models/hands/human/" .. name .. ".cfg")
+    t.equal(#hand.eigengrasps, 6)
+    t.equal(#hand.virtual_contacts, 18)
+  end
+end)
+
+test("the postures that eigengrasps start from lie in the ranges and stand free", function(t)
+  for _, path in ipairs(catalog.hands) do
+    local world = clench.world()
+    local hand = world:add_robot(path)
+    t.ok(hand.eigengrasps.given, path)
+    hand:set_dofs(hand.eigengrasps.origin)
+    t.equal(#world:colliding(), 0)
   end
 end)
 
