@@ -75,27 +75,6 @@ struct Lanes {
   }
   CLENCH_INLINE void store(Real* to) const { std::memcpy(to, chunk, sizeof chunk); }
 
-  // lane i of the result is lane from[i]
-  CLENCH_INLINE Lanes pick(const int32_t* from) const {
-#if defined(__AVX2__)
-    if constexpr (sizeof(Real) == 4 && Width == 8) {
-      Lanes out;
-      __m256i index;
-      std::memcpy(&index, from, sizeof index);
-      const __m256 picked =
-          _mm256_permutevar8x32_ps(reinterpret_cast<const __m256&>(chunk[0]), index);
-      std::memcpy(&out, &picked, sizeof out);
-      return out;
-    }
-#endif
-    Real values[lane_count], picked[lane_count];
-    store(values);
-    for (int i = 0; i < lane_count; ++i) picked[i] = values[from[i]];
-    Lanes out;
-    std::memcpy(&out, picked, sizeof out);
-    return out;
-  }
-
 #define CLENCH_LANES_OPERATOR(op)                                             \
   friend CLENCH_INLINE Lanes operator op(const Lanes& x, const Lanes& y) {    \
     Lanes out;                                                                \

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "geometry/box_lanes.h"
 #include "geometry/precision.h"
@@ -33,6 +34,10 @@ Move<Real> back_of(const TreePair& pair) {
   return move_of<Real>(back);
 }
 
+// so many pairs are judged at once, as soon as a leaf is done: fewer would leave lanes idle, more would
+// let the limit wait
+constexpr int patience = 4;
+
 template <class F>
 class PairWalk {
   using Real = typename F::Real;
@@ -45,17 +50,23 @@ class PairWalk {
         a_to_b_(back_of<Real>(pair)),
         slack_(slack_of<Real>(extent, a_.radius() + b_.radius(), pair.rounding)) {}
 
-  bool near(const Reach& reach, PairVisit visit) {
-    reach_ = &reach;
-    take_reach();
-    return run([&](int leaf_a, int leaf_b) { return near_leaves(leaf_a, leaf_b, visit); });
+  bool near(const Reach& reach, bool nearest_only, std::vector<NearPair>& out, PairVisit meet) {
+    task_ = nearest_only ? Wanted::nearest : Wanted::within;
+    limit_to(at_least<Real>(reach.distance) + slack_);
+    const double *n = reach.along, length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (length > 1e-150)
+      guide({static_cast<Real>(n[0] / length), static_cast<Real>(n[1] / length),
+             static_cast<Real>(n[2] / length)});
+    if (run(meet)) return true;
+    for (const Found& found : found_)
+      if (!nearest_only || !(found.low > limit_)) out.push_back(found.pair);
+    return false;
   }
 
   bool meeting(PairVisit visit) {
-    const Reach touching{0};
-    reach_ = &touching;
-    take_reach();
-    return run([&](int leaf_a, int leaf_b) { return meeting_leaves(leaf_a, leaf_b, visit); });
+    task_ = Wanted::meeting;
+    limit_to(slack_);
+    return run(visit);
   }
 
  private:
@@ -68,22 +79,21 @@ class PairWalk {
   static int child(const Tree& tree, int box) { return tree.boxes(box / 8).child[box % 8]; }
   static Real size(const Tree& tree, int box) { return tree.boxes(box / 8).size[box % 8]; }
 
-  // what the reach says in the precision of the walk; bounds beyond the limit are let go
-  void take_reach() {
-    limit_ = at_least<Real>(reach_->distance) + slack_;
-    // beyond it squares would overflow
-    squared_limit_ =
-        limit_ < 0 ? Real{-1} : limit_ * limit_ * (1 + 4 * std::numeric_limits<Real>::epsilon());
-    const double *n = reach_->along, length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    guided_ = length > 1e-150;
-    if (!guided_) return;
-    along_a_ = {static_cast<Real>(n[0] / length), static_cast<Real>(n[1] / length),
-                static_cast<Real>(n[2] / length)};
-    along_b_ = a_to_b_.turned(along_a_);
+  // bounds beyond the limit are let go
+  void limit_to(Real limit) {
+    limit_ = limit;
+    constexpr Real up = 1 + 4 * std::numeric_limits<Real>::epsilon();
+    squared_limit_ = limit < 0 ? Real{-1} : limit * limit * up;
+  }
+  // n, unit, is the way from a to b where they are nearest, as far as is known
+  void guide(const Triple<Real>& n) {
+    guided_ = true;
+    along_a_ = n;
+    along_b_ = a_to_b_.turned(n);
+    side_a_.leaf = side_b_.leaf = -1;
   }
 
-  template <class Leaves>
-  bool run(Leaves&& leaves) {
+  bool run(PairVisit visit) {
     Task stack[16 * deepest_tree];
     int height = 0;
     stack[height++] = {std::numeric_limits<Real>::lowest(), 0, 0};
@@ -93,7 +103,7 @@ class PairWalk {
       const int child_a = child(a_, task.box_a), child_b = child(b_, task.box_b);
       const bool leaf_a = child_a & 1, leaf_b = child_b & 1;
       if (leaf_a && leaf_b) {
-        if (leaves(child_a >> 1, child_b >> 1)) return true;
+        if (judge_leaves(child_a >> 1, child_b >> 1, visit)) return true;
         continue;
       }
       // open the larger box
@@ -111,7 +121,7 @@ class PairWalk {
         stack[at] = next;
       }
     }
-    return false;
+    return judge(visit);
   }
 
   // Bounds of the eight boxes of a bundle against a box of the other tree.   returns those in reach
@@ -135,38 +145,48 @@ class PairWalk {
     return used & ~(gaps > limit_).set();
   }
 
-  // corners of b's leaf in the frame of a, and the bounds along the axes
-  struct Extents {
+  // The triangles of a leaf in the frame of a, their bounds along the axes, and how far they reach
+  // along the known direction: upwards those of a, downwards those of b. Kept while the leaf stays.
+  struct Side {
+    int leaf = -1;
+    Real corners[9][8];
     Triple<F> low, high;
+    F along;
   };
-  static CLENCH_INLINE Extents extents(const TrianglesOf<F>& t) {
+
+  static CLENCH_INLINE void take(const TrianglesOf<F>& t, Side& side) {
     const auto &p = t.corner[0], &q = t.corner[1], &r = t.corner[2];
-    return {{min(min(p.x, q.x), r.x), min(min(p.y, q.y), r.y), min(min(p.z, q.z), r.z)},
-            {max(max(p.x, q.x), r.x), max(max(p.y, q.y), r.y), max(max(p.z, q.z), r.z)}};
+    side.low = {min(min(p.x, q.x), r.x), min(min(p.y, q.y), r.y), min(min(p.z, q.z), r.z)};
+    side.high = {max(max(p.x, q.x), r.x), max(max(p.y, q.y), r.y), max(max(p.z, q.z), r.z)};
+    for (int k = 0; k < 3; ++k) {
+      t.corner[k].x.store(side.corners[3 * k]);
+      t.corner[k].y.store(side.corners[3 * k + 1]);
+      t.corner[k].z.store(side.corners[3 * k + 2]);
+    }
+  }
+  void load_sides(int leaf_a, int leaf_b) {
+    if (leaf_a != side_a_.leaf) {
+      side_a_.leaf = leaf_a;
+      const TrianglesOf<F> t = load_triangles<F>(a_.leaf(leaf_a));
+      take(t, side_a_);
+      const auto& p = t.corner;
+      if (guided_)
+        side_a_.along = max(max(dot(p[0], along_a_), dot(p[1], along_a_)), dot(p[2], along_a_));
+    }
+    if (leaf_b != side_b_.leaf) {
+      side_b_.leaf = leaf_b;
+      const TrianglesOf<F> t = moved(load_triangles<F>(b_.leaf(leaf_b)), b_to_a_);
+      take(t, side_b_);
+      const auto& p = t.corner;
+      if (guided_)
+        side_b_.along = min(min(dot(p[0], along_a_), dot(p[1], along_a_)), dot(p[2], along_a_));
+    }
   }
 
   // The pairs of two leaves, a row of eight for each triangle of a; those in reach by the axes of
   // a's frame and by the known direction.
   struct Rows {
     uint8_t row[8];
-    bool any() const {
-      uint64_t all;
-      std::memcpy(&all, row, sizeof all);
-      return all != 0;
-    }
-    // up to eight of the pairs, taken out
-    int take(int32_t* of_a, int32_t* of_b) {
-      int count = 0;
-      for (int i = 0; i < 8; ++i)
-        while (row[i] && count < 8) {
-          of_a[count] = i;
-          of_b[count] = __builtin_ctz(row[i]);
-          row[i] &= static_cast<uint8_t>(row[i] - 1);
-          ++count;
-        }
-      for (int k = count; k < 8; ++k) of_a[k] = of_b[k] = 0;
-      return count;
-    }
   };
 
   static unsigned used(const TriangleBundle& leaf) {
@@ -176,27 +196,24 @@ class PairWalk {
   }
 
   // drops what is out of reach
-  void sift(const TrianglesOf<F>& a, const TrianglesOf<F>& b, Rows& rows) const {
-    const Extents box_a = extents(a), box_b = extents(b);
+  void sift(Rows& rows) const {
+    const Side &a = side_a_, &b = side_b_;
     Real low[3][8], high[3][8], top[8] = {};
-    box_a.low.x.store(low[0]), box_a.low.y.store(low[1]), box_a.low.z.store(low[2]);
-    box_a.high.x.store(high[0]), box_a.high.y.store(high[1]), box_a.high.z.store(high[2]);
-    F bottom = F::all(0);
-    if (guided_) {
-      const auto &p = a.corner, &q = b.corner;
-      max(max(dot(p[0], along_a_), dot(p[1], along_a_)), dot(p[2], along_a_)).store(top);
-      bottom = min(min(dot(q[0], along_a_), dot(q[1], along_a_)), dot(q[2], along_a_));
-    }
+    a.low.x.store(low[0]), a.low.y.store(low[1]), a.low.z.store(low[2]);
+    a.high.x.store(high[0]), a.high.y.store(high[1]), a.high.z.store(high[2]);
+    if (guided_) a.along.store(top);
     const F zero = F::all(0);
     for (int i = 0; i < 8; ++i) {
       if (!rows.row[i]) continue;
+      if (guided_) {
+        rows.row[i] &= static_cast<uint8_t>(~(b.along > limit_ + top[i]).set());
+        if (!rows.row[i]) continue;
+      }
       // how far box b lies beyond either side of box a
-      const F x = max(max(box_b.low.x - high[0][i], F::all(low[0][i]) - box_b.high.x), zero);
-      const F y = max(max(box_b.low.y - high[1][i], F::all(low[1][i]) - box_b.high.y), zero);
-      const F z = max(max(box_b.low.z - high[2][i], F::all(low[2][i]) - box_b.high.z), zero);
-      auto far = (x * x + y * y + z * z) > squared_limit_;
-      if (guided_) far = far | (bottom - top[i] > limit_);
-      rows.row[i] &= static_cast<uint8_t>(~far.set());
+      const F x = max(max(b.low.x - high[0][i], F::all(low[0][i]) - b.high.x), zero);
+      const F y = max(max(b.low.y - high[1][i], F::all(low[1][i]) - b.high.y), zero);
+      const F z = max(max(b.low.z - high[2][i], F::all(low[2][i]) - b.high.z), zero);
+      rows.row[i] &= static_cast<uint8_t>(~((x * x + y * y + z * z) > squared_limit_).set());
     }
   }
 
@@ -207,66 +224,109 @@ class PairWalk {
     return rows;
   }
 
-  bool near_leaves(int leaf_a, int leaf_b, PairVisit visit) {
+  // Pairs of two leaves in reach wait until eight are there to be judged at once.
+  bool judge_leaves(int leaf_a, int leaf_b, PairVisit visit) {
     const TriangleBundle &from_a = a_.leaf(leaf_a), &from_b = b_.leaf(leaf_b);
+    load_sides(leaf_a, leaf_b);
     Rows rows = all_pairs(from_a, from_b);
-    // with no limit any pair will do to give one
-    if (!(limit_ < std::numeric_limits<Real>::infinity())) {
-      rows.row[0] &= static_cast<uint8_t>(~1u);
-      if (visit(from_a.triangle[0], from_b.triangle[0])) return true;
-      take_reach();
-    }
-    const TrianglesOf<F> a = load_triangles<F>(from_a),
-                         b = moved(load_triangles<F>(from_b), b_to_a_);
-    sift(a, b, rows);
-    alignas(32) int32_t of_a[8], of_b[8];
-    while (rows.any()) {
-      const int count = rows.take(of_a, of_b);
-      Real bounds[8];
-      nearest_bounds(pick(a, of_a), pick(b, of_b)).store(bounds);
-      const Real before = limit_;
-      // nearest first; what is not a number counts as near
-      for (unsigned left = (1u << count) - 1; left;) {
-        int best = __builtin_ctz(left);
-        for (unsigned rest = left & (left - 1); rest; rest &= rest - 1) {
-          const int k = __builtin_ctz(rest);
-          if (!(bounds[k] >= bounds[best])) best = k;
+    sift(rows);
+    for (int i = 0; i < 8; ++i)
+      while (rows.row[i]) {
+        const int j = __builtin_ctz(rows.row[i]);
+        rows.row[i] &= static_cast<uint8_t>(rows.row[i] - 1);
+        for (int k = 0; k < 9; ++k) {
+          waiting_.a[k][waiting_.count] = side_a_.corners[k][i];
+          waiting_.b[k][waiting_.count] = side_b_.corners[k][j];
         }
-        left &= ~(1u << best);
-        if (bounds[best] > limit_) continue;
-        if (visit(from_a.triangle[of_a[best]], from_b.triangle[of_b[best]])) return true;
-        take_reach();
+        waiting_.pairs[waiting_.count] = {from_a.triangle[i], from_b.triangle[j]};
+        if (++waiting_.count < 8) continue;
+        const Real before = limit_;
+        if (judge(visit)) return true;
+        if (limit_ < before) {
+          load_sides(leaf_a, leaf_b);
+          sift(rows);
+        }
       }
-      if (limit_ < before && rows.any()) sift(a, b, rows);
+    // what may bring the limit down does not wait
+    return task_ == Wanted::nearest && waiting_.count >= patience && judge(visit);
+  }
+
+  static TrianglesOf<F> load(const Real (&rows)[9][8]) {
+    TrianglesOf<F> out;
+    std::memcpy(&out, rows, sizeof out);
+    return out;
+  }
+
+  // What waits: is it in reach?   returns whether the walk ends
+  bool judge(PairVisit visit) {
+    const int count = waiting_.count;
+    if (count == 0) return false;
+    waiting_.count = 0;
+    for (int k = 0; k < 9; ++k)
+      for (int i = count; i < 8; ++i)
+        waiting_.a[k][i] = waiting_.a[k][0], waiting_.b[k][i] = waiting_.b[k][0];
+    const TrianglesOf<F> a = load(waiting_.a), b = load(waiting_.b);
+    const unsigned all = (1u << count) - 1;
+    if (task_ == Wanted::nearest) return judge_nearest(a, b, all, visit);
+    unsigned left = limit_ >= 0 ? within_reach(a, b, limit_, all) : 0;
+    for (; left; left &= left - 1) {
+      const NearPair& pair = waiting_.pairs[__builtin_ctz(left)];
+      if (task_ == Wanted::within)
+        found_.push_back({0, pair});
+      else if (visit(pair.triangle_a, pair.triangle_b))
+        return true;
     }
     return false;
   }
 
-  bool meeting_leaves(int leaf_a, int leaf_b, PairVisit visit) {
-    const TriangleBundle &from_a = a_.leaf(leaf_a), &from_b = b_.leaf(leaf_b);
-    const TrianglesOf<F> a = load_triangles<F>(from_a),
-                         b = moved(load_triangles<F>(from_b), b_to_a_);
-    Rows rows = all_pairs(from_a, from_b);
-    sift(a, b, rows);
-    alignas(32) int32_t of_a[8], of_b[8];
-    while (rows.any()) {
-      const int count = rows.take(of_a, of_b);
-      unsigned left = may_meet(pick(a, of_a), pick(b, of_b), slack_, (1u << count) - 1);
-      for (; left; left &= left - 1) {
-        const int k = __builtin_ctz(left);
-        if (visit(from_a.triangle[of_a[k]], from_b.triangle[of_b[k]])) return true;
-      }
+  bool judge_nearest(const TrianglesOf<F>& a, const TrianglesOf<F>& b, unsigned all,
+                     PairVisit meet) {
+    const NearBounds<F> bounds = near_bounds(a, b);
+    lower_limit(bounds, all);
+    Real low[8];
+    bounds.low.store(low);
+    for (unsigned left = all & ~(bounds.low > limit_).set(); left; left &= left - 1) {
+      const int k = __builtin_ctz(left);
+      const NearPair& pair = waiting_.pairs[k];
+      found_.push_back({low[k], pair});
+      if (!(low[k] > slack_) && meet(pair.triangle_a, pair.triangle_b)) return true;
     }
     return false;
+  }
+
+  // No more than the least of the eight distances matters from now on, and its way is a guide.
+  void lower_limit(const NearBounds<F>& bounds, unsigned taken) {
+    Real high[8];
+    bounds.high.store(high);
+    int best = __builtin_ctz(taken);
+    for (unsigned rest = taken; rest; rest &= rest - 1)
+      if (high[__builtin_ctz(rest)] < high[best]) best = __builtin_ctz(rest);
+    if (!(high[best] + 2 * slack_ < limit_)) return;
+    limit_to(high[best] + 2 * slack_);
+    Real x[8], y[8], z[8];
+    bounds.way.x.store(x), bounds.way.y.store(y), bounds.way.z.store(z);
+    if (high[best] > slack_)
+      guide({x[best] / high[best], y[best] / high[best], z[best] / high[best]});
   }
 
   const Tree &a_, &b_;
   const Move<Real> b_to_a_, a_to_b_;
   const Real slack_;
-  const Reach* reach_ = nullptr;
   Real limit_ = 0, squared_limit_ = 0;
   bool guided_ = false;
   Triple<Real> along_a_{}, along_b_{};
+  Side side_a_, side_b_;
+  struct Found {
+    Real low;
+    NearPair pair;
+  };
+  std::vector<Found> found_;
+  struct Waiting {
+    Real a[9][8], b[9][8];
+    NearPair pairs[8];
+    int count = 0;
+  } waiting_;
+  enum class Wanted { nearest, within, meeting } task_ = Wanted::nearest;
 };
 
 // no coordinate of either tree, in the frame of a, is larger
@@ -288,8 +348,9 @@ bool in_precision(const TreePair& pair, Walk&& walk) {
 
 }  // namespace
 
-bool for_near_pairs(const TreePair& pair, const Reach& reach, PairVisit visit) {
-  return in_precision(pair, [&](auto& walk) { return walk.near(reach, visit); });
+bool find_near_pairs(const TreePair& pair, const Reach& reach, bool nearest_only,
+                     std::vector<NearPair>& out, PairVisit meet) {
+  return in_precision(pair, [&](auto& walk) { return walk.near(reach, nearest_only, out, meet); });
 }
 
 bool for_meeting_pairs(const TreePair& pair, PairVisit visit) {

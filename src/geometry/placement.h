@@ -1,6 +1,9 @@
 // Shape b in the frame of shape a: the exact side of every query on a pair. For the queries of this
 // module only.
 #pragma once
+#include <algorithm>
+#include <vector>
+
 #include "geometry/shape.h"
 #include "geometry/triangle.h"
 #include "geometry/walk.h"
@@ -27,6 +30,9 @@ class Placement {
   Eigen::Vector3d to_b(const Eigen::Vector3d& p_A) const {
     return rotation_.transpose() * (p_A - position_);
   }
+  /// exact distances of pairs, each given to take(pair, closest) in their order
+  template <class Take>
+  void measure(const std::vector<NearPair>& pairs, Take&& take) const;
   const TreePair& trees() const { return trees_; }
   double rounding() const { return trees_.rounding; }
 
@@ -36,5 +42,20 @@ class Placement {
   Eigen::Vector3d position_;
   TreePair trees_;
 };
+
+template <class Take>
+void Placement::measure(const std::vector<NearPair>& pairs, Take&& take) const {
+  Corners a[8], b[8];
+  Closest closest[8];
+  for (size_t begin = 0; begin < pairs.size(); begin += 8) {
+    const size_t count = std::min<size_t>(8, pairs.size() - begin);
+    for (size_t i = 0; i < count; ++i) {
+      a[i] = corners_a(pairs[begin + i].triangle_a);
+      b[i] = corners_b(pairs[begin + i].triangle_b);
+    }
+    triangle_pairs(a, b, static_cast<int>(count), closest);
+    for (size_t i = 0; i < count; ++i) take(pairs[begin + i], closest[i]);
+  }
+}
 
 }  // namespace clench

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/exact_pairs.h"
+
 namespace clench {
 
 using Eigen::Vector3d;
@@ -103,37 +105,22 @@ bool foot_inside(const Vector3d& x, const Vector3d& corner, const Vector3d& u, c
   return true;
 }
 
-// The nearest points of the boundaries and of corners above faces: the distance of triangles apart.
-Nearest nearest_features(const Local& l) {
-  Nearest best;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      double s, t;
-      const Vector3d d = between_segments(l.a[i], l.edge_a[i], l.b[j], l.edge_b[j], s, t);
-      const double squared = d.squaredNorm();
-      if (squared < best.squared)
-        best.offer(squared, l.a[i] + s * l.edge_a[i], l.b[j] + t * l.edge_b[j]);
-    }
-  Vector3d foot;
-  for (int i = 0; i < 3; ++i) {
-    if (foot_inside(l.b[i], l.a[0], l.edge_a[0], -l.edge_a[2], l.normal_a, best.squared, foot))
-      best.offer((l.b[i] - foot).squaredNorm(), foot, l.b[i]);
-    if (foot_inside(l.a[i], l.b[0], l.edge_b[0], -l.edge_b[2], l.normal_b, best.squared, foot))
-      best.offer((l.a[i] - foot).squaredNorm(), l.a[i], foot);
-  }
-  return best;
-}
-
-// Triangles are apart when one of the usual axes says so, or the line between their nearest points:
-// the latter alone would do but for rounding, and it covers coplanar and degenerate triangles.
-bool nearest_points_part(const Local& l, const Nearest& nearest) {
-  return l.apart_along(nearest.q - nearest.p);
+// The bundle's arithmetic for one pair, so that one and eight give the same bits.
+NearestBundle nearest_features(const Local& l) {
+  PairBundle pairs;
+  for (int k = 0; k < 3; ++k)
+    for (int m = 0; m < 3; ++m)
+      for (int lane = 0; lane < 8; ++lane)
+        pairs.a[3 * k + m][lane] = l.a[k][m], pairs.b[3 * k + m][lane] = l.b[k][m];
+  NearestBundle out;
+  nearest_of(pairs, out);
+  return out;
 }
 
 // A point of both: where an edge of one pierces the other, or where boundaries cross.
-Vector3d common_point(const Local& l, const Nearest& nearest) {
-  double best = nearest.squared;
-  Vector3d point = nearest.p;
+Vector3d common_point(const Local& l, double nearest_squared, const Vector3d& nearest) {
+  double best = nearest_squared;
+  Vector3d point = nearest;
   const auto pierce = [&](const Corners& edges_of, const Corners& face, const Vector3d& normal) {
     for (int i = 0; i < 3; ++i) {
       const Vector3d &from = edges_of[i], &to = edges_of[(i + 1) % 3];
@@ -175,20 +162,60 @@ Closest point_triangle(const Vector3d& p, const Corners& triangle) {
   return {std::sqrt(best.squared), p, best.q};
 }
 
+// Triangles are apart when one of the usual axes says so, or the line between their nearest points:
+// the latter alone would do but for rounding, and it covers coplanar and degenerate triangles.
+static Closest closest_of(const Local& l, const NearestBundle& nearest, int lane) {
+  const auto at = [&](const double(&rows)[3][8]) {
+    return Vector3d(rows[0][lane], rows[1][lane], rows[2][lane]);
+  };
+  const Vector3d p = at(nearest.p), q = at(nearest.q);
+  const double squared = nearest.squared[lane];
+  if (nearest.apart >> lane & 1 || l.apart()) {
+    const double apart = std::max(std::sqrt(squared), std::numeric_limits<double>::min());
+    return {apart, p + l.origin, q + l.origin};
+  }
+  const Vector3d point = common_point(l, squared, p) + l.origin;
+  return {0, point, point};
+}
+
 bool triangles_meet(const Corners& a, const Corners& b) {
   const Local local(a, b);
-  return !local.apart() && !nearest_points_part(local, nearest_features(local));
+  return !local.apart() && !(nearest_features(local).apart & 1);
 }
 
 Closest triangle_triangle(const Corners& a, const Corners& b) {
   const Local local(a, b);
-  const Nearest nearest = nearest_features(local);
-  if (nearest_points_part(local, nearest) || local.apart()) {
-    const double apart = std::max(std::sqrt(nearest.squared), std::numeric_limits<double>::min());
-    return {apart, nearest.p + local.origin, nearest.q + local.origin};
+  return closest_of(local, nearest_features(local), 0);
+}
+
+void triangle_pairs(const Corners* a, const Corners* b, int count, Closest* out) {
+  for (int begin = 0; begin < count; begin += 8) {
+    // the last ones fill up the bundle
+    PairBundle pairs;
+    for (int lane = 0; lane < 8; ++lane) {
+      const int i = std::min(begin + lane, count - 1);
+      const Vector3d& origin = a[i][0];
+      for (int k = 0; k < 3; ++k) {
+        const Vector3d p = a[i][k] - origin, q = b[i][k] - origin;
+        for (int m = 0; m < 3; ++m)
+          pairs.a[3 * k + m][lane] = p[m], pairs.b[3 * k + m][lane] = q[m];
+      }
+    }
+    NearestBundle nearest;
+    nearest_of(pairs, nearest);
+    for (int lane = 0; lane < 8 && begin + lane < count; ++lane) {
+      const int i = begin + lane;
+      if (!(nearest.apart >> lane & 1)) {
+        out[i] = closest_of(Local(a[i], b[i]), nearest, lane);
+        continue;
+      }
+      const Vector3d p(nearest.p[0][lane], nearest.p[1][lane], nearest.p[2][lane]),
+          q(nearest.q[0][lane], nearest.q[1][lane], nearest.q[2][lane]);
+      const double apart =
+          std::max(std::sqrt(nearest.squared[lane]), std::numeric_limits<double>::min());
+      out[i] = {apart, p + a[i][0], q + a[i][0]};
+    }
   }
-  const Vector3d point = common_point(local, nearest) + local.origin;
-  return {0, point, point};
 }
 
 }  // namespace clench

@@ -28,4 +28,7 @@ bool triangles_meet(const Corners& a, const Corners& b);
 /// Distance and witness points; 0 and a common point when they meet, and only then.
 Closest triangle_triangle(const Corners& a, const Corners& b);
 
+/// triangle_triangle of `count` pairs, several times as fast; the same bits
+void triangle_pairs(const Corners* a, const Corners* b, int count, Closest* out);
+
 }  // namespace clench

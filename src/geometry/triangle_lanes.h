@@ -6,10 +6,16 @@
 // the other frame), 16 u l along n, products and sums by 4 u l more, of both triangles and the root
 // 44 u l in all; the query's slack of 64 u l covers it.
 #pragma once
+#include <limits>
+
 #include "geometry/lanes.h"
 #include "geometry/tree.h"
 
 namespace clench {
+
+// squares of lengths are off by less
+template <class Real>
+inline constexpr Real slightly_more = 1 + 16 * std::numeric_limits<Real>::epsilon();
 
 template <class F>
 struct TrianglesOf {
@@ -28,16 +34,6 @@ CLENCH_INLINE TrianglesOf<F> load_triangles(const TriangleBundle& from) {
 template <class F>
 CLENCH_INLINE TrianglesOf<F> moved(const TrianglesOf<F>& from, const Move<typename F::Real>& move) {
   return {{move(from.corner[0]), move(from.corner[1]), move(from.corner[2])}};
-}
-
-/// lane i of the result is lane index[i]
-template <class F>
-CLENCH_INLINE TrianglesOf<F> pick(const TrianglesOf<F>& from, const int32_t* index) {
-  TrianglesOf<F> out;
-  for (int k = 0; k < 3; ++k)
-    out.corner[k] = {from.corner[k].x.pick(index), from.corner[k].y.pick(index),
-                     from.corner[k].z.pick(index)};
-  return out;
 }
 
 /// The gap of a's shadow below b's along n, not divided by the length of n.
@@ -63,21 +59,30 @@ CLENCH_INLINE Triple<F> between_segments(const Triple<F>& p, const Triple<F>& u,
   return r + v.scaled(t) - u.scaled(s);
 }
 
-// Is x above or below the triangle with edges u and v from corner? height: along the normal.
+// the face of eight triangles
 template <class F>
-CLENCH_INLINE typename F::Mask over_face(const Triple<F>& d, const Triple<F>& n,
-                                         const Triple<F>& across_u, const Triple<F>& across_v,
-                                         const F& nn, F& height) {
-  height = dot(d, n);
-  const F along_u = dot(d, across_v), along_v = dot(d, across_u), zero = F::all(0);
-  return (along_u > zero) & (along_v > zero) & (along_u + along_v < nn);
-}
+struct Face {
+  Triple<F> corner, u, v, n, across_u, across_v;
+  F nn;
+
+  CLENCH_INLINE Face(const Triple<F>& at, const Triple<F>& first, const Triple<F>& back)
+      : corner(at), u(first), v{-back.x, -back.y, -back.z}, n(cross(u, v)) {
+    across_u = cross(n, u), across_v = cross(v, n), nn = dot(n, n);
+  }
+  // From x to a point of the face, roughly its foot. Where that lies outside, `inside` says so.
+  CLENCH_INLINE Triple<F> to_foot(const Triple<F>& x, typename F::Mask& inside) const {
+    const Triple<F> d = x - corner;
+    const F along_u = dot(d, across_v) / nn, along_v = dot(d, across_u) / nn, zero = F::all(0);
+    inside = (along_u > zero) & (along_v > zero) & (along_u + along_v < F::all(1));
+    return u.scaled(along_u) + v.scaled(along_v) - d;
+  }
+};
 
 }  // namespace lanes_detail
 
-/// From the nearest point on a to that on b, roughly.
+/// From a point of each a to one of b, roughly the nearest ones.
 template <class F>
-CLENCH_INLINE Triple<F> nearest_direction(const TrianglesOf<F>& a, const TrianglesOf<F>& b) {
+CLENCH_INLINE Triple<F> nearest_way(const TrianglesOf<F>& a, const TrianglesOf<F>& b, F& least) {
   Triple<F> edge_a[3], edge_b[3];
   F length_a[3], length_b[3];
   for (int i = 0; i < 3; ++i) {
@@ -87,7 +92,7 @@ CLENCH_INLINE Triple<F> nearest_direction(const TrianglesOf<F>& a, const Triangl
     length_b[i] = dot(edge_b[i], edge_b[i]);
   }
   Triple<F> best = b.corner[0] - a.corner[0];
-  F least = dot(best, best);
+  least = dot(best, best);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       const Triple<F> d = lanes_detail::between_segments(a.corner[i], edge_a[i], length_a[i],
@@ -97,59 +102,72 @@ CLENCH_INLINE Triple<F> nearest_direction(const TrianglesOf<F>& a, const Triangl
       least = select(nearer, squared, least);
       best = select(nearer, d, best);
     }
-  const auto faces = [&](const TrianglesOf<F>& face, const Triple<F>(&edge)[3],
-                         const TrianglesOf<F>& points, typename F::Real sign) {
-    // edge 2 runs back to corner 0
-    const Triple<F> u = edge[0], v = {-edge[2].x, -edge[2].y, -edge[2].z};
-    const Triple<F> n = cross(u, v), across_u = cross(n, u), across_v = cross(v, n);
-    const F nn = dot(n, n);
-    for (int k = 0; k < 3; ++k) {
-      F height;
-      const auto over = lanes_detail::over_face(points.corner[k] - face.corner[0], n, across_u,
-                                                across_v, nn, height);
-      const F squared = height * height / nn;
-      const auto nearer = over & (squared < least);
-      least = select(nearer, squared, least);
-      best = select(nearer, n.scaled(height * sign), best);
-    }
-  };
-  faces(a, edge_a, b, 1);
-  faces(b, edge_b, a, -1);
+  const lanes_detail::Face<F> face_a(a.corner[0], edge_a[0], edge_a[2]),
+      face_b(b.corner[0], edge_b[0], edge_b[2]);
+  for (int k = 0; k < 3; ++k) {
+    typename F::Mask inside;
+    Triple<F> d = face_b.to_foot(a.corner[k], inside);
+    F squared = dot(d, d);
+    auto nearer = inside & (squared < least);
+    least = select(nearer, squared, least);
+    best = select(nearer, d, best);
+    d = face_a.to_foot(b.corner[k], inside);
+    squared = dot(d, d);
+    nearer = inside & (squared < least);
+    least = select(nearer, squared, least);
+    best = select(nearer, {-d.x, -d.y, -d.z}, best);
+  }
   return best;
 }
 
-/// Lower bounds of the distances of a and b, near to exact where single precision tells; not a
-/// number where it does not.
+/// What of the distances of eight pairs is sure, up to slack.
 template <class F>
-CLENCH_INLINE F nearest_bounds(const TrianglesOf<F>& a, const TrianglesOf<F>& b) {
-  const Triple<F> n = nearest_direction(a, b);
-  return shadow_gap(a, b, n) / sqrt(dot(n, n));
+struct NearBounds {
+  F low, high;    ///< low is not a number where single precision does not tell
+  Triple<F> way;  ///< from a to b, `high` long
+};
+
+template <class F>
+CLENCH_INLINE NearBounds<F> near_bounds(const TrianglesOf<F>& a, const TrianglesOf<F>& b) {
+  NearBounds<F> out;
+  F squared;
+  out.way = nearest_way(a, b, squared);
+  out.high = sqrt(squared);
+  out.low = shadow_gap(a, b, out.way) / out.high;
+  return out;
 }
 
-/// Do the shadows along n stay apart by more than slack?
+/// Do the shadows along n stay apart by more than reach, >= 0?
 template <class F>
 CLENCH_INLINE typename F::Mask part(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
-                                    const Triple<F>& n, typename F::Real slack) {
-  // the sum of the coordinates is no less than the length
-  const F enough = (abs(n.x) + abs(n.y) + abs(n.z)) * slack;
-  return max(shadow_gap(a, b, n), shadow_gap(b, a, n)) > enough;
+                                    const Triple<F>& n, typename F::Real reach) {
+  const F a0 = dot(a.corner[0], n), a1 = dot(a.corner[1], n), a2 = dot(a.corner[2], n);
+  const F b0 = dot(b.corner[0], n), b1 = dot(b.corner[1], n), b2 = dot(b.corner[2], n);
+  const F gap =
+      max(min(min(b0, b1), b2) - max(max(a0, a1), a2), min(min(a0, a1), a2) - max(max(b0, b1), b2));
+  // squares instead of the length of n, as long as they keep their digits
+  using Real = typename F::Real;
+  constexpr Real least = std::numeric_limits<Real>::min();
+  const F nn = dot(n, n), within = nn * (reach * reach * slightly_more<Real>);
+  return (gap > Real{0}) & (gap * gap > within) & (nn > least) & (within > least * Real{0x1p30});
 }
 
-/// Lanes of those that may meet, as far as the usual axes tell: normals and products of edges.
+/// Lanes of those that may be as near as reach, >= 0, by the usual separating axes: normals and
+/// products of edges. All that meet are among them.
 template <class F>
-CLENCH_INLINE unsigned may_meet(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
-                                typename F::Real slack, unsigned wanted) {
+CLENCH_INLINE unsigned within_reach(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
+                                    typename F::Real reach, unsigned wanted) {
   Triple<F> edge_a[3], edge_b[3];
   for (int i = 0; i < 3; ++i) {
     edge_a[i] = a.corner[(i + 1) % 3] - a.corner[i];
     edge_b[i] = b.corner[(i + 1) % 3] - b.corner[i];
   }
-  wanted &= ~part(a, b, cross(edge_a[0], edge_a[1]), slack).set();
+  wanted &= ~part(a, b, cross(edge_a[0], edge_a[1]), reach).set();
   if (!wanted) return 0;
-  wanted &= ~part(a, b, cross(edge_b[0], edge_b[1]), slack).set();
+  wanted &= ~part(a, b, cross(edge_b[0], edge_b[1]), reach).set();
   for (int i = 0; i < 3; ++i) {
     if (!wanted) return 0;
-    for (int j = 0; j < 3; ++j) wanted &= ~part(a, b, cross(edge_a[i], edge_b[j]), slack).set();
+    for (int j = 0; j < 3; ++j) wanted &= ~part(a, b, cross(edge_a[i], edge_b[j]), reach).set();
   }
   return wanted;
 }
@@ -172,12 +190,10 @@ CLENCH_INLINE F point_bounds(const TrianglesOf<F>& t, const Triple<typename F::R
     least = select(nearer, squared, least);
     best = select(nearer, d, best);
   }
-  const Triple<F> u = edge[0], v = {-edge[2].x, -edge[2].y, -edge[2].z}, n = cross(u, v);
-  const Triple<F> from = {-to[0].x, -to[0].y, -to[0].z};
-  F height;
-  const F nn = dot(n, n);
-  const auto over = lanes_detail::over_face(from, n, cross(n, u), cross(v, n), nn, height);
-  best = select(over & (height * height / nn < least), n.scaled(-height), best);
+  const lanes_detail::Face<F> face(to[0], edge[0], edge[2]);
+  typename F::Mask inside;
+  const Triple<F> d = face.to_foot({zero, zero, zero}, inside);
+  best = select(inside & (dot(d, d) < least), d, best);
   const F low = min(min(dot(to[0], best), dot(to[1], best)), dot(to[2], best));
   return low / sqrt(dot(best, best));
 }

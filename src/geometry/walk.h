@@ -3,6 +3,7 @@
 // walks may be compiled for the machine at hand, and name the same triangles on every machine.
 #pragma once
 #include <limits>
+#include <vector>
 
 #include "base/function_ref.h"
 #include "geometry/tree.h"
@@ -24,12 +25,19 @@ struct Reach {
   double along[3] = {0, 0, 0};
 };
 
-/// of two triangles; may lower the reach, and ends the walk by returning true
+/// of triangles; ends the walk by returning true
 using PairVisit = FunctionRef<bool(int triangle_a, int triangle_b)>;
 using TriangleVisit = FunctionRef<bool(int triangle)>;
 
-/// Visits all pairs of triangles that may be as near as the reach, near ones early.
-bool for_near_pairs(const TreePair& pair, const Reach& reach, PairVisit visit);
+struct NearPair {
+  int triangle_a, triangle_b;
+};
+
+/// Finds all pairs of triangles that may be as near as the reach; of these, if nearest_only, all that
+/// may be the nearest. Then those that may meet are shown to `meet` on the way, which ends the walk
+/// by returning true.
+bool find_near_pairs(const TreePair& pair, const Reach& reach, bool nearest_only,
+                     std::vector<NearPair>& out, PairVisit meet);
 
 /// Visits all pairs of triangles that may meet, likely ones early.
 bool for_meeting_pairs(const TreePair& pair, PairVisit visit);
