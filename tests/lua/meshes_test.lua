@@ -1,0 +1,62 @@
+local test, clench = require "test", require "clench"
+
+local function written(name, text)
+  local path = os.tmpname() .. name
+  local file = assert(io.open(path, "wb"))
+  file:write(text)
+  file:close()
+  return path
+end
+
+-- a tetrahedron with edges of 120 units along the axes
+local points, faces = "v 0 0 0\nv 120 0 0\nv 0 120 0\nv 0 0 120\n", "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+local function add(text, options)
+  local path = written(".obj", text)
+  local ok, result = pcall(clench.world().add_object, clench.world(), path, options)
+  os.remove(path)
+  if not ok then error(result, 0) end
+  return result
+end
+
+test("the unit of a mesh is guessed, or given by name or by length", function(t)
+  local function size(options) return add(points .. faces, options).mesh.bounds.high.x end
+  t.close(size(), 0.12, 1e-15)
+  t.close(size{unit = "cm"}, 1.2, 1e-14)
+  t.close(size{unit = "inch"}, 3.048, 1e-14)
+  t.close(size{mesh_scale = 0.5}, 60, 1e-12)
+  t.fails(function() add(points .. faces, {unit = "cm", mesh_scale = 1}) end, "wanted unit or mesh_scale, got both")
+  t.fails(function() add(points .. faces, {unit = "yard"}) end, "unknown unit 'yard'")
+end)
+
+test("a guess is logged, and a unit that is given is not", function(t)
+  local lines = {}
+  clench.log.sink(function(level, message) lines[#lines + 1] = level .. " " .. message end)
+  add(points .. faces)
+  add(points .. faces, {unit = "mm"})
+  clench.log.sink(nil)
+  t.equal(#lines, 1)
+  t.ok(lines[1]:find("info .*120 x 120 x 120, is taken for mm"), lines[1])
+end)
+
+test("density weighs closed meshes only, and not together with a mass", function(t)
+  t.close(add(points .. faces, {density = 500}).mass, 500 * 0.12 ^ 3 / 6, 1e-12)
+  local open = points .. "f 1 3 2\nf 1 2 4\nf 1 4 3\n"
+  t.fails(function() add(open, {density = 500}) end, "density: wanted a watertight mesh, got one with 3 open edges; give its mass")
+  t.fails(function() add(points .. faces, {density = 500, mass = 1}) end, "wanted mass or density, got both")
+  t.fails(function() add(points .. "f 1 2 3\nf 3 2 1\n", {density = 1}) end, "got one with no volume")
+  t.fails(function() add(points .. faces, {density = -1}) end, "density")
+end)
+
+test("a mesh's report counts what was read and mended", function(t)
+  local report = add(points .. points .. "f 1 3 2\nf 5 6 8\nf 1 4 3\nf 2 3 4\nf 1 2 2\nv 9 9 9\n").mesh_report
+  t.equal(report.format, "OBJ")
+  t.equal(report.triangles_read, 5)
+  t.equal(report.dropped_triangles, 1)
+  t.equal(report.welded_vertices, 3)
+  t.equal(report.unused_vertices, 2)
+  t.equal(report.turned, false)
+  t.equal(report[1], "OBJ: 5 triangles of 7 vertices")
+  t.equal(report[3], "3 vertices welded, 1 degenerate triangle dropped, 2 unused vertices left out")
+  t.equal(clench.world():add_object(clench.shapes.box {1, 1, 1}).mesh_report, nil)
+end)
