@@ -14,7 +14,7 @@ constexpr int samples = 256;          // of all DOFs, for the centre
 constexpr int steps = 32;             // of a DOF from end to end
 constexpr double along = 0.8;         // axes whose cosine exceeds this turn the same way
 constexpr double hardly = 0.02;       // of the way of the tips: nearer by less is not nearer
-constexpr double sideways = 0.3;      // the same for a DOF that swings a finger sideways
+constexpr double sideways = 0.15;     // the same for a DOF that swings a finger sideways
 constexpr double lopsided = 0.1;      // of the range: a middle farther than this from 0 is no swing
 constexpr double common = 0.4;        // mean of unit vectors: longer means they agree
 constexpr double nearly_axis = 0.94;  // cosine of 20 degrees: a direction this near an axis is it
@@ -217,9 +217,10 @@ bool flexes(const Hand& hand, int dof) {
 
 /// What the tips do while one DOF goes from its rest to an end.
 struct Way {
-  double length = 0;  // that the tips go [m]
-  double nearer = 0;  // most that they come nearer to the centre [m]
-  double end = 0;     // nearer at the end [m]
+  double length = 0;      // that the tips go [m]
+  double nearer = 0;      // most that they come nearer to the centre [m]
+  double nearest_at = 0;  // the way that they have gone there [m]
+  double end = 0;         // nearer at the end [m]
 };
 
 Way way_to(const Hand& hand, int dof, const std::vector<int>& fingers,
@@ -238,7 +239,7 @@ Way way_to(const Hand& hand, int dof, const std::vector<int>& fingers,
     }
     if (s == 0) first = distance;
     way.end = first - distance;
-    way.nearer = std::max(way.nearer, way.end);
+    if (way.end > way.nearer) way.nearer = way.end, way.nearest_at = way.length;
     before = tips;
   }
   return way;
@@ -253,13 +254,13 @@ double sense_of(const Hand& hand, int dof, const Eigen::Vector3d& centre) {
             down = way_to(hand, dof, fingers, centre, low);
   const double length = up.length + down.length;
   if (!(length > 0)) return 0;
-  const double best = std::max(up.nearer, down.nearer);
-  const double sense = up.nearer > down.nearer ? 1 : -1;
+  const Way& better = up.nearer > down.nearer ? up : down;
+  const double sense = &better == &up ? 1 : -1;
   if (!flexes(hand, dof)) {
     if (std::abs(low + high) < lopsided * (high - low)) return 0;
-    return best > sideways * (sense > 0 ? up.length : down.length) ? sense : 0;
+    return better.nearer > sideways * better.nearest_at ? sense : 0;
   }
-  if (best > hardly * length) return sense;
+  if (better.nearer > hardly * length) return sense;
   // it stands shut: back to there, from the side where it opens
   const double opens = up.end < down.end ? 1 : -1;
   return std::min(up.end, down.end) < -hardly * length ? -opens : 0;

@@ -57,6 +57,7 @@ class MjcfReader {
   TreeModel tree_;
   std::vector<LinkPieces> pieces_;
   std::vector<std::vector<MjcfGeom>> link_geoms_;
+  InertialFaults inertial_faults_;
   std::map<std::string, int> links_;   // by name
   std::map<std::string, int> joints_;  // by name
 };
@@ -217,10 +218,10 @@ void MjcfReader::add_joint(TreeJoint joint, const XmlElement& element, int link)
 
 void MjcfReader::read_joint(const XmlElement& element, int link, const std::string& child_class,
                             const Pose& X_frame) {
-  document_.unused().attributes(
-      element, {"name", "class", "type", "pos", "axis", "range", "limited", "ref", "stiffness",
-                "springref", "damping", "frictionloss"});
   const XmlValues values = document_.values(element, child_class);
+  values.tell_unused(document_.unused(),
+                     {"name", "class", "type", "pos", "axis", "range", "limited", "ref",
+                      "stiffness", "springref", "damping", "frictionloss"});
   const std::string type = element.name() == "freejoint"
                                ? "free"
                                : values.word("type", {"hinge", "slide", "ball", "free"}, "hinge");
@@ -285,12 +286,15 @@ void MjcfReader::read_inertial(const XmlElement& element, int link, const Pose& 
   } else if (values.has("diaginertia")) {
     inertia.diagonal() = values.vec3("diaginertia", {0, 0, 0});
   }
-  const std::string wrong =
-      set_inertial(body, values.number("mass"), X_frame * document_.pose(values), inertia);
-  pieces_[link].has_inertial = body.com.has_value();
-  if (!wrong.empty())
-    warn(element, fmt::format("body '{}': {}{}", body.name, wrong,
-                              body.inertia_per_mass ? "" : "; it is computed from the geometry"));
+  const double mass = values.number("mass");
+  if (!(mass > 0)) {
+    warn(element, fmt::format("body '{}': wanted a mass > 0, got {}; the geometry gives it",
+                              body.name, mass));
+    return;
+  }
+  inertial_faults_.add(set_inertial(body, mass, X_frame * document_.pose(values), inertia),
+                       element.place(), body.name);
+  pieces_[link].has_inertial = true;
 }
 
 /// Mass, centre and inertia of all geoms of a body, as MuJoCo takes them where a file gives none.
@@ -316,7 +320,7 @@ void MjcfReader::weigh_geoms(int link) {
                       off.squaredNorm() * Eigen::Matrix3d::Identity() - off * off.transpose());
   }
   BodySpec with = tree_.links[link].body;
-  if (!set_inertial(with, mass, Pose::translation(com), inertia).empty()) return;
+  if (set_inertial(with, mass, Pose::translation(com), inertia) == Inertial::not_definite) return;
   tree_.links[link].body = std::move(with);
   pieces_[link].has_inertial = true;
 }
@@ -364,8 +368,9 @@ void MjcfReader::keep_masks() {
       ++apart;
     }
   if (apart > 0)
-    library_.note(fmt::format("{}: {} pairs of links never collide, as contype and conaffinity say",
-                              document_.file(), apart));
+    library_.note(
+        fmt::format("{}: {} pair{} of links never collide{}, as contype and conaffinity say",
+                    document_.file(), apart, apart == 1 ? "" : "s", apart == 1 ? "s" : ""));
 }
 
 RobotSpec MjcfReader::read() {
@@ -394,6 +399,7 @@ RobotSpec MjcfReader::read() {
   dress_links(tree_, pieces_, geoms_.geometry(), document_.file(), library_);
   RobotSpec robot = make_chains(std::move(tree_), document_.file(), library_);
   robot.source = document_.path().generic_string();
+  inertial_faults_.tell(library_);
   for (const auto& sentence : document_.unused().sentences()) library_.warn(sentence);
   return robot;
 }

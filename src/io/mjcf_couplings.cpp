@@ -236,10 +236,10 @@ void Couplings::drive_tendon(const XmlElement& element, const Tendon& tendon) {
 }
 
 void Couplings::read_actuator(const XmlElement& element) {
-  document_.unused().attributes(
-      element, {"name", "class", "joint", "jointinparent", "tendon", "ctrlrange", "ctrllimited",
-                "forcerange", "forcelimited", "kp", "kv", "gear"});
   const XmlValues values = document_.values(element, "", "general");
+  values.tell_unused(document_.unused(),
+                     {"name", "class", "joint", "jointinparent", "tendon", "ctrlrange",
+                      "ctrllimited", "forcerange", "forcelimited", "kp", "kv", "gear"});
   if (values.has("joint") || values.has("jointinparent")) {
     has_actuators_ = true;
     drive_joint(element, values, joint(values, values.has("joint") ? "joint" : "jointinparent"));
@@ -262,7 +262,7 @@ void Couplings::mark_passive() {
   int count = 0;
   for (const auto& joint : tree_.joints)
     if (joint.passive && joint.leader < 0 && ++count <= 6)
-      names += (names.empty() ? "'" : ", '") + joint.name + "'";
+      names += fmt::format("{}'{}'", count > 1 ? ", " : "", joint.name);
   if (count > 0)
     library_.note(fmt::format("{}: joints that no actuator drives do not close: {}{}",
                               document_.file(), names, count > 6 ? " and others" : ""));

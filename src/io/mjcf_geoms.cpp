@@ -173,11 +173,11 @@ void MjcfGeoms::set_primitive(const std::string& type, const XmlValues& values, 
 std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::string& child_class,
                                         const Pose& X_frame) {
   if (++count_ > most_pieces) element.fail("wanted at most {} geoms", most_pieces);
-  document_.unused().attributes(
-      element,
+  const XmlValues values = document_.values(element, child_class);
+  values.tell_unused(
+      document_.unused(),
       {"name", "class", "type", "size", "pos", "quat", "axisangle", "euler", "xyaxes", "zaxis",
        "fromto", "mesh", "material", "rgba", "contype", "conaffinity", "group", "mass", "density"});
-  const XmlValues values = document_.values(element, child_class);
   const std::string type = values.word(
       "type",
       {"plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "sdf"},

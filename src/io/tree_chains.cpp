@@ -250,7 +250,11 @@ RobotSpec ChainMaker::make() {
       fail("{}: DOF '{}': the limits of its joints have no value in common", file_,
            robot_.dofs[d].name);
   close_hand();
-  check_robot(robot_);
+  try {
+    check_robot(robot_);
+  } catch (const Error& error) {
+    fail("{}: {}", file_, error.what());
+  }
   return std::move(robot_);
 }
 

@@ -11,21 +11,47 @@ namespace clench {
 static constexpr double water = 1000;       // [kg/m^3]
 static constexpr double frame_mass = 1e-3;  // [kg]
 
-std::string set_inertial(BodySpec& body, double mass, const Pose& X_LC,
-                         const Eigen::Matrix3d& inertia_C) {
-  if (!(mass > 0)) return fmt::format("wanted a mass > 0 kg, got {}", mass);
+Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
+                      const Eigen::Matrix3d& inertia_C) {
   body.mass = mass;
   body.com = X_LC.position;
   const Eigen::Matrix3d R = X_LC.matrix(), inertia = R * inertia_C * R.transpose() / mass;
   const Eigen::Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
-  if (!inertia.allFinite() || !(moments[0] > 0)) return "its inertia is not positive definite";
+  if (!inertia.allFinite() || !(moments[0] > 0)) return Inertial::not_definite;
   body.inertia_per_mass = inertia;
   // no body has a moment above the sum of the others; files round
-  if (moments[2] > 1.01 * (moments[0] + moments[1]))
-    return "its inertia is that of no body: one moment exceeds the sum of the others; it is used "
-           "as it stands";
-  return "";
+  return moments[2] > 1.01 * (moments[0] + moments[1]) ? Inertial::no_body : Inertial::sound;
+}
+
+/// "'a', 'b' and 7 more"
+static std::string some_names(const std::vector<std::string>& names) {
+  constexpr size_t most = 6;
+  std::string out;
+  for (size_t i = 0; i < names.size() && i < most; ++i)
+    out += fmt::format("{}'{}'", i ? ", " : "", names[i].substr(0, 60));
+  if (names.size() > most) out += fmt::format(" and {} more", names.size() - most);
+  return out;
+}
+
+void InertialFaults::add(Inertial fault, const std::string& place, const std::string& link) {
+  if (fault == Inertial::sound) return;
+  const int kind = fault == Inertial::no_body ? 0 : 1;
+  if (links_[kind].empty()) places_[kind] = place;
+  links_[kind].push_back(link);
+}
+
+void InertialFaults::tell(const Library& library) const {
+  if (!links_[0].empty())
+    library.warn(
+        fmt::format("{}: inertia that no body has, as one moment exceeds the sum of the "
+                    "others; it is used as it stands: {}",
+                    places_[0], some_names(links_[0])));
+  if (!links_[1].empty())
+    library.warn(
+        fmt::format("{}: inertia that is not positive definite; it is computed from the "
+                    "geometry: {}",
+                    places_[1], some_names(links_[1])));
 }
 
 static void guess_mass(BodySpec& body, bool& guessed, bool& frame) {
@@ -35,16 +61,6 @@ static void guess_mass(BodySpec& body, bool& guessed, bool& frame) {
   const double volume = shape && shape->closed() ? std::abs(shape->solid().volume) : 0;
   body.mass = volume > 0 && std::isfinite(water * volume) ? std::max(water * volume, frame_mass)
                                                           : frame_mass;
-}
-
-/// "'a', 'b' and 7 more"
-static std::string some_names(const std::vector<std::string>& names) {
-  constexpr size_t most = 6;
-  std::string out;
-  for (size_t i = 0; i < names.size() && i < most; ++i)
-    out += (i ? ", '" : "'") + names[i].substr(0, 60) + "'";
-  if (names.size() > most) out += fmt::format(" and {} more", names.size() - most);
-  return out;
 }
 
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,

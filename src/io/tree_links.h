@@ -19,10 +19,26 @@ struct LinkPieces {
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
                  const std::string& file, const Library& library);
 
-/// Mass and inertia of a link from those about its centre of mass; a frame's axes, kg m^2.
-/// returns  what is wrong with them, or nothing; then the body is set
-std::string set_inertial(BodySpec& body, double mass, const Pose& X_LC,
-                         const Eigen::Matrix3d& inertia_C);
+enum class Inertial {
+  sound,
+  no_body,       ///< one moment exceeds the sum of the others; used as it stands
+  not_definite,  ///< not positive definite; left to the shape
+};
+
+/// Mass, centre and inertia of a link from the inertia about its centre of mass [kg m^2].
+Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
+                      const Eigen::Matrix3d& inertia_C);
+
+/// Tells of links whose inertias are wrong in the same way, at once.
+class InertialFaults {
+ public:
+  void add(Inertial fault, const std::string& place, const std::string& link);
+  void tell(const Library& library) const;
+
+ private:
+  std::array<std::string, 2> places_;  // of the first; no_body, not_definite
+  std::array<std::vector<std::string>, 2> links_;
+};
 
 /// Largest numbers of a robot's parts, far above any robot.
 inline constexpr int most_links = 1000, most_joints = 1000, most_pieces = 20000;

@@ -14,18 +14,19 @@ Pose joint_pose(const TreeJoint& joint, double q) {
 void resolve_leaders(TreeModel& tree) {
   const int count = static_cast<int>(tree.joints.size());
   for (auto& joint : tree.joints) {
+    if (joint.leader == &joint - tree.joints.data())
+      fail("{}: joint '{}' follows itself", joint.place, joint.name);
+    const std::string first = joint.leader < 0 ? "" : tree.joints[joint.leader].name;
     int steps = 0;
     while (joint.leader >= 0 && tree.joints[joint.leader].leader >= 0) {
       const TreeJoint& before = tree.joints[joint.leader];
       // a row of leaders that is longer than there are joints runs in a circle
       if (++steps > count)
-        fail("{}: joint '{}' follows itself by way of '{}'", joint.place, joint.name, before.name);
+        fail("{}: joint '{}' follows itself by way of '{}'", joint.place, joint.name, first);
       joint.offset += joint.ratio * before.offset;
       joint.ratio *= before.ratio;
       joint.leader = before.leader;
     }
-    if (joint.leader == &joint - tree.joints.data())
-      fail("{}: joint '{}' follows itself", joint.place, joint.name);
   }
 }
 

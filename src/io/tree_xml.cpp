@@ -101,6 +101,10 @@ std::string XmlValues::word(const char* name, std::initializer_list<const char*>
   fail(name, "wanted {}, got {}{}", list, in_quotes(got), did_you_mean(got, known));
 }
 
+void XmlValues::tell_unused(UnusedXml& unused, std::initializer_list<std::string_view> used) const {
+  for (const XmlElement& layer : layers_) unused.attributes(layer, used);
+}
+
 // --- what is not used ---
 
 UnusedXml::Kind& UnusedXml::kind_of(std::vector<Kind>& kinds, const XmlElement& element) {
@@ -124,9 +128,10 @@ std::vector<std::string> UnusedXml::sentences() const {
   const auto shown = [](const std::string& name) { return name.substr(0, 40); };
   std::vector<std::string> out;
   for (const Kind& kind : elements_)
-    out.push_back(
-        fmt::format("{}: <{}> is not used{}", kind.place, shown(kind.name),
-                    kind.count > 1 ? fmt::format(", nor are {} more", kind.count - 1) : ""));
+    out.push_back(fmt::format("{}: <{}> is not used{}", kind.place, shown(kind.name),
+                              kind.count > 2    ? fmt::format(", nor are {} more", kind.count - 1)
+                              : kind.count == 2 ? ", nor is another one"
+                                                : ""));
   for (const Kind& kind : attributes_) {
     std::string list;
     int count = 0;

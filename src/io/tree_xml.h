@@ -13,6 +13,8 @@
 
 namespace clench {
 
+class UnusedXml;
+
 /// Attributes of an element and, behind it, of others that say what it leaves open: the nearest
 /// that has an attribute gives it. All throw Error with place, element, attribute, wanted and got.
 class XmlValues {
@@ -35,6 +37,8 @@ class XmlValues {
   /// one of the words
   std::string word(const char* name, std::initializer_list<const char*> words,
                    const char* fallback) const;
+  /// Records the attributes of all these elements but those that are used.
+  void tell_unused(UnusedXml& unused, std::initializer_list<std::string_view> used) const;
   /// throws Error  "hand.xml:31: joint: range: ..." at the element that gives the attribute
   template <class... Args>
   [[noreturn]] void fail(const char* name, fmt::format_string<Args...> format,

@@ -64,6 +64,7 @@ class UrdfReader {
   XmlFile xml_;
   TreeGeometry geometry_;
   UnusedXml unused_;
+  InertialFaults inertial_faults_;
   std::map<std::string, PieceColor> materials_;
   std::vector<TreeLink> links_;  // in the file's order
   std::vector<LinkPieces> pieces_;
@@ -135,14 +136,12 @@ void UrdfReader::read_inertial(const XmlElement& element, BodySpec& body, LinkPi
       const double xy = v.number("ixy", 0), xz = v.number("ixz", 0), yz = v.number("iyz", 0);
       I << v.number("ixx"), xy, xz, xy, v.number("iyy"), yz, xz, yz, v.number("izz");
     }
-    BodySpec with = body;
-    const std::string wrong =
-        set_inertial(with, XmlValues(mass).number("value"), read_origin(element), I);
-    pieces.has_inertial = with.com.has_value();
-    body = std::move(with);
-    if (!wrong.empty())
-      warn(element, fmt::format("link '{}': {}{}", body.name, wrong,
-                                body.inertia_per_mass ? "" : "; it is computed from the shape"));
+    const XmlValues values(mass);
+    const double m = values.number("value");
+    if (!(m > 0)) values.fail("value", "wanted a mass > 0, got {}", m);
+    const Pose X_LC = read_origin(element);
+    inertial_faults_.add(set_inertial(body, m, X_LC, I), element.place(), body.name);
+    pieces.has_inertial = true;
   } catch (const Error& error) {
     library_.warn(
         fmt::format("{}; the inertial of link '{}' is not used", error.what(), body.name));
@@ -440,6 +439,7 @@ RobotSpec UrdfReader::read() {
   dress_links(tree_, pieces_, geometry_, file_, library_);
   RobotSpec robot = make_chains(std::move(tree_), file_, library_);
   robot.source = path_.generic_string();
+  inertial_faults_.tell(library_);
   for (const auto& sentence : unused_.sentences()) library_.warn(sentence);
   return robot;
 }

@@ -1,0 +1,93 @@
+// Every URDF and MJCF file of tests/data/bad is refused with the sentence that stands beside it.
+#include <algorithm>
+
+#include "base/text.h"
+#include "io/read.h"
+#include "temporary.h"
+
+using namespace clench;
+using clench::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+static void check_format(const std::string& format) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator("tests/data/bad/" + format))
+    if (entry.path().extension() == "." + format) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  REQUIRE(files.size() > 20);
+  for (const auto& file : files) {
+    const std::string sentence(trim(read_text(fs::path(file).replace_extension(".txt"))));
+    INFO(file.string());
+    CHECK_THROWS_WITH_AS(read_robot(file), sentence.c_str(), Error);
+  }
+}
+
+TEST_CASE("a malformed URDF file is told by file, line, wanted and got") { check_format("urdf"); }
+TEST_CASE("a malformed MJCF file is told by file, line, wanted and got") { check_format("mjcf"); }
+
+TEST_CASE("an unexpanded xacro file is told to be expanded") {
+  TemporaryFolder folder;
+  const auto file = folder.write("hand.urdf.xacro", "<robot/>");
+  CHECK_THROWS_WITH_AS(read_robot(file),
+                       "hand.urdf.xacro: xacro is no robot yet; expand it first: xacro "
+                       "hand.urdf.xacro > robot.urdf",
+                       Error);
+}
+
+TEST_CASE("more links, joints or geoms than any robot has are refused") {
+  TemporaryFolder folder;
+  const auto many = [&](const std::string& head, const std::string& part, int count,
+                        const std::string& tail) {
+    std::string text = head;
+    for (int i = 0; i < count; ++i) {
+      std::string p = part;
+      for (size_t at; (at = p.find('#')) != std::string::npos;) p.replace(at, 1, std::to_string(i));
+      text += p;
+    }
+    return text + tail;
+  };
+  const auto refused = [&](const std::string& name, const std::string& text, const char* sentence) {
+    CHECK_THROWS_WITH_AS(read_robot(folder.write(name, text)), sentence, Error);
+  };
+  refused("a.urdf", many("<robot>", "<link name='l#'/>", 1001, "</robot>"),
+          "a.urdf:1: wanted at most 1000 links");
+  refused("a.urdf",
+          many("<robot><link name='a'/>",
+               "<link name='l#'/><joint name='j#' type='fixed'><parent link='a'/><child "
+               "link='l#'/></joint>",
+               1001, "</robot>"),
+          "a.urdf:1: wanted at most 1000 links");
+  refused("a.mjcf",
+          many("<mujoco><worldbody><body>", "<body/>", 1001, "</body></worldbody></mujoco>"),
+          "a.mjcf:1: wanted at most 1000 bodies");
+  refused("a.mjcf",
+          many("<mujoco><worldbody><body><body>", "<joint name='j#' range='0 1'/>", 1001,
+               "</body></body></worldbody></mujoco>"),
+          "a.mjcf:1: wanted at most 1000 joints");
+  refused(
+      "a.mjcf",
+      many("<mujoco><worldbody><body>", "<geom size='1'/>", 20001, "</body></worldbody></mujoco>"),
+      "a.mjcf:1: wanted at most 20000 geoms");
+}
+
+TEST_CASE("a circle of includes over several files is found") {
+  TemporaryFolder folder;
+  folder.write("b.xml", "<mujoco><include file='c.xml'/></mujoco>");
+  folder.write("c.xml", "<mujoco>\n<include file='b.xml'/></mujoco>");
+  const auto file = folder.write("a.xml", "<mujoco><include file='b.xml'/></mujoco>");
+  CHECK_THROWS_WITH_AS(read_robot(file), "c.xml:2: include: 'b.xml' includes itself", Error);
+}
+
+TEST_CASE("options that name no DOF, or no number, are refused by name") {
+  ReadOptions options;
+  const fs::path gripper = "tests/data/urdf/gripper.urdf";
+  options.packages["gripper_description"] = "tests/data/urdf";
+  options.closing["left_slid"] = 1;
+  CHECK_THROWS_WITH_AS(read_robot(gripper, options),
+                       "gripper.urdf: close: wanted the name of a DOF or a number from 1 to 1, got "
+                       "'left_slid'; did you mean 'left_slide'?",
+                       Error);
+  options.closing = {{"1", NAN}};
+  CHECK_THROWS_WITH_AS(read_robot(gripper, options),
+                       "gripper.urdf: close: 1: wanted a number, got nan", Error);
+}

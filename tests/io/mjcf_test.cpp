@@ -1,0 +1,264 @@
+// Robots from MJCF as specs.
+#include "io/mjcf.h"
+
+#include <numbers>
+
+#include "base/error.h"
+#include "temporary.h"
+
+using namespace clench;
+using clench::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Told {
+  std::vector<std::string> warnings, notes;
+  RobotSpec robot;
+
+  explicit Told(const fs::path& file) {
+    ReadOptions options;
+    options.warn = [this](const std::string& s) { warnings.push_back(s); };
+    options.note = [this](const std::string& s) { notes.push_back(s); };
+    robot = read_robot(file, options);
+  }
+  static bool has(const std::vector<std::string>& list, const std::string& part) {
+    for (const auto& s : list)
+      if (s.find(part) != std::string::npos) return true;
+    return false;
+  }
+  bool warned(const std::string& part) const { return has(warnings, part); }
+  bool noted(const std::string& part) const { return has(notes, part); }
+
+  const BodySpec& body(const std::string& name) const {
+    if (robot.base.name == robot.name + "_" + name) return robot.base;
+    for (const auto& chain : robot.chains)
+      for (const auto& l : chain.links)
+        if (l.body.name == robot.name + "_" + name) return l.body;
+    FAIL("no link " << name);
+    return robot.base;
+  }
+  const JointSpec& joint(const std::string& name) const {
+    for (const auto& chain : robot.chains)
+      for (const auto& j : chain.joints)
+        if (j.name == name) return j;
+    FAIL("no joint " << name);
+    return robot.chains.at(0).joints.at(0);
+  }
+  std::vector<std::string> dofs() const {
+    std::vector<std::string> out;
+    for (const auto& d : robot.dofs) out.push_back(d.name);
+    return out;
+  }
+};
+
+/// A model with this in the body 'b' of its base 'a'.
+Told model(const std::string& in_b, const std::string& beside = "") {
+  TemporaryFolder folder;
+  return Told(folder.write("m.xml", "<mujoco model='m'>" + beside +
+                                        "<worldbody><body name='a'><body name='b'>" + in_b +
+                                        "</body></body></worldbody></mujoco>"));
+}
+
+const std::string radian = "<compiler angle='radian'/>";
+
+}  // namespace
+
+TEST_CASE("a model of many elements is read whole") {
+  const Told hand("tests/data/mjcf/hand.xml");
+  CHECK(hand.robot.name == "small_hand");
+  CHECK(hand.robot.base.name == "small_hand_palm");
+  CHECK(hand.dofs() ==
+        std::vector<std::string>{"index_mcp", "middle_mcp", "thumb_flex", "thumb_swing"});
+  // defaults of the class, of its parent, of the body's class, and the element's own
+  CHECK(hand.joint("index_mcp").coulomb == 0.02);
+  CHECK(hand.joint("index_mcp").viscous == 0.05);
+  CHECK(hand.joint("thumb_swing").coulomb == 0);
+  CHECK(hand.joint("thumb_flex").max == 1.2);
+  // the mesh is in millimetres by the scale of its class
+  CHECK(hand.body("thumb").shape->solid().volume == doctest::Approx(0.008 * 0.02 * 0.06));
+  CHECK(hand.noted("body 'palm' is the base; its place in the file is not used"));
+  CHECK(hand.warned("hand.xml:12: <geom> is not used"));
+  CHECK(hand.warned("<sensor> is not used"));
+  CHECK(hand.warned("of <joint>, here and further on, not used: armature"));
+}
+
+TEST_CASE("geoms that collide and geoms that are drawn are kept apart") {
+  const Told hand("tests/data/mjcf/hand.xml");
+  const BodySpec& palm = hand.body("palm");
+  CHECK(palm.shape->bounds().high.x() == doctest::Approx(0.04));
+  REQUIRE(palm.appearance.visual);
+  CHECK(palm.appearance.visual->bounds().high.x() == doctest::Approx(0.038));
+  CHECK(palm.appearance.color.x() == doctest::Approx(0.4));
+  CHECK(hand.body("index_2").shape->parts().size() == 2);
+}
+
+TEST_CASE("an equality ties a joint to another, counted from where both stand at first") {
+  const Told hand("tests/data/mjcf/hand.xml");
+  const JointSpec& tied = hand.joint("middle_pip");
+  CHECK(tied.dof == hand.joint("middle_mcp").dof);
+  CHECK(tied.ratio == 0.8);
+  CHECK(tied.theta == doctest::Approx(0.1));
+  const Told from(
+      model("<joint name='p' range='-9 9' ref='1'/><joint name='q' range='-9 9' ref='2'/>",
+            radian + "<equality><joint joint1='q' joint2='p' polycoef='0.5 3'/></equality>"));
+  // q = 2 + 0.5 + 3 (p - 1), and the pose counts from q = 2
+  CHECK(from.joint("q").ratio == 3);
+  CHECK(from.joint("q").theta == doctest::Approx(-0.5 - 2));
+}
+
+TEST_CASE("a motor on a tendon moves its joints together, in proportion") {
+  const Told hand("tests/data/mjcf/hand.xml");
+  CHECK(hand.joint("index_pip").dof == hand.joint("index_mcp").dof);
+  CHECK(hand.joint("index_pip").ratio == 0.5);
+  CHECK(
+      hand.noted("joints 'index_mcp' and 'index_pip' share a tendon; they are taken to turn as 1 "
+                 "to 0.5"));
+}
+
+TEST_CASE("a tendon of two joints that an equality holds ties them") {
+  const Told told(model(
+      "<joint name='p' range='-1 1'/><joint name='q' range='-9 9'/>",
+      radian + "<tendon><fixed name='t'><joint joint='p' coef='1'/><joint joint='q' coef='-2'/>"
+               "</fixed></tendon><equality><tendon tendon1='t'/></equality>"));
+  CHECK(told.joint("q").dof == told.joint("p").dof);
+  CHECK(told.joint("q").ratio == 0.5);
+}
+
+TEST_CASE("actuators limit their joints and say what drives them") {
+  const Told hand("tests/data/mjcf/hand.xml");
+  const auto dof = [&](const std::string& name) {
+    for (const auto& d : hand.robot.dofs)
+      if (d.name == name) return d;
+    return DofSpec{};
+  };
+  CHECK(dof("middle_mcp").max_effort == 3);
+  CHECK(dof("middle_mcp").kp == 2);
+  CHECK(dof("thumb_flex").max_effort == 2);
+  CHECK(hand.joint("middle_mcp").min == 0);
+  CHECK(hand.joint("middle_mcp").max == 1.2);
+  // nothing drives the swing, so it does not close
+  CHECK(dof("thumb_swing").default_velocity == 0);
+  CHECK(hand.noted("joints that no actuator drives do not close: 'thumb_swing'"));
+}
+
+TEST_CASE("excluded pairs never collide, nor do pairs whose bits differ") {
+  const Told hand("tests/data/mjcf/hand.xml");
+  REQUIRE(hand.robot.collision_rules.pairs_off.size() == 1);
+  const auto& [a, b] = hand.robot.collision_rules.pairs_off[0];
+  CHECK(hand.robot.chains[a.chain].links[a.link].body.name == "small_hand_index_1");
+  CHECK(hand.robot.chains[b.chain].links[b.link].body.name == "small_hand_middle_1");
+  TemporaryFolder folder;
+  const Told bits(folder.write("m.xml", R"(<mujoco model="m"><worldbody><body name="a">
+<geom size="1" contype="2" conaffinity="1"/><body name="b"><geom size="1" contype="2" conaffinity="1"/></body>
+<body name="c"><geom size="1"/></body></body></worldbody></mujoco>)"));
+  // a and b share no bit, and both meet c
+  CHECK(bits.robot.collision_rules.pairs_off.size() == 1);
+  CHECK(bits.noted("1 pair of links never collides, as contype and conaffinity say"));
+}
+
+TEST_CASE("angles are degrees unless the compiler says radian") {
+  CHECK(model("<joint name='j' range='0 90'/>").joint("j").max == doctest::Approx(pi / 2));
+  CHECK(model("<joint name='j' range='0 90'/>", radian).joint("j").max == 90);
+  CHECK(model("<joint name='j' type='slide' range='0 90'/>").joint("j").max == 90);
+}
+
+TEST_CASE("a joint without a range, or unlimited, goes a full turn either way, which is told") {
+  for (const std::string joint :
+       {"<joint name='j'/>", "<joint name='j' limited='false' range='0 1'/>"}) {
+    const Told told = model(joint);
+    CHECK(told.joint("j").max == doctest::Approx(2 * pi));
+    CHECK(told.noted("joint 'j' has no limits"));
+  }
+}
+
+TEST_CASE("a ball joint becomes three turns, a free one none") {
+  const Told ball = model("<joint name='j' type='ball' range='0 60'/>");
+  CHECK(ball.dofs() == std::vector<std::string>{"j_x", "j_y", "j_z"});
+  CHECK(ball.joint("j_y").max == doctest::Approx(pi / 3));
+  CHECK(ball.noted("joint 'j' is a ball"));
+  const Told free = model("<joint name='j' type='free'/>");
+  CHECK(free.robot.dofs.empty());
+  CHECK(free.warned("joint 'j' is free; body 'b' stays where the file puts it"));
+  TemporaryFolder folder;
+  const Told base(folder.write(
+      "m.xml", "<mujoco><worldbody><body name='a'><freejoint/></body></worldbody></mujoco>"));
+  CHECK(base.warnings.empty());
+}
+
+TEST_CASE("geoms are of the sizes that their types mean") {
+  const auto high = [](const std::string& geom) {
+    return Eigen::Vector3d(model("<geom " + geom + "/>").body("b").shape->bounds().high);
+  };
+  const auto near = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    CHECK((a - b).norm() < 1e-12);
+  };
+  near(high("size='2'"), {2, 2, 2});
+  near(high("type='box' size='1 2 3'"), {1, 2, 3});
+  near(high("type='capsule' size='1 2'"), {1, 1, 3});
+  near(high("type='cylinder' size='1 2'"), {1, 1, 2});
+  near(high("type='ellipsoid' size='1 2 3'"), {1, 2, 3});
+  near(high("type='capsule' size='1' fromto='0 0 1 0 0 5'"), {1, 1, 6});
+  near(high("type='box' size='1 2 3' pos='1 0 0' euler='0 0 90'"), {3, 1, 3});
+}
+
+TEST_CASE("a robot without masses weighs what its geoms do") {
+  const Told told = model(
+      "<geom type='box' size='0.1 0.1 0.1' density='500'/>"
+      "<geom type='box' size='0.1 0.1 0.1' pos='0 0 1' mass='4'/>");
+  const BodySpec& body = told.body("b");
+  CHECK(body.mass == doctest::Approx(8));
+  CHECK(body.com->z() == doctest::Approx(0.5));
+  // two cubes of 4 kg, half a metre from the centre: m a^2/6 each about their own, and m d^2
+  CHECK((*body.inertia_per_mass)(0, 0) == doctest::Approx(0.04 / 6 + 0.25));
+  CHECK((*body.inertia_per_mass)(2, 2) == doctest::Approx(0.04 / 6));
+}
+
+TEST_CASE("points of a mesh without faces mean their hull") {
+  const Told told =
+      model("<geom type='mesh' mesh='cube'/>",
+            "<asset><mesh name='cube' scale='2 1 1' refpos='1 0 0' vertex='0 0 0 1 0 0 0 1 0 1 1 0 "
+            "0 0 1 1 0 1 0 1 1 1 1 1 0.5 0.5 0.5'/></asset>");
+  const ShapePtr shape = told.body("b").shape;
+  CHECK(shape->closed());
+  CHECK(shape->solid().volume == doctest::Approx(2));
+  CHECK(shape->bounds().low.x() == doctest::Approx(-1));
+}
+
+TEST_CASE("the body with the most joints is the robot, things that move freely beside it are not") {
+  TemporaryFolder folder;
+  const Told told(folder.write("m.xml", R"(<mujoco model="m"><worldbody>
+<body name="ball"><freejoint/><geom size="0.1"/></body>
+<body name="hand"><body name="finger"><joint name="j" range="0 1"/></body></body>
+</worldbody></mujoco>)"));
+  CHECK(told.robot.base.name == "m_hand");
+  CHECK(told.warned("m.xml:2: body 'ball' moves freely beside the robot; it is not read"));
+  // several bodies, or one with joints of its own, stand in the world's frame
+  const Told two(folder.write("m.xml", R"(<mujoco model="m"><worldbody>
+<body name="left" pos="1 0 0"><joint name="j" type="slide" range="0 1"/></body><body name="right"/>
+</worldbody></mujoco>)"));
+  CHECK(two.robot.base.name == "m_world");
+  CHECK(two.robot.chains.size() == 2);
+}
+
+TEST_CASE("what would close a loop is told and left open") {
+  const Told told = model("<joint name='j' range='0 1'/>",
+                          "<equality><connect body1='a' body2='b' anchor='0 0 0'/></equality>");
+  CHECK(told.warned("equality: <connect> would close a loop of bodies; it is left open"));
+}
+
+TEST_CASE("meshes are looked for in the folder that the compiler names") {
+  TemporaryFolder folder;
+  folder.write("assets/a.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const auto text = [](const std::string& compiler) {
+    return "<mujoco><compiler " + compiler +
+           "/><asset><mesh file='somewhere/a.obj'/></asset><worldbody><body name='b'><geom "
+           "type='mesh' mesh='a'/></body></worldbody></mujoco>";
+  };
+  CHECK_THROWS_AS(read_robot(folder.write("m.xml", text("meshdir='assets'"))), Error);
+  CHECK(Told(folder.write("m.xml", text("meshdir='assets' strippath='true'"))).robot.base.shape);
+  CHECK(Told(folder.write("m.xml", text("assetdir='assets' strippath='true'"))).robot.base.shape);
+}

@@ -1,0 +1,154 @@
+// URDF and MJCF files cut short anywhere, and files with parts exchanged at random: a robot or an
+// Error that names the file, never a crash or a hang.
+#include <cmath>
+
+#include "base/random.h"
+#include "base/text.h"
+#include "io/read.h"
+#include "temporary.h"
+
+using namespace clench;
+using clench::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Every number of a robot that was read is a number.
+void check_sane(const RobotSpec& robot) {
+  check_robot(robot);
+  const auto check_body = [](const BodySpec& body) {
+    CHECK(std::isfinite(body.mass));
+    CHECK(body.mass > 0);
+    if (body.com) CHECK(body.com->allFinite());
+    if (body.inertia_per_mass) CHECK(body.inertia_per_mass->allFinite());
+  };
+  check_body(robot.base);
+  for (const auto& chain : robot.chains)
+    for (const auto& link : chain.links) check_body(link.body);
+  for (const auto& dof : robot.dofs) CHECK(std::isfinite(dof.default_velocity));
+  if (robot.X_BA) CHECK(robot.X_BA->is_finite());
+}
+
+/// A folder with the files that the robots name.
+class Bench {
+ public:
+  Bench() {
+    for (const auto* name : {"finger.obj", "parts/finger.obj"})
+      folder_.write(name, read_text("tests/data/urdf/finger.obj"));
+    folder_.write("defaults.xml", read_text("tests/data/mjcf/defaults.xml"));
+    options_.packages["gripper_description"] = folder_.path();
+  }
+  /// returns  was it refused?   fails the test when the sentence names none of the files
+  bool refused(const std::string& name, const std::string& text) {
+    const fs::path file = folder_.write(name, text);
+    try {
+      check_sane(read_robot(file, options_));
+      return false;
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      CHECK_MESSAGE((what.starts_with(name) || what.starts_with("defaults.xml")), what);
+      return true;
+    }
+  }
+
+ private:
+  TemporaryFolder folder_;
+  ReadOptions options_;
+};
+
+const std::string urdf = read_text("tests/data/urdf/gripper.urdf");
+const std::string mjcf = read_text("tests/data/mjcf/hand.xml");
+
+void cut_everywhere(const std::string& name, const std::string& text) {
+  Bench bench;
+  for (size_t n = 0; n + 20 < text.size(); n += 41) CHECK(bench.refused(name, text.substr(0, n)));
+}
+
+/// A word or number within quotes, an element's name, a line: taken from elsewhere in the text, or odd.
+std::string changed(std::string s, Random& random) {
+  static const char* const odd[] = {"",      "nan",   "-1",   "0",    "1e15",       "1e-300",
+                                    "a b c", "0 0 0", "1e99", "palm", "2147483648", "-0"};
+  const int changes = 1 + static_cast<int>(random.bits() % 3);
+  for (int i = 0; i < changes; ++i) {
+    std::vector<std::pair<size_t, size_t>> values;  // between quotes
+    for (size_t a = s.find('"'); a != std::string::npos; a = s.find('"', a + 1)) {
+      const size_t b = s.find('"', a + 1);
+      if (b == std::string::npos) break;
+      values.emplace_back(a + 1, b);
+      a = b;
+    }
+    if (values.size() < 2) return s;
+    const auto [a, b] = values[random.bits() % values.size()];
+    switch (random.bits() % 6) {
+      case 0: {
+        const auto [c, d] = values[random.bits() % values.size()];
+        s.replace(a, b - a, s.substr(c, d - c));
+        break;
+      }
+      case 1:
+        s.replace(a, b - a, odd[random.bits() % std::size(odd)]);
+        break;
+      case 2: {  // a line goes
+        const size_t end = s.find('\n', a);
+        const size_t begin = s.rfind('\n', a);
+        if (begin != std::string::npos && end != std::string::npos) s.erase(begin, end - begin);
+        break;
+      }
+      case 3: {  // a line comes twice
+        const size_t end = s.find('\n', a), begin = s.rfind('\n', a);
+        if (begin != std::string::npos && end != std::string::npos)
+          s.insert(begin, s.substr(begin, end - begin));
+        break;
+      }
+      case 4:
+        s[random.bits() % s.size()] = static_cast<char>(random.bits());
+        break;
+      default: {  // a number changes its size
+        const auto value = parse_number(trim(std::string_view(s).substr(a, b - a)));
+        if (value)
+          s.replace(a, b - a, fmt::format("{}", *value * (random.uniform() < 0.5 ? -3 : 1e6)));
+      }
+    }
+  }
+  return s;
+}
+
+void change_at_random(const std::string& name, const std::string& text, int times) {
+  Bench bench;
+  int refused = 0;
+  for (int i = 0; i < times; ++i) {
+    Random random(17, static_cast<uint64_t>(i));
+    const std::string bad = changed(text, random);
+    INFO(bad);
+    refused += bench.refused(name, bad);
+  }
+  // some changes are harmless, some are not
+  CHECK(refused > times / 10);
+  CHECK(refused < times);
+}
+
+}  // namespace
+
+TEST_CASE("the robots of this file are sound") {
+  Bench bench;
+  CHECK_FALSE(bench.refused("a.urdf", urdf));
+  CHECK_FALSE(bench.refused("a.xml", mjcf));
+}
+TEST_CASE("a URDF file cut short anywhere is an Error") { cut_everywhere("a.urdf", urdf); }
+TEST_CASE("an MJCF file cut short anywhere is an Error") { cut_everywhere("a.mjcf", mjcf); }
+TEST_CASE("a URDF file changed at random is an Error or a robot") {
+  change_at_random("a.urdf", urdf, 300);
+}
+TEST_CASE("an MJCF file changed at random is an Error or a robot") {
+  change_at_random("a.mjcf", mjcf, 300);
+}
+TEST_CASE("noise is an Error in formats of robot trees") {
+  Bench bench;
+  for (uint64_t i = 0; i < 40; ++i) {
+    Random random(19, i);
+    std::string noise(random.bits() % 300, '\0');
+    for (char& c : noise) c = static_cast<char>(random.bits());
+    CHECK(bench.refused("a.urdf", noise));
+    CHECK(bench.refused("a.mjcf", noise));
+  }
+}

@@ -1,0 +1,59 @@
+#include "io/tree_shapes.h"
+
+#include <numbers>
+
+#include "geometry/shape.h"
+
+using namespace clench;
+
+static constexpr double pi = std::numbers::pi;
+// a circle of n edges has this part of the disc's area
+static const double disc = circle_edges / (2 * pi) * std::sin(2 * pi / circle_edges);
+
+static void check_sound(const Mesh& mesh) {
+  CHECK(find_faults(mesh).none());
+  CHECK(solid_mass(mesh).volume > 0);
+  // symmetric about the origin, up to rounding
+  CHECK(solid_mass(mesh).centroid.norm() < 1e-12);
+}
+
+TEST_CASE("a box has its edges' volume") {
+  const Mesh mesh = box_mesh({1, 2, 3});
+  check_sound(mesh);
+  CHECK(solid_mass(mesh).volume == doctest::Approx(6));
+  CHECK(mesh.bounds().high == Eigen::Vector3d(0.5, 1, 1.5));
+}
+
+TEST_CASE("a cylinder has the volume of its prism, and its points on the true surface") {
+  const Mesh mesh = cylinder_mesh(2, 5);
+  check_sound(mesh);
+  CHECK(solid_mass(mesh).volume == doctest::Approx(disc * pi * 4 * 5));
+  CHECK(mesh.bounds().high.z() == 2.5);
+  for (const auto& p : mesh.vertices) {
+    const double r = p.head<2>().norm();
+    CHECK((r < 1e-12 || std::abs(r - 2) < 1e-12));
+  }
+}
+
+TEST_CASE("points of a capsule lie at its radius from its segment") {
+  for (const double length : {0.0, 0.3, 4.0}) {
+    const Mesh mesh = capsule_mesh(1.5, length);
+    check_sound(mesh);
+    CHECK(mesh.bounds().high.z() == doctest::Approx(length / 2 + 1.5));
+    for (const auto& p : mesh.vertices) {
+      const Eigen::Vector3d nearest(0, 0, std::clamp(p.z(), -length / 2, length / 2));
+      CHECK((p - nearest).norm() == doctest::Approx(1.5));
+    }
+    // inscribed: less than the true one, by less than two parts of a hundred
+    const double volume = pi * 1.5 * 1.5 * (length + 4.0 / 3 * 1.5);
+    CHECK(solid_mass(mesh).volume < volume);
+    CHECK(solid_mass(mesh).volume > 0.98 * volume);
+  }
+}
+
+TEST_CASE("points of an ellipsoid fulfil its equation") {
+  const Eigen::Vector3d radii(1, 2, 3);
+  const Mesh mesh = ellipsoid_mesh(radii);
+  check_sound(mesh);
+  for (const auto& p : mesh.vertices) CHECK(p.cwiseQuotient(radii).norm() == doctest::Approx(1));
+}

@@ -1,0 +1,337 @@
+// Robots from URDF as specs.
+#include "io/urdf.h"
+
+#include <numbers>
+
+#include "base/text.h"
+#include "temporary.h"
+
+using namespace clench;
+using clench::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A robot read with all that is told of it.
+struct Told {
+  std::vector<std::string> warnings, notes;
+  RobotSpec robot;
+
+  explicit Told(const fs::path& file, ReadOptions options = {}) {
+    options.warn = [this](const std::string& s) { warnings.push_back(s); };
+    options.note = [this](const std::string& s) { notes.push_back(s); };
+    robot = read_robot(file, options);
+  }
+  static bool has(const std::vector<std::string>& list, const std::string& part) {
+    for (const auto& s : list)
+      if (s.find(part) != std::string::npos) return true;
+    return false;
+  }
+  bool warned(const std::string& part) const { return has(warnings, part); }
+  bool noted(const std::string& part) const { return has(notes, part); }
+
+  const LinkSpec& link(const std::string& name) const {
+    for (const auto& chain : robot.chains)
+      for (const auto& l : chain.links)
+        if (l.body.name == robot.name + "_" + name) return l;
+    FAIL("no link " << name);
+    return robot.chains.at(0).links.at(0);
+  }
+  const DofSpec& dof(const std::string& name) const {
+    for (const auto& d : robot.dofs)
+      if (d.name == name) return d;
+    FAIL("no DOF " << name);
+    return robot.dofs.at(0);
+  }
+  const JointSpec& joint(const std::string& name) const {
+    for (const auto& chain : robot.chains)
+      for (const auto& j : chain.joints)
+        if (j.name == name) return j;
+    FAIL("no joint " << name);
+    return robot.chains.at(0).joints.at(0);
+  }
+};
+
+ReadOptions with_package() {
+  ReadOptions options;
+  options.packages["gripper_description"] = "tests/data/urdf";
+  return options;
+}
+
+const fs::path gripper_file = "tests/data/urdf/gripper.urdf";
+
+/// A URDF of two links and what stands between.
+std::string two_links(const std::string& first, const std::string& joint = "type='fixed'",
+                      const std::string& inside = "") {
+  return "<robot name='r'><link name='a'>" + first + "</link><link name='b'/><joint name='j' " +
+         joint + "><parent link='a'/><child link='b'/>" + inside + "</joint></robot>";
+}
+
+}  // namespace
+
+TEST_CASE("a URDF keeps the names of its links, joints and DOFs") {
+  const Told gripper(gripper_file, with_package());
+  CHECK(gripper.robot.name == "gripper");
+  CHECK(gripper.robot.base.name == "gripper_mount");
+  CHECK_FALSE(gripper.robot.base.shape);
+  REQUIRE(gripper.robot.dofs.size() == 1);
+  CHECK(gripper.robot.dofs[0].name == "left_slide");
+  for (const auto* name : {"palm", "left_finger", "right_finger", "camera"}) gripper.link(name);
+  CHECK(gripper.link("palm").joint == LinkJoint::fixed);
+  CHECK(gripper.link("left_finger").joint == LinkJoint::prismatic);
+}
+
+TEST_CASE("limits, effort, velocity and friction of a URDF joint are kept") {
+  const Told gripper(gripper_file, with_package());
+  const JointSpec& joint = gripper.joint("left_slide");
+  CHECK(joint.kind == JointKind::prismatic);
+  CHECK(joint.min == 0);
+  CHECK(joint.max == 0.05);
+  CHECK(joint.viscous == 2);
+  CHECK(joint.coulomb == 0.5);
+  CHECK(gripper.robot.dofs[0].max_effort == 40);
+  CHECK(gripper.robot.dofs[0].max_velocity == 0.1);
+}
+
+TEST_CASE("a body collides with all its collision shapes and shows the visual ones") {
+  const Told gripper(gripper_file, with_package());
+  const BodySpec& palm = gripper.link("palm").body;
+  // a box collides, a cylinder is drawn
+  CHECK(palm.shape->solid().volume == doctest::Approx(0.14 * 0.05 * 0.04));
+  REQUIRE(palm.appearance.visual);
+  CHECK(palm.appearance.visual->bounds().high.x() == doctest::Approx(0.035));
+  CHECK(palm.appearance.given);
+  CHECK(palm.appearance.color.z() == doctest::Approx(0.6));
+  // a box and a ball, one surface
+  const BodySpec& finger = gripper.link("left_finger").body;
+  CHECK(finger.shape->parts().size() == 2);
+  CHECK(finger.shape->bounds().high.z() == doctest::Approx(0.07));
+  CHECK_FALSE(finger.appearance.visual);
+}
+
+TEST_CASE("a mirrored mesh still faces outward") {
+  const Told gripper(gripper_file, with_package());
+  const ShapePtr shape = gripper.link("right_finger").body.shape;
+  CHECK(shape->closed());
+  CHECK(shape->solid().volume == doctest::Approx(0.008 * 0.02 * 0.06));
+}
+
+TEST_CASE("an inertia is turned into the frame of its link") {
+  const Told gripper(gripper_file, with_package());
+  const BodySpec& palm = gripper.link("palm").body;
+  CHECK(palm.mass == 0.5);
+  REQUIRE(palm.com);
+  CHECK(palm.com->z() == 0.02);
+  REQUIRE(palm.inertia_per_mass);
+  // a quarter turn about z exchanges the moments about x and y
+  CHECK((*palm.inertia_per_mass)(0, 0) == doctest::Approx(2e-4 / 0.5));
+  CHECK((*palm.inertia_per_mass)(1, 1) == doctest::Approx(4e-4 / 0.5));
+}
+
+TEST_CASE("links without a mass weigh what water of their volume does, which is told") {
+  const Told gripper(gripper_file, with_package());
+  CHECK(gripper.link("right_finger").body.mass == doctest::Approx(1000 * 0.008 * 0.02 * 0.06));
+  CHECK(gripper.noted("weigh what their volume of water does: 'left_finger', 'right_finger'"));
+}
+
+TEST_CASE("elements that are not used are told once for each kind") {
+  const Told gripper(gripper_file, with_package());
+  CHECK(gripper.warned("<gazebo> is not used, nor is another one"));
+  CHECK(gripper.warned("<transmission> is not used"));
+  CHECK(gripper.warnings.size() == 2);
+}
+
+TEST_CASE("a joint that mimics is of its leader's DOF, its offset a constant part") {
+  TemporaryFolder folder;
+  const auto file =
+      folder.write("a.urdf", R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+<joint name="lead" type="revolute"><parent link="a"/><child link="b"/><limit lower="0" upper="1" effort="1" velocity="1"/></joint>
+<joint name="next" type="revolute"><parent link="b"/><child link="c"/><limit lower="-1" upper="3" effort="1" velocity="1"/>
+<mimic joint="lead" multiplier="2" offset="0.5"/></joint></robot>)");
+  const Told told(file);
+  REQUIRE(told.robot.dofs.size() == 1);
+  const JointSpec& next = told.joint("next");
+  CHECK(next.dof == 0);
+  CHECK(next.ratio == 2);
+  CHECK(next.theta == 0.5);
+  CHECK(next.min == -1.5);
+  CHECK(next.max == 2.5);
+  const auto [low, high] = dof_range(told.robot, 0);
+  CHECK(low == 0);
+  CHECK(high == 1);
+  CHECK(told.warnings.empty());
+}
+
+TEST_CASE("limits of a follower that would hold its leader are not used, which is told") {
+  TemporaryFolder folder;
+  const auto file =
+      folder.write("a.urdf", R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+<joint name="lead" type="revolute"><parent link="a"/><child link="b"/><limit lower="0" upper="0.8" effort="1" velocity="1"/></joint>
+<joint name="next" type="revolute"><parent link="a"/><child link="c"/><limit lower="0" upper="0.8" effort="1" velocity="1"/>
+<mimic joint="lead" multiplier="-1"/></joint></robot>)");
+  const Told told(file);
+  const auto [low, high] = dof_range(told.robot, 0);
+  CHECK(low == 0);
+  CHECK(high == doctest::Approx(0.8));
+  CHECK(
+      told.warned("a.urdf:3: joint 'next' follows 'lead' from -0.8 to 0, and its own limits [0, "
+                  "0.8] would stop that; they are not used"));
+}
+
+TEST_CASE("a follower of a follower follows the first") {
+  TemporaryFolder folder;
+  const auto file = folder.write(
+      "a.urdf", R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+<joint name="third" type="continuous"><parent link="c"/><child link="d"/><mimic joint="second" multiplier="2" offset="1"/></joint>
+<joint name="second" type="continuous"><parent link="b"/><child link="c"/><mimic joint="first" multiplier="3" offset="0.25"/></joint>
+<joint name="first" type="continuous"><parent link="a"/><child link="b"/></joint></robot>)");
+  const Told told(file);
+  REQUIRE(told.robot.dofs.size() == 1);
+  CHECK(told.joint("third").ratio == 6);
+  CHECK(told.joint("third").theta == 1.5);
+}
+
+TEST_CASE("a follower that does not follow stays at its offset") {
+  TemporaryFolder folder;
+  const auto file =
+      folder.write("a.urdf", R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+<joint name="lead" type="continuous"><parent link="a"/><child link="b"/></joint>
+<joint name="stays" type="continuous"><parent link="b"/><child link="c"/><axis xyz="0 0 1"/>
+<mimic joint="lead" multiplier="0" offset="0.5"/></joint></robot>)");
+  const Told told(file);
+  CHECK(told.robot.chains[0].joints.size() == 1);
+  REQUIRE(told.link("c").X_JL);
+  CHECK(told.link("c").X_JL->angle() == doctest::Approx(0.5));
+  CHECK(told.warned("joint 'stays': its multiplier is 0; it stays at 0.5"));
+}
+
+TEST_CASE("joints without limits may go a full turn or a metre either way, which is told") {
+  TemporaryFolder folder;
+  const Told turns(folder.write("a.urdf", two_links("", "type='continuous'")));
+  CHECK(turns.joint("j").max == doctest::Approx(2 * pi));
+  CHECK(turns.noted("joint 'j' turns without end; it may go from -6.283 to 6.283 rad"));
+  const Told slides(folder.write("a.urdf", two_links("", "type='prismatic'")));
+  CHECK(slides.joint("j").min == -1);
+  CHECK(slides.noted("joint 'j' has no limits; it may go from -1 to 1 m"));
+}
+
+TEST_CASE("floating and planar joints stay, which is told") {
+  TemporaryFolder folder;
+  for (const std::string type : {"floating", "planar"}) {
+    const Told told(
+        folder.write("a.urdf", two_links("", "type='" + type + "'", "<origin xyz='1 2 3'/>")));
+    CHECK(told.robot.dofs.empty());
+    CHECK(told.robot.chains[0].X_BC.position == Eigen::Vector3d(1, 2, 3));
+    CHECK(told.warned("joint 'j' is " + type + "; its link stays where the file puts it"));
+  }
+}
+
+TEST_CASE("where no link has geometry to collide with, that for pictures serves") {
+  TemporaryFolder folder;
+  const Told told(folder.write(
+      "a.urdf", two_links("<visual><geometry><box size='1 1 1'/></geometry></visual>")));
+  CHECK(told.robot.base.shape);
+  CHECK_FALSE(told.robot.base.appearance.visual);
+  CHECK(told.noted("that for pictures is used for both"));
+}
+
+TEST_CASE("a link with geometry for pictures only collides with nothing, which is told") {
+  TemporaryFolder folder;
+  const Told told(folder.write("a.urdf", R"(<robot name="r">
+<link name="a"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+<link name="b"><visual><geometry><sphere radius="1"/></geometry></visual></link>
+<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>)"));
+  CHECK_FALSE(told.link("b").body.shape);
+  CHECK(told.link("b").body.appearance.visual);
+  CHECK(told.noted("pictures only collide with nothing: 'b'"));
+}
+
+TEST_CASE("a missing mesh for pictures is told, and not drawn") {
+  TemporaryFolder folder;
+  const Told told(folder.write(
+      "a.urdf", two_links("<visual><geometry><mesh filename='x.stl'/></geometry></visual>")));
+  CHECK(told.warned("a.urdf:1: mesh: no such file: x.stl; it is not drawn"));
+  CHECK_FALSE(told.robot.base.appearance.visual);
+}
+
+TEST_CASE("a wrong inertia is told and does not keep the robot from its work") {
+  TemporaryFolder folder;
+  const auto inertial = [](const std::string& mass, const std::string& ixx) {
+    return two_links("<inertial><mass value='" + mass + "'/><inertia ixx='" + ixx +
+                     "' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>"
+                     "<collision><geometry><box size='0.1 0.1 0.1'/></geometry></collision>");
+  };
+  const Told negative(folder.write("a.urdf", inertial("1", "-1")));
+  CHECK(
+      negative.warned("a.urdf:1: inertia that is not positive definite; it is computed from the "
+                      "geometry: 'a'"));
+  CHECK_FALSE(negative.robot.base.inertia_per_mass);
+  CHECK(negative.robot.base.mass == 1);
+  const Told impossible(folder.write("a.urdf", inertial("1", "3")));
+  CHECK(impossible.warned("inertia that no body has"));
+  const Told weightless(folder.write("a.urdf", inertial("0", "1")));
+  CHECK(
+      weightless.warned("a.urdf:1: mass: value: wanted a mass > 0, got 0; the inertial of link "
+                        "'a' is not used"));
+  CHECK(weightless.robot.base.mass == doctest::Approx(1));
+  const Told nonsense(folder.write("a.urdf", inertial("1", "nan")));
+  CHECK(nonsense.warned("inertia: ixx: wanted a number, got 'nan'"));
+}
+
+TEST_CASE("a package is found by option, by its name above the file, or by what lies in it") {
+  TemporaryFolder folder;
+  const std::string obj = read_text("tests/data/urdf/finger.obj");
+  const std::string urdf = two_links(
+      "<collision><geometry><mesh filename='package://my_hand/meshes/part.obj' scale='0.001 0.001 "
+      "0.001'/></geometry></collision>");
+  const auto shape = [](const Told& told) { return told.robot.base.shape->solid().volume; };
+  const double volume = 0.008 * 0.02 * 0.06;
+
+  folder.write("elsewhere/part_of/my_hand/meshes/part.obj", obj);
+  const auto away = folder.write("away/robot.urdf", urdf);
+  CHECK_THROWS_AS(read_robot(away), Error);
+  ReadOptions options;
+  options.packages["my_hand"] = folder.path() / "elsewhere/part_of/my_hand";
+  CHECK(shape(Told(away, options)) == doctest::Approx(volume));
+  options.packages = {{"", folder.path() / "elsewhere/part_of"}};
+  CHECK(shape(Told(away, options)) == doctest::Approx(volume));
+  options.packages = {{"", folder.path() / "elsewhere/part_of/my_hand"}};
+  CHECK(shape(Told(away, options)) == doctest::Approx(volume));
+
+  const auto within = folder.write("elsewhere/part_of/my_hand/urdf/robot.urdf", urdf);
+  CHECK(shape(Told(within)) == doctest::Approx(volume));
+
+  folder.write("copied/meshes/part.obj", obj);
+  const Told guessed(folder.write("copied/robot.urdf", urdf));
+  CHECK(shape(guessed) == doctest::Approx(volume));
+  CHECK(guessed.noted("robot.urdf: package 'my_hand' is taken to be "));
+}
+
+TEST_CASE("names count from the folder of the call, too") {
+  TemporaryFolder folder;
+  const auto file = folder.write("deep/down/a.urdf",
+                                 two_links("<collision><geometry><mesh filename='finger.obj' "
+                                           "scale='0.001 0.001 0.001'/></geometry></collision>"));
+  ReadOptions options;
+  options.folder = "tests/data/urdf";
+  CHECK(Told(file, options).robot.base.shape);
+}
+
+TEST_CASE("a URDF by another ending is known by what it holds") {
+  TemporaryFolder folder;
+  CHECK(Told(folder.write("a.xml", two_links(""))).robot.name == "r");
+  CHECK_FALSE(
+      looks_like_urdf("<robot type='Hand'><palm>p.xml</palm><chain><link>l.xml</link>"
+                      "</chain></robot>"));
+}
+
+TEST_CASE("limits of zero width make a DOF that stays") {
+  TemporaryFolder folder;
+  const Told told(folder.write(
+      "a.urdf", two_links("", "type='revolute'",
+                          "<limit lower='0.5' upper='0.5' effort='1' velocity='1'/>")));
+  CHECK(dof_range(told.robot, 0)[0] == 0.5);
+  CHECK(told.robot.dofs[0].default_velocity == 0);
+}
