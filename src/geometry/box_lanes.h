@@ -65,12 +65,21 @@ CLENCH_INLINE BoxOf<Real> load_box(const BoxBundle& from, int lane) {
 
 template <class Real>
 CLENCH_INLINE BoxOf<Real> moved(const BoxOf<Real>& box, const Move<Real>& move) {
+  // columns of the rotation as vectors of four
+  typedef Real Column __attribute__((vector_size(4 * sizeof(Real))));
+  const auto& r = move.row;
+  const auto& o = move.offset;
+  const Column x = {r[0].x, r[1].x, r[2].x, 0}, y = {r[0].y, r[1].y, r[2].y, 0},
+               z = {r[0].z, r[1].z, r[2].z, 0};
   BoxOf<Real> out;
   for (int k = 0; k < 3; ++k) {
-    out.axis[k] = move.turned(box.axis[k]);
+    const Column axis = x * box.axis[k].x + y * box.axis[k].y + z * box.axis[k].z;
+    out.axis[k] = {axis[0], axis[1], axis[2]};
     out.half[k] = box.half[k];
   }
-  out.centre = move(box.centre);
+  const Column centre =
+      x * box.centre.x + y * box.centre.y + z * box.centre.z + Column{o.x, o.y, o.z, 0};
+  out.centre = {centre[0], centre[1], centre[2]};
   return out;
 }
 

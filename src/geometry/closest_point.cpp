@@ -18,12 +18,13 @@ ClosestPoint closest_point(const Shape& shape, const Vector3d& p, int seed) {
     if (c.distance < best.distance || best.triangle < 0 ||
         (c.distance == best.distance && triangle < best.triangle))
       best = {c.distance, c.q, triangle};
-    return false;
   };
   if (shape.has_triangle(seed)) visit(seed);
   const Vector3d from = p - Vector3d::Map(shape.tree().centre());
-  for_near_triangles(shape.tree(), from.data(), rounding_of(shape.bounds(), p), best.distance,
-                     visit);
+  std::vector<int> near;
+  find_near_triangles(shape.tree(), from.data(), rounding_of(shape.bounds(), p), best.distance,
+                      true, near);
+  for (const int triangle : near) visit(triangle);
   return best;
 }
 

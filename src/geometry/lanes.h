@@ -168,6 +168,14 @@ using FloatLanes = Lanes<float, 4>;
 using DoubleLanes = Lanes<double, 2>;
 #endif
 
+/// bit i where number i is not negative: bundles fill the lanes that they do not use with -1
+CLENCH_INLINE unsigned used_lanes(const int32_t* numbers) {
+  FloatLanes::Mask negative;
+  std::memcpy(&negative, numbers, sizeof negative);
+  for (auto& bits : negative.bits) bits = bits < 0;
+  return ~negative.set() & 0xff;
+}
+
 /// A vector in each lane, or one alone when F is a number.
 template <class F>
 struct Triple {

@@ -14,7 +14,7 @@ std::vector<TrianglePair> pairs_within(const Shape& a, const Shape& b, const Pos
     fail("pairs_within: threshold must be a number [m], got {}", threshold);
   const Placement placement(a, b, X_AB);
   std::vector<NearPair> near;
-  find_near_pairs(placement.trees(), Reach{threshold}, false, near, [](int, int) { return false; });
+  find_pairs_within(placement.trees(), threshold, near);
   std::vector<TrianglePair> out;
   placement.measure(near, [&](const NearPair& pair, const Closest& c) {
     if (c.distance < threshold)

@@ -50,8 +50,15 @@ class PairWalk {
         a_to_b_(back_of<Real>(pair)),
         slack_(slack_of<Real>(extent, a_.radius() + b_.radius(), pair.rounding)) {}
 
-  bool near(const Reach& reach, bool nearest_only, std::vector<NearPair>& out, PairVisit meet) {
-    task_ = nearest_only ? Wanted::nearest : Wanted::within;
+  void within(double reach, std::vector<NearPair>& out) {
+    task_ = Wanted::within;
+    limit_to(at_least<Real>(reach) + slack_);
+    run([](int, int) { return false; });
+    for (const Found& found : found_) out.push_back(found.pair);
+  }
+
+  bool nearest(const Reach& reach, std::vector<NearPair>& out, PairVisit meet) {
+    task_ = Wanted::nearest;
     limit_to(at_least<Real>(reach.distance) + slack_);
     const double *n = reach.along, length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (length > 1e-150)
@@ -59,7 +66,7 @@ class PairWalk {
              static_cast<Real>(n[2] / length)});
     if (run(meet)) return true;
     for (const Found& found : found_)
-      if (!nearest_only || !(found.low > limit_)) out.push_back(found.pair);
+      if (!(found.low > limit_)) out.push_back(found.pair);
     return false;
   }
 
@@ -130,8 +137,7 @@ class PairWalk {
     const BoxBundle& from = tree.boxes(bundle);
     const BoxOf<F> eight = load_boxes<F>(from);
     const BoxOf<Real> one = moved(load_box<Real>(other.boxes(box / 8), box % 8), move);
-    unsigned used = 0;
-    for (int lane = 0; lane < 8; ++lane) used |= (from.child[lane] >= 0 ? 1u : 0u) << lane;
+    unsigned used = used_lanes(from.child);
     if (guided_) {
       // from the eight to the one, or the other way
       const Real one_near = dot(one.centre, along) - sense * shadow(one, along);
@@ -189,12 +195,6 @@ class PairWalk {
     uint8_t row[8];
   };
 
-  static unsigned used(const TriangleBundle& leaf) {
-    unsigned out = 0;
-    for (int lane = 0; lane < 8; ++lane) out |= (leaf.triangle[lane] >= 0 ? 1u : 0u) << lane;
-    return out;
-  }
-
   // drops what is out of reach
   void sift(Rows& rows) const {
     const Side &a = side_a_, &b = side_b_;
@@ -219,7 +219,7 @@ class PairWalk {
 
   Rows all_pairs(const TriangleBundle& a, const TriangleBundle& b) const {
     Rows rows;
-    const unsigned lanes_a = used(a), lanes_b = used(b);
+    const unsigned lanes_a = used_lanes(a.triangle), lanes_b = used_lanes(b.triangle);
     for (int i = 0; i < 8; ++i) rows.row[i] = static_cast<uint8_t>(lanes_a >> i & 1 ? lanes_b : 0);
     return rows;
   }
@@ -301,8 +301,9 @@ class PairWalk {
     int best = __builtin_ctz(taken);
     for (unsigned rest = taken; rest; rest &= rest - 1)
       if (high[__builtin_ctz(rest)] < high[best]) best = __builtin_ctz(rest);
-    if (!(high[best] + 2 * slack_ < limit_)) return;
-    limit_to(high[best] + 2 * slack_);
+    const Real least = high[best] + 2 * slack_;
+    if (!(least < limit_)) return;
+    limit_to(least);
     Real x[8], y[8], z[8];
     bounds.way.x.store(x), bounds.way.y.store(y), bounds.way.z.store(z);
     if (high[best] > slack_)
@@ -348,9 +349,13 @@ bool in_precision(const TreePair& pair, Walk&& walk) {
 
 }  // namespace
 
-bool find_near_pairs(const TreePair& pair, const Reach& reach, bool nearest_only,
-                     std::vector<NearPair>& out, PairVisit meet) {
-  return in_precision(pair, [&](auto& walk) { return walk.near(reach, nearest_only, out, meet); });
+void find_pairs_within(const TreePair& pair, double reach, std::vector<NearPair>& out) {
+  in_precision(pair, [&](auto& walk) { return walk.within(reach, out), false; });
+}
+
+bool find_nearest_pairs(const TreePair& pair, const Reach& reach, std::vector<NearPair>& out,
+                        PairVisit meet) {
+  return in_precision(pair, [&](auto& walk) { return walk.nearest(reach, out, meet); });
 }
 
 bool for_meeting_pairs(const TreePair& pair, PairVisit visit) {

@@ -14,6 +14,17 @@ double rounding_of(const Bounds& bounds, const Vector3d& p) {
   return 256 * std::numeric_limits<double>::epsilon() * reach.maxCoeff();
 }
 
+double motion_bound(const Shape& b, const Pose& from, const Pose& to) {
+  const Eigen::Matrix3d before = from.rotation.normalized().toRotationMatrix(),
+                        after = to.rotation.normalized().toRotationMatrix();
+  const Vector3d centre = (after - before) * b.centre() + (to.position - from.position);
+  // a turn by t moves points by 2 sin(t/2) of their distance from the centre, and the difference of
+  // the matrices has that times the root of 2 as its norm
+  const double turn = (after - before).norm() * std::sqrt(0.5);
+  return (centre.norm() + turn * b.radius()) * (1 + 1e-12) +
+         rounding_of(b.bounds(), from.position) + rounding_of(b.bounds(), to.position);
+}
+
 Placement::Placement(const Shape& a, const Shape& b, const Pose& X_AB)
     : mesh_a_(a.mesh()),
       mesh_b_(b.mesh()),

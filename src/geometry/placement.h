@@ -14,6 +14,14 @@ namespace clench {
 /// What rounding may add to a distance between things within the bounds, or at p or as far away [m]
 double rounding_of(const Bounds& bounds, const Eigen::Vector3d& p);
 
+/// of a pair of shapes: equal for equal meshes in the same order
+inline uint64_t fingerprint(const Shape& a, const Shape& b) {
+  return Hasher::mix(a.hash()) ^ b.hash();
+}
+
+/// No point of b moves more between the two poses of it, rounding of coordinates included [m]
+double motion_bound(const Shape& b, const Pose& from, const Pose& to);
+
 /// All pair queries move corners by the same arithmetic.
 class Placement {
  public:

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "geometry/box_lanes.h"
 #include "geometry/precision.h"
@@ -22,16 +23,10 @@ Triple<Real> triple(const double v[3]) {
   return {static_cast<Real>(v[0]), static_cast<Real>(v[1]), static_cast<Real>(v[2])};
 }
 
-inline unsigned used_lanes(const int32_t* numbers) {
-  unsigned out = 0;
-  for (int lane = 0; lane < 8; ++lane) out |= (numbers[lane] >= 0 ? 1u : 0u) << lane;
-  return out;
-}
-
-// Depth first, the child of least bound on top. bounds(bundle) gives eight; judge(leaf) a mask of
-// triangles and their bounds; limit() may sink as triangles are visited.
+// Depth first, the child of least bound on top. bounds(boxes) gives eight of them; judge(leaf) ends the
+// walk by returning true; limit() may sink on the way.
 template <class F, class Bounds, class Judge, class Limit>
-bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit, TriangleVisit visit) {
+bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
   using Real = typename F::Real;
   Task<Real> stack[8 * deepest_tree];
   int height = 0;
@@ -41,18 +36,7 @@ bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit, Trian
     const Task<Real> task = stack[--height];
     if (task.bound > limit()) continue;
     if (task.child & 1) {
-      const TriangleBundle& leaf = tree.leaf(task.child >> 1);
-      unsigned left = judge(leaf, values) & used_lanes(leaf.triangle);
-      while (left) {
-        int best = __builtin_ctz(left);
-        for (unsigned rest = left & (left - 1); rest; rest &= rest - 1) {
-          const int k = __builtin_ctz(rest);
-          if (!(values[k] >= values[best])) best = k;
-        }
-        left &= ~(1u << best);
-        if (values[best] > limit()) continue;
-        if (visit(leaf.triangle[best])) return true;
-      }
+      if (judge(tree.leaf(task.child >> 1))) return true;
       continue;
     }
     const BoxBundle& from = tree.boxes(task.child >> 1);
@@ -73,20 +57,37 @@ bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit, Trian
 double length_of(const double v[3]) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 template <class F>
-bool near_point(const Tree& tree, const double at[3], double extent, double rounding,
-                const double& reach, TriangleVisit visit) {
+void near_point(const Tree& tree, const double at[3], double extent, double rounding, double reach,
+                bool nearest_only, std::vector<int>& out) {
   using Real = typename F::Real;
+  struct Found {
+    Real low;
+    int triangle;
+  };
+  std::vector<Found> found;
+  found.reserve(32);
   const Triple<Real> p = triple<Real>(at);
   const Real slack = slack_of<Real>(extent, tree.radius(), rounding);
-  const auto limit = [&] { return at_least<Real>(reach) + slack; };
-  return walk<F>(
-      tree, [&](const BoxOf<F>& eight) { return point_gaps(eight, p); },
-      [&](const TriangleBundle& leaf, Real* values) {
-        const F bounds = point_bounds(load_triangles<F>(leaf), p);
-        bounds.store(values);
-        return ~(bounds > limit()).set();
-      },
-      limit, visit);
+  Real limit = at_least<Real>(reach) + slack;
+  const auto judge = [&](const TriangleBundle& leaf) {
+    const PointBounds<F> bounds = point_bounds(load_triangles<F>(leaf), p);
+    Real low[8], high[8];
+    bounds.low.store(low), bounds.high.store(high);
+    if (nearest_only)
+      for (const Real h : high)
+        if (h + 2 * slack < limit) limit = h + 2 * slack;
+    for (unsigned left = used_lanes(leaf.triangle) & ~(bounds.low > limit).set(); left;
+         left &= left - 1) {
+      const int k = __builtin_ctz(left);
+      found.push_back({low[k], leaf.triangle[k]});
+    }
+    return false;
+  };
+  walk<F>(
+      tree, [&](const BoxOf<F>& eight) { return point_gaps(eight, p); }, judge,
+      [&] { return limit; });
+  for (const Found& f : found)
+    if (!(f.low > limit)) out.push_back(f.triangle);
 }
 
 // Where a ray enters eight boxes grown by slack, at least 0; infinity where it misses.
@@ -152,25 +153,32 @@ bool crossed_by_ray(const Tree& tree, const double from[3], const double towards
   const auto limit = [&] {
     return std::min(at_least<Real>(most - passed) + slack, std::numeric_limits<Real>::max());
   };
+  const auto judge = [&](const TriangleBundle& leaf) {
+    F begin;
+    unsigned left = crossed(load_triangles<F>(leaf), origin, direction, slack, begin) &
+                    used_lanes(leaf.triangle);
+    Real begins[8];
+    begin.store(begins);
+    for (; left; left &= left - 1) {
+      const int k = __builtin_ctz(left);
+      if (!(begins[k] > limit()) && visit(leaf.triangle[k])) return true;
+    }
+    return false;
+  };
   return walk<F>(
-      tree, [&](const BoxOf<F>& eight) { return ray_gaps(eight, origin, direction, slack); },
-      [&](const TriangleBundle& leaf, Real* values) {
-        F begin;
-        const unsigned met = crossed(load_triangles<F>(leaf), origin, direction, slack, begin);
-        begin.store(values);
-        return met & ~(begin > limit()).set();
-      },
-      limit, visit);
+      tree, [&](const BoxOf<F>& eight) { return ray_gaps(eight, origin, direction, slack); }, judge,
+      limit);
 }
 
 }  // namespace
 
-bool for_near_triangles(const Tree& tree, const double p[3], double rounding, const double& reach,
-                        TriangleVisit visit) {
+void find_near_triangles(const Tree& tree, const double p[3], double rounding, double reach,
+                         bool nearest_only, std::vector<int>& out) {
   const double extent = length_of(p) + tree.radius();
-  return single_is_enough(extent, tree.radius())
-             ? near_point<FloatLanes>(tree, p, extent, rounding, reach, visit)
-             : near_point<DoubleLanes>(tree, p, extent, rounding, reach, visit);
+  if (single_is_enough(extent, tree.radius()))
+    near_point<FloatLanes>(tree, p, extent, rounding, reach, nearest_only, out);
+  else
+    near_point<DoubleLanes>(tree, p, extent, rounding, reach, nearest_only, out);
 }
 
 bool for_crossed_triangles(const Tree& tree, const double origin[3], const double direction[3],

@@ -3,6 +3,7 @@
 // collides. All throw Error when a number is missing or infinite or a quaternion is not unit.
 #pragma once
 #include <Eigen/Core>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -12,11 +13,19 @@
 
 namespace clench {
 
+/// Where a pair was last measured: what moved less since than they were apart has not met.
+struct PairMeasure {
+  uint64_t shapes = 0;  ///< fingerprint of both
+  Pose X_AB;
+  double clear = 0;  ///< the solids were at least this far apart; 0 when unknown [m]
+};
+
 /// What a pair of shapes remembers between queries. It changes how fast an answer comes, never the
 /// verdict nor the distance, to the bit; of several pairs equally near it may choose the witness.
 struct PairCache {
   int closest_a = -1, closest_b = -1;  ///< triangles of the last closest pair
   int hit_a = -1, hit_b = -1;          ///< triangles of the last intersection
+  PairMeasure measured = {};
 };
 
 /// Do the shapes touch or overlap?

@@ -172,9 +172,15 @@ CLENCH_INLINE unsigned within_reach(const TrianglesOf<F>& a, const TrianglesOf<F
   return wanted;
 }
 
-/// Lower bounds of the distances of a point from eight triangles, as nearest_bounds.
+/// What of the distances of a point from eight triangles is sure, up to slack.
 template <class F>
-CLENCH_INLINE F point_bounds(const TrianglesOf<F>& t, const Triple<typename F::Real>& p) {
+struct PointBounds {
+  F low, high;  ///< low is not a number where single precision does not tell
+};
+
+template <class F>
+CLENCH_INLINE PointBounds<F> point_bounds(const TrianglesOf<F>& t,
+                                          const Triple<typename F::Real>& p) {
   const F zero = F::all(0), one = F::all(1);
   Triple<F> to[3], edge[3];
   for (int k = 0; k < 3; ++k)
@@ -193,9 +199,14 @@ CLENCH_INLINE F point_bounds(const TrianglesOf<F>& t, const Triple<typename F::R
   const lanes_detail::Face<F> face(to[0], edge[0], edge[2]);
   typename F::Mask inside;
   const Triple<F> d = face.to_foot({zero, zero, zero}, inside);
-  best = select(inside & (dot(d, d) < least), d, best);
-  const F low = min(min(dot(to[0], best), dot(to[1], best)), dot(to[2], best));
-  return low / sqrt(dot(best, best));
+  const F squared = dot(d, d);
+  const auto nearer = inside & (squared < least);
+  least = select(nearer, squared, least);
+  best = select(nearer, d, best);
+  PointBounds<F> out;
+  out.high = sqrt(least);
+  out.low = min(min(dot(to[0], best), dot(to[1], best)), dot(to[2], best)) / out.high;
+  return out;
 }
 
 }  // namespace clench

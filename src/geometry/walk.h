@@ -33,18 +33,21 @@ struct NearPair {
   int triangle_a, triangle_b;
 };
 
-/// Finds all pairs of triangles that may be as near as the reach; of these, if nearest_only, all that
-/// may be the nearest. Then those that may meet are shown to `meet` on the way, which ends the walk
-/// by returning true.
-bool find_near_pairs(const TreePair& pair, const Reach& reach, bool nearest_only,
-                     std::vector<NearPair>& out, PairVisit meet);
+/// Finds all pairs of triangles that may be as near as the reach.
+void find_pairs_within(const TreePair& pair, double reach, std::vector<NearPair>& out);
+
+/// Finds all pairs of triangles within the reach that may be the nearest. Those that may meet are shown
+/// to `meet` on the way, which ends the walk by returning true.
+bool find_nearest_pairs(const TreePair& pair, const Reach& reach, std::vector<NearPair>& out,
+                        PairVisit meet);
 
 /// Visits all pairs of triangles that may meet, likely ones early.
 bool for_meeting_pairs(const TreePair& pair, PairVisit visit);
 
-/// Visits all triangles that may be as near to p (about the tree's centre) as `reach` [m].
-bool for_near_triangles(const Tree& tree, const double p[3], double rounding, const double& reach,
-                        TriangleVisit visit);
+/// Finds all triangles that may be as near to p (about the tree's centre) as reach [m]; of these, if
+/// nearest_only, all that may be the nearest.
+void find_near_triangles(const Tree& tree, const double p[3], double rounding, double reach,
+                         bool nearest_only, std::vector<int>& out);
 
 /// Visits all triangles that a ray may meet within `limit` [m], near ones early.
 /// direction  unit
