@@ -17,10 +17,13 @@ struct NamedFiles {
 };
 
 /// Reads them into the robot, whose DOFs, chains and links are known by now; `path` is its own file.
-/// The options' own eigengrasps and virtual contacts replace those of the
-/// file. A named file that does not exist is a warning.
-/// throws Error  "Barrett.cfg:83: a.egr:5: ..." when one is malformed or does not fit the robot
+/// Those that the options choose are left out. A named file that does not exist is a warning.
+/// throws Error  "Barrett.cfg:83: EigenGrasps: a.egr:5: ..." when one is malformed or does not fit
 void read_robot_files(RobotSpec& robot, const NamedFiles& names, const std::filesystem::path& path,
                       const ReadOptions& options);
+
+/// Reads those that the options choose, for a robot of any format.
+/// throws Error when one does not exist, is malformed or does not fit
+void read_chosen_files(RobotSpec& robot, const ReadOptions& options);
 
 }  // namespace clench

@@ -24,8 +24,8 @@ struct Motion {
 
 /// A small piece of surface that moves forward.
 struct Piece {
-  Vector3d centre, normal;
-  double swept;  // volume in unit time
+  Vector3d centre, normal;  // centre of what it sweeps
+  double swept;             // volume in unit time
 };
 
 constexpr double fineness = 1.0 / 16;  // longest edge of a piece, of the mesh's size
@@ -76,9 +76,15 @@ void cut(const std::array<Vector3d, 3>& corners, const Vector3d& normal, const M
       cut(part, normal, motion, longest, depth + 1, pieces);
     return;
   }
-  const Vector3d centre = (a + b + c) / 3;
-  const double swept = 0.5 * (b - a).cross(c - a).norm() * normal.dot(motion.at(centre));
-  if (swept > 0) pieces.push_back({centre, normal, swept});
+  // what is swept grows linearly over a triangle: its sum and its centre are exact, unless part of the
+  // triangle moves backward
+  Vector3d speeds;
+  for (int i = 0; i < 3; ++i) speeds[i] = std::max(0.0, normal.dot(motion.at(corners[i])));
+  const double all = speeds.sum(), swept = 0.5 * (b - a).cross(c - a).norm() * all / 3;
+  if (!(swept > 0)) return;
+  const Vector3d centre =
+      0.25 * (a + b + c + (speeds[0] * a + speeds[1] * b + speeds[2] * c) / all);
+  pieces.push_back({centre, normal, swept});
 }
 
 std::vector<Piece> forward_pieces(const Shape& shape, const Motion& motion) {

@@ -3,6 +3,7 @@
 #include "base/suggest.h"
 #include "motion/drive.h"
 #include "script/bind_body.h"
+#include "script/bind_hand.h"
 #include "script/guard.h"
 #include "script/push.h"
 #include "script/read_spec.h"
@@ -96,10 +97,41 @@ static Eigen::VectorXd check_dofs(lua_State* L, int i, const Robot& robot) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<int>(values.size()));
 }
 
+// rows {chain, joint, value} of joints that have broken away
+static std::vector<std::vector<Breakaway>> check_broken(Table& options, const Robot& robot) {
+  std::vector<std::vector<Breakaway>> out;
+  for (const Chain& chain : robot.chains) out.emplace_back(chain.joints.size());
+  for (const auto& row : options.rows("broken_away", 3)) {
+    const auto number = [&](double x, size_t count, const char* what) {
+      if (!(x >= 1 && x <= static_cast<double>(count) && x == std::floor(x)))
+        fail("{}: broken_away: wanted a {} from 1 to {}, got {}", options.subject(), what, count,
+             x);
+      return static_cast<size_t>(x) - 1;
+    };
+    const size_t c = number(row[0], out.size(), "chain");
+    const size_t j = number(row[1], out[c].size(), "joint");
+    const JointSpec& joint = robot.chains[c].joints[j];
+    if (!(row[2] >= joint.min - 1e-9 && row[2] <= joint.max + 1e-9))
+      fail("{}: broken_away: joint {} of chain {}: wanted a value in [{}, {}], got {}",
+           options.subject(), j + 1, c + 1, joint.min, joint.max, row[2]);
+    out[c][j] = row[2];
+  }
+  return out;
+}
+
 static int set_dofs(lua_State* L) {
-  check_count(L, 1);
+  check_count(L, 2);
   const auto& robot = self<RobotHandle>(L);
-  robot.world->set_dofs(robot.id, check_dofs(L, 2, *robot));
+  const Eigen::VectorXd values = check_dofs(L, 2, *robot);
+  Table options(L, 3);
+  std::vector<std::vector<Breakaway>> broken;
+  if (options.has("broken_away")) broken = check_broken(options, *robot);
+  options.done();
+  robot.world->set_dofs(robot.id, values);
+  if (!broken.empty()) {
+    const Eigen::VectorXd q = robot->q;
+    robot.world->set_dofs_unchecked(robot.id, q, broken);
+  }
   return 0;
 }
 
@@ -189,7 +221,7 @@ static const char* stop_name(DofStop stop) {
   return names[static_cast<int>(stop)];
 }
 
-static int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result) {
+int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result) {
   push_list(L, 0, 5);
   set_field(L, "moved", result.moved);
   push_list_of(L, result.stops, [&](DofStop stop) { push(L, stop_name(stop)); });
@@ -352,8 +384,10 @@ A link, or the base, by its name, whole or without the robot's.
 > hand:link "chain0_link2" == hand.chains[1].links[3]  --> true
 > hand:link "chain9_link0"  --> error: has no link)"},
     {"set_dofs", guarded<set_dofs>, R"(
-Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away follow again.
+Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away follow again, but
+for those that the options name by chain, joint and the value at which they stand [rad or m].
 @param values number[]  within the limits [rad or m]
+@param options? {broken_away?: number[][]}  rows {chain, joint, value}
 > hand:set_dofs{1, 2, 3}  --> error: wanted 12 DOF values, got 3)"},
     {"move_dofs", guarded<move_dofs>, R"(
 Drives all DOFs in proportion towards values, until contact stops them.
@@ -404,6 +438,6 @@ const Class robot_class{.name = "robot",
                         .fields = fields,
                         .methods = methods,
                         .operators = operators,
-                        .parent = &thing_class};
+                        .parent = &hand_class};
 
 }  // namespace clench

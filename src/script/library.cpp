@@ -3,8 +3,11 @@
 #include "script/bind_body.h"
 #include "script/bind_catalog.h"
 #include "script/bind_contact.h"
+#include "script/bind_eigengrasps.h"
 #include "script/bind_entries.h"
+#include "script/bind_files.h"
 #include "script/bind_grasp.h"
+#include "script/bind_hand.h"
 #include "script/bind_json.h"
 #include "script/bind_log.h"
 #include "script/bind_mesh.h"
@@ -13,6 +16,7 @@
 #include "script/bind_render.h"
 #include "script/bind_units.h"
 #include "script/bind_vec3.h"
+#include "script/bind_virtual_contact.h"
 #include "script/handles.h"
 
 namespace clench {
@@ -31,6 +35,8 @@ std::span<const Library* const> all_libraries() {
       &log_library,
       &world_library,
       &grasp_library,
+      &eigengrasps_library,
+      &files_library,
       &render_library,
   };
   return libraries;
@@ -46,7 +52,10 @@ std::span<const Class* const> all_classes() {
       &thing_class,
       &body_class,
       &mesh_class,
+      &hand_class,
       &robot_class,
+      &eigengrasps_class,
+      &virtual_contact_class,
       &contact_class,
       &grasp_class,
       &wrench_space_class,

@@ -1,0 +1,284 @@
+#include "script/bind_hand.h"
+
+#include "io/virtual_contacts.h"
+#include "motion/virtual_contacts.h"
+#include "script/bind_eigengrasps.h"
+#include "script/bind_thing.h"
+#include "script/bind_virtual_contact.h"
+#include "script/guard.h"
+#include "script/push.h"
+#include "script/table.h"
+
+namespace clench {
+
+using Eigen::VectorXd;
+using Contacts = std::vector<VirtualContactSpec>;
+
+// --- eigengrasps ---
+
+static int get_eigengrasps(lua_State* L) {
+  return push_object(L, EigengraspsHandle{self<RobotHandle>(L), nullptr});
+}
+
+static int set_eigengrasps(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  std::shared_ptr<const EigengraspSet> set;
+  if (given(L, 2))
+    set = std::make_shared<EigengraspSet>(check_object<EigengraspsHandle>(L, 2).value());
+  robot.world->set_eigengrasps(robot.id, std::move(set));
+  return 0;
+}
+
+static int get_amplitudes(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push_vector(L, Eigengrasps(*robot).amplitudes(robot->q));
+}
+
+// the posture that amplitudes stand for, each DOF brought to its nearest limit
+struct Wanted {
+  VectorXd dofs;
+  std::vector<int> clamped;
+};
+
+static Wanted wanted_posture(lua_State* L, const RobotHandle& robot, bool keep) {
+  const Eigengrasps grasps(*robot);
+  const VectorXd amplitudes = check_amplitudes(L, 2, grasps);
+  Wanted out{keep ? grasps.posture(amplitudes, robot->q) : grasps.posture(amplitudes), {}};
+  for (int d = 0; d < out.dofs.size(); ++d) {
+    const auto [low, high] = robot->limits[d];
+    const double inside = std::clamp(out.dofs[d], low, high);
+    // rounding is no limit in the way
+    if (std::abs(inside - out.dofs[d]) > 1e-12 * std::max(1.0, std::abs(inside)))
+      out.clamped.push_back(d + 1);
+    out.dofs[d] = inside;
+  }
+  return out;
+}
+
+static int push_clamped(lua_State* L, const Wanted& wanted) {
+  return push_list_of(L, wanted.clamped, [L](int d) { push(L, d); });
+}
+
+static int set_amplitudes_field(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  robot.world->set_dofs(robot.id, wanted_posture(L, robot, false).dofs);
+  return 0;
+}
+
+static int set_amplitudes(lua_State* L) {
+  check_count(L, 2);
+  const auto& robot = self<RobotHandle>(L);
+  Table options(L, 3);
+  const bool keep = options.boolean("keep", false);
+  options.done();
+  const Wanted wanted = wanted_posture(L, robot, keep);
+  robot.world->set_dofs(robot.id, wanted.dofs);
+  return push_clamped(L, wanted);
+}
+
+static int move_amplitudes(lua_State* L) {
+  check_count(L, 2);
+  const auto& robot = self<RobotHandle>(L);
+  Table options(L, 3);
+  const bool keep = options.boolean("keep", false);
+  const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
+  options.done();
+  const Wanted wanted = wanted_posture(L, robot, keep);
+  push_drive(L, robot.world, drive_to(*robot.world, robot.id, wanted.dofs, driving));
+  push_clamped(L, wanted);
+  lua_setfield(L, -2, "clamped");
+  return 1;
+}
+
+// --- virtual contacts ---
+
+static int get_virtual_contacts(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push_virtual_contacts(L, robot, virtual_contacts(*robot.world, robot.id));
+}
+
+static void give(const RobotHandle& robot, Contacts contacts) {
+  robot.world->set_virtual_contacts(robot.id, std::make_shared<Contacts>(std::move(contacts)));
+}
+
+static int set_virtual_contacts(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  if (!given(L, 2)) {
+    robot.world->set_virtual_contacts(robot.id, nullptr);
+    return 0;
+  }
+  const What what{L, {}, "virtual_contacts"};
+  if (!lua_istable(L, 2)) fail_wanted(what, "a list of virtual contacts", 2);
+  Contacts contacts;
+  const int count = static_cast<int>(lua_rawlen(L, 2));
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, 2, i);
+    contacts.push_back(read_virtual_contact(L, -1, what.item(i), robot));
+    lua_pop(L, 1);
+  }
+  give(robot, std::move(contacts));
+  return 0;
+}
+
+static int add_virtual_contact(lua_State* L) {
+  check_count(L, 1);
+  const auto& robot = self<RobotHandle>(L);
+  Contacts contacts = virtual_contacts(*robot.world, robot.id);
+  contacts.push_back(read_virtual_contact(L, 2, {L, {}, "contact"}, robot));
+  const VirtualContactSpec added = contacts.back();
+  give(robot, std::move(contacts));
+  return push_object(L, VirtualContactHandle{robot, added});
+}
+
+static int remove_virtual_contact(lua_State* L) {
+  check_count(L, 1);
+  const auto& robot = self<RobotHandle>(L);
+  Contacts contacts = virtual_contacts(*robot.world, robot.id);
+  const int number = check_int(L, 2, "number"), count = static_cast<int>(contacts.size());
+  if (number < 1 || number > count)
+    fail("{}: number: wanted one of {} virtual contacts, got {}", subject(L), count, number);
+  contacts.erase(contacts.begin() + (number - 1));
+  give(robot, std::move(contacts));
+  return 0;
+}
+
+static int find_sites(lua_State* L) {
+  check_count(L, 1);
+  const auto& robot = self<RobotHandle>(L);
+  Table options(L, 2);
+  FindSitesOptions finding;
+  finding.per_link = options.integer("per_link", finding.per_link);
+  finding.palm = options.boolean("palm", finding.palm);
+  finding.against = options.string("against", finding.against);
+  options.done();
+  return push_virtual_contacts(L, robot, find_virtual_contacts(*robot.world, robot.id, finding));
+}
+
+static int save_virtual_contacts(lua_State* L) {
+  check_count(L, 1);
+  const auto& robot = self<RobotHandle>(L);
+  write_virtual_contacts({robot->name, virtual_contacts(*robot.world, robot.id)},
+                         check_string(L, 2, "path"));
+  return 0;
+}
+
+// --- glove and sensor ---
+
+static int get_glove(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  if (!robot->glove) {
+    lua_pushnil(L);
+    return 1;
+  }
+  push_list(L, 0, 2);
+  push_rows(L, robot->glove->slopes);
+  lua_setfield(L, -2, "slopes");
+  push_vector(L, robot->glove->intercepts);
+  lua_setfield(L, -2, "intercepts");
+  return 1;
+}
+
+static int get_tracker(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  if (!robot->tracker) {
+    lua_pushnil(L);
+    return 1;
+  }
+  push_list(L, 0, 2);
+  set_field(L, "number", robot->tracker->number);
+  set_field(L, "pose", robot->tracker->X_BS);
+  return 1;
+}
+
+// --- tables ---
+
+static const Entry fields[] = {
+    {"eigengrasps", guarded<get_eigengrasps>, R"(
+Its eigengrasps, as they are at any time: those of its file, or one a DOF. Setting copies a set; nil leaves one a DOF.
+@type eigengrasps
+> hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
+> hand.eigengrasps  --> 1 eigengrasp of 12 DOFs
+> hand.eigengrasps = clench.eigengrasps{vectors = {{1, 1}}}  --> error: wanted a set for 12 DOFs, got one for 2)",
+     guarded<set_eigengrasps>},
+    {"amplitudes", guarded<get_amplitudes>, R"(
+Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
+@type number[]
+> hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
+> hand.amplitudes = {0.25}
+> math.abs(hand.amplitudes[1] - 0.25) < 1e-12  --> true)",
+     guarded<set_amplitudes_field>},
+    {"virtual_contacts", guarded<get_virtual_contacts>, R"(
+Where it would like to touch: those of its file, those it was given, or, when there are none of either, those that
+find_virtual_contacts finds, anew each time. Set to a list of virtual contacts, contacts, or tables as of
+add_virtual_contact; to {} for none, to nil for those that are found.
+@type virtual_contact[]
+> hand.virtual_contacts = {{link = "chain0_link2", point = {0, 0, 0}, normal = {0, 0, 1}, mu = 0.5}}
+> hand.virtual_contacts[1].mu  --> 0.5
+> hand.virtual_contacts = {}
+> #hand.virtual_contacts  --> 0)",
+     guarded<set_virtual_contacts>},
+    {"glove", guarded<get_glove>, R"(
+Calibration of the data glove that its file names: `slopes` (a row a DOF, a number a sensor) and `intercepts`, so that
+DOF = intercept + slopes * raw. nil when there is none.
+@type {slopes: number[][], intercepts: number[]}?  [rad per count, rad]
+> hand.glove  --> nil)"},
+    {"tracker", guarded<get_tracker>, R"(
+Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
+@type {number: integer, pose: pose}?
+> hand.tracker  --> nil)"},
+};
+
+static const Entry methods[] = {
+    {"set_amplitudes", guarded<set_amplitudes>, R"(
+Takes the posture that amplitudes of its eigengrasps stand for, whatever is in the way. DOFs stop at their limits.
+@param amplitudes number[]
+@param options? {keep?: boolean}  true: what its posture has besides its amplitudes is kept
+@return integer[] clamped  numbers of the DOFs whose limit was in the way
+> hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
+> hand:set_amplitudes{0.1}  --> {}
+> hand:set_amplitudes{100}  --> {1, 4, 7, 10}
+> hand:set_amplitudes{1, 2}  --> error: wanted 1 amplitudes, got 2)"},
+    {"move_amplitudes", guarded<move_amplitudes>, R"(
+Drives the DOFs towards the posture of amplitudes, as move_dofs, until contact stops them.
+@param amplitudes number[]
+@param options? {keep?: boolean, stop_at_contact?: boolean}  keep: what its posture has besides is kept
+@return table result  as of autograsp, and `clamped`, numbers of the DOFs whose limit was in the way
+> hand:move_amplitudes(hand.amplitudes, {keep = true}).moved  --> false)"},
+    {"add_virtual_contact", guarded<add_virtual_contact>, R"(
+Marks a place: where it touches now (a contact), or one in the frame of a link (a body or its name).
+@param contact contact|virtual_contact|{link: body|string, point?: vec3, normal?: vec3, frame?: pose, mu?: number, torsion_radius?: number, edges?: number[][]}  normal: out of the link; mu 1 by default
+@return virtual_contact
+> hand.virtual_contacts = {}
+> for _, c in ipairs(world:contacts(hand, flask)) do hand:add_virtual_contact(c) end
+> #hand.virtual_contacts == #world:contacts(hand, flask)  --> true
+> hand:add_virtual_contact{link = "thumb"}  --> error: has no link 'thumb')"},
+    {"remove_virtual_contact", guarded<remove_virtual_contact>, R"(
+Takes one out of its list.
+@param number integer
+> count = #hand.virtual_contacts
+> hand:remove_virtual_contact(1)
+> #hand.virtual_contacts == count - 1  --> true
+> hand:remove_virtual_contact(1000)  --> error: number: wanted one of)"},
+    {"find_virtual_contacts", guarded<find_sites>, R"(
+Places on its surface where it moves forward when the hand closes: the centre of what each link sweeps, by area and
+speed along its normal, and one on the palm. Sets nothing.
+@param options? {per_link?: integer, palm?: boolean, against?: string}  against: material to be grasped, "wood" by default
+@return virtual_contact[]
+> #hand:find_virtual_contacts()  --> 13
+> #hand:find_virtual_contacts{per_link = 2, palm = false}  --> 24)"},
+    {"save_virtual_contacts", guarded<save_virtual_contacts>, R"(
+Writes its virtual contacts to a file, .vgr or .xml; clench.files.virtual_contacts reads it.
+@param path string
+> hand:save_virtual_contacts "sites.doc"  --> error: wanted a file of virtual contacts, .vgr or .xml, got '.doc')"},
+};
+
+const Class hand_class{.name = "hand",
+                       .variable = "hand",
+                       .doc =
+                           "What every robot has for grasping: eigengrasps, virtual contacts, a "
+                           "glove, a position sensor.",
+                       .fields = fields,
+                       .methods = methods,
+                       .parent = &thing_class};
+
+}  // namespace clench

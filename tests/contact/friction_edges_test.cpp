@@ -1,0 +1,48 @@
+#include "contact/friction_edges.h"
+
+#include "base/error.h"
+
+using namespace clench;
+
+TEST_CASE("a point carries eight directions in its plane, of unit length") {
+  const auto edges = friction_edges();
+  REQUIRE(edges.cols() == 8);
+  for (int i = 0; i < 8; ++i) {
+    CHECK(edges.col(i).head<2>().norm() == doctest::Approx(1));
+    CHECK(edges.col(i).tail<4>().isZero(0));
+  }
+  CHECK(edges.rowwise().sum().norm() < 1e-15);  // eight roundings of numbers below 1
+}
+
+TEST_CASE("the edges of a soft contact lie on its ellipsoid, both ways round") {
+  for (const double radius : {1e-4, 1.64e-3, 0.05}) {
+    const auto edges = friction_edges(radius);
+    REQUIRE(edges.cols() == 20);
+    for (int i = 0; i < 20; ++i) {
+      const double torque = edges(5, i) / radius;
+      CHECK(edges.col(i).head<2>().squaredNorm() + torque * torque == doctest::Approx(1));
+      CHECK(edges.col(i).segment<3>(2).isZero(0));
+    }
+    CHECK(edges.row(5).maxCoeff() == doctest::Approx(radius));
+    CHECK(edges.row(5).minCoeff() == doctest::Approx(-radius));
+    // the poles stand alone
+    CHECK(edges.col(0).head<2>().isZero(0));
+    CHECK(edges.col(19).head<2>().isZero(0));
+  }
+}
+
+TEST_CASE("the edges of the Barrett hand's shipped contacts come out") {
+  // torsion radius 1.640803 mm in the file; its edges have six digits
+  const auto edges = friction_edges(1.640803e-3);
+  CHECK(edges(0, 1) == doctest::Approx(0.853909).epsilon(1e-6));
+  CHECK(edges(5, 1) == doctest::Approx(0.853909e-3).epsilon(1e-6));
+  CHECK(edges(0, 2) == doctest::Approx(0.263873).epsilon(1e-5));
+  CHECK(edges(1, 2) == doctest::Approx(0.812116).epsilon(1e-6));
+  CHECK(edges(0, 7) == doctest::Approx(0.707107).epsilon(1e-6));
+}
+
+TEST_CASE("a torsion radius below zero is refused") {
+  CHECK_THROWS_WITH_AS(friction_edges(-1),
+                       "friction edges: wanted a torsion radius >= 0 [m], got -1", Error);
+  CHECK_THROWS_AS(friction_edges(NAN), Error);
+}

@@ -1,0 +1,189 @@
+#include "motion/virtual_contacts.h"
+
+#include "base/error.h"
+#include "base/random.h"
+#include "motion/drive.h"
+#include "support/meshes.h"
+#include "support/robots.h"
+
+using namespace clench;
+using namespace clench::test;
+using Eigen::Vector3d;
+
+namespace {
+
+struct Stage {
+  World world;
+  Id<Robot> hand;
+};
+
+Stage stage(const RobotSpec& spec = two_finger()) {
+  Stage s;
+  s.hand = s.world.add_robot(spec, {});
+  return s;
+}
+
+Vector3d normal_of(const VirtualContactSpec& c) { return c.X_LC.rotation * Vector3d::UnitZ(); }
+
+}  // namespace
+
+TEST_CASE(
+    "each link of a gripper gets one place, on the side that turns inward, and the palm one") {
+  const Stage s = stage();
+  const auto sites = find_virtual_contacts(s.world, s.hand);
+  REQUIRE(sites.size() == 5);
+  for (int i = 0; i < 4; ++i) {
+    CHECK(sites[i].chain == i / 2);
+    CHECK(sites[i].link == i % 2);
+    // the fingers turn about z, counter-clockwise from +y seen in their own frames: +y is inward
+    CHECK((normal_of(sites[i]) - Vector3d::UnitY()).norm() < 1e-12);
+    CHECK(sites[i].X_LC.position.y() == doctest::Approx(0.005));
+    CHECK(sites[i].edges.cols() == 8);
+  }
+  CHECK(sites[4].chain == -1);
+  // the palm's face towards +y, at the approach point
+  CHECK((normal_of(sites[4]) - Vector3d::UnitY()).norm() < 1e-12);
+  CHECK((sites[4].X_LC.position - Vector3d(0, -0.006, 0)).norm() < 1e-12);
+}
+
+TEST_CASE("a place is the centre of what its link sweeps") {
+  // a face of length l that turns about an axis at distance a from its near end sweeps in proportion
+  // to the distance r, so its centre is at the mean of r^2 over the mean of r
+  const Stage s = stage();
+  const auto sites = find_virtual_contacts(s.world, s.hand);
+  const double near = 0.003, far = 0.047;
+  const double centre =
+      (2.0 / 3) * (far * far * far - near * near * near) / (far * far - near * near);
+  CHECK(std::abs(sites[0].X_LC.position.x() - (centre - 0.05)) < 1e-12);
+  CHECK(std::abs(sites[0].X_LC.position.z()) < 1e-12);
+}
+
+TEST_CASE(
+    "places lie on the surface and face out of it, of round links too, wherever the hand stands") {
+  RobotSpec spec = two_finger();
+  spec.chains[0].links[1].body =
+      body_spec("gripper_chain0_link1", moved(ball(0.01, 3), {-0.02, 0, 0}));
+  Random random(2, 0);
+  std::vector<VirtualContactSpec> first;
+  for (int i = 0; i < 5; ++i) {
+    Stage s;
+    s.hand = s.world.add_robot(spec, random_pose(random, 1));
+    const auto& limits = s.world.robot(s.hand).limits;
+    s.world.set_dofs(s.hand, Eigen::Vector2d(random.uniform(limits[0][0], limits[0][1]), 0.2));
+    const auto sites = find_virtual_contacts(s.world, s.hand, {.per_link = 3});
+    REQUIRE(sites.size() == 13);
+    for (const auto& site : sites) {
+      const Shape& shape = *s.world.body(body_of(s.world.robot(s.hand), site)).shape;
+      const Vector3d p = site.X_LC.position;
+      CHECK(closest_point(shape, p).distance < 1e-9);
+      CHECK(contains(shape, p - 1e-4 * normal_of(site)));
+      CHECK_FALSE(contains(shape, p + 1e-4 * normal_of(site)));
+    }
+    // neither pose nor posture matter
+    if (i == 0) first = sites;
+    for (size_t k = 0; k < sites.size(); ++k) {
+      CHECK(sites[k].X_LC == first[k].X_LC);
+    }
+  }
+}
+
+TEST_CASE("several places of a link stand in a row along it, in equal shares") {
+  const Stage s = stage();
+  const auto sites = find_virtual_contacts(s.world, s.hand, {.per_link = 3, .palm = false});
+  REQUIRE(sites.size() == 12);
+  for (int i = 0; i < 12; i += 3) {
+    const double a = sites[i].X_LC.position.x(), b = sites[i + 1].X_LC.position.x(),
+                 c = sites[i + 2].X_LC.position.x();
+    CHECK((b - a) * (c - b) > 0);
+    CHECK(std::abs(c - a) > 0.02);
+  }
+}
+
+TEST_CASE("what does not move has no place, and a robot that does not close has none at all") {
+  RobotSpec spec = two_finger();
+  spec.dofs[1].default_velocity = 0;
+  Stage s = stage(spec);
+  CHECK(find_virtual_contacts(s.world, s.hand).size() == 3);
+  spec.dofs[0].default_velocity = 0;
+  s = stage(spec);
+  CHECK(find_virtual_contacts(s.world, s.hand).empty());
+  spec = two_finger();
+  spec.chains[0].links[0].body.shape = nullptr;
+  s = stage(spec);
+  CHECK(find_virtual_contacts(s.world, s.hand).size() == 4);
+}
+
+TEST_CASE("a finger that closes the other way has its places on the other side") {
+  RobotSpec spec = two_finger();
+  for (auto& dof : spec.dofs) dof.default_velocity = -1;
+  const Stage s = stage(spec);
+  const auto sites = find_virtual_contacts(s.world, s.hand, {.palm = false});
+  REQUIRE(sites.size() == 4);
+  CHECK((normal_of(sites[0]) + Vector3d::UnitY()).norm() < 1e-12);
+}
+
+TEST_CASE("a sliding jaw has its place in the middle of the face that goes forward") {
+  RobotSpec spec = two_finger();
+  for (auto& chain : spec.chains) {
+    chain.joints.resize(1);
+    chain.links.resize(1);
+    chain.joints[0] = JointSpec{};
+    chain.joints[0].kind = JointKind::prismatic;
+    chain.joints[0].dof = static_cast<int>(&chain - spec.chains.data());
+    chain.joints[0].max = 0.02;
+    chain.links[0].last_joint = 0;
+  }
+  const Stage s = stage(spec);
+  const auto sites = find_virtual_contacts(s.world, s.hand, {.palm = false});
+  REQUIRE(sites.size() == 2);
+  CHECK((normal_of(sites[0]) - Vector3d::UnitZ()).norm() < 1e-12);
+  CHECK((sites[0].X_LC.position - Vector3d(-0.025, 0, 0.005)).norm() < 1e-12);
+}
+
+TEST_CASE("mu is that of the link's material and the one to be grasped") {
+  Stage s = stage();
+  const auto mu = [&](const char* against) {
+    return find_virtual_contacts(s.world, s.hand, {.against = against})[0].mu;
+  };
+  CHECK(mu("wood") == 0.4);
+  CHECK(mu("rubber") == 1.0);
+  CHECK_THROWS_AS(mu("cheese"), Error);
+  CHECK_THROWS_WITH_AS(find_virtual_contacts(s.world, s.hand, {.per_link = 0}),
+                       "virtual contacts: per_link: wanted 1 to 100, got 0", Error);
+}
+
+TEST_CASE(
+    "a hand that was given none has those that are found, one that was given some has these") {
+  Stage s = stage();
+  CHECK(virtual_contacts(s.world, s.hand).size() == 5);
+  s.world.set_virtual_contacts(s.hand, std::make_shared<std::vector<VirtualContactSpec>>());
+  CHECK(virtual_contacts(s.world, s.hand).empty());
+}
+
+TEST_CASE("a real contact is marked on the link's side, facing what it touches") {
+  Stage s = stage();
+  BodySpec cube = body_spec("cube", box(0.03, 0.03, 0.03));
+  const auto object = s.world.add_body(cube, BodyKind::object, Pose::translation({0, 0.06, 0}));
+  autograsp(s.world, s.hand);
+  const std::vector<Id<Body>> bodies = s.world.bodies_of(s.hand), other = {object};
+  for (const bool swapped : {false, true}) {
+    const auto found =
+        swapped ? contacts(s.world, other, bodies) : contacts(s.world, bodies, other);
+    REQUIRE(!found.empty());
+    for (const Contact& c : found) {
+      const auto site = marked(s.world, s.hand, c);
+      const Body& link = s.world.body(body_of(s.world.robot(s.hand), site));
+      // no farther from its link than a contact is wide, and out of it means into the cube
+      CHECK(closest_point(*link.shape, site.X_LC.position).distance <= 1e-9);
+      const Vector3d p_W = link.X_WB * site.X_LC.position,
+                     n_W = link.X_WB.rotation * normal_of(site);
+      CHECK(n_W.dot(Vector3d(0, 0.06, 0) - p_W) > 0);
+      CHECK(site.mu == 0.4);
+    }
+  }
+  Contact none;
+  none.body = none.other = object;
+  CHECK_THROWS_WITH_AS(
+      marked(s.world, s.hand, none),
+      "virtual contacts: the contact of 'cube' and 'cube' is on no link of 'gripper'", Error);
+}
