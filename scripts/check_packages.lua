@@ -1,5 +1,5 @@
 -- Holds scripts/packages.txt against the CMake files: every library that these ask for has its package listed, and
--- every library listed is asked for. What only tests/ asks for is listed for tests.
+-- every library listed is asked for. What only tests/ asks for is listed for test or bench.
 --   lua5.4 scripts/check_packages.lua [ROOT]
 -- One sentence a fault, file:line first; exit code 1 when there is any.
 local root = arg[1] or "."
@@ -25,8 +25,8 @@ local function read_list(path)
   local packages, seen = {}, {}
   each_line(path, function(line, text)
     local purpose, package, asked = text:match "^(%S+)%s+(%S+)%s+(%S+)%s+%S"
-    if purpose ~= "build" and purpose ~= "test" then
-      fault(path, line, "wanted 'build' or 'test', a package, how CMake asks for it, what for; got '%s'", text)
+    if purpose ~= "build" and purpose ~= "test" and purpose ~= "bench" then
+      fault(path, line, "wanted 'build', 'test' or 'bench', a package, how CMake asks for it, what for; got '%s'", text)
     elseif seen[package] then
       fault(path, line, "package %s is listed twice", package)
     else
@@ -79,7 +79,7 @@ for _, entry in ipairs(packages) do
     end
     requests[name] = nil
   end
-  if first and (first.path:find "^tests/" ~= nil) ~= (entry.purpose == "test") then
+  if first and (first.path:find "^tests/" ~= nil) ~= (entry.purpose ~= "build") then
     fault(list, entry.line, "%s is listed for '%s', and %s:%d asks for it", entry.package, entry.purpose,
           first.path, first.line)
   end

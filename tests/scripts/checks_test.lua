@@ -36,7 +36,7 @@ fails_with("lua5.4 scripts/check_packages.lua tests/data/packages/bad", {
   "scripts/packages.txt:4: libfmt-dev is listed for 'build', and tests/CMakeLists.txt:1 asks for it",
   "scripts/packages.txt:5: doctest-dev is listed for 'test', and src/CMakeLists.txt:3 asks for it",
   "scripts/packages.txt:6: libold-dev is listed for old, which no CMake file asks for",
-  "scripts/packages.txt:7: wanted 'build' or 'test', a package, how CMake asks for it, what for; "
+  "scripts/packages.txt:7: wanted 'build', 'test' or 'bench', a package, how CMake asks for it, what for; "
     .. "got 'perhaps    libnew-dev    new     for nobody knows what'",
   "src/CMakeLists.txt:2: egl is asked for, and no package of scripts/packages.txt gives it",
   "packages: 6 faults",

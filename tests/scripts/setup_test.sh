@@ -50,4 +50,4 @@ fake dpkg-query 'shift 3; for p in "$@"; do echo "installed $p"; done'
 run
 wants "nothing missing: nothing is called" "$status $said$(calls)" "installed"
 run --tset
-wants "a misspelt option is refused" "$status $said" "2 usage: scripts/setup [--test]"
+wants "a misspelt option is refused" "$status $said" "2 usage: scripts/setup [--test | --bench]"

@@ -1,0 +1,19 @@
+#include "bench/peers.h"
+
+namespace clench::bench {
+
+std::vector<Peer> peers() {
+  return {
+#ifdef CLENCH_BENCH_FCL
+      {.name = "FCL", .pair = fcl_pair},
+#endif
+#ifdef CLENCH_BENCH_ODE
+      {.name = "ODE", .pair = ode_pair},
+#endif
+#ifdef CLENCH_BENCH_EMBREE
+      {.name = "Embree", .point = embree_point},
+#endif
+  };
+}
+
+}  // namespace clench::bench

@@ -1,0 +1,44 @@
+// Other libraries asked the same questions as ours, for the benchmark of geometry queries.
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "geometry/queries.h"
+
+namespace clench::bench {
+
+/// One library's view of two meshes. What it has no query for it answers with nothing.
+class PairPeer {
+ public:
+  virtual ~PairPeer() = default;
+  virtual std::optional<bool> collide(const Pose&) { return {}; }
+  virtual std::optional<double> distance(const Pose&) { return {}; }
+};
+
+/// One library's view of a mesh and points or rays.
+class PointPeer {
+ public:
+  virtual ~PointPeer() = default;
+  virtual std::optional<double> distance(const Eigen::Vector3d&) { return {}; }
+  /// of the first hit; infinity for none
+  virtual std::optional<double> cast(const Eigen::Vector3d&, const Eigen::Vector3d&) { return {}; }
+};
+
+using MakePair = std::unique_ptr<PairPeer> (*)(const Shape& a, const Shape& b);
+using MakePoint = std::unique_ptr<PointPeer> (*)(const Shape&);
+
+struct Peer {
+  const char* name;
+  MakePair pair = nullptr;
+  MakePoint point = nullptr;
+};
+
+/// those that this program was built with
+std::vector<Peer> peers();
+
+std::unique_ptr<PairPeer> fcl_pair(const Shape& a, const Shape& b);
+std::unique_ptr<PairPeer> ode_pair(const Shape& a, const Shape& b);
+std::unique_ptr<PointPeer> embree_point(const Shape&);
+
+}  // namespace clench::bench
