@@ -125,6 +125,53 @@ CLENCH_INLINE F box_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& o
   return select(squared > Real{0}, sqrt(squared), least_deep);
 }
 
+/// The largest gap along any axis of the two, or the least depth where all of them show an overlap: a
+/// lower bound of the distance too, not as tight as box_gaps, and cheaper.
+template <class F>
+CLENCH_INLINE F axis_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& one) {
+  const Triple<F> between = {eight.centre.x - one.centre.x, eight.centre.y - one.centre.y,
+                             eight.centre.z - one.centre.z};
+  F along[3], most;
+  for (int k = 0; k < 3; ++k) {
+    F reach = eight.half[k];
+    for (int j = 0; j < 3; ++j) {
+      const F turn = abs(dot(eight.axis[k], one.axis[j]));
+      reach = reach + turn * one.half[j];
+      along[j] = k == 0 ? turn * eight.half[0] : along[j] + turn * eight.half[k];
+    }
+    const F gap = abs(dot(eight.axis[k], between)) - reach;
+    most = k == 0 ? gap : max(gap, most);
+  }
+  for (int j = 0; j < 3; ++j)
+    most = max(abs(dot(between, one.axis[j])) - along[j] - one.half[j], most);
+  return most;
+}
+
+/// The largest gap along the products of their axes, which are at most 1 long; 0 for none: a lower bound too.
+/// Its rounding, by the count above: 37 u l of the products, 17 u l of the shadows, 8 u l of the axes.
+template <class F>
+CLENCH_INLINE F edge_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& one) {
+  const Triple<F> between = {eight.centre.x - one.centre.x, eight.centre.y - one.centre.y,
+                             eight.centre.z - one.centre.z};
+  F turn[3][3], shadow[3][3], offset[3];
+  for (int k = 0; k < 3; ++k) {
+    offset[k] = dot(eight.axis[k], between);
+    for (int j = 0; j < 3; ++j) {
+      turn[k][j] = dot(eight.axis[k], one.axis[j]);
+      shadow[k][j] = abs(turn[k][j]);
+    }
+  }
+  F most = F::all(0);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      const F reach = eight.half[i1] * shadow[i2][j] + eight.half[i2] * shadow[i1][j] +
+                      shadow[i][j2] * one.half[j1] + shadow[i][j1] * one.half[j2];
+      most = max(abs(offset[i2] * turn[i1][j] - offset[i1] * turn[i2][j]) - reach, most);
+    }
+  return most;
+}
+
 /// Distances of a point from eight boxes; 0 inside.
 template <class F>
 CLENCH_INLINE F point_gaps(const BoxOf<F>& eight, const Triple<typename F::Real>& p) {

@@ -146,9 +146,13 @@ class PairWalk {
       used &= ~(gap > limit_).set();
       if (!used) return 0;
     }
-    const F gaps = box_gaps(eight, one);
+    // a contact threshold is small for the boxes: their largest gap tells as much as their distance
+    const F gaps = task_ == Wanted::nearest ? box_gaps(eight, one) : axis_gaps(eight, one);
     gaps.store(bounds);
-    return used & ~(gaps > limit_).set();
+    used &= ~(gaps > limit_).set();
+    // these part what the faces do not, near an edge; for distances they cost more than they spare
+    if (used && task_ != Wanted::nearest) used &= ~(edge_gaps(eight, one) > limit_).set();
+    return used;
   }
 
   // The triangles of a leaf in the frame of a, their bounds along the axes, and how far they reach

@@ -179,7 +179,10 @@ std::vector<float> results_at(const BoxBundle& boxes, const TriangleBundle& one,
     out.insert(out.end(), values, values + 8);
   };
   const auto eight = load_boxes<F>(boxes);
-  for (int i = 0; i < 8; ++i) add(box_gaps(eight, load_box<float>(boxes, i)));
+  for (int i = 0; i < 8; ++i) {
+    const auto box = load_box<float>(boxes, i);
+    add(box_gaps(eight, box)), add(axis_gaps(eight, box)), add(edge_gaps(eight, box));
+  }
   add(point_gaps(eight, {0.1f, 0.2f, 0.3f}));
   const auto a = load_triangles<F>(one), b = load_triangles<F>(two);
   const auto near = near_bounds(a, b);

@@ -74,3 +74,61 @@ TEST_CASE("a tree holds every triangle once, in boxes that hold it, and stays sh
     CHECK(depth <= (&mesh == &meshes[3] ? 40 : 6));
   }
 }
+
+namespace {
+
+ShapePtr shape_of(const BoxOf<double>& b) {
+  Mesh mesh = box(2 * b.half[0], 2 * b.half[1], 2 * b.half[2]);
+  Eigen::Matrix3d axes;
+  for (int k = 0; k < 3; ++k) axes.col(k) = Vector3d(b.axis[k].x, b.axis[k].y, b.axis[k].z);
+  for (Vector3d& p : mesh.vertices) p = axes * p + Vector3d(b.centre.x, b.centre.y, b.centre.z);
+  return Shape::make(mesh);
+}
+
+BoxBundle random_boxes(Random& random) {
+  BoxBundle boxes;
+  for (int i = 0; i < 8; ++i) {
+    const Pose X = random_pose(random, 1.2);
+    const Eigen::Matrix3d axes = X.matrix();
+    for (int k = 0; k < 3; ++k) {
+      for (int m = 0; m < 3; ++m) boxes.axes[3 * k + m][i] = static_cast<float>(axes(m, k));
+      boxes.centre[k][i] = static_cast<float>(X.position[k]);
+      boxes.half[k][i] = static_cast<float>(std::abs(0.5 * random.normal()));
+    }
+    boxes.size[i] = 1;
+  }
+  return boxes;
+}
+
+}  // namespace
+
+TEST_CASE("the gaps of boxes are never more than their distance, and tell all apart that are") {
+  Random random(2);
+  using F = Lanes<float, 4>;
+  // for coordinates below 8: as precision.h says
+  const double slack = 64 * 0x1p-24 * 8;
+  int apart = 0, found = 0;
+  for (int i = 0; i < 40; ++i) {
+    const BoxBundle boxes = random_boxes(random), others = random_boxes(random);
+    for (int one = 0; one < 8; ++one) {
+      const BoxOf<float> box = load_box<float>(others, one);
+      const BoxOf<F> eight = load_boxes<F>(boxes);
+      float faces[8], axes[8], edges[8];
+      box_gaps(eight, box).store(faces);
+      axis_gaps(eight, box).store(axes);
+      edge_gaps(eight, box).store(edges);
+      const auto other = shape_of(load_box<double>(others, one));
+      for (int lane = 0; lane < 8; ++lane) {
+        const double exact =
+            distance(*shape_of(load_box<double>(boxes, lane)), *other, Pose()).distance;
+        for (const float gap : {faces[lane], axes[lane], edges[lane]}) CHECK(gap <= exact + slack);
+        CHECK(axes[lane] <= faces[lane] + slack);
+        // by the separating axes of two boxes; a gap along edges shrinks with the angle between them
+        apart += exact > 0.05;
+        found += exact > 0.05 && std::max(axes[lane], edges[lane]) > 0;
+      }
+    }
+  }
+  CHECK(apart > 500);
+  CHECK(found == apart);
+}
