@@ -173,11 +173,30 @@ std::vector<Pose> link_sites(const Shape& shape, const Motion& motion, int count
   return out;
 }
 
-std::optional<Pose> palm_site(const Shape& shape, const Pose& X_BA) {
-  const Vector3d forward = X_BA.rotation * Vector3d::UnitZ();
-  const auto pieces = forward_pieces(shape, {.linear = forward, .angular = Vector3d::Zero()});
+/// A body that stays where it is while the hand closes.
+struct Still {
+  int chain, link;  // -1, 0: the base
+  const Body* body;
+  Pose X_LA;  // approach frame in it
+};
+
+std::optional<Pose> palm_site(const Still& palm) {
+  const Vector3d forward = palm.X_LA.rotation * Vector3d::UnitZ();
+  const auto pieces =
+      forward_pieces(*palm.body->shape, {.linear = forward, .angular = Vector3d::Zero()});
   if (pieces.empty()) return {};
-  return site(shape, pieces, X_BA.position, forward);
+  return site(*palm.body->shape, pieces, palm.X_LA.position, forward);
+}
+
+// the palm is whatever still body lies nearest to the approach point
+const Still* palm_of(const std::vector<Still>& still) {
+  const Still* palm = nullptr;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Still& s : still) {
+    const double distance = closest_point(*s.body->shape, s.X_LA.position).distance;
+    if (distance < nearest) palm = &s, nearest = distance;
+  }
+  return palm;
 }
 
 }  // namespace
@@ -196,17 +215,23 @@ std::vector<VirtualContactSpec> find_virtual_contacts(const World& world, Id<Rob
     const double mu = world.materials().friction(body.material, against).statics;
     out.push_back({chain, link, X_LC, mu, friction_edges()});
   };
+  std::vector<Still> still;
+  if (const Body& base = world.body(robot.base); base.shape)
+    still.push_back({-1, 0, &base, robot.X_BA});
   for (int c = 0; closes && c < static_cast<int>(robot.chains.size()); ++c)
     for (int l = 0; l < static_cast<int>(robot.chains[c].links.size()); ++l) {
       const Body& body = world.body(robot.chains[c].links[l]);
+      if (!body.shape) continue;
       const Motion motion = closing_motion(robot, frames, c, l);
-      if (!body.shape || motion.none()) continue;
+      if (motion.none()) {
+        still.push_back({c, l, &body, frames[c].links[l].inverse() * robot.X_BA});
+        continue;
+      }
       for (const Pose& X_LC : link_sites(*body.shape, motion, options.per_link))
         add(c, l, body, X_LC);
     }
-  const Body& base = world.body(robot.base);
-  if (closes && options.palm && base.shape)
-    if (const auto X_LC = palm_site(*base.shape, robot.X_BA)) add(-1, 0, base, *X_LC);
+  if (const Still* palm = closes && options.palm ? palm_of(still) : nullptr)
+    if (const auto X_LC = palm_site(*palm)) add(palm->chain, palm->link, *palm->body, *X_LC);
   return out;
 }
 

@@ -23,8 +23,11 @@ static int get_eigengrasps(lua_State* L) {
 static int set_eigengrasps(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   std::shared_ptr<const EigengraspSet> set;
-  if (given(L, 2))
-    set = std::make_shared<EigengraspSet>(check_object<EigengraspsHandle>(L, 2).value());
+  if (given(L, 2)) {
+    const auto* given_set = to<EigengraspsHandle>(L, 2);
+    if (!given_set) fail_wanted({L, {}, ""}, "eigengrasps", 2);
+    set = std::make_shared<EigengraspSet>(given_set->value());
+  }
   robot.world->set_eigengrasps(robot.id, std::move(set));
   return 0;
 }

@@ -22,7 +22,7 @@ struct Cfg {
   RobotSpec read(const ReadOptions& options = {}) const {
     const TemporaryFolder folder;
     folder.write("iv/box.iv", "#Inventor V2.1 ascii\n#mass 20\nCube { }\n");
-    folder.write("eigen/a.egr", "DIMENSIONS 1\n");
+    folder.write("eigen/a.egr", "DIMENSIONS 1\nEG\n1\n1\n");
     return read_robot(folder.write("hand.cfg", "#class\nHand\nbox.iv\n" + dofs + "1\n" + joints +
                                                    transforms + joint_lines + links + rest),
                       options);
@@ -172,7 +172,7 @@ TEST_CASE("blocks at the end may come in any order") {
   CHECK(r.tracker->number == 3);
   CHECK(r.tracker->X_BS.position.z() == doctest::Approx(0.01));
   CHECK(r.tracker->X_BS.angle() == doctest::Approx(90 * degree));
-  CHECK(r.eigengrasps.ends_with("eigen/a.egr"));
+  CHECK(r.files.eigengrasps.ends_with("eigen/a.egr"));
   CHECK(warnings.list.empty());
 }
 
@@ -183,15 +183,15 @@ TEST_CASE(
       "EigenGrasps\neigen/b.egr\nVirtualContacts\nnone.vgr\nCyberGlov\nFlockOfBirds\nt 0 0 1\n";
   Warnings warnings;
   const RobotSpec r = cfg.read(warnings.options());
-  CHECK(r.eigengrasps.empty());
-  CHECK(r.virtual_contacts.empty());
+  CHECK(r.files.eigengrasps.empty());
+  CHECK(r.files.virtual_contacts.empty());
   CHECK(r.tracker->number == 0);
   CHECK(warnings.list ==
         std::vector<std::string>{
-            "hand.cfg:14: EigenGrasps: no such file: eigen/b.egr; did you mean 'a.egr'?",
-            "hand.cfg:16: VirtualContacts: no such file: none.vgr",
             "hand.cfg:17: unknown keyword 'CyberGlov' is not used; did you mean 'CyberGlove'?",
-            "hand.cfg:19: FlockOfBirds: no bird number, 0 is used"});
+            "hand.cfg:19: FlockOfBirds: no bird number, 0 is used",
+            "hand.cfg:14: EigenGrasps: no such file: eigen/b.egr; did you mean 'a.egr'?",
+            "hand.cfg:16: VirtualContacts: no such file: none.vgr"});
 }
 
 TEST_CASE("a DOF that moves nothing is a warning") {
@@ -216,6 +216,6 @@ TEST_CASE("the Barrett hand of the original has the figures of its manual") {
   CHECK(r.chains[0].joints[2].ratio == 0.333333333);
   CHECK(dof_range(r, 0)[1] == doctest::Approx(180 * degree));
   CHECK(dof_range(r, 1)[1] == doctest::Approx(144 * degree));
-  CHECK(r.virtual_contacts.ends_with("virtual/all_16_contacts.vgr"));
+  CHECK(r.files.virtual_contacts.ends_with("virtual/all_16_contacts.vgr"));
   CHECK(r.tracker->number == 1);
 }

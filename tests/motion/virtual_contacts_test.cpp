@@ -47,14 +47,15 @@ TEST_CASE(
 }
 
 TEST_CASE("a place is the centre of what its link sweeps") {
-  // a face of length l that turns about an axis at distance a from its near end sweeps in proportion
-  // to the distance r, so its centre is at the mean of r^2 over the mean of r
+  // A face that turns about an axis sweeps in proportion to the distance r from it. Of the two ends,
+  // half of height h goes forward, in proportion to the height. Per width, over r from `near` to `far`:
   const Stage s = stage();
   const auto sites = find_virtual_contacts(s.world, s.hand);
-  const double near = 0.003, far = 0.047;
-  const double centre =
-      (2.0 / 3) * (far * far * far - near * near * near) / (far * far - near * near);
-  CHECK(std::abs(sites[0].X_LC.position.x() - (centre - 0.05)) < 1e-12);
+  const double near = 0.003, far = 0.047, h = 0.005;
+  const double swept = (far * far - near * near) / 2 + 2 * h * h / 2;
+  const double moment = (far * far * far - near * near * near) / 3 + (near + far) * h * h / 2;
+  // pieces of the ends that go forward in part only are counted roughly
+  CHECK(std::abs(sites[0].X_LC.position.x() - (moment / swept - 0.05)) < 1e-5);
   CHECK(std::abs(sites[0].X_LC.position.z()) < 1e-12);
 }
 
@@ -111,6 +112,30 @@ TEST_CASE("what does not move has no place, and a robot that does not close has 
   spec.chains[0].links[0].body.shape = nullptr;
   s = stage(spec);
   CHECK(find_virtual_contacts(s.world, s.hand).size() == 4);
+}
+
+TEST_CASE("the palm may be a link: of what stays where it is, the nearest to the approach point") {
+  // the base goes on an arm: a forearm below it, and a wrist between them that does not close
+  RobotSpec spec = two_finger();
+  ChainSpec wrist;
+  JointSpec joint;
+  joint.dof = 2;
+  joint.min = -1;
+  joint.max = 1;
+  wrist.joints.push_back(joint);
+  LinkSpec palm;
+  palm.body = spec.base;
+  palm.body.name = "gripper_palm";
+  wrist.links.push_back(palm);
+  spec.base = body_spec("gripper_base", moved(box(0.04, 0.2, 0.04), {0, -0.2, 0}));
+  for (auto& chain : spec.chains) chain.parent_chain = 0, chain.parent_link = 0;
+  spec.chains.insert(spec.chains.begin(), wrist);
+  spec.dofs.push_back(DofSpec{});
+  const Stage s = stage(spec);
+  const auto sites = find_virtual_contacts(s.world, s.hand);
+  REQUIRE(sites.size() == 5);
+  CHECK(sites[4].chain == 0);
+  CHECK((sites[4].X_LC.position - Vector3d(0, -0.006, 0)).norm() < 1e-12);
 }
 
 TEST_CASE("a finger that closes the other way has its places on the other side") {

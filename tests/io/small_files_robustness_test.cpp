@@ -1,0 +1,176 @@
+// The small files around hands and planners: bad ones are refused with the sentence that stands
+// beside them; cut short anywhere or changed at random they are values or Errors that name the file.
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "base/text.h"
+#include "io/eigengrasps.h"
+#include "io/glove_files.h"
+#include "io/grasp_lists.h"
+#include "io/inventor_primitives.h"
+#include "io/virtual_contacts.h"
+#include "temporary.h"
+
+using namespace clench;
+using clench::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Format {
+  const char* folder;  // of tests/data/bad
+  const char* ending;
+  void (*read)(const fs::path&);
+  std::string sound;  // a file of it
+};
+
+const std::string edges = "2\n1 0 0 0 0 0\n0 0 0 0 0 1.64\n";
+const std::string place = "1 2 3\n1 0 0 0\n1 2 3\n0 0 1\n0.5\n";
+
+const Format formats[] = {
+    {"egr", "egr", [](const fs::path& path) { read_eigengrasps(path); },
+     "DIMENSIONS 3\nEG\n0.51\n1 0 0.5\nEG\n0.25\n0 1 0\nORIGIN\n0\n.1 .2 .3\nNORM\n0\n1 1 "
+     "2\njunk\n"},
+    {"egr", "xml", [](const fs::path& path) { read_eigengrasps(path); },
+     "<EigenGrasps dimensions=\"2\"><EG><EigenValue value=\"0.5\"/><Limits min=\"-1\" max=\"1\"/>"
+     "<DimVals d0=\"1\" d1=\"2\"/></EG><ORIGIN><DimVals d1=\"0.2\"/></ORIGIN></EigenGrasps>"},
+    {"vgr", "vgr", [](const fs::path& path) { read_virtual_contacts(path); },
+     "Hand\n2\n-1 0\n" + edges + place + "0 1\n" + edges + place},
+    {"vgr", "xml", [](const fs::path& path) { read_virtual_contacts(path); },
+     "<virtual_contacts><robot_name>H</robot_name><num_contacts>1</num_contacts><virtual_contact>"
+     "<finger_number>0</finger_number><link_number>0</link_number><num_friction_edges>1"
+     "</num_friction_edges><friction_edges><friction_edge>1 0 0 0 0 0</friction_edge>"
+     "</friction_edges><location>1 2 3</location><rotation>1 0 0 0</rotation><translation>1 2 3"
+     "</translation><normal>0 0 1</normal><sCof>0.5</sCof></virtual_contact></virtual_contacts>"},
+    {"object_contacts", "con", [](const fs::path& path) { read_object_contacts(path); },
+     "2\n" + edges + "1 0 0 0\n1 2 3\n0 0 1\n0.5\n" + edges + "1 0 0 0\n1 2 3\n0 0 1\n0.5\n"},
+    {"primitives", "iv", [](const fs::path& path) { read_primitives(path); },
+     "#Inventor V2.1 ascii\nSeparator { Transform { translation 1 2 3 } Cube { width 20 } }\nCone "
+     "{ "
+     "bottomRadius 3 }\n"},
+    {"pregrasps", "lst", [](const fs::path& path) { read_pregrasps(path); },
+     "[0 80 0][0 -1 0][1 0 0]60\n[1 2 3][0 0 1][0 1 0]90\n"},
+    {"planned_grasps", "lst", [](const fs::path& path) { read_planned_grasps(path); },
+     "0 0 0 0 0 0 0 0 -2\n1 2 3 1 0 0 0 60 0.25\n4 5 6 0 1 0 0 0 -1\n"},
+    {"glove_calibration", "cal", [](const fs::path& path) { read_glove_calibration(path); },
+     "2 3\n1 2 3\n4 5 6\n-1 -2\n"},
+    {"glove_poses", "cal", [](const fs::path& path) { read_glove_poses(path); },
+     "1\n3\n12.5\n1\n10 20 30\n1\n0 -1 2\n1\n0.1 0.2 0.3\n0 0 0 1\n1 2 3\n"},
+};
+
+/// fails the test when the sentence does not name the file
+/// returns  was it refused?
+bool refused(const TemporaryFolder& folder, const Format& format, const std::string& text) {
+  const std::string name = std::string("a.") + format.ending;
+  try {
+    format.read(folder.write(name, text));
+    return false;
+  } catch (const Error& error) {
+    CHECK_MESSAGE(std::string(error.what()).starts_with(name), error.what());
+    return true;
+  }
+}
+
+const char* const pieces[] = {"-1", "999999999", "-2147483648", "1e308", "nan",   "1e-320",
+                              "EG", "#",         "\n",          "[",     "]",     "<",
+                              ">",  "0 0 0 0",   "\"",          "d7=",   "</EG>", "inf",
+                              ",",  "Cube {",    "NORM",        "100",   "+",     "\0x"};
+
+std::string changed(std::string s, Random& random) {
+  for (int i = 1 + static_cast<int>(random.bits() % 3); i > 0 && !s.empty(); --i) {
+    const size_t at = random.bits() % s.size();
+    const std::string piece = pieces[random.bits() % std::size(pieces)];
+    switch (random.bits() % 6) {
+      case 0:
+        s[at] = static_cast<char>(random.bits());
+        break;
+      case 1:
+        s.erase(at, random.bits() % 8);
+        break;
+      case 2:
+        s.insert(at, piece);
+        break;
+      case 3:
+        s.replace(at, std::min(piece.size(), s.size() - at), piece);
+        break;
+      case 4: {  // a line is dropped
+        const size_t begin = s.rfind('\n', at), end = s.find('\n', at);
+        if (begin != std::string::npos && end != std::string::npos && end > begin)
+          s.erase(begin, end - begin);
+        break;
+      }
+      default:
+        s.insert(at, s.substr(random.bits() % s.size(), random.bits() % 40));
+    }
+  }
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("malformed small files are told by file, line, wanted and got") {
+  int checked = 0;
+  for (const Format& format : formats) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(fs::path("tests/data/bad") / format.folder)) {
+      const fs::path& path = entry.path();
+      const bool other = std::any_of(std::begin(formats), std::end(formats), [&](const Format& f) {
+        return &f != &format && f.folder == std::string(format.folder) &&
+               path.extension() == std::string(".") + f.ending;
+      });
+      if (path.extension() != ".txt" && !other) files.push_back(path);
+    }
+    std::sort(files.begin(), files.end());
+    CHECK(files.size() >= 3);
+    for (const auto& file : files) {
+      const std::string sentence(trim(read_text(fs::path(file).replace_extension(".txt"))));
+      INFO(file.string());
+      CHECK_THROWS_WITH_AS(format.read(file), sentence.c_str(), Error);
+      ++checked;
+    }
+  }
+  CHECK(checked > 60);
+}
+
+TEST_CASE("a small file that does not exist, or is a folder, is told by its name") {
+  for (const Format& format : formats) {
+    if (format.folder == std::string("primitives")) continue;  // its ending is looked at first
+    CHECK_THROWS_WITH_AS(format.read("tests/none.egr"), "no such file: tests/none.egr", Error);
+    CHECK_THROWS_WITH_AS(format.read("tests/data"), "tests/data: wanted a file, got a folder",
+                         Error);
+  }
+}
+
+TEST_CASE("small files cut short anywhere are values or Errors that name the file") {
+  TemporaryFolder folder;
+  for (const Format& format : formats) {
+    INFO(format.folder << " " << format.ending);
+    CHECK_FALSE(refused(folder, format, format.sound));
+    for (size_t n = 0; n < format.sound.size(); ++n)
+      refused(folder, format, format.sound.substr(0, n));
+  }
+}
+
+TEST_CASE("small files changed at random are values or Errors that name the file") {
+  TemporaryFolder folder;
+  for (const Format& format : formats)
+    for (uint64_t i = 0; i < 150; ++i) {
+      Random random(17, i);
+      const std::string bad = changed(format.sound, random);
+      INFO(bad);
+      refused(folder, format, bad);
+    }
+}
+
+TEST_CASE("noise is an Error in every small format") {
+  TemporaryFolder folder;
+  for (const Format& format : formats)
+    for (uint64_t i = 0; i < 20; ++i) {
+      Random random(18, i);
+      std::string noise(1 + random.bits() % 300, '\0');
+      for (char& c : noise) c = static_cast<char>(random.bits());
+      noise[0] = 'x';
+      CHECK(refused(folder, format, noise));
+    }
+}

@@ -1,0 +1,133 @@
+-- What scripts do with eigengrasps and virtual contacts of a hand.
+local test, clench = require "test", require "clench"
+
+local function human() return clench.world():add_robot "models/hands/human/human20.cfg" end
+
+test("a set written as text and as XML is read back the same", function(t)
+  local hand = human()
+  for _, ending in ipairs {".egr", ".xml"} do
+    local path = os.tmpname() .. ending
+    hand.eigengrasps:save(path)
+    local set = clench.files.eigengrasps(path)
+    os.remove(path)
+    t.ok(#set == #hand.eigengrasps)
+    -- the file keeps the vectors as they were given, to the bit, and both make them unit alike
+    for i, vector in ipairs(set.vectors) do t.close(vector, hand.eigengrasps.vectors[i], 0) end
+    hand.eigengrasps = set
+    t.close(hand.eigengrasps.origin, human().eigengrasps.origin, 0)
+  end
+end)
+
+test("amplitudes that are set are the hand's, unless a limit is in the way", function(t)
+  local hand = human()
+  for i = 0, 4 do
+    local wanted = {0.05 * i, -0.02 * i, 0.01, 0, 0, 0}
+    local clamped = hand:set_amplitudes(wanted)
+    -- sums of twenty products of numbers below two
+    if #clamped == 0 then t.close(hand.amplitudes, wanted, 1e-13) end
+  end
+  local clamped = hand:set_amplitudes {50, 0, 0, 0, 0, 0}
+  t.ok(#clamped > 0)
+  for _, d in ipairs(clamped) do
+    local q, limits = hand.dofs[d], hand.dof_limits[d]
+    t.ok(q == limits[1] or q == limits[2])
+  end
+end)
+
+test("kept posture: a DOF that no eigengrasp moves stays, and stays not without", function(t)
+  local hand = human()
+  local vector = {}
+  for d = 1, 20 do vector[d] = d > 10 and 1 or 0 end
+  hand.eigengrasps = clench.eigengrasps {vectors = {vector}}
+  local q = {}
+  for d, limits in ipairs(hand.dof_limits) do q[d] = (limits[1] + limits[2]) / 2 end
+  q[2] = 0.2
+  hand:set_dofs(q)
+  t.equal(hand:set_amplitudes({0.3}, {keep = true}), {})
+  t.close(hand.dofs[2], 0.2, 1e-15)
+  t.close(hand.amplitudes[1], 0.3, 1e-14)
+  hand:set_amplitudes {0.3}
+  t.ok(math.abs(hand.dofs[2] - 0.2) > 0.01)
+end)
+
+test("a hand moves towards amplitudes until it touches", function(t)
+  local world = clench.load("worlds/human_flask.wld", {root = "."})
+  local hand = world.robots[1]
+  hand:open()
+  local moved = hand:move_amplitudes({2, 0, 0, 0, 0, 0}, {stop_at_contact = true})
+  t.ok(moved.moved and type(moved.clamped) == "table")
+  t.ok(#world:colliding() == 0)
+end)
+
+test("sets and places follow clones and snapshots, and the hash knows them", function(t)
+  local stage = clench.world()
+  local hand = stage:add_robot "models/hands/human/human20.cfg"
+  local before, moment, clone = stage:hash(), stage:snapshot(), stage:clone()
+  hand.eigengrasps = nil
+  t.ok(stage:hash() ~= before and #clone.robots[1].eigengrasps == 6)
+  stage:restore(moment)
+  t.ok(stage:hash() == before and #hand.eigengrasps == 6)
+  hand:add_virtual_contact {link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}}
+  t.ok(stage:hash() ~= before)
+  stage:restore(moment)
+  t.ok(stage:hash() == before)
+end)
+
+test("virtual contacts come back from files, on other hands of the kind too", function(t)
+  local hand, other = human(), human()
+  hand.virtual_contacts = hand:find_virtual_contacts {per_link = 2}
+  for _, ending in ipairs {".vgr", ".xml"} do
+    local path = os.tmpname() .. ending
+    hand:save_virtual_contacts(path)
+    other.virtual_contacts = clench.files.virtual_contacts(path)
+    os.remove(path)
+    t.ok(#other.virtual_contacts == #hand.virtual_contacts)
+    for i, c in ipairs(other.virtual_contacts) do
+      local own = hand.virtual_contacts[i]
+      -- millimetres cost a rounding
+      t.ok((c.point - own.point):norm() < 1e-15 and (c.normal - own.normal):norm() < 1e-15)
+      t.ok(c.mu == own.mu and c.link.name == own.link.name)
+    end
+  end
+end)
+
+test("what is no virtual contact is refused by a sentence", function(t)
+  local hand, world = human(), clench.world()
+  local box = world:add_object("models/objects/box.iv")
+  t.fails(function() hand.virtual_contacts = 3 end, "virtual_contacts: wanted a list of virtual contacts, got 3")
+  t.fails(function() hand.virtual_contacts = {3} end, "virtual_contacts[1]: wanted a virtual contact")
+  t.fails(function() hand.virtual_contacts = {{link = box, point = {0, 0, 0}, normal = {0, 0, 1}}} end, "belongs to another world")
+  t.fails(function() hand.virtual_contacts = {{link = 9, chain = 1, point = {0, 0, 0}, normal = {0, 0, 1}}} end, "there is no link 9 of chain 1")
+  t.fails(function() hand.virtual_contacts = {{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 0}}} end, "normal: wanted a direction")
+  t.fails(function() hand.virtual_contacts = {{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}, nu = 1}} end, "unknown key 'nu'")
+  t.fails(function() hand.virtual_contacts = {{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}, mu = -1}} end, "mu must be >= 0")
+  t.fails(function() hand.eigengrasps = {} end, "wanted eigengrasps, got a table")
+  t.fails(function() clench.eigengrasps {} end, "wanted postures or vectors")
+  t.fails(function() clench.eigengrasps {vectors = {{1, 0}, {2, 0}}} end, "eigengrasp 2: it is a sum of those before it")
+  t.fails(function() clench.eigengrasps {postures = {{0}, {1}}, count = 0} end, "count: wanted 1 or more, got 0")
+  t.fails(function() hand:find_virtual_contacts {per_link = 0} end, "per_link: wanted 1 to 100, got 0")
+  t.fails(function() hand:find_virtual_contacts {against = "wod"} end, "wood")
+end)
+
+test("every hand of ours comes with eigengrasps and virtual contacts, and others are found near the pads", function(t)
+  for _, path in ipairs(clench.catalog().hands) do
+    local world = clench.world()
+    local hand = world:add_robot(path)
+    t.ok(hand.eigengrasps.given and #hand.eigengrasps >= 1, path)
+    local found = hand:find_virtual_contacts()
+    t.ok(#found >= 3, path)
+    -- a place faces the way that the closing hand carries it
+    local before = {}
+    hand:open()
+    for i, c in ipairs(found) do before[i] = {c.point, c.normal} end
+    local q, limits = hand.dofs, hand.dof_limits
+    for d, info in ipairs(hand.dof_info) do
+      q[d] = math.max(limits[d][1], math.min(limits[d][2], q[d] + 0.001 * info.default_velocity))
+    end
+    hand:set_dofs(q)
+    for i, c in ipairs(found) do
+      local way = c.point - before[i][1]
+      if way:norm() > 1e-9 then t.ok(way:dot(before[i][2]) > 0, path .. ": " .. c.link.name) end
+    end
+  end
+end)
