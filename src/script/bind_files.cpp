@@ -1,5 +1,6 @@
 #include "script/bind_files.h"
 
+#include "contact/friction_edges.h"
 #include "io/eigengrasps.h"
 #include "io/glove_files.h"
 #include "io/grasp_lists.h"
@@ -63,6 +64,50 @@ static int object_contacts(lua_State* L) {
   });
 }
 
+// visits the tables of the list in argument 2
+template <class Visit>
+static void each_table(lua_State* L, Visit visit) {
+  const What what{L, {}, "list"};
+  if (!lua_istable(L, 2)) fail_wanted(what, "a list of tables", 2);
+  const int count = static_cast<int>(lua_rawlen(L, 2));
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, 2, i);
+    Table item(L, lua_gettop(L), what.item(i).text());
+    visit(item);
+    item.done();
+    lua_pop(L, 1);
+  }
+}
+
+static Eigen::Vector3d read_direction(Table& item, const char* key) {
+  const Eigen::Vector3d v = item.vec3(key);
+  if (!(v.norm() > 1e-9) || !std::isfinite(v.norm()))
+    fail("{}: {}: wanted a direction", item.subject(), key);
+  return v.normalized();
+}
+
+static int save_object_contacts(lua_State* L) {
+  check_count(L, 2);
+  const std::string path = check_string(L, 1, "path");
+  std::vector<ObjectContact> list;
+  each_table(L, [&](Table& item) {
+    ObjectContact contact{.X_OC = item.pose("frame"),
+                          .placed = item.boolean("placed", true),
+                          .n_O = read_direction(item, "normal"),
+                          .mu = item.number("mu", 1),
+                          .edges = friction_edges()};
+    if (item.has("edges")) {
+      const auto rows = item.rows("edges", 6);
+      contact.edges.resize(6, static_cast<int>(rows.size()));
+      for (size_t e = 0; e < rows.size(); ++e)
+        contact.edges.col(static_cast<int>(e)) = Eigen::Map<const Vector6d>(rows[e].data());
+    }
+    list.push_back(std::move(contact));
+  });
+  write_object_contacts(list, path);
+  return 0;
+}
+
 // --- primitives and grasps ---
 
 static int primitives(lua_State* L) {
@@ -98,28 +143,6 @@ static int planned_grasps(lua_State* L) {
     set_field(L, "spread", g.spread);
     set_field(L, "quality", g.quality);
   });
-}
-
-// visits the tables of the list in argument 2
-template <class Visit>
-static void each_table(lua_State* L, Visit visit) {
-  const What what{L, {}, "list"};
-  if (!lua_istable(L, 2)) fail_wanted(what, "a list of tables", 2);
-  const int count = static_cast<int>(lua_rawlen(L, 2));
-  for (int i = 1; i <= count; ++i) {
-    lua_rawgeti(L, 2, i);
-    Table item(L, lua_gettop(L), what.item(i).text());
-    visit(item);
-    item.done();
-    lua_pop(L, 1);
-  }
-}
-
-static Eigen::Vector3d read_direction(Table& item, const char* key) {
-  const Eigen::Vector3d v = item.vec3(key);
-  if (!(v.norm() > 1e-9) || !std::isfinite(v.norm()))
-    fail("{}: {}: wanted a direction", item.subject(), key);
-  return v.normalized();
 }
 
 static int save_pregrasps(lua_State* L) {
@@ -209,6 +232,15 @@ points out.
 @param options? {root?: string}
 @return {frame: pose, placed: boolean, normal: vec3, mu: number, edges: number[][]}[]
 > clench.files.object_contacts "no.txt"  --> error: no such file)"},
+    {"save_object_contacts", guarded<save_object_contacts>, R"(
+Writes contacts on an object; without `edges` those of a point.
+@param path string
+@param list {frame: pose, normal: vec3, mu?: number, edges?: number[][]}[]  in the object's frame
+> path = os.tmpname()
+> clench.files.save_object_contacts(path, {{frame = {xyz = {0, 0, 0.1}}, normal = {0, 0, -1}, mu = 0.5}})
+> list = clench.files.object_contacts(path)
+> os.remove(path)
+> list[1].mu, #list[1].edges, list[1].placed  --> 0.5, 8, true)"},
     {"primitives", guarded<primitives>, R"(
 Boxes, spheres, cylinders and cones in an Inventor or VRML file, in its frame. Of an object's file those in
 primitives/<its name>.iv beside it are read instead, when that exists. y is the axis of cylinder and cone.

@@ -104,13 +104,7 @@ VirtualContactSpec read_virtual_contact(lua_State* L, int i, const What& what,
 // --- fields ---
 
 static BodyHandle link_of(const VirtualContactHandle& c) {
-  const Robot& robot = *c.robot;
-  const bool there =
-      c.contact.chain < static_cast<int>(robot.chains.size()) &&
-      (c.contact.chain < 0 ||
-       c.contact.link < static_cast<int>(robot.chains[c.contact.chain].links.size()));
-  if (!there) fail("this virtual contact is on no link of '{}'", robot.name);
-  return {c.robot.world, body_of(robot, c.contact)};
+  return {c.robot.world, body_of(*c.robot, c.contact)};
 }
 
 static Pose frame_of(const VirtualContactHandle& c) { return link_of(c)->X_WB * c.contact.X_LC; }

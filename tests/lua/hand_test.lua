@@ -131,3 +131,15 @@ test("every hand of ours comes with eigengrasps and virtual contacts, and others
     end
   end
 end)
+
+test("a virtual contact lies on a link of the hand, in its world", function(t)
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local hand, flask = world.robots[1], world.objects[1]
+  t.fails(function() hand:add_virtual_contact {link = flask, point = {0, 0, 0}, normal = {0, 0, 1}} end, "is no link of robot")
+  hand:autograsp()
+  local other = clench.load("worlds/dlr_flask.wld", {root = "."}).robots[1]
+  t.fails(function() other:add_virtual_contact(world:contacts(hand, flask)[1]) end, "the contact is of another world")
+  t.fails(function() hand:remove_virtual_contact(0) end, "number: wanted one of")
+  t.fails(function() clench.files.save_planned_grasps("x", {{pose = {}, quality = 1, run = 0}}) end, "run: wanted a number from 1")
+  t.fails(function() clench.files.save_pregrasps("x", 3) end, "list: wanted a list of tables, got 3")
+end)
