@@ -67,7 +67,7 @@ const std::string radian = "<compiler angle='radian'/>";
 }  // namespace
 
 TEST_CASE("a model of many elements is read whole") {
-  const Told hand("tests/data/mjcf/hand.xml");
+  const Told hand("tests/data/mjcf/hand.mjcf");
   CHECK(hand.robot.name == "small_hand");
   CHECK(hand.robot.base.name == "small_hand_palm");
   CHECK(hand.dofs() ==
@@ -80,13 +80,13 @@ TEST_CASE("a model of many elements is read whole") {
   // the mesh is in millimetres by the scale of its class
   CHECK(hand.body("thumb").shape->solid().volume == doctest::Approx(0.008 * 0.02 * 0.06));
   CHECK(hand.noted("body 'palm' is the base; its place in the file is not used"));
-  CHECK(hand.warned("hand.xml:12: <geom> is not used"));
+  CHECK(hand.warned("hand.mjcf:12: <geom> is not used"));
   CHECK(hand.warned("<sensor> is not used"));
   CHECK(hand.warned("of <joint>, here and further on, not used: armature"));
 }
 
 TEST_CASE("geoms that collide and geoms that are drawn are kept apart") {
-  const Told hand("tests/data/mjcf/hand.xml");
+  const Told hand("tests/data/mjcf/hand.mjcf");
   const BodySpec& palm = hand.body("palm");
   CHECK(palm.shape->bounds().high.x() == doctest::Approx(0.04));
   REQUIRE(palm.appearance.visual);
@@ -96,7 +96,7 @@ TEST_CASE("geoms that collide and geoms that are drawn are kept apart") {
 }
 
 TEST_CASE("an equality ties a joint to another, counted from where both stand at first") {
-  const Told hand("tests/data/mjcf/hand.xml");
+  const Told hand("tests/data/mjcf/hand.mjcf");
   const JointSpec& tied = hand.joint("middle_pip");
   CHECK(tied.dof == hand.joint("middle_mcp").dof);
   CHECK(tied.ratio == 0.8);
@@ -110,7 +110,7 @@ TEST_CASE("an equality ties a joint to another, counted from where both stand at
 }
 
 TEST_CASE("a motor on a tendon moves its joints together, in proportion") {
-  const Told hand("tests/data/mjcf/hand.xml");
+  const Told hand("tests/data/mjcf/hand.mjcf");
   CHECK(hand.joint("index_pip").dof == hand.joint("index_mcp").dof);
   CHECK(hand.joint("index_pip").ratio == 0.5);
   CHECK(
@@ -128,7 +128,7 @@ TEST_CASE("a tendon of two joints that an equality holds ties them") {
 }
 
 TEST_CASE("actuators limit their joints and say what drives them") {
-  const Told hand("tests/data/mjcf/hand.xml");
+  const Told hand("tests/data/mjcf/hand.mjcf");
   const auto dof = [&](const std::string& name) {
     for (const auto& d : hand.robot.dofs)
       if (d.name == name) return d;
@@ -145,7 +145,7 @@ TEST_CASE("actuators limit their joints and say what drives them") {
 }
 
 TEST_CASE("excluded pairs never collide, nor do pairs whose bits differ") {
-  const Told hand("tests/data/mjcf/hand.xml");
+  const Told hand("tests/data/mjcf/hand.mjcf");
   REQUIRE(hand.robot.collision_rules.pairs_off.size() == 1);
   const auto& [a, b] = hand.robot.collision_rules.pairs_off[0];
   CHECK(hand.robot.chains[a.chain].links[a.link].body.name == "small_hand_index_1");

@@ -57,7 +57,7 @@ class Bench {
 };
 
 const std::string urdf = read_text("tests/data/urdf/gripper.urdf");
-const std::string mjcf = read_text("tests/data/mjcf/hand.xml");
+const std::string mjcf = read_text("tests/data/mjcf/hand.mjcf");
 
 void cut_everywhere(const std::string& name, const std::string& text) {
   Bench bench;

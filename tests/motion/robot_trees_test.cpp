@@ -303,7 +303,7 @@ TEST_CASE("our gripper closes until its fingers meet, and holds what stands betw
 
 TEST_CASE("our hand closes without self-collision") {
   World world;
-  const auto id = add_robot(world, read_robot("tests/data/mjcf/hand.xml"), Pose{});
+  const auto id = add_robot(world, read_robot("tests/data/mjcf/hand.mjcf"), Pose{});
   CHECK(colliding_pairs(world).empty());
   CHECK(autograsp(world, id).moved);
   CHECK(colliding_pairs(world).empty());
