@@ -88,7 +88,7 @@ function random:direction() end
 ---@field robots robot[] # All robots in creation order.
 ---@field contact_threshold number # Surfaces closer than this touch; motion stops with a gap below it. [m]
 ---@field materials string[] # Names of the materials, the seven of the original first.
----@field camera {eye: vec3, target: vec3, up: vec3, field_of_view: number}? # The camera of its file, as `clench.render` takes it: `clench.render(world, world.camera)`. nil when the file has none.
+---@field camera {eye: vec3, target: vec3, up: vec3, field_of_view: number}? # The camera of its file, as `clench.render` takes it: `clench.render(world, world.camera)`. nil when the file has none. It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_distance` [m].
 ---@field source string # File that the world was loaded from; empty when it was made by a script.
 local world = {}
 
@@ -103,8 +103,8 @@ function world:body(name) end
 function world:robot(name) end
 
 ---Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options give overrides the file.
----@param body string|table # file name (.iv .wrl .obj .stl), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
----@param options? {pose?: pose, name?: string, material?: string, mass?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, color?: number[], transparency?: number, root?: string, mesh_scale?: number} # mesh_scale: length of the unit of an .obj or .stl file, 1 by default [m]
+---@param body string|table # file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
+---@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, color?: number[], transparency?: number, root?: string, unit?: string, mesh_scale?: number} # density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
 ---@return body
 function world:add_object(body, options) end
 
@@ -115,8 +115,8 @@ function world:add_object(body, options) end
 function world:add_obstacle(body, options) end
 
 ---Adds a robot from a file.
----@param path string # .cfg
----@param options? {pose?: pose, name?: string, root?: string}
+---@param path string # .cfg .xml .urdf .mjcf
+---@param options? {pose?: pose, name?: string, root?: string, folder?: string, package?: string|table, close?: table, approach?: {point?: vec3, direction: vec3}} # folder: where names in the file are looked up, too; of a URDF or MJCF: package: the folder of its packages, or folders by name; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
 ---@return robot
 function world:add_robot(path, options) end
 
@@ -135,6 +135,11 @@ function world:snapshot() end
 ---Back to a snapshot of this world: what was removed since is back, what was added since is gone.
 ---@param snapshot snapshot
 function world:restore(snapshot) end
+
+---Writes the world: as .wld or .xml for GraspIt!, as a .lua script that holds everything. The old file stays until the new one has been read again; what the format cannot hold is told in a warning.
+---@param path string # .wld, .xml or .lua
+---@param options? {root?: string} # names of files below the root are written from there on
+function world:save(path, options) end
 
 ---Fingerprint of the state: equal bits, equal text.
 ---@return string # 16 hexadecimal digits
@@ -190,6 +195,7 @@ local snapshot = {}
 ---@field com vec3 # Centre of mass in the body frame. [m]
 ---@field inertia number[][] # Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. [kg m^2]
 ---@field mesh mesh? # Its surface; nil when it has none.
+---@field mesh_report table? # What was done to the triangles of its file: lines of text, and the same as fields `format`, `unit` [m], `unit_from` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `turned` (was it inside out?). Nil when it has no mesh, or none from a file.
 ---@field elastic_modulus number? # Young's modulus; nil when it is rigid. [Pa]
 ---@field contacts contact[] # Where others touch it now.
 ---@field color number[] # Colour in pictures: red, green and blue in 0..1.
@@ -216,6 +222,7 @@ function body:move_to(pose) end
 ---@field vertex_count integer # How many vertices it has.
 ---@field bounds {low: vec3, high: vec3} # Axis-aligned bounds in the body frame. [m]
 ---@field volume number # Volume that the surface bounds; parts that overlap count twice. Meaningful when it is watertight. [m^3]
+---@field centroid vec3 # Centre of that volume: the centre of mass of a uniform solid. Meaningful when it is watertight. [m]
 ---@field area number # Area of all its triangles. [m^2]
 ---@field faults string # What is wrong with it, counted.
 ---@field vertices vec3[] # A list of all vertices in the body frame. [m]
@@ -226,15 +233,55 @@ local mesh = {}
 ---@return boolean
 function mesh:is_watertight() end
 
+---What every robot has for grasping: eigengrasps, virtual contacts, a glove, a position sensor.
+---@class hand: thing
+---@field eigengrasps eigengrasps # Its eigengrasps, as they are at any time: those of its file, or one a DOF. Setting copies a set; nil leaves one a DOF.
+---@field amplitudes number[] # Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
+---@field virtual_contacts virtual_contact[] # Where it would like to touch: those of its file, those it was given, or, when there are none of either, those that find_virtual_contacts finds, anew each time. Set to a list of virtual contacts, contacts, or tables as of add_virtual_contact; to {} for none, to nil for those that are found.
+---@field glove {slopes: number[][], intercepts: number[]}? # Calibration of the data glove that its file names: `slopes` (a row a DOF, a number a sensor) and `intercepts`, so that DOF = intercept + slopes * raw. nil when there is none. [rad per count, rad]
+---@field tracker {number: integer, pose: pose}? # Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
+local hand = {}
+
+---Takes the posture that amplitudes of its eigengrasps stand for, whatever is in the way. DOFs stop at their limits.
+---@param amplitudes number[]
+---@param options? {keep?: boolean} # true: what its posture has besides its amplitudes is kept
+---@return integer[] clamped # numbers of the DOFs whose limit was in the way
+function hand:set_amplitudes(amplitudes, options) end
+
+---Drives the DOFs towards the posture of amplitudes, as move_dofs, until contact stops them.
+---@param amplitudes number[]
+---@param options? {keep?: boolean, stop_at_contact?: boolean} # keep: what its posture has besides is kept
+---@return table result # as of autograsp, and `clamped`, numbers of the DOFs whose limit was in the way
+function hand:move_amplitudes(amplitudes, options) end
+
+---Marks a place: where it touches now (a contact), or one in the frame of a link (a body or its name).
+---@param contact contact|virtual_contact|{link: body|string, point?: vec3, normal?: vec3, frame?: pose, mu?: number, torsion_radius?: number, edges?: number[][]} # normal: out of the link; mu 1 by default
+---@return virtual_contact
+function hand:add_virtual_contact(contact) end
+
+---Takes one out of its list.
+---@param number integer
+function hand:remove_virtual_contact(number) end
+
+---Places on its surface where it moves forward when the hand closes: the centre of what each link sweeps, by area and speed along its normal, and one on the palm. Sets nothing.
+---@param options? {per_link?: integer, palm?: boolean, against?: string} # against: material to be grasped, "wood" by default
+---@return virtual_contact[]
+function hand:find_virtual_contacts(options) end
+
+---Writes its virtual contacts to a file, .vgr or .xml; clench.files.virtual_contacts reads it.
+---@param path string
+function hand:save_virtual_contacts(path) end
+
 ---A hand or an arm: a base, chains of links, and the degrees of freedom that move them.
----@class robot: thing
+---@class robot: hand
 ---@field name string # Unique in its world.
 ---@field pose pose # Where its base is, in the world frame. Setting it moves the robot at once, with all that it carries; see move_to.
 ---@field dofs number[] # Values of its degrees of freedom; a list of its own, set as by set_dofs. [rad or m]
 ---@field dof_limits number[][] # Least and largest value of each DOF. [rad or m]
----@field dof_info table[] # What its file says of each DOF: kind ("rigid", "breakaway", "compliant"), default_velocity [rad/s or m/s], max_effort [N m or N], kp, kd, breakaway_torque [N m].
+---@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m].
+---@field dof_names string[] # Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
 ---@field links body[] # Its links, chain by chain, without the base.
----@field chains table[] # Its chains: `pose` in the base, `links`, and `joints` as they stand (kind, dof, ratio, min, max, value, broken_away).
+---@field chains table[] # Its chains: `parent`, the base or the link that it begins on; `pose` in the parent, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away).
 ---@field base body # Its base: palm or stand.
 ---@field bodies body[] # Base, links, and mount if it has one.
 ---@field approach {point: vec3, direction: vec3, frame: pose} # How it approaches what it grasps, in the world frame: `point` on the palm, `direction`, `frame` with +z along it.
@@ -244,14 +291,15 @@ function mesh:is_watertight() end
 ---@field files table # Files that its file names: `eigengrasps`, `virtual_contacts`, `glove_calibration`.
 local robot = {}
 
----A link by its name, whole or without the robot's.
+---A link, or the base, by its name, whole or without the robot's.
 ---@param name string
 ---@return body
 function robot:link(name) end
 
----Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away follow again.
+---Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
 ---@param values number[] # within the limits [rad or m]
-function robot:set_dofs(values) end
+---@param options? {broken_away?: number[][]} # rows {chain, joint, value}
+function robot:set_dofs(values, options) end
 
 ---Drives all DOFs in proportion towards values, until contact stops them.
 ---@param values number[] # within the limits [rad or m]
@@ -283,6 +331,48 @@ function robot:approach_object(options) end
 ---@param carrier robot
 ---@param options? {chain?: integer, pose?: pose, piece?: string, root?: string} # chain 1 by default; pose of the base in the link; file of an adapter
 function robot:mount_on(carrier, options) end
+
+---A few postures whose sums are a hand's: each posture is an origin and an amplitude for each eigengrasp.
+---@class eigengrasps
+---@field vectors number[][] # A unit vector for each eigengrasp, one number a DOF.
+---@field eigenvalues number[] # How much each counts: of principal components the variance of the postures along it.
+---@field origin number[] # The posture of zero amplitudes, within the DOF limits. Where no file says it, the middle of the limits. [rad or m]
+---@field norm number[] # What the vectors' entries are scaled by, DOF by DOF.
+---@field limits number[][] # How far each amplitude can go from the hand's posture, while the others stay: what its file says, else until the first DOF that it moves is at a limit. {least, largest} each
+---@field range number[][] # What each amplitude can be at all: what its file says, else the least and largest of all postures within the DOF limits. {least, largest} each
+---@field hand robot? # The hand whose set it is; nil for a set by itself.
+---@field given boolean # Does it come from a file or a script? A hand that was given none has one eigengrasp a DOF.
+---@field count integer # How many there are; # says it, too.
+local eigengrasps = {}
+
+---Amplitudes of the posture of the set that is nearest to DOF values; without them, to the hand's own.
+---@param dofs? number[] # [rad or m]
+---@return number[]
+function eigengrasps:amplitudes(dofs) end
+
+---DOF values of amplitudes; they may lie outside the limits. With `from`, a posture, what it has besides its own amplitudes is kept.
+---@param amplitudes number[]
+---@param options? {from?: number[]}
+---@return number[] # [rad or m]
+function eigengrasps:dofs(amplitudes, options) end
+
+---Writes the set to a file, .egr or .xml; clench.files.eigengrasps reads it.
+---@param path string
+function eigengrasps:save(path) end
+
+---A place on a link where a hand would like to touch what it grasps; it moves with the link.
+---@class virtual_contact
+---@field link body # The link that it lies on, or the base.
+---@field chain integer # Number of the link's chain; 0 for the base.
+---@field point vec3 # Where it is, in the world frame; it moves with its link. [m]
+---@field normal vec3 # Unit normal out of the link, in the world frame: into what it is to touch.
+---@field frame pose # Contact frame in the world: origin at the point, +z along the normal.
+---@field frame_in_link pose # Contact frame in the link's.
+---@field mu number # Coulomb coefficient that it counts with.
+---@field edges number[][] # What friction a unit normal force carries, over mu: a list of {fx, fy, fz, tx, ty, tz} in the contact frame. torques [m]
+---@field torsion_radius number # Largest torque about the normal that a unit normal force carries, over mu; 0 for a point. [m]
+---@field kind string # "point", or "soft" when it carries torque about the normal.
+local virtual_contact = {}
 
 ---A point where one body touches another, as it was when it was asked for.
 ---@class contact
@@ -401,6 +491,11 @@ function clench.pose(options) end
 ---@return random
 function clench.random(seed, item) end
 
+---What a file describes, by its ending, or by its outermost element in XML.
+---@param path string
+---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
+function clench.file_kind(path) end
+
 ---Paths of the models and worlds that come with Clench, sorted.
 ---@return {hands: string[], arms: string[], objects: string[], obstacles: string[], worlds: string[]}
 function clench.catalog() end
@@ -414,8 +509,8 @@ function clench.entries() end
 ---@return world
 function clench.world(options) end
 
----A world from a file. Names in it are looked up beside the file, then below the root.
----@param path string # .wld
+---A world from a file. Names in it are looked up beside the file, then below the root. A .lua file is run, with a table that holds the root and with the folder of the file as its arguments, and returns a world.
+---@param path string # .wld, .xml or .lua
 ---@param options? {root?: string}
 ---@return world
 function clench.load(path, options) end
@@ -431,6 +526,11 @@ function clench.grasp(hand, object, options) end
 ---@param options {contacts: table[], norm?: string, edges?: integer, rho?: number, com?: vec3}
 ---@return wrench_space
 function clench.wrench_space(options) end
+
+---A set of eigengrasps: the principal components of `postures`, the strongest first, with their mean as the origin; or `vectors`, which are made unit. Of each principal component the largest entry is positive, and its eigenvalue is the variance along it. `count` keeps the first ones. Give it to a hand: hand.eigengrasps = set.
+---@param options {postures?: number[][], count?: integer, vectors?: number[][], eigenvalues?: number[], origin?: number[], norm?: number[], limits?: number[][]}
+---@return eigengrasps
+function clench.eigengrasps(options) end
 
 ---Draws a world: robots, objects, obstacles, and friction cones where robots touch objects. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
 ---@param world world
@@ -482,5 +582,72 @@ function clench.log.level(name) end
 ---Sends messages to a function(level, text) instead of stderr; without one, to stderr again.
 ---@param fn? fun(level: string, text: string)
 function clench.log.sink(fn) end
+
+---The small files around hands and planners, read as tables and written from them.
+---@class clench.files
+clench.files = {}
+
+---Eigengrasps from .egr or .xml. Give them to a hand: hand.eigengrasps = set.
+---@param path string
+---@param options? {root?: string}
+---@return eigengrasps
+function clench.files.eigengrasps(path, options) end
+
+---Virtual contacts from .vgr or .xml. Give them to a hand: hand.virtual_contacts = list. `chain` and `link` count from 1, chain 0 is the base; `frame` is in the link's, +z out of it; `robot` of the list is the hand they were made for.
+---@param path string
+---@param options? {root?: string}
+---@return {chain: integer, link: integer, frame: pose, mu: number, edges: number[][]}[]
+function clench.files.virtual_contacts(path, options) end
+
+---Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, where the file leaves the points out.
+---@param path string
+---@param options? {root?: string}
+---@return {frame: pose, placed: boolean, normal: vec3, mu: number, edges: number[][]}[]
+function clench.files.object_contacts(path, options) end
+
+---Writes contacts on an object; without `edges` those of a point.
+---@param path string
+---@param list {frame: pose, normal: vec3, mu?: number, edges?: number[][]}[] # in the object's frame
+function clench.files.save_object_contacts(path, list) end
+
+---Boxes, spheres, cylinders and cones in an Inventor or VRML file, in its frame. Of an object's file those in primitives/<its name>.iv beside it are read instead, when that exists. y is the axis of cylinder and cone.
+---@param path string
+---@param options? {root?: string}
+---@return {kind: "box"|"sphere"|"cylinder"|"cone", pose: pose, size?: vec3, radius?: number, height?: number}[] # [m]
+function clench.files.primitives(path, options) end
+
+---Pre-grasps of a planner's list, in the object's frame.
+---@param path string
+---@param options? {root?: string}
+---@return {point: vec3, direction: vec3, thumb: vec3, spread: number}[] # [m, rad]
+function clench.files.pregrasps(path, options) end
+
+---Writes pre-grasps as a planner's list.
+---@param path string
+---@param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[]
+function clench.files.save_pregrasps(path, list) end
+
+---Grasps that a planner has tried, in the object's frame; `run` counts the planner's runs.
+---@param path string
+---@param options? {root?: string}
+---@return {run: integer, pose: pose, spread: number, quality: number}[]
+function clench.files.planned_grasps(path, options) end
+
+---Writes grasps as a planner's results; runs in their order.
+---@param path string
+---@param list {pose: pose, quality: number, spread?: number, run?: integer}[]
+function clench.files.save_planned_grasps(path, list) end
+
+---How the raw numbers of a data glove become DOF values: DOF = intercept + slopes * raw.
+---@param path string
+---@param options? {root?: string}
+---@return {slopes: number[][], intercepts: number[]} # [rad per count, rad]
+function clench.files.glove_calibration(path, options) end
+
+---Postures that a glove was calibrated from: raw `sensors`, the `dof_of_sensor` (0: not used), `joints` [rad], the `distance` of fingertips that were to meet [m], and the hand's `pose`.
+---@param path string
+---@param options? {root?: string}
+---@return {distance?: number, sensors?: integer[], dof_of_sensor?: integer[], joints?: number[], pose: pose}[]
+function clench.files.glove_poses(path, options) end
 
 return clench

@@ -74,7 +74,18 @@ static int main_of(int argc, char** argv) {
   doc_verb->add_option("DIR", doc_folder, "where to; default: docs/api");
   doc_verb->add_flag("--check", check, "write nothing; fail when a page is not what it should be");
   doc_verb->footer("Examples:\n  clench doc\n  clench doc --check");
-  for (auto* verb : {run_verb, repl_verb, test_verb, doc_verb}) verb->fallthrough();
+  CheckOptions checking;
+  auto* check_verb = app.add_subcommand("check", "read files and say what was understood");
+  check_verb
+      ->add_option("FILE", checking.files, "robots, bodies, worlds, eigengrasps, virtual contacts")
+      ->required();
+  check_verb->add_option("--root", checking.root, "where names in the files count from")
+      ->type_name("DIR");
+  check_verb->add_flag("--json", checking.json, "as JSON");
+  check_verb->footer(
+      "Examples:\n  clench check hand.urdf\n  clench check --json mug.stl worlds/dlr_flask.wld\n\n"
+      "Exit code: 1 when a file could not be read.");
+  for (auto* verb : {run_verb, repl_verb, test_verb, doc_verb, check_verb}) verb->fallthrough();
 
   if (!line.ours.empty()) {
     const std::string& first = line.ours.front();
@@ -98,6 +109,7 @@ static int main_of(int argc, char** argv) {
 
   run.arguments = line.script;
   if (test_verb->parsed()) return run_tests(test_path, run.quiet);
+  if (check_verb->parsed()) return check_files(checking);
   if (doc_verb->parsed()) return write_docs(doc_folder, check);
   const bool nothing =
       !run_verb->parsed() && !repl_verb->parsed() && run.code.empty() && interactive.empty();

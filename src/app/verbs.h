@@ -21,4 +21,13 @@ int run_tests(const std::string& path, bool quiet);
 /// Writes the API's pages and the editor's stub to a folder; check: compares, and writes nothing.
 int write_docs(const std::string& folder, bool check);
 
+struct CheckOptions {
+  std::vector<std::string> files;
+  std::string root;  ///< where names in the files count from; empty: nothing is said
+  bool json = false;
+};
+
+/// Reads files of any kind and prints what was understood, guessed, ignored and wrong.
+int check_files(const CheckOptions& options);
+
 }  // namespace clench

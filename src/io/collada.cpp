@@ -46,6 +46,20 @@ Affine3d from_rows(const std::vector<double>& m) {
   return X;
 }
 
+/// source  COLLADA 1.4.1, lookat: eye, what it looks at along -z, what is up
+Affine3d looking(const XmlElement& e) {
+  const auto v = e.numbers(9);
+  const Vector3d eye(v[0], v[1], v[2]), up(v[6], v[7], v[8]);
+  const Vector3d back = eye - Vector3d(v[3], v[4], v[5]), side = up.cross(back);
+  if (!(side.norm() > 0)) e.fail("lookat: wanted an upward direction across the view");
+  Affine3d X = Affine3d::Identity();
+  X.linear().col(0) = side.normalized();
+  X.linear().col(2) = back.normalized();
+  X.linear().col(1) = X.linear().col(2).cross(X.linear().col(0));
+  X.translation() = eye;
+  return X;
+}
+
 void ColladaReader::read_asset(const XmlElement& root) {
   MeshReport& report = work_.builder.report;
   report.format = "COLLADA";
@@ -90,8 +104,10 @@ Affine3d ColladaReader::placement(const XmlElement& node) {
       const auto v = e.numbers(4);  // axis, degrees
       const Vector3d axis(v[0], v[1], v[2]);
       if (axis.norm() > 0) X.rotate(Eigen::AngleAxisd(v[3] * units::degree, axis.normalized()));
-    } else if (name == "lookat" || name == "skew") {
-      e.fail("{}: wanted matrix, translate, rotate or scale", name);
+    } else if (name == "lookat") {
+      X = X * looking(e);
+    } else if (name == "skew") {
+      e.fail("skew: wanted matrix, translate, rotate, scale or lookat");
     }
   }
   return X;

@@ -1,6 +1,7 @@
 #include "io/geometry_builder.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -96,11 +97,12 @@ void weld_seams(Surface& s) {
   s.faults = faults;
 }
 
-void drop_flat_triangles(Surface& s) {
+/// Drops triangles if that leaves fewer faulty edges.
+void drop_if_better(Surface& s, const std::vector<char>& dropped) {
   Surface rest;
   rest.mesh.vertices = s.mesh.vertices;
   for (size_t i = 0; i < s.mesh.triangles.size(); ++i) {
-    if (without_area(s.mesh, static_cast<int>(i))) continue;
+    if (dropped[i]) continue;
     rest.mesh.triangles.push_back(s.mesh.triangles[i]);
     rest.kept.push_back(s.kept[i]);
   }
@@ -110,6 +112,41 @@ void drop_flat_triangles(Surface& s) {
   if (rest.faults.open_edges + rest.faults.tangled_edges <
       s.faults.open_edges + s.faults.tangled_edges)
     s = std::move(rest);
+}
+
+void drop_flat_triangles(Surface& s) {
+  std::vector<char> flat(s.mesh.triangles.size());
+  for (size_t i = 0; i < flat.size(); ++i) flat[i] = without_area(s.mesh, static_cast<int>(i));
+  drop_if_better(s, flat);
+}
+
+/// Of triangles over the same vertices two that face opposite ways are a fold without inside, and go
+/// both; of those that are left one stays.
+void drop_doubled_triangles(Surface& s) {
+  const auto& triangles = s.mesh.triangles;
+  std::vector<std::pair<Triangle, int>> sorted;  // lowest vertex first, and the triangle
+  std::vector<char> odd(triangles.size()), dropped(triangles.size(), 0);
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    Triangle t = triangles[i];
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    if ((odd[i] = t[1] > t[2])) std::swap(t[1], t[2]);
+    sorted.emplace_back(t, static_cast<int>(i));
+  }
+  std::sort(sorted.begin(), sorted.end());
+  for (size_t i = 0; i < sorted.size();) {
+    size_t end = i;
+    int sum = 0;
+    for (; end < sorted.size() && sorted[end].first == sorted[i].first; ++end)
+      sum += odd[sorted[end].second] ? -1 : 1;
+    bool stays = sum != 0;
+    for (; i < end; ++i) {
+      const int t = sorted[i].second;
+      const bool this_one = stays && (odd[t] != 0) == (sum < 0);
+      dropped[t] = !this_one;
+      if (this_one) stays = false;
+    }
+  }
+  drop_if_better(s, dropped);
 }
 
 }  // namespace
@@ -220,7 +257,10 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
   if (loose_ || !s.faults.closed()) weld_places(s, loose_);
   if (loose_ && s.mesh.vertices.size() == used) s.faults = find_faults(s.mesh);
   if (s.faults.open_edges > 0) weld_seams(s);
-  if (!s.faults.closed() && s.faults.degenerate_triangles > 0) drop_flat_triangles(s);
+  if (!keeps_triangles && !s.faults.closed() && s.faults.degenerate_triangles > 0)
+    drop_flat_triangles(s);
+  if (!keeps_triangles && !s.faults.closed() && s.faults.duplicate_triangles > 0)
+    drop_doubled_triangles(s);
   out.report.welded_vertices = static_cast<int>(used - s.mesh.vertices.size());
   out.report.dropped_triangles =
       out.report.triangles_read - static_cast<int>(s.mesh.triangles.size());

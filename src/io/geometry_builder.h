@@ -38,13 +38,16 @@ class GeometryBuilder {
   void transform(double factor, const Eigen::Matrix3d& turn);
 
   /// A surface with open edges is mended as far as that closes edges: vertices at the same place
-  /// become one, then those that lie within rounding of each other, and triangles without area go.
+  /// become one, then those that lie within rounding of each other; triangles without area go, and
+  /// those that lie on each other.
   /// A closed mesh that is inside out is turned, with a warning. A closed one stays as its file
   /// connects it. Colours are kept one a triangle when they differ.
   /// `colors_given`: do the colours come from the file?
   Geometry finish(bool colors_given, const std::string& subject, const ReadOptions& options);
 
   MeshReport report;  ///< format, unit and axes are the reader's to say
+  /// Is every triangle kept but those with a corner twice?
+  bool keeps_triangles = false;
 
  private:
   void add_triangle(const Triangle& t, const Eigen::Vector3f& color, float transparency);

@@ -165,6 +165,7 @@ Geometry read_inventor(const std::filesystem::path& path, const std::string& tex
                        const ReadOptions& options) {
   const std::string file = path.filename().string();
   Collector collector(file, options.mesh_scale.value_or(units::millimetre));
+  collector.builder.keeps_triangles = true;
   MeshReport& report = collector.builder.report;
   report.format = text.starts_with("#VRML") ? "VRML" : "Inventor";
   report.unit = options.mesh_scale.value_or(units::millimetre);

@@ -1,9 +1,8 @@
 #include "io/inventor_params.h"
 
-#include <Eigen/Eigenvalues>
-
 #include "base/text.h"
 #include "base/units.h"
+#include "io/inertia.h"
 #include "spec/material_names.h"
 
 namespace clench {
@@ -14,15 +13,6 @@ double positive(const Line& line, const char* what, const char* unit) {
   const double value = line.number(1, what);
   if (value <= 0) line.fail("{}: wanted a number > 0 [{}], got {}", what, unit, value);
   return value;
-}
-
-/// All moments finite and > 0; 1e-12 of the largest is rounding.
-bool is_inertia(const Eigen::Matrix3d& symmetric) {
-  if (!symmetric.allFinite()) return false;
-  const Eigen::Vector3d moments =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(symmetric, Eigen::EigenvaluesOnly)
-          .eigenvalues();
-  return moments[0] > 0 && moments[0] > 1e-12 * moments[2];
 }
 
 /// Empty, with a warning, when no body has such an inertia.
@@ -49,14 +39,7 @@ std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
       rows(i, j) = *value * units::square_millimetre;
     }
   }
-  if (rows != rows.transpose() && options.warn)
-    options.warn(head.place() + ": inertia_matrix is not symmetric; its symmetric part is used");
-  const Eigen::Matrix3d symmetric = 0.5 * (rows + rows.transpose());
-  if (is_inertia(symmetric)) return symmetric;
-  if (options.warn)
-    options.warn(head.place() +
-                 ": inertia_matrix is not positive definite; it is computed from the shape");
-  return {};
+  return checked_inertia(rows, head.place(), options.warn);
 }
 
 }  // namespace

@@ -1,49 +1,152 @@
 #include "io/library.h"
 
 #include "base/text.h"
+#include "io/body_xml.h"
 #include "io/inventor.h"
 #include "io/inventor_params.h"
 #include "io/mesh_files.h"
 #include "io/robot_cfg.h"
+#include "io/robot_xml.h"
+#include "io/tree_files.h"
 
 namespace clench {
 
 namespace fs = std::filesystem;
 
-static BodySpec load_body(const fs::path& path, const ReadOptions& options) {
-  const std::string extension = lower_case(path.extension().string()),
-                    file = path.filename().string();
+static std::string ending(const fs::path& path) { return lower_case(path.extension().string()); }
+
+bool is_inventor(const fs::path& path) {
+  const std::string extension = ending(path);
+  return extension == ".iv" || extension == ".wrl" || extension == ".vrml";
+}
+
+std::string absolute_name(const fs::path& path) {
+  return fs::absolute(path).lexically_normal().generic_string();
+}
+
+static bool is_mesh(const fs::path& path) {
+  for (const char* known : {".obj", ".stl", ".ply", ".off", ".gltf", ".glb", ".dae"})
+    if (ending(path) == known) return true;
+  return false;
+}
+
+Geometry read_geometry(const fs::path& path, const ReadOptions& options, const std::string* text) {
+  if (is_inventor(path)) return read_inventor(path, text ? *text : read_text(path), options);
+  if (is_mesh(path)) return read_mesh_file(path, options);
+  fail("{}: wanted geometry from .iv, .wrl, .obj, .stl, .ply, .off, .gltf, .glb or .dae, got {}",
+       path.filename().string(), in_quotes(ending(path)));
+}
+
+static BodySpec load_body(const fs::path& path, Library& library) {
+  const std::string file = path.filename().string();
+  const ReadOptions& options = library.options();
   BodySpec body;
+  if (ending(path) == ".xml") {
+    body = read_body_xml(path, library);
+  } else if (!is_inventor(path) && !is_mesh(path)) {
+    fail(
+        "{}: wanted a body from .iv, .wrl, .xml, .obj, .stl, .ply, .off, .gltf, .glb or .dae, got "
+        "{}",
+        file, in_quotes(ending(path)));
+  } else {
+    Geometry geometry;
+    if (is_inventor(path)) {
+      const std::string text = read_text(path);
+      read_inventor_params(text, file, options, body);
+      geometry = read_geometry(path, options, &text);
+    } else {
+      geometry = read_geometry(path, options);
+    }
+    body.appearance = std::move(geometry.appearance);
+    body.mesh_report = std::move(geometry.report);
+    if (!geometry.mesh.triangles.empty()) body.shape = Shape::make(std::move(geometry.mesh), file);
+  }
   body.name = path.stem().string();
   body.source = path.generic_string();
-  Geometry geometry;
-  if (extension == ".iv" || extension == ".wrl" || extension == ".vrml") {
-    const std::string text = read_text(path);
-    read_inventor_params(text, file, options, body);
-    geometry = read_inventor(path, text, options);
-  } else if (extension == ".obj" || extension == ".stl") {
-    geometry = read_mesh_file(path, options);
-  } else {
-    fail("{}: wanted a body from .iv, .wrl, .obj or .stl, got {}", file, in_quotes(extension));
-  }
-  body.appearance = std::move(geometry.appearance);
-  if (!geometry.mesh.triangles.empty()) body.shape = Shape::make(std::move(geometry.mesh), file);
+  body.file = absolute_name(path);
   return body;
+}
+
+static RobotSpec load_robot(const fs::path& path, Library& library) {
+  const std::string extension = ending(path);
+  RobotSpec robot;
+  if (extension == ".cfg")
+    robot = read_robot_cfg(path, library);
+  else if (is_robot_tree(path))
+    robot = read_robot_tree(path, library);
+  else if (extension == ".xml")
+    robot = read_robot_xml(path, library);
+  else
+    fail("{}: wanted a robot from .cfg, .xml, .urdf or .mjcf, got {}", path.filename().string(),
+         in_quotes(extension));
+  robot.file = absolute_name(path);
+  return robot;
 }
 
 const BodySpec& Library::body(const fs::path& path) {
   auto found = bodies_.find(path);
-  if (found == bodies_.end()) found = bodies_.emplace(path, load_body(path, options_)).first;
+  if (found == bodies_.end()) found = bodies_.emplace(path, load_body(path, *this)).first;
   return found->second;
 }
 
 const RobotSpec& Library::robot(const fs::path& path) {
   auto found = robots_.find(path);
-  const std::string extension = lower_case(path.extension().string());
-  if (extension != ".cfg")
-    fail("{}: wanted a robot from .cfg, got {}", path.filename().string(), in_quotes(extension));
-  if (found == robots_.end()) found = robots_.emplace(path, read_robot_cfg(path, *this)).first;
+  if (found == robots_.end()) found = robots_.emplace(path, load_robot(path, *this)).first;
   return found->second;
+}
+
+BodySpec Library::named_body(const std::string& name, const fs::path& referrer,
+                             const std::string& place) {
+  try {
+    BodySpec out = body(find_model(name, referrer, ModelKind::body, place, options_));
+    out.source = name;
+    return out;
+  } catch (const Error& error) {
+    fail("{}: {}", place, error.what());
+  }
+}
+
+RobotSpec Library::named_robot(const std::string& name, const fs::path& referrer,
+                               const std::string& place) {
+  try {
+    RobotSpec out = robot(find_model(name, referrer, ModelKind::robot, place, options_));
+    out.source = name;
+    return out;
+  } catch (const Error& error) {
+    fail("{}: {}", place, error.what());
+  }
+}
+
+fs::path Library::find_part(const std::string& name, const fs::path& robot,
+                            const std::string& place) const {
+  // in the folder iv/ beside the robot's file, or of the folder that the call names
+  std::vector<fs::path> folders = {robot.parent_path() / "iv"};
+  if (!options_.folder.empty()) folders.push_back(options_.folder / "iv");
+  for (const auto& folder : folders) {
+    try {
+      return find_file(name, folder / "x", {});
+    } catch (const Error&) {
+      // the next one
+    }
+  }
+  try {
+    return find_file(name, robot, options_);
+  } catch (const Error&) {
+    ReadOptions options;
+    options.note = options_.note;
+    return find_converted(name, folders.back() / "x", ModelKind::body, place, options);
+  }
+}
+
+BodySpec Library::part(const std::string& name, const fs::path& robot, const std::string& place) {
+  try {
+    const fs::path found = find_part(name, robot, place);
+    BodySpec out = body(found);
+    out.source = found.generic_string();
+    return out;
+  } catch (const Error& error) {
+    fail("{}: {}", place, error.what());
+  }
 }
 
 }  // namespace clench

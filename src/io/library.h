@@ -2,7 +2,8 @@
 #pragma once
 #include <map>
 
-#include "io/read.h"
+#include "io/find_model.h"
+#include "io/geometry_builder.h"
 
 namespace clench {
 
@@ -19,14 +20,38 @@ class Library {
   void note(const std::string& sentence) const {
     if (options_.note) options_.note(sentence);
   }
-  /// `path` as find_file gives it
+  /// `path` as find_model gives it
   const BodySpec& body(const std::filesystem::path& path);
   const RobotSpec& robot(const std::filesystem::path& path);
+  /// The body that a line of another file names; errors begin with `place`, "dlr.wld:3".
+  BodySpec named_body(const std::string& name, const std::filesystem::path& referrer,
+                      const std::string& place);
+  RobotSpec named_robot(const std::string& name, const std::filesystem::path& referrer,
+                        const std::string& place);
+  /// The body of a link: names in a robot's file `robot` count from the folder iv/ beside it,
+  /// then as find_file has it.
+  BodySpec part(const std::string& name, const std::filesystem::path& robot,
+                const std::string& place);
 
  private:
+  std::filesystem::path find_part(const std::string& name, const std::filesystem::path& robot,
+                                  const std::string& place) const;
+
   const ReadOptions& options_;
   std::map<std::filesystem::path, BodySpec> bodies_;
   std::map<std::filesystem::path, RobotSpec> robots_;
 };
+
+/// Triangles of a file that holds nothing else; `text` is what an Inventor or VRML file holds, read
+/// when it is null.
+/// throws Error when the ending is none of a geometry file
+Geometry read_geometry(const std::filesystem::path& path, const ReadOptions& options,
+                       const std::string* text = nullptr);
+
+/// Is it a file that Coin reads?
+bool is_inventor(const std::filesystem::path& path);
+
+/// The path from the root of the file system, as specs keep it.
+std::string absolute_name(const std::filesystem::path& path);
 
 }  // namespace clench

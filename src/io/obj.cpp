@@ -137,7 +137,7 @@ void ObjReader::read_materials(const std::string& names) {
     if (found && name == names) break;
   }
   if (!found && input_.options.note)
-    input_.options.note(missing + "; the body has no colours of its own");
+    input_.options.note(words_.place() + ": " + missing + "; the body has no colours of its own");
 }
 
 void ObjReader::read_material_file(const std::filesystem::path& path) {

@@ -2,13 +2,19 @@
 
 #include "base/text.h"
 #include "io/library.h"
+#include "io/robot_files.h"
 #include "io/world_wld.h"
+#include "io/world_xml.h"
 
 namespace clench {
 
 static void check_options(const ReadOptions& options) {
-  if (!(options.mesh_scale > 0) || !std::isfinite(options.mesh_scale))
-    fail("read options: mesh_scale: wanted a length > 0 [m], got {}", options.mesh_scale);
+  const auto check = [](const char* name, const std::optional<double>& length) {
+    if (length && (!(*length > 0) || !std::isfinite(*length)))
+      fail("read options: {}: wanted a length > 0 [m], got {}", name, *length);
+  };
+  check("mesh_scale", options.mesh_scale);
+  check("silent_mesh_unit", options.silent_mesh_unit);
 }
 
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options) {
@@ -22,6 +28,7 @@ RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& optio
   check_options(options);
   RobotSpec robot = Library(options).robot(find_file(path.string(), "", options));
   robot.source = path.generic_string();
+  read_chosen_files(robot, options);
   return robot;
 }
 
@@ -30,9 +37,14 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
   Library library(options);
   const auto found = find_file(path.string(), "", options);
   const std::string extension = lower_case(found.extension().string());
-  if (extension != ".wld")
-    fail("{}: wanted a world from .wld, got {}", found.filename().string(), in_quotes(extension));
-  WorldSpec world = read_world_wld(found, library);
+  WorldSpec world;
+  if (extension == ".wld")
+    world = read_world_wld(found, library);
+  else if (extension == ".xml")
+    world = read_world_xml(found, library);
+  else
+    fail("{}: wanted a world from .wld or .xml, got {}", found.filename().string(),
+         in_quotes(extension));
   world.source = path.generic_string();
   return world;
 }

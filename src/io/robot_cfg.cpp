@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "io/joint_expression.h"
+#include "io/robot_files.h"
 #include "io/transform_list.h"
 
 namespace clench {
@@ -26,7 +27,9 @@ struct DofLine {
 class CfgReader {
  public:
   CfgReader(const fs::path& path, Library& library)
-      : path_(path), library_(library), lines_(path.filename().string(), read_text(path)) {}
+      : path_(path),
+        library_(library),
+        lines_(path.filename().string(), read_text(path)) {}
   RobotSpec read();
 
  private:
@@ -43,7 +46,7 @@ class CfgReader {
   void read_optional_blocks();
   void read_tracker();
   void read_approach();
-  std::string named_file(const char* what);
+  NamedFile named_file(const char* what);
   BodySpec body(const Line& line, const std::string& name);
   void set_dof_units();
   void check_ranges();
@@ -53,6 +56,7 @@ class CfgReader {
   LineReader lines_;
   std::vector<DofLine> dof_lines_;
   std::vector<std::optional<JointKind>> dof_kinds_;  // of its first joint
+  NamedFiles named_;
   RobotSpec robot_;
 };
 
@@ -64,26 +68,7 @@ int CfgReader::count(const char* what, int low) {
 }
 
 BodySpec CfgReader::body(const Line& line, const std::string& name) {
-  // geometry lives in the folder iv/ beside the robot file
-  const std::string file(line.word(0));
-  BodySpec out;
-  try {
-    const ReadOptions& options = library_.options();
-    fs::path found;
-    try {
-      found = find_file(file, path_.parent_path() / "iv" / "x", {});
-    } catch (const Error& near) {
-      try {
-        found = find_file(file, path_, options);
-      } catch (const Error&) {
-        throw near;
-      }
-    }
-    out = library_.body(found);
-    out.source = found.generic_string();
-  } catch (const Error& error) {
-    line.fail("{}", error.what());
-  }
+  BodySpec out = library_.part(std::string(line.word(0)), path_, line.place());
   out.name = name;
   return out;
 }
@@ -102,6 +87,7 @@ RobotSpec CfgReader::read() {
   check_ranges();
   read_optional_blocks();
   check_robot(robot_);
+  read_robot_files(robot_, named_, path_, library_.options());
   return std::move(robot_);
 }
 
@@ -262,14 +248,9 @@ void CfgReader::check_ranges() {
   }
 }
 
-std::string CfgReader::named_file(const char* what) {
+NamedFile CfgReader::named_file(const char* what) {
   const Line line = wanted(fmt::format("the file of {}", what));
-  try {
-    return find_file(std::string(line.text()), path_, library_.options()).generic_string();
-  } catch (const Error& error) {
-    library_.warn(fmt::format("{}: {}: {}", line.place(), what, error.what()));
-    return "";
-  }
+  return {std::string(line.text()), fmt::format("{}: {}", line.place(), what)};
 }
 
 void CfgReader::read_tracker() {
@@ -305,11 +286,11 @@ void CfgReader::read_optional_blocks() {
     const Line line = lines_.next().before('#');
     const std::string_view key = line.word(0);
     if (key == "EigenGrasps")
-      robot_.eigengrasps = named_file("EigenGrasps");
+      named_.eigengrasps = named_file("EigenGrasps");
     else if (key == "VirtualContacts")
-      robot_.virtual_contacts = named_file("VirtualContacts");
+      named_.virtual_contacts = named_file("VirtualContacts");
     else if (key == "CyberGlove")
-      robot_.glove_calibration = named_file("CyberGlove");
+      named_.glove_calibration = named_file("CyberGlove");
     else if (key == "FlockOfBirds")
       read_tracker();
     else if (key == "Approach")

@@ -91,12 +91,13 @@ Pose read_transform(const Line& line, LineReader& lines, const TransformWarning&
 }
 
 Pose read_transform_list(LineReader& lines, const TransformWarning& warn) {
-  Pose total;
+  std::optional<Pose> total;  // the only one is kept to the bit
   while (lines.skip_to_full() && begins_transform(lines.peek())) {
     const Line line = lines.next();
-    total = total * read_transform(line, lines, warn);
+    const Pose next = read_transform(line, lines, warn);
+    total = total ? *total * next : next;
   }
-  return total;
+  return total.value_or(Pose{});
 }
 
 }  // namespace clench

@@ -4,10 +4,10 @@
 
 namespace clench {
 
-/// One element as a line of the text formats.
-static Pose element(const Line& line, std::string_view tag, std::string_view value,
-                    const TransformWarning& warn) {
-  if (tag == "fullTransform") return read_full_transform(line, trim(value));
+// one element as a line of the text formats
+Pose read_transform_element(const Line& line, std::string_view tag, std::string_view value,
+                            const TransformWarning& warn) {
+  if (tag == "fullTransform") return read_full_transform(line, trim(value), warn);
   const char* key = tag == "translation"      ? "t "
                     : tag == "rotation"       ? "r "
                     : tag == "rotationMatrix" ? "R "
@@ -36,7 +36,7 @@ Pose read_tagged_transform(const Line& line, LineReader& lines, const TransformW
     text = text.substr(0, text.find(closing));
   }
 
-  Pose total;
+  std::optional<Pose> total;  // the only one is kept to the bit
   std::string_view rest = trim(text);
   while (!rest.empty()) {
     const size_t head = rest.find('>');
@@ -46,10 +46,12 @@ Pose read_tagged_transform(const Line& line, LineReader& lines, const TransformW
     const std::string end = "</" + std::string(tag) + ">";
     const size_t tail = rest.find(end, head);
     if (tail == std::string_view::npos) line.fail("transform: wanted {} for <{}>", end, tag);
-    total = total * element(line, tag, rest.substr(head + 1, tail - head - 1), warn);
+    const Pose next =
+        read_transform_element(line, tag, rest.substr(head + 1, tail - head - 1), warn);
+    total = total ? *total * next : next;
     rest = trim(rest.substr(tail + end.size()));
   }
-  return total;
+  return total.value_or(Pose{});
 }
 
 }  // namespace clench

@@ -74,18 +74,22 @@ std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, b
   if (n > most_concave_corners)
     fail("wanted at most {} corners of a face that is not convex, got {}", most_concave_corners, n);
 
-  // cut off ears; where a crooked outline has none, any corner will do
+  // cut off ears; where a crooked outline has none, any corner will do, and soon all of them
+  constexpr int most_failures = 8;
   std::vector<int> rest(n);
   std::iota(rest.begin(), rest.end(), 0);
   size_t start = 0;
+  int failures = 0;
   while (rest.size() > 3) {
     const size_t left = rest.size();
-    size_t ear = start % left;
-    for (size_t k = 0; k < left; ++k)
-      if (is_ear(flat, rest, (start + k) % left)) {
-        ear = (start + k) % left;
-        break;
-      }
+    size_t ear = start % left, looked = 0;
+    while (failures < most_failures && looked < left &&
+           !is_ear(flat, rest, (start + looked) % left))
+      ++looked;
+    if (looked < left)
+      ear = (start + looked) % left;
+    else
+      ++failures;
     out.push_back({rest[(ear + left - 1) % left], rest[ear], rest[(ear + 1) % left]});
     rest.erase(rest.begin() + static_cast<long>(ear));
     start = ear;

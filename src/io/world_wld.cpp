@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "io/transform_list.h"
 #include "io/transform_tags.h"
+#include "io/world_parts.h"
 #include "spec/material_names.h"
 
 namespace clench {
@@ -26,17 +27,14 @@ class WldReader {
   void read_header();
   void read_body(Role role);
   void read_robot();
-  void read_dofs(const Line& line, PlacedRobot& placed);
   void read_connection();
   void read_camera(bool focal_distance);
-  void check_connections();
   /// warns of words behind the first `used`
   void used_up(const Line& line, int used) const {
     if (const std::string sentence = line.surplus(used); !sentence.empty()) library_.warn(sentence);
   }
   Pose pose();
   bool begins_pose(const Line& line) const;
-  fs::path file(const Line& line) const;
   /// runs a reader of another file; what it throws gets this line's place
   template <class Read>
   auto at(const Line& line, Read read) const;
@@ -44,7 +42,7 @@ class WldReader {
   const fs::path& path_;
   Library& library_;
   LineReader lines_;
-  std::vector<Line> connection_lines_;
+  std::vector<std::string> connection_places_;
   WorldSpec world_;
 };
 
@@ -70,26 +68,8 @@ Pose WldReader::pose() {
   if (!begins_pose(line))
     line.fail("wanted a transform 'T (w x y z)[x y z]', got {}", in_quotes(line.text()));
   const std::string_view text = line.text();
-  return read_full_transform(line, trim(text.substr(text.front() == 'T' ? 1 : 0)));
-}
-
-fs::path WldReader::file(const Line& line) const {
-  const std::string name(line.text());
-  return at(line, [&] {
-    try {
-      return find_file(name, path_, library_.options());
-    } catch (const Error& missing) {
-      // files that were converted to XML since
-      fs::path sibling;
-      try {
-        sibling =
-            find_file(fs::path(name).replace_extension(".xml").string(), path_, library_.options());
-      } catch (const Error&) {
-        throw missing;
-      }
-      fail("no such file: {}; there is {}, which is not read", name, sibling.filename().string());
-    }
-  });
+  return read_full_transform(line, trim(text.substr(text.front() == 'T' ? 1 : 0)),
+                             library_.options().warn);
 }
 
 void WldReader::read_header() {
@@ -120,7 +100,7 @@ WorldSpec WldReader::read() {
     else if (key == "Robot")
       read_robot();
     else if (key == "Connection")
-      connection_lines_.push_back(line), read_connection();
+      read_connection();
     else if (key == "Camera")
       read_camera(false);
     else if (key == "CameraFull")
@@ -130,7 +110,7 @@ WorldSpec WldReader::read() {
                 in_quotes(line.text()),
                 did_you_mean(key, {std::begin(block_names), std::end(block_names)}));
   }
-  check_connections();
+  check_connections(world_, connection_places_);
   return std::move(world_);
 }
 
@@ -138,8 +118,7 @@ void WldReader::read_body(Role role) {
   const Line line = lines_.next_full("the file of a body");
   PlacedBody placed;
   placed.role = role;
-  placed.body = at(line, [&, found = file(line)] { return library_.body(found); });
-  placed.body.source = line.text();
+  placed.body = library_.named_body(std::string(line.text()), path_, line.place());
   // an obstacle names its material, in most files
   if (lines_.skip_to_full() && !begins_pose(lines_.peek())) {
     const Line material = lines_.peek();
@@ -157,47 +136,15 @@ void WldReader::read_body(Role role) {
 void WldReader::read_robot() {
   const Line line = lines_.next_full("the file of a robot");
   PlacedRobot placed;
-  placed.robot = at(line, [&, found = file(line)] { return library_.robot(found); });
-  placed.robot.source = line.text();
+  placed.robot = library_.named_robot(std::string(line.text()), path_, line.place());
   if (placed.robot.dofs.empty()) {
     if (lines_.peek().blank()) lines_.next();
   } else {
-    read_dofs(lines_.next_full("the values of the DOFs").before('#'), placed);
+    read_dof_values(lines_.next_full("the values of the DOFs").before('#'), placed);
   }
   placed.X_WB = pose();
   world_.order.push_back({WorldEntry::Kind::robot, static_cast<int>(world_.robots.size())});
   world_.robots.push_back(std::move(placed));
-}
-
-void WldReader::read_dofs(const Line& line, PlacedRobot& placed) {
-  const RobotSpec& robot = placed.robot;
-  const int dofs = static_cast<int>(robot.dofs.size());
-  int next = 0;
-  // one value a DOF and nothing else is understood too
-  const bool plain = line.size() == dofs;
-  for (const auto& chain : robot.chains) placed.breakaway.emplace_back(chain.joints.size());
-  for (int d = 0; d < dofs; ++d) {
-    bool slides = false;
-    std::vector<std::pair<size_t, size_t>> joints;
-    for (size_t c = 0; c < robot.chains.size(); ++c)
-      for (size_t j = 0; j < robot.chains[c].joints.size(); ++j)
-        if (robot.chains[c].joints[j].dof == d) {
-          if (joints.empty()) slides = robot.chains[c].joints[j].kind == JointKind::prismatic;
-          joints.push_back({c, j});
-        }
-    const double unit = slides ? units::millimetre : 1.0;
-    placed.dofs.push_back(line.number(next++, fmt::format("DOF {} of {}", d, dofs)) * unit);
-    if (robot.dofs[d].kind != DofKind::breakaway || plain) continue;
-    for (const auto& [c, j] : joints) {
-      const std::string what = fmt::format("DOF {}: joint {} of chain {}", d, j, c);
-      if (line.integer(next++, what + ": broken away (0 or 1)", 0, 1) == 0) continue;
-      // written as the value of the DOF at which the joint stopped
-      placed.breakaway[c][j] = line.number(next++, what) * unit * robot.chains[c].joints[j].ratio;
-    }
-  }
-  if (next < line.size())
-    line.fail("wanted {} numbers for the {} DOFs of {}, got {}", next, dofs, robot.name,
-              line.size());
 }
 
 void WldReader::read_connection() {
@@ -211,35 +158,11 @@ void WldReader::read_connection() {
   const Line mount = lines_.peek();
   if (!begins_pose(mount)) lines_.next();
   if (!mount.blank() && !begins_pose(mount) && !mount.text().starts_with('#')) {
-    c.mount = at(mount, [&, found = file(mount)] { return library_.body(found); });
-    c.mount->source = mount.text();
+    c.mount = library_.named_body(std::string(mount.text()), path_, mount.place());
   }
   c.X_LB = pose();
-  connection_lines_.back() = line;
+  connection_places_.push_back(line.place());
   world_.connections.push_back(std::move(c));
-}
-
-void WldReader::check_connections() {
-  const int robots = static_cast<int>(world_.robots.size());
-  std::vector<bool> carried(robots);
-  for (size_t i = 0; i < world_.connections.size(); ++i) {
-    const Connection& c = world_.connections[i];
-    const Line& line = connection_lines_[i];
-    if (c.parent >= robots)
-      line.fail("parent robot: wanted one of {} robots, got {}", robots, c.parent);
-    if (c.child >= robots)
-      line.fail("child robot: wanted one of {} robots, got {}", robots, c.child);
-    if (c.parent == c.child)
-      line.fail("child robot: wanted another robot than the parent, got {}", c.child);
-    const auto& chains = world_.robots[c.parent].robot.chains;
-    if (c.chain >= static_cast<int>(chains.size()))
-      line.fail("parent chain: wanted one of {} chains of {}, got {}", chains.size(),
-                world_.robots[c.parent].robot.name, c.chain);
-    if (chains[c.chain].links.empty())
-      line.fail("parent chain: chain {} has no link to carry a robot", c.chain);
-    if (carried[c.child]) line.fail("child robot: robot {} is carried already", c.child);
-    carried[c.child] = true;
-  }
 }
 
 void WldReader::read_camera(bool focal_distance) {
@@ -247,15 +170,13 @@ void WldReader::read_camera(bool focal_distance) {
   double x[8];
   for (int i = 0; i < 7; ++i)
     x[i] = line.number(i, i < 3 ? "camera position" : "camera orientation (x y z w)");
-  const Eigen::Quaterniond q(x[6], x[3], x[4], x[5]);  // Inventor's order is x y z w
-  const double norm = q.coeffs().stableNorm();
-  if (!(norm > 1e-6) || !std::isfinite(norm))
+  const auto q = camera_orientation(x[3], x[4], x[5], x[6]);
+  if (!q)
     line.fail("camera orientation: wanted a quaternion of length 1, got {} {} {} {}", x[3], x[4],
               x[5], x[6]);
   used_up(line, focal_distance ? 8 : 7);
   Camera camera;
-  camera.X_WC = {Eigen::Quaterniond(q.coeffs() / norm),
-                 Eigen::Vector3d(x[0], x[1], x[2]) * units::millimetre};
+  camera.X_WC = {*q, Eigen::Vector3d(x[0], x[1], x[2]) * units::millimetre};
   if (focal_distance) camera.focal_distance = line.number(7, "focal distance") * units::millimetre;
   world_.camera = camera;
 }

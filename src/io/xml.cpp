@@ -87,7 +87,7 @@ const char* broken_part(tinyxml2::XMLError error) {
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
       return "an attribute that is none, or stands twice";
     case tinyxml2::XML_ERROR_PARSING_TEXT:
-      return "text that does not end";
+      return "text outside all elements";
     case tinyxml2::XML_ERROR_PARSING_CDATA:
       return "CDATA that does not end";
     case tinyxml2::XML_ERROR_PARSING_COMMENT:
@@ -114,7 +114,9 @@ const char* broken_part(tinyxml2::XMLError error) {
     fail("{}:{}: wanted a closing tag for <{}>, got another one or the end of the file", file, line,
          name.substr(0, 40));
   }
-  if (error == tinyxml2::XML_ERROR_PARSING_ELEMENT || error == tinyxml2::XML_ERROR_PARSING)
+  if (error == tinyxml2::XML_ERROR_PARSING)
+    fail("{}:{}: wanted an end of the element that begins here, got that of the file", file, line);
+  if (error == tinyxml2::XML_ERROR_PARSING_ELEMENT)
     fail("{}:{}: wanted an XML element, got something else", file, line);
   fail("{}:{}: wanted well-formed XML, got {}", file, line, broken_part(error));
 }
@@ -255,8 +257,7 @@ void XmlElement::check(const XmlKnown& known,
   for (const std::string& attribute : attributes())
     if (!contains(known.attributes, attribute))
       warn(fmt::format("{}: unknown attribute '{}' of <{}> is not used{}", place(),
-                       attribute.substr(0, 40), name(),
-                       did_you_mean(attribute, known.attributes)));
+                       attribute.substr(0, 40), name(), did_you_mean(attribute, known.attributes)));
   if (const std::string own = own_text(*element_); !own.empty() && !names.empty())
     warn(fmt::format("{}: text {} in <{}> is not used", place(), in_quotes(own), name()));
 }

@@ -23,8 +23,8 @@ namespace clench {
 
 /// What a reader understands of an element; the rest is warned of.
 struct XmlKnown {
-  std::vector<std::string> once = {};        ///< children of which the first counts
-  std::vector<std::string> many = {};        ///< children of which all count
+  std::vector<std::string> once = {};  ///< children of which the first counts
+  std::vector<std::string> many = {};  ///< children of which all count
   std::vector<std::string> attributes = {};
 };
 

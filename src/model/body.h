@@ -38,8 +38,7 @@ struct Body {
   double max_radius() const;
 };
 
-/// Mass, centre and inertia as the spec gives them, else from the shape: the solid's when it is
-/// closed, the surface's centroid and a solid ball of the surface's radius when not.
+/// What the spec describes; see com_of and inertia_of for what it leaves open.
 Body make_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB);
 
 }  // namespace clench

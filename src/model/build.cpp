@@ -67,10 +67,12 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
   if (c.chain >= 0 && c.chain < static_cast<int>(carrier.chains.size()) &&
       !carrier.chains[c.chain].links.empty()) {
     const Pose X_WL = world.body(carrier.chains[c.chain].links.back()).X_WB;
-    const Pose as_written = X_WL.inverse() * world.body(world.robot(child).base).X_WB;
+    const Pose& X_WB = world.body(world.robot(child).base).X_WB;
+    const Pose as_written = X_WL.inverse() * X_WB;
     const Pose off = X_LB.inverse() * as_written;
     if (off.position.norm() < digits && off.angle() < digits)
-      X_LB = as_written;
+      // both as they are when they agree to the bit
+      X_LB = X_WL * X_LB == X_WB ? X_LB : as_written;
     else if (warn)
       warn(
           fmt::format("robot '{}': its pose and its connection to '{}' differ by {:.3g} m and "
@@ -107,30 +109,92 @@ Id<Robot> add_robot(World& world, const RobotSpec& spec, const Pose& X_WB, const
   return id;
 }
 
-World build_world(const WorldSpec& spec, const Warn& warn) {
-  World world;
-  std::vector<Id<Robot>> robots(spec.robots.size());
-  for (const WorldEntry& entry : spec.order) {
+namespace {
+
+/// Makes the world of a spec, entry by entry.
+class Builder {
+ public:
+  Builder(const WorldSpec& spec, const Warn& warn)
+      : spec_(spec),
+        warn_(warn),
+        robots_(spec.robots.size()),
+        connected_(spec.connections.size()) {}
+  World build();
+
+ private:
+  void add_robot(int index);
+  void add_connection(int index);
+  void switch_collision();
+  Id<Body> named(const std::string& name) const;
+
+  const WorldSpec& spec_;
+  const Warn& warn_;
+  World world_;
+  std::vector<Id<Robot>> robots_;
+  std::vector<bool> connected_;
+};
+
+void Builder::add_robot(int index) {
+  const PlacedRobot& placed = spec_.robots[index];
+  // who tells all that is off needs no search for what overlaps
+  robots_[index] = spec_.collision
+                       ? world_.add_robot(placed.robot, placed.X_WB)
+                       : clench::add_robot(world_, placed.robot, placed.X_WB, "", warn_);
+  set_start_dofs(world_, robots_[index], placed, warn_);
+}
+
+void Builder::add_connection(int index) {
+  const Connection& c = spec_.connections[index];
+  const int count = static_cast<int>(robots_.size());
+  if (c.parent < 0 || c.parent >= count || c.child < 0 || c.child >= count)
+    fail("a connection names robots {} and {}, but the world has {}", c.parent, c.child, count);
+  connect(world_, c, robots_[c.parent], robots_[c.child], warn_);
+  if (spec_.collision && c.mount)
+    world_.set_name(*world_.robot(robots_[c.child]).mounting->piece, c.mount->name);
+  connected_[index] = true;
+}
+
+Id<Body> Builder::named(const std::string& name) const {
+  const auto id = world_.find_body(name);
+  if (!id) fail("a collision switch names body '{}', but the world has none", name);
+  return id;
+}
+
+void Builder::switch_collision() {
+  const auto neighbours = world_.state().pairs_off;
+  for (const auto& [a, b] : neighbours) world_.set_collision(true, a, b);
+  for (const auto& [a, b] : spec_.collision->pairs_off)
+    world_.set_collision(false, named(a), named(b));
+  for (const auto& name : spec_.collision->bodies_off) world_.set_collision(false, named(name));
+  world_.set_collision(spec_.collision->on);
+}
+
+World Builder::build() {
+  if (spec_.contact_threshold) world_.set_contact_threshold(*spec_.contact_threshold);
+  for (const FrictionSpec& f : spec_.friction)
+    world_.set_friction(f.a, f.b, {f.statics, f.kinetic});
+  for (const WorldEntry& entry : spec_.order) {
     if (entry.kind == WorldEntry::Kind::body) {
-      const PlacedBody& placed = spec.bodies[entry.index];
-      world.add_body(placed.body,
-                     placed.role == Role::object ? BodyKind::object : BodyKind::obstacle,
-                     placed.X_WB);
+      const PlacedBody& placed = spec_.bodies[entry.index];
+      world_.add_body(placed.body,
+                      placed.role == Role::object ? BodyKind::object : BodyKind::obstacle,
+                      placed.X_WB);
+    } else if (entry.kind == WorldEntry::Kind::robot) {
+      add_robot(entry.index);
     } else {
-      const PlacedRobot& placed = spec.robots[entry.index];
-      robots[entry.index] = add_robot(world, placed.robot, placed.X_WB, "", warn);
-      set_start_dofs(world, robots[entry.index], placed, warn);
+      add_connection(entry.index);
     }
   }
-  for (const Connection& c : spec.connections) {
-    const int count = static_cast<int>(robots.size());
-    if (c.parent < 0 || c.parent >= count || c.child < 0 || c.child >= count)
-      fail("a connection names robots {} and {}, but the world has {}", c.parent, c.child, count);
-    connect(world, c, robots[c.parent], robots[c.child], warn);
-  }
-  world.set_camera(spec.camera);
-  world.set_source(spec.source);
-  return world;
+  for (size_t i = 0; i < connected_.size(); ++i)
+    if (!connected_[i]) add_connection(static_cast<int>(i));
+  if (spec_.collision) switch_collision();
+  world_.set_camera(spec_.camera);
+  world_.set_source(spec_.source);
+  return std::move(world_);
 }
+
+}  // namespace
+
+World build_world(const WorldSpec& spec, const Warn& warn) { return Builder(spec, warn).build(); }
 
 }  // namespace clench

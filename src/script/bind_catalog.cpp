@@ -1,10 +1,13 @@
 #include "script/bind_catalog.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "io/file_kind.h"
+#include "io/read.h"
 #include "script/check.h"
 #include "script/guard.h"
 #include "script/home.h"
@@ -14,22 +17,37 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-// what a shelf holds: files with these endings
 struct Shelf {
   const char* name;
   const char* folder;
-  std::vector<std::string> endings;
+  FileKind kind;  // of what lies on it
 };
 
-static const std::vector<Shelf>& shelves() {
-  static const std::vector<Shelf> all = {
-      {"hands", "models/hands", {".cfg", ".urdf"}},
-      {"arms", "models/arms", {".cfg", ".urdf"}},
-      {"objects", "models/objects", {".iv", ".wrl", ".obj", ".stl", ".ply", ".off"}},
-      {"obstacles", "models/obstacles", {".iv", ".wrl", ".obj", ".stl", ".ply", ".off"}},
-      {"worlds", "worlds", {".wld"}},
-  };
-  return all;
+static constexpr Shelf shelves[] = {
+    {"hands", "models/hands", FileKind::robot},
+    {"arms", "models/arms", FileKind::robot},
+    {"objects", "models/objects", FileKind::body},
+    {"obstacles", "models/obstacles", FileKind::body},
+    {"worlds", "worlds", FileKind::world},
+};
+
+// parts of robots, planners' stand-ins for objects, and what was saved beside a world are no models
+// of their own
+static bool holds_parts(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  return name == "iv" || name == "primitives" || name.ends_with("_files");
+}
+
+static bool belongs(const fs::path& path, FileKind kind) {
+  // a surface that lies beside its body's XML file belongs to that
+  if (path.extension() != ".xml" && kind == FileKind::body &&
+      fs::exists(fs::path(path).replace_extension(".xml")))
+    return false;
+  try {
+    return file_kind(path) == kind;
+  } catch (const Error&) {
+    return false;  // a note, a picture
+  }
 }
 
 // below the current folder as seen from there, else absolute
@@ -45,11 +63,12 @@ static std::vector<std::string> files_on(const fs::path& home, const Shelf& shel
   std::error_code error;
   for (fs::recursive_directory_iterator it(home / shelf.folder, error), end; !error && it != end;
        it.increment(error)) {
-    // planners' stand-ins for objects are no models of their own
-    if (it->path().filename() == "primitives") it.disable_recursion_pending();
-    const std::string ending = it->path().extension().string();
-    if (std::find(shelf.endings.begin(), shelf.endings.end(), ending) == shelf.endings.end())
+    std::error_code none;
+    if (it->is_directory(none)) {
+      if (holds_parts(it->path())) it.disable_recursion_pending();
       continue;
+    }
+    if (!belongs(it->path(), shelf.kind)) continue;
     found.push_back(plain_path(it->path()));
   }
   std::sort(found.begin(), found.end());
@@ -62,15 +81,27 @@ static int catalog(lua_State* L) {
   if (home.empty())
     fail("{}: no folder with models and worlds found near the program; set CLENCH_MODELS to it",
          subject(L));
-  push_list(L, 0, static_cast<int>(shelves().size()));
-  for (const Shelf& shelf : shelves()) {
+  push_list(L, 0, static_cast<int>(std::size(shelves)));
+  for (const Shelf& shelf : shelves) {
     push_list_of(L, files_on(home, shelf), [L](const std::string& path) { push(L, path); });
     lua_setfield(L, -2, shelf.name);
   }
   return 1;
 }
 
+static int kind_of_file(lua_State* L) {
+  check_count(L, 1);
+  return push(L, kind_name(file_kind(find_file(check_string(L, 1, "path"), {}, {}))));
+}
+
 static const Entry functions[] = {
+    {"file_kind", guarded<kind_of_file>, R"(
+What a file describes, by its ending, or by its outermost element in XML.
+@param path string
+@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
+> clench.file_kind "models/objects/flask.iv"  --> body
+> clench.file_kind "worlds/dlr_flask.wld"  --> world
+> clench.file_kind "README.md"  --> error: wanted a model, a world, eigengrasps or virtual contacts, got '.md')"},
     {"catalog", guarded<catalog>, R"(
 Paths of the models and worlds that come with Clench, sorted.
 @return {hands: string[], arms: string[], objects: string[], obstacles: string[], worlds: string[]}

@@ -17,7 +17,7 @@ static const char* const level_names[] = {"debug", "info", "warning", "error", "
 // addresses name the places of the state's level and sink
 static const char level_key = 0, sink_key = 0;
 
-static LogLevel log_level(lua_State* L) {
+LogLevel log_level(lua_State* L) {
   const bool set = lua_rawgetp(L, LUA_REGISTRYINDEX, &level_key) == LUA_TNUMBER;
   const auto level = set ? static_cast<LogLevel>(lua_tointeger(L, -1)) : LogLevel::info;
   lua_pop(L, 1);

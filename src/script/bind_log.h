@@ -19,6 +19,7 @@ inline void log_warning(lua_State* L, const std::string& message) {
   log(L, LogLevel::warning, message);
 }
 
+LogLevel log_level(lua_State* L);
 void set_log_level(lua_State* L, LogLevel level);
 
 }  // namespace clench

@@ -168,8 +168,8 @@ Its surface; nil when it has none.
     {"mesh_report", guarded<get_mesh_report>, R"(
 What was done to the triangles of its file: lines of text, and the same as fields `format`, `unit` [m], `unit_from`
 ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`,
-`welded_vertices`, `unused_vertices`, `dropped_triangles`, `turned` (was it inside out?). Nil when it has no mesh, or none
-from a file.
+`welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or
+lying on others), `turned` (was it inside out?). Nil when it has no mesh, or none from a file.
 @type table?
 > flask.mesh_report.unit  --> 0.001
 > flask.mesh_report.unit_from  --> format

@@ -3,12 +3,14 @@
 #include "base/suggest.h"
 #include "model/build.h"
 #include "script/bind_contact.h"
+#include "script/camera.h"
 #include "script/guard.h"
 #include "script/handles.h"
 #include "script/push.h"
 #include "script/read_robot.h"
 #include "script/read_spec.h"
 #include "script/table.h"
+#include "script/world_files.h"
 
 namespace clench {
 
@@ -23,16 +25,6 @@ static int new_world(lua_State* L) {
   world->set_contact_threshold(options.positive("contact_threshold", world->contact_threshold()));
   options.done();
   return push_object(L, WorldHandle{std::move(world)});
-}
-
-static int load(lua_State* L) {
-  check_count(L, 2);
-  const std::string path = check_string(L, 1, "path");
-  Table options(L, 2);
-  const ReadOptions reading = read_options(L, options);
-  options.done();
-  const WorldSpec spec = read_world(find_file(path, {}, reading), reading);
-  return push_object(L, WorldHandle{std::make_shared<World>(build_world(spec, reading.warn))});
 }
 
 static int add_body(lua_State* L, BodyKind kind) {
@@ -263,23 +255,6 @@ static int set_contact_threshold(lua_State* L) {
 
 static int get_source(lua_State* L) { return push(L, world_of(L).source()); }
 
-// what a perspective camera of Inventor sees unless a file says otherwise: 45 degrees
-static constexpr double inventor_field_of_view = 0.7853981633974483;
-
-static int get_camera(lua_State* L) {
-  const auto& camera = world_of(L).camera();
-  if (!camera) {
-    lua_pushnil(L);
-    return 1;
-  }
-  push_list(L, 0, 4);
-  set_field(L, "eye", camera->X_WC.position);
-  set_field(L, "target", camera->X_WC * Eigen::Vector3d(0, 0, -camera->focal_distance));
-  set_field(L, "up", Eigen::Vector3d(camera->X_WC.rotation * Eigen::Vector3d::UnitY()));
-  set_field(L, "field_of_view", inventor_field_of_view);
-  return 1;
-}
-
 static int text(lua_State* L) {
   const World& world = world_of(L);
   return push(L, fmt::format("world of {} bodies, {} robots", world.bodies().size(),
@@ -304,9 +279,10 @@ An empty world.
 @param options? {contact_threshold?: number}  surfaces closer than this touch, 1e-4 by default [m]
 @return world
 > #clench.world().bodies  --> 0)"},
-    {"load", guarded<load>, R"(
-A world from a file. Names in it are looked up beside the file, then below the root.
-@param path string  .wld
+    {"load", guarded<load_world>, R"(
+A world from a file. Names in it are looked up beside the file, then below the root. A .lua file is run, with a table
+that holds the root and with the folder of the file as its arguments, and returns a world.
+@param path string  .wld, .xml or .lua
 @param options? {root?: string}
 @return world
 > #clench.load("worlds/dlr_flask.wld", {root = "."}).robots  --> 1
@@ -341,8 +317,13 @@ Names of the materials, the seven of the original first.
 > world.materials[1]  --> frictionless)"},
     {"camera", guarded<get_camera>, R"(
 The camera of its file, as `clench.render` takes it: `clench.render(world, world.camera)`. nil when the file has none.
+It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_distance` [m].
 @type {eye: vec3, target: vec3, up: vec3, field_of_view: number}?
-> clench.world().camera  --> nil)"},
+> clench.world().camera  --> nil
+> world.camera = {eye = {1, 0, 0.5}, target = {0, 0, 0}, up = {0, 0, 1}}
+> world.camera.eye  --> (1, 0, 0.5)
+> world.camera = {eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}  --> error: up not along the view)",
+     guarded<set_camera>},
     {"source", guarded<get_source>, R"(
 File that the world was loaded from; empty when it was made by a script.
 @type string
@@ -405,6 +386,17 @@ Back to a snapshot of this world: what was removed since is back, what was added
 > hand:open()
 > world:restore(moment)
 > world:hash() == before  --> true)"},
+    {"save", guarded<save_world>, R"(
+Writes the world: as .wld or .xml for GraspIt!, as a .lua script that holds everything. The old file stays until the
+new one has been read again; what the format cannot hold is told in a warning.
+@param path string  .wld, .xml or .lua
+@param options? {root?: string}  names of files below the root are written from there on
+> path = os.tmpname()
+> world:save(path .. ".lua")
+> clench.load(path .. ".lua"):hash() == world:hash()  --> true
+> os.remove(path)
+> os.remove(path .. ".lua")
+> world:save "world.txt"  --> error: wanted a world to .wld, .xml or .lua, got '.txt')"},
     {"hash", guarded<hash>, R"(
 Fingerprint of the state: equal bits, equal text.
 @return string  16 hexadecimal digits

@@ -12,26 +12,34 @@ namespace clench {
 
 /// How a body looks; physics does not read it.
 struct Appearance {
-  Eigen::Vector3f color = Eigen::Vector3f(0.7f, 0.7f, 0.7f);  ///< linear part of the file's diffuse colour, 0..1
-  float transparency = 0;                                     ///< 0 opaque .. 1 invisible
-  std::vector<Eigen::Vector3f> triangle_colors;               ///< one a triangle, or empty
-  bool given = false;                                         ///< does it come from the file?
+  Eigen::Vector3f color =
+      Eigen::Vector3f(0.7f, 0.7f, 0.7f);         ///< linear part of the file's diffuse colour, 0..1
+  float transparency = 0;                        ///< 0 opaque .. 1 invisible
+  std::vector<Eigen::Vector3f> triangle_colors;  ///< one a triangle, or empty
+  bool given = false;                            ///< does it come from the file?
   ShapePtr visual = {};  ///< drawn instead of the body's shape; null: that shape itself
 };
 
 struct BodySpec {
-  std::string name;                     ///< file stem unless the user says otherwise
-  std::string source;                   ///< file it was read from, as it was named; empty when made in a script
-  std::string file;                     ///< the same, absolute
-  ShapePtr shape;                       ///< null: a frame without geometry, which never collides
+  std::string name;    ///< file stem unless the user says otherwise
+  std::string source;  ///< file it was read from, as it was named; empty when made in a script
+  std::string file;    ///< the same, absolute
+  ShapePtr shape;      ///< null: a frame without geometry, which never collides
   std::optional<MeshReport> mesh_report;  ///< of geometry from a file
   Appearance appearance;
   std::string material = "wood";
-  double mass = 0.3;                    ///< [kg]
-  std::optional<Eigen::Vector3d> com;   ///< centre of mass in the body frame [m]; else from the shape
+  double mass = 0.3;  ///< [kg]
+  std::optional<Eigen::Vector3d>
+      com;  ///< centre of mass in the body frame [m]; else from the shape
   std::optional<Eigen::Matrix3d> inertia_per_mass;  ///< about com [m^2]; else from the shape
   std::optional<double> elastic_modulus;            ///< Young's modulus [Pa]; absent: rigid
-  std::optional<int> tracker;           ///< number of the position sensor that drives it
+  std::optional<int> tracker;  ///< number of the position sensor that drives it
 };
+
+/// Centre of mass as the spec gives it, else the solid's; of an open surface, the surface's [m].
+Eigen::Vector3d com_of(const BodySpec& spec);
+/// Inertia per mass about the centre of mass as the spec gives it, else the solid's; of an open
+/// surface, that of a solid ball of the surface's radius [m^2].
+Eigen::Matrix3d inertia_of(const BodySpec& spec);
 
 }  // namespace clench

@@ -22,37 +22,53 @@ using Breakaway = std::optional<double>;
 struct PlacedRobot {
   RobotSpec robot;
   Pose X_WB;
-  std::vector<double> dofs;              ///< one a DOF [rad or m]
+  std::vector<double> dofs;                       ///< one a DOF [rad or m]
   std::vector<std::vector<Breakaway>> breakaway;  ///< by chain, by joint; empty: none broken away
 };
 
 /// The child's base is fixed to the last link of the parent's chain.
 struct Connection {
-  int parent = 0;                        ///< index into WorldSpec::robots
+  int parent = 0;  ///< index into WorldSpec::robots
   int chain = 0;
   int child = 0;
-  Pose X_LB;                             ///< child base in the parent's last link
-  std::optional<BodySpec> mount;         ///< adapter piece, at the last link's frame
+  Pose X_LB;                      ///< child base in the parent's last link
+  std::optional<BodySpec> mount;  ///< adapter piece, at the last link's frame
 };
 
 struct Camera {
-  Pose X_WC;                             ///< looks along -z, y up
-  double focal_distance = 0.1;           ///< [m]
+  Pose X_WC;                    ///< looks along -z, y up
+  double focal_distance = 0.1;  ///< [m]
 };
 
 /// One entry of the file's order, so that bodies keep their numbering.
 struct WorldEntry {
-  enum class Kind { body, robot } kind;
-  int index;                             ///< into bodies or robots
+  enum class Kind { body, robot, connection } kind;
+  int index;  ///< into bodies, robots or connections
+};
+
+/// Friction of a pair of materials, new ones or of another coefficient than every world begins with.
+struct FrictionSpec {
+  std::string a, b;
+  double statics = 0, kinetic = 0;
+};
+
+/// All that is switched off, by the names of bodies.
+struct CollisionSpec {
+  bool on = true;  ///< false: nothing collides
+  std::vector<std::string> bodies_off;
+  std::vector<std::array<std::string, 2>> pairs_off;
 };
 
 struct WorldSpec {
   std::string source;
   std::vector<PlacedBody> bodies;
   std::vector<PlacedRobot> robots;
-  std::vector<WorldEntry> order;
+  std::vector<WorldEntry> order;  ///< connections that are not named come last
   std::vector<Connection> connections;
   std::optional<Camera> camera;
+  std::optional<double> contact_threshold;  ///< [m]; absent: that of an empty world
+  std::vector<FrictionSpec> friction;       ///< in the order in which new materials get their names
+  std::optional<CollisionSpec> collision;   ///< absent: what the robots bring along
 };
 
 }  // namespace clench

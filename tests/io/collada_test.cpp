@@ -129,8 +129,10 @@ TEST_CASE("what is wrong in a COLLADA file is told by line") {
           "instance_visual_scene: wanted an element with the id 't', got none");
   refused("url=\"#g\"", "url=\"b.dae#g\"",
           "instance_geometry: wanted '#' and the id of an element of this file, got 'b.dae#g'");
-  refused("<instance_geometry", "<lookat>1</lookat><instance_geometry",
-          "lookat: wanted matrix, translate, rotate or scale");
+  refused("<instance_geometry", "<skew>1</skew><instance_geometry",
+          "skew: wanted matrix, translate, rotate, scale or lookat");
+  refused("<instance_geometry", "<lookat>1 2 3 1 2 9 0 0 1</lookat><instance_geometry",
+          "lookat: wanted an upward direction across the view");
   refused("<instance_geometry", "<scale>1 x 1</scale><instance_geometry",
           "scale: wanted a number, got 'x'");
   refused("<instance_geometry", "<scale>1 1</scale><instance_geometry",

@@ -138,6 +138,27 @@ TEST_CASE("triangles without area go, and are counted, unless the surface needs 
   CHECK(find_faults(closed.mesh).closed());
 }
 
+TEST_CASE("triangles that lie on each other go, a fold whole and a double one once") {
+  const TemporaryFolder folder;
+  const Mesh whole = stretched_box();
+  const Triangle t = whole.triangles[3];
+  // a fin on an edge, front and back; and one face twice
+  Mesh folded = whole;
+  folded.vertices.emplace_back(1, 1, 1);
+  folded.triangles.push_back({t[0], t[1], 8});
+  folded.triangles.push_back({t[1], t[0], 8});
+  folded.triangles.push_back({t[1], t[2], t[0]});
+  const Geometry geometry = read(folder, {"folded.ply", ascii_ply(folded)});
+  check_same_surface(geometry.mesh, whole);
+  CHECK(geometry.mesh.vertices.size() == 8);
+  CHECK(geometry.report.dropped_triangles == 3);
+  // a sheet with two sides is closed as it is
+  const Geometry sheet =
+      read(folder, {"sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n"});
+  CHECK(sheet.mesh.triangles.size() == 2);
+  CHECK(sheet.report.dropped_triangles == 0);
+}
+
 TEST_CASE("a mesh of nothing but lines in disguise is kept rather than emptied") {
   const TemporaryFolder folder;
   CHECK(read(folder, {"a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"}).mesh.triangles.size() == 1);

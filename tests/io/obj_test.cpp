@@ -59,7 +59,7 @@ TEST_CASE("the colours of an OBJ come from its material file and it loads withou
   options.mesh_scale = 1;
   CHECK_FALSE(read_body(file, options).appearance.given);
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0] == "no such file: my cube.mtl; the body has no colours of its own");
+  CHECK(notes[0] == "cube.obj:1: no such file: my cube.mtl; the body has no colours of its own");
   folder.write("my cube.mtl", "newmtl red\nKd 1 0 0\nd 0.5\nKs 1 1 1\n");
   const Appearance look = read_body(file).appearance;
   CHECK(look.given);

@@ -24,12 +24,12 @@ TEST_CASE("faces, strips and polygons of a PLY file are cut alike") {
       read(head + faces + "end_header\n" + point_rows + "3 0 1 2\n3 2 1 3\n").shape->mesh();
   const Mesh strip =
       read(head + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
-           point_rows + "8 0 1 2 3 -1 0 1 2\n")
+           point_rows + "8 0 1 2 3 -1 0 1 3\n")
           .shape->mesh();
   REQUIRE(strip.triangles.size() == 3);
   CHECK(strip.triangles[0] == two.triangles[0]);
   CHECK(strip.triangles[1] == two.triangles[1]);
-  CHECK(strip.triangles[2] == two.triangles[0]);
+  CHECK(strip.triangles[2] == Triangle{0, 1, 3});
   CHECK(read(head + faces + "end_header\n" + point_rows + "4 0 1 2 3\n3 0 1 3\n")
             .shape->mesh()
             .triangles.size() == 3);

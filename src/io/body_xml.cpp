@@ -1,0 +1,167 @@
+#include "io/body_xml.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/units.h"
+#include "io/inertia.h"
+#include "io/transform_xml.h"
+#include "spec/material_names.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const XmlKnown known = {.once = {"material", "youngs", "normalCompliance", "shearCompliance",
+                                 "useFlockOfBirds", "geometryFile", "geometryScaling",
+                                 "geometryScalingX", "geometryScalingY", "geometryScalingZ",
+                                 "geometryOffset", "mass", "cog", "inertia_matrix"}};
+
+double positive(const XmlElement& element, const char* unit) {
+  const double value = element.number();
+  if (value <= 0) element.fail("{}: wanted a number > 0{}, got {}", element.name(), unit, value);
+  return value;
+}
+
+/// Factors along x, y and z.
+Eigen::Vector3d read_scaling(const XmlElement& body) {
+  Eigen::Vector3d scaling = Eigen::Vector3d::Ones();
+  const XmlElement all = body.child("geometryScaling");
+  if (all) scaling.setConstant(positive(all, ""));
+  constexpr const char* names[] = {"geometryScalingX", "geometryScalingY", "geometryScalingZ"};
+  for (int i = 0; i < 3; ++i)
+    if (const XmlElement one = body.child(names[i])) {
+      if (all) one.fail("{}: wanted it or geometryScaling, got both", names[i]);
+      scaling[i] = positive(one, "");
+    }
+  return scaling;
+}
+
+/// Triangles in the body frame; coordinates of the file count as millimetres.
+Geometry read_scaled(const XmlElement& body, const fs::path& path, Library& library) {
+  const XmlElement element = body.child("geometryFile");
+  const std::string name = element.text();
+  element.check({.attributes = {"type"}}, library.options().warn);
+  Eigen::Vector3d scaling = read_scaling(body);
+  ReadOptions options = library.options();
+  options.mesh_scale.reset();
+  Geometry geometry;
+  try {
+    const fs::path found = find_file(name, path, options);
+    if (!is_inventor(found)) {
+      // one factor for both, so that metres scaled by 1000 lose no digit
+      options.mesh_scale = units::millimetre * scaling.x();
+      scaling /= scaling.x();
+    }
+    geometry = read_geometry(found, options);
+  } catch (const Error& error) {
+    element.fail("{}", error.what());
+  }
+  const XmlElement offset = body.child("geometryOffset");
+  const Pose X_BG = offset ? read_transform_of(offset, library.options().warn) : Pose{};
+  if (offset) offset.check({.once = {"transform"}}, library.options().warn);
+  if (scaling != Eigen::Vector3d::Ones())
+    for (auto& v : geometry.mesh.vertices) v = scaling.cwiseProduct(v);
+  if (offset)
+    for (auto& v : geometry.mesh.vertices) v = X_BG * v;
+  return geometry;
+}
+
+void read_type(const XmlElement& geometry_file, const Library& library) {
+  const auto type = geometry_file.attribute("type");
+  if (!type) return;
+  const std::string ending = lower_case(fs::path(geometry_file.text()).extension().string());
+  const std::string wanted = lower_case(*type);
+  const bool inventor = wanted == "inventor" && (ending == ".iv" || ending == ".wrl");
+  if (!inventor && "." + wanted != ending)
+    library.warn(fmt::format("{}: geometryFile: type {} is not that of {}; its ending counts",
+                             geometry_file.place(), in_quotes(*type),
+                             in_quotes(geometry_file.text())));
+}
+
+void read_compliance(const XmlElement& body, const Library& library) {
+  const std::array both = {body.child("normalCompliance"), body.child("shearCompliance")};
+  for (int i = 0; i < 2; ++i) {
+    if (!both[i]) continue;
+    positive(both[i], "");
+    if (!both[1 - i])
+      both[i].fail("{}: wanted normalCompliance and shearCompliance, or neither", both[i].name());
+    if (i == 0)
+      library.warn(
+          fmt::format("{}: normalCompliance and shearCompliance are not used", both[i].place()));
+  }
+}
+
+void read_mass(const XmlElement& body, const Library& library, BodySpec& out) {
+  if (const XmlElement mass = body.child("mass")) out.mass = positive(mass, " [g]") * units::gram;
+  if (const XmlElement cog = body.child("cog")) out.com = cog.vector() * units::millimetre;
+  if (const XmlElement inertia = body.child("inertia_matrix")) {
+    const auto x = inertia.numbers(9);
+    Eigen::Matrix3d rows;
+    for (int i = 0; i < 9; ++i) rows(i / 3, i % 3) = x[i] * units::square_millimetre;
+    out.inertia_per_mass = checked_inertia(rows, inertia.place(), library.options().warn);
+  }
+}
+
+void read_matter(const XmlElement& body, const Library& library, BodySpec& out) {
+  if (const XmlElement material = body.child("material")) {
+    out.material = material.text();
+    try {
+      check_material(out.material);
+    } catch (const Error& error) {
+      material.fail("{}", error.what());
+    }
+  }
+  if (const XmlElement youngs = body.child("youngs")) {
+    out.elastic_modulus = positive(youngs, " [Pa]");
+    if (*out.elastic_modulus < 1e4)
+      library.warn(fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
+                               youngs.place(), *out.elastic_modulus));
+  }
+  if (const XmlElement bird = body.child("useFlockOfBirds"))
+    out.tracker = bird.integer(0, 1'000'000);
+  read_compliance(body, library);
+}
+
+}  // namespace
+
+BodySpec read_body_element(const XmlElement& element, const fs::path& path, Library& library) {
+  element.check(known, library.options().warn);
+  BodySpec body;
+  read_matter(element, library, body);
+  read_mass(element, library, body);
+  const XmlElement file = element.child("geometryFile");
+  if (!file) {
+    library.warn(fmt::format("{}: no <geometryFile>: the body is a frame without a surface",
+                             element.place()));
+    return body;
+  }
+  read_type(file, library);
+  Geometry geometry = read_scaled(element, path, library);
+  body.appearance = std::move(geometry.appearance);
+  body.mesh_report = std::move(geometry.report);
+  if (geometry.mesh.triangles.empty()) return body;
+  try {
+    body.shape = Shape::make(std::move(geometry.mesh), path.filename().string());
+  } catch (const Error& error) {
+    file.fail("{}", error.what());
+  }
+  return body;
+}
+
+BodySpec read_body_xml(const fs::path& path, Library& library) {
+  const XmlFile file(path);
+  for (const char* other : {"robot", "world", "mujoco", "EigenGrasps", "virtual_contacts"})
+    if (file.root().name() == other)
+      file.root().fail("wanted a body, got <{}>", file.root().name());
+  const auto children = file.root().children();
+  if (std::ranges::none_of(
+          children, [](const XmlElement& e) { return std::ranges::count(known.once, e.name()); }))
+    file.root().fail("wanted a body with geometryFile, mass or the like, got <{}> without any",
+                     file.root().name());
+  return read_body_element(file.root(), path, library);
+}
+
+}  // namespace clench

@@ -1,0 +1,84 @@
+#include "io/find_model.h"
+
+#include <algorithm>
+
+#include "base/text.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+static const std::vector<std::string>& endings(ModelKind kind) {
+  static const std::vector<std::string> bodies = {".xml", ".iv",  ".wrl", ".off",
+                                                  ".ply", ".obj", ".stl"};
+  static const std::vector<std::string> robots = {".xml", ".cfg"};
+  return kind == ModelKind::body ? bodies : robots;
+}
+
+// the name itself, else with another ending; empty when there is none
+static fs::path try_endings(const std::string& name, const fs::path& referrer, ModelKind kind,
+                            const ReadOptions& options) {
+  std::vector<std::string> names = {name};
+  for (const auto& ending : endings(kind))
+    names.push_back(fs::path(name).replace_extension(ending).generic_string());
+  for (const auto& wanted : names) {
+    try {
+      return find_file(wanted, referrer, options);
+    } catch (const Error&) {
+      // the next one
+    }
+  }
+  return {};
+}
+
+// below the folders beside `root`, in the order of their names
+static fs::path try_neighbours(const std::string& name, const fs::path& root, ModelKind kind) {
+  const fs::path home = fs::absolute(root).lexically_normal() / "";
+  const fs::path above = home.parent_path().parent_path();
+  std::vector<fs::path> folders;
+  std::error_code code;
+  for (fs::directory_iterator it(above, code), end; !code && it != end; it.increment(code)) {
+    std::error_code none;
+    if (fs::is_directory(it->path() / *fs::path(name).begin(), none)) folders.push_back(it->path());
+  }
+  std::sort(folders.begin(), folders.end());
+  for (const auto& folder : folders)
+    if (const fs::path found = try_endings(name, folder / "x", kind, {}); !found.empty())
+      return found;
+  return {};
+}
+
+fs::path find_converted(const std::string& name, const fs::path& referrer, ModelKind kind,
+                        const std::string& place, const ReadOptions& options) {
+  try {
+    return find_file(name, referrer, options);
+  } catch (const Error& missing) {
+    const fs::path sibling = try_endings(name, referrer, kind, options);
+    if (sibling.empty()) throw missing;
+    if (options.note)
+      options.note(
+          fmt::format("{}: there is no {}; {} is taken", place, name, sibling.filename().string()));
+    return sibling;
+  }
+}
+
+fs::path find_model(const std::string& name, const fs::path& referrer, ModelKind kind,
+                    const std::string& place, const ReadOptions& options) {
+  try {
+    return find_converted(name, referrer, kind, place, options);
+  } catch (const Error& missing) {
+    // only names that count from a root mean the same in another one
+    const fs::path relative = name;
+    const bool rooted = relative.is_relative() && relative.has_parent_path() &&
+                        name.find("..") == std::string::npos && !referrer.empty();
+    const fs::path root = options.root.empty() ? referrer.parent_path() / ".." : options.root;
+    const fs::path found = rooted ? try_neighbours(name, root, kind) : fs::path();
+    if (found.empty()) throw missing;
+    if (options.warn)
+      options.warn(fmt::format("{}: {} is not below the root; {} is taken", place, name,
+                               found.generic_string()));
+    return found;
+  }
+}
+
+}  // namespace clench

@@ -1,0 +1,395 @@
+#include "io/robot_xml.h"
+
+#include <algorithm>
+
+#include "base/suggest.h"
+#include "base/units.h"
+#include "io/joint_expression.h"
+#include "io/robot_files.h"
+#include "io/tendons_xml.h"
+#include "io/transform_xml.h"
+#include "io/xml.h"
+
+namespace clench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t most = 1000;  // DOFs, chains, joints, links: far above any hand
+
+class XmlRobotReader {
+ public:
+  XmlRobotReader(const XmlElement& root, const fs::path& path, Library& library)
+      : root_(root), path_(path), library_(library) {}
+  RobotSpec read();
+
+ private:
+  const std::function<void(const std::string&)>& warn() const { return library_.options().warn; }
+  void read_type();
+  void read_dof(const XmlElement& element);
+  void read_chain(const XmlElement& element);
+  void read_joint(const XmlElement& element, ChainSpec& chain);
+  void read_expression(const XmlElement& element, JointSpec& joint, const std::string& subject);
+  void read_limits(const XmlElement& element, JointSpec& joint, const std::string& subject) const;
+  void read_losses(const XmlElement& element, JointSpec& joint, const std::string& subject) const;
+  void read_link(const XmlElement& element, ChainSpec& chain);
+  void read_rule(const XmlElement& link, const RobotPart& part);
+  void read_disabled_pair(const XmlElement& element);
+  void set_dof_units();
+  void read_approach();
+  void read_tracker();
+  void read_files();
+  void check_part(const XmlElement& element, const RobotPart& part) const;
+  NamedFile named(const char* name) const;
+
+  const XmlElement root_;
+  const fs::path& path_;
+  Library& library_;
+  std::vector<XmlElement> dofs_;
+  std::vector<std::optional<JointKind>> dof_kinds_;            // of its first joint
+  std::vector<std::pair<XmlElement, RobotPart>> named_parts_;  // to be looked at when all are known
+  RobotSpec robot_;
+};
+
+RobotSpec XmlRobotReader::read() {
+  root_.check({.once = {"palm", "approachDirection", "eigenGrasps", "virtualContacts", "cyberGlove",
+                        "flockOfBirds"},
+               .many = {"dof", "chain", "disableCollision", "tendon", "tendonWrapper"},
+               .attributes = {"type", "DBName"}},
+              warn());
+  robot_.name = path_.stem().string();
+  robot_.source = path_.generic_string();
+  read_type();
+  robot_.database_name = root_.attribute("DBName").value_or("");
+  const XmlElement palm = root_.wanted("palm");
+  palm.check({}, warn());
+  robot_.base = library_.part(palm.text(), path_, palm.place());
+  robot_.base.name = robot_.name + "_base";
+  dofs_ = root_.children("dof");
+  const auto chains = root_.children("chain");
+  if (dofs_.size() > most || chains.size() > most)
+    root_.fail("wanted at most {} DOFs and chains, got {} and {}", most, dofs_.size(),
+               chains.size());
+  dof_kinds_.resize(dofs_.size());
+  for (const XmlElement& e : chains) read_chain(e);
+  for (const XmlElement& e : dofs_) read_dof(e);
+  set_dof_units();
+  for (const XmlElement& e : root_.children("disableCollision")) read_disabled_pair(e);
+  for (const auto& [element, part] : named_parts_) check_part(element, part);
+  robot_.collision_rules.near_pairs_off = true;
+  read_tendons(
+      root_, [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), robot_);
+  read_approach();
+  read_tracker();
+  try {
+    check_robot(robot_);
+  } catch (const Error& error) {
+    root_.fail("{}", error.what());
+  }
+  read_files();
+  return std::move(robot_);
+}
+
+void XmlRobotReader::read_type() {
+  static const std::vector<std::string> types = {
+      "Robot", "Hand",   "Puma560",   "Barrett", "Robonaut", "Pr2Gripper", "Pr2Gripper2010",
+      "M7",    "M7Tool", "HumanHand", "Shadow",  "McGrip",   "RobotIQ"};
+  robot_.class_name = root_.attribute("type").value_or("");
+  if (robot_.class_name.empty()) {
+    library_.note(fmt::format("{}: robot: no type; it is taken for a Hand", root_.place()));
+    robot_.class_name = "Hand";
+  } else if (std::ranges::find(types, robot_.class_name) == types.end()) {
+    library_.warn(fmt::format("{}: robot: unknown type {} has no meaning{}", root_.place(),
+                              in_quotes(robot_.class_name),
+                              did_you_mean(robot_.class_name, types)));
+  }
+}
+
+void XmlRobotReader::check_part(const XmlElement& element, const RobotPart& part) const {
+  if (part.chain < 0) return;
+  const int chains = static_cast<int>(robot_.chains.size());
+  if (part.chain >= chains)
+    element.fail("{}: wanted one of {} chains, got {}", element.name(), chains, part.chain);
+  const int links = static_cast<int>(robot_.chains[part.chain].links.size());
+  if (part.link < 0 || part.link >= links)
+    element.fail("{}: wanted one of {} links of chain {}, got {}", element.name(), links,
+                 part.chain, part.link);
+}
+
+// --- DOFs; their units depend on the kind of their joints ---
+
+void XmlRobotReader::read_dof(const XmlElement& element) {
+  element.check({.once = {"defaultVelocity", "defaultValue", "maxEffort", "Kp", "Kd",
+                          "draggerScale", "breakAwayTorque"},
+                 .attributes = {"type"}},
+                warn());
+  const size_t i = robot_.dofs.size();
+  const bool slides = dof_kinds_[i] == JointKind::prismatic;
+  if (!dof_kinds_[i]) library_.warn(fmt::format("{}: DOF {} moves no joint", element.place(), i));
+  DofSpec dof;
+  const std::string kind = element.wanted_attribute("type");
+  if (kind == "b")
+    dof.kind = DofKind::breakaway;
+  else if (kind == "c")
+    dof.kind = DofKind::compliant;
+  else if (kind != "r")
+    element.fail("DOF {}: wanted type r, b or c, got {}", i, in_quotes(kind));
+  const auto number = [&](const char* name, double unit) {
+    const XmlElement child = element.child(name);
+    return child ? child.number() * unit : 0.0;
+  };
+  const double force = slides ? units::gram_millimetre : units::gram_square_millimetre;
+  dof.default_velocity =
+      element.wanted("defaultVelocity").number() * (slides ? units::millimetre : 1.0);
+  dof.default_value = number("defaultValue", slides ? units::millimetre : units::degree);
+  dof.max_effort = number("maxEffort", force);
+  dof.kp = number("Kp", slides ? units::gram_per_square_second : units::gram_square_millimetre);
+  dof.kd = number("Kd", slides ? units::gram : units::gram_square_millimetre);
+  dof.dragger_scale = number("draggerScale", units::millimetre);
+  if (dof.kind == DofKind::breakaway)
+    dof.breakaway_torque = std::max(0.0, number("breakAwayTorque", 1.0));
+  if (dof.max_effort < 0)
+    element.child("maxEffort")
+        .fail("maxEffort: wanted a number >= 0, got {}", dof.max_effort / force);
+  robot_.dofs.push_back(dof);
+}
+
+void XmlRobotReader::set_dof_units() {
+  for (size_t i = 0; i < dofs_.size(); ++i) {
+    const auto [low, high] = dof_range(robot_, static_cast<int>(i));
+    if (low > high) dofs_[i].fail("DOF {}: the ranges of its joints have no value in common", i);
+    DofSpec& dof = robot_.dofs[i];
+    if (dof.default_value < low || dof.default_value > high) {
+      // 0 is only what nobody chose
+      if (const XmlElement given = dofs_[i].child("defaultValue"))
+        library_.warn(
+            fmt::format("{}: DOF {}: defaultValue {} is outside its range; moved to the limit",
+                        given.place(), i, given.text()));
+      dof.default_value = std::clamp(dof.default_value, low, high);
+    }
+  }
+}
+
+// --- chains ---
+
+void XmlRobotReader::read_chain(const XmlElement& element) {
+  element.check({.once = {"transform"}, .many = {"joint", "link", "filter"}}, warn());
+  ChainSpec chain;
+  const auto joints = element.children("joint"), links = element.children("link");
+  if (joints.size() > most || links.size() > most)
+    element.fail("chain: wanted at most {} joints and links, got {} and {}", most, joints.size(),
+                 links.size());
+  chain.X_BC = read_transform_of(element, warn());
+  for (const XmlElement& e : joints) read_joint(e, chain);
+  for (const XmlElement& e : links) read_link(e, chain);
+  robot_.chains.push_back(std::move(chain));
+  read_tactile(
+      element, static_cast<int>(robot_.chains.size()) - 1,
+      [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), robot_);
+}
+
+void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
+  element.check({.once = {"theta", "d", "a", "alpha", "minValue", "maxValue", "viscousFriction",
+                          "CoulombFriction", "springStiffness", "restValue"},
+                 .attributes = {"type"}},
+                warn());
+  const std::string subject = fmt::format("joint {}", chain.joints.size());
+  JointSpec joint;
+  const std::string type = element.wanted_attribute("type");
+  if (lower_case(type) == "prismatic")
+    joint.kind = JointKind::prismatic;
+  else if (lower_case(type) != "revolute")
+    element.fail("{}: wanted type Revolute or Prismatic, got {}{}", subject, in_quotes(type),
+                 did_you_mean(type, {"Revolute", "Prismatic"}));
+  read_expression(element, joint, subject);
+  joint.a = element.wanted("a").number() * units::millimetre;
+  joint.alpha = element.wanted("alpha").number() * units::degree;
+  read_limits(element, joint, subject);
+  read_losses(element, joint, subject);
+
+  // a DOF counts in the unit of its first joint: rad or mm
+  auto& kind = dof_kinds_[joint.dof];
+  if (!kind) kind = joint.kind;
+  if (*kind != joint.kind)
+    joint.ratio *= joint.kind == JointKind::revolute ? 1 / units::millimetre : units::millimetre;
+  chain.joints.push_back(joint);
+}
+
+void XmlRobotReader::read_expression(const XmlElement& element, JointSpec& joint,
+                                     const std::string& subject) {
+  const bool revolute = joint.kind == JointKind::revolute;
+  const XmlElement theta = element.wanted("theta"), d = element.wanted("d");
+  const XmlElement& moved = revolute ? theta : d;
+  const std::string text = moved.text();
+  const auto expression = parse_joint_expression(text);
+  if (!expression)
+    moved.fail("{}: wanted a joint expression such as d0*0.5+90 for {}, got {}", subject,
+               moved.name(), in_quotes(text));
+  if (expression->dof >= static_cast<int>(dofs_.size()))
+    moved.fail("{}: wanted a DOF below {}, got d{}", subject, dofs_.size(), expression->dof);
+  if (expression->ratio == 0)
+    moved.fail("{}: wanted a ratio other than 0, got {}", subject, in_quotes(text));
+  joint.dof = expression->dof;
+  joint.ratio = expression->ratio;
+  joint.theta = (revolute ? expression->offset : theta.number()) * units::degree;
+  joint.d = (revolute ? d.number() : expression->offset) * units::millimetre;
+}
+
+void XmlRobotReader::read_limits(const XmlElement& element, JointSpec& joint,
+                                 const std::string& subject) const {
+  const XmlElement low = element.wanted("minValue"), high = element.wanted("maxValue");
+  double min = low.number(), max = high.number();
+  if (min > max && joint.ratio < 0) {
+    // some files write the limits in the DOF's direction
+    library_.warn(
+        fmt::format("{}: {}: minValue {} exceeds maxValue {}; as the joint runs against "
+                    "its DOF they are exchanged",
+                    low.place(), subject, min, max));
+    std::swap(min, max);
+  }
+  const bool revolute = joint.kind == JointKind::revolute;
+  if (min > max)
+    low.fail("{}: minValue {} exceeds maxValue {} [{}]", subject, min, max,
+             revolute ? "deg" : "mm");
+  const double unit = revolute ? units::degree : units::millimetre;
+  joint.min = min * unit;
+  joint.max = max * unit;
+}
+
+void XmlRobotReader::read_losses(const XmlElement& element, JointSpec& joint,
+                                 const std::string& subject) const {
+  const bool revolute = joint.kind == JointKind::revolute;
+  const auto number = [&](const char* name, double unit) {
+    const XmlElement child = element.child(name);
+    if (!child) return 0.0;
+    const double value = child.number();
+    if (value < 0) child.fail("{}: {}: wanted a number >= 0, got {}", subject, name, value);
+    return value * unit;
+  };
+  joint.viscous = number("viscousFriction", revolute ? units::gram_square_millimetre : units::gram);
+  joint.coulomb =
+      number("CoulombFriction", revolute ? units::gram_square_millimetre : units::gram_millimetre);
+  joint.spring =
+      number("springStiffness", revolute ? units::newton_millimetre : units::newton_per_millimetre);
+  if (const XmlElement rest = element.child("restValue"))
+    joint.rest = rest.number() * (revolute ? 1.0 : units::millimetre);
+}
+
+void XmlRobotReader::read_link(const XmlElement& element, ChainSpec& chain) {
+  struct Kind {
+    const char* name;
+    LinkJoint joint;
+    int joints;  // that it takes
+  };
+  constexpr Kind kinds[] = {{"Revolute", LinkJoint::revolute, 1},
+                            {"Prismatic", LinkJoint::prismatic, 1},
+                            {"Universal", LinkJoint::universal, 2},
+                            {"Ball", LinkJoint::ball, 3},
+                            {"Fixed", LinkJoint::fixed, 0}};
+  element.check({.attributes = {"dynamicJointType", "collisionRule", "targetChain", "targetLink"}},
+                warn());
+  const int number = static_cast<int>(chain.links.size());
+  const std::string type = element.wanted_attribute("dynamicJointType");
+  const auto kind = std::ranges::find_if(
+      kinds, [&](const Kind& k) { return lower_case(k.name) == lower_case(type); });
+  if (kind == std::end(kinds))
+    element.fail("link {}: wanted Revolute, Prismatic, Universal, Ball or Fixed, got {}{}", number,
+                 in_quotes(type),
+                 did_you_mean(type, {"Revolute", "Prismatic", "Universal", "Ball", "Fixed"}));
+  LinkSpec link;
+  link.joint = kind->joint;
+  link.last_joint = (chain.links.empty() ? -1 : chain.links.back().last_joint) + kind->joints;
+  if (link.last_joint >= static_cast<int>(chain.joints.size()))
+    element.fail("link {}: wanted {} joints for the links up to it, got {}", number,
+                 link.last_joint + 1, chain.joints.size());
+  const int own_chain = static_cast<int>(robot_.chains.size());
+  link.body = library_.part(element.text(), path_, element.place());
+  link.body.name = fmt::format("{}_chain{}_link{}", robot_.name, own_chain, number);
+  chain.links.push_back(std::move(link));
+  read_rule(element, {own_chain, number});
+}
+
+// --- what never collides ---
+
+void XmlRobotReader::read_rule(const XmlElement& link, const RobotPart& part) {
+  const auto rule = link.attribute("collisionRule");
+  if (!rule) return;
+  CollisionRules& rules = robot_.collision_rules;
+  if (lower_case(*rule) == "off") {
+    rules.parts_off.push_back(part);
+  } else if (lower_case(*rule) == "overlappingpair") {
+    RobotPart target;
+    if (lower_case(link.wanted_attribute("targetChain")) != "base")
+      target = {link.integer_attribute("targetChain", 0), link.integer_attribute("targetLink", 0)};
+    named_parts_.emplace_back(link, target);
+    rules.pairs_off.push_back({part, target});
+  } else {
+    link.fail("link: collisionRule: wanted Off or OverlappingPair, got {}{}", in_quotes(*rule),
+              did_you_mean(*rule, {"Off", "OverlappingPair"}));
+  }
+}
+
+void XmlRobotReader::read_disabled_pair(const XmlElement& element) {
+  element.check({.attributes = {"body1_link", "body1_chain", "body2_link", "body2_chain"}}, warn());
+  const auto part = [&](const char* chain, const char* link) {
+    RobotPart out{element.integer_attribute(chain), element.integer_attribute(link)};
+    if (out.chain < 0) out = {};
+    named_parts_.emplace_back(element, out);
+    return out;
+  };
+  robot_.collision_rules.pairs_off.push_back(
+      {part("body1_chain", "body1_link"), part("body2_chain", "body2_link")});
+}
+
+// --- the rest ---
+
+void XmlRobotReader::read_approach() {
+  const XmlElement element = root_.child("approachDirection");
+  if (!element) return;
+  element.check({.once = {"referenceLocation", "direction"}}, warn());
+  const Eigen::Vector3d point = element.wanted("referenceLocation").vector() * units::millimetre;
+  const XmlElement direction = element.wanted("direction");
+  const Eigen::Vector3d along = direction.vector();
+  try {
+    robot_.X_BA = approach_frame(point, along);
+  } catch (const Error& error) {
+    direction.fail("{}", error.what());
+  }
+}
+
+void XmlRobotReader::read_tracker() {
+  const XmlElement element = root_.child("flockOfBirds");
+  if (!element) return;
+  element.check({.once = {"transform"}, .attributes = {"number"}}, warn());
+  TrackerSpec tracker;
+  if (element.attribute("number"))
+    tracker.number = element.integer_attribute("number", 0);
+  else
+    library_.warn(fmt::format("{}: flockOfBirds: no bird number, 0 is used", element.place()));
+  tracker.X_BS = read_transform_of(element, warn());
+  robot_.tracker = tracker;
+}
+
+NamedFile XmlRobotReader::named(const char* name) const {
+  const XmlElement element = root_.child(name);
+  if (!element) return {};
+  element.check({}, warn());
+  return {element.text(), fmt::format("{}: {}", element.place(), name)};
+}
+
+void XmlRobotReader::read_files() {
+  read_robot_files(robot_, {named("eigenGrasps"), named("virtualContacts"), named("cyberGlove")},
+                   path_, library_.options());
+}
+
+}  // namespace
+
+RobotSpec read_robot_xml(const fs::path& path, Library& library) {
+  const XmlFile file(path);
+  const XmlElement root = file.root();
+  if (root.name() != "robot") root.fail("wanted a <robot>, got <{}>", root.name());
+  return XmlRobotReader(root, path, library).read();
+}
+
+}  // namespace clench

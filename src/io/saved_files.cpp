@@ -1,0 +1,167 @@
+#include "io/saved_files.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/units.h"
+#include "io/world_parts.h"
+#include "io/write_file.h"
+#include "io/xml.h"
+#include "spec/material_names.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+static fs::path absolute_folder(const fs::path& folder) {
+  if (folder.empty()) return {};
+  const fs::path plain = fs::absolute(folder).lexically_normal();
+  return plain.has_filename() ? plain : plain.parent_path();
+}
+
+SavedFiles::SavedFiles(const fs::path& path, const WriteOptions& options)
+    : path_(fs::absolute(path).lexically_normal()),
+      folder_(path_.parent_path()),
+      reading_{absolute_folder(options.root)},
+      library_(reading_),
+      warn_(options.warn) {}
+
+// --- names ---
+
+/// `file` from the folder on; empty when it does not lie below it.
+static std::string below(const fs::path& file, const fs::path& folder) {
+  if (folder.empty()) return "";
+  for (const bool links : {false, true}) {
+    std::error_code code;
+    const fs::path from = links ? fs::weakly_canonical(folder, code) : folder;
+    const fs::path to = links ? fs::weakly_canonical(file, code) : file;
+    const fs::path rest = to.lexically_relative(from);
+    if (!rest.empty() && *rest.begin() != ".." && *rest.begin() != ".")
+      return rest.generic_string();
+  }
+  return "";
+}
+
+bool SavedFiles::finds(const std::string& name, const std::string& file) const {
+  if (name.empty()) return false;
+  try {
+    std::error_code code;
+    return fs::equivalent(find_file(name, path_, reading_), file, code) && !code;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::string SavedFiles::below_root(const std::string& file) const {
+  return below(file, reading_.root);
+}
+
+std::string SavedFiles::name(const std::string& file) const {
+  for (const std::string& near : {below_root(file), below(file, folder_)})
+    if (finds(near, file)) return near;
+  return file;
+}
+
+// --- what files hold ---
+
+const BodySpec* SavedFiles::again(const BodySpec& body) {
+  if (body.file.empty()) return nullptr;
+  std::string reason;
+  try {
+    const BodySpec& read = library_.body(body.file);
+    const bool same = (!read.shape && !body.shape) ||
+                      (read.shape && body.shape && read.shape->hash() == body.shape->hash());
+    if (same) return &read;
+    reason = "its file gives another surface when it is read again: " + body.file;
+  } catch (const Error& error) {
+    reason = error.what();
+  }
+  if (warned_.insert(body.name).second)
+    warn(fmt::format("{}: '{}' is saved with its triangles, for {}", path_.filename().string(),
+                     body.name, reason));
+  return nullptr;
+}
+
+const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
+  if (robot.file.empty())
+    fail("robot '{}' cannot be saved: it does not come from a file", robot.name);
+  const RobotSpec* read = nullptr;
+  try {
+    read = &library_.robot(robot.file);
+  } catch (const Error& error) {
+    fail("robot '{}' cannot be saved: {}", robot.name, error.what());
+  }
+  bool same = read->dofs.size() == robot.dofs.size() && read->chains.size() == robot.chains.size();
+  for (size_t c = 0; same && c < robot.chains.size(); ++c)
+    same = read->chains[c].joints.size() == robot.chains[c].joints.size() &&
+           read->chains[c].links.size() == robot.chains[c].links.size();
+  if (!same)
+    fail("robot '{}' cannot be saved: its file gives another robot when it is read again: {}",
+         robot.name, robot.file);
+  return *read;
+}
+
+// --- what is written beside ---
+
+fs::path SavedFiles::beside(const std::string& name, const std::string& ending) {
+  std::string stem = name.substr(0, 100);
+  for (char& c : stem)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
+  std::string file = stem + ending;
+  for (int i = 2; !taken_.insert(file).second; ++i) file = fmt::format("{}_{}{}", stem, i, ending);
+  const fs::path own = folder_ / fmt::format("{}_files", path_.stem().string());
+  std::error_code code;
+  fs::create_directory(own, code);  // what fails is told by who writes there
+  return own / file;
+}
+
+fs::path SavedFiles::write_surface(const BodySpec& body) {
+  if (!body.shape) return {};
+  const Mesh& mesh = body.shape->mesh();
+  std::string text = fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
+  for (const auto& v : mesh.vertices) text += fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
+  for (const auto& t : mesh.triangles) text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
+  const fs::path file = beside(body.name, ".off");
+  write_file(file, text);
+  return file;
+}
+
+std::string body_elements(const BodySpec& body, const std::string& surface,
+                          const std::string& indent) {
+  std::string out;
+  const auto add = [&](const char* name, const std::string& value) {
+    out += fmt::format("{}<{}>{}</{}>\n", indent, name, value, name);
+  };
+  // materials of the user's own are no part of the format
+  if (std::ranges::count(material_names, body.material)) add("material", body.material);
+  if (body.elastic_modulus) add("youngs", fmt::format("{}", *body.elastic_modulus));
+  if (body.tracker) add("useFlockOfBirds", fmt::format("{}", *body.tracker));
+  add("mass", number_in(body.mass, units::gram));
+  if (body.com) add("cog", millimetres(*body.com));
+  if (body.inertia_per_mass) {
+    const Eigen::Matrix3d even =
+        0.5 * (*body.inertia_per_mass + body.inertia_per_mass->transpose());
+    std::vector<std::string> rows;
+    for (int i = 0; i < 9; ++i)
+      rows.push_back(number_in(even(i / 3, i % 3), units::square_millimetre));
+    add("inertia_matrix", fmt::format("{}", fmt::join(rows, " ")));
+  }
+  if (surface.empty()) return out;
+  out +=
+      fmt::format("{}<geometryFile type=\"off\">{}</geometryFile>\n", indent, xml_escaped(surface));
+  // the surface is in metres, of which millimetres would lose digits
+  add("geometryScaling", "1000");
+  return out;
+}
+
+fs::path SavedFiles::write_body(const BodySpec& body) {
+  const std::string surface = write_surface(body).filename().string();
+  const fs::path file = beside(body.name, ".xml");
+  write_file(file, "<?xml version=\"1.0\" ?>\n<root>\n" + body_elements(body, surface, "  ") +
+                       "</root>\n");
+  return file;
+}
+
+}  // namespace clench

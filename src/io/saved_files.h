@@ -1,0 +1,55 @@
+// The files that a saved world names: how they are called in it, what they hold, and those that are
+// written beside it.
+#pragma once
+#include <set>
+
+#include "io/library.h"
+#include "io/write_world.h"
+
+namespace clench {
+
+class SavedFiles {
+ public:
+  /// `path` is the world's
+  SavedFiles(const std::filesystem::path& path, const WriteOptions& options);
+
+  /// A file as the world names it. Reading it with the same root finds that very file.
+  std::string name(const std::string& file) const;
+  /// The file from the root on, when it lies below that; else empty.
+  std::string below_root(const std::string& file) const;
+  const std::filesystem::path& root() const { return reading_.root; }  ///< absolute, or empty
+  const std::filesystem::path& folder() const { return folder_; }      ///< of the world, absolute
+
+  /// What the body's file gives when it is read again; null when it has none, or it is gone or holds
+  /// another surface, which is warned of.
+  const BodySpec* again(const BodySpec& body);
+  /// throws Error  "robot 'DLR' cannot be saved: ..."
+  const RobotSpec& again(const RobotSpec& robot);
+
+  /// Writes the body's surface as w_files/ball.off.   returns  its path; empty when it has none
+  std::filesystem::path write_surface(const BodySpec& body);
+  /// Writes the body as w_files/ball.xml and w_files/ball.off.   returns  the path of the first
+  std::filesystem::path write_body(const BodySpec& body);
+  /// A path in the world's own folder, w_files, that no other call gives.
+  std::filesystem::path beside(const std::string& name, const std::string& ending);
+
+  void warn(const std::string& sentence) const {
+    if (warn_) warn_(sentence);
+  }
+
+ private:
+  bool finds(const std::string& name, const std::string& file) const;
+
+  std::filesystem::path path_, folder_;
+  ReadOptions reading_;
+  Library library_;
+  std::function<void(const std::string&)> warn_;
+  std::set<std::string> taken_;
+  std::set<std::string> warned_;
+};
+
+/// The elements of an XML body, a line each, `indent` before them.
+std::string body_elements(const BodySpec& body, const std::string& surface,
+                          const std::string& indent);
+
+}  // namespace clench

@@ -1,0 +1,133 @@
+#include "io/tendons_xml.h"
+
+#include "base/units.h"
+
+namespace clench {
+
+namespace {
+
+using Warn = std::function<void(const std::string&)>;
+
+/// A direction of length 1.
+Eigen::Vector3d direction(const XmlElement& element) {
+  const Eigen::Vector3d v = element.vector();
+  const double length = v.stableNorm();
+  if (!(length > 1e-9) || !std::isfinite(length))
+    element.fail("{}: wanted a direction, got ({}, {}, {})", element.name(), v.x(), v.y(), v.z());
+  return v / length;
+}
+
+double not_negative(const XmlElement& element) {
+  const double value = element.number();
+  if (value < 0) element.fail("{}: wanted a number >= 0, got {}", element.name(), value);
+  return value;
+}
+
+/// <chain> and <link>, both -1 for the base.
+RobotPart part_of(const XmlElement& element, const PartCheck& check) {
+  RobotPart part{element.wanted("chain").integer(-1), element.wanted("link").integer(-1)};
+  check(element, part);
+  return part;
+}
+
+double friction_of(const XmlElement& element) {
+  const XmlElement friction = element.child("friction");
+  return friction ? not_negative(friction) : 0;
+}
+
+/// A length in metres; the original writes -1 for none.
+std::optional<double> length_of(const XmlElement& element, const char* name) {
+  const XmlElement child = element.child(name);
+  if (!child) return {};
+  const double value = child.number();
+  if (value == -1) return {};
+  return not_negative(child) * units::millimetre;
+}
+
+TendonSpec read_tendon(const XmlElement& element, const PartCheck& check, const Warn& warn) {
+  element.check({.once = {"stiffness", "restLength", "preTensionLength"},
+                 .many = {"insertionPoint"},
+                 .attributes = {"name"}},
+                warn);
+  TendonSpec tendon;
+  tendon.name = element.wanted_attribute("name");
+  if (const XmlElement stiffness = element.child("stiffness"))
+    tendon.stiffness = not_negative(stiffness) * units::newton_per_millimetre;
+  tendon.rest_length = length_of(element, "restLength");
+  tendon.pre_tension_length = length_of(element, "preTensionLength");
+  for (const XmlElement& e : element.children("insertionPoint")) {
+    e.check({.once = {"chain", "link", "position", "friction"}}, warn);
+    TendonPoint point;
+    point.part = part_of(e, check);
+    point.p_L = e.wanted("position").vector() * units::millimetre;
+    point.friction = friction_of(e);
+    tendon.points.push_back(point);
+  }
+  if (tendon.points.size() < 2)
+    element.fail("tendon: wanted at least 2 insertion points, got {}", tendon.points.size());
+  return tendon;
+}
+
+TendonWrapper read_wrapper(const XmlElement& element, const PartCheck& check, const Warn& warn) {
+  element.check(
+      {.once = {"chain", "link", "friction", "position", "orientation", "radius", "length"},
+       .many = {"exemption", "wrapping_side"}},
+      warn);
+  TendonWrapper wrapper;
+  wrapper.part = part_of(element, check);
+  wrapper.friction = friction_of(element);
+  wrapper.p_L = element.wanted("position").vector() * units::millimetre;
+  wrapper.axis_L = direction(element.wanted("orientation"));
+  wrapper.radius = not_negative(element.wanted("radius")) * units::millimetre;
+  if (const XmlElement length = element.child("length"))
+    wrapper.length = not_negative(length) * units::millimetre;
+  for (const XmlElement& e : element.children("exemption")) {
+    e.check({.attributes = {"tendon"}}, warn);
+    wrapper.exempt.push_back(e.wanted_attribute("tendon"));
+  }
+  for (const XmlElement& e : element.children("wrapping_side")) {
+    e.check({.once = {"orientation"}, .attributes = {"tendon"}}, warn);
+    wrapper.sides.push_back({e.wanted_attribute("tendon"), direction(e.wanted("orientation"))});
+  }
+  return wrapper;
+}
+
+}  // namespace
+
+void read_tendons(const XmlElement& robot, const PartCheck& check, const Warn& warn,
+                  RobotSpec& out) {
+  const auto tendons = robot.children("tendon"), wrappers = robot.children("tendonWrapper");
+  for (const XmlElement& e : tendons) out.tendons.push_back(read_tendon(e, check, warn));
+  for (const XmlElement& e : wrappers) out.wrappers.push_back(read_wrapper(e, check, warn));
+  if (warn && !(tendons.empty() && wrappers.empty()))
+    warn(fmt::format("{}: tendons and their wrappers are kept, {} and {}, but do not act yet",
+                     (tendons.empty() ? wrappers : tendons).front().place(), tendons.size(),
+                     wrappers.size()));
+}
+
+void read_tactile(const XmlElement& chain, int number, const PartCheck& check, const Warn& warn,
+                  RobotSpec& out) {
+  for (const XmlElement& e : chain.children("filter")) {
+    e.check({.attributes = {"params"}}, warn);
+    TactileSpec sensor;
+    sensor.part = {number, e.integer(0)};
+    check(e, sensor.part);
+    const std::string params = e.wanted_attribute("params");
+    const auto words = split_words(params, ",");
+    double x[6];
+    for (size_t i = 0; i < 6; ++i) {
+      const auto value = i < words.size() ? parse_number(words[i]) : std::nullopt;
+      if (!value || words.size() != 6)
+        e.fail("filter: params: wanted 6 numbers x0,y0,z0,x1,y1,z1, got {}", in_quotes(params));
+      x[i] = *value * units::millimetre;
+    }
+    sensor.low_L = Eigen::Vector3d(x[0], x[1], x[2]);
+    sensor.high_L = Eigen::Vector3d(x[3], x[4], x[5]);
+    if ((sensor.low_L.array() > sensor.high_L.array()).any())
+      e.fail("filter: params: wanted the low corner before the high one, got {}",
+             in_quotes(params));
+    out.tactile.push_back(sensor);
+  }
+}
+
+}  // namespace clench

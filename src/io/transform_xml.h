@@ -1,0 +1,16 @@
+// Transforms as the elements of an XML file.
+#pragma once
+#include "io/transform_list.h"
+#include "io/xml.h"
+#include "math/pose.h"
+
+namespace clench {
+
+/// The children of <transform>, composed left to right; see read_transform_element.
+/// throws Error at the line of a child that is none
+Pose read_transform_xml(const XmlElement& transform, const TransformWarning& warn);
+
+/// The child <transform> of an element, or identity when there is none.
+Pose read_transform_of(const XmlElement& element, const TransformWarning& warn);
+
+}  // namespace clench

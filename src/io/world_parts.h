@@ -1,0 +1,34 @@
+// What the text worlds and the XML worlds write alike: values of DOFs, connections, cameras.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "base/text.h"
+#include "spec/world_spec.h"
+
+namespace clench {
+
+/// Values of the robot's DOFs in their order [rad or mm]; after that of a breakaway DOF, for each of
+/// its joints, 0, or 1 and the value of the DOF at which the joint broke away. One value a DOF and
+/// nothing else is understood too.
+/// throws Error at the line's place
+void read_dof_values(const Line& line, PlacedRobot& placed);
+std::string dof_values(const PlacedRobot& placed);
+
+/// throws Error, begun by the connection's place, when its robots or chain do not exist, carry
+/// themselves, or are carried twice
+void check_connections(const WorldSpec& world, const std::vector<std::string>& places);
+
+/// Orientation of a camera, in Inventor's order x y z w; empty when they are no rotation.
+std::optional<Eigen::Quaterniond> camera_orientation(double x, double y, double z, double w);
+
+/// The shortest decimal that a reader who multiplies it by `unit`, and then by `factor`, turns into
+/// the value to the bit; where there is none, the nearest.
+std::string number_in(double value, double unit, double factor = 1);
+
+/// "(w x y z)[x y z]", millimetres.
+std::string full_transform(const Pose& pose);
+std::string millimetres(const Eigen::Vector3d& p);     ///< "x y z"
+std::string orientation(const Eigen::Quaterniond& q);  ///< "x y z w"
+
+}  // namespace clench

@@ -1,0 +1,11 @@
+// Worlds from the XML files of GraspIt! 2.1 and later.
+#pragma once
+#include "io/library.h"
+
+namespace clench {
+
+/// throws Error  "mug.xml:12: ..." where an element is not as wanted, or a file that it names cannot
+/// be read
+WorldSpec read_world_xml(const std::filesystem::path& path, Library& library);
+
+}  // namespace clench

@@ -1,0 +1,361 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "io/eigengrasps.h"
+#include "io/virtual_contacts.h"
+#include "io/write_text_worlds.h"
+
+namespace clench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string as_lua(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      (out += '\\') += c;
+    else if (static_cast<unsigned char>(c) < ' ' || c == 127)
+      out += fmt::format("\\{:03}", static_cast<int>(c));
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+
+/// A decimal that Lua reads back to the bit.
+std::string number(double x) { return fmt::format("{}", x); }
+
+template <class Vector>
+std::string list(const Vector& v) {
+  std::string out;
+  for (const double x : v) out += (out.empty() ? "" : ", ") + number(x);
+  return "{" + out + "}";
+}
+
+std::string pose(const Pose& X) {
+  const Eigen::Quaterniond& q = X.rotation;
+  return fmt::format("{{xyz = {}, quat = {}}}", list(X.position),
+                     list(std::array{q.w(), q.x(), q.y(), q.z()}));
+}
+
+/// The number that gives `value` when it is divided by `mass`, to the bit where there is one.
+double times_mass(double value, double mass) {
+  const double near = value * mass;
+  for (const double x : {near, std::nextafter(near, -HUGE_VAL), std::nextafter(near, HUGE_VAL)})
+    if (x / mass == value) return x;
+  return near;
+}
+
+std::string inertia(const BodySpec& body) {
+  std::string out;
+  const Eigen::Matrix3d rows =
+      inertia_of(body).unaryExpr([&](double x) { return times_mass(x, body.mass); });
+  for (int i = 0; i < 3; ++i) out += (i ? ", " : "") + list(Eigen::Vector3d(rows.row(i)));
+  return "{" + out + "}";
+}
+
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+/// Properties of a body that its file, or its bare surface, does not give it: key and value in Lua.
+/// `together`: they are options of one call, which computes an inertia about the centre given.
+Pairs changes(const BodySpec& now, const BodySpec& was, bool together) {
+  Pairs out;
+  if (now.material != was.material) out.emplace_back("material", as_lua(now.material));
+  if (now.mass != was.mass) out.emplace_back("mass", number(now.mass));
+  BodySpec then = was;
+  if (com_of(now) != com_of(was)) {
+    out.emplace_back("com", list(com_of(now)));
+    if (together) then.com = com_of(now);
+  }
+  if (inertia_of(now) != inertia_of(then)) out.emplace_back("inertia", inertia(now));
+  if (now.elastic_modulus != was.elastic_modulus)
+    out.emplace_back("elastic_modulus", now.elastic_modulus ? number(*now.elastic_modulus) : "nil");
+  const Appearance &look = now.appearance, &old = was.appearance;
+  if (look.color != old.color || (look.triangle_colors.empty() && !old.triangle_colors.empty()))
+    out.emplace_back("color",
+                     fmt::format("{{{}, {}, {}}}", look.color.x(), look.color.y(), look.color.z()));
+  if (look.transparency != old.transparency)
+    out.emplace_back("transparency", fmt::format("{}", look.transparency));
+  return out;
+}
+
+std::string mesh_table(const Mesh& mesh) {
+  std::string out = "{\n  vertices = {\n";
+  for (const auto& v : mesh.vertices) out += "    " + list(v) + ",\n";
+  out += "  },\n  triangles = {\n";
+  for (const auto& t : mesh.triangles)
+    out += fmt::format("    {{{}, {}, {}}},\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  return out + "  },\n}";
+}
+
+class LuaWriter {
+ public:
+  LuaWriter(const WorldSpec& world, SavedFiles& files) : world_(world), files_(files) {}
+  std::string write();
+
+ private:
+  void begin();
+  void add_body(const PlacedBody& placed);
+  void add_robot(int index);
+  void add_connection(const Connection& c);
+  void rename_parts(const RobotSpec& now, const RobotSpec& was, int index);
+  void change_parts(const RobotSpec& now, const RobotSpec& was, int index);
+  void set_dofs(const PlacedRobot& placed, int index);
+  std::string sets_of(const RobotSpec& now, const RobotSpec& was);
+  void switch_collision();
+  void add_camera();
+  std::string file(const std::string& path);
+  std::string root_option() const { return files_.root().empty() ? "" : ", root = root"; }
+  void line(const std::string& text) { out_ += text + "\n"; }
+
+  const WorldSpec& world_;
+  SavedFiles& files_;
+  std::string out_;
+};
+
+/// root .. "/models/objects/mug.iv", or the whole path
+std::string LuaWriter::file(const std::string& path) {
+  const std::string near = files_.below_root(path);
+  return near.empty() ? as_lua(path) : "root .. " + as_lua("/" + near);
+}
+
+void LuaWriter::begin() {
+  line(
+      "-- A world saved by Clench, made again by clench.load(this file). Metres, radians, "
+      "kilograms.");
+  line("local clench = require \"clench\"");
+  if (!files_.root().empty()) {
+    // a root above the file is found from there, so that both can be moved together
+    const fs::path up = files_.root().lexically_relative(files_.folder());
+    const bool above =
+        std::ranges::all_of(up, [](const fs::path& part) { return part == ".." || part == "."; });
+    line("local options, here = ...");
+    line("local root = (options or {}).root or " +
+         (above ? "here .. " + as_lua("/" + up.generic_string())
+                : as_lua(files_.root().generic_string())));
+  }
+  line("");
+  line(world_.contact_threshold ? "local world = clench.world {contact_threshold = " +
+                                      number(*world_.contact_threshold) + "}"
+                                : "local world = clench.world()");
+  for (const FrictionSpec& f : world_.friction)
+    line(fmt::format("world:set_friction({}, {}, {{static = {}, kinetic = {}}})", as_lua(f.a),
+                     as_lua(f.b), number(f.statics), number(f.kinetic)));
+  if (!world_.robots.empty()) line("local robots = {}");
+}
+
+void LuaWriter::add_body(const PlacedBody& placed) {
+  const BodySpec& body = placed.body;
+  const BodySpec* read = files_.again(body);
+  BodySpec bare;
+  bare.shape = body.shape;
+  std::string made;
+  if (read)
+    made = file(body.file);
+  else if (body.shape)
+    made = mesh_table(body.shape->mesh());
+  else
+    made = file(files_.write_body(body).generic_string());
+  if (!read && !body.appearance.triangle_colors.empty())
+    files_.warn(fmt::format("the colours of the triangles of '{}' are not saved", body.name));
+  std::string options = fmt::format("name = {}, pose = {}{}", as_lua(body.name),
+                                    pose(placed.X_WB), root_option());
+  std::string after;
+  for (const auto& [key, value] : changes(body, read ? *read : bare, true)) {
+    if (value == "nil")
+      after += fmt::format("world:body({}).{} = nil\n", as_lua(body.name), key);
+    else
+      options += fmt::format(", {} = {}", key, value);
+  }
+  out_ += fmt::format("world:{}({}, {{{}}})\n{}",
+                      placed.role == Role::object ? "add_object" : "add_obstacle", made, options,
+                      after);
+}
+
+// --- robots ---
+
+/// Base and links, with the expression that names each.
+static std::vector<std::pair<std::string, const BodySpec*>> parts(const RobotSpec& robot,
+                                                                  int index) {
+  std::vector<std::pair<std::string, const BodySpec*>> out;
+  out.emplace_back(fmt::format("robots[{}].base", index + 1), &robot.base);
+  int number = 0;
+  for (const ChainSpec& chain : robot.chains)
+    for (const LinkSpec& link : chain.links)
+      out.emplace_back(fmt::format("robots[{}].links[{}]", index + 1, ++number), &link.body);
+  return out;
+}
+
+void LuaWriter::rename_parts(const RobotSpec& now, const RobotSpec& was, int index) {
+  const auto mine = parts(now, index), theirs = parts(was, index);
+  std::vector<size_t> renamed;
+  for (size_t i = 0; i < mine.size(); ++i) {
+    // a part's name begins with its robot's, when its file's does
+    std::string usual = theirs[i].second->name;
+    if (usual.starts_with(was.name)) usual = now.name + usual.substr(was.name.size());
+    if (usual != mine[i].second->name) renamed.push_back(i);
+  }
+  // two passes, for names may have been exchanged
+  if (renamed.size() > 1)
+    for (const size_t i : renamed)
+      line(fmt::format("{}.name = {}", mine[i].first,
+                       as_lua(fmt::format("{} (part {})", now.name, i))));
+  for (const size_t i : renamed)
+    line(fmt::format("{}.name = {}", mine[i].first, as_lua(mine[i].second->name)));
+}
+
+void LuaWriter::change_parts(const RobotSpec& now, const RobotSpec& was, int index) {
+  const auto mine = parts(now, index), theirs = parts(was, index);
+  for (size_t i = 0; i < mine.size(); ++i)
+    for (const auto& [key, value] : changes(*mine[i].second, *theirs[i].second, false))
+      line(fmt::format("{}.{} = {}", mine[i].first, key, value));
+}
+
+void LuaWriter::set_dofs(const PlacedRobot& placed, int index) {
+  if (placed.dofs.empty()) return;
+  std::string broken;
+  for (size_t c = 0; c < placed.breakaway.size(); ++c)
+    for (size_t j = 0; j < placed.breakaway[c].size(); ++j)
+      if (const Breakaway& q = placed.breakaway[c][j])
+        broken +=
+            fmt::format("{}{{{}, {}, {}}}", broken.empty() ? "" : ", ", c + 1, j + 1, number(*q));
+  line(fmt::format("robots[{}]:set_dofs({}{})", index + 1, list(placed.dofs),
+                   broken.empty() ? "" : ", {broken_away = {" + broken + "}}"));
+}
+
+static bool same_vectors(const std::optional<Eigen::VectorXd>& a,
+                         const std::optional<Eigen::VectorXd>& b) {
+  return a.has_value() == b.has_value() && (!a || (a->size() == b->size() && *a == *b));
+}
+
+static bool same(const std::optional<EigengraspSet>& a, const std::optional<EigengraspSet>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return same_vectors(a->origin, b->origin) && same_vectors(a->norm, b->norm) &&
+         std::ranges::equal(a->grasps, b->grasps, [](const auto& x, const auto& y) {
+           return x.vector == y.vector && x.eigenvalue == y.eigenvalue && x.limits == y.limits;
+         });
+}
+
+static bool same(const std::optional<VirtualContactSet>& a,
+                 const std::optional<VirtualContactSet>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return std::ranges::equal(a->contacts, b->contacts, [](const auto& x, const auto& y) {
+    return x.chain == y.chain && x.link == y.link && x.X_LC == y.X_LC && x.mu == y.mu &&
+           x.edges.cols() == y.edges.cols() && x.edges == y.edges;
+  });
+}
+
+/// Sets that the user gave the hand are written beside, and named by options.
+std::string LuaWriter::sets_of(const RobotSpec& now, const RobotSpec& was) {
+  std::string out;
+  if (!same(now.eigengrasps, was.eigengrasps)) {
+    if (now.eigengrasps) {
+      const fs::path path = files_.beside(now.name + "_eigengrasps", ".xml");
+      write_eigengrasps(*now.eigengrasps, path, [&](const std::string& s) { files_.warn(s); });
+      out += ", eigengrasps = " + file(path.generic_string());
+    }
+  }
+  if (!same(now.virtual_contacts, was.virtual_contacts)) {
+    if (now.virtual_contacts) {
+      const fs::path path = files_.beside(now.name + "_virtual_contacts", ".xml");
+      write_virtual_contacts(*now.virtual_contacts, path);
+      out += ", virtual_contacts = " + file(path.generic_string());
+    }
+  }
+  return out;
+}
+
+void LuaWriter::add_robot(int index) {
+  const PlacedRobot& placed = world_.robots[index];
+  const RobotSpec& robot = placed.robot;
+  const RobotSpec& read = files_.again(robot);
+  line(fmt::format("robots[{}] = world:add_robot({}, {{name = {}, pose = {}{}{}}})", index + 1,
+                   file(robot.file), as_lua(robot.name), pose(placed.X_WB), root_option(),
+                   sets_of(robot, read)));
+  rename_parts(robot, read, index);
+  change_parts(robot, read, index);
+  set_dofs(placed, index);
+}
+
+void LuaWriter::add_connection(const Connection& c) {
+  std::string piece, after;
+  if (c.mount) {
+    const BodySpec* read = files_.again(*c.mount);
+    const std::string path = read ? c.mount->file : files_.write_body(*c.mount).generic_string();
+    piece = ", piece = " + file(path) + root_option();
+    const std::string usual = world_.robots[c.child].robot.name + "_mount";
+    if (c.mount->name != usual)
+      after +=
+          fmt::format("world:body({}).name = {}\n", as_lua(usual), as_lua(c.mount->name));
+    // one written just now says all that the format holds
+    if (read)
+      for (const auto& [key, value] : changes(*c.mount, *read, false))
+        after += fmt::format("world:body({}).{} = {}\n", as_lua(c.mount->name), key, value);
+  }
+  line(fmt::format("robots[{}]:mount_on(robots[{}], {{chain = {}, pose = {}{}}})", c.child + 1,
+                   c.parent + 1, c.chain + 1, pose(c.X_LB), piece));
+  out_ += after;
+}
+
+// --- what may collide, and who looks ---
+
+void LuaWriter::switch_collision() {
+  if (!world_.collision) return;
+  const CollisionSpec& spec = *world_.collision;
+  line("");
+  if (!world_.robots.empty()) {
+    line("-- all that may not collide, neighbours too");
+    line("for _, a in ipairs(robots) do");
+    line("  for _, b in ipairs(robots) do world:set_collision(true, a, b) end");
+    line("end");
+  }
+  if (!spec.pairs_off.empty()) {
+    line("for _, pair in ipairs {");
+    for (const auto& [a, b] : spec.pairs_off)
+      line(fmt::format("  {{{}, {}}},", as_lua(a), as_lua(b)));
+    line("} do");
+    line("  world:set_collision(false, world:body(pair[1]), world:body(pair[2]))");
+    line("end");
+  }
+  for (const auto& name : spec.bodies_off)
+    line(fmt::format("world:set_collision(false, world:body({}))", as_lua(name)));
+  if (!spec.on) line("world:set_collision(false)");
+}
+
+void LuaWriter::add_camera() {
+  if (!world_.camera) return;
+  line(fmt::format("world.camera = {{pose = {}, focal_distance = {}}}", pose(world_.camera->X_WC),
+                   number(world_.camera->focal_distance)));
+}
+
+std::string LuaWriter::write() {
+  begin();
+  std::vector<bool> connected(world_.connections.size());
+  for (const WorldEntry& entry : world_.order) {
+    if (entry.kind == WorldEntry::Kind::body) {
+      add_body(world_.bodies[entry.index]);
+    } else if (entry.kind == WorldEntry::Kind::robot) {
+      add_robot(entry.index);
+    } else {
+      add_connection(world_.connections[entry.index]);
+      connected[entry.index] = true;
+    }
+  }
+  for (size_t i = 0; i < connected.size(); ++i)
+    if (!connected[i]) add_connection(world_.connections[i]);
+  switch_collision();
+  add_camera();
+  line("return world");
+  return std::move(out_);
+}
+
+}  // namespace
+
+std::string text_of_lua(const WorldSpec& world, SavedFiles& files) {
+  return LuaWriter(world, files).write();
+}
+
+}  // namespace clench

@@ -1,0 +1,16 @@
+// Worlds as the text of their formats.
+#pragma once
+#include <string>
+
+#include "io/saved_files.h"
+
+namespace clench {
+
+/// The .wld of GraspIt! up to 2.0.
+std::string wld_text(const WorldSpec& world, SavedFiles& files);
+/// The .xml of GraspIt! 2.1 and later.
+std::string world_xml_text(const WorldSpec& world, SavedFiles& files);
+/// A script for clench.load.
+std::string text_of_lua(const WorldSpec& world, SavedFiles& files);
+
+}  // namespace clench

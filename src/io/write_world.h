@@ -1,0 +1,29 @@
+// Worlds to files: the other side of read_world.
+#pragma once
+#include <filesystem>
+#include <functional>
+
+#include "spec/world_spec.h"
+
+namespace clench {
+
+struct WriteOptions {
+  /// names of files below it are written from there on; others from the file's own folder on where
+  /// they lie below that, else absolute
+  std::filesystem::path root = {};
+  /// told of what is not as the file would have it
+  std::function<void(const std::string&)> warn = {};
+  /// sees the whole file under another name in its folder, before it takes the place of an older
+  /// one; what it throws keeps that one
+  std::function<void(const std::filesystem::path&)> check = {};
+};
+
+/// By the ending: .wld and .xml as GraspIt! has them, .lua a script that makes the world. Numbers are
+/// written so that reading gives them back to the bit where the format's unit allows it. Bodies
+/// without a file, and those whose file holds another surface, are written into a folder
+/// beside: w_files/ball.xml and w_files/ball.off; a .lua holds their triangles itself. Robots are named by their files.
+/// throws Error when a robot has no file, or a file cannot be written; an older file stays then
+void write_world(const WorldSpec& world, const std::filesystem::path& path,
+                 const WriteOptions& options = {});
+
+}  // namespace clench

@@ -1,0 +1,68 @@
+#include "base/units.h"
+#include "io/world_parts.h"
+#include "io/write_text_worlds.h"
+#include "io/xml.h"
+
+namespace clench {
+
+static std::string element(const char* name, const std::string& text) {
+  return fmt::format("    <{}>{}</{}>\n", name, xml_escaped(text), name);
+}
+
+static std::string transform(const Pose& pose) {
+  return "    <transform>\n      <fullTransform>" + full_transform(pose) +
+         "</fullTransform>\n    </transform>\n";
+}
+
+static std::string body_element(const PlacedBody& placed, SavedFiles& files) {
+  const char* name = placed.role == Role::obstacle ? "obstacle" : "graspableBody";
+  std::string inside;
+  if (files.again(placed.body)) {
+    inside = element("filename", files.name(placed.body.file));
+  } else {
+    const std::string path = files.write_surface(placed.body).generic_string();
+    const std::string surface = path.empty() ? "" : files.name(path);
+    inside = "    <body>\n" + body_elements(placed.body, surface, "      ") + "    </body>\n";
+  }
+  return fmt::format("  <{}>\n{}{}  </{}>\n", name, inside, transform(placed.X_WB), name);
+}
+
+static std::string robot_element(const PlacedRobot& placed, SavedFiles& files) {
+  files.again(placed.robot);
+  return "  <robot>\n" + element("filename", files.name(placed.robot.file)) +
+         element("dofValues", dof_values(placed)) + transform(placed.X_WB) + "  </robot>\n";
+}
+
+static std::string connection_element(const Connection& c, SavedFiles& files) {
+  std::string out = "  <connection>\n" + element("parentRobot", fmt::format("{}", c.parent)) +
+                    element("parentChain", fmt::format("{}", c.chain)) +
+                    element("childRobot", fmt::format("{}", c.child));
+  if (c.mount) {
+    const std::string file =
+        files.again(*c.mount) ? c.mount->file : files.write_body(*c.mount).generic_string();
+    out += element("mountFilename", files.name(file));
+  }
+  return out + transform(c.X_LB) + "  </connection>\n";
+}
+
+static std::string camera_element(const Camera& camera) {
+  return "  <camera>\n" + element("position", millimetres(camera.X_WC.position)) +
+         element("orientation", orientation(camera.X_WC.rotation)) +
+         element("focalDistance", number_in(camera.focal_distance, units::millimetre)) +
+         "  </camera>\n";
+}
+
+std::string world_xml_text(const WorldSpec& world, SavedFiles& files) {
+  std::string out = "<?xml version=\"1.0\" ?>\n<world>\n";
+  for (const WorldEntry& entry : world.order) {
+    if (entry.kind == WorldEntry::Kind::body)
+      out += body_element(world.bodies[entry.index], files);
+    else if (entry.kind == WorldEntry::Kind::robot)
+      out += robot_element(world.robots[entry.index], files);
+  }
+  for (const Connection& c : world.connections) out += connection_element(c, files);
+  if (world.camera) out += camera_element(*world.camera);
+  return out + "</world>\n";
+}
+
+}  // namespace clench

@@ -1,0 +1,212 @@
+#include "model/compare_worlds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace clench {
+
+namespace {
+
+constexpr double digits = 1e-12;
+
+bool same(double a, double b) {
+  return std::abs(a - b) <= digits * std::max(1.0, std::max(std::abs(a), std::abs(b)));
+}
+
+bool same(const Pose& a, const Pose& b) {
+  const Pose off = a.inverse() * b;
+  const double size = std::max(1.0, a.position.norm());
+  return off.position.norm() <= digits * size && off.angle() <= digits;
+}
+
+template <class Matrix>
+bool same_matrix(const Matrix& a, const Matrix& b) {
+  return (a - b).cwiseAbs().maxCoeff() <= digits * std::max(a.cwiseAbs().maxCoeff(), 1e-3);
+}
+
+bool same_look(const Appearance& a, const Appearance& b) {
+  return a.color == b.color && a.transparency == b.transparency &&
+         a.triangle_colors == b.triangle_colors;
+}
+
+/// Vertices may be rounded, triangles not.
+bool same_shape(const ShapePtr& a, const ShapePtr& b) {
+  if (!a || !b) return a == b;
+  if (a->hash() == b->hash()) return true;
+  const Mesh &one = a->mesh(), &two = b->mesh();
+  if (one.triangles != two.triangles || one.vertices.size() != two.vertices.size()) return false;
+  for (size_t i = 0; i < one.vertices.size(); ++i)
+    if ((one.vertices[i] - two.vertices[i]).norm() > digits * std::max(1.0, a->radius()))
+      return false;
+  return true;
+}
+
+/// Free bodies in their order, then those of each robot: a file may give an adapter another place
+/// among the bodies, but no other role.
+std::vector<Id<Body>> by_role(const World& world) {
+  std::vector<Id<Body>> out;
+  for (const auto id : world.bodies())
+    if (!world.body(id).robot) out.push_back(id);
+  for (const auto robot : world.robots())
+    for (const auto id : world.bodies_of(robot)) out.push_back(id);
+  return out;
+}
+
+class Comparer {
+ public:
+  Comparer(const World& a, const World& b)
+      : a_(a), b_(b), a_bodies_(by_role(a)), b_bodies_(by_role(b)) {}
+  std::vector<std::string> compare();
+
+ private:
+  template <class... Args>
+  void add(fmt::format_string<Args...> format, Args&&... args) {
+    out_.push_back(fmt::format(format, std::forward<Args>(args)...));
+  }
+  void bodies(const Body& a, const Body& b);
+  void robots(const Robot& a, const Robot& b);
+  void frictions();
+  void switches();
+  std::vector<std::pair<size_t, size_t>> pairs_off(const World& world,
+                                                   const std::vector<Id<Body>>& all) const;
+  std::vector<size_t> bodies_off(const World& world, const std::vector<Id<Body>>& all) const;
+
+  const World &a_, &b_;
+  const std::vector<Id<Body>> a_bodies_, b_bodies_;
+  std::vector<std::string> out_;
+};
+
+void Comparer::bodies(const Body& a, const Body& b) {
+  if (a.name != b.name) add("the name '{}'", a.name);
+  if (a_.materials().name(a.material) != b_.materials().name(b.material))
+    add("the material of '{}'", a.name);
+  if (!same(a.mass, b.mass)) add("the mass of '{}'", a.name);
+  if (!same_matrix(a.com, b.com)) add("the centre of mass of '{}'", a.name);
+  if (!same_matrix(a.inertia_per_mass, b.inertia_per_mass)) add("the inertia of '{}'", a.name);
+  if (a.elastic_modulus.has_value() != b.elastic_modulus.has_value() ||
+      !same(a.elastic_modulus.value_or(0), b.elastic_modulus.value_or(0)))
+    add("the elastic modulus of '{}'", a.name);
+  if (a.tracker != b.tracker) add("the position sensor of '{}'", a.name);
+  if (!same_look(a.appearance, b.appearance)) add("the colour of '{}'", a.name);
+  if (!same_shape(a.shape, b.shape)) add("the surface of '{}'", a.name);
+  if (!same(a.X_WB, b.X_WB)) add("the pose of '{}'", a.name);
+}
+
+bool same_set(const EigengraspSet* a, const EigengraspSet* b) {
+  if (!a || !b) return a == b;
+  const auto same_vectors = [](const auto& x, const auto& y) {
+    return x.has_value() == y.has_value() && (!x || *x == *y);
+  };
+  if (a->grasps.size() != b->grasps.size() || !same_vectors(a->origin, b->origin) ||
+      !same_vectors(a->norm, b->norm))
+    return false;
+  for (size_t i = 0; i < a->grasps.size(); ++i)
+    if (a->grasps[i].vector != b->grasps[i].vector || a->grasps[i].limits != b->grasps[i].limits)
+      return false;
+  return true;
+}
+
+bool same_contacts(const std::vector<VirtualContactSpec>* a,
+                   const std::vector<VirtualContactSpec>* b) {
+  if (!a || !b) return a == b;
+  return std::ranges::equal(*a, *b, [](const auto& x, const auto& y) {
+    return std::tie(x.chain, x.link, x.mu) == std::tie(y.chain, y.link, y.mu) && x.X_LC == y.X_LC &&
+           x.edges.cols() == y.edges.cols() && x.edges == y.edges;
+  });
+}
+
+void Comparer::robots(const Robot& a, const Robot& b) {
+  if (a.name != b.name) add("the name '{}'", a.name);
+  if (a.q.size() != b.q.size()) return add("the DOFs of '{}'", a.name);
+  for (int i = 0; i < a.q.size(); ++i)
+    if (!same(a.q[i], b.q[i])) {
+      add("the DOFs of '{}'", a.name);
+      break;
+    }
+  if (!std::ranges::equal(a.dofs, b.dofs, [](const DofSpec& x, const DofSpec& y) {
+        return same(x.default_velocity, y.default_velocity);
+      }))
+    add("how '{}' closes", a.name);
+  bool broken = a.chains.size() == b.chains.size();
+  for (size_t c = 0; broken && c < a.chains.size(); ++c)
+    broken = std::ranges::equal(
+        a.chains[c].breakaway, b.chains[c].breakaway, [](const Breakaway& x, const Breakaway& y) {
+          return x.has_value() == y.has_value() && same(x.value_or(0), y.value_or(0));
+        });
+  if (!broken) add("the joints of '{}' that have broken away", a.name);
+  if (!same(a.X_BA, b.X_BA)) add("the approach frame of '{}'", a.name);
+  if (a.mounting.has_value() != b.mounting.has_value()) add("what carries '{}'", a.name);
+  if (!same_set(a.eigengrasps.get(), b.eigengrasps.get())) add("the eigengrasps of '{}'", a.name);
+  if (!same_contacts(a.virtual_contacts.get(), b.virtual_contacts.get()))
+    add("the virtual contacts of '{}'", a.name);
+}
+
+void Comparer::frictions() {
+  const MaterialTable &one = a_.materials(), &two = b_.materials();
+  const int count = static_cast<int>(one.names().size());
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j <= i; ++j) {
+      const auto at = [&](int k) {
+        const auto found = std::ranges::find(two.names(), one.name(k));
+        return found == two.names().end() ? -1 : static_cast<int>(found - two.names().begin());
+      };
+      const int k = at(i), l = at(j);
+      // of a new material only what rubs
+      const Friction f = one.friction(i, j), g = k < 0 || l < 0 ? Friction{} : two.friction(k, l);
+      if (f.statics != g.statics || f.kinetic != g.kinetic)
+        add("the friction of {} on {}", one.name(i), one.name(j));
+    }
+}
+
+std::vector<std::pair<size_t, size_t>> Comparer::pairs_off(const World& world,
+                                                           const std::vector<Id<Body>>& all) const {
+  const auto number = [&](Id<Body> id) {
+    return static_cast<size_t>(std::ranges::find(all, id) - all.begin());
+  };
+  std::vector<std::pair<size_t, size_t>> out;
+  for (const auto& [a, b] : world.state().pairs_off)
+    out.push_back(std::minmax(number(a), number(b)));
+  std::ranges::sort(out);
+  return out;
+}
+
+std::vector<size_t> Comparer::bodies_off(const World& world,
+                                         const std::vector<Id<Body>>& all) const {
+  std::vector<size_t> out;
+  for (size_t i = 0; i < all.size(); ++i)
+    if (world.state().switched_off.contains(all[i])) out.push_back(i);
+  return out;
+}
+
+void Comparer::switches() {
+  if (a_.state().collision_on != b_.state().collision_on ||
+      pairs_off(a_, a_bodies_) != pairs_off(b_, b_bodies_) ||
+      bodies_off(a_, a_bodies_) != bodies_off(b_, b_bodies_))
+    add("which bodies may collide");
+  if (!same(a_.contact_threshold(), b_.contact_threshold())) add("the contact threshold");
+}
+
+std::vector<std::string> Comparer::compare() {
+  if (a_bodies_.size() != b_bodies_.size() || a_.robots().size() != b_.robots().size()) {
+    add("its number of bodies");
+    return std::move(out_);
+  }
+  for (size_t i = 0; i < a_bodies_.size(); ++i)
+    bodies(a_.body(a_bodies_[i]), b_.body(b_bodies_[i]));
+  for (size_t i = 0; i < a_.robots().size(); ++i)
+    robots(a_.robot(a_.robots()[i]), b_.robot(b_.robots()[i]));
+  frictions();
+  switches();
+  return std::move(out_);
+}
+
+}  // namespace
+
+std::vector<std::string> differences(const World& world, const World& other) {
+  return Comparer(world, other).compare();
+}
+
+}  // namespace clench

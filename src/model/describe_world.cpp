@@ -1,0 +1,168 @@
+#include "model/describe_world.h"
+
+#include <algorithm>
+
+namespace clench {
+
+namespace {
+
+class Describer {
+ public:
+  explicit Describer(const World& world) : world_(world) {}
+  WorldSpec describe();
+
+ private:
+  BodySpec body(Id<Body> id) const;
+  RobotSpec robot(const Robot& r) const;
+  PlacedRobot placed(const Robot& r) const;
+  int number(Id<Robot> id) const;
+  void add_body(Id<Body> id);
+  void add_connections(Id<Robot> robot);
+  void add_connection(Id<Robot> child);
+  void add_friction();
+  void add_collision();
+
+  const World& world_;
+  WorldSpec out_;
+};
+
+BodySpec Describer::body(Id<Body> id) const {
+  const Body& b = world_.body(id);
+  BodySpec out;
+  out.name = b.name;
+  out.source = b.source;
+  out.file = b.file;
+  out.shape = b.shape;
+  out.mesh_report = b.mesh_report;
+  out.appearance = b.appearance;
+  out.material = world_.materials().name(b.material);
+  out.mass = b.mass;
+  out.com = b.com;
+  out.inertia_per_mass = b.inertia_per_mass;
+  out.elastic_modulus = b.elastic_modulus;
+  out.tracker = b.tracker;
+  return out;
+}
+
+RobotSpec Describer::robot(const Robot& r) const {
+  RobotSpec out;
+  out.name = r.name;
+  out.source = r.source;
+  out.file = r.file;
+  out.class_name = r.class_name;
+  out.base = body(r.base);
+  out.dofs = r.dofs;
+  for (const Chain& from : r.chains) {
+    ChainSpec chain{.parent_chain = from.parent_chain,
+                    .parent_link = from.parent_link,
+                    .X_BC = from.X_BC,
+                    .joints = from.joints,
+                    .links = {}};
+    for (size_t l = 0; l < from.links.size(); ++l)
+      chain.links.push_back({body(from.links[l]), from.link_joints[l], from.last_joints[l]});
+    out.chains.push_back(std::move(chain));
+  }
+  out.X_BA = r.X_BA;
+  if (r.eigengrasps) out.eigengrasps = *r.eigengrasps;
+  if (r.virtual_contacts) out.virtual_contacts = VirtualContactSet{r.name, *r.virtual_contacts};
+  if (r.glove) out.glove = *r.glove;
+  out.files = r.files;
+  out.tracker = r.tracker;
+  return out;
+}
+
+PlacedRobot Describer::placed(const Robot& r) const {
+  PlacedRobot out;
+  out.robot = robot(r);
+  out.X_WB = world_.body(r.base).X_WB;
+  out.dofs.assign(r.q.begin(), r.q.end());
+  for (const Chain& chain : r.chains) out.breakaway.push_back(chain.breakaway);
+  return out;
+}
+
+int Describer::number(Id<Robot> id) const {
+  const auto& robots = world_.robots();
+  return static_cast<int>(std::find(robots.begin(), robots.end(), id) - robots.begin());
+}
+
+void Describer::add_connection(Id<Robot> child) {
+  const Mounting& mounting = *world_.robot(child).mounting;
+  Connection c;
+  c.parent = number(mounting.parent);
+  c.chain = mounting.chain;
+  c.child = number(child);
+  c.X_LB = mounting.X_LB;
+  if (mounting.piece) c.mount = body(*mounting.piece);
+  out_.order.push_back({WorldEntry::Kind::connection, static_cast<int>(out_.connections.size())});
+  out_.connections.push_back(std::move(c));
+}
+
+/// Those without a piece, whose place in the order nobody sees, as soon as both robots are there.
+void Describer::add_connections(Id<Robot> robot) {
+  for (const auto child : world_.robots()) {
+    const auto& mounting = world_.robot(child).mounting;
+    if (!mounting || mounting->piece) continue;
+    if (std::max(number(child), number(mounting->parent)) == number(robot)) add_connection(child);
+  }
+}
+
+void Describer::add_body(Id<Body> id) {
+  const Body& b = world_.body(id);
+  if (b.kind == BodyKind::object || b.kind == BodyKind::obstacle) {
+    out_.order.push_back({WorldEntry::Kind::body, static_cast<int>(out_.bodies.size())});
+    const Role role = b.kind == BodyKind::object ? Role::object : Role::obstacle;
+    out_.bodies.push_back({body(id), role, b.X_WB});
+  } else if (b.kind == BodyKind::base) {
+    out_.order.push_back({WorldEntry::Kind::robot, number(b.robot)});
+    add_connections(b.robot);
+  } else if (b.kind == BodyKind::mount) {
+    add_connection(b.robot);
+  }
+}
+
+void Describer::add_friction() {
+  const MaterialTable& table = world_.materials();
+  const MaterialTable standard;
+  const int count = static_cast<int>(table.names().size());
+  const int known = static_cast<int>(standard.names().size());
+  const auto add = [&](int a, int b) {
+    const Friction f = table.friction(a, b);
+    out_.friction.push_back({table.name(a), table.name(b), f.statics, f.kinetic});
+  };
+  // new names first, each with itself, so that they keep their order
+  for (int i = known; i < count; ++i) add(i, i);
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j <= i; ++j) {
+      const Friction f = table.friction(i, j);
+      const Friction usual = i < known ? standard.friction(i, j) : Friction{};
+      if (i >= known && i == j) continue;
+      if (f.statics != usual.statics || f.kinetic != usual.kinetic) add(i, j);
+    }
+}
+
+void Describer::add_collision() {
+  const WorldState& state = world_.state();
+  CollisionSpec spec;
+  spec.on = state.collision_on;
+  for (const auto id : state.switched_off) spec.bodies_off.push_back(world_.body(id).name);
+  for (const auto& [a, b] : state.pairs_off)
+    spec.pairs_off.push_back({world_.body(a).name, world_.body(b).name});
+  out_.collision = std::move(spec);
+}
+
+WorldSpec Describer::describe() {
+  out_.source = world_.source();
+  for (const auto id : world_.robots()) out_.robots.push_back(placed(world_.robot(id)));
+  for (const auto id : world_.bodies()) add_body(id);
+  out_.camera = world_.camera();
+  out_.contact_threshold = world_.contact_threshold();
+  add_friction();
+  add_collision();
+  return std::move(out_);
+}
+
+}  // namespace
+
+WorldSpec describe_world(const World& world) { return Describer(world).describe(); }
+
+}  // namespace clench

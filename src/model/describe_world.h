@@ -1,0 +1,12 @@
+// The description of a world as it is now: what is saved, and what builds an equal one.
+#pragma once
+#include "model/world.h"
+
+namespace clench {
+
+/// Everything that World::hash covers, and how things look: build_world makes of it a world of the
+/// same hash. Bodies in the order of creation, all their properties given; robots with their DOFs
+/// and breakaway states, but without what nothing acts on (tendons, tactile sensors).
+WorldSpec describe_world(const World& world);
+
+}  // namespace clench

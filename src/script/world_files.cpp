@@ -1,0 +1,116 @@
+#include "script/world_files.h"
+
+#include <fmt/ranges.h>
+
+#include "base/text.h"
+#include "io/write_world.h"
+#include "model/build.h"
+#include "model/compare_worlds.h"
+#include "model/describe_world.h"
+#include "script/bind_log.h"
+#include "script/guard.h"
+#include "script/handles.h"
+#include "script/read_spec.h"
+#include "script/table.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+static bool is_script(const fs::path& path) {
+  return lower_case(path.extension().string()) == ".lua";
+}
+
+// Leaves the world that a script returns on the stack. It is given a table with the root, and the
+// folder that it lies in.
+static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& root) {
+  const std::string file = path.filename().string();
+  luaL_checkstack(L, 8, nullptr);
+  if (luaL_loadfilex(L, path.string().c_str(), "t") != LUA_OK)
+    fail("{}", lua_tostring(L, -1) ? lua_tostring(L, -1) : "no reason given");
+  lua_createtable(L, 0, 1);
+  if (!root.empty()) set_field(L, "root", root.generic_string());
+  push(L, fs::absolute(path).parent_path().lexically_normal().generic_string());
+  protected_call(L, 2, 1);
+  const auto* handle = to<WorldHandle>(L, -1);
+  if (!handle) fail("{}: wanted a script that returns a world, got {}", file, described(L, -1));
+  return handle->world;
+}
+
+int load_world(lua_State* L) {
+  check_count(L, 2);
+  const std::string path = check_string(L, 1, "path");
+  Table options(L, 2);
+  const ReadOptions reading = read_options(L, options);
+  options.done();
+  const fs::path found = find_file(path, {}, reading);
+  if (is_script(found)) {
+    const WorldPtr world = run_script(L, found, reading.root);
+    if (world->source().empty()) world->set_source(found.generic_string());
+    return 1;
+  }
+  const WorldSpec spec = read_world(found, reading);
+  return push_object(L, WorldHandle{std::make_shared<World>(build_world(spec, reading.warn))});
+}
+
+namespace {
+
+/// Nothing is told as long as it lives.
+class Silence {
+ public:
+  explicit Silence(lua_State* L) : L_(L), before_(log_level(L)) {
+    set_log_level(L, LogLevel::quiet);
+  }
+  ~Silence() { set_log_level(L_, before_); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  lua_State* L_;
+  LogLevel before_;
+};
+
+}  // namespace
+
+static World read_again(lua_State* L, const fs::path& path, const fs::path& root) {
+  if (!is_script(path)) {
+    ReadOptions reading;
+    reading.root = root;
+    return build_world(read_world(path, reading));
+  }
+  const Silence silence(L);
+  const int top = lua_gettop(L);
+  World world = *run_script(L, path, root);
+  lua_settop(L, top);
+  return world;
+}
+
+// tells what the file that was written does not hold
+static void warn_of_losses(lua_State* L, const World& world, const World& again,
+                           const std::string& file) {
+  constexpr size_t most = 12;
+  auto lost = differences(world, again);
+  if (lost.empty()) return;
+  const size_t more = lost.size() > most ? lost.size() - most : 0;
+  lost.resize(lost.size() - more);
+  const std::string rest = more ? fmt::format(" and {} more", more) : "";
+  log_warning(L, fmt::format("{} does not hold {}{}", file, fmt::join(lost, ", "), rest));
+}
+
+int save_world(lua_State* L) {
+  check_count(L, 2);
+  const World& world = *self<WorldHandle>(L).world;
+  const fs::path path = check_string(L, 2, "path");
+  Table options(L, 3);
+  WriteOptions writing;
+  writing.root = options.string("root", "");
+  options.done();
+  writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
+  writing.check = [&](const fs::path& written) {
+    warn_of_losses(L, world, read_again(L, written, writing.root), path.filename().string());
+  };
+  write_world(describe_world(world), path, writing);
+  return 0;
+}
+
+}  // namespace clench

@@ -1,0 +1,116 @@
+--- `clench check`: files read for a person's eyes, or as JSON for a program's.
+local report = require "clench.host.report"
+local check = {}
+
+-- numbers with their unit, as people say them
+local function quantity(x, unit)
+  if x == nil then return "-" end
+  if unit == "rad" then return ("%.1f deg"):format(clench.deg(x)) end
+  if unit == "m" then return ("%.1f mm"):format(x * 1000) end
+  return ("%.4g %s"):format(x, unit)
+end
+
+local function size(mesh)
+  return ("%.1f x %.1f x %.1f mm"):format(mesh.size[1] * 1000, mesh.size[2] * 1000, mesh.size[3] * 1000)
+end
+
+-- rows in columns, the first row above the others
+local function columns(rows, indent)
+  local widths = {}
+  for _, row in ipairs(rows) do
+    for i, cell in ipairs(row) do widths[i] = math.max(widths[i] or 0, utf8.len(cell) or #cell) end
+  end
+  for _, row in ipairs(rows) do
+    local cells = {}
+    for i, cell in ipairs(row) do cells[i] = i < #row and cell .. (" "):rep(widths[i] - (utf8.len(cell) or #cell)) or cell end
+    print((indent .. table.concat(cells, "  ")):gsub("%s+$", "") .. "")
+  end
+end
+
+local function body_row(body)
+  local mesh = body.mesh
+  return {body.name, quantity(body.mass, "kg"), body.material, mesh and ("%d triangles"):format(mesh.triangles) or "a frame",
+          mesh and size(mesh) or "", mesh and (mesh.watertight and "watertight" or mesh.faults) or ""}
+end
+
+local print_kind = {}
+
+function print_kind.body(body)
+  columns({body_row(body)}, "  ")
+  print(("  centre of mass %.4g %.4g %.4g m"):format(table.unpack(body.center_of_mass)))
+  for i = 1, 3 do
+    print((i == 1 and "  inertia        " or "                 ") .. ("%10.3g %10.3g %10.3g kg m^2"):format(table.unpack(body.inertia[i])))
+  end
+  if body.mesh and body.mesh.volume then print(("  volume         %.4g m^3, area %.4g m^2"):format(body.mesh.volume, body.mesh.area)) end
+  if body.elastic_modulus then print(("  elastic        %.3g Pa"):format(body.elastic_modulus)) end
+end
+
+function print_kind.robot(robot)
+  local links = {body_row(robot.base)}
+  for _, chain in ipairs(robot.chains) do
+    for _, link in ipairs(chain.links) do links[#links + 1] = body_row(link) end
+  end
+  print(("  %d DOFs, %d chains, %d links, %d eigengrasps, %d virtual contacts"):format(#robot.dofs, #robot.chains, #links - 1,
+    robot.eigengrasps, robot.virtual_contacts))
+  columns(links, "  ")
+  local rows = {{"DOF", "name", "kind", "from", "to", "at", "closes", "effort"}}
+  for i, dof in ipairs(robot.dofs) do
+    rows[#rows + 1] = {tostring(i), dof.name or "", dof.kind, quantity(dof.low, dof.unit), quantity(dof.high, dof.unit),
+      quantity(dof.value, dof.unit), dof.closing > 0 and "up" or dof.closing < 0 and "down" or "not",
+      quantity(dof.max_effort, dof.unit == "m" and "N" or "N m")}
+  end
+  columns(rows, "  ")
+  rows = {{"chain", "from", "joint", "kind", "DOF", "ratio", "from", "to"}}
+  for c, chain in ipairs(robot.chains) do
+    for _, joint in ipairs(chain.joints) do
+      local unit = joint.kind == "prismatic" and "m" or "rad"
+      rows[#rows + 1] = {tostring(c), chain.parent, joint.name or "", joint.kind, tostring(joint.dof),
+        ("%.6g"):format(joint.ratio), quantity(joint.low, unit), quantity(joint.high, unit)}
+    end
+  end
+  columns(rows, "  ")
+  print(("  approaches along %.3g %.3g %.3g"):format(table.unpack(robot.approach.direction)))
+end
+
+function print_kind.world(world)
+  local rows = {}
+  for _, body in ipairs(world.objects) do rows[#rows + 1] = {"object", table.unpack(body_row(body))} end
+  for _, body in ipairs(world.obstacles) do rows[#rows + 1] = {"obstacle", table.unpack(body_row(body))} end
+  for _, robot in ipairs(world.robots) do
+    rows[#rows + 1] = {"robot", robot.name, ("%d DOFs"):format(#robot.dofs),
+                       robot.carried_by and "carried by " .. robot.carried_by or "stands by itself"}
+  end
+  columns(rows, "  ")
+  for _, pair in ipairs(world.overlaps) do print(("  %s and %s overlap"):format(pair[1], pair[2])) end
+end
+
+function print_kind.eigengrasps(set) print(("  %d eigengrasps of %d DOFs"):format(set.count, set.dofs)) end
+
+print_kind["virtual contacts"] = function(set) print(("  %d virtual contacts"):format(set.count)) end
+
+local function print_report(r)
+  print(("%s: %s"):format(r.file, r.understood and "a " .. r.kind or r.kind and "not a " .. r.kind .. " that can be read" or "not read"))
+  if r.understood then print_kind[r.kind](r.understood) end
+  for _, list in ipairs {"guessed", "ignored"} do
+    for _, sentence in ipairs(r[list]) do print(("  %s: %s"):format(list, sentence)) end
+  end
+  if r.wrong then print("  wrong: " .. r.wrong) end
+end
+
+--- Prints what each file was understood to be.
+---@param form "text"|"json"
+---@param root string  where names in the files count from; "" when nothing is said
+---@return integer  how many files could not be read
+function check.files(form, root, ...)
+  local options = root ~= "" and {root = root} or nil
+  local all, wrong = {}, 0
+  for i, path in ipairs {...} do
+    all[i] = report.of(path, options)
+    if all[i].wrong then wrong = wrong + 1 end
+    if form == "text" then print_report(all[i]) end
+  end
+  if form == "json" then print(clench.json.encode(all)) end
+  return wrong
+end
+
+return check

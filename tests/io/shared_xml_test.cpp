@@ -1,0 +1,92 @@
+// The XML models of the original's last generation, where they are at hand, against its text models.
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "io/read.h"
+#include "io/xml.h"
+#include "support/shared.h"
+
+using namespace clench;
+namespace fs = std::filesystem;
+
+static fs::path text_root() { return test::shared() / "data/graspit"; }
+static fs::path xml_root() { return test::shared() / "data/graspit-xml"; }
+
+/// Files whose outermost element is of one name, or of no name that others have.
+static std::vector<fs::path> files_of(const std::string& root_name) {
+  std::vector<fs::path> out;
+  for (const auto& entry : fs::recursive_directory_iterator(xml_root())) {
+    if (entry.path().extension() != ".xml") continue;
+    const std::string text = read_text(entry.path());
+    if (xml_root_name(text) == root_name) out.push_back(entry.path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+TEST_CASE("every XML body of the original loads, with triangles unless it names none") {
+  REQUIRE_SHARED();
+  const auto files = files_of("root");
+  CHECK(files.size() >= 85);
+  int frames = 0;
+  for (const auto& file : files) {
+    INFO(file.string());
+    BodySpec body;
+    CHECK_NOTHROW(body = read_body(file));
+    frames += !body.shape;
+  }
+  CHECK(frames == 1);  // the template of all bodies
+}
+
+TEST_CASE("every XML robot of the original loads, and every XML world") {
+  REQUIRE_SHARED();
+  const auto robots = files_of("robot"), worlds = files_of("world");
+  CHECK(robots.size() >= 15);
+  CHECK(worlds.size() >= 4);
+  for (const auto& file : robots) {
+    INFO(file.string());
+    RobotSpec robot;
+    CHECK_NOTHROW(robot = read_robot(file));
+    CHECK(robot.base.shape);
+    CHECK_FALSE(robot.dofs.empty());
+  }
+  ReadOptions options;
+  options.root = xml_root();
+  for (const auto& file : worlds) {
+    INFO(file.string());
+    WorldSpec world;
+    CHECK_NOTHROW(world = read_world(file, options));
+    CHECK(world.camera);
+  }
+}
+
+TEST_CASE("hands that exist in both generations are the same in both") {
+  REQUIRE_SHARED();
+  for (const std::string hand :
+       {"Barrett/Barrett", "HumanHand/HumanHand20DOF", "HumanHand/HumanHand16DOF"}) {
+    INFO(hand);
+    const RobotSpec text = read_robot(text_root() / "models/robots" / (hand + ".cfg"));
+    const RobotSpec xml = read_robot(xml_root() / "models/robots" / (hand + ".xml"));
+    REQUIRE(text.dofs.size() == xml.dofs.size());
+    for (size_t i = 0; i < text.dofs.size(); ++i) {
+      CHECK(text.dofs[i].kind == xml.dofs[i].kind);
+      CHECK(text.dofs[i].max_effort == xml.dofs[i].max_effort);
+      CHECK(text.dofs[i].breakaway_torque == xml.dofs[i].breakaway_torque);
+    }
+    REQUIRE(text.chains.size() == xml.chains.size());
+    for (size_t c = 0; c < text.chains.size(); ++c) {
+      const ChainSpec &a = text.chains[c], &b = xml.chains[c];
+      CHECK((a.X_BC.position - b.X_BC.position).norm() < 1e-12);
+      REQUIRE(a.joints.size() == b.joints.size());
+      REQUIRE(a.links.size() == b.links.size());
+      for (size_t j = 0; j < a.joints.size(); ++j) {
+        const JointSpec &p = a.joints[j], &q = b.joints[j];
+        CHECK(std::tie(p.kind, p.dof, p.ratio, p.theta, p.d, p.a, p.alpha, p.min, p.max) ==
+              std::tie(q.kind, q.dof, q.ratio, q.theta, q.d, q.a, q.alpha, q.min, q.max));
+      }
+      for (size_t l = 0; l < a.links.size(); ++l)
+        CHECK(a.links[l].last_joint == b.links[l].last_joint);
+    }
+  }
+}

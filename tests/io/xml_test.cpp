@@ -1,0 +1,98 @@
+#include "io/xml.h"
+
+#include "base/random.h"
+
+using namespace clench;
+
+static std::vector<std::string> warnings_of(const std::string& text, const XmlKnown& known) {
+  const XmlFile file("a.xml", text);
+  std::vector<std::string> out;
+  file.root().check(known, [&](const std::string& s) { out.push_back(s); });
+  return out;
+}
+
+TEST_CASE("elements, texts and attributes stand where the file has them") {
+  const XmlFile file("a.xml",
+                     "<?xml version=\"1.0\"?>\n<!-- head -->\n<a b=' x &amp; y '>\n  <c> 1 <!-- no "
+                     "--> 2 </c>\n  <d/><c>3</c>\n</a>\n");
+  const XmlElement root = file.root();
+  CHECK(root.name() == "a");
+  CHECK(root.line() == 3);
+  CHECK(root.attribute("b") == "x & y");
+  CHECK_FALSE(root.attribute("c"));
+  CHECK(root.children().size() == 3);
+  CHECK(root.children("c").size() == 2);
+  CHECK(root.child("c").numbers() == std::vector<double>{1, 2});
+  CHECK(root.children("c")[1].place() == "a.xml:5");
+  CHECK_FALSE(root.child("e"));
+  CHECK(root.child("d").text().empty());
+}
+
+TEST_CASE("values that are not as wanted are told with their place") {
+  const XmlFile file("a.xml", "<a n=\"x\">\n<b>1.5</b><c>12 0</c>\n<d><e/></d><f>7</f></a>");
+  const XmlElement root = file.root();
+  CHECK_THROWS_WITH_AS(root.wanted("g"), "a.xml:1: a: wanted an element <g>, got none", Error);
+  CHECK_THROWS_WITH_AS(root.child("b").integer(), "a.xml:2: b: wanted a whole number, got '1.5'",
+                       Error);
+  CHECK_THROWS_WITH_AS(root.child("c").vector(), "a.xml:2: c: wanted 3 numbers, got 2", Error);
+  CHECK_THROWS_WITH_AS(root.child("c").number(), "a.xml:2: c: wanted a number, got '12 0'", Error);
+  CHECK_THROWS_WITH_AS(root.child("d").text(), "a.xml:3: d: wanted text, got an element <e>",
+                       Error);
+  CHECK_THROWS_WITH_AS(root.child("f").integer(0, 5),
+                       "a.xml:3: f: wanted a whole number from 0 to 5, got '7'", Error);
+  CHECK_THROWS_WITH_AS(root.child("f").integer(8),
+                       "a.xml:3: f: wanted a whole number >= 8, got '7'", Error);
+  CHECK_THROWS_WITH_AS(root.wanted_attribute("m"), "a.xml:1: a: wanted an attribute 'm', got none",
+                       Error);
+  CHECK_THROWS_WITH_AS(root.number_attribute("n"), "a.xml:1: a: n: wanted a number, got 'x'",
+                       Error);
+  CHECK_THROWS_WITH_AS(root.integer_attribute("n"), "a.xml:1: a: n: wanted a whole number, got 'x'",
+                       Error);
+}
+
+TEST_CASE("what is not known, stands twice, or is text among elements is warned of") {
+  const auto list = warnings_of("<a tpe='x'>junk\n<mass>1</mass>\n<mass>2</mass><mas/>\n</a>",
+                                {.once = {"mass"}, .attributes = {"type"}});
+  REQUIRE(list.size() == 4);
+  CHECK(list[0] == "a.xml:3: <mass> stands in <a> again; the first one counts");
+  CHECK(list[1] == "a.xml:3: unknown element <mas> in <a> is not used; did you mean 'mass'?");
+  CHECK(list[2] == "a.xml:1: unknown attribute 'tpe' of <a> is not used; did you mean 'type'?");
+  CHECK(list[3] == "a.xml:1: text 'junk' in <a> is not used");
+  CHECK(warnings_of("<a>text</a>", {}).empty());
+}
+
+TEST_CASE("files beyond all measure are refused before the parser sees them") {
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<a>";
+  CHECK_THROWS_WITH_AS(XmlFile("a.xml", deep), "a.xml:1: wanted at most 64 elements in each other",
+                       Error);
+  std::string wide = "<a ";
+  for (int i = 0; i < 5000; ++i) wide += "x='1' ";
+  CHECK_THROWS_WITH_AS(XmlFile("a.xml", wide + "/>"),
+                       "a.xml:1: wanted at most 1000 attributes, got 5000", Error);
+  CHECK_THROWS_WITH_AS(XmlFile("a.xml", std::string(17 << 20, ' ')),
+                       "a.xml: wanted at most 16 MB of XML, got 17", Error);
+  CHECK_THROWS_WITH_AS(XmlFile("a.xml", std::string("<a>\n\0</a>", 9)),
+                       "a.xml:2: wanted text, got a zero byte", Error);
+}
+
+TEST_CASE("as many elements as one needs are no matter") {
+  std::string text = "<a>";
+  for (int i = 0; i < 20000; ++i) text += "<b x='1'>2</b>\n";
+  const XmlFile file("a.xml", text + "</a>");
+  CHECK(file.root().children("b").size() == 20000);
+  CHECK(file.root().children().back().line() == 20000);
+}
+
+TEST_CASE("the outermost element's name is found without reading on") {
+  CHECK(xml_root_name("<?xml?>\n<!-- <no> -->\n<robot type='x'><broken") == "robot");
+  CHECK(xml_root_name("<world/>") == "world");
+  CHECK(xml_root_name("no element") == "");
+  CHECK(xml_root_name("<!-- no end") == "");
+}
+
+TEST_CASE("escaped text is read back") {
+  const std::string text = "a < b & \"c\" > 'd'";
+  const XmlFile file("a.xml", "<a>" + xml_escaped(text) + "</a>");
+  CHECK(file.root().text() == text);
+}

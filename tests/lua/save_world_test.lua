@@ -1,0 +1,197 @@
+local test, clench = require "test", require "clench"
+
+local folder = os.tmpname()
+os.remove(folder)
+assert(os.execute("mkdir " .. folder))
+
+local function read(path)
+  local file = assert(io.open(path, "rb"))
+  local text = file:read "a"
+  file:close()
+  return text
+end
+
+local function write(name, text)
+  local file = assert(io.open(folder .. "/" .. name, "wb"))
+  file:write(text)
+  file:close()
+  return folder .. "/" .. name
+end
+
+-- runs fn, gives the warnings that it logs
+local function warnings(fn)
+  local said = {}
+  clench.log.sink(function(level, text) if level == "warning" then said[#said + 1] = text end end)
+  local ok, message = pcall(fn)
+  clench.log.sink()
+  assert(ok, message)
+  return table.concat(said, "\n")
+end
+
+-- a world in which everything is set that can be set
+local function rich_world()
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local hand, flask = world.robots[1], world.objects[1]
+  local claw = world:add_robot("tests/data/two_finger/claw.cfg", {name = "the claw", pose = {xyz = {0.5, 0, 0.1}, rpy = {0.1, 0.2, 0.3}}})
+  claw:set_dofs({claw.dof_limits[1][2] / 2, 0}, {broken_away = {{1, 1, 0.001}}})
+  world:set_friction("cork", "wood", {static = 0.9, kinetic = 0.1})
+  world:set_friction("felt", "cork", {static = 0.7})
+  world:set_friction("glass", "metal", {static = 0.3, kinetic = 0.3})
+  local ball = world:add_object(clench.shapes.sphere {0.03}, {
+    name = "a \"round\"\tthing", material = "felt", mass = 0.1, com = {0.001, 0, 0}, inertia = {{1, 0, 0}, {0, 2, 0}, {0, 0, 2}},
+    color = {1, 0.5, 0.1}, transparency = 0.25, elastic_modulus = 1e6, pose = {xyz = {1, 1 / 3, 0}, rpy = {1, 2, 3}}})
+  local wrist = world:add_robot("tests/data/two_finger/pincher.cfg", {name = "wrist"})
+  wrist:mount_on(claw, {chain = 2, pose = {xyz = {0.01, 0.02, 0.03}, rpy = {0, 0, 1}}, piece = "tests/data/two_finger/box.iv"})
+  world:add_obstacle("models/obstacles/table.iv", {name = "last", material = "cork", pose = {xyz = {0, 0, -2}}})
+  flask.name, flask.mass, flask.com = "bottle", 0.456, {0, 0.01, 0}
+  local third, fourth = hand.links[3].name, hand.links[4].name
+  hand.links[3].name = "spare"
+  hand.links[4].name = third
+  hand.links[3].name = fourth
+  hand.base.material, hand.links[1].mass, hand.links[2].color = "cork", 0.077, {0, 0, 1}
+  world:set_collision(false, hand, ball)
+  world:set_collision(true, hand.base, hand.links[1])
+  world:set_collision(false, flask)
+  world.contact_threshold = 2.5e-4
+  world.camera = {eye = {1, 2, 3}, target = {0, 0, 0.5}, up = {0, 0, 1}}
+  return world
+end
+
+test("a world saved as Lua is the same to the bit, whatever was set in it", function(t)
+  local world = rich_world()
+  local path = folder .. "/rich.lua"
+  t.equal(warnings(function() world:save(path, {root = "."}) end), "")
+  local again = clench.load(path, {root = "."})
+  t.equal(again:hash(), world:hash())
+  t.equal(clench.load(path):hash(), world:hash())
+  t.equal(again.camera.eye, world.camera.eye)
+  t.equal(again.camera.target, world.camera.target)
+  for i, body in ipairs(world.bodies) do t.equal(again.bodies[i].name, body.name) end
+  t.equal(again:body('a "round"\tthing').color, world:body('a "round"\tthing').color)
+  t.equal(again.source, path)
+  again:save(folder .. "/again.lua", {root = "."})
+  t.equal(read(folder .. "/again.lua"), read(path))
+end)
+
+test("any world of ours comes back to the bit as Lua, its poses and DOFs in every format", function(t)
+  for _, name in ipairs {"dlr_flask", "barrett_mug", "barrett_glass_table"} do
+    local world = clench.load("worlds/" .. name .. ".wld", {root = "."})
+    for _, ending in ipairs {".wld", ".xml", ".lua"} do
+      local path = folder .. "/" .. name .. ending
+      t.equal(warnings(function() world:save(path, {root = "."}) end), "")
+      t.equal(clench.load(path, {root = "."}):hash(), world:hash())
+    end
+  end
+end)
+
+test("a hand that has closed comes back closed", function(t)
+  local world = clench.load("worlds/barrett_mug.wld", {root = "."})
+  world.robots[1]:autograsp()
+  for _, ending in ipairs {".wld", ".xml", ".lua"} do
+    local path = folder .. "/closed" .. ending
+    world:save(path, {root = "."})
+    local again = clench.load(path, {root = "."})
+    t.equal(again.robots[1].dofs, world.robots[1].dofs)
+    t.equal(#again:contacts(), #world:contacts())
+    t.equal(#again:colliding(), 0)
+  end
+end)
+
+test("what .wld and .xml cannot hold is told in one warning that names it", function(t)
+  local world = rich_world()
+  for _, ending in ipairs {".wld", ".xml"} do
+    local said = warnings(function() world:save(folder .. "/lossy" .. ending, {root = "."}) end)
+    t.ok(said:find("lossy" .. ending .. " does not hold the name 'bottle'", 1, true), said)
+    for _, part in ipairs {"the mass of 'bottle'", "the centre of mass of 'bottle'", " more"} do t.ok(said:find(part, 1, true), said) end
+    t.equal(select(2, said:gsub("\n", "")), 0)
+    local again = clench.load(folder .. "/lossy" .. ending, {root = "."})
+    t.equal(#again.bodies, #world.bodies)
+    for _, kind in ipairs {"objects", "obstacles", "robots"} do
+      for i, thing in ipairs(again[kind]) do
+        local off = thing.pose:inverse() * world[kind][i].pose
+        t.close(off.position:norm() + off:angle(), 0, 1e-9)
+      end
+    end
+  end
+  local plain = clench.world()
+  plain:add_object("models/objects/mug.iv").mass = 7
+  plain:set_friction("cork", "wood", {static = 1})
+  t.equal(warnings(function() plain:save(folder .. "/plain.wld", {root = "."}) end),
+    "plain.wld does not hold the mass of 'mug', the friction of cork on wood")
+end)
+
+test("bodies made in a script are written beside worlds for GraspIt!, and come back", function(t)
+  local world = clench.world()
+  local ball = world:add_object(clench.shapes.sphere {0.03}, {name = "ball", mass = 0.2, material = "rubber"})
+  for _, ending in ipairs {".wld", ".xml"} do
+    t.equal(warnings(function() world:save(folder .. "/made" .. ending) end), "")
+    local again = clench.load(folder .. "/made" .. ending)
+    t.equal(again.objects[1].source ~= "", ending == ".wld")
+    t.equal(again.objects[1].mesh.triangle_count, ball.mesh.triangle_count)
+    t.equal(again.objects[1].mass, 0.2)
+    t.equal(again.objects[1].material, "rubber")
+  end
+end)
+
+test("a file that cannot be written leaves the old one as it was", function(t)
+  local path = write("old.wld", "precious")
+  local world = clench.world()
+  t.fails(function() world:save "no/such/folder/a.wld" end, "no such folder: no/such/folder")
+  t.fails(function() world:save(folder .. "/a.obj") end, "wanted a world to .wld, .xml or .lua, got '.obj'")
+  t.fails(function() world:save(path, {rot = "."}) end, "unknown key 'rot'")
+  t.equal(read(path), "precious")
+  world:save(path)
+  t.equal(read(path), "#GraspIt! version 2.0\n")
+end)
+
+test("a Lua world is a script that returns a world", function(t)
+  local good = write("good.lua", [[
+    local options, here = ...
+    local world = require "clench".world()
+    world:add_object(require "clench".shapes.box {1, 1, 1}, {name = options.root .. here})
+    return world]])
+  t.equal(clench.load(good, {root = "."}).objects[1].name, "." .. folder)
+  t.fails(function() clench.load(write("none.lua", "return 3")) end, "none.lua: wanted a script that returns a world, got 3")
+  t.fails(function() clench.load(write("syntax.lua", "local = 3")) end, "syntax.lua:1:")
+  t.fails(function() clench.load(write("raises.lua", "error 'no luck'")) end, "raises.lua:1: no luck")
+  t.fails(function() clench.load(write("itself.lua", "return require 'clench'.load(" .. ("%q"):format(folder .. "/itself.lua") .. ")")) end, "overflow")
+end)
+
+test("sets of eigengrasps and virtual contacts that the user gave a hand are saved with a Lua world", function(t)
+  local world = clench.world()
+  local hand = world:add_robot "models/hands/barrett/barrett.cfg"
+  hand.eigengrasps = clench.eigengrasps {postures = {{0, 0, 0, 0}, {0, 1, 1, 1}, {1, 0, 0, 0}}, count = 2}
+  local path = folder .. "/sets.lua"
+  t.equal(warnings(function() world:save(path, {root = "."}) end), "")
+  t.equal(clench.load(path):hash(), world:hash())
+  t.ok(warnings(function() world:save(folder .. "/sets.wld", {root = "."}) end):find "the eigengrasps of 'barrett'")
+end)
+
+test("a camera is set by what it sees or by its pose", function(t)
+  local world = clench.world()
+  world.camera = {eye = {0, -2, 0}, target = {0, 0, 0}, up = {0, 0, 1}}
+  t.close(world.camera.target, {0, 0, 0}, 1e-15)
+  t.close(world.camera.up, {0, 0, 1}, 1e-15)
+  world.camera = {pose = {xyz = {1, 2, 3}}, focal_distance = 2}
+  t.equal(world.camera.target, clench.vec3 {1, 2, 1})
+  world.camera = nil
+  t.equal(world.camera, nil)
+  t.fails(function() world.camera = {eye = {0, 0, 0}, target = {0, 0, 0}} end, "eye and target apart")
+  t.fails(function() world.camera = {eye = {1, 0, 0}, target = {0, 0, 0}, field_of_view = 1} end, "field_of_view: wanted 0.785")
+end)
+
+test("joints that broke away are set by chain, joint and value", function(t)
+  local claw = clench.world():add_robot "tests/data/two_finger/claw.cfg"
+  local high = claw.dof_limits[1][2]
+  claw:set_dofs({high, high}, {broken_away = {{2, 1, 0}}})
+  t.equal(claw.chains[2].joints[1].broken_away, true)
+  t.equal(claw.chains[2].joints[1].value, 0)
+  t.equal(claw.chains[1].joints[1].broken_away, false)
+  claw:set_dofs {high, high}
+  t.equal(claw.chains[2].joints[1].broken_away, false)
+  for bad, text in pairs {[{3, 1, 0}] = "wanted a chain from 1 to 2, got 3", [{1, 7, 0}] = "wanted a joint from 1 to", [{1, 1, 99}] = "wanted a value in"} do
+    t.fails(function() claw:set_dofs({0, 0}, {broken_away = {bad}}) end, text)
+  end
+end)
+
+os.execute("rm -r " .. folder)
