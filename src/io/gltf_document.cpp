@@ -112,6 +112,8 @@ GltfDocument::GltfDocument(const MeshInput& input) : input_(input), file_(input.
     const size_t at = std::min(error.byte, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
     clench::fail("{}:{}: wanted JSON, got something else at byte {} of it", file_, line, at);
+  } catch (const json::out_of_range&) {
+    fail("wanted JSON with numbers of at most 1.8e308, got a larger one");
   }
   if (!json_.is_object()) fail("wanted a JSON object, got a JSON {}", json_.type_name());
   check_version();
