@@ -150,5 +150,5 @@ TEST_CASE("an XML robot cut short or changed at random is an Error or a robot") 
   try_all("robot", robot, 200);
 }
 TEST_CASE("an XML world cut short or changed at random is an Error or a world") {
-  try_all("world", world, 150);
+  try_all("world", world, 60);
 }

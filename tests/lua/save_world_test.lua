@@ -194,4 +194,25 @@ test("joints that broke away are set by chain, joint and value", function(t)
   end
 end)
 
+test("worlds of the original come back from every format, and are the same in both of its generations", function(t)
+  local shared = os.getenv "CLENCH_SHARED" or "../shared"
+  local file = io.open(shared .. "/data/README.md")
+  if not file then t.skip("no third-party data at ../shared or CLENCH_SHARED") end
+  file:close()
+  local text, xml = shared .. "/data/graspit", shared .. "/data/graspit-xml"
+  clench.log.level "quiet"
+  local worlds = {{text, "barrettGlassDyn.wld"}, {text, "plannerMug.wld"}, {xml, "plannerMug.xml"}, {xml, "tmp_cube.xml"}}
+  local loaded = {}
+  for i, entry in ipairs(worlds) do
+    local root, name = entry[1], entry[2]
+    local world = clench.load(root .. "/worlds/" .. name, {root = root})
+    loaded[i] = world
+    for _, ending in ipairs {".wld", ".xml", ".lua"} do
+      world:save(folder .. "/original" .. ending, {root = root})
+      t.equal(clench.load(folder .. "/original" .. ending, {root = root}):hash(), world:hash())
+    end
+  end
+  for i, body in ipairs(loaded[2].bodies) do t.equal(body.pose, loaded[3].bodies[i].pose) end
+end)
+
 os.execute("rm -r " .. folder)
