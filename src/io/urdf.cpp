@@ -134,7 +134,9 @@ void UrdfReader::read_inertial(const XmlElement& element, BodySpec& body, LinkPi
     if (inertia) {
       const XmlValues v(inertia);
       const double xy = v.number("ixy", 0), xz = v.number("ixz", 0), yz = v.number("iyz", 0);
-      I << v.number("ixx"), xy, xz, xy, v.number("iyy"), yz, xz, yz, v.number("izz");
+      // all numbers first: what throws must not leave the matrix half filled
+      const double xx = v.number("ixx"), yy = v.number("iyy"), zz = v.number("izz");
+      I << xx, xy, xz, xy, yy, yz, xz, yz, zz;
     }
     const XmlValues values(mass);
     const double m = values.number("value");
