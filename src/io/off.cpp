@@ -20,7 +20,7 @@ class OffReader {
   int read_count(std::string_view word, const char* what);
   void read_vertices();
   void read_faces();
-  Eigen::Vector3f read_color(int count);
+  Eigen::Vector3f read_color(int count, float* transparency = nullptr);
   void to_line(const char* what, int i, int count);
   void warn_once(const std::string& sentence);
 
@@ -81,19 +81,22 @@ void OffReader::warn_once(const std::string& sentence) {
   if (told_.insert(sentence).second) input_.warn(words_.place() + ": " + sentence);
 }
 
-/// Three or four numbers of a line's rest: of 0..1 with a point in them, else of 0..255.
-Eigen::Vector3f OffReader::read_color(int count) {
-  Eigen::Vector3d color;
+/// Three or four numbers of a line's rest: of 0..1 with a point in them, else of 0..255. The fourth is
+/// how much is not transparent.
+Eigen::Vector3f OffReader::read_color(int count, float* transparency) {
+  Eigen::Vector4d color(0, 0, 0, 1);
   bool whole = true;
   for (int i = 0; i < count; ++i) {
     const auto word = words_.word();
     const auto value = parse_number(word);
     if (!value) words_.fail("colour: wanted a number, got {}", in_quotes(word));
     whole = whole && word.find_first_of(".eE") == std::string_view::npos;
-    if (i < 3) color[i] = *value;
+    color[i] = *value;
   }
-  if (whole) color /= 255;
-  return color.cwiseMax(0).cwiseMin(1).cast<float>();
+  if (whole) color.head(count) /= 255;
+  color = color.cwiseMax(0).cwiseMin(1);
+  if (transparency) *transparency = static_cast<float>(1 - color[3]);
+  return color.head<3>().cast<float>();
 }
 
 void OffReader::read_vertices() {
@@ -125,19 +128,20 @@ void OffReader::read_faces() {
       corners.push_back(*vertex);
     }
     Eigen::Vector3f color = Appearance().color;
+    float transparency = 0;
     if (!colors_.empty()) {
       color.setZero();
       for (const int v : corners) color += colors_[v] / static_cast<float>(count);
     }
     if (const int rest = words_.words_left(); rest == 3 || rest == 4) {
-      color = read_color(rest);
+      color = read_color(rest, &transparency);
       face_colors_ = true;
     } else if (rest > 0) {
       warn_once("what follows a face's vertices is no colour, and not used");
     }
     if (count < 3) warn_once("a face of fewer than three vertices is not used");
     try {
-      builder_.add_face(corners, color, 0);
+      builder_.add_face(corners, color, transparency);
     } catch (const Error& error) {
       words_.fail("{}", error.what());
     }

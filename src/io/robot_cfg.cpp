@@ -27,9 +27,7 @@ struct DofLine {
 class CfgReader {
  public:
   CfgReader(const fs::path& path, Library& library)
-      : path_(path),
-        library_(library),
-        lines_(path.filename().string(), read_text(path)) {}
+      : path_(path), library_(library), lines_(path.filename().string(), read_text(path)) {}
   RobotSpec read();
 
  private:

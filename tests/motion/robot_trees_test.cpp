@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "io/read.h"
 #include "io/temporary.h"
+#include "io/write_robot.h"
 #include "model/build.h"
 #include "motion/drive.h"
 #include "support/meshes.h"
@@ -265,6 +266,40 @@ TEST_CASE("links of the hands of today stand where the file's tree puts them") {
   for (const auto* file : {"allegro_hand/allegro_hand_right.urdf", "barrett_hand/bhand_model.urdf",
                            "shadow_hand/shadow_hand_left.urdf"})
     check_urdf(folder / file, {}, 5);
+}
+
+TEST_CASE("links of a robot that was written as URDF stand where another reader puts them") {
+  TemporaryFolder folder;
+  for (const auto* file :
+       {"models/hands/barrett/barrett.cfg", "models/hands/parallel_jaw/parallel_jaw.cfg",
+        "models/arms/ur5/ur5.cfg", "tests/data/mjcf/hand.mjcf"}) {
+    INFO(file);
+    write_robot(read_robot(file), folder.path() / "written.urdf");
+    check_urdf(folder.path() / "written.urdf", {}, 5);
+  }
+}
+
+TEST_CASE(
+    "links of a random URDF tree, written again, stand where the first file's tree puts them") {
+  TemporaryFolder folder;
+  for (int i = 0; i < 10; ++i) {
+    Random random(37, static_cast<uint64_t>(i));
+    const RobotSpec robot = read_robot(folder.write("random.urdf", random_urdf(random, 25)));
+    write_robot(robot, folder.path() / "again.urdf");
+    World world, other;
+    const auto id = add_robot(world, robot, Pose{}),
+               again = add_robot(other, read_robot(folder.path() / "again.urdf"), Pose{});
+    REQUIRE(other.bodies_of(again).size() == world.bodies_of(id).size());
+    move_at_random(world, id, random);
+    REQUIRE(other.robot(again).q.size() == world.robot(id).q.size());
+    other.set_dofs(again, world.robot(id).q);
+    for (const auto body : world.bodies_of(id)) {
+      const Pose& X = world.body(body).X_WB;
+      const Pose& Y = other.body(other.find_body(world.body(body).name)).X_WB;
+      CHECK((X.inverse() * Y).angle() < rounding);
+      CHECK((X.position - Y.position).norm() < rounding * std::max(1.0, X.position.norm()));
+    }
+  }
 }
 
 TEST_CASE("links of a random MJCF tree stand where the file's tree puts them") {

@@ -1,0 +1,184 @@
+#include "io/robot_folder.h"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+
+#include "base/error.h"
+#include "io/eigengrasps.h"
+#include "io/saved_files.h"
+#include "io/virtual_contacts.h"
+#include "io/write_file.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+// letters, digits and strokes: robots in text name their files as one word
+static std::string plain(const std::string& name) {
+  std::string out = name.substr(0, 100);
+  for (char& c : out)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
+  return out.empty() ? "part" : out;
+}
+
+std::string part_name(const BodySpec& body, const RobotSpec& robot) {
+  if (!body.file.empty()) return fs::path(body.file).stem().string();
+  const std::string prefix = robot.name + "_";
+  return body.name.starts_with(prefix) ? body.name.substr(prefix.size()) : body.name;
+}
+
+RobotFolder::RobotFolder(const fs::path& path, const WriteOptions& options)
+    : path_(path),
+      file_(path.filename().string()),
+      stem_(plain(path.stem().string())),
+      warn_(options.warn) {}
+
+std::string RobotFolder::add(const std::string& folder, const std::string& part,
+                             const std::string& ending, const std::string& text) {
+  std::string& name = names_[folder + '\n' + ending + '\n' + text];
+  if (!name.empty()) return name;
+  const std::string stem = plain(part);
+  name = stem + ending;
+  for (int i = 2; texts_.contains(folder + name); ++i)
+    name = fmt::format("{}_{}{}", stem, i, ending);
+  texts_[folder + name] = text;
+  return name;
+}
+
+// --- surfaces ---
+
+/// A share of a colour, with the point that tells it from a byte.
+static std::string share(double x) {
+  std::string out = fmt::format("{}", static_cast<float>(x));
+  if (out.find_first_of(".e") == std::string::npos) out += ".0";
+  return out;
+}
+
+static bool has_triangle_colors(const Appearance& looks, const Mesh& mesh) {
+  return looks.given && !looks.visual && looks.triangle_colors.size() == mesh.triangles.size();
+}
+
+static std::string off_text(const Mesh& mesh, const Appearance& looks) {
+  std::string out = fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
+  const auto to = std::back_inserter(out);
+  for (const auto& p : mesh.vertices) fmt::format_to(to, "{} {} {}\n", p.x(), p.y(), p.z());
+  const bool each = has_triangle_colors(looks, mesh);
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle& t = mesh.triangles[i];
+    fmt::format_to(to, "3 {} {} {}", t[0], t[1], t[2]);
+    if (looks.given) {
+      const Eigen::Vector3f& c = each ? looks.triangle_colors[i] : looks.color;
+      fmt::format_to(to, " {} {} {}", share(c.x()), share(c.y()), share(c.z()));
+      if (looks.transparency > 0) fmt::format_to(to, " {}", 1 - double{looks.transparency});
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+std::string RobotFolder::body(const BodySpec& body, const std::string& part) {
+  const std::string folder = "iv/" + stem_ + "/";
+  std::string surface;
+  if (body.shape)
+    surface = add(folder, part, ".off", off_text(body.shape->mesh(), body.appearance));
+  return stem_ + "/" +
+         add(folder, part, ".xml",
+             "<?xml version=\"1.0\" ?>\n<root>\n" + body_elements(body, surface, "  ") +
+                 "</root>\n");
+}
+
+/// Materials of a surface of several colours, by their numbers.
+struct ObjMaterials {
+  std::vector<Eigen::Vector3f> colors;
+  int number(const Eigen::Vector3f& color) {
+    const size_t out = std::ranges::find(colors, color) - colors.begin();
+    if (out == colors.size()) colors.push_back(color);
+    return static_cast<int>(out);
+  }
+};
+
+std::string RobotFolder::mesh(const Mesh& mesh, const Appearance& looks, const std::string& part) {
+  const std::string folder = stem_ + "_files/";
+  const bool colored = looks.given && looks.triangle_colors.size() == mesh.triangles.size();
+  ObjMaterials materials;
+  std::string text = "# metres\n", faces;
+  for (const auto& p : mesh.vertices)
+    fmt::format_to(std::back_inserter(text), "v {} {} {}\n", p.x(), p.y(), p.z());
+  int before = -1;
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const int material = colored ? materials.number(looks.triangle_colors[i]) : -1;
+    if (material != before) fmt::format_to(std::back_inserter(faces), "usemtl m{}\n", material);
+    before = material;
+    const Triangle& t = mesh.triangles[i];
+    fmt::format_to(std::back_inserter(faces), "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  }
+  if (colored) {
+    std::string mtl;
+    for (size_t i = 0; i < materials.colors.size(); ++i) {
+      const Eigen::Vector3f& c = materials.colors[i];
+      mtl += fmt::format("newmtl m{}\nKd {} {} {}\nd {}\n", i, c.x(), c.y(), c.z(),
+                         1 - double{looks.transparency});
+    }
+    text = "mtllib " + add(folder, part, ".mtl", mtl) + "\n" + text;
+  }
+  return folder + add(folder, part, ".obj", text + faces);
+}
+
+// --- what a robot's file names ---
+
+std::string RobotFolder::named_file(const std::string& folder, const std::string& ending) const {
+  return folder + "/" + stem_ + ending;
+}
+
+std::string RobotFolder::eigengrasps(const EigengraspSet& set) {
+  const bool limited = std::ranges::any_of(
+      set.grasps, [](const EigengraspSpec& grasp) { return grasp.limits.has_value(); });
+  const std::string name = named_file("eigen", limited ? ".xml" : ".egr");
+  texts_[name];
+  others_.push_back([this, set, name] { write_eigengrasps(set, path_.parent_path() / name); });
+  return name;
+}
+
+std::string RobotFolder::virtual_contacts(const VirtualContactSet& set) {
+  const std::string name = named_file("virtual", ".vgr");
+  texts_[name];
+  others_.push_back([this, set, name] { write_virtual_contacts(set, path_.parent_path() / name); });
+  return name;
+}
+
+std::string RobotFolder::glove(const GloveCalibration& glove) {
+  const auto row = [](const auto& values) {
+    std::string out;
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      out += fmt::format("{}{}", i ? " " : "", values[i]);
+    return out + "\n";
+  };
+  std::string text = fmt::format("{} {}\n", glove.slopes.rows(), glove.slopes.cols());
+  for (Eigen::Index d = 0; d < glove.slopes.rows(); ++d) text += row(glove.slopes.row(d));
+  const std::string name = named_file("glove", ".txt");
+  texts_[name] = text + row(glove.intercepts);
+  return name;
+}
+
+// --- writing ---
+
+void RobotFolder::write_parts() {
+  const fs::path folder = path_.parent_path();
+  for (const auto& [name, text] : texts_) {
+    std::error_code code;
+    fs::create_directories((folder / name).parent_path(),
+                           code);  // what fails is told by who writes
+    if (!text.empty()) write_file(folder / name, text);
+  }
+  for (const auto& write : others_) write();
+  texts_.clear();
+  others_.clear();
+}
+
+void RobotFolder::write(const std::string& text) {
+  write_parts();
+  write_file(path_, text);
+}
+
+}  // namespace clench

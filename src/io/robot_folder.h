@@ -1,0 +1,58 @@
+// The files that a written robot consists of: gathered first, and written when all is known to fit.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/write_world.h"
+
+namespace clench {
+
+class RobotFolder {
+ public:
+  /// `path` is the robot's file
+  RobotFolder(const std::filesystem::path& path, const WriteOptions& options);
+
+  const std::string& file() const { return file_; }  ///< name shown in sentences
+  const std::filesystem::path& path() const { return path_; }
+  const std::function<void(const std::string&)>& told() const { return warn_; }
+  void warn(const std::string& sentence) const {
+    if (warn_) warn_(sentence);
+  }
+  /// "hand.cfg does not hold ..."
+  void lost(const std::string& what) const { warn(file_ + " does not hold " + what); }
+
+  /// A body as iv/HAND/PART.xml, its surface and its colours beside as .off. Equal ones share a file.
+  /// returns  its name as robots call it: HAND/PART.xml
+  std::string body(const BodySpec& body, const std::string& part);
+  /// Triangles as HAND_files/PART.obj, in metres, with their colours when these differ.
+  /// returns  the name from the robot's folder on
+  std::string mesh(const Mesh& mesh, const Appearance& looks, const std::string& part);
+  /// eigen/HAND.egr, or .xml where amplitudes have limits; virtual/HAND.vgr; glove/HAND.txt.
+  /// returns  the name from the robot's folder on
+  std::string eigengrasps(const EigengraspSet& set);
+  std::string virtual_contacts(const VirtualContactSet& set);
+  std::string glove(const GloveCalibration& glove);
+
+  /// Writes what was gathered so far.   throws Error when a file cannot be written
+  void write_parts();
+  /// Writes all, the robot's own file last.
+  void write(const std::string& text);
+
+ private:
+  std::string add(const std::string& folder, const std::string& part, const std::string& ending,
+                  const std::string& text);
+  std::string named_file(const std::string& folder, const std::string& ending) const;
+
+  std::filesystem::path path_;
+  std::string file_, stem_;
+  std::function<void(const std::string&)> warn_;
+  std::map<std::string, std::string> texts_;  // name in the folder, from the robot's on, to text
+  std::map<std::string, std::string> names_;  // by folder, ending and text
+  std::vector<std::function<void()>> others_;
+};
+
+/// What a part is called: the stem of its file, or its name without that of the robot.
+std::string part_name(const BodySpec& body, const RobotSpec& robot);
+
+}  // namespace clench

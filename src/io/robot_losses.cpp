@@ -1,0 +1,190 @@
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "io/write_robot_texts.h"
+#include "spec/material_names.h"
+
+namespace clench {
+
+namespace {
+
+bool is_word(const std::string& text) {
+  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '-';
+  });
+}
+
+/// Base and links, in their order.
+std::vector<const BodySpec*> bodies_of(const RobotSpec& robot) {
+  std::vector<const BodySpec*> out = {&robot.base};
+  for (const auto& chain : robot.chains)
+    for (const auto& link : chain.links) out.push_back(&link.body);
+  return out;
+}
+
+template <class Predicate>
+bool any_dof(const RobotSpec& robot, Predicate predicate) {
+  return std::ranges::any_of(robot.dofs, predicate);
+}
+
+template <class Predicate>
+bool any_joint(const RobotSpec& robot, Predicate predicate) {
+  return std::ranges::any_of(robot.chains, [&](const ChainSpec& chain) {
+    return std::ranges::any_of(chain.joints, predicate);
+  });
+}
+
+/// Not what the format's reader calls it.
+bool has_names(const RobotSpec& robot) {
+  const auto named = [](const auto& x) { return !x.name.empty(); };
+  bool out = any_dof(robot, named) || any_joint(robot, named);
+  out = out || robot.base.name != robot.name + "_base";
+  for (size_t c = 0; c < robot.chains.size(); ++c)
+    for (size_t l = 0; l < robot.chains[c].links.size(); ++l)
+      out = out || robot.chains[c].links[l].body.name !=
+                       fmt::format("{}_chain{}_link{}", robot.name, c, l);
+  return out;
+}
+
+double start_at_zero(const RobotSpec& robot, size_t dof) {
+  const auto [low, high] = dof_range(robot, static_cast<int>(dof));
+  return std::clamp(0.0, low, high);
+}
+
+bool has_default_values(const RobotSpec& robot) {
+  for (size_t d = 0; d < robot.dofs.size(); ++d)
+    if (const double value = robot.dofs[d].default_value;
+        value != 0 && value != start_at_zero(robot, d))
+      return true;
+  return false;
+}
+
+/// Pairs that the formats of GraspIt! do not switch off by themselves.
+size_t pairs_off(const RobotSpec& robot) {
+  return std::ranges::count_if(robot.collision_rules.pairs_off, [](const auto& pair) {
+    const auto& [a, b] = pair;
+    const bool at_base = (a.chain < 0 && b.link == 0) || (b.chain < 0 && a.link == 0);
+    return a.chain != b.chain && !at_base;
+  });
+}
+
+void tell_rules(const RobotSpec& robot, const RobotFolder& folder) {
+  const CollisionRules& rules = robot.collision_rules;
+  if (const size_t pairs = pairs_off(robot))
+    folder.lost(fmt::format("the {} pairs of links that never collide", pairs));
+  if (!rules.parts_off.empty())
+    folder.lost(fmt::format("the {} parts that never collide", rules.parts_off.size()));
+  if (rules.near_pairs_off)
+    folder.lost("that parts which are near each other as it is loaded never collide");
+}
+
+void tell_sensors(const RobotSpec& robot, const RobotFolder& folder) {
+  if (!robot.tactile.empty())
+    folder.lost(fmt::format("the {} tactile sensors", robot.tactile.size()));
+  if (!robot.tendons.empty() || !robot.wrappers.empty())
+    folder.lost(
+        fmt::format("the {} tendons and {} wrappers", robot.tendons.size(), robot.wrappers.size()));
+  if (!robot.database_name.empty())
+    folder.lost("the name in a database of grasps, '" + robot.database_name + "'");
+}
+
+void tell_matter(const RobotSpec& robot, const RobotFolder& folder) {
+  std::vector<std::string> materials;
+  for (const BodySpec* body : bodies_of(robot))
+    if (!std::ranges::count(material_names, body->material) &&
+        !std::ranges::count(materials, body->material))
+      materials.push_back(body->material);
+  if (!materials.empty())
+    folder.lost(fmt::format("materials of the user's own: {}", fmt::join(materials, ", ")));
+  const auto drawn = std::ranges::count_if(
+      bodies_of(robot), [](const BodySpec* body) { return body->appearance.visual != nullptr; });
+  if (drawn) folder.lost(fmt::format("the surfaces that pictures show of {} links", drawn));
+}
+
+}  // namespace
+
+std::string class_word(const RobotSpec& robot) {
+  // robots of today have their own name for one
+  return is_word(robot.class_name) && !robot.chain_links_collide ? robot.class_name : "Hand";
+}
+
+void tell_lost_in_both(const RobotSpec& robot, const RobotFolder& folder) {
+  if (has_names(robot)) folder.lost("the names of DOFs, joints and links");
+  // one that its file alone gives it is no loss
+  const std::string stem = folder.path().stem().string();
+  if (robot.name != stem && robot.name != std::filesystem::path(robot.file).stem())
+    folder.lost(
+        fmt::format("the name '{}'; the robot is called '{}' as its file", robot.name, stem));
+  if (const std::string word = class_word(robot);
+      word != robot.class_name && !robot.chain_links_collide)
+    folder.lost(fmt::format("the class '{}'; it is {}", robot.class_name, word));
+  if (any_dof(robot, [](const DofSpec& dof) { return dof.max_velocity != 0; }))
+    folder.lost("the largest velocities of DOFs");
+  if (robot.chain_links_collide) folder.lost("that links of one chain can collide with each other");
+  tell_matter(robot, folder);
+  if (!robot.X_BA) return;
+  const Pose made =
+      approach_frame(robot.X_BA->position, robot.X_BA->rotation * Eigen::Vector3d::UnitZ());
+  if ((made.inverse() * *robot.X_BA).angle() > 1e-9)
+    folder.lost("how far the approach frame is turned about its direction");
+}
+
+void tell_lost_in_cfg(const RobotSpec& robot, const RobotFolder& folder) {
+  if (has_default_values(robot)) folder.lost("the default values of DOFs");
+  tell_rules(robot, folder);
+  tell_sensors(robot, folder);
+}
+
+void tell_lost_in_xml(const RobotSpec& robot, const RobotFolder& folder) {
+  if (std::ranges::count(robot.collision_rules.parts_off, RobotPart{}))
+    folder.lost("that the base never collides");
+  if (!robot.collision_rules.near_pairs_off)
+    folder.lost("that parts which are near each other as it is loaded can collide");
+  if (std::ranges::any_of(robot.tactile, [](const auto& s) { return s.part.chain < 0; }))
+    folder.lost("the tactile sensors of the base");
+}
+
+static void tell_control(const RobotSpec& robot, const RobotFolder& folder) {
+  const auto dof_has = [&](auto predicate, const char* what) {
+    if (any_dof(robot, predicate)) folder.lost(what);
+  };
+  dof_has([](const DofSpec& dof) { return dof.kind != DofKind::rigid; },
+          "which DOFs are breakaway or compliant");
+  dof_has([](const DofSpec& dof) { return dof.default_velocity != 0; },
+          "how fast DOFs close; which do is guessed from the geometry when it is read");
+  dof_has([](const DofSpec& dof) { return dof.kp != 0 || dof.kd != 0; }, "the gains of DOFs");
+  dof_has([](const DofSpec& dof) { return dof.dragger_scale != 0; },
+          "the sizes of the handles of DOFs");
+  if (has_default_values(robot)) folder.lost("the default values of DOFs");
+  if (any_joint(robot, [](const JointSpec& j) { return j.spring != 0 || j.rest != 0; }))
+    folder.lost("the springs of joints");
+}
+
+void tell_lost_in_urdf(const RobotSpec& robot, const RobotFolder& folder) {
+  tell_control(robot, folder);
+  std::vector<char> moves(robot.dofs.size());
+  for (const auto& chain : robot.chains)
+    for (const auto& joint : chain.joints) moves[joint.dof] = true;
+  for (size_t d = 0; d < moves.size(); ++d)
+    if (!moves[d]) folder.lost(fmt::format("DOF {}, which moves no joint", d));
+  const auto bodies = bodies_of(robot);
+  const auto body_has = [&](auto predicate, const char* what) {
+    if (std::ranges::any_of(bodies, predicate)) folder.lost(what);
+  };
+  body_has([](const BodySpec* b) { return b->material != "plastic"; },
+           "materials; every link counts as plastic when it is read");
+  body_has([](const BodySpec* b) { return b->elastic_modulus.has_value(); }, "elastic moduli");
+  body_has([](const BodySpec* b) { return b->tracker.has_value(); }, "the trackers of links");
+  body_has([](const BodySpec* b) { return !(b->mass > 0); }, "a mass of 0");
+  if (robot.X_BA)
+    folder.lost("the approach frame; it is guessed from the geometry when it is read");
+  if (robot.tracker) folder.lost("the tracker on the robot");
+  if (!robot.chain_links_collide)
+    folder.lost("that links of one chain never collide with each other");
+  tell_rules(robot, folder);
+  tell_sensors(robot, folder);
+}
+
+}  // namespace clench

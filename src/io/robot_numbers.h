@@ -1,0 +1,27 @@
+// The numbers of a robot as its files in the formats of GraspIt! write them: millimetres, grams, degrees,
+// by the kinds of the joints.
+#pragma once
+#include <string>
+
+#include "spec/robot_spec.h"
+
+namespace clench {
+
+/// Each reads back to the bit, where its unit has such a number.
+struct DofTexts {
+  std::string kind;  ///< r, b or c
+  std::string velocity, effort, kp, kd, scale, breakaway, value;
+};
+
+struct JointTexts {
+  std::string theta, d;  ///< one is an expression: d0*0.5+90
+  std::string a, alpha, min, max, viscous, coulomb, spring, rest;
+};
+
+/// Does the DOF count in lengths, as its first joint does?
+bool dof_slides(const RobotSpec& robot, int dof);
+/// throws Error  "hand.cfg: DOF 0: wanted finite numbers, got inf"
+DofTexts dof_texts(const RobotSpec& robot, int dof, const std::string& file);
+JointTexts joint_texts(const RobotSpec& robot, const JointSpec& joint);
+
+}  // namespace clench

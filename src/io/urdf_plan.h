@@ -1,0 +1,44 @@
+// Our chains as the tree that a URDF holds: links whose frames stand on the axes, joints between two each.
+#pragma once
+#include <optional>
+
+#include "spec/robot_spec.h"
+
+namespace clench {
+
+struct UrdfLink {
+  std::string name;
+  const BodySpec* body = nullptr;  ///< null: a frame between two joints of one link
+  Pose X_UB;                       ///< the body's frame in the link's
+};
+
+/// Fixed when it has no spec. v = factor * DOF + offset, where v is its value in the file.
+struct UrdfJoint {
+  std::string name;
+  int parent = 0, child = 0;                        ///< indices of links
+  Pose X_PC;                                        ///< child in the parent at v = 0
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< in the child
+  const JointSpec* spec = nullptr;
+  bool leads = false;  ///< does its value stand for the DOF?
+  double factor = 1;
+  double offset = 0;        ///< [rad or m]; of leaders 0
+  double min = 0, max = 0;  ///< of v [rad or m]
+};
+
+struct UrdfPlan {
+  std::string name;
+  std::vector<UrdfLink> links;            ///< [0] is the base
+  std::vector<UrdfJoint> joints;          ///< in an order in which leaders come as their DOFs do
+  std::vector<std::vector<int>> link_of;  ///< by chain, by our link
+  std::vector<int> leader_of;             ///< by DOF: index of a joint; -1: it moves none
+  std::vector<std::string> renamed;       ///< sentences: what could not keep its name
+
+  int link(const RobotPart& part) const {
+    return part.chain < 0 ? 0 : link_of[part.chain][part.link];
+  }
+};
+
+/// `robot` has to outlive the plan.
+UrdfPlan plan_urdf(const RobotSpec& robot);
+
+}  // namespace clench

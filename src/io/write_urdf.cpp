@@ -1,0 +1,273 @@
+#include <algorithm>
+#include <cmath>
+
+#include "io/read.h"
+#include "io/urdf_plan.h"
+#include "io/write_file.h"
+#include "io/write_robot_texts.h"
+#include "io/xml.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string words(const Eigen::Vector3d& v) {
+  return fmt::format("{} {} {}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+}
+
+/// Angles about the fixed axes x, then y, then z. The first and the last are found one after the other,
+/// so that they fit together where the second is near a quarter turn, too.
+Eigen::Vector3d rpy_of(const Eigen::Quaterniond& q) {
+  const Eigen::Matrix3d R = q.toRotationMatrix();
+  const double yaw = std::atan2(R(1, 0), R(0, 0)), c = std::cos(yaw), s = std::sin(yaw);
+  const double pitch = std::atan2(-R(2, 0), c * R(0, 0) + s * R(1, 0));
+  const double roll = std::atan2(s * R(0, 2) - c * R(1, 2), c * R(1, 1) - s * R(0, 1));
+  return {roll, pitch, yaw};
+}
+
+class UrdfText {
+ public:
+  UrdfText(const RobotSpec& robot, RobotFolder& folder)
+      : robot_(robot), folder_(folder), plan_(plan_urdf(robot)) {}
+  std::string text();
+  void write_beside(const std::string& text);
+
+ private:
+  void add(const std::string& indent, const std::string& line) { out_ += indent + line + "\n"; }
+  void add_origin(const std::string& indent, const Pose& pose);
+  void add_link(const UrdfLink& link);
+  void add_inertial(const UrdfLink& link);
+  void add_geometry(const char* name, const UrdfLink& link, const std::string& mesh,
+                    const std::string& material);
+  std::string material(const Appearance& looks);
+  void add_joint(const UrdfJoint& joint);
+  double scale_of(int dof) const { return plan_.joints[plan_.leader_of[dof]].factor; }
+  bool has_all_dofs(const char* what) const;
+  void beside_eigengrasps();
+  void beside_glove();
+  void beside_contacts(const std::string& text);
+  void tell_beside(const char* what, const char* option, const std::string& name) const;
+
+  const RobotSpec& robot_;
+  RobotFolder& folder_;
+  const UrdfPlan plan_;
+  std::string out_;
+  std::vector<std::string> colors_;  // of materials, by number
+};
+
+// --- links ---
+
+void UrdfText::add_origin(const std::string& indent, const Pose& pose) {
+  if (pose == Pose{}) return;
+  add(indent, fmt::format("<origin xyz=\"{}\" rpy=\"{}\"/>", words(pose.position),
+                          words(rpy_of(pose.rotation))));
+}
+
+void UrdfText::add_inertial(const UrdfLink& link) {
+  const BodySpec& body = *link.body;
+  // what a reader gives a frame that weighs nothing in the file
+  const bool frame = !body.shape && !body.appearance.visual && !body.com &&
+                     !body.inertia_per_mass && body.mass == 1e-3;
+  if (frame || !(body.mass > 0)) return;
+  const Eigen::Matrix3d I = inertia_of(body) * body.mass;
+  add("    ", "<inertial>");
+  Pose X_UC = Pose::translation(com_of(body));
+  if (!(link.X_UB == Pose{})) X_UC = link.X_UB * X_UC;
+  add_origin("      ", X_UC);
+  add("      ", fmt::format("<mass value=\"{}\"/>", body.mass));
+  add("      ", fmt::format("<inertia ixx=\"{}\" ixy=\"{}\" ixz=\"{}\" iyy=\"{}\" iyz=\"{}\" "
+                            "izz=\"{}\"/>",
+                            I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2)));
+  add("    ", "</inertial>");
+}
+
+std::string UrdfText::material(const Appearance& looks) {
+  if (!looks.given || !looks.triangle_colors.empty()) return "";
+  const std::string color = fmt::format("{} {} {} {}", looks.color.x(), looks.color.y(),
+                                        looks.color.z(), 1 - double{looks.transparency});
+  // one name a colour: readers share materials by their names
+  const size_t number = std::ranges::find(colors_, color) - colors_.begin();
+  if (number == colors_.size()) colors_.push_back(color);
+  return fmt::format("<material name=\"color{}\"><color rgba=\"{}\"/></material>", number, color);
+}
+
+void UrdfText::add_geometry(const char* name, const UrdfLink& link, const std::string& mesh,
+                            const std::string& material) {
+  add("    ", fmt::format("<{}>", name));
+  add_origin("      ", link.X_UB);
+  add("      ", fmt::format("<geometry><mesh filename=\"{}\"/></geometry>", xml_escaped(mesh)));
+  if (!material.empty()) add("      ", material);
+  add("    ", fmt::format("</{}>", name));
+}
+
+void UrdfText::add_link(const UrdfLink& link) {
+  const std::string name = fmt::format("<link name=\"{}\"", xml_escaped(link.name));
+  if (!link.body) return add("  ", name + "/>");
+  add("  ", name + ">");
+  const BodySpec& body = *link.body;
+  const Appearance& looks = body.appearance;
+  const std::string part = part_name(body, robot_);
+  add_inertial(link);
+  std::string surface;
+  if (body.shape)
+    surface = folder_.mesh(body.shape->mesh(), looks.visual ? Appearance() : looks, part);
+  const std::string drawn =
+      looks.visual ? folder_.mesh(looks.visual->mesh(), looks, part + "_visual") : surface;
+  if (!drawn.empty()) add_geometry("visual", link, drawn, material(looks));
+  if (!surface.empty()) add_geometry("collision", link, surface, "");
+  add("  ", "</link>");
+}
+
+// --- joints ---
+
+void UrdfText::add_joint(const UrdfJoint& joint) {
+  const char* kind = !joint.spec                                ? "fixed"
+                     : joint.spec->kind == JointKind::prismatic ? "prismatic"
+                                                                : "revolute";
+  add("  ", fmt::format("<joint name=\"{}\" type=\"{}\">", xml_escaped(joint.name), kind));
+  add("    ", fmt::format("<parent link=\"{}\"/>", xml_escaped(plan_.links[joint.parent].name)));
+  add("    ", fmt::format("<child link=\"{}\"/>", xml_escaped(plan_.links[joint.child].name)));
+  add_origin("    ", joint.X_PC);
+  if (const JointSpec* spec = joint.spec) {
+    const DofSpec& dof = robot_.dofs[spec->dof];
+    const UrdfJoint& leader = plan_.joints[plan_.leader_of[spec->dof]];
+    add("    ", fmt::format("<axis xyz=\"{}\"/>", words(joint.axis)));
+    const double factor = std::abs(joint.factor);
+    add("    ",
+        fmt::format("<limit lower=\"{}\" upper=\"{}\" effort=\"{}\" velocity=\"{}\"/>", joint.min,
+                    joint.max, dof.max_effort / factor, dof.max_velocity * factor));
+    if (spec->viscous != 0 || spec->coulomb != 0)
+      add("    ",
+          fmt::format("<dynamics damping=\"{}\" friction=\"{}\"/>", spec->viscous, spec->coulomb));
+    if (!joint.leads)
+      add("    ",
+          fmt::format("<mimic joint=\"{}\" multiplier=\"{}\" offset=\"{}\"/>",
+                      xml_escaped(leader.name), joint.factor / leader.factor, joint.offset));
+  }
+  add("  ", "</joint>");
+}
+
+std::string UrdfText::text() {
+  for (const DofSpec& dof : robot_.dofs)
+    for (const double x : {dof.max_effort, dof.max_velocity})
+      if (!std::isfinite(x)) fail("{}: wanted finite numbers of a DOF, got {}", folder_.file(), x);
+  for (const UrdfJoint& joint : plan_.joints)
+    if (!joint.X_PC.is_finite())
+      fail("{}: joint '{}': wanted a finite pose in its parent", folder_.file(), joint.name);
+  out_ = "<?xml version=\"1.0\"?>\n";
+  add("", fmt::format("<robot name=\"{}\">", xml_escaped(plan_.name)));
+  for (const UrdfLink& link : plan_.links) add_link(link);
+  for (const UrdfJoint& joint : plan_.joints) add_joint(joint);
+  add("", "</robot>");
+  for (const std::string& sentence : plan_.renamed) folder_.warn(folder_.file() + ": " + sentence);
+  for (const UrdfLink& link : plan_.links)
+    if (!link.body)
+      folder_.warn(fmt::format("{}: '{}' is a frame without mass between two joints of one link",
+                               folder_.file(), link.name));
+  for (int d = 0; d < static_cast<int>(robot_.dofs.size()); ++d)
+    if (plan_.leader_of[d] >= 0 && scale_of(d) != 1)
+      folder_.warn(fmt::format("{}: DOF {} counts {} times as far in it, as its joint '{}' does",
+                               folder_.file(), d, scale_of(d),
+                               plan_.joints[plan_.leader_of[d]].name));
+  return out_;
+}
+
+// --- what stands beside ---
+
+void UrdfText::tell_beside(const char* what, const char* option, const std::string& name) const {
+  folder_.warn(fmt::format("{} names no {}; they stand beside it: read it with {} = \"{}\"",
+                           folder_.file(), what, option, name));
+}
+
+bool UrdfText::has_all_dofs(const char* what) const {
+  for (const int leader : plan_.leader_of)
+    if (leader < 0) {
+      folder_.lost(fmt::format("{}: they count a DOF that moves no joint", what));
+      return false;
+    }
+  return true;
+}
+
+void UrdfText::beside_eigengrasps() {
+  if (!robot_.eigengrasps || !has_all_dofs("the eigengrasps")) return;
+  EigengraspSet set = *robot_.eigengrasps;
+  for (int d = 0; d < set.dofs; ++d) {
+    if (scale_of(d) == 1) continue;
+    if (!set.norm) set.norm = Eigen::VectorXd::Ones(set.dofs);
+    (*set.norm)[d] *= scale_of(d);
+    if (set.origin) (*set.origin)[d] *= scale_of(d);
+  }
+  tell_beside("eigengrasps", "eigengrasps", folder_.eigengrasps(set));
+}
+
+void UrdfText::beside_glove() {
+  if (!robot_.glove || !has_all_dofs("the calibration of a glove")) return;
+  GloveCalibration glove = *robot_.glove;
+  for (int d = 0; d < static_cast<int>(robot_.dofs.size()); ++d) {
+    glove.slopes.row(d) *= scale_of(d);
+    glove.intercepts[d] *= scale_of(d);
+  }
+  folder_.warn(fmt::format("{} names no calibration of a glove; it stands beside it in {}",
+                           folder_.file(), folder_.glove(glove)));
+}
+
+/// A file that is gone at the end.
+class Draft {
+ public:
+  explicit Draft(fs::path path) : path_(std::move(path)) {}
+  ~Draft() {
+    std::error_code code;
+    fs::remove(path_, code);
+  }
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Chains and links have the numbers that a reader of the file gives them: they are looked up by name.
+void UrdfText::beside_contacts(const std::string& text) {
+  if (!robot_.virtual_contacts) return;
+  folder_.write_parts();
+  const Draft draft(folder_.path().parent_path() /
+                    fmt::format(".{}.saving.urdf", folder_.path().stem().string()));
+  write_file(draft.path(), text);
+  const RobotSpec read = read_robot(draft.path());
+  std::map<std::string, RobotPart> parts;
+  for (int c = 0; c < static_cast<int>(read.chains.size()); ++c)
+    for (int l = 0; l < static_cast<int>(read.chains[c].links.size()); ++l)
+      parts[read.chains[c].links[l].body.name] = {c, l};
+  VirtualContactSet set = *robot_.virtual_contacts;
+  for (VirtualContactSpec& contact : set.contacts) {
+    if (contact.chain < 0) continue;
+    const UrdfLink& link = plan_.links[plan_.link({contact.chain, contact.link})];
+    const auto found = parts.find(read.name + "_" + link.name);
+    if (found == parts.end())
+      fail("{}: link '{}' is not found again in it", folder_.file(), link.name);
+    contact.chain = found->second.chain;
+    contact.link = found->second.link;
+    if (!(link.X_UB == Pose{})) contact.X_LC = link.X_UB * contact.X_LC;
+  }
+  tell_beside("virtual contacts", "virtual_contacts", folder_.virtual_contacts(set));
+}
+
+void UrdfText::write_beside(const std::string& text) {
+  beside_eigengrasps();
+  beside_glove();
+  beside_contacts(text);
+}
+
+}  // namespace
+
+std::string robot_urdf_text(const RobotSpec& robot, RobotFolder& folder) {
+  UrdfText urdf(robot, folder);
+  std::string text = urdf.text();
+  urdf.write_beside(text);
+  return text;
+}
+
+}  // namespace clench

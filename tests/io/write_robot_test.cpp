@@ -1,0 +1,528 @@
+#include "io/write_robot.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "io/read.h"
+#include "robot_compare.h"
+#include "support/shapes.h"
+#include "support/shared.h"
+#include "temporary.h"
+
+using namespace clench;
+using namespace clench::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What a writer told.
+struct Written {
+  RobotSpec robot;  ///< read again
+  std::vector<std::string> lost;
+  std::vector<std::string> warnings;  ///< of reading it
+  bool told(const std::string& sentence) const { return std::ranges::count(lost, sentence) > 0; }
+};
+
+Written written(const RobotSpec& robot, const fs::path& path) {
+  Written out;
+  ReadOptions reading;
+  reading.warn = [&](const std::string& sentence) { out.warnings.push_back(sentence); };
+  WriteOptions options;
+  options.warn = [&](const std::string& sentence) { out.lost.push_back(sentence); };
+  write_robot(robot, path, options);
+  out.robot = read_robot(path, reading);
+  return out;
+}
+
+std::vector<fs::path> files_below(const fs::path& folder, const std::string& ending) {
+  std::vector<fs::path> out;
+  if (!fs::is_directory(folder)) return out;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ending) out.push_back(entry.path());
+  std::ranges::sort(out);
+  return out;
+}
+
+const std::string one_finger = R"(<?xml version="1.0" ?>
+<robot type="Hand" DBName="TOY &amp; co">
+  <palm>palm.xml</palm>
+  <dof type="b"><defaultVelocity>-1.3</defaultVelocity><defaultValue>17.3</defaultValue>
+    <maxEffort>5e9</maxEffort><Kp>1e11</Kp><Kd>1e7</Kd><draggerScale>20.7</draggerScale>
+    <breakAwayTorque>0.7</breakAwayTorque></dof>
+  <dof type="c"><defaultVelocity>31</defaultVelocity><defaultValue>3.7</defaultValue>
+    <maxEffort>5.1e6</maxEffort><Kp>1e3</Kp><Kd>1e2</Kd></dof>
+  <chain>
+    <transform><translation>1.1 2.2 3.3</translation><rotation>33 x</rotation></transform>
+    <joint type="Revolute"><theta>d0*-0.7+33.3</theta><d>1.7</d><a>50.1</a><alpha>-90</alpha>
+      <minValue>-77.7</minValue><maxValue>99.9</maxValue><viscousFriction>5e7</viscousFriction>
+      <CoulombFriction>3e7</CoulombFriction><springStiffness>4.4</springStiffness>
+      <restValue>0.13</restValue></joint>
+    <joint type="Prismatic"><theta>12.3</theta><d>d1-5.9</d><a>0</a><alpha>7</alpha>
+      <minValue>0</minValue><maxValue>30.3</maxValue></joint>
+    <joint type="Revolute"><theta>d1*0.01</theta><d>0</d><a>9</a><alpha>0</alpha>
+      <minValue>-90</minValue><maxValue>90</maxValue></joint>
+    <link dynamicJointType="Universal" collisionRule="Off">link.xml</link>
+    <link dynamicJointType="Revolute" collisionRule="OverlappingPair" targetChain="base">link.xml</link>
+    <filter params="-1.1,-2,-3,4,5,6.6">1</filter>
+  </chain>
+  <disableCollision body1_chain="0" body1_link="0" body2_chain="-1" body2_link="0"/>
+  <tendon name="a &lt; 'b'"><stiffness>3.3</stiffness><restLength>77.7</restLength>
+    <insertionPoint><chain>-1</chain><link>-1</link><position>1.1 2 3</position>
+      <friction>0.3</friction></insertionPoint>
+    <insertionPoint><chain>0</chain><link>1</link><position>4 5.5 6</position></insertionPoint>
+  </tendon>
+  <tendonWrapper><chain>0</chain><link>0</link><position>1 2 3.3</position>
+    <orientation>1 2 3</orientation><radius>3.3</radius><length>7</length>
+    <friction>0.2</friction><exemption tendon="c"/>
+    <wrapping_side tendon="a &lt; 'b'"><orientation>0 3 4</orientation></wrapping_side>
+  </tendonWrapper>
+  <approachDirection><referenceLocation>1 2 3.3</referenceLocation><direction>0 0.3 1</direction>
+  </approachDirection>
+  <eigenGrasps>eigen.xml</eigenGrasps>
+  <virtualContacts>contacts.vgr</virtualContacts>
+  <cyberGlove>glove.txt</cyberGlove>
+  <flockOfBirds number="3"><transform><translation>1 2.2 3</translation></transform></flockOfBirds>
+</robot>
+)";
+
+const std::string surface =
+    "OFF\n4 4 0\n0 0 0\n10.1 0 0\n0 10.3 0\n0 0 7.7\n"
+    "3 0 2 1 1.0 0.0 0.0\n3 0 1 3 0.3 0.7 1.0\n3 1 2 3 1.0 1.0 1.0\n"
+    "3 2 0 3 0.1 0.2 0.3\n";
+
+/// All that an .xml robot may hold.
+fs::path full_robot(const TemporaryFolder& folder) {
+  folder.write("iv/palm.xml",
+               "<root><material>rubber</material><youngs>1.5e6</youngs><mass>77.7</mass>"
+               "<cog>1.1 2 3</cog><inertia_matrix>30 1 0 1 20.2 0 0 0 25</inertia_matrix>"
+               "<useFlockOfBirds>2</useFlockOfBirds>"
+               "<geometryFile type=\"off\">palm.off</geometryFile></root>");
+  folder.write("iv/palm.off", surface);
+  folder.write("iv/link.xml",
+               "<root><mass>33</mass><geometryFile type=\"off\">link.off</geometryFile></root>");
+  folder.write("iv/link.off",
+               "OFF\n4 4 0\n0 0 0\n30 0 0\n0 10.3 0\n0 0 7.7\n3 0 2 1 1.0 0.5 0.0 0.75\n"
+               "3 0 1 3 1.0 0.5 0.0 0.75\n3 1 2 3 1.0 0.5 0.0 0.75\n3 2 0 3 1.0 0.5 0.0 0.75\n");
+  folder.write("eigen.xml",
+               "<EigenGrasps dimensions=\"2\"><EG><EigenValue value=\"0.3\"/>"
+               "<Limits min=\"-1\" max=\"0.7\"/><DimVals d0=\"0.1\" d1=\"1\"/></EG>"
+               "<ORIGIN><EigenValue value=\"0\"/><DimVals d0=\"0.3\" d1=\"0.001\"/></ORIGIN>"
+               "</EigenGrasps>");
+  folder.write("contacts.vgr",
+               "hand\n2\n-1 0\n0\n1 2 3.3\n1 0 0 0\n1 2 3.3\n0 0 1\n0.7\n"
+               "0 1\n1\n0 1 0 0 0 0.3\n1 2 3\n1 0 0 0\n1 2 3\n0 0 1\n1\n");
+  folder.write("glove.txt", "2 3\n0.1 0.2 0.3\n1 2 3\n0.7 0.01\n");
+  return folder.write("hand.xml", one_finger);
+}
+
+}  // namespace
+
+TEST_CASE("every hand and arm of ours comes back from a .cfg as it was, and by way of an .xml") {
+  int count = 0;
+  for (const char* kind : {"models/hands", "models/arms"})
+    for (const fs::path& file : files_below(kind, ".cfg")) {
+      INFO(file.string());
+      const TemporaryFolder folder;
+      const RobotSpec robot = read_robot(file);
+      const auto cfg = written(robot, folder.path() / "hand.cfg");
+      CHECK(cfg.lost.empty());
+      CHECK(cfg.warnings.empty());
+      check_equal_cfg(robot, cfg.robot);
+      const auto xml = written(robot, folder.path() / "other.xml");
+      CHECK(xml.lost ==
+            std::vector<std::string>{"other.xml does not hold that parts which are near "
+                                     "each other as it is loaded can collide"});
+      CHECK(xml.warnings.empty());
+      check_equal_cfg(robot, xml.robot);
+      ++count;
+    }
+  CHECK(count >= 11);
+}
+
+TEST_CASE("every hand and arm of ours stands in a .urdf as it did, whatever its DOFs") {
+  for (const char* kind : {"models/hands", "models/arms"})
+    for (const fs::path& file : files_below(kind, ".cfg")) {
+      INFO(file.string());
+      const TemporaryFolder folder;
+      const RobotSpec robot = read_robot(file);
+      ReadOptions reading;
+      const fs::path egr = folder.path() / "eigen/hand.egr",
+                     vgr = folder.path() / "virtual/hand.vgr";
+      const auto urdf = written(robot, folder.path() / "hand.urdf");
+      REQUIRE(urdf.robot.dofs.size() == robot.dofs.size());
+      for (int d = 0; d < static_cast<int>(robot.dofs.size()); ++d) {
+        const auto a = dof_range(robot, d), b = dof_range(urdf.robot, d);
+        // a quotient and a product
+        CHECK(a[0] == doctest::Approx(b[0]).epsilon(1e-15));
+        CHECK(a[1] == doctest::Approx(b[1]).epsilon(1e-15));
+      }
+      // the inertia of an arm's link holds that of its motor, and no body has it
+      if (std::string(kind) == "models/hands") CHECK(urdf.warnings.empty());
+      CHECK(largest_gap(robot, urdf.robot, By::name) < 1e-12);
+      if (fs::exists(egr)) reading.eigengrasps = egr.string();
+      if (fs::exists(vgr)) reading.virtual_contacts = vgr.string();
+      CHECK(fs::exists(egr) == robot.eigengrasps.has_value());
+      CHECK(fs::exists(vgr) == robot.virtual_contacts.has_value());
+      CHECK_NOTHROW(read_robot(folder.path() / "hand.urdf", reading));
+    }
+}
+
+TEST_CASE("a robot with all that an .xml holds comes back from one, and by way of a .cfg") {
+  const TemporaryFolder folder, out;
+  const RobotSpec robot = read_robot(full_robot(folder));
+  REQUIRE(robot.tendons.size() == 1);
+  REQUIRE(robot.virtual_contacts);
+  REQUIRE(robot.eigengrasps);
+  REQUIRE(robot.glove);
+  const auto xml = written(robot, out.path() / "hand.xml");
+  CHECK(xml.lost.empty());
+  check_equal_xml(robot, xml.robot);
+  CHECK(xml.robot.chains[0].links[0].body.appearance.transparency == 0.25f);
+
+  const auto cfg = written(robot, out.path() / "hand.cfg");
+  check_equal_cfg(robot, cfg.robot);
+  CHECK(cfg.lost ==
+        std::vector<std::string>{
+            "hand.cfg does not hold the default values of DOFs",
+            "hand.cfg does not hold the 1 pairs of links that never collide",
+            "hand.cfg does not hold the 1 parts that never collide",
+            "hand.cfg does not hold that parts which are near each other as it is loaded never "
+            "collide",
+            "hand.cfg does not hold the 1 tactile sensors",
+            "hand.cfg does not hold the 1 tendons and 1 wrappers",
+            "hand.cfg does not hold the name in a database of grasps, 'TOY & co'"});
+}
+
+TEST_CASE("what a .urdf does not hold is told, a sentence each") {
+  const TemporaryFolder folder, out;
+  const RobotSpec robot = read_robot(full_robot(folder));
+  const auto urdf = written(robot, out.path() / "hand.urdf");
+  const std::vector<std::string> wanted = {
+      "hand.urdf: 'chain0_joint0_frame' is a frame without mass between two joints of one link",
+      "hand.urdf: DOF 0 counts 0.7 times as far in it, as its joint 'chain0_joint0' does",
+      "hand.urdf names no eigengrasps; they stand beside it: read it with eigengrasps = "
+      "\"eigen/hand.xml\"",
+      "hand.urdf names no calibration of a glove; it stands beside it in glove/hand.txt",
+      "hand.urdf names no virtual contacts; they stand beside it: read it with virtual_contacts = "
+      "\"virtual/hand.vgr\"",
+      "hand.urdf does not hold which DOFs are breakaway or compliant",
+      "hand.urdf does not hold how fast DOFs close; which do is guessed from the geometry when it "
+      "is read",
+      "hand.urdf does not hold the gains of DOFs",
+      "hand.urdf does not hold the sizes of the handles of DOFs",
+      "hand.urdf does not hold the default values of DOFs",
+      "hand.urdf does not hold the springs of joints",
+      "hand.urdf does not hold materials; every link counts as plastic when it is read",
+      "hand.urdf does not hold elastic moduli",
+      "hand.urdf does not hold the trackers of links",
+      "hand.urdf does not hold the approach frame; it is guessed from the geometry when it is read",
+      "hand.urdf does not hold the tracker on the robot",
+      "hand.urdf does not hold that links of one chain never collide with each other",
+      "hand.urdf does not hold the 1 pairs of links that never collide",
+      "hand.urdf does not hold the 1 parts that never collide",
+      "hand.urdf does not hold that parts which are near each other as it is loaded never collide",
+      "hand.urdf does not hold the 1 tactile sensors",
+      "hand.urdf does not hold the 1 tendons and 1 wrappers",
+      "hand.urdf does not hold the name in a database of grasps, 'TOY & co'"};
+  for (const std::string& sentence : wanted) {
+    INFO(sentence);
+    CHECK(urdf.told(sentence));
+  }
+  for (const std::string& sentence : urdf.lost) {
+    INFO(sentence);
+    CHECK(std::ranges::count(wanted, sentence) == 1);
+  }
+}
+
+/// Files of robots of the original, each third one from `first` on, and what is read of them.
+static std::vector<std::pair<fs::path, RobotSpec>> robots_of_the_original(size_t first) {
+  std::vector<std::pair<fs::path, RobotSpec>> out;
+  auto files = files_below(shared() / "data/graspit/models/robots", ".cfg");
+  for (const fs::path& file : files_below(shared() / "data/graspit-xml/models/robots", ".xml"))
+    files.push_back(file);
+  for (size_t i = first; i < files.size(); i += 3) {
+    try {
+      out.emplace_back(files[i], read_robot(files[i]));
+    } catch (const Error&) {
+      // bodies, eigengrasps and contacts, and what is broken
+    }
+  }
+  return out;
+}
+
+static void check_originals(size_t first) {
+  const auto robots = robots_of_the_original(first);
+  CHECK(robots.size() >= 5);
+  for (const auto& [file, robot] : robots) {
+    INFO(file.string());
+    const TemporaryFolder out;
+    const bool text = file.extension() == ".cfg";
+    const auto same = written(robot, out.path() / ("hand" + file.extension().string()));
+    CHECK(same.lost.empty());
+    if (text)
+      check_equal_cfg(robot, same.robot);
+    else
+      check_equal_xml(robot, same.robot);
+  }
+}
+
+TEST_CASE("robots of the original come back from their formats as they were, first third") {
+  REQUIRE_SHARED();
+  check_originals(0);
+}
+
+TEST_CASE("robots of the original come back from their formats as they were, second third") {
+  REQUIRE_SHARED();
+  check_originals(1);
+}
+
+TEST_CASE("robots of the original come back from their formats as they were, last third") {
+  REQUIRE_SHARED();
+  check_originals(2);
+}
+
+TEST_CASE("robots of the original stand in a .urdf as they did") {
+  REQUIRE_SHARED();
+  for (const auto& [file, robot] : robots_of_the_original(1)) {
+    INFO(file.string());
+    const TemporaryFolder out;
+    const auto urdf = written(robot, out.path() / "hand.urdf");
+    // DOFs that move no joint are lost, and some count otherwise in it
+    const bool same = std::ranges::none_of(urdf.lost, [](const std::string& sentence) {
+      return sentence.find("moves no joint") != std::string::npos ||
+             sentence.find("times as far") != std::string::npos;
+    });
+    if (same) CHECK(largest_gap(robot, urdf.robot, By::name, 3) < 1e-12);
+  }
+}
+
+namespace {
+
+/// A hand of one link, without surfaces.
+RobotSpec bare_hand() {
+  RobotSpec robot;
+  robot.name = "any";
+  robot.class_name = "Hand";
+  robot.base.name = "any_base";
+  robot.dofs.resize(1);
+  ChainSpec chain;
+  JointSpec joint;
+  joint.max = 1;
+  chain.joints.push_back(joint);
+  LinkSpec link;
+  link.body.name = "any_chain0_link0";
+  chain.links.push_back(link);
+  robot.chains.push_back(chain);
+  return robot;
+}
+
+void check_refused(const RobotSpec& robot, const std::string& name, const std::string& sentence) {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH_AS(write_robot(robot, folder.path() / name), sentence.c_str(), Error);
+  CHECK(fs::is_empty(folder.path()));
+}
+
+}  // namespace
+
+TEST_CASE("a base and links without surfaces come back as frames from every format") {
+  const TemporaryFolder folder;
+  const RobotSpec robot = bare_hand();
+  for (const char* name : {"any.cfg", "any.xml", "any.urdf"}) {
+    INFO(name);
+    const auto again = written(robot, folder.path() / name);
+    CHECK(!again.robot.base.shape);
+    CHECK(!again.robot.chains.at(0).links.at(0).body.shape);
+    CHECK(again.robot.base.mass == robot.base.mass);
+  }
+}
+
+TEST_CASE("robots that cannot be written are refused in one sentence, and leave nothing behind") {
+  RobotSpec robot = bare_hand();
+  check_refused(robot, "hand.sdf", "hand.sdf: wanted a robot to .cfg, .xml or .urdf, got '.sdf'");
+  robot.chains[0].joints[0].max = -1;
+  check_refused(robot, "hand.cfg",
+                "hand.cfg cannot be written: any: chain 0 joint 0: min 0 exceeds max -1 [rad]");
+  robot = bare_hand();
+  robot.dofs[0].max_effort = HUGE_VAL;
+  check_refused(robot, "hand.cfg", "hand.cfg: DOF 0: wanted finite numbers, got inf");
+  check_refused(robot, "hand.xml", "hand.xml: DOF 0: wanted finite numbers, got inf");
+  check_refused(robot, "hand.urdf", "hand.urdf: wanted finite numbers of a DOF, got inf");
+  robot = bare_hand();
+  JointSpec far = robot.chains[0].joints[0];
+  far.placed_freely = true;
+  far.X_before = far.X_after = Pose::translation({1e308, 1e308, 0});
+  robot.chains[0].joints.assign(3, far);
+  robot.chains[0].links[0].last_joint = 2;
+  check_refused(robot, "hand.urdf",
+                "hand.urdf: joint 'chain0_joint1': wanted a finite pose in its parent");
+  check_refused(robot, "hand.cfg",
+                "hand.cfg cannot be written: any: chain 0 joint 0: wanted finite numbers, got inf");
+  robot = bare_hand();
+  robot.chains[0].joints.resize(5, robot.chains[0].joints[0]);
+  robot.chains[0].links[0].last_joint = 4;
+  check_refused(
+      robot, "hand.xml",
+      "hand.xml: link 0 of chain 0 is moved by joint 4 and the one before it by joint -1; "
+      ".xml holds only links that follow by 0 to 3 joints, .cfg all");
+}
+
+TEST_CASE("a robot whose file cannot be written keeps the older one") {
+  const TemporaryFolder folder;
+  const RobotSpec robot = bare_hand();
+  const fs::path absent = folder.path() / "absent/hand.cfg";
+  CHECK_THROWS_WITH_AS(write_robot(robot, absent),
+                       fmt::format("{}: the file cannot be written: no such folder: {}",
+                                   absent.string(), absent.parent_path().string())
+                           .c_str(),
+                       Error);
+  fs::create_directory(folder.path() / "hand.xml");
+  CHECK_THROWS_WITH_AS(
+      write_robot(robot, folder.path() / "hand.xml"),
+      fmt::format("{}: wanted a file to write, got a folder", (folder.path() / "hand.xml").string())
+          .c_str(),
+      Error);
+  // a file where the folder of the links should be
+  folder.write("iv", "");
+  const fs::path older = folder.write("hand.cfg", "older");
+  CHECK_THROWS_AS(write_robot(robot, older), Error);
+  CHECK(read_bytes(older) == "older");
+}
+
+TEST_CASE("what neither .cfg nor .xml holds is told, a sentence each") {
+  const TemporaryFolder folder;
+  RobotSpec robot = bare_hand();
+  robot.class_name = "no word";
+  robot.base.material = "felt";
+  robot.chains[0].links[0].joint = LinkJoint::ball;
+  robot.chains[0].links[0].body.appearance.visual = Shape::make(box(1, 1, 1));
+  robot.X_BA = Pose::turn(0.3, Eigen::Vector3d::UnitZ());
+  robot.collision_rules.parts_off = {RobotPart{}};
+  robot.tactile.push_back({});
+  robot.dofs[0].max_velocity = 1;
+  robot.dofs[0].name = "first";
+  const auto xml = written(robot, folder.path() / "hand.xml");
+  const std::vector<std::string> wanted = {
+      "hand.xml: link 0 of chain 0 becomes Revolute, as the number of its joints has it",
+      "hand.xml does not hold the names of DOFs, joints and links",
+      "hand.xml does not hold the name 'any'; the robot is called 'hand' as its file",
+      "hand.xml does not hold the class 'no word'; it is Hand",
+      "hand.xml does not hold the largest velocities of DOFs",
+      "hand.xml does not hold materials of the user's own: felt",
+      "hand.xml does not hold the surfaces that pictures show of 1 links",
+      "hand.xml does not hold how far the approach frame is turned about its direction",
+      "hand.xml does not hold that the base never collides",
+      "hand.xml does not hold that parts which are near each other as it is loaded can collide",
+      "hand.xml does not hold the tactile sensors of the base"};
+  CHECK(xml.lost == wanted);
+}
+
+TEST_CASE("sensors, tendons and contacts stand where they did when their link gets another frame") {
+  const TemporaryFolder folder;
+  RobotSpec robot = bare_hand();
+  const Pose moved{Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d(0, 0.6, 0.8))),
+                   {0.1, 0.2, 0.3}};
+  LinkSpec& link = robot.chains[0].links[0];
+  link.X_JL = moved;
+  link.body.com = Eigen::Vector3d(0.01, 0, 0);
+  link.body.inertia_per_mass = Eigen::Vector3d(1e-4, 2e-4, 2.5e-4).asDiagonal();
+  const Eigen::Vector3d p(0.01, 0.02, 0.03);
+  robot.tactile.push_back({{0, 0}, p, p});
+  robot.tendons.push_back({"t", 1, {}, {}, {{{0, 0}, p, 0}, {{}, p, 0}}});
+  robot.wrappers.push_back({{0, 0}, p, Eigen::Vector3d::UnitX(), 0.01, 0.01, 0, {}, {}});
+  VirtualContactSpec contact;
+  contact.chain = 0;
+  contact.X_LC = Pose::translation(p);
+  robot.virtual_contacts = VirtualContactSet{"any", {contact}};
+  const auto xml = written(robot, folder.path() / "any.xml");
+  const BodySpec& body = xml.robot.chains[0].links[0].body;
+  CHECK((*body.com - moved * *link.body.com).norm() < rounding);
+  const Eigen::Matrix3d R = moved.matrix();
+  CHECK((*body.inertia_per_mass - R * *link.body.inertia_per_mass * R.transpose()).norm() < 1e-17);
+  CHECK((xml.robot.tendons[0].points[0].p_L - moved * p).norm() < rounding);
+  CHECK(xml.robot.tendons[0].points[1].p_L == p);
+  CHECK((xml.robot.wrappers[0].axis_L - R.col(0)).norm() < rounding);
+  CHECK(near(xml.robot.virtual_contacts->contacts[0].X_LC, moved * contact.X_LC));
+  CHECK(xml.told("any.xml does not hold 1 tactile sensors: their links have other axes in it"));
+
+  robot.chains[0].links[0].X_JL = Pose::translation({0.1, 0, 0});
+  const auto shifted = written(robot, folder.path() / "any.xml");
+  CHECK((shifted.robot.tactile.at(0).low_L - p).norm() == doctest::Approx(0.1));
+}
+
+TEST_CASE("axes that lean by a file's digits are told to have a common normal far away") {
+  const TemporaryFolder folder;
+  RobotSpec robot = bare_hand();
+  robot.chains[0].joints.push_back(robot.chains[0].joints[0]);
+  JointSpec& second = robot.chains[0].joints[1];
+  second.placed_freely = true;
+  second.X_before =
+      Pose{Eigen::Quaterniond(Eigen::AngleAxisd(4e-6, Eigen::Vector3d::UnitY())), {0.04, 0, 0}};
+  const auto cfg = written(robot, folder.path() / "any.cfg");
+  CHECK(
+      cfg.told("any.cfg: chain 0: two of its axes are so nearly parallel that their common normal "
+               "lies 1e+04 m away"));
+}
+
+TEST_CASE("a DOF without joints has no place in a .urdf, nor has what counts it") {
+  const TemporaryFolder folder;
+  RobotSpec robot = bare_hand();
+  robot.dofs.resize(2);
+  robot.eigengrasps = identity_eigengrasps(2);
+  robot.glove = GloveCalibration{Eigen::MatrixXd::Ones(2, 3), Eigen::VectorXd::Ones(2)};
+  robot.base.mass = 0;
+  const auto urdf = written(robot, folder.path() / "any.urdf");
+  CHECK(urdf.robot.dofs.size() == 1);
+  for (const char* sentence :
+       {"any.urdf does not hold DOF 1, which moves no joint",
+        "any.urdf does not hold the eigengrasps: they count a DOF that moves no joint",
+        "any.urdf does not hold the calibration of a glove: they count a DOF that moves no joint",
+        "any.urdf does not hold a mass of 0"})
+    CHECK(urdf.told(sentence));
+  CHECK(!fs::exists(folder.path() / "eigen"));
+}
+
+TEST_CASE("what a robot loses with its place and its name in a .cfg is told") {
+  const TemporaryFolder folder;
+  RobotSpec robot = bare_hand();
+  robot.chains[0].links[0].X_JL = Pose::translation({0, 0, 0.1});
+  const auto cfg = written(robot, folder.path() / "other.cfg");
+  CHECK(cfg.lost ==
+        std::vector<std::string>{
+            "other.cfg does not hold where links without a surface have their frames: "
+            "'any_chain0_link0'",
+            "other.cfg does not hold the name 'any'; the robot is called 'other' as its "
+            "file"});
+  CHECK(*cfg.robot.chains[0].links[0].body.com == Eigen::Vector3d(0, 0, 0.1));
+}
+
+TEST_CASE("parts that are equal share their files, and others of one name have their own") {
+  const TemporaryFolder folder;
+  RobotSpec robot = bare_hand();
+  LinkSpec link = robot.chains[0].links[0];
+  link.body.shape = Shape::make(box(1, 1, 1));
+  link.body.file = "/elsewhere/link.iv";
+  robot.chains[0].links.assign(3, link);
+  robot.chains[0].links[2].body.mass = 7;
+  const auto cfg = written(robot, folder.path() / "any.cfg");
+  for (const char* name : {"link.xml", "link.off", "link_2.xml", "base.xml"})
+    CHECK(fs::exists(folder.path() / "iv/any" / name));
+  CHECK(!fs::exists(folder.path() / "iv/any/link_3.xml"));
+  CHECK(!fs::exists(folder.path() / "iv/any/link_2.off"));
+  CHECK(cfg.robot.chains[0].links[2].body.mass == 7);
+}
+
+TEST_CASE("a .cfg of joints of both kinds on one DOF keeps their ratios") {
+  const TemporaryFolder folder;
+  RobotSpec robot = bare_hand();
+  JointSpec slide = robot.chains[0].joints[0];
+  slide.kind = JointKind::prismatic;
+  slide.ratio = 0.037;
+  slide.d = -0.0059;
+  robot.chains[0].joints.push_back(slide);
+  for (const char* name : {"any.cfg", "any.xml"}) {
+    const auto again = written(robot, folder.path() / name);
+    check_equal(robot.chains[0].joints[1], again.robot.chains.at(0).joints.at(1));
+  }
+}

@@ -1,0 +1,373 @@
+#include <algorithm>
+#include <fstream>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "io/dh_robot.h"
+#include "io/read.h"
+#include "io/urdf_plan.h"
+#include "io/write_robot.h"
+#include "robot_compare.h"
+#include "support/shapes.h"
+#include "support/shared.h"
+#include "temporary.h"
+
+using namespace clench;
+using namespace clench::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Written {
+  RobotSpec robot;  ///< read again
+  std::vector<std::string> lost;
+  bool told(const std::string& sentence) const { return std::ranges::count(lost, sentence) > 0; }
+};
+
+Written written(const RobotSpec& robot, const fs::path& path) {
+  Written out;
+  WriteOptions options;
+  options.warn = [&](const std::string& sentence) { out.lost.push_back(sentence); };
+  write_robot(robot, path, options);
+  out.robot = read_robot(path);
+  return out;
+}
+
+RobotSpec gripper() {
+  ReadOptions options;
+  options.packages["gripper_description"] = "tests/data/urdf";
+  return read_robot("tests/data/urdf/gripper.urdf", options);
+}
+
+std::vector<fs::path> shared_hands() {
+  std::vector<fs::path> out;
+  for (const auto& entry : fs::recursive_directory_iterator(shared() / "data/hands-urdf"))
+    if (entry.path().extension() == ".urdf") out.push_back(entry.path());
+  std::ranges::sort(out);
+  return out;
+}
+
+/// DOFs of the same names, ranges, efforts and velocities, moving chains of the same make.
+void check_same_kinematics(const RobotSpec& a, const RobotSpec& b) {
+  CHECK(a.name == b.name);
+  REQUIRE(a.dofs.size() == b.dofs.size());
+  for (size_t d = 0; d < a.dofs.size(); ++d) {
+    CHECK(a.dofs[d].name == b.dofs[d].name);
+    CHECK(a.dofs[d].max_effort == b.dofs[d].max_effort);
+    CHECK(a.dofs[d].max_velocity == b.dofs[d].max_velocity);
+    CHECK(dof_range(a, static_cast<int>(d)) == dof_range(b, static_cast<int>(d)));
+  }
+  REQUIRE(a.chains.size() == b.chains.size());
+  for (size_t c = 0; c < a.chains.size(); ++c) {
+    const ChainSpec &x = a.chains[c], &y = b.chains[c];
+    CHECK(x.parent_chain == y.parent_chain);
+    CHECK(x.parent_link == y.parent_link);
+    REQUIRE(x.joints.size() == y.joints.size());
+    for (size_t j = 0; j < x.joints.size(); ++j) {
+      CHECK(x.joints[j].name == y.joints[j].name);
+      CHECK(x.joints[j].dof == y.joints[j].dof);
+      CHECK(x.joints[j].ratio == y.joints[j].ratio);
+      CHECK(x.joints[j].viscous == y.joints[j].viscous);
+      CHECK(x.joints[j].coulomb == y.joints[j].coulomb);
+    }
+    REQUIRE(x.links.size() == y.links.size());
+    for (size_t l = 0; l < x.links.size(); ++l) {
+      const BodySpec &link = x.links[l].body, &other = y.links[l].body;
+      CHECK(link.name == other.name);
+      CHECK(x.links[l].joint == y.links[l].joint);
+      CHECK(link.mass == other.mass);
+      // turned into the file's axes and back
+      CHECK((inertia_of(link) - inertia_of(other)).norm() <= 1e-13 * inertia_of(link).norm());
+      CHECK((link.shape != nullptr) == (other.shape != nullptr));
+      CHECK(link.appearance.color == other.appearance.color);
+      CHECK(link.appearance.triangle_colors == other.appearance.triangle_colors);
+    }
+  }
+}
+
+/// A robot of one chain of one link, with the name.
+RobotSpec one_link(const std::string& name, const std::string& link_name) {
+  RobotSpec robot;
+  robot.name = name;
+  robot.class_name = "Hand";
+  robot.base.name = name + "_base";
+  robot.dofs.push_back({.name = link_name + " turns"});
+  ChainSpec chain;
+  JointSpec joint;
+  joint.a = 0.1;
+  joint.max = 1;
+  chain.joints.push_back(joint);
+  LinkSpec link;
+  link.body.name = name + "_" + link_name;
+  link.body.shape = Shape::make(box(0.1, 0.02, 0.03));
+  chain.links.push_back(link);
+  robot.chains.push_back(chain);
+  return robot;
+}
+
+std::string contents(const fs::path& path) { return read_bytes(path); }
+
+}  // namespace
+
+TEST_CASE("a robot from a .urdf comes back from one as it was") {
+  const TemporaryFolder folder;
+  const RobotSpec robot = gripper();
+  const auto urdf = written(robot, folder.path() / "other.urdf");
+  check_same_kinematics(robot, urdf.robot);
+  CHECK(largest_gap(robot, urdf.robot, By::name) < 1e-15);
+  CHECK(
+      urdf.told("other.urdf does not hold the approach frame; it is guessed from the geometry "
+                "when it is read"));
+  CHECK(contents(folder.path() / "other.urdf").find("rgba=\"0.5 0.5 0.6 1\"") != std::string::npos);
+}
+
+TEST_CASE("a robot of MuJoCo stands in a .urdf and in a .cfg as it did, whatever its DOFs") {
+  const TemporaryFolder folder;
+  const RobotSpec robot = read_robot("tests/data/mjcf/hand.mjcf");
+  const auto urdf = written(robot, folder.path() / "hand.urdf");
+  CHECK(largest_gap(robot, urdf.robot, By::name) < 1e-12);
+  CHECK(
+      urdf.told("hand.urdf: 'thumb_flex_frame' is a frame without mass between two joints of one "
+                "link"));
+  for (const char* name : {"hand.cfg", "hand.xml"}) {
+    const auto ours = written(robot, folder.path() / name);
+    CHECK(largest_gap(robot, ours.robot, By::number) < 1e-12);
+  }
+}
+
+TEST_CASE("a robot from a .urdf stands in a .cfg and an .xml as it did, whatever its DOFs") {
+  const TemporaryFolder folder;
+  const RobotSpec robot = gripper();
+  for (const char* name : {"other.cfg", "other.xml"}) {
+    INFO(name);
+    const auto ours = written(robot, folder.path() / name);
+    REQUIRE(ours.robot.dofs.size() == robot.dofs.size());
+    CHECK(largest_gap(robot, ours.robot, By::number) < 1e-12);
+    for (size_t d = 0; d < robot.dofs.size(); ++d) {
+      CHECK(dof_range(robot, static_cast<int>(d)) == dof_range(ours.robot, static_cast<int>(d)));
+      CHECK(robot.dofs[d].max_effort == ours.robot.dofs[d].max_effort);
+      CHECK(robot.dofs[d].default_velocity == ours.robot.dofs[d].default_velocity);
+    }
+    for (const ChainSpec& chain : ours.robot.chains) CHECK(chain.parent_chain < 0);
+    const std::string file = name;
+    for (const char* lost : {" does not hold the names of DOFs, joints and links",
+                             " does not hold the largest velocities of DOFs",
+                             " does not hold that links of one chain can collide with each other",
+                             " does not hold the surfaces that pictures show of 1 links"})
+      CHECK(ours.told(file + lost));
+  }
+}
+
+static RobotSpec read_hand(const fs::path& file) {
+  ReadOptions options;
+  options.packages[""] = file.parent_path();
+  return read_robot(file, options);
+}
+
+static void check_hands(std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    const fs::path file = shared() / "data/hands-urdf" / name;
+    INFO(file.string());
+    const RobotSpec robot = read_hand(file);
+    const TemporaryFolder folder;
+    const auto urdf = written(robot, folder.path() / "hand.urdf");
+    check_same_kinematics(robot, urdf.robot);
+    CHECK(largest_gap(robot, urdf.robot, By::name, 3) < 1e-12);
+  }
+}
+
+TEST_CASE("hands of today come back from a .urdf as they were, trees that begin on the palm") {
+  REQUIRE_SHARED();
+  check_hands({"allegro_hand/allegro_hand_right.urdf", "leap_hand/leap_hand_right.urdf"});
+}
+
+TEST_CASE("hands of today come back from a .urdf as they were, followers and wrists") {
+  REQUIRE_SHARED();
+  check_hands({"barrett_hand/bhand_model.urdf", "shadow_hand/shadow_hand_right.urdf"});
+}
+
+TEST_CASE("hands of today stand in a .cfg as they did, where their chains begin on the base") {
+  REQUIRE_SHARED();
+  int held = 0, refused = 0;
+  for (const fs::path& file : shared_hands()) {
+    // the left hands are mirrored right ones
+    if (file.stem().string().ends_with("_left")) continue;
+    INFO(file.string());
+    const RobotSpec robot = read_hand(file);
+    const TemporaryFolder folder;
+    try {
+      const auto cfg = written(robot, folder.path() / "hand.cfg");
+      CHECK(largest_gap(robot, cfg.robot, By::number, 3) < 1e-12);
+      ++held;
+    } catch (const Error& error) {
+      CHECK(std::string(error.what()).find("begins on link") != std::string::npos);
+      CHECK(fs::is_empty(folder.path()));
+      ++refused;
+    }
+  }
+  CHECK(held >= 2);
+  CHECK(refused >= 1);
+}
+
+TEST_CASE(
+    "a chain that begins on a link that moves is refused by .cfg and .xml, and nothing written") {
+  const TemporaryFolder folder;
+  RobotSpec robot = one_link("any", "palm2");
+  ChainSpec branch = robot.chains[0];
+  branch.parent_chain = branch.parent_link = 0;
+  branch.links[0].body.name = "any_tip";
+  robot.chains.push_back(branch);
+  for (const char* name : {"hand.cfg", "hand.xml"})
+    CHECK_THROWS_WITH_AS(
+        write_robot(robot, folder.path() / name),
+        fmt::format("{}: chain 1 begins on link 'any_palm2' of another; .cfg and .xml hold only "
+                    "chains that begin on the base, .urdf holds all",
+                    name)
+            .c_str(),
+        Error);
+  CHECK(fs::is_empty(folder.path()));
+  const auto urdf = written(robot, folder.path() / "hand.urdf");
+  CHECK(largest_gap(robot, urdf.robot, By::name) < 1e-12);
+}
+
+TEST_CASE("names with blanks, quotes and signs of XML come back from every format that has names") {
+  const TemporaryFolder folder;
+  const std::string name = "a \"b\" <c> & 'd'";
+  const RobotSpec robot = one_link(name, name);
+  const auto urdf = written(robot, folder.path() / "my hand & <co>.urdf");
+  CHECK(urdf.robot.name == name);
+  CHECK(urdf.robot.chains[0].links[0].body.name == name + "_" + name);
+  CHECK(urdf.robot.dofs[0].name == name + " turns");
+  for (const char* file : {"my hand & <co>.cfg", "my hand & <co>.xml"}) {
+    const auto ours = written(robot, folder.path() / file);
+    CHECK(largest_gap(robot, ours.robot, By::number) < 1e-15);
+  }
+}
+
+TEST_CASE("links and joints of one name get others, and a name that readers trim is told") {
+  const TemporaryFolder folder;
+  RobotSpec robot = one_link("any", "tip ");
+  robot.chains.push_back(robot.chains[0]);
+  robot.chains[0].joints[0].name = robot.chains[1].joints[0].name = "${x}";
+  const auto urdf = written(robot, folder.path() / "hand.urdf");
+  REQUIRE(urdf.robot.chains.size() == 2);
+  CHECK(urdf.robot.chains[0].links[0].body.name == "any_tip");
+  CHECK(urdf.robot.chains[1].links[0].body.name == "any_tip_2");
+  CHECK(urdf.robot.chains[0].joints[0].name == "_{x}");
+  CHECK(urdf.robot.chains[1].joints[0].name == "_{x}_2");
+  CHECK(urdf.told("hand.urdf: 'tip ' is called 'tip' in it"));
+  CHECK(urdf.told("hand.urdf: 'tip ' is called 'tip_2' in it"));
+  CHECK(urdf.told("hand.urdf: '${x}' is called '_{x}_2' in it"));
+}
+
+TEST_CASE("leaders keep their DOF's order, opposite and partial ratios their sense") {
+  const TemporaryFolder folder;
+  // the first chain moves with the second DOF, and only against or in part
+  RobotSpec robot = one_link("any", "left");
+  robot.dofs.resize(2);
+  robot.dofs[0].name = "first", robot.dofs[1].name = "second";
+  robot.chains[0].joints[0].dof = 1;
+  robot.chains[0].joints[0].ratio = -1;
+  robot.chains.push_back(robot.chains[0]);
+  robot.chains[1].links[0].body.name = "any_right";
+  robot.chains[1].joints[0].dof = 0;
+  robot.chains[1].joints[0].ratio = -0.5;
+  robot.chains.push_back(robot.chains[1]);
+  robot.chains[2].links[0].body.name = "any_middle";
+  robot.chains[2].joints[0].ratio = 0.25;
+  robot.chains[2].joints[0].theta = 0.3;
+  robot.chains[2].joints[0].min = -1;
+  EigengraspSet set = identity_eigengrasps(2);
+  set.origin = Eigen::VectorXd::Constant(2, -0.3);
+  robot.eigengrasps = set;
+  const auto urdf = written(robot, folder.path() / "hand.urdf");
+  CHECK(urdf.robot.dofs[0].name == "first");
+  CHECK(urdf.robot.dofs[1].name == "second");
+  CHECK(urdf.told("hand.urdf: DOF 0 counts 0.5 times as far in it, as its joint 'first' does"));
+  // values of a DOF are those of its first joint turned the DOF's way
+  Random random(4, 0);
+  for (int k = 0; k < 10; ++k) {
+    auto dofs = any_dofs(robot, random);
+    const auto a = placed_points(robot, dofs, By::name);
+    dofs[0] *= 0.5;
+    auto b = placed_points(urdf.robot, dofs, By::name);
+    for (const auto& [name, points] : a)
+      for (size_t i = 0; i < points.size(); ++i) CHECK((points[i] - b[name][i]).norm() < 1e-15);
+  }
+  ReadOptions options;
+  options.eigengrasps = (folder.path() / "eigen/hand.egr").string();
+  const auto again = read_robot(folder.path() / "hand.urdf", options);
+  REQUIRE(again.eigengrasps);
+  CHECK((*again.eigengrasps->origin)[0] == -0.15);
+  CHECK((*again.eigengrasps->norm)[0] == 0.5);
+  CHECK((*again.eigengrasps->norm)[1] == 1);
+}
+
+TEST_CASE("a follower that leaves its leader next to nothing is no slip when it is meant") {
+  const TemporaryFolder folder;
+  RobotSpec robot = one_link("any", "left");
+  robot.chains.push_back(robot.chains[0]);
+  robot.chains[1].links[0].body.name = "any_right";
+  robot.chains[1].joints[0].max = 0.01;
+  const auto urdf = written(robot, folder.path() / "hand.urdf");
+  CHECK(dof_range(urdf.robot, 0) == dof_range(robot, 0));
+}
+
+TEST_CASE("virtual contacts of a .urdf name its own chains and links") {
+  const TemporaryFolder folder;
+  // in the file, the link that two joints move is the second of its chain
+  RobotSpec robot = one_link("any", "tip");
+  robot.chains[0].joints.push_back(robot.chains[0].joints[0]);
+  robot.dofs.emplace_back();
+  robot.chains[0].joints[1].dof = 1;
+  robot.chains[0].links[0].last_joint = 1;
+  VirtualContactSpec contact;
+  contact.chain = 0;
+  contact.X_LC = Pose::translation({0.01, 0.02, 0.03});
+  robot.virtual_contacts = VirtualContactSet{"any", {contact}};
+  write_robot(robot, folder.path() / "hand.urdf");
+  CHECK(!fs::exists(folder.path() / ".hand.saving.urdf"));
+  ReadOptions options;
+  options.virtual_contacts = (folder.path() / "virtual/hand.vgr").string();
+  const auto again = read_robot(folder.path() / "hand.urdf", options);
+  REQUIRE(again.virtual_contacts);
+  const VirtualContactSpec& read = again.virtual_contacts->contacts.at(0);
+  CHECK(read.link == 1);
+  const std::vector<double> dofs = {0.3, 0.4};
+  const Eigen::Vector3d at = link_poses(robot, dofs)[0][0] * contact.X_LC.position;
+  CHECK((link_poses(again, dofs)[0][1] * read.X_LC.position - at).norm() < 1e-12);
+}
+
+TEST_CASE("surfaces of several colours keep them beside a .urdf, transparent ones too") {
+  const TemporaryFolder folder;
+  RobotSpec robot = one_link("any", "tip");
+  Appearance& looks = robot.chains[0].links[0].body.appearance;
+  looks.given = true;
+  looks.transparency = 0.25f;
+  for (int i = 0; i < 12; ++i)
+    looks.triangle_colors.push_back(i < 5 ? Eigen::Vector3f(1, 0, 0.3f) : Eigen::Vector3f(0, 1, 0));
+  const auto urdf = written(robot, folder.path() / "hand.urdf");
+  const Appearance& read = urdf.robot.chains[0].links[0].body.appearance;
+  CHECK(read.triangle_colors == looks.triangle_colors);
+  CHECK(read.transparency == 0.25f);
+  CHECK(!read.visual);
+}
+
+TEST_CASE("rolls, pitches and yaws give turns back, a quarter turn of pitch too") {
+  const TemporaryFolder folder;
+  const double pi = std::numbers::pi;
+  Random random(5, 5);
+  for (int i = 0; i < 40; ++i) {
+    RobotSpec robot = one_link("any", "tip");
+    Pose& X = robot.chains[0].X_BC;
+    const double pitch = i % 4 == 0   ? pi / 2
+                         : i % 4 == 1 ? -pi / 2 + 1e-9 * i
+                                      : random.uniform(-2, 2);
+    X = Pose::turn(random.uniform(-3, 3), Eigen::Vector3d::UnitZ()) *
+        Pose::turn(pitch, Eigen::Vector3d::UnitY()) *
+        Pose::turn(random.uniform(-3, 3), Eigen::Vector3d::UnitX());
+    write_robot(robot, folder.path() / "hand.urdf");
+    CHECK(largest_gap(robot, read_robot(folder.path() / "hand.urdf"), By::name, 1) < 1e-15);
+  }
+}
