@@ -15,9 +15,10 @@ endfunction()
 
 # the same claims with a Lua that throws and one that jumps
 file(GLOB script_sources CONFIGURE_DEPENDS script/*_test.cpp)
+clench_test_program(test_script_cxx ${script_sources})
+clench_test_program(test_script_c $<TARGET_OBJECTS:test_script_cxx>)
 foreach(kind CXX C)
   string(TOLOWER test_script_${kind} target)
-  clench_test_program(${target} ${script_sources})
   target_link_libraries(${target} PRIVATE clench_script PkgConfig::LUA_${kind})
   if(CLENCH_SANITIZE)
     lua_test(${target} ${target})

@@ -116,7 +116,7 @@ function world:add_obstacle(body, options) end
 
 ---Adds a robot from a file.
 ---@param path string # .cfg .xml .urdf .mjcf
----@param options? {pose?: pose, name?: string, root?: string, folder?: string, package?: string|table, close?: table, approach?: {point?: vec3, direction: vec3}} # folder: where names in the file are looked up, too; of a URDF or MJCF: package: the folder of its packages, or folders by name; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
+---@param options? {pose?: pose, name?: string, root?: string, folder?: string, package?: string|table, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}} # folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
 ---@return robot
 function world:add_robot(path, options) end
 
@@ -232,6 +232,10 @@ local mesh = {}
 ---Does the surface bound a solid: every edge between two triangles that agree?
 ---@return boolean
 function mesh:is_watertight() end
+
+---Writes the triangles, in metres. Numbers keep every digit, in .stl seven.
+---@param path string # .obj .off .ply .stl
+function mesh:save(path) end
 
 ---What every robot has for grasping: eigengrasps, virtual contacts, a glove, a position sensor.
 ---@class hand: thing

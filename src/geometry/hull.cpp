@@ -10,7 +10,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "math/svd.h"
+#include "math/decompositions.h"
 
 namespace clench {
 

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "grasp/wrench_hull.h"
-#include "math/svd.h"
+#include "math/decompositions.h"
 
 namespace clench {
 

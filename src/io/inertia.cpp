@@ -1,15 +1,13 @@
 #include "io/inertia.h"
 
-#include <Eigen/Eigenvalues>
+#include "math/decompositions.h"
 
 namespace clench {
 
 /// All moments finite and > 0; 1e-12 of the largest is rounding.
 static bool is_inertia(const Eigen::Matrix3d& symmetric) {
   if (!symmetric.allFinite()) return false;
-  const Eigen::Vector3d moments =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(symmetric, Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const Eigen::Vector3d moments = eigenvalues(symmetric);
   return moments[0] > 0 && moments[0] > 1e-12 * moments[2];
 }
 

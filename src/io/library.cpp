@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "io/body_xml.h"
+#include "io/closing_choice.h"
 #include "io/inventor.h"
 #include "io/inventor_params.h"
 #include "io/mesh_files.h"
@@ -80,6 +81,11 @@ static RobotSpec load_robot(const fs::path& path, Library& library) {
     fail("{}: wanted a robot from .cfg, .xml, .urdf or .mjcf, got {}", path.filename().string(),
          in_quotes(extension));
   robot.file = absolute_name(path);
+  const ReadOptions& options = library.options();
+  if (!is_robot_tree(path)) choose_closing(robot, path.filename().string(), options);
+  if (!options.folder.empty()) robot.files.folder = absolute_name(options.folder);
+  for (const auto& [name, folder] : options.packages)
+    robot.files.packages[name] = absolute_name(folder);
   return robot;
 }
 

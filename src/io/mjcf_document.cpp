@@ -5,6 +5,7 @@
 
 #include "base/suggest.h"
 #include "base/units.h"
+#include "math/decompositions.h"
 
 namespace clench {
 
@@ -147,7 +148,7 @@ static Eigen::Quaterniond about(char axis, double angle) {
 
 /// Turns z to a direction, about their common normal.
 static Eigen::Quaterniond z_to(const Eigen::Vector3d& direction) {
-  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), direction).normalized();
+  return least_turn(Eigen::Vector3d::UnitZ(), direction).normalized();
 }
 
 Eigen::Quaterniond MjcfDocument::orientation(const XmlValues& values) const {

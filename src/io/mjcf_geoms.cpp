@@ -5,6 +5,7 @@
 #include "base/suggest.h"
 #include "geometry/hull.h"
 #include "io/tree_shapes.h"
+#include "math/decompositions.h"
 
 namespace clench {
 
@@ -149,10 +150,8 @@ void MjcfGeoms::set_primitive(const std::string& type, const XmlValues& values, 
     const double length = (to - from).stableNorm();
     if (!(length > 0)) values.fail("fromto", "wanted two points, got the same twice");
     if (size.empty()) values.fail("size", "wanted a radius, got none");
-    X = {
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), (from - to).stableNormalized())
-            .normalized(),
-        0.5 * (from + to)};
+    X = {least_turn(Eigen::Vector3d::UnitZ(), (from - to).stableNormalized()).normalized(),
+         0.5 * (from + to)};
     size = round ? std::vector{size[0], length / 2} : std::vector{size[0], size[0], length / 2};
   }
   if (size.size() < wanted)

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "io/library.h"
 #include "io/robot_files.h"
+#include "io/tree_files.h"
 #include "io/world_wld.h"
 #include "io/world_xml.h"
 
@@ -38,6 +39,8 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
   const auto found = find_file(path.string(), "", options);
   const std::string extension = lower_case(found.extension().string());
   WorldSpec world;
+  if (is_robot_tree(found))
+    fail("{}: wanted a world, got a robot; world:add_robot loads it", found.filename().string());
   if (extension == ".wld")
     world = read_world_wld(found, library);
   else if (extension == ".xml")

@@ -28,10 +28,10 @@ struct ReadOptions {
   std::filesystem::path folder = {};
   /// where the packages lie that URDF files name: by name; under "" any of them
   std::map<std::string, std::filesystem::path> packages = {};
-  /// how DOFs of URDF and MJCF hands close, by name or number from 1: > 0 up, < 0 down, 0 not; the
-  /// rest is guessed
+  /// how DOFs close, by name or number from 1: > 0 up, < 0 down, 0 not; the
+  /// rest is as the file says, else guessed
   std::map<std::string, double> closing = {};
-  /// approach frame of URDF and MJCF hands in the base; absent: guessed
+  /// approach frame in the base; absent: what the file says, else guessed
   std::optional<Pose> approach = {};
   /// .dae .gltf .glb: turn what the file calls up to z? (A URDF takes the axes as they stand.)
   bool turn_mesh_up = true;

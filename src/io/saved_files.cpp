@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "io/world_parts.h"
 #include "io/write_file.h"
+#include "io/write_mesh.h"
 #include "io/xml.h"
 #include "spec/material_names.h"
 
@@ -89,7 +90,14 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
     fail("robot '{}' cannot be saved: it does not come from a file", robot.name);
   const RobotSpec* read = nullptr;
   try {
-    read = &library_.robot(robot.file);
+    if (robot.files.folder.empty() && robot.files.packages.empty()) {
+      read = &library_.robot(robot.file);
+    } else {
+      ReadOptions options = reading_;
+      options.folder = robot.files.folder;
+      options.packages.insert(robot.files.packages.begin(), robot.files.packages.end());
+      read = &(given_[robot.name] = Library(options).robot(robot.file));
+    }
   } catch (const Error& error) {
     fail("robot '{}' cannot be saved: {}", robot.name, error.what());
   }
@@ -119,12 +127,8 @@ fs::path SavedFiles::beside(const std::string& name, const std::string& ending) 
 
 fs::path SavedFiles::write_surface(const BodySpec& body) {
   if (!body.shape) return {};
-  const Mesh& mesh = body.shape->mesh();
-  std::string text = fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
-  for (const auto& v : mesh.vertices) text += fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
-  for (const auto& t : mesh.triangles) text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
   const fs::path file = beside(body.name, ".off");
-  write_file(file, text);
+  write_mesh(body.shape->mesh(), file);
   return file;
 }
 
@@ -156,11 +160,14 @@ std::string body_elements(const BodySpec& body, const std::string& surface,
   return out;
 }
 
+std::string body_xml_text(const BodySpec& body, const std::string& surface) {
+  return "<?xml version=\"1.0\" ?>\n<root>\n" + body_elements(body, surface, "  ") + "</root>\n";
+}
+
 fs::path SavedFiles::write_body(const BodySpec& body) {
   const std::string surface = write_surface(body).filename().string();
   const fs::path file = beside(body.name, ".xml");
-  write_file(file, "<?xml version=\"1.0\" ?>\n<root>\n" + body_elements(body, surface, "  ") +
-                       "</root>\n");
+  write_file(file, body_xml_text(body, surface));
   return file;
 }
 

@@ -1,6 +1,7 @@
 // The files that a saved world names: how they are called in it, what they hold, and those that are
 // written beside it.
 #pragma once
+#include <map>
 #include <set>
 
 #include "io/library.h"
@@ -44,6 +45,7 @@ class SavedFiles {
   ReadOptions reading_;
   Library library_;
   std::function<void(const std::string&)> warn_;
+  std::map<std::string, RobotSpec> given_;  // robots whose reading was given folders, by name
   std::set<std::string> taken_;
   std::set<std::string> warned_;
 };
@@ -51,5 +53,7 @@ class SavedFiles {
 /// The elements of an XML body, a line each, `indent` before them.
 std::string body_elements(const BodySpec& body, const std::string& surface,
                           const std::string& indent);
+/// An XML body whole; `surface` is how it names its .off, empty when it has none.
+std::string body_xml_text(const BodySpec& body, const std::string& surface);
 
 }  // namespace clench

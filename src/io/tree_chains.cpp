@@ -3,25 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/suggest.h"
 #include "base/text.h"
+#include "io/closing_choice.h"
 #include "io/closing_guess.h"
+#include "math/decompositions.h"
 
 namespace clench {
 
 namespace {
 
-// paces of closing, where a file says none
-constexpr double turning = 1;     // [rad/s]
-constexpr double sliding = 0.05;  // [m/s]
 // a follower's limits that leave its leader less than this part of its range are taken for a slip
 constexpr double least_range = 0.1;
 
 /// Turns z to the axis: about their common normal.
 Pose axis_frame(const Eigen::Vector3d& axis) {
   if (axis == Eigen::Vector3d::UnitZ()) return {};
-  return Pose::turn(
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).normalized());
+  return Pose::turn(least_turn(Eigen::Vector3d::UnitZ(), axis).normalized());
 }
 
 class ChainMaker {
@@ -38,7 +35,6 @@ class ChainMaker {
   JointSpec joint_spec(const TreeJoint& joint, const Pose& before) const;
   LinkSpec link_spec(int link) const;
   void close_hand();
-  void set_velocity(int dof, double sense);
   void tell_closing(const ClosingGuess& guess);
   RobotPart part(int link) const { return parts_[link]; }
 
@@ -179,14 +175,6 @@ void ChainMaker::add_link(int link) {
   chain.links.push_back(std::move(spec));
 }
 
-void ChainMaker::set_velocity(int dof, double sense) {
-  bool slides = false;
-  for (const auto& chain : robot_.chains)
-    for (const auto& joint : chain.joints)
-      if (joint.dof == dof && joint.kind == JointKind::prismatic && joint.ratio == 1) slides = true;
-  robot_.dofs[dof].default_velocity = sense * (slides ? sliding : turning);
-}
-
 void ChainMaker::tell_closing(const ClosingGuess& guess) {
   std::string closing;
   int told = 0;
@@ -212,22 +200,9 @@ void ChainMaker::tell_closing(const ClosingGuess& guess) {
 void ChainMaker::close_hand() {
   const ClosingGuess guess = guess_closing(tree_);
   for (size_t j = 0; j < tree_.joints.size(); ++j)
-    if (dof_of_[j] >= 0) set_velocity(dof_of_[j], guess.senses[j]);
-  std::vector<std::string> names;
-  for (const DofSpec& dof : robot_.dofs) names.push_back(dof.name);
-  for (const auto& [key, sense] : library_.options().closing) {
-    auto found = std::find(names.begin(), names.end(), key);
-    const auto number = parse_integer(key);
-    if (found == names.end() && number && *number >= 1 && *number <= static_cast<int>(names.size()))
-      found = names.begin() + (*number - 1);
-    if (found == names.end())
-      fail("{}: close: wanted the name of a DOF or a number from 1 to {}, got {}{}", file_,
-           names.size(), in_quotes(key), did_you_mean(key, names));
-    if (!std::isfinite(sense)) fail("{}: close: {}: wanted a number, got {}", file_, key, sense);
-    const int dof = static_cast<int>(found - names.begin());
-    set_velocity(dof, sense > 0 ? 1 : sense < 0 ? -1 : 0);
-  }
-  robot_.X_BA = library_.options().approach ? library_.options().approach : guess.X_BA;
+    if (dof_of_[j] >= 0) set_closing(robot_, dof_of_[j], guess.senses[j]);
+  robot_.X_BA = guess.X_BA;
+  choose_closing(robot_, file_, library_.options());
   tell_closing(guess);
 }
 

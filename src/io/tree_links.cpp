@@ -1,10 +1,10 @@
 #include "io/tree_links.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "base/text.h"
+#include "math/decompositions.h"
 
 namespace clench {
 
@@ -16,8 +16,7 @@ Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
   body.mass = mass;
   body.com = X_LC.position;
   const Eigen::Matrix3d R = X_LC.matrix(), inertia = R * inertia_C * R.transpose() / mass;
-  const Eigen::Vector3d moments =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Vector3d moments = eigenvalues(inertia);
   if (!inertia.allFinite() || !(moments[0] > 0)) return Inertial::not_definite;
   body.inertia_per_mass = inertia;
   // no body has a moment above the sum of the others; files round

@@ -105,6 +105,7 @@ class LuaWriter {
   void change_parts(const RobotSpec& now, const RobotSpec& was, int index);
   void set_dofs(const PlacedRobot& placed, int index);
   std::string sets_of(const RobotSpec& now, const RobotSpec& was);
+  std::string choices_of(const RobotSpec& now, const RobotSpec& was);
   void switch_collision();
   void add_camera();
   std::string file(const std::string& path);
@@ -161,8 +162,8 @@ void LuaWriter::add_body(const PlacedBody& placed) {
     made = file(files_.write_body(body).generic_string());
   if (!read && !body.appearance.triangle_colors.empty())
     files_.warn(fmt::format("the colours of the triangles of '{}' are not saved", body.name));
-  std::string options = fmt::format("name = {}, pose = {}{}", as_lua(body.name),
-                                    pose(placed.X_WB), root_option());
+  std::string options =
+      fmt::format("name = {}, pose = {}{}", as_lua(body.name), pose(placed.X_WB), root_option());
   std::string after;
   for (const auto& [key, value] : changes(body, read ? *read : bare, true)) {
     if (value == "nil")
@@ -268,13 +269,33 @@ std::string LuaWriter::sets_of(const RobotSpec& now, const RobotSpec& was) {
   return out;
 }
 
+/// What its reading was given, and what was chosen of how it closes and approaches.
+std::string LuaWriter::choices_of(const RobotSpec& now, const RobotSpec& was) {
+  std::string out, list;
+  if (!now.files.folder.empty()) out += ", folder = " + file(now.files.folder);
+  for (const auto& [name, folder] : now.files.packages)
+    list += fmt::format("[{}] = {}, ", as_lua(name), file(folder));
+  if (!list.empty()) out += fmt::format(", package = {{{}}}", list);
+  list.clear();
+  for (size_t i = 0; i < now.dofs.size(); ++i) {
+    const double v = now.dofs[i].default_velocity;
+    if (v != was.dofs[i].default_velocity)
+      list += fmt::format("[{}] = {}, ", i + 1, v > 0 ? 1 : v < 0 ? -1 : 0);
+  }
+  if (!list.empty()) out += fmt::format(", close = {{{}}}", list);
+  const bool same_approach = now.X_BA.value_or(Pose{}) == was.X_BA.value_or(Pose{});
+  if (!same_approach && now.X_BA)
+    out += fmt::format(", approach = {{frame = {}}}", pose(*now.X_BA));
+  return out;
+}
+
 void LuaWriter::add_robot(int index) {
   const PlacedRobot& placed = world_.robots[index];
   const RobotSpec& robot = placed.robot;
   const RobotSpec& read = files_.again(robot);
   line(fmt::format("robots[{}] = world:add_robot({}, {{name = {}, pose = {}{}{}}})", index + 1,
                    file(robot.file), as_lua(robot.name), pose(placed.X_WB), root_option(),
-                   sets_of(robot, read)));
+                   choices_of(robot, read) + sets_of(robot, read)));
   rename_parts(robot, read, index);
   change_parts(robot, read, index);
   set_dofs(placed, index);
@@ -288,8 +309,7 @@ void LuaWriter::add_connection(const Connection& c) {
     piece = ", piece = " + file(path) + root_option();
     const std::string usual = world_.robots[c.child].robot.name + "_mount";
     if (c.mount->name != usual)
-      after +=
-          fmt::format("world:body({}).name = {}\n", as_lua(usual), as_lua(c.mount->name));
+      after += fmt::format("world:body({}).name = {}\n", as_lua(usual), as_lua(c.mount->name));
     // one written just now says all that the format holds
     if (read)
       for (const auto& [key, value] : changes(*c.mount, *read, false))

@@ -1,10 +1,10 @@
 #include "model/world.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "base/error.h"
 #include "base/suggest.h"
+#include "math/decompositions.h"
 
 namespace clench {
 
@@ -388,8 +388,7 @@ void World::set_inertia(Id<Body> id, const Eigen::Matrix3d& inertia) {
   const Body& b = body(id);
   const double size = inertia.cwiseAbs().maxCoeff();
   const bool symmetric = (inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * size;
-  if (!inertia.allFinite() || !symmetric ||
-      Eigen::LLT<Eigen::Matrix3d>(inertia).info() != Eigen::Success)
+  if (!inertia.allFinite() || !symmetric || !is_positive_definite(inertia))
     fail("body '{}': its inertia must be symmetric and positive definite [kg m^2]", b.name);
   edit(id).inertia_per_mass = inertia / b.mass;
 }

@@ -1,10 +1,9 @@
 #include "motion/eigengrasps.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "base/error.h"
+#include "math/decompositions.h"
 
 namespace clench {
 
@@ -34,7 +33,7 @@ Eigengrasps::Eigengrasps(const EigengraspSet& set, const std::vector<Range>& lim
     eigenvalues_[i] = set.grasps[i].eigenvalue;
     own_limits_.push_back(set.grasps[i].limits);
   }
-  projection_ = (vectors_ * vectors_.transpose()).ldlt().solve(vectors_);
+  projection_ = solve_symmetric(vectors_ * vectors_.transpose(), vectors_);
 
   norm_ = set.norm.value_or(VectorXd::Ones(set.dofs));
   origin_ = set.origin.value_or(VectorXd::Zero(set.dofs));
@@ -150,8 +149,7 @@ EigengraspSet principal_eigengrasps(const std::vector<VectorXd>& postures, int c
 
   // ascending eigenvalues
   const MatrixXd covariance = rows.transpose() * rows / static_cast<double>(rows.rows() - 1);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(covariance);
-  const VectorXd& values = solver.eigenvalues();
+  const auto [values, vectors] = eigensystem(covariance);
   // what rounding leaves of a direction in which nothing varies
   const double nothing = 1e-12 * std::max(values[dofs - 1], 0.0);
   int varied = 0;
@@ -163,7 +161,7 @@ EigengraspSet principal_eigengrasps(const std::vector<VectorXd>& postures, int c
          varied, count);
   for (int i = 0; i < (count ? count : varied); ++i)
     set.grasps.push_back(
-        {with_sign(solver.eigenvectors().col(dofs - 1 - i)), values[dofs - 1 - i], std::nullopt});
+        {with_sign(vectors.col(dofs - 1 - i)), values[dofs - 1 - i], std::nullopt});
   return set;
 }
 

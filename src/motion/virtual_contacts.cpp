@@ -1,11 +1,11 @@
 #include "motion/virtual_contacts.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "base/error.h"
 #include "contact/cone.h"
 #include "contact/friction_edges.h"
+#include "math/decompositions.h"
 
 namespace clench {
 
@@ -110,7 +110,7 @@ std::vector<std::vector<Piece>> shares(std::vector<Piece> pieces, int count) {
   Matrix3d spread = Matrix3d::Zero();
   for (const Piece& p : pieces)
     spread += p.swept / all * (p.centre - mean) * (p.centre - mean).transpose();
-  const Vector3d along = Eigen::SelfAdjointEigenSolver<Matrix3d>(spread).eigenvectors().col(2);
+  const Vector3d along = eigensystem(spread).vectors.col(2);
   std::stable_sort(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) {
     return along.dot(a.centre) < along.dot(b.centre);
   });

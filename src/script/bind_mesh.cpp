@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "io/write_mesh.h"
 #include "script/guard.h"
 #include "script/push.h"
 #include "script/table.h"
@@ -42,6 +43,12 @@ static int get_triangles(lua_State* L) {
   return push_list_of(L, shape_of(L).mesh().triangles, [&](const Triangle& t) {
     push_list_of(L, t, [&](int index) { push(L, index + 1); });
   });
+}
+
+static int save(lua_State* L) {
+  check_count(L, 1);
+  write_mesh(shape_of(L).mesh(), check_string(L, 2, "path"));
+  return 0;
 }
 
 static int text(lua_State* L) {
@@ -101,6 +108,14 @@ static const Entry methods[] = {
 Does the surface bound a solid: every edge between two triangles that agree?
 @return boolean
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh:is_watertight()  --> true)"},
+    {"save", guarded<save>, R"(
+Writes the triangles, in metres. Numbers keep every digit, in .stl seven.
+@param path string  .obj .off .ply .stl
+> path = os.tmpname() .. ".obj"
+> flask.mesh:save(path)
+> world:add_object(path).mesh.volume == flask.mesh.volume  --> true
+> os.remove(path)
+> flask.mesh:save "flask.glb"  --> error: flask.glb: wanted a mesh to .obj, .off, .ply or .stl, got '.glb')"},
 };
 
 static const Entry operators[] = {

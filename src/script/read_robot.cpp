@@ -66,12 +66,16 @@ static void read_approach(lua_State* L, Table& options, ReadOptions& reading) {
   const int type = options.push("approach");
   if (type == LUA_TTABLE) {
     Table table(L, lua_gettop(L), options.subject() + ": approach");
-    const Eigen::Vector3d point = table.vec3("point", {0, 0, 0}),
-                          direction = table.vec3("direction");
+    if (table.has("frame")) {
+      reading.approach = table.pose("frame");
+    } else {
+      const Eigen::Vector3d point = table.vec3("point", {0, 0, 0});
+      reading.approach = approach_frame(point, table.vec3("direction"));
+    }
     table.done();
-    reading.approach = approach_frame(point, direction);
   } else if (type != LUA_TNIL) {
-    fail_wanted(options.what("approach"), "a table {point = ..., direction = ...}", -1);
+    fail_wanted(options.what("approach"), "a table {point = ..., direction = ...} or {frame = ...}",
+                -1);
   }
   lua_pop(L, 1);
 }

@@ -1,5 +1,6 @@
 // A robot as a file describes it: a base, chains of joints after Denavit and Hartenberg, links, DOFs.
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,7 +53,7 @@ enum class LinkJoint { revolute, prismatic, universal, ball, fixed };
 struct LinkSpec {
   BodySpec body;                          ///< frame: after its last joint, then X_JL
   LinkJoint joint = LinkJoint::revolute;  ///< how dynamics attaches it to the link before
-  int last_joint = 0;  ///< index in the chain of the last joint that moves it; -1: none
+  int last_joint = 0;             ///< index in the chain of the last joint that moves it; -1: none
   std::optional<Pose> X_JL = {};  ///< in the frame after that joint; absent: it is that frame
 };
 
@@ -74,26 +75,30 @@ struct TrackerSpec {
 
 /// What of a robot may never collide, beside its neighbours.
 struct CollisionRules {
-  std::vector<RobotPart> parts_off;                  ///< with nothing at all
-  std::vector<std::array<RobotPart, 2>> pairs_off;   ///< with each other
+  std::vector<RobotPart> parts_off;                 ///< with nothing at all
+  std::vector<std::array<RobotPart, 2>> pairs_off;  ///< with each other
   bool near_pairs_off = false;  ///< nor parts nearer than the contact threshold as it is loaded
 };
 
 /// Files that a robot's file names, resolved; empty: none.
 struct RobotFiles {
   std::string eigengrasps, virtual_contacts, glove_calibration;
+  /// what its reading was given to find them, absolute: a folder, and folders of URDF packages
+  std::string folder = {};
+  std::map<std::string, std::string> packages = {};
 };
 
 struct RobotSpec {
   std::string name;
-  std::string source;      ///< file it was read from, as it was named
-  std::string file;        ///< the same, absolute
-  std::string class_name;  ///< first token of the file, e.g. "Barrett"
+  std::string source;         ///< file it was read from, as it was named
+  std::string file;           ///< the same, absolute
+  std::string class_name;     ///< first token of the file, e.g. "Barrett"
   std::string database_name;  ///< in a database of grasps; empty: none
   BodySpec base;
   std::vector<DofSpec> dofs;
   std::vector<ChainSpec> chains;
-  bool chain_links_collide = false;  ///< may links of one chain meet that are no neighbours? the original's never do
+  bool chain_links_collide =
+      false;  ///< may links of one chain meet that are no neighbours? the original's never do
   CollisionRules collision_rules;
   std::optional<Pose> X_BA;  ///< approach frame in the base: +z is the direction of approach
   std::optional<EigengraspSet> eigengrasps;

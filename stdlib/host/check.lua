@@ -1,5 +1,5 @@
 --- `clench check`: files read for a person's eyes, or as JSON for a program's.
-local report = require "clench.host.report"
+local report = require "clench.report"
 local check = {}
 
 -- numbers with their unit, as people say them
@@ -84,12 +84,15 @@ function print_kind.world(world)
   for _, pair in ipairs(world.overlaps) do print(("  %s and %s overlap"):format(pair[1], pair[2])) end
 end
 
-function print_kind.eigengrasps(set) print(("  %d eigengrasps of %d DOFs"):format(set.count, set.dofs)) end
+function print_kind.eigengrasps(set) print(("  %d of %d DOFs"):format(set.count, set.dofs)) end
 
-print_kind["virtual contacts"] = function(set) print(("  %d virtual contacts"):format(set.count)) end
+print_kind["virtual contacts"] = function(set) print(("  %d of %s"):format(set.count, set.robot)) end
+
+local nouns = {body = "a body", robot = "a robot", world = "a world"}
 
 local function print_report(r)
-  print(("%s: %s"):format(r.file, r.understood and "a " .. r.kind or r.kind and "not a " .. r.kind .. " that can be read" or "not read"))
+  local noun = nouns[r.kind] or r.kind
+  print(("%s: %s"):format(r.file, r.understood and noun or noun and ("not %s that can be read"):format(noun) or "not read"))
   if r.understood then print_kind[r.kind](r.understood) end
   for _, list in ipairs {"guessed", "ignored"} do
     for _, sentence in ipairs(r[list]) do print(("  %s: %s"):format(list, sentence)) end

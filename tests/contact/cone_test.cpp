@@ -1,12 +1,11 @@
 #include "contact/cone.h"
 
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "support/measured.h"
 #include "support/shared.h"
 
 using namespace clench;
@@ -89,9 +88,7 @@ TEST_CASE("the wrenches of the original's contacts come out again") {
   REQUIRE_SHARED();
   int compared = 0;
   for (const char* name : {"dlr_flask", "barrett_flask_bestSA", "plannerMug"}) {
-    std::ifstream file(test::shared() / "reference" / ("autograsp_" + std::string(name) + ".json"));
-    REQUIRE(file);
-    const auto measured = nlohmann::json::parse(file);
+    const auto measured = test::measured("autograsp_" + std::string(name));
     const auto vector = [](const nlohmann::json& v) {
       return Eigen::Vector3d(v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
     };

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "math/decompositions.h"
 #include "support/shapes.h"
 
 using namespace clench;
@@ -278,8 +279,7 @@ TEST_CASE("an edge on a face touches at its ends, a corner at one point") {
   const Pose on_edge{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitX())),
                      {0, 0, h + thin}};
   CHECK(contact_set(*plane, *box, on_edge).size() == 2);
-  const Eigen::Quaterniond tip =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d(1, 1, 1), -Vector3d::UnitZ());
+  const Eigen::Quaterniond tip = least_turn(Vector3d(1, 1, 1), -Vector3d::UnitZ());
   const Pose on_corner{tip, {0, 0, 0.025 * std::sqrt(3.0) + thin}};
   CHECK(contact_set(*plane, *box, on_corner).size() == 1);
   // two edges crossed: their crossing only

@@ -1,14 +1,13 @@
 #include "grasp/wrench_space.h"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "base/error.h"
 #include "base/random.h"
 #include "support/linear.h"
+#include "support/measured.h"
 #include "support/shared.h"
 
 using namespace clench;
@@ -162,15 +161,10 @@ TEST_CASE("axes pushed with different strength: epsilon by the distance of a pla
 
 TEST_CASE("the original's wrench sets give the exact hull's epsilon and volume") {
   REQUIRE_SHARED();
-  const auto read = [](const std::string& name) {
-    std::ifstream file(test::shared() / "reference" / (name + ".json"));
-    REQUIRE(file);
-    return nlohmann::json::parse(file);
-  };
   int compared = 0;
-  const auto exact = read("gws_exact_check");
+  const auto exact = test::measured("gws_exact_check");
   for (const std::string name : {"dlr_flask", "barrett_flask_bestSA", "plannerMug"}) {
-    const WrenchSpace space(contacts_of(read("autograsp_" + name)));
+    const WrenchSpace space(contacts_of(test::measured("autograsp_" + name)));
     const auto& wanted = exact[name]["Qt_no_joggle"];
     // -1 there says no force closure
     CHECK(std::abs(space.epsilon() - std::max(0.0, wanted["epsilon"].get<double>())) < 1e-9);

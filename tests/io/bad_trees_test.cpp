@@ -78,6 +78,23 @@ TEST_CASE("a circle of includes over several files is found") {
   CHECK_THROWS_WITH_AS(read_robot(file), "c.xml:2: include: 'b.xml' includes itself", Error);
 }
 
+TEST_CASE("a robot is no world, and the error says what loads it") {
+  CHECK_THROWS_WITH_AS(read_world("tests/data/urdf/gripper.urdf"),
+                       "gripper.urdf: wanted a world, got a robot; world:add_robot loads it",
+                       Error);
+}
+
+TEST_CASE("how a hand closes and approaches may be said of robots of every format") {
+  ReadOptions options;
+  options.closing = {{"1", -1}, {"2", 0}};
+  options.approach = approach_frame({0, 0, 1}, {0, 1, 0});
+  const fs::path cfg = "tests/data/two_finger/claw.cfg";
+  const RobotSpec plain = read_robot(cfg), chosen = read_robot(cfg, options);
+  CHECK(chosen.dofs[0].default_velocity == -std::abs(plain.dofs[0].default_velocity));
+  CHECK(chosen.dofs[1].default_velocity == 0);
+  CHECK(*chosen.X_BA == *options.approach);
+}
+
 TEST_CASE("options that name no DOF, or no number, are refused by name") {
   ReadOptions options;
   const fs::path gripper = "tests/data/urdf/gripper.urdf";

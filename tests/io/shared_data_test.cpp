@@ -1,13 +1,12 @@
 // The text models of the original, where they are at hand, against what the original measured on
 // them.
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "io/read.h"
+#include "support/measured.h"
 #include "support/shared.h"
 
 using namespace clench;
@@ -25,11 +24,6 @@ static std::vector<fs::path> files_below(const fs::path& folder,
   }
   std::sort(out.begin(), out.end());
   return out;
-}
-
-static nlohmann::json reference(const std::string& name) {
-  std::ifstream in(test::shared() / "reference" / (name + ".json"));
-  return nlohmann::json::parse(in);
 }
 
 static Eigen::Vector3d vector(const nlohmann::json& j) {
@@ -93,7 +87,7 @@ TEST_CASE("triangles, bounds, area, mass and material are those of the original"
   REQUIRE_SHARED();
   std::map<std::string, nlohmann::json> bodies;
   for (const auto& name : worlds) {
-    const auto measured = reference("world_" + name);
+    const auto measured = test::measured("world_" + name);
     for (const auto& body : measured.at("bodies"))
       bodies[body.at("file").get<std::string>()] = body;
   }
@@ -129,7 +123,7 @@ TEST_CASE("poses, DOFs and approach frames are those of the original") {
   REQUIRE_SHARED();
   for (const auto& name : worlds) {
     INFO(name);
-    const auto measured = reference("world_" + name);
+    const auto measured = test::measured("world_" + name);
     const WorldSpec world = read_world(root() / "worlds" / (name + ".wld"));
     for (size_t i = 0; i < world.bodies.size(); ++i) {
       const auto& pose = measured.at("bodies").at(i).at("pose");

@@ -1,5 +1,5 @@
 -- What `clench check` says of files.
-local test, report = require "test", require "clench.host.report"
+local test, report = require "test", require "clench.report"
 
 test("a body is told with its numbers", function(t)
   local r = report.of "models/objects/flask.iv"

@@ -1,11 +1,9 @@
 #include "motion/eigengrasps.h"
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "base/error.h"
 #include "base/random.h"
 #include "io/read.h"
+#include "support/measured.h"
 #include "support/robots.h"
 #include "support/shared.h"
 
@@ -307,8 +305,7 @@ TEST_CASE("24 postures of three hands have the amplitudes that the original meas
       {"eigen_hh20", "HumanHand/HumanHand20DOF.cfg", "HumanHand/eigen/human_eigen_cgdb.xml"}};
   for (const auto& [name, file, set] : cases) {
     INFO(name);
-    std::ifstream in(shared() / "reference" / (std::string(name) + ".json"));
-    const auto measured = nlohmann::json::parse(in);
+    const auto measured = test::measured(name);
     ReadOptions options;
     if (*set) options.eigengrasps = (xml / set).string();
     World world;

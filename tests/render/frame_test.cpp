@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "math/decompositions.h"
 #include "pictures.h"
 
 using namespace clench;
@@ -65,7 +66,7 @@ TEST_CASE("the view is from that side which shows what is seen through") {
   Eigen::Vector3d side = open.eye - open.target;
   side.z() = 0;
   side.normalize();
-  const Pose X_WM{Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), side), 0.6 * side};
+  const Pose X_WM{least_turn(Eigen::Vector3d::UnitX(), side), 0.6 * side};
   scene.meshes.push_back(solid(box(0.1, 2, 2), {1, 1, 1}, X_WM));
   const Eye moved = frame_all(scene, 1);
   // the ball's centre seen from the eye does not lie beyond the wall's plane

@@ -86,11 +86,14 @@ local readers = {
   body = function(path, options) return of_body(clench.world():add_object(path, options)) end,
   robot = function(path, options) return of_robot(clench.world():add_robot(path, options)) end,
   world = function(path, options) return of_world(clench.load(path, options)) end,
-  eigengrasps = function(path)
-    local set = clench.eigengrasps(path)
-    return {dofs = set.dof_count, count = #set}
+  eigengrasps = function(path, options)
+    local set = clench.files.eigengrasps(path, options)
+    return {dofs = #set.origin, count = #set.vectors}
   end,
-  ["virtual contacts"] = function(path) return {count = #clench.virtual_contacts(path)} end,
+  ["virtual contacts"] = function(path, options)
+    local list = clench.files.virtual_contacts(path, options)
+    return {count = #list, robot = list.robot}
+  end,
 }
 
 --- One file, understood.

@@ -1,0 +1,45 @@
+#include "io/closing_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/suggest.h"
+#include "base/text.h"
+
+namespace clench {
+
+// paces of closing, where a file says none
+static constexpr double turning = 1;     // [rad/s]
+static constexpr double sliding = 0.05;  // [m/s]
+
+static bool slides(const RobotSpec& robot, int dof) {
+  for (const auto& chain : robot.chains)
+    for (const auto& joint : chain.joints)
+      if (joint.dof == dof && joint.ratio == 1) return joint.kind == JointKind::prismatic;
+  return false;
+}
+
+void set_closing(RobotSpec& robot, int dof, double sense) {
+  double& velocity = robot.dofs[dof].default_velocity;
+  const double pace = velocity != 0 ? std::abs(velocity) : slides(robot, dof) ? sliding : turning;
+  velocity = sense > 0 ? pace : sense < 0 ? -pace : 0;
+}
+
+void choose_closing(RobotSpec& robot, const std::string& file, const ReadOptions& options) {
+  std::vector<std::string> names;
+  for (const DofSpec& dof : robot.dofs) names.push_back(dof.name);
+  for (const auto& [key, sense] : options.closing) {
+    auto found = key.empty() ? names.end() : std::find(names.begin(), names.end(), key);
+    const auto number = parse_integer(key);
+    if (found == names.end() && number && *number >= 1 && *number <= static_cast<int>(names.size()))
+      found = names.begin() + (*number - 1);
+    if (found == names.end())
+      fail("{}: close: wanted the name of a DOF or a number from 1 to {}, got {}{}", file,
+           names.size(), in_quotes(key), did_you_mean(key, names));
+    if (!std::isfinite(sense)) fail("{}: close: {}: wanted a number, got {}", file, key, sense);
+    set_closing(robot, static_cast<int>(found - names.begin()), sense);
+  }
+  if (options.approach) robot.X_BA = options.approach;
+}
+
+}  // namespace clench

@@ -1,0 +1,135 @@
+#include "io/write_body.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "base/text.h"
+#include "base/units.h"
+#include "io/mesh_files.h"
+#include "io/saved_files.h"
+#include "io/world_parts.h"
+#include "io/write_file.h"
+#include "io/write_mesh.h"
+#include "spec/material_names.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_common(const std::string& material) {
+  return std::ranges::count(material_names, material) > 0;
+}
+
+// what a body has that only its surface does not say
+std::vector<std::string> matter_of(const BodySpec& body) {
+  const BodySpec plain;
+  std::vector<std::string> out;
+  if (body.material != plain.material) out.push_back(fmt::format("material {}", body.material));
+  if (body.mass != plain.mass) out.push_back(fmt::format("mass {} kg", body.mass));
+  if (body.com) out.push_back("centre of mass");
+  if (body.inertia_per_mass) out.push_back("inertia");
+  if (body.elastic_modulus)
+    out.push_back(fmt::format("elastic modulus {} Pa", *body.elastic_modulus));
+  if (body.tracker) out.push_back("tracker");
+  return out;
+}
+
+// --- Inventor ---
+
+std::string parameter_lines(const BodySpec& body) {
+  std::string out;
+  const auto to = std::back_inserter(out);
+  if (is_common(body.material)) fmt::format_to(to, "#material {}\n", body.material);
+  if (body.elastic_modulus) fmt::format_to(to, "#youngs {}\n", *body.elastic_modulus);
+  if (body.tracker) fmt::format_to(to, "#useFlockOfBirds {}\n", *body.tracker);
+  fmt::format_to(to, "#mass {}\n", number_in(body.mass, units::gram));
+  if (body.com) fmt::format_to(to, "#cog {}\n", millimetres(*body.com));
+  if (!body.inertia_per_mass) return out;
+  out += "#inertia_matrix\n";
+  for (int i = 0; i < 3; ++i) {
+    std::vector<std::string> row;
+    for (int j = 0; j < 3; ++j)
+      row.push_back(number_in((*body.inertia_per_mass)(i, j), units::square_millimetre));
+    fmt::format_to(to, "#{}\n", fmt::join(row, " "));
+  }
+  return out;
+}
+
+std::string inventor_text(const BodySpec& body) {
+  std::string out = "#Inventor V2.0 ascii\n" + parameter_lines(body);
+  const auto to = std::back_inserter(out);
+  const Appearance& look = body.appearance;
+  fmt::format_to(to,
+                 "Separator {{\n  Material {{ diffuseColor {} {} {} transparency {} }}\n"
+                 "  ShapeHints {{ vertexOrdering COUNTERCLOCKWISE shapeType {} }}\n",
+                 look.color.x(), look.color.y(), look.color.z(), look.transparency,
+                 body.shape && body.shape->closed() ? "SOLID" : "UNKNOWN_SHAPE_TYPE");
+  if (body.shape) {
+    const Mesh& mesh = body.shape->mesh();
+    out += "  Coordinate3 { point [\n";
+    for (const auto& p : mesh.vertices) fmt::format_to(to, "    {},\n", millimetres(p));
+    out += "  ] }\n  IndexedFaceSet { coordIndex [\n";
+    for (const auto& t : mesh.triangles)
+      fmt::format_to(to, "    {}, {}, {}, -1,\n", t[0], t[1], t[2]);
+    out += "  ] }\n";
+  }
+  return out + "}\n";
+}
+
+// --- what a format has no place for ---
+
+std::vector<std::string> lost(const BodySpec& body, const std::string& ending) {
+  std::vector<std::string> out;
+  if (is_mesh_ending(ending))
+    out = matter_of(body);
+  else if (!is_common(body.material))
+    out.push_back(fmt::format("material {}", body.material));
+  const Appearance& look = body.appearance;
+  if (ending != ".iv" && look.given) out.push_back("colour");
+  if (ending == ".iv" && !look.triangle_colors.empty()) out.push_back("colours of triangles");
+  if (look.visual) out.push_back("surface to be drawn");
+  return out;
+}
+
+void tell(const BodySpec& body, const fs::path& path, const std::string& ending,
+          const WriteOptions& options) {
+  if (!options.warn) return;
+  const std::string file = path.filename().string();
+  if (const auto list = lost(body, ending); !list.empty())
+    options.warn(fmt::format("{} does not hold {}", file, fmt::join(list, ", ")));
+  if (!body.shape) return;
+  if (ending == ".iv" || ending == ".stl")
+    options.warn(fmt::format("{}: coordinates keep 32 bits, as {} holds them", file, ending));
+  const double largest = body.shape->mesh().bounds().size().maxCoeff();
+  if (is_mesh_ending(ending) && guess_mesh_unit(largest) != 1)
+    options.warn(
+        fmt::format("{}: it is {:.4g} m large, and {} names no unit: read it with the option unit "
+                    "= \"m\", or it is taken for millimetres",
+                    file, largest, ending));
+}
+
+}  // namespace
+
+void write_body(const BodySpec& body, const fs::path& path, const WriteOptions& options) {
+  const std::string ending = lower_case(path.extension().string()), file = path.filename().string();
+  if (ending == ".xml") {
+    SavedFiles files(path, options);
+    const std::string surface = files.write_surface(body).generic_string();
+    write_file(path, body_xml_text(body, surface.empty() ? "" : files.name(surface)));
+  } else if (ending == ".iv") {
+    write_file(path, inventor_text(body));
+  } else if (is_mesh_ending(ending)) {
+    if (!body.shape) fail("{}: '{}' has no surface to write", file, body.name);
+    write_mesh(body.shape->mesh(), path);
+  } else {
+    fail("{}: wanted a body to .xml, .iv, .obj, .off, .ply or .stl, got {}", file,
+         in_quotes(ending));
+  }
+  tell(body, path, ending, options);
+}
+
+}  // namespace clench

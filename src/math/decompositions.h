@@ -1,0 +1,39 @@
+// What takes longest to compile of all that Eigen has, compiled once.
+#pragma once
+#include <Eigen/Geometry>
+
+namespace clench {
+
+/// m = u * diag(values) * v^T, values descending.
+struct Svd {
+  Eigen::MatrixXd u;       ///< rows x rows, orthonormal
+  Eigen::VectorXd values;  ///< min(rows, columns)
+  Eigen::MatrixXd v;       ///< columns x min(rows, columns), orthonormal columns
+};
+
+/// m  at least one row and one column, finite
+Svd singular_value_decomposition(const Eigen::MatrixXd& m);
+
+/// m = vectors * diag(values) * vectors^T, values ascending.
+template <class Matrix, class Vector>
+struct Eigensystem {
+  Vector values;
+  Matrix vectors;  ///< orthonormal columns
+};
+
+/// m  symmetric; its lower triangle counts
+Eigensystem<Eigen::MatrixXd, Eigen::VectorXd> eigensystem(const Eigen::MatrixXd& m);
+Eigensystem<Eigen::Matrix3d, Eigen::Vector3d> eigensystem(const Eigen::Matrix3d& m);
+/// ascending
+Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& symmetric);
+
+/// Is it beyond rounding?   m  symmetric; its lower triangle counts
+bool is_positive_definite(const Eigen::Matrix3d& m);
+
+/// x of m x = right.   m  symmetric and positive definite
+Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& m, const Eigen::MatrixXd& right);
+
+/// The least turn that brings one direction to another; between opposite ones, any of the half turns.
+Eigen::Quaterniond least_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+}  // namespace clench

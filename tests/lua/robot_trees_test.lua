@@ -1,0 +1,65 @@
+local test, clench = require "test", require "clench"
+
+local gripper_file = "tests/data/urdf/gripper.urdf"
+local function gripper(options)
+  options = options or {}
+  options.package = options.package or "tests/data/urdf"
+  local world = clench.world()
+  return world:add_robot(gripper_file, options), world
+end
+
+test("names of a URDF reach the script", function(t)
+  local hand = gripper()
+  t.equal(hand.dof_names, {"left_slide"})
+  t.equal(hand.dof_info[1].name, "left_slide")
+  t.equal(hand.dof_info[1].max_velocity, 0.1)
+  t.equal(hand:link "camera".name, "gripper_camera")
+  t.equal(hand:link "mount" == hand.base, true)
+  t.equal(hand.chains[2].parent.name, "gripper_palm")
+  t.equal(hand.chains[2].joints[1].name, "left_slide")
+end)
+
+test("two robots of one file have links of their own names", function(t)
+  local first, world = gripper()
+  local second = world:add_robot(gripper_file, {package = "tests/data/urdf", pose = {xyz = {1, 0, 0}}})
+  t.equal(second.name, "gripper_2")
+  t.equal(second:link "palm".name, "gripper_2_palm")
+  t.ok(first:link "palm" ~= second:link "palm")
+end)
+
+test("a Lua world keeps what a robot's reading was given, and how it closes and approaches", function(t)
+  local hand, world = gripper {
+    package = {gripper_description = "tests/data/urdf"}, folder = "tests", close = {left_slide = 0},
+    approach = {point = {0, 0, 0.1}, direction = {1, 2, 3}},
+  }
+  hand:set_dofs {0.02}
+  local path = os.tmpname() .. ".lua"
+  world:save(path)
+  local again = clench.load(path)
+  os.remove(path)
+  t.equal(again:hash(), world:hash())
+  t.equal(again.robots[1].dof_info[1].default_velocity, 0)
+  t.ok(again.robots[1].approach.frame == hand.approach.frame)
+end)
+
+test("closing and approach are said by options, by name or number", function(t)
+  t.ok(gripper {close = {left_slide = 1}}.dof_info[1].default_velocity > 0)
+  t.ok(gripper {close = {-1}}.dof_info[1].default_velocity < 0)
+  local frame = clench.pose {xyz = {1, 2, 3}}
+  t.ok(gripper {approach = {frame = frame}}.approach.frame == frame)
+end)
+
+test("a wrong option is told by its name", function(t)
+  t.fails(function() gripper {close = {left_slid = 1}} end, "did you mean 'left_slide'?")
+  t.fails(function() gripper {close = {[2] = 1}} end, "wanted the name of a DOF or a number from 1 to 1, got '2'")
+  t.fails(function() gripper {close = {left_slide = "in"}} end, "close: left_slide: wanted 1, -1 or 0, got a string")
+  t.fails(function() gripper {close = 1} end, "close: wanted a table such as {index = 1, [3] = -1}")
+  t.fails(function() gripper {close = {[true] = 1}} end, "close: wanted names or numbers as keys, got a boolean")
+  t.fails(function() gripper {package = "no/such/folder"} end, "package: wanted a folder, got 'no/such/folder'")
+  t.fails(function() gripper {package = {a = 1}} end, "package: a: wanted a folder, got a number")
+  t.fails(function() gripper {package = 1} end, "package: wanted a folder or a table of folders")
+  t.fails(function() gripper {folder = "no/such/folder"} end, "folder: wanted a folder, got 'no/such/folder'")
+  t.fails(function() gripper {approach = 1} end, "approach: wanted a table {point = ..., direction = ...} or {frame = ...}")
+  t.fails(function() gripper {approach = {direction = {0, 0, 0}}} end, "approach direction: wanted a direction")
+  t.fails(function() clench.load(gripper_file) end, "gripper.urdf: wanted a world, got a robot; world:add_robot loads it")
+end)

@@ -1,0 +1,80 @@
+#include "math/decompositions.h"
+
+#include "base/random.h"
+
+using namespace clench;
+using Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d;
+
+static MatrixXd random_matrix(Random& random, int rows, int columns) {
+  MatrixXd m(rows, columns);
+  for (double& x : m.reshaped()) x = random.normal();
+  return m;
+}
+
+// sums of some ten products of numbers of order 1
+static constexpr double rounding = 1e-13;
+
+TEST_CASE("the least turn brings one direction to the other, about an axis normal to both") {
+  Random random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d from = random_matrix(random, 3, 1), to = random_matrix(random, 3, 1);
+    const auto turn = least_turn(from, to);
+    CHECK((turn * from.normalized() - to.normalized()).norm() < rounding);
+    CHECK(std::abs(turn.vec().dot(from.normalized())) < rounding);
+    CHECK(std::abs(turn.norm() - 1) < rounding);
+    CHECK(turn.w() >= 0);
+  }
+}
+
+TEST_CASE("the least turn holds for equal, opposite and nearly opposite directions") {
+  Random random(2);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d from = random_matrix(random, 3, 1);
+    CHECK((least_turn(from, 3 * from) * from - from).norm() < rounding);
+    CHECK((least_turn(from, -from) * from + from).norm() < rounding);
+    for (const double off : {1e-3, 1e-5, 1e-7, 1e-9}) {
+      const Vector3d to = -from.normalized() + off * random_matrix(random, 3, 1);
+      // what is lost of a sum of opposite directions: rounding over their distance of 1e-8 at least
+      CHECK((least_turn(from, to) * from.normalized() - to.normalized()).norm() < 1e-7);
+      CHECK(std::abs(least_turn(from, to).norm() - 1) < 1e-7);
+    }
+  }
+}
+
+TEST_CASE("decompositions multiply to what they were made of") {
+  Random random(3);
+  for (int i = 0; i < 50; ++i) {
+    const int rows = 1 + i % 7, columns = 1 + i / 7 % 7;
+    const MatrixXd m = random_matrix(random, rows, columns);
+    const Svd svd = singular_value_decomposition(m);
+    const auto least = svd.values.size();
+    const MatrixXd again = svd.u.leftCols(least) * svd.values.asDiagonal() * svd.v.transpose();
+    CHECK((again - m).cwiseAbs().maxCoeff() < rounding);
+    CHECK((svd.u.transpose() * svd.u - MatrixXd::Identity(rows, rows)).cwiseAbs().maxCoeff() <
+          rounding);
+    for (int k = 1; k < least; ++k) CHECK(svd.values[k - 1] >= svd.values[k]);
+
+    const MatrixXd even = m * m.transpose();
+    const auto system = eigensystem(even);
+    CHECK((system.vectors * system.values.asDiagonal() * system.vectors.transpose() - even)
+              .cwiseAbs()
+              .maxCoeff() < 10 * rounding);  // its numbers are of order 10
+    for (int k = 1; k < rows; ++k) CHECK(system.values[k - 1] <= system.values[k]);
+  }
+}
+
+TEST_CASE("eigenvalues of small matrices, definiteness and solutions agree with the definitions") {
+  Random random(4);
+  for (int i = 0; i < 50; ++i) {
+    const Matrix3d a = random_matrix(random, 3, 3), even = a * a.transpose();
+    const Vector3d values = eigenvalues(even);
+    CHECK((eigensystem(even).values - values).norm() < 10 * rounding);
+    for (const double value : values)
+      CHECK(std::abs((even - value * Matrix3d::Identity()).determinant()) < 1e-10);  // of order 1e3
+    CHECK(is_positive_definite(even + 1e-3 * Matrix3d::Identity()));
+    CHECK_FALSE(is_positive_definite(even - 2 * values[2] * Matrix3d::Identity()));
+    const MatrixXd right = random_matrix(random, 3, 2);
+    const MatrixXd m = even + Matrix3d::Identity();
+    CHECK((m * solve_symmetric(m, right) - right).cwiseAbs().maxCoeff() < 10 * rounding);
+  }
+}
