@@ -85,7 +85,21 @@ static int main_of(int argc, char** argv) {
   check_verb->footer(
       "Examples:\n  clench check hand.urdf\n  clench check --json mug.stl worlds/dlr_flask.wld\n\n"
       "Exit code: 1 when a file could not be read.");
-  for (auto* verb : {run_verb, repl_verb, test_verb, doc_verb, check_verb}) verb->fallthrough();
+  ConvertOptions converting;
+  auto* convert_verb = app.add_subcommand("convert", "write what a file holds as another format");
+  convert_verb->add_option("IN", converting.from, "a file of any kind that is read")->required();
+  convert_verb->add_option("OUT", converting.to, "what to write; its ending says how")->required();
+  convert_verb->add_option("--root", converting.root, "where names in the files count from")
+      ->type_name("DIR");
+  convert_verb->add_option("--unit", converting.unit, "of the mesh: mm cm m inch foot")
+      ->type_name("UNIT");
+  convert_verb->footer(
+      "Examples:\n  clench convert --unit mm mug.stl mug.xml\n"
+      "  clench convert models/hands/barrett/barrett.cfg barrett.urdf\n"
+      "  clench convert worlds/dlr_flask.wld dlr_flask.lua\n\n"
+      "What the new format cannot hold is told in warnings.");
+  for (auto* verb : {run_verb, repl_verb, test_verb, doc_verb, check_verb, convert_verb})
+    verb->fallthrough();
 
   if (!line.ours.empty()) {
     const std::string& first = line.ours.front();
@@ -110,6 +124,7 @@ static int main_of(int argc, char** argv) {
   run.arguments = line.script;
   if (test_verb->parsed()) return run_tests(test_path, run.quiet);
   if (check_verb->parsed()) return check_files(checking);
+  if (convert_verb->parsed()) return convert_file(converting);
   if (doc_verb->parsed()) return write_docs(doc_folder, check);
   const bool nothing =
       !run_verb->parsed() && !repl_verb->parsed() && run.code.empty() && interactive.empty();

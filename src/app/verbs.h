@@ -30,4 +30,13 @@ struct CheckOptions {
 /// Reads files of any kind and prints what was understood, guessed, ignored and wrong.
 int check_files(const CheckOptions& options);
 
+struct ConvertOptions {
+  std::string from, to;
+  std::string root;  ///< where names in the files count from; empty: nothing is said
+  std::string unit;  ///< of the mesh that is read; empty: nothing is said
+};
+
+/// Writes what a file holds as another format, and says what that cannot hold.
+int convert_file(const ConvertOptions& options);
+
 }  // namespace clench

@@ -3,6 +3,7 @@
 #include "script/bind_body.h"
 #include "script/bind_catalog.h"
 #include "script/bind_contact.h"
+#include "script/bind_convert.h"
 #include "script/bind_eigengrasps.h"
 #include "script/bind_entries.h"
 #include "script/bind_files.h"
@@ -30,6 +31,7 @@ std::span<const Library* const> all_libraries() {
       &pose_library,
       &random_library,
       &catalog_library,
+      &convert_library,
       &entries_library,
       &json_library,
       &log_library,

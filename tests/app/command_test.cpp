@@ -135,3 +135,40 @@ TEST_CASE("doc writes pages, and --check finds one that is not what the bindings
   const std::string file = folder.file("file", "x");
   CHECK(has(run("doc " + file).out, "cannot be written"));
 }
+
+TEST_CASE("check says what a file is, and fails with 1 when one cannot be read") {
+  const auto flask = run("check models/objects/flask.iv models/hands/barrett/barrett.cfg");
+  CHECK(flask.code == 0);
+  CHECK(has(flask.out, "models/objects/flask.iv: a body"));
+  CHECK(has(flask.out, "models/hands/barrett/barrett.cfg: a robot"));
+  const auto bad = run("check tests/data/bad/wld/empty.wld models/objects/flask.iv");
+  CHECK(bad.code == 1);
+  CHECK(has(bad.out, "wrong: "));
+  CHECK(has(bad.out, "flask.iv: a body"));
+  const auto json = run("check --json models/objects/flask.iv");
+  CHECK(json.code == 0);
+  CHECK(json.out.front() == '[');
+  CHECK(run("check no_such.iv").code == 1);
+  CHECK(run("check").code == 2);
+}
+
+TEST_CASE("convert writes another format, says what is lost, and fails with 1") {
+  const Folder folder;
+  const std::string out = (folder / "flask.stl");
+  const auto flask = run("convert models/objects/flask.iv " + out);
+  CHECK(flask.code == 0);
+  CHECK(has(flask.out, out + ": body, from models/objects/flask.iv"));
+  CHECK(has(flask.out, "flask.stl does not hold material"));
+  CHECK(run("check " + out).code == 0);
+  const auto world = run("convert worlds/dlr_flask.wld " + (folder / "w.lua"));
+  CHECK(world.code == 0);
+  CHECK(run("check " + (folder / "w.lua")).code == 0);
+  const auto wrong = run("convert models/objects/flask.iv " + (folder / "flask.cfg"));
+  CHECK(wrong.code == 1);
+  CHECK(has(wrong.out, "clench convert: flask.cfg: wanted a body to .xml, .iv"));
+  const auto same = run("convert models/objects/flask.iv models/objects/flask.iv");
+  CHECK(same.code == 1);
+  CHECK(has(same.out, "wanted another file to write, got the same"));
+  CHECK(run("convert models/objects/flask.iv").code == 2);
+  CHECK(has(run("convert --unit mile " + out + " " + (folder / "a.obj")).out, "unit: wanted"));
+}

@@ -1,0 +1,15 @@
+// A file read and written as another format.
+#pragma once
+#include "io/file_kind.h"
+#include "io/read.h"
+#include "io/write_world.h"
+
+namespace clench {
+
+/// A body, a robot, eigengrasps or virtual contacts in the file `from` written to `to`, whose ending says how.
+/// Both warn: of what is not understood, of what the new format cannot hold.
+/// throws Error when one cannot be read, or the other cannot hold it; nothing is written then
+void convert_file(FileKind kind, const std::filesystem::path& from, const std::filesystem::path& to,
+                  const ReadOptions& reading, const WriteOptions& writing);
+
+}  // namespace clench
