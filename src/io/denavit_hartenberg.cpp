@@ -7,8 +7,8 @@ namespace clench {
 
 using Eigen::Vector3d;
 
-// Axes that lean by less count as parallel: what the lean would move there is no more than what rounding
-// makes of a common normal so far away. [rad]
+// Axes that lean by less count as parallel: what the lean would move there is no more than what
+// rounding makes of a common normal so far away. [rad]
 static constexpr double parallel = 1e-8;
 // axes nearer than this are one line [m]
 static constexpr double coincident = 1e-13;
@@ -43,12 +43,8 @@ CommonNormal common_normal(const Pose& X_AB) {
   const double c = std::cos(out.theta), s = std::sin(out.theta);
   const Vector3d normal(c, s, 0), across(s, -c, 0);  // z = cos(alpha) z_A + sin(alpha) across
   out.a = p.dot(normal);
-  if (lean > parallel) {
-    out.h = p.dot(across) / std::sin(out.alpha);
-    if (std::abs(out.a) <= coincident) out.a = 0;
-  } else if (std::abs(out.a) <= coincident) {
-    out.a = 0;
-  }
+  if (std::abs(out.a) <= coincident) out.a = 0;
+  if (lean > parallel) out.h = p.dot(across) / std::sin(out.alpha);
   out.d = p.z() - out.h * z.z();
   out.phi = std::atan2(R.col(0).dot(z.cross(normal)), R.col(0).dot(normal));
   return out;

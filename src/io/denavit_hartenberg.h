@@ -1,4 +1,5 @@
-// Joints that stand anywhere as joints after Denavit and Hartenberg: by the common normals of their axes.
+// Joints that stand anywhere as joints after Denavit and Hartenberg: by the common normals of their
+// axes.
 #pragma once
 #include <vector>
 
@@ -9,9 +10,10 @@ namespace clench {
 /// Rz(theta) Tz(d) Tx(a) Rx(alpha)
 Pose dh_pose(double theta, double d, double a, double alpha);
 
-/// X_AB = Rz(theta) Tz(d) Tx(a) Rx(alpha) Rz(phi) Tz(h): along the z axis of A to the common normal of
-/// both z axes, along that to the z axis of B, along which the rest leads. theta lies within a quarter
-/// turn. Axes that meet have a = 0; parallel ones h = 0; of one line they have theta = 0, too.
+/// X_AB = Rz(theta) Tz(d) Tx(a) Rx(alpha) Rz(phi) Tz(h): along the z axis of A to the common normal
+/// of both z axes, along that to the z axis of B, along which the rest leads. theta lies within a
+/// quarter turn. Axes that meet have a = 0; parallel ones h = 0; of one line they have theta = 0,
+/// too.
 struct CommonNormal {
   double theta = 0, d = 0, a = 0, alpha = 0;  ///< [rad, m, m, rad]
   double phi = 0, h = 0;                      ///< [rad, m]
@@ -29,7 +31,8 @@ struct DhChain {
   double farthest = 0;  ///< longest way along an axis that nearly parallel axes made necessary [m]
 };
 
-/// What stands after Denavit and Hartenberg already is kept to the bit. `X_BC` is the chain's frame.
+/// What stands after Denavit and Hartenberg already is kept to the bit. `X_BC` is the chain's
+/// frame.
 DhChain denavit_hartenberg(const ChainSpec& chain, const Pose& X_BC);
 
 }  // namespace clench

@@ -81,8 +81,8 @@ void OffReader::warn_once(const std::string& sentence) {
   if (told_.insert(sentence).second) input_.warn(words_.place() + ": " + sentence);
 }
 
-/// Three or four numbers of a line's rest: of 0..1 with a point in them, else of 0..255. The fourth is
-/// how much is not transparent.
+/// Three or four numbers of a line's rest: of 0..1 with a point in them, else of 0..255. The fourth
+/// is how much is not transparent.
 Eigen::Vector3f OffReader::read_color(int count, float* transparency) {
   Eigen::Vector4d color(0, 0, 0, 1);
   bool whole = true;

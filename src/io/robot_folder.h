@@ -22,7 +22,8 @@ class RobotFolder {
   /// "hand.cfg does not hold ..."
   void lost(const std::string& what) const { warn(file_ + " does not hold " + what); }
 
-  /// A body as iv/HAND/PART.xml, its surface and its colours beside as .off. Equal ones share a file.
+  /// A body as iv/HAND/PART.xml, its surface and its colours beside as .off. Equal ones share a
+  /// file.
   /// returns  its name as robots call it: HAND/PART.xml
   std::string body(const BodySpec& body, const std::string& part);
   /// Triangles as HAND_files/PART.obj, in metres, with their colours when these differ.

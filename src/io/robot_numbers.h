@@ -1,5 +1,5 @@
-// The numbers of a robot as its files in the formats of GraspIt! write them: millimetres, grams, degrees,
-// by the kinds of the joints.
+// The numbers of a robot as its files in the formats of GraspIt! write them: millimetres, grams,
+// degrees, by the kinds of the joints.
 #pragma once
 #include <string>
 

@@ -62,6 +62,11 @@ static void guess_mass(BodySpec& body, bool& guessed, bool& frame) {
                                                           : frame_mass;
 }
 
+/// A file may name one surface for both, coloured once.
+static bool same_surface(const ShapePtr& a, const ShapePtr& b) {
+  return a == b || (a && b && a->hash() == b->hash());
+}
+
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
                  const std::string& file, const Library& library) {
   const bool any = std::any_of(pieces.begin(), pieces.end(),
@@ -77,7 +82,7 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     body.shape = collision.shape;
     body.mesh_report = collision.report;
     body.appearance = visual.shape ? visual.appearance : collision.appearance;
-    if (visual.shape != collision.shape) body.appearance.visual = visual.shape;
+    if (!same_surface(visual.shape, collision.shape)) body.appearance.visual = visual.shape;
     body.material = "plastic";
     if (visual.shape && !collision.shape) ghosts.push_back(body.name);
     if (pieces[i].has_inertial) continue;

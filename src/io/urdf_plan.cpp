@@ -198,8 +198,8 @@ void Planner::plan_chain(int number) {
   }
 }
 
-/// Readers number DOFs as their joints come, and chains too: joints come chain by chain, but for leaders,
-/// which come as their DOFs do.
+/// Readers number DOFs as their joints come, and chains too: joints come chain by chain, but for
+/// leaders, which come as their DOFs do.
 void Planner::order_joints() {
   std::vector<int> of_dof(robot_.dofs.size(), -1), order;
   const int count = static_cast<int>(plan_.joints.size());

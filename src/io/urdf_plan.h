@@ -1,4 +1,5 @@
-// Our chains as the tree that a URDF holds: links whose frames stand on the axes, joints between two each.
+// Our chains as the tree that a URDF holds: links whose frames stand on the axes, joints between
+// two each.
 #pragma once
 #include <optional>
 

@@ -1,4 +1,5 @@
-// The text of a robot's file in each format. Links and all else that stands beside go to the folder.
+// The text of a robot's file in each format. Links and all else that stands beside go to the
+// folder.
 #pragma once
 #include "io/robot_folder.h"
 

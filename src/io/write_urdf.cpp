@@ -17,8 +17,8 @@ std::string words(const Eigen::Vector3d& v) {
   return fmt::format("{} {} {}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 
-/// Angles about the fixed axes x, then y, then z. The first and the last are found one after the other,
-/// so that they fit together where the second is near a quarter turn, too.
+/// Angles about the fixed axes x, then y, then z. The first and the last are found one after the
+/// other, so that they fit together where the second is near a quarter turn, too.
 Eigen::Vector3d rpy_of(const Eigen::Quaterniond& q) {
   const Eigen::Matrix3d R = q.toRotationMatrix();
   const double yaw = std::atan2(R(1, 0), R(0, 0)), c = std::cos(yaw), s = std::sin(yaw);
@@ -229,7 +229,8 @@ class Draft {
   fs::path path_;
 };
 
-/// Chains and links have the numbers that a reader of the file gives them: they are looked up by name.
+/// Chains and links have the numbers that a reader of the file gives them: they are looked up by
+/// name.
 void UrdfText::beside_contacts(const std::string& text) {
   if (!robot_.virtual_contacts) return;
   folder_.write_parts();

@@ -72,7 +72,8 @@ TEST_CASE("axes that rounding leans count as parallel, and those that a file lea
   CHECK(difference(made_of(far), leaning(3.7e-6)) < 1e-11);
 }
 
-/// Joints that stand anywhere, some after Denavit and Hartenberg; links between, some beside their frames.
+/// Joints that stand anywhere, some after Denavit and Hartenberg; links between, some beside their
+/// frames.
 static RobotSpec any_robot(uint64_t seed) {
   Random random(2, seed);
   RobotSpec robot;

@@ -50,7 +50,8 @@ inline std::string bare_name(const BodySpec& body, const RobotSpec& robot) {
 
 enum class By { name, number };
 
-/// Points of every link's surface and its centre of mass, in the base, by the link's name or number.
+/// Points of every link's surface and its centre of mass, in the base, by the link's name or
+/// number.
 inline std::map<std::string, std::vector<Eigen::Vector3d>> placed_points(
     const RobotSpec& robot, const std::vector<double>& dofs, By by) {
   std::map<std::string, std::vector<Eigen::Vector3d>> out;

@@ -80,6 +80,7 @@ void check_same_kinematics(const RobotSpec& a, const RobotSpec& b) {
       // turned into the file's axes and back
       CHECK((inertia_of(link) - inertia_of(other)).norm() <= 1e-13 * inertia_of(link).norm());
       CHECK((link.shape != nullptr) == (other.shape != nullptr));
+      CHECK((link.appearance.visual != nullptr) == (other.appearance.visual != nullptr));
       CHECK(link.appearance.color == other.appearance.color);
       CHECK(link.appearance.triangle_colors == other.appearance.triangle_colors);
     }
