@@ -504,6 +504,13 @@ function clench.file_kind(path) end
 ---@return {hands: string[], arms: string[], objects: string[], obstacles: string[], worlds: string[]}
 function clench.catalog() end
 
+---Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as .cfg .xml .urdf, worlds as .wld .xml .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml. What the format cannot hold is told in warnings; where it cannot hold the matter itself, that is an error, and nothing is written.
+---@param from string
+---@param to string
+---@param options? {root?: string, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # of reading
+---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
+function clench.convert(from, to, options) end
+
 ---The module about itself: each library and class with its functions, fields and methods, each with name and doc; and the files of the standard library. Documentation, completion and help are made from it.
 ---@return {libraries: table[], classes: table[], files: table[]}
 function clench.entries() end

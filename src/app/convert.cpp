@@ -12,8 +12,10 @@ int convert_file(const ConvertOptions& options) {
   const Interruptible running(state);
   const auto result =
       state.call("host.convert", "file", {options.from, options.to, options.root, options.unit});
-  if (result.ok) return 0;
-  std::fprintf(stderr, "clench convert: %s\n", result.error.c_str());
+  const bool wrong = result.ok && !result.values.empty() && result.values[0] != "nil";
+  if (result.ok && !wrong) return 0;
+  const std::string& sentence = wrong ? result.values[0] : result.error;
+  std::fprintf(stderr, "clench convert: %s\n", sentence.c_str());
   return 1;
 }
 

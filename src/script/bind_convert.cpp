@@ -10,20 +10,6 @@
 
 namespace clench {
 
-// a world is built on the way, which tells what the new file does not hold: arguments of load, then of save
-static void convert_world(lua_State* L, const std::string& to, const std::string& root) {
-  lua_pushcfunction(L, guarded<load_world>);
-  lua_pushvalue(L, 1);
-  lua_pushvalue(L, 3);
-  protected_call(L, 2, 1);
-  lua_pushcfunction(L, guarded<save_world>);
-  lua_insert(L, -2);
-  push(L, to);
-  lua_createtable(L, 0, 1);
-  if (!root.empty()) set_field(L, "root", std::string_view(root));
-  protected_call(L, 3, 0);
-}
-
 static int convert(lua_State* L) {
   check_count(L, 3);
   const std::string from = check_string(L, 1, "from"), to = check_string(L, 2, "to");
@@ -32,9 +18,12 @@ static int convert(lua_State* L) {
   options.done();
   lua_settop(L, 3);
   const auto found = find_file(from, {}, reading);
+  std::error_code code;
+  if (std::filesystem::equivalent(found, to, code))
+    fail("{}: wanted another file to write, got the same", to);
   const FileKind kind = file_kind(found);
-  if (kind == FileKind::world)
-    convert_world(L, to, reading.root.generic_string());
+  if (kind == FileKind::world)  // built on the way, which tells what the new file does not hold
+    save_world(L, *push_world_of(L, found, reading), to, reading.root);
   else
     convert_file(kind, found, to, reading, {.root = reading.root, .warn = reading.warn});
   return push(L, kind_name(kind));

@@ -37,20 +37,25 @@ static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& r
   return handle->world;
 }
 
+WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& reading) {
+  if (is_script(path)) {
+    WorldPtr world = run_script(L, path, reading.root);
+    if (world->source().empty()) world->set_source(path.generic_string());
+    return world;
+  }
+  const auto world = std::make_shared<World>(build_world(read_world(path, reading), reading.warn));
+  push_object(L, WorldHandle{world});
+  return world;
+}
+
 int load_world(lua_State* L) {
   check_count(L, 2);
   const std::string path = check_string(L, 1, "path");
   Table options(L, 2);
   const ReadOptions reading = read_options(L, options);
   options.done();
-  const fs::path found = find_file(path, {}, reading);
-  if (is_script(found)) {
-    const WorldPtr world = run_script(L, found, reading.root);
-    if (world->source().empty()) world->set_source(found.generic_string());
-    return 1;
-  }
-  const WorldSpec spec = read_world(found, reading);
-  return push_object(L, WorldHandle{std::make_shared<World>(build_world(spec, reading.warn))});
+  push_world_of(L, find_file(path, {}, reading), reading);
+  return 1;
 }
 
 namespace {
@@ -97,19 +102,24 @@ static void warn_of_losses(lua_State* L, const World& world, const World& again,
   log_warning(L, fmt::format("{} does not hold {}{}", file, fmt::join(lost, ", "), rest));
 }
 
-int save_world(lua_State* L) {
-  check_count(L, 2);
-  const World& world = *self<WorldHandle>(L).world;
-  const fs::path path = check_string(L, 2, "path");
-  Table options(L, 3);
+void save_world(lua_State* L, const World& world, const fs::path& path, const fs::path& root) {
   WriteOptions writing;
-  writing.root = options.string("root", "");
-  options.done();
+  writing.root = root;
   writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
   writing.check = [&](const fs::path& written) {
     warn_of_losses(L, world, read_again(L, written, writing.root), path.filename().string());
   };
   write_world(describe_world(world), path, writing);
+}
+
+int save_world(lua_State* L) {
+  check_count(L, 2);
+  const WorldPtr world = self<WorldHandle>(L).world;
+  const fs::path path = check_string(L, 2, "path");
+  Table options(L, 3);
+  const fs::path root = options.string("root", "");
+  options.done();
+  save_world(L, *world, path, root);
   return 0;
 }
 

@@ -2,7 +2,16 @@
 #pragma once
 #include <lua.hpp>
 
+#include "io/read.h"
+#include "script/handles.h"
+
 namespace clench {
+
+/// The world in a file, a script or not, left on the stack. `path` as find_file gives it.
+WorldPtr push_world_of(lua_State* L, const std::filesystem::path& path, const ReadOptions& reading);
+/// Writes it, reads it again, and warns of what the file does not hold.
+void save_world(lua_State* L, const World& world, const std::filesystem::path& path,
+                const std::filesystem::path& root);
 
 /// (path, options) -> world
 int load_world(lua_State* L);

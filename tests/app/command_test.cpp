@@ -165,10 +165,12 @@ TEST_CASE("convert writes another format, says what is lost, and fails with 1") 
   CHECK(run("check " + (folder / "w.lua")).code == 0);
   const auto wrong = run("convert models/objects/flask.iv " + (folder / "flask.cfg"));
   CHECK(wrong.code == 1);
-  CHECK(has(wrong.out, "clench convert: flask.cfg: wanted a body to .xml, .iv"));
+  CHECK(wrong.out ==
+        "clench convert: flask.cfg: wanted a body to .xml, .iv, .obj, .off, .ply or .stl, got "
+        "'.cfg'\n");
   const auto same = run("convert models/objects/flask.iv models/objects/flask.iv");
   CHECK(same.code == 1);
   CHECK(has(same.out, "wanted another file to write, got the same"));
   CHECK(run("convert models/objects/flask.iv").code == 2);
-  CHECK(has(run("convert --unit mile " + out + " " + (folder / "a.obj")).out, "unit: wanted"));
+  CHECK(has(run("convert --unit mile " + out + " " + (folder / "a.obj")).out, "unknown unit 'mile', wanted one of mm, cm, m, inch, foot"));
 }
