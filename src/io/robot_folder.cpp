@@ -49,8 +49,8 @@ std::string RobotFolder::add(const std::string& folder, const std::string& part,
 // --- surfaces ---
 
 /// A share of a colour, with the point that tells it from a byte.
-static std::string share(double x) {
-  std::string out = fmt::format("{}", static_cast<float>(x));
+static std::string share(float x) {
+  std::string out = fmt::format("{}", within_one(x));
   if (out.find_first_of(".e") == std::string::npos) out += ".0";
   return out;
 }
@@ -70,7 +70,8 @@ static std::string off_text(const Mesh& mesh, const Appearance& looks) {
     if (looks.given) {
       const Eigen::Vector3f& c = each ? looks.triangle_colors[i] : looks.color;
       fmt::format_to(to, " {} {} {}", share(c.x()), share(c.y()), share(c.z()));
-      if (looks.transparency > 0) fmt::format_to(to, " {}", 1 - double{looks.transparency});
+      if (looks.transparency > 0)
+        fmt::format_to(to, " {}", 1 - double{within_one(looks.transparency)});
     }
     out += '\n';
   }
@@ -117,8 +118,8 @@ std::string RobotFolder::mesh(const Mesh& mesh, const Appearance& looks, const s
     std::string mtl;
     for (size_t i = 0; i < materials.colors.size(); ++i) {
       const Eigen::Vector3f& c = materials.colors[i];
-      mtl += fmt::format("newmtl m{}\nKd {} {} {}\nd {}\n", i, c.x(), c.y(), c.z(),
-                         1 - double{looks.transparency});
+      mtl += fmt::format("newmtl m{}\nKd {} {} {}\nd {}\n", i, within_one(c.x()), within_one(c.y()),
+                         within_one(c.z()), 1 - double{within_one(looks.transparency)});
     }
     text = "mtllib " + add(folder, part, ".mtl", mtl) + "\n" + text;
   }

@@ -1,5 +1,6 @@
 // The files that a written robot consists of: gathered first, and written when all is known to fit.
 #pragma once
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -52,6 +53,9 @@ class RobotFolder {
   std::map<std::string, std::string> names_;  // by folder, ending and text
   std::vector<std::function<void()>> others_;
 };
+
+/// A colour's share brought within 0..1, as files hold it; 0 for what is no number.
+inline float within_one(float share) { return share > 0 ? std::min(share, 1.0f) : 0.0f; }
 
 /// What a part is called: the stem of its file, or its name without that of the robot.
 std::string part_name(const BodySpec& body, const RobotSpec& robot);

@@ -85,8 +85,10 @@ void UrdfText::add_inertial(const UrdfLink& link) {
 
 std::string UrdfText::material(const Appearance& looks) {
   if (!looks.given || !looks.triangle_colors.empty()) return "";
-  const std::string color = fmt::format("{} {} {} {}", looks.color.x(), looks.color.y(),
-                                        looks.color.z(), 1 - double{looks.transparency});
+  const Eigen::Vector3f& c = looks.color;
+  const std::string color =
+      fmt::format("{} {} {} {}", within_one(c.x()), within_one(c.y()), within_one(c.z()),
+                  1 - double{within_one(looks.transparency)});
   // one name a colour: readers share materials by their names
   const size_t number = std::ranges::find(colors_, color) - colors_.begin();
   if (number == colors_.size()) colors_.push_back(color);

@@ -526,3 +526,18 @@ TEST_CASE("a .cfg of joints of both kinds on one DOF keeps their ratios") {
     check_equal(robot.chains[0].joints[1], again.robot.chains.at(0).joints.at(1));
   }
 }
+
+TEST_CASE("colours beyond what files hold do not make a robot unreadable") {
+  const TemporaryFolder folder;
+  RobotSpec robot = bare_hand();
+  robot.base.shape = Shape::make(box(1, 1, 1));
+  Appearance& looks = robot.base.appearance;
+  looks.given = true;
+  looks.color = {2, -1, std::nanf("")};
+  looks.transparency = 3;
+  for (const char* name : {"any.cfg", "any.xml", "any.urdf"}) {
+    const auto again = written(robot, folder.path() / name);
+    CHECK(again.robot.base.appearance.color == Eigen::Vector3f(1, 0, 0));
+    CHECK(again.robot.base.appearance.transparency == 1);
+  }
+}
