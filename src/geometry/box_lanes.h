@@ -63,24 +63,11 @@ CLENCH_INLINE BoxOf<Real> load_box(const BoxBundle& from, int lane) {
   return out;
 }
 
-template <class Real>
-CLENCH_INLINE BoxOf<Real> moved(const BoxOf<Real>& box, const Move<Real>& move) {
-  // columns of the rotation as vectors of four
-  typedef Real Column __attribute__((vector_size(4 * sizeof(Real))));
-  const auto& r = move.row;
-  const auto& o = move.offset;
-  const Column x = {r[0].x, r[1].x, r[2].x, 0}, y = {r[0].y, r[1].y, r[2].y, 0},
-               z = {r[0].z, r[1].z, r[2].z, 0};
-  BoxOf<Real> out;
-  for (int k = 0; k < 3; ++k) {
-    const Column axis = x * box.axis[k].x + y * box.axis[k].y + z * box.axis[k].z;
-    out.axis[k] = {axis[0], axis[1], axis[2]};
-    out.half[k] = box.half[k];
-  }
-  const Column centre =
-      x * box.centre.x + y * box.centre.y + z * box.centre.z + Column{o.x, o.y, o.z, 0};
-  out.centre = {centre[0], centre[1], centre[2]};
-  return out;
+template <class F, class Real>
+CLENCH_INLINE BoxOf<F> moved(const BoxOf<F>& boxes, const Move<Real>& move) {
+  return {{move.turned(boxes.axis[0]), move.turned(boxes.axis[1]), move.turned(boxes.axis[2])},
+          move(boxes.centre),
+          {boxes.half[0], boxes.half[1], boxes.half[2]}};
 }
 
 /// How far the boxes reach from their centres along n.

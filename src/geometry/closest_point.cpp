@@ -1,3 +1,5 @@
+#include <array>
+
 #include "base/error.h"
 #include "geometry/placement.h"
 #include "geometry/queries.h"
@@ -13,19 +15,41 @@ ClosestPoint closest_point(const Shape& shape, const Vector3d& p, int seed) {
   ClosestPoint best;
   best.distance = std::numeric_limits<double>::infinity();
   // of equally near triangles the first, so that the way here does not show
-  const auto visit = [&](int triangle) {
+  const auto judge = [&](int triangle) {
     const Closest c = point_triangle(p, mesh.corners(triangle));
     if (c.distance < best.distance || best.triangle < 0 ||
         (c.distance == best.distance && triangle < best.triangle))
       best = {c.distance, c.q, triangle};
   };
-  if (shape.has_triangle(seed)) visit(seed);
+  if (shape.has_triangle(seed)) judge(seed);
   const Vector3d from = p - Vector3d::Map(shape.tree().centre());
-  std::vector<int> near;
-  find_near_triangles(shape.tree(), from.data(), rounding_of(shape.bounds(), p), best.distance,
-                      true, near);
-  for (const int triangle : near) visit(triangle);
+  // some at a time, so that the memory of the next ones is on its way
+  std::array<int, 16> waiting;
+  size_t count = 0;
+  const auto judge_waiting = [&] {
+    for (size_t i = 0; i < count; ++i)
+      for (const int v : mesh.triangles[waiting[i]]) __builtin_prefetch(&mesh.vertices[v]);
+    for (size_t i = 0; i < count; ++i) judge(waiting[i]);
+    count = 0;
+  };
+  for_near_triangles(shape.tree(), from.data(), rounding_of(shape.bounds(), p), best.distance, true,
+                     [&](int triangle) {
+                       if (triangle == seed) return false;
+                       __builtin_prefetch(&mesh.triangles[triangle]);
+                       waiting[count++] = triangle;
+                       if (count == waiting.size()) judge_waiting();
+                       return false;
+                     });
+  judge_waiting();
   return best;
+}
+
+std::vector<ClosestPoint> closest_points(const Shape& shape, std::span<const Vector3d> points) {
+  std::vector<ClosestPoint> out;
+  out.reserve(points.size());
+  for (const Vector3d& p : points)
+    out.push_back(closest_point(shape, p, out.empty() ? -1 : out.back().triangle));
+  return out;
 }
 
 }  // namespace clench

@@ -58,6 +58,20 @@ struct Lanes {
     }
   };
 
+  /// those whose bit is set, lane 0 the lowest
+  static CLENCH_INLINE Mask lanes_of(unsigned set) {
+    Mask out;
+    for (int i = 0; i < chunks; ++i)
+      out.bits[i] = ((Bits{} + static_cast<Int>(set)) >> lane_numbers(i) & 1) != 0;
+    return out;
+  }
+  /// of the lanes of a chunk
+  static CLENCH_INLINE Bits lane_numbers(int index) {
+    Bits out;
+    for (int i = 0; i < Width; ++i) out[i] = index * Width + i;
+    return out;
+  }
+
   Chunk chunk[chunks];
 
   static CLENCH_INLINE Lanes all(Real x) {
@@ -71,6 +85,12 @@ struct Lanes {
       std::memcpy(&out, from, sizeof out);
     else
       for (int i = 0; i < lane_count; ++i) out.chunk[i / Width][i % Width] = from[i];
+    return out;
+  }
+  /// what store has put there
+  static CLENCH_INLINE Lanes stored(const Real* from) {
+    Lanes out;
+    std::memcpy(out.chunk, from, sizeof out.chunk);
     return out;
   }
   CLENCH_INLINE void store(Real* to) const { std::memcpy(to, chunk, sizeof chunk); }
@@ -153,12 +173,41 @@ struct Lanes {
       out.chunk[i / Width][i % Width] = std::sqrt(x.chunk[i / Width][i % Width]);
     return out;
   }
+  /// Where each lane of `set` comes when they are put in order of their sizes, the largest first: a
+  /// different place for each, whatever the numbers. The other lanes come right behind.
+  CLENCH_INLINE void places(unsigned set, Int* to) const {
+    constexpr Int size = ~(Int{1} << (8 * sizeof(Real) - 1));
+    const Mask wanted = lanes_of(set);
+    Bits keys[chunks];
+    // sizes are in the order of their bits; the last ones give way to the lane
+    for (int i = 0; i < chunks; ++i)
+      keys[i] = wanted.bits[i]
+                    ? (reinterpret_cast<Bits>(chunk[i]) & (size & ~Int{7})) | lane_numbers(i)
+                    : Bits{} - 1;
+    Int all[lane_count];
+    std::memcpy(all, keys, sizeof all);
+    for (int i = 0; i < chunks; ++i) {
+      Bits larger{};
+      for (const Int key : all) larger -= (Bits{} + key) > keys[i];
+      std::memcpy(to + i * Width, &larger, sizeof larger);
+    }
+  }
   friend CLENCH_INLINE Lanes select(const Mask& mask, const Lanes& yes, const Lanes& no) {
     Lanes out;
     for (int i = 0; i < chunks; ++i) out.chunk[i] = mask.bits[i] ? yes.chunk[i] : no.chunk[i];
     return out;
   }
 };
+
+template <class F>
+CLENCH_INLINE typename F::Real least_of(const F& x) {
+  typename F::Real values[lane_count];
+  x.store(values);
+  for (int step = lane_count / 2; step > 0; step /= 2)
+    for (int i = 0; i < step; ++i)
+      values[i] = values[i + step] < values[i] ? values[i + step] : values[i];
+  return values[0];
+}
 
 #if defined(__AVX__)
 using FloatLanes = Lanes<float, 8>;

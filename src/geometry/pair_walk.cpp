@@ -3,36 +3,15 @@
 #include <vector>
 
 #include "geometry/box_lanes.h"
+#include "geometry/frame_boxes.h"
 #include "geometry/precision.h"
+#include "geometry/tree_pair.h"
 #include "geometry/triangle_lanes.h"
 #include "geometry/walk.h"
 
 namespace clench {
 
 namespace {
-
-template <class Real>
-Move<Real> move_of(const TreePair& pair) {
-  const auto& r = pair.rotation;
-  const auto& o = pair.offset;
-  const auto real = [](double x) { return static_cast<Real>(x); };
-  return {{{real(r[0]), real(r[1]), real(r[2])},
-           {real(r[3]), real(r[4]), real(r[5])},
-           {real(r[6]), real(r[7]), real(r[8])}},
-          {real(o[0]), real(o[1]), real(o[2])}};
-}
-
-template <class Real>
-Move<Real> back_of(const TreePair& pair) {
-  const auto& r = pair.rotation;
-  const auto& o = pair.offset;
-  TreePair back{pair.b, pair.a, {}, {}, 0};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) back.rotation[3 * i + j] = r[3 * j + i];
-    back.offset[i] = -(r[i] * o[0] + r[3 + i] * o[1] + r[6 + i] * o[2]);
-  }
-  return move_of<Real>(back);
-}
 
 // so many pairs are judged at once, as soon as a leaf is done: fewer would leave lanes idle, more would
 // let the limit wait
@@ -47,18 +26,11 @@ class PairWalk {
       : a_(*pair.a),
         b_(*pair.b),
         b_to_a_(move_of<Real>(pair)),
-        a_to_b_(back_of<Real>(pair)),
+        boxes_a_(a_, b_to_a_),
+        boxes_b_(b_, b_to_a_),
         slack_(slack_of<Real>(extent, a_.radius() + b_.radius(), pair.rounding)) {}
 
-  void within(double reach, std::vector<NearPair>& out) {
-    task_ = Wanted::within;
-    limit_to(at_least<Real>(reach) + slack_);
-    run([](int, int) { return false; });
-    for (const Found& found : found_) out.push_back(found.pair);
-  }
-
   bool nearest(const Reach& reach, std::vector<NearPair>& out, PairVisit meet) {
-    task_ = Wanted::nearest;
     limit_to(at_least<Real>(reach.distance) + slack_);
     const double *n = reach.along, length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (length > 1e-150)
@@ -68,12 +40,6 @@ class PairWalk {
     for (const Found& found : found_)
       if (!(found.low > limit_)) out.push_back(found.pair);
     return false;
-  }
-
-  bool meeting(PairVisit visit) {
-    task_ = Wanted::meeting;
-    limit_to(slack_);
-    return run(visit);
   }
 
  private:
@@ -95,8 +61,7 @@ class PairWalk {
   // n, unit, is the way from a to b where they are nearest, as far as is known
   void guide(const Triple<Real>& n) {
     guided_ = true;
-    along_a_ = n;
-    along_b_ = a_to_b_.turned(n);
+    along_ = n;
     side_a_.leaf = side_b_.leaf = -1;
   }
 
@@ -117,8 +82,7 @@ class PairWalk {
       const bool open_a = !leaf_a && (leaf_b || size(a_, task.box_a) >= size(b_, task.box_b));
       const int below = (open_a ? child_a : child_b) >> 1;
       Real bounds[8];
-      unsigned near = open_a ? open(a_, below, b_, task.box_b, b_to_a_, along_a_, 1, bounds)
-                             : open(b_, below, a_, task.box_a, a_to_b_, along_b_, -1, bounds);
+      unsigned near = open(open_a, below, open_a ? task.box_b : task.box_a, bounds);
       // the nearest one on top of the stack
       for (const int first = height; near; near &= near - 1) {
         const int lane = __builtin_ctz(near), box = 8 * below + lane;
@@ -131,28 +95,27 @@ class PairWalk {
     return judge(visit);
   }
 
-  // Bounds of the eight boxes of a bundle against a box of the other tree.   returns those in reach
-  unsigned open(const Tree& tree, int bundle, const Tree& other, int box, const Move<Real>& move,
-                const Triple<Real>& along, Real sense, Real* bounds) const {
-    const BoxBundle& from = tree.boxes(bundle);
-    const BoxOf<F> eight = load_boxes<F>(from);
-    const BoxOf<Real> one = moved(load_box<Real>(other.boxes(box / 8), box % 8), move);
+  // Bounds of the eight boxes of a bundle of one tree against a box of the other.   returns those in reach
+  unsigned open(bool open_a, int bundle, int box, Real* bounds) {
+    const BoxBundle& from = open_a ? a_.boxes(bundle) : b_.boxes(bundle);
+    const auto rows_a = boxes_a_(open_a ? bundle : box / 8);
+    const auto rows_b = boxes_b_(open_a ? box / 8 : bundle);
+    const BoxOf<F> eight = eight_of<F>(open_a ? rows_a : rows_b);
+    const BoxOf<Real> one = one_of<Real>(open_a ? rows_b : rows_a, box % 8);
     unsigned used = used_lanes(from.child);
     if (guided_) {
       // from the eight to the one, or the other way
-      const Real one_near = dot(one.centre, along) - sense * shadow(one, along);
-      const F eight_near = dot(eight.centre, along) + shadow(eight, along) * sense;
+      const Real sense = open_a ? 1 : -1;
+      const Real one_near = dot(one.centre, along_) - sense * shadow(one, along_);
+      const F eight_near = dot(eight.centre, along_) + shadow(eight, along_) * sense;
       const F gap = (eight_near - one_near) * -sense;
       used &= ~(gap > limit_).set();
       if (!used) return 0;
     }
-    // a contact threshold is small for the boxes: their largest gap tells as much as their distance
-    const F gaps = task_ == Wanted::nearest ? box_gaps(eight, one) : axis_gaps(eight, one);
+    // the axes of edges would cost more than they spare
+    const F gaps = box_gaps(eight, one);
     gaps.store(bounds);
-    used &= ~(gaps > limit_).set();
-    // these part what the faces do not, near an edge; for distances they cost more than they spare
-    if (used && task_ != Wanted::nearest) used &= ~(edge_gaps(eight, one) > limit_).set();
-    return used;
+    return used & ~(gaps > limit_).set();
   }
 
   // The triangles of a leaf in the frame of a, their bounds along the axes, and how far they reach
@@ -181,7 +144,7 @@ class PairWalk {
       take(t, side_a_);
       const auto& p = t.corner;
       if (guided_)
-        side_a_.along = max(max(dot(p[0], along_a_), dot(p[1], along_a_)), dot(p[2], along_a_));
+        side_a_.along = max(max(dot(p[0], along_), dot(p[1], along_)), dot(p[2], along_));
     }
     if (leaf_b != side_b_.leaf) {
       side_b_.leaf = leaf_b;
@@ -189,7 +152,7 @@ class PairWalk {
       take(t, side_b_);
       const auto& p = t.corner;
       if (guided_)
-        side_b_.along = min(min(dot(p[0], along_a_), dot(p[1], along_a_)), dot(p[2], along_a_));
+        side_b_.along = min(min(dot(p[0], along_), dot(p[1], along_)), dot(p[2], along_));
     }
   }
 
@@ -252,7 +215,7 @@ class PairWalk {
         }
       }
     // what may bring the limit down does not wait
-    return task_ == Wanted::nearest && waiting_.count >= patience && judge(visit);
+    return waiting_.count >= patience && judge(visit);
   }
 
   static TrianglesOf<F> load(const Real (&rows)[9][8]) {
@@ -270,17 +233,7 @@ class PairWalk {
       for (int i = count; i < 8; ++i)
         waiting_.a[k][i] = waiting_.a[k][0], waiting_.b[k][i] = waiting_.b[k][0];
     const TrianglesOf<F> a = load(waiting_.a), b = load(waiting_.b);
-    const unsigned all = (1u << count) - 1;
-    if (task_ == Wanted::nearest) return judge_nearest(a, b, all, visit);
-    unsigned left = limit_ >= 0 ? within_reach(a, b, limit_, all) : 0;
-    for (; left; left &= left - 1) {
-      const NearPair& pair = waiting_.pairs[__builtin_ctz(left)];
-      if (task_ == Wanted::within)
-        found_.push_back({0, pair});
-      else if (visit(pair.triangle_a, pair.triangle_b))
-        return true;
-    }
-    return false;
+    return judge_nearest(a, b, (1u << count) - 1, visit);
   }
 
   bool judge_nearest(const TrianglesOf<F>& a, const TrianglesOf<F>& b, unsigned all,
@@ -315,11 +268,13 @@ class PairWalk {
   }
 
   const Tree &a_, &b_;
-  const Move<Real> b_to_a_, a_to_b_;
+  const Move<Real> b_to_a_;
+  FrameBoxes<F, false> boxes_a_;
+  FrameBoxes<F, true> boxes_b_;
   const Real slack_;
   Real limit_ = 0, squared_limit_ = 0;
   bool guided_ = false;
-  Triple<Real> along_a_{}, along_b_{};
+  Triple<Real> along_{};
   Side side_a_, side_b_;
   struct Found {
     Real low;
@@ -331,14 +286,7 @@ class PairWalk {
     NearPair pairs[8];
     int count = 0;
   } waiting_;
-  enum class Wanted { nearest, within, meeting } task_ = Wanted::nearest;
 };
-
-// no coordinate of either tree, in the frame of a, is larger
-double extent_of(const TreePair& pair) {
-  const double* o = pair.offset;
-  return std::sqrt(o[0] * o[0] + o[1] * o[1] + o[2] * o[2]) + pair.a->radius() + pair.b->radius();
-}
 
 template <class Walk>
 bool in_precision(const TreePair& pair, Walk&& walk) {
@@ -353,17 +301,9 @@ bool in_precision(const TreePair& pair, Walk&& walk) {
 
 }  // namespace
 
-void find_pairs_within(const TreePair& pair, double reach, std::vector<NearPair>& out) {
-  in_precision(pair, [&](auto& walk) { return walk.within(reach, out), false; });
-}
-
 bool find_nearest_pairs(const TreePair& pair, const Reach& reach, std::vector<NearPair>& out,
                         PairVisit meet) {
   return in_precision(pair, [&](auto& walk) { return walk.nearest(reach, out, meet); });
-}
-
-bool for_meeting_pairs(const TreePair& pair, PairVisit visit) {
-  return in_precision(pair, [&](auto& walk) { return walk.meeting(visit); });
 }
 
 }  // namespace clench

@@ -28,7 +28,7 @@ Triple<Real> triple(const double v[3]) {
 template <class F, class Bounds, class Judge, class Limit>
 bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
   using Real = typename F::Real;
-  Task<Real> stack[8 * deepest_tree];
+  Task<Real> stack[8 * deepest_tree + 8];
   int height = 0;
   stack[height++] = {std::numeric_limits<Real>::lowest(), 0};
   Real values[8];
@@ -41,53 +41,76 @@ bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
     }
     const BoxBundle& from = tree.boxes(task.child >> 1);
     const F gaps = bounds(load_boxes<F>(from));
+    const unsigned near = used_lanes(from.child) & ~(gaps > limit()).set();
+    if (!near) continue;
+    // the least bound on top
+    typename F::Int place[8];
+    gaps.places(near, place);
     gaps.store(values);
-    unsigned near = used_lanes(from.child) & ~(gaps > limit()).set();
-    for (const int first = height; near; near &= near - 1) {
-      const int lane = __builtin_ctz(near);
-      const Task<Real> next{values[lane], from.child[lane]};
-      int at = height++;
-      for (; at > first && stack[at - 1].bound < next.bound; --at) stack[at] = stack[at - 1];
-      stack[at] = next;
-    }
+    for (int lane = 0; lane < 8; ++lane)
+      stack[height + place[lane]] = {values[lane], from.child[lane]};
+    for (unsigned rest = near; rest; rest &= rest - 1)
+      tree.prefetch(from.child[__builtin_ctz(rest)]);
+    height += __builtin_popcount(near);
   }
   return false;
 }
 
 double length_of(const double v[3]) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-template <class F>
-void near_point(const Tree& tree, const double at[3], double extent, double rounding, double reach,
-                bool nearest_only, std::vector<int>& out) {
-  using Real = typename F::Real;
-  struct Found {
+// What may be near, until it is sure what is: the first ones at hand, more of them elsewhere.
+template <class Real>
+class Candidates {
+ public:
+  void add(Real low, int triangle) {
+    if (count_ < at_hand)
+      first_[count_++] = {low, triangle};
+    else
+      more_.push_back({low, triangle});
+  }
+  void visit(Real limit, TriangleVisit visitor) const {
+    const auto judge = [&](const Candidate& c) {
+      if (!(c.low > limit)) visitor(c.triangle);
+    };
+    std::for_each(first_, first_ + count_, judge);
+    std::for_each(more_.begin(), more_.end(), judge);
+  }
+
+ private:
+  static constexpr int at_hand = 48;
+  struct Candidate {
     Real low;
     int triangle;
   };
-  std::vector<Found> found;
-  found.reserve(32);
+  Candidate first_[at_hand];
+  int count_ = 0;
+  std::vector<Candidate> more_;
+};
+
+template <class F>
+void near_point(const Tree& tree, const double at[3], double extent, double rounding, double reach,
+                bool nearest_only, TriangleVisit visit) {
+  using Real = typename F::Real;
+  Candidates<Real> found;
   const Triple<Real> p = triple<Real>(at);
   const Real slack = slack_of<Real>(extent, tree.radius(), rounding);
   Real limit = at_least<Real>(reach) + slack;
   const auto judge = [&](const TriangleBundle& leaf) {
     const PointBounds<F> bounds = point_bounds(load_triangles<F>(leaf), p);
-    Real low[8], high[8];
-    bounds.low.store(low), bounds.high.store(high);
-    if (nearest_only)
-      for (const Real h : high)
-        if (h + 2 * slack < limit) limit = h + 2 * slack;
+    if (nearest_only) limit = std::min(limit, least_of(bounds.high) + 2 * slack);
+    Real low[8];
+    bounds.low.store(low);
     for (unsigned left = used_lanes(leaf.triangle) & ~(bounds.low > limit).set(); left;
          left &= left - 1) {
       const int k = __builtin_ctz(left);
-      found.push_back({low[k], leaf.triangle[k]});
+      found.add(low[k], leaf.triangle[k]);
     }
     return false;
   };
   walk<F>(
       tree, [&](const BoxOf<F>& eight) { return point_gaps(eight, p); }, judge,
       [&] { return limit; });
-  for (const Found& f : found)
-    if (!(f.low > limit)) out.push_back(f.triangle);
+  found.visit(limit, visit);
 }
 
 // Where a ray enters eight boxes grown by slack, at least 0; infinity where it misses.
@@ -172,13 +195,13 @@ bool crossed_by_ray(const Tree& tree, const double from[3], const double towards
 
 }  // namespace
 
-void find_near_triangles(const Tree& tree, const double p[3], double rounding, double reach,
-                         bool nearest_only, std::vector<int>& out) {
+void for_near_triangles(const Tree& tree, const double p[3], double rounding, double reach,
+                        bool nearest_only, TriangleVisit visit) {
   const double extent = length_of(p) + tree.radius();
   if (single_is_enough(extent, tree.radius()))
-    near_point<FloatLanes>(tree, p, extent, rounding, reach, nearest_only, out);
+    near_point<FloatLanes>(tree, p, extent, rounding, reach, nearest_only, visit);
   else
-    near_point<DoubleLanes>(tree, p, extent, rounding, reach, nearest_only, out);
+    near_point<DoubleLanes>(tree, p, extent, rounding, reach, nearest_only, visit);
 }
 
 bool for_crossed_triangles(const Tree& tree, const double origin[3], const double direction[3],

@@ -13,12 +13,12 @@ std::vector<int> region(const Shape& shape, const Eigen::Vector3d& p, double rad
          radius);
   std::vector<int> out;
   const Eigen::Vector3d from = p - Eigen::Vector3d::Map(shape.tree().centre());
-  std::vector<int> near;
-  find_near_triangles(shape.tree(), from.data(), rounding_of(shape.bounds(), p), radius, false,
-                      near);
-  for (const int triangle : near)
-    if (point_triangle(p, shape.mesh().corners(triangle)).distance < radius)
-      out.push_back(triangle);
+  for_near_triangles(shape.tree(), from.data(), rounding_of(shape.bounds(), p), radius, false,
+                     [&](int triangle) {
+                       if (point_triangle(p, shape.mesh().corners(triangle)).distance < radius)
+                         out.push_back(triangle);
+                       return false;
+                     });
   std::sort(out.begin(), out.end());
   return out;
 }

@@ -29,7 +29,7 @@ class Parts {
   std::vector<int> parent_;
 };
 
-std::vector<int> one_triangle_of_each_part(const Mesh& mesh) {
+Parts parts_of(const Mesh& mesh) {
   Parts parts(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) parts.join(t[0], t[1]), parts.join(t[0], t[2]);
 
@@ -43,13 +43,18 @@ std::vector<int> one_triangle_of_each_part(const Mesh& mesh) {
   std::sort(order.begin(), order.end(), [&](int u, int v) { return key(u) < key(v); });
   for (size_t i = 1; i < order.size(); ++i)
     if (mesh.vertices[order[i - 1]] == mesh.vertices[order[i]]) parts.join(order[i - 1], order[i]);
+  return parts;
+}
 
-  std::vector<int> out;
-  std::vector<char> seen(mesh.vertices.size(), 0);
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    char& known = seen[parts.find(mesh.triangles[i][0])];
-    if (!known) out.push_back(static_cast<int>(i));
-    known = 1;
+Shape::Extremes farthest_along_axes(const Mesh& mesh, const std::vector<int>& vertices) {
+  Shape::Extremes out;
+  out.fill(mesh.vertices[vertices[0]]);
+  for (const int v : vertices) {
+    const Eigen::Vector3d& p = mesh.vertices[v];
+    for (int k = 0; k < 3; ++k) {
+      if (p[k] < out[2 * k][k]) out[2 * k] = p;
+      if (p[k] > out[2 * k + 1][k]) out[2 * k + 1] = p;
+    }
   }
   return out;
 }
@@ -63,6 +68,26 @@ bool Shape::has_volume() const {
   return closed() && std::abs(solid_.volume) > 1e-9 * radius_ * radius_ * radius_;
 }
 
+void Shape::find_parts() {
+  // beyond that many, their extremes would take more room than the mesh
+  constexpr size_t few = 64;
+  Parts parts = parts_of(mesh_);
+  // the number of the part by the vertex that stands for it
+  std::vector<int> numbers(mesh_.vertices.size(), -1);
+  for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    int& number = numbers[parts.find(mesh_.triangles[i][0])];
+    if (number >= 0) continue;
+    number = static_cast<int>(parts_.size());
+    parts_.push_back(static_cast<int>(i));
+  }
+  if (parts_.size() > few) return;
+  std::vector<std::vector<int>> vertices(parts_.size());
+  for (int v = 0; v < static_cast<int>(numbers.size()); ++v)
+    if (const int number = numbers[parts.find(v)]; number >= 0) vertices[number].push_back(v);
+  for (const auto& members : vertices)
+    part_extremes_.push_back(farthest_along_axes(mesh_, members));
+}
+
 std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject) {
   check_mesh(mesh, subject);
   const std::shared_ptr<Shape> shape(new Shape);
@@ -73,7 +98,7 @@ std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject) 
     for (const int v : t) shape->bounds_.add(shape->mesh_.vertices[v]);
   shape->centre_ = shape->bounds_.centre();
   shape->radius_ = largest_radius(shape->mesh_, shape->centre_);
-  shape->parts_ = one_triangle_of_each_part(shape->mesh_);
+  shape->find_parts();
   Hasher hasher;
   for (const Eigen::Vector3d& v : shape->mesh_.vertices)
     for (const double x : v) hasher.add(x);

@@ -1,5 +1,6 @@
 // A mesh ready to be queried: immutable, shared between worlds and threads.
 #pragma once
+#include <array>
 #include <memory>
 
 #include "geometry/mass.h"
@@ -12,6 +13,8 @@ class Tree;
 
 class Shape {
  public:
+  using Extremes = std::array<Eigen::Vector3d, 6>;
+
   /// throws Error when check_mesh does; `subject` names the mesh in it
   static std::shared_ptr<const Shape> make(Mesh mesh, const std::string& subject = "mesh");
   ~Shape();
@@ -29,12 +32,15 @@ class Shape {
   double radius() const { return radius_; }
   /// one triangle of each connected part (vertices at one place connect), in index order
   const std::vector<int>& parts() const { return parts_; }
+  /// of each part, its vertices farthest along -x, x, -y, y, -z and z; empty where parts are many
+  const std::vector<Extremes>& part_extremes() const { return part_extremes_; }
   /// fingerprint of vertices and triangles: equal for equal bits
   uint64_t hash() const { return hash_; }
   const Tree& tree() const { return *tree_; }
 
  private:
   Shape();
+  void find_parts();
   Mesh mesh_;
   MeshFaults faults_;
   MassProperties solid_;
@@ -44,6 +50,7 @@ class Shape {
   std::vector<int> parts_;
   uint64_t hash_ = 0;
   std::unique_ptr<const Tree> tree_;
+  std::vector<Extremes> part_extremes_;
 };
 
 using ShapePtr = std::shared_ptr<const Shape>;

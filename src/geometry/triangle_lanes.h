@@ -152,24 +152,30 @@ CLENCH_INLINE typename F::Mask part(const TrianglesOf<F>& a, const TrianglesOf<F
   return (gap > Real{0}) & (gap * gap > within) & (nn > least) & (within > least * Real{0x1p30});
 }
 
-/// Lanes of those that may be as near as reach, >= 0, by the usual separating axes: normals and
-/// products of edges. All that meet are among them.
+/// Lanes of those that may be as near as reach, >= 0, by the products of their edges.
+template <class F>
+CLENCH_INLINE unsigned edges_within_reach(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
+                                          typename F::Real reach, unsigned wanted) {
+  const auto edge = [](const TrianglesOf<F>& t, int i) {
+    return t.corner[(i + 1) % 3] - t.corner[i];
+  };
+  const Triple<F> edge_b[3] = {edge(b, 0), edge(b, 1), edge(b, 2)};
+  for (int i = 0; i < 3; ++i) {
+    if (!wanted) return 0;
+    const Triple<F> edge_a = edge(a, i);
+    for (int j = 0; j < 3; ++j) wanted &= ~part(a, b, cross(edge_a, edge_b[j]), reach).set();
+  }
+  return wanted;
+}
+
+/// The same by the usual separating axes: normals and products of edges. All that meet are among them.
 template <class F>
 CLENCH_INLINE unsigned within_reach(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
                                     typename F::Real reach, unsigned wanted) {
-  Triple<F> edge_a[3], edge_b[3];
-  for (int i = 0; i < 3; ++i) {
-    edge_a[i] = a.corner[(i + 1) % 3] - a.corner[i];
-    edge_b[i] = b.corner[(i + 1) % 3] - b.corner[i];
-  }
-  wanted &= ~part(a, b, cross(edge_a[0], edge_a[1]), reach).set();
-  if (!wanted) return 0;
-  wanted &= ~part(a, b, cross(edge_b[0], edge_b[1]), reach).set();
-  for (int i = 0; i < 3; ++i) {
-    if (!wanted) return 0;
-    for (int j = 0; j < 3; ++j) wanted &= ~part(a, b, cross(edge_a[i], edge_b[j]), reach).set();
-  }
-  return wanted;
+  for (const auto* t : {&a, &b})
+    wanted &=
+        ~part(a, b, cross(t->corner[1] - t->corner[0], t->corner[2] - t->corner[1]), reach).set();
+  return edges_within_reach(a, b, reach, wanted);
 }
 
 /// What of the distances of a point from eight triangles is sure, up to slack.

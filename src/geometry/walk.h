@@ -44,10 +44,10 @@ bool find_nearest_pairs(const TreePair& pair, const Reach& reach, std::vector<Ne
 /// Visits all pairs of triangles that may meet, likely ones early.
 bool for_meeting_pairs(const TreePair& pair, PairVisit visit);
 
-/// Finds all triangles that may be as near to p (about the tree's centre) as reach [m]; of these, if
-/// nearest_only, all that may be the nearest.
-void find_near_triangles(const Tree& tree, const double p[3], double rounding, double reach,
-                         bool nearest_only, std::vector<int>& out);
+/// Visits all triangles that may be as near to p (about the tree's centre) as reach [m]; of these, if
+/// nearest_only, all that may be the nearest. What visit returns ends nothing.
+void for_near_triangles(const Tree& tree, const double p[3], double rounding, double reach,
+                        bool nearest_only, TriangleVisit visit);
 
 /// Visits all triangles that a ray may meet within `limit` [m], near ones early.
 /// direction  unit

@@ -53,6 +53,32 @@ TEST_CASE("real meshes: the closest point is that of all triangles") {
     check_against_all_triangles(*apple, apple->centre() + random_point(random, 0.1), i);
 }
 
+TEST_CASE("many points at once have the closest points that each has alone, triangles too") {
+  Random random(3);
+  const auto shape = Shape::make(potato(random));
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 100; ++i)
+    points.push_back(i % 5 == 0 ? random_point(random, 2)
+                                : points.back() + random_point(random, 0.01));
+  const auto all = closest_points(*shape, points);
+  REQUIRE(all.size() == points.size());
+  for (size_t i = 0; i < all.size(); ++i) {
+    const ClosestPoint one = closest_point(*shape, points[i]);
+    CHECK(all[i].distance == one.distance);
+    CHECK(all[i].point == one.point);
+    CHECK(all[i].triangle == one.triangle);
+  }
+  CHECK(closest_points(*shape, {}).empty());
+}
+
+TEST_CASE("a point from which thousands of triangles are equally near has the first of them") {
+  // corners of a sphere, so that its middle sees each of them as near as rounding allows
+  const auto shape = Shape::make(ball(1, 40, 80));
+  check_against_all_triangles(*shape, Vector3d::Zero(), 3000);
+  CHECK(closest_point(*shape, Vector3d::Zero()).triangle ==
+        closest_point(*shape, Vector3d::Zero(), 3000).triangle);
+}
+
 TEST_CASE("a point that is not finite is refused") {
   const auto shape = Shape::make(box(1, 1, 1));
   CHECK_THROWS_WITH_AS(closest_point(*shape, {0, std::nan(""), 0}),
