@@ -1,7 +1,5 @@
 #include "model/find.h"
 
-#include <set>
-
 #include "base/error.h"
 #include "contact/contact_set.h"
 
@@ -12,11 +10,6 @@ static BodyPair ordered(Id<Body> a, Id<Body> b) { return std::minmax(a, b); }
 
 static Pose relative(const Body& a, const Body& b) { return a.X_WB.inverse() * b.X_WB; }
 
-double sphere_gap(const Body& a, const Body& b) {
-  const Eigen::Vector3d between = a.X_WB * a.shape->centre() - b.X_WB * b.shape->centre();
-  return between.norm() - a.shape->radius() - b.shape->radius();
-}
-
 static bool pair_collides(const World& world, Id<Body> a, Id<Body> b) {
   std::tie(a, b) = ordered(a, b);
   const Body &body_a = world.body(a), &body_b = world.body(b);
@@ -24,40 +17,18 @@ static bool pair_collides(const World& world, Id<Body> a, Id<Body> b) {
   return colliding(*body_a.shape, *body_b.shape, relative(body_a, body_b), &world.cache(a, b));
 }
 
-// pairs of two groups that may collide, each once, in the groups' order
-template <class Visit>
-static void each_pair(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,
-                      Visit visit) {
-  std::set<BodyPair> seen;
-  for (const auto i : a)
-    for (const auto j : b)
-      if (world.may_collide(i, j) && seen.insert(ordered(i, j)).second) visit(i, j);
-}
-
-// all pairs of the world that may collide: the earlier body first
-template <class Visit>
-static void each_pair(const World& world, Visit visit) {
-  const auto& all = world.bodies();
-  for (size_t i = 0; i < all.size(); ++i)
-    for (size_t j = i + 1; j < all.size(); ++j)
-      if (world.may_collide(all[i], all[j])) visit(all[i], all[j]);
+static std::vector<BodyPair> colliding_of(const World& world, std::vector<BodyPair> pairs) {
+  std::erase_if(pairs, [&](const BodyPair& p) { return !pair_collides(world, p.first, p.second); });
+  return pairs;
 }
 
 std::vector<BodyPair> colliding_pairs(const World& world) {
-  std::vector<BodyPair> out;
-  each_pair(world, [&](Id<Body> a, Id<Body> b) {
-    if (pair_collides(world, a, b)) out.emplace_back(a, b);
-  });
-  return out;
+  return colliding_of(world, near_bodies(world, 0));
 }
 
 std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Body>> a,
                                       std::span<const Id<Body>> b) {
-  std::vector<BodyPair> out;
-  each_pair(world, a, b, [&](Id<Body> i, Id<Body> j) {
-    if (pair_collides(world, i, j)) out.emplace_back(i, j);
-  });
-  return out;
+  return colliding_of(world, near_bodies(world, a, b, 0));
 }
 
 BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,
@@ -109,17 +80,18 @@ static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
 
 std::vector<Contact> contacts(const World& world) {
   std::vector<Contact> out;
-  each_pair(world, [&](Id<Body> a, Id<Body> b) {
+  for (auto [a, b] : near_bodies(world, world.contact_threshold())) {
     if (first_is_held(world.body(a), world.body(b))) std::swap(a, b);
     add_contacts(world, a, b, out);
-  });
+  }
   return out;
 }
 
 std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> others,
                               std::span<const Id<Body>> bodies) {
   std::vector<Contact> out;
-  each_pair(world, others, bodies, [&](Id<Body> a, Id<Body> b) { add_contacts(world, a, b, out); });
+  for (const auto& [a, b] : near_bodies(world, others, bodies, world.contact_threshold()))
+    add_contacts(world, a, b, out);
   return out;
 }
 

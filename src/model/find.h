@@ -1,24 +1,17 @@
 // Who collides, how far apart, where they touch: queries over a world.
 #pragma once
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "model/world.h"
+#include "model/near_bodies.h"
 
 namespace clench {
-
-using BodyPair = std::pair<Id<Body>, Id<Body>>;
 
 /// Pairs that may collide and do, in creation order.
 std::vector<BodyPair> colliding_pairs(const World& world);
 /// Only pairs with one body from each group.
 std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Body>> a,
                                       std::span<const Id<Body>> b);
-
-/// Least distance that the bounding spheres of two bodies with geometry allow; negative when they
-/// overlap [m].
-double sphere_gap(const Body& a, const Body& b);
 
 struct BodyDistance {
   double distance = 0;       ///< [m]; 0 when colliding; infinite when a body has no geometry

@@ -1,0 +1,26 @@
+// Which bodies of a world are near enough to be looked at: a sweep over their boxes, then their spheres.
+// source  Cohen, Lin, Manocha & Ponamgi (1995), I-COLLIDE: sweep and prune
+#pragma once
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "model/world.h"
+
+namespace clench {
+
+using BodyPair = std::pair<Id<Body>, Id<Body>>;
+
+/// Least distance that the bounding spheres of two bodies with geometry allow; negative when they
+/// overlap [m].
+double sphere_gap(const Body& a, const Body& b);
+
+/// Pairs of the world that may collide and may be as near as reach [m]: the earlier body first, in
+/// creation order. None that is as near is missing.
+std::vector<BodyPair> near_bodies(const World& world, double reach);
+
+/// One of each group, each pair once, in the groups' order.
+std::vector<BodyPair> near_bodies(const World& world, std::span<const Id<Body>> a,
+                                  std::span<const Id<Body>> b, double reach);
+
+}  // namespace clench
