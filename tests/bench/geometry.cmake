@@ -1,5 +1,6 @@
 # Our queries on meshes beside those of other libraries: each takes part where it is installed.
-add_executable(bench_geometry bench/geometry_bench.cpp bench/pose_sets.cpp bench/peers.cpp)
+add_executable(bench_geometry bench/geometry_bench.cpp bench/report.cpp bench/pose_sets.cpp bench/pair_bench.cpp
+               bench/point_bench.cpp bench/world_bench.cpp bench/peers.cpp)
 target_include_directories(bench_geometry PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(bench_geometry PRIVATE clench_model clench_io)
 
@@ -22,5 +23,13 @@ endif()
 find_package(embree 3 QUIET)
 if(embree_FOUND)
   clench_bench_peer(EMBREE embree)
+endif()
+pkg_check_modules(BULLET QUIET IMPORTED_TARGET bullet)
+if(BULLET_FOUND)
+  clench_bench_peer(BULLET PkgConfig::BULLET)
+endif()
+find_package(CGAL QUIET)
+if(CGAL_FOUND)
+  clench_bench_peer(CGAL CGAL::CGAL)
 endif()
 add_test(NAME "bench: geometry" COMMAND bench_geometry --poses 1 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})

@@ -39,6 +39,8 @@ std::vector<Peer> peers();
 
 std::unique_ptr<PairPeer> fcl_pair(const Shape& a, const Shape& b);
 std::unique_ptr<PairPeer> ode_pair(const Shape& a, const Shape& b);
+std::unique_ptr<PairPeer> bullet_pair(const Shape& a, const Shape& b);
+std::unique_ptr<PointPeer> cgal_point(const Shape&);
 std::unique_ptr<PointPeer> embree_point(const Shape&);
 
 }  // namespace clench::bench

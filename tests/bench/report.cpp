@@ -1,0 +1,92 @@
+#include "bench/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace clench::bench {
+
+static double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<long>(values.size()) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void Report::check(bool agrees, const std::string& what) {
+  ++checked_;
+  if (agrees) return;
+  ++disagreed_;
+  if (disagreed_ <= 20) fmt::print("DISAGREES: {}\n", what);
+}
+
+void Report::count(const std::string& library, bool agrees) {
+  auto& [wrong, all] = wrong_[library];
+  wrong += !agrees, ++all;
+}
+
+void Report::add(const std::string& query, const std::string& pair, const Times& times) {
+  Row row{query, pair, {}};
+  for (const auto& [library, values] : times)
+    if (!values.empty()) row.medians[library] = median(values);
+  rows_.push_back(row);
+}
+
+void Report::sort() {
+  std::stable_sort(rows_.begin(), rows_.end(),
+                   [](const Row& x, const Row& y) { return x.query < y.query; });
+}
+
+double Report::mean(const std::string& query) const {
+  double sum = 0;
+  int count = 0;
+  for (const Row& row : rows_)
+    if (row.query == query) sum += std::log(row.medians.at("ours")), ++count;
+  return count == 0 ? std::nan("") : std::exp(sum / count);
+}
+
+double Report::ratio(const std::string& query, const std::string& other,
+                     const std::string& own_query) const {
+  double sum = 0;
+  int count = 0;
+  for (const Row& row : rows_) {
+    if (row.query != query || !row.medians.contains(other)) continue;
+    const Row* base = &row;
+    for (const Row& r : rows_)
+      if (r.query == own_query && r.pair == row.pair) base = &r;
+    sum += std::log(row.medians.at(other) / base->medians.at("ours"));
+    ++count;
+  }
+  return count == 0 ? std::nan("") : std::exp(sum / count);
+}
+
+void Report::print(const std::vector<std::string>& libraries) const {
+  fmt::print("{:40} {:18}", "median microseconds", "");
+  for (const auto& library : libraries) fmt::print(" {:>10}", library);
+  fmt::print("\n");
+  for (const Row& row : rows_) {
+    fmt::print("{:40} {:18}", row.query, row.pair);
+    for (const auto& library : libraries)
+      if (row.medians.contains(library))
+        fmt::print(" {:10.2f}", row.medians.at(library));
+      else
+        fmt::print(" {:>10}", "");
+    fmt::print("\n");
+  }
+  fmt::print("\n{} answers compared, {} disagree\n", checked_, disagreed_);
+  for (const auto& [library, answers] : wrong_)
+    fmt::print("{} answers of {}: {} wrong\n", answers.second, library, answers.first);
+}
+
+void Report::write_csv(const std::string& path) const {
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  if (!file) return;
+  fmt::print(file, "query,pair,library,median\n");
+  for (const Row& row : rows_)
+    for (const auto& [library, value] : row.medians)
+      fmt::print(file, "\"{}\",{},{},{:.4g}\n", row.query, row.pair, library, value);
+  std::fclose(file);
+}
+
+}  // namespace clench::bench

@@ -1,0 +1,64 @@
+// Medians of what was asked, by question, pair and library, and how many answers disagreed.
+#pragma once
+#include <chrono>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clench::bench {
+
+/// [us]
+inline double now() {
+  return std::chrono::duration<double, std::micro>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+/// the answer of a question, and how long it took [us]
+template <class Ask>
+auto timed(std::vector<double>& times, Ask&& ask) {
+  const double start = now();
+  auto answer = ask();
+  times.push_back(now() - start);
+  return answer;
+}
+
+using Times = std::map<std::string, std::vector<double>>;  ///< by library [us]
+
+/// Libraries take turns on blocks of so many questions: near in time, and each with its own data at hand.
+inline constexpr int block = 10;
+
+/// one line of the table: a question, in a situation, of a pair of meshes
+struct Row {
+  std::string query, pair;
+  std::map<std::string, double> medians;  ///< by library [us]
+};
+
+class Report {
+ public:
+  /// of a library that must be right
+  void check(bool agrees, const std::string& what);
+  /// of one that need not be
+  void count(const std::string& library, bool agrees);
+  void add(const std::string& query, const std::string& pair, const Times& times);
+  void sort();
+
+  /// geometric mean over the pairs of our own figure
+  double mean(const std::string& query) const;
+  /// geometric mean over the pairs of the time of `other` over that of ours, in own_query if given
+  double ratio(const std::string& query, const std::string& other,
+               const std::string& own_query = "") const;
+  int checked() const { return checked_; }
+  int disagreed() const { return disagreed_; }
+
+  void print(const std::vector<std::string>& libraries) const;
+  void write_csv(const std::string& path) const;
+
+ private:
+  std::vector<Row> rows_;
+  int checked_ = 0, disagreed_ = 0;
+  std::map<std::string, std::pair<int, int>> wrong_;  // wrong answers, and all of them, by library
+};
+
+}  // namespace clench::bench
