@@ -44,9 +44,10 @@ local function read_requests(paths)
   local asked = {}
   for _, path in ipairs(paths) do
     each_line(path, function(line, text)
-      local names = text:match "find_package%(([%w_]+)" or text:match "pkg_check_modules%([%w_]+ ([^)]*)%)"
+      local package = text:match "find_package%(([%w_]+)"
+      local names = package or text:match "pkg_check_modules%([%w_]+ ([^)]*)%)"
       for name in (names or ""):gmatch "[%w_.+-]+" do
-        local is_keyword = name == name:upper() and not name:find "%d"
+        local is_keyword = not package and name == name:upper() and not name:find "%d"
         if not is_keyword and not asked[name] then asked[name] = {path = path, line = line} end
       end
     end)

@@ -44,6 +44,8 @@ Brute brute(const Shape& a, const Shape& b, const Pose& X, double threshold) {
 }
 
 constexpr double contact_threshold = 1e-4;
+// every so many poses all pairs of triangles are measured
+constexpr int compared = 50;
 
 // steps of a fraction of a millimetre, and a turn with them
 Pose step_from(const Pose& X, int step) {
@@ -70,7 +72,7 @@ class PairBench {
       const int end = std::min(begin + block, count);
       collide(begin, end), measure(begin, end), follow(begin, end), touch(begin, end);
     }
-    for (int i = 0; i < count; i += 50) compare_with_brute_force(i);
+    for (int i = 0; i < count; i += compared) compare_with_brute_force(i);
     report_.add("collide " + situation_, name_, collide_);
     report_.add("distance " + situation_, name_, distance_);
     report_.add("seeded distance " + situation_, name_, seeded_);
@@ -133,18 +135,20 @@ class PairBench {
     }
   }
   void touch(int begin, int end) {
-    for (int i = begin; i < end; ++i)
-      near_.push_back(timed(within_["ours"],
-                            [&] { return pairs_within(a_, b_, poses_[i], contact_threshold); }));
+    for (int i = begin; i < end; ++i) {
+      auto near = timed(within_["ours"],
+                        [&] { return pairs_within(a_, b_, poses_[i], contact_threshold); });
+      if (i % compared == 0) near_[i] = std::move(near);
+    }
   }
   void compare_with_brute_force(int i) {
     const Brute slow = brute(a_, b_, poses_[i], contact_threshold);
     const Distance& d = distances_[i];
     const bool held = d.distance == 0 && (d.triangle_a < 0 || d.triangle_b < 0);
     report_.check(slow.distance == d.distance || held, where(i, "brute force", "distance"));
-    bool same = slow.within.size() == near_[i].size();
-    for (size_t k = 0; same && k < near_[i].size(); ++k)
-      same = slow.within[k] == std::pair(near_[i][k].triangle_a, near_[i][k].triangle_b);
+    bool same = slow.within.size() == near_.at(i).size();
+    for (size_t k = 0; same && k < near_.at(i).size(); ++k)
+      same = slow.within[k] == std::pair(near_.at(i)[k].triangle_a, near_.at(i)[k].triangle_b);
     report_.check(same, where(i, "brute force", "pairs within"));
   }
 
@@ -156,7 +160,7 @@ class PairBench {
   std::vector<Pose> poses_;
   std::vector<char> hits_;
   std::vector<Distance> distances_;
-  std::vector<std::vector<TrianglePair>> near_;
+  std::map<int, std::vector<TrianglePair>> near_;
   Times collide_, distance_, seeded_, within_;
 };
 
