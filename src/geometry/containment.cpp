@@ -1,37 +1,65 @@
 #include "geometry/containment.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "geometry/queries.h"
 
 namespace clench {
 
-// A corner, in the frame of `outer`, of the first part of `inner` that lies in the solid of `outer`.
-// A part whose extremes are not all within the bounds does not.
-template <class ToOuter>
-static std::optional<std::pair<Eigen::Vector3d, int>> held_part(const Shape& inner,
-                                                                const Shape& outer,
-                                                                ToOuter to_outer) {
-  if (!outer.closed()) return {};
-  const auto& extremes = inner.part_extremes();
-  const auto outside = [&](const Eigen::Vector3d& p) { return !outer.bounds().holds(to_outer(p)); };
-  for (size_t i = 0; i < inner.parts().size(); ++i) {
-    if (!extremes.empty() && std::any_of(extremes[i].begin(), extremes[i].end(), outside)) continue;
-    const int part = inner.parts()[i];
-    const Eigen::Vector3d p = to_outer(inner.mesh().corners(part)[0]);
-    if (contains(outer, p)) return std::pair(p, part);
+namespace {
+
+// One shape in the frame of the other, whose solid may hold its parts.
+class Holding {
+ public:
+  // p_outer = R p_inner + t, off by rounding at most
+  Holding(const Shape& inner, const Shape& outer, const Eigen::Matrix3d& R,
+          const Eigen::Vector3d& t, double rounding)
+      : inner_(inner), outer_(outer), R_(R), t_(t), bounds_(outer.bounds()) {
+    bounds_.low.array() -= rounding;
+    bounds_.high.array() += rounding;
   }
-  return {};
-}
+
+  /// first part whose first corner, asked for by corner(triangle), lies in the solid; -1 for none
+  template <class Corner>
+  int find(Corner corner) const {
+    if (!outer_.closed()) return -1;
+    for (size_t i = 0; i < inner_.parts().size(); ++i) {
+      const int part = inner_.parts()[i];
+      if (!sticks_out(i) && contains(outer_, corner(part))) return part;
+    }
+    return -1;
+  }
+
+ private:
+  // is an extreme of the part out of bounds? A part that is held has none
+  bool sticks_out(size_t part) const {
+    if (inner_.part_extremes().empty()) return false;
+    for (const Eigen::Vector3d& p : inner_.part_extremes()[part])
+      for (int k = 0; k < 3; ++k) {
+        const double x = R_(k, 0) * p.x() + R_(k, 1) * p.y() + R_(k, 2) * p.z() + t_[k];
+        if (x < bounds_.low[k] || x > bounds_.high[k]) return true;
+      }
+    return false;
+  }
+
+  const Shape &inner_, &outer_;
+  const Eigen::Matrix3d R_;
+  const Eigen::Vector3d t_;
+  Bounds bounds_;
+};
+
+}  // namespace
 
 std::optional<Containment> find_containment(const Shape& a, const Shape& b,
                                             const Placement& placement) {
-  const auto to_a = [&](const Eigen::Vector3d& p) { return placement.to_a(p); };
-  const auto to_b = [&](const Eigen::Vector3d& p) { return placement.to_b(p); };
-  if (const auto held = held_part(b, a, to_a)) return Containment{held->first, -1, held->second};
-  if (const auto held = held_part(a, b, to_b))
-    return Containment{a.mesh().corners(held->second)[0], held->second, -1};
+  const Eigen::Matrix3d& R = placement.rotation();
+  const Eigen::Vector3d& t = placement.position();
+  const auto in_a = [&](int triangle) { return placement.corners_b(triangle)[0]; };
+  const auto in_b = [&](int triangle) { return placement.to_b(placement.corners_a(triangle)[0]); };
+  const double rounding = placement.rounding();
+  if (const int part = Holding(b, a, R, t, rounding).find(in_a); part >= 0)
+    return Containment{in_a(part), -1, part};
+  const Eigen::Matrix3d back = R.transpose();
+  if (const int part = Holding(a, b, back, -(back * t), rounding).find(in_b); part >= 0)
+    return Containment{placement.corners_a(part)[0], part, -1};
   return {};
 }
 

@@ -41,6 +41,8 @@ class Placement {
   /// exact distances of pairs, each given to take(pair, closest) in their order
   template <class Take>
   void measure(const std::vector<NearPair>& pairs, Take&& take) const;
+  const Eigen::Matrix3d& rotation() const { return rotation_; }
+  const Eigen::Vector3d& position() const { return position_; }
   const TreePair& trees() const { return trees_; }
   double rounding() const { return trees_.rounding; }
 
