@@ -36,6 +36,7 @@ class MjcfReader {
   }
   void find_top_bodies(const MjcfNode& node, const std::string& child_class, const Pose& X_frame,
                        std::vector<TopBody>& into);
+  void tell_lost(const MjcfNode& node, bool in_world);
   void choose_base(std::vector<TopBody> bodies);
   int add_link(const XmlElement& element, const std::string& name, int parent, const Pose& X_PL);
   void read_body(const MjcfNode& node, int parent, const std::string& child_class,
@@ -60,6 +61,8 @@ class MjcfReader {
   InertialFaults inertial_faults_;
   std::map<std::string, int> links_;   // by name
   std::map<std::string, int> joints_;  // by name
+  int world_geoms_ = 0;                // that hang on no body
+  std::string first_world_geom_;       // its place
 };
 
 // --- which bodies are the robot ---
@@ -70,6 +73,13 @@ int count_joints(const MjcfNode& node) {
     if (child.name() == "joint" && child.element.attribute("type").value_or("") != "free") ++count;
     count += count_joints(child);
   }
+  return count;
+}
+
+int count_elements(const MjcfNode& node, const std::string& name) {
+  int count = 0;
+  for (const auto& child : node.children)
+    count += (child.name() == name) + count_elements(child, name);
   return count;
 }
 
@@ -88,6 +98,31 @@ void MjcfReader::find_top_bodies(const MjcfNode& node, const std::string& child_
   } else if (node.name() == "frame") {
     const Pose X = X_frame * document_.pose(XmlValues(node.element));
     for (const auto& child : node.children) find_top_bodies(child, inherited, X, into);
+  } else {
+    tell_lost(node, true);
+  }
+}
+
+/// What holds bodies and geoms that the robot lacks is told as such.
+void MjcfReader::tell_lost(const MjcfNode& node, bool in_world) {
+  const std::string name = node.name();
+  if (in_world && name == "geom") {
+    if (++world_geoms_ == 1) first_world_geom_ = node.element.place();
+  } else if (name == "replicate" || name == "composite" || name == "flexcomp") {
+    const std::string what =
+        name == "replicate"
+            ? fmt::format("all that it repeats (bodies: {}, geoms: {})",
+                          count_elements(node, "body"), count_elements(node, "geom"))
+            : "the bodies that it makes";
+    warn(node.element, fmt::format("<{}> is not used: the robot lacks {}; save the model expanded "
+                                   "by MuJoCo",
+                                   name, what));
+  } else if (name == "attach") {
+    warn(node.element,
+         fmt::format("<attach> is not used: the robot lacks the body {} of model {} and all that "
+                     "hangs on it; save the model expanded by MuJoCo",
+                     in_quotes(node.element.attribute("body").value_or("")),
+                     in_quotes(node.element.attribute("model").value_or(""))));
   } else {
     document_.unused().element(node.element);
   }
@@ -177,21 +212,29 @@ void MjcfReader::read_contents(const MjcfNode& node, int link, const std::string
       if (auto geom = geoms_.read(child.element, child_class, X_frame))
         link_geoms_[link].push_back(std::move(*geom));
     } else {
-      document_.unused().element(child.element);
+      tell_lost(child, false);
     }
   }
 }
 
 // --- joints ---
 
+/// Is there a range that limits?
+static bool given_range(const XmlValues& values) {
+  if (!values.has("range")) return false;
+  const auto range = values.numbers("range", 2, 2);
+  return range[0] != 0 || range[1] != 0 || values.text("limited", "auto") == "true";
+}
+
 void MjcfReader::set_range(const XmlValues& values, TreeJoint& joint) {
   const bool turns = joint.kind == JointKind::revolute;
   const double unit = turns ? document_.angle_unit() : 1;
   const std::string limited = values.word("limited", {"auto", "true", "false"}, "auto");
-  const bool has_range = values.has("range");
+  // two zeros undo what a class says
+  const bool has_range = given_range(values);
   if (limited == "auto" && has_range && !document_.autolimits())
     values.fail("range", "wanted limited=\"true\" beside it, as autolimits is off");
-  if (limited == "true" && !has_range) values.fail("limited", "wanted a range, got none");
+  if (limited == "true" && !values.has("range")) values.fail("limited", "wanted a range, got none");
   if (limited == "false" || !has_range) {
     const double endless = turns ? endless_turn : endless_slide;
     joint.min = joint.zero - endless, joint.max = joint.zero + endless;
@@ -204,6 +247,9 @@ void MjcfReader::set_range(const XmlValues& values, TreeJoint& joint) {
     values.fail("range", "joint '{}': min {} exceeds max {}", joint.name, range[0], range[1]);
   joint.min = range[0] * unit;
   joint.max = range[1] * unit;
+  if (joint.min == joint.max)
+    library_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}", joint.place, joint.name,
+                              joint.min, turns ? "rad" : "m"));
 }
 
 void MjcfReader::add_joint(TreeJoint joint, const XmlElement& element, int link) {
@@ -258,7 +304,8 @@ void MjcfReader::read_joint(const XmlElement& element, int link, const std::stri
   }
   // a ball is three turns, about x, y and z; its range is the most that it leans
   double most = endless_turn / 2;
-  if (values.has("range")) most = std::min(most, values.numbers("range", 2, 2)[1] * unit);
+  if (given_range(values) && values.text("limited", "auto") != "false")
+    most = std::min(most, values.numbers("range", 2, 2)[1] * unit);
   if (!(most > 0)) values.fail("range", "wanted a largest angle > 0");
   library_.note(
       fmt::format("{}: joint '{}' is a ball; it becomes three turns of at most {:.4g} rad",
@@ -292,8 +339,9 @@ void MjcfReader::read_inertial(const XmlElement& element, int link, const Pose& 
                               body.name, mass));
     return;
   }
-  inertial_faults_.add(set_inertial(body, mass, X_frame * document_.pose(values), inertia),
-                       element.place(), body.name);
+  const Inertial fault = set_inertial(body, mass, X_frame * document_.pose(values), inertia);
+  const bool given = values.has("fullinertia") || values.has("diaginertia");
+  inertial_faults_.add(given ? fault : Inertial::not_given, element.place(), body.name);
   pieces_[link].has_inertial = true;
 }
 
@@ -304,7 +352,7 @@ void MjcfReader::weigh_geoms(int link) {
   std::vector<std::pair<const MjcfGeom*, MassProperties>> parts;
   for (const MjcfGeom& geom : link_geoms_[link]) {
     if (!(geom.mass > 0)) continue;
-    parts.emplace_back(&geom, solid_mass(geom.piece.geometry->mesh));
+    parts.emplace_back(&geom, solid_of(geom.piece));
     if (!parts.back().second.centroid.allFinite()) return;
     mass += geom.mass;
     moment += geom.mass * (geom.piece.X_LG * parts.back().second.centroid);
@@ -387,6 +435,12 @@ RobotSpec MjcfReader::read() {
   std::vector<TopBody> bodies;
   for (const MjcfNode* node : document_.section("worldbody"))
     find_top_bodies(*node, "", Pose{}, bodies);
+  if (world_geoms_ > 0)
+    library_.warn(fmt::format(
+        "{}: {} of the world itself, on no body, {} no part of the robot and "
+        "not used",
+        first_world_geom_, world_geoms_ == 1 ? "a geom" : fmt::format("{} geoms", world_geoms_),
+        world_geoms_ == 1 ? "is" : "are"));
   choose_base(std::move(bodies));
   read_excludes();
   keep_masks();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "base/suggest.h"
 
@@ -13,6 +14,7 @@ namespace {
 struct Tendon {
   XmlElement element;
   std::vector<std::pair<int, double>> joints;  // and coefficients, none 0
+  bool whole = true;                           // are all its joints read?
 };
 
 class Couplings {
@@ -21,6 +23,7 @@ class Couplings {
       : document_(document), library_(library), tree_(tree) {
     for (size_t j = 0; j < tree.joints.size(); ++j)
       numbers_[tree.joints[j].name] = static_cast<int>(j);
+    for (const MjcfNode* node : document.section("worldbody")) find_names(*node, false);
   }
   void read() {
     read_tendons();
@@ -33,7 +36,9 @@ class Couplings {
   void warn(const XmlElement& at, const std::string& what) const {
     library_.warn(at.place() + ": " + what);
   }
-  int joint(const XmlValues& values, const char* attribute) const;
+  void find_names(const MjcfNode& node, bool copied);
+  std::string why_not(const std::string& name) const;
+  std::optional<int> joint(const XmlValues& values, const char* attribute);
   const Tendon& tendon(const XmlValues& values, const char* attribute) const;
   int leader_of(int joint) const;
   void follow(const XmlElement& at, int follower, int leader, double ratio, double offset);
@@ -52,15 +57,54 @@ class Couplings {
   Library& library_;
   TreeModel& tree_;
   std::map<std::string, int> numbers_;
+  std::map<std::string, bool>
+      others_;                       // joints in the file by another name or none: are they free?
+  std::vector<std::string> copied_;  // beginnings of the names of joints in <replicate>
+  bool attaches_ = false;            // are there joints whose names another file gives?
   std::map<std::string, Tendon> tendons_;
   std::vector<int> driven_;
+  std::vector<int> turns_of_balls_;  // what became of balls that were asked for
   bool has_actuators_ = false;
 };
 
-int Couplings::joint(const XmlValues& values, const char* attribute) const {
+/// Names of joints that are no joints of the robot, or not under their names.
+void Couplings::find_names(const MjcfNode& node, bool copied) {
+  const std::string kind = node.name();
+  if (kind == "joint" || kind == "freejoint") {
+    const std::string name = node.element.attribute("name").value_or("");
+    const bool free = kind == "freejoint" || node.element.attribute("type").value_or("") == "free";
+    if (!name.empty() && !numbers_.contains(name)) others_[name] = free;
+    if (!name.empty() && copied) copied_.push_back(name);
+  }
+  attaches_ = attaches_ || kind == "attach" || kind == "composite" || kind == "flexcomp";
+  for (const MjcfNode& child : node.children) find_names(child, copied || kind == "replicate");
+}
+
+/// Why a name of the file is none of the robot's joints; empty: it stands nowhere.
+std::string Couplings::why_not(const std::string& name) const {
+  if (numbers_.contains(name + "_x")) return "is a ball, which became three turns";
+  if (const auto found = others_.find(name); found != others_.end())
+    return found->second ? "is free, and no joint of the robot" : "is of a body that is not read";
+  for (const std::string& first : copied_)
+    if (name.starts_with(first)) return "is of a <replicate>, which is not read";
+  return attaches_ ? "may be of an <attach> or <composite>, which are not read" : "";
+}
+
+/// Empty, with a warning, when the joint is in the file but not in the robot.
+std::optional<int> Couplings::joint(const XmlValues& values, const char* attribute) {
   const std::string name = values.text(attribute);
   const auto found = numbers_.find(name);
   if (found != numbers_.end()) return found->second;
+  if (const std::string why = why_not(name); !why.empty()) {
+    warn(values.element(),
+         fmt::format("{}: joint {} {}; this is not used", values.element().name().substr(0, 40),
+                     in_quotes(name), why));
+    // what moves it does move it
+    for (const char* axis : {"_x", "_y", "_z"})
+      if (const auto turn = numbers_.find(name + axis); turn != numbers_.end())
+        turns_of_balls_.push_back(turn->second);
+    return {};
+  }
   std::vector<std::string> known;
   for (const auto& [other, number] : numbers_) known.push_back(other);
   values.fail(attribute, "no joint {}{}", in_quotes(name), did_you_mean(name, known));
@@ -114,8 +158,10 @@ void Couplings::read_tendons() {
       const double coefficient = values.number("coef");
       if (child.name() != "joint")
         document_.unused().element(child.element);
+      else if (const auto number = joint(values, "joint"); !number)
+        tendon.whole = false;
       else if (coefficient != 0)
-        tendon.joints.emplace_back(joint(values, "joint"), coefficient);
+        tendon.joints.emplace_back(*number, coefficient);
     }
     tendons_[XmlValues(node->element).text("name", "")] = std::move(tendon);
   }
@@ -124,7 +170,9 @@ void Couplings::read_tendons() {
 void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
   document_.unused().attributes(element,
                                 {"name", "class", "joint1", "joint2", "polycoef", "active"});
-  const int follower = joint(values, "joint1");
+  const auto found = joint(values, "joint1");
+  if (!found) return;
+  const int follower = *found;
   std::vector<double> c = {0, 1, 0, 0, 0};
   if (values.has("polycoef")) c = values.numbers("polycoef", 1, 5);
   c.resize(5);
@@ -135,16 +183,21 @@ void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
   }
   if (c[2] != 0 || c[3] != 0 || c[4] != 0)
     warn(element, fmt::format("joint '{}': polycoef: only its linear part is used", tied.name));
-  const int leader = joint(values, "joint2");
+  const auto second = joint(values, "joint2");
+  if (!second) return;
+  const int leader = *second;
   if (leader == follower) values.fail("joint2", "wanted another joint than joint1");
   // both count from where the model stands at first
   follow(element, follower, leader, c[1], tied.zero + c[0] - c[1] * tree_.joints[leader].zero);
 }
 
-/// A tendon of two joints whose length stays ties them: c1 q1 + c2 q2 is constant.
+/// A tendon of two joints whose length stays ties them: c1 q1 + c2 q2 is constant, polycoef's first
+/// number more than where the model stands at first.
 void Couplings::tie_tendon(const XmlElement& element, const XmlValues& values) {
+  document_.unused().attributes(element,
+                                {"name", "class", "tendon1", "tendon2", "polycoef", "active"});
   const Tendon& held = tendon(values, "tendon1");
-  if (values.has("tendon2") || held.joints.size() != 2) {
+  if (values.has("tendon2") || held.joints.size() != 2 || !held.whole) {
     warn(element, "equality of tendons: only a fixed tendon of two joints ties them; not used");
     return;
   }
@@ -152,7 +205,8 @@ void Couplings::tie_tendon(const XmlElement& element, const XmlValues& values) {
   const auto [b, c_b] = held.joints[1];
   if (a == b) return;
   const double ratio = -c_a / c_b;
-  follow(element, b, a, ratio, tree_.joints[b].zero - ratio * tree_.joints[a].zero);
+  const double longer = values.has("polycoef") ? values.numbers("polycoef", 1, 5)[0] : 0;
+  follow(element, b, a, ratio, tree_.joints[b].zero - ratio * tree_.joints[a].zero + longer / c_b);
 }
 
 void Couplings::read_equality(const XmlElement& element) {
@@ -179,12 +233,18 @@ void Couplings::take_control_range(const XmlElement& element, const XmlValues& v
   if (!values.has("ctrlrange") || values.text("ctrllimited", "auto") == "false") return;
   const auto range = values.numbers("ctrlrange", 2, 2);
   if (range[0] > range[1]) values.fail("ctrlrange", "min {} exceeds max {}", range[0], range[1]);
+  // two zeros undo what a class says
+  const bool zeros = range[0] == 0 && range[1] == 0;
+  if (zeros && values.text("ctrllimited", "auto") != "true") return;
   const double a = range[0] / gear, b = range[1] / gear;
   const double low = std::max(joint.min, std::min(a, b)),
                high = std::min(joint.max, std::max(a, b));
   if (low < high || (low == high && range[0] == range[1])) {
     joint.min = low, joint.max = high;
     joint.start = std::clamp(joint.start, low, high);
+    if (low == high)
+      library_.note(fmt::format("{}: joint '{}' may only stand at {:.4g}, as ctrlrange says",
+                                element.place(), joint.name, low));
   } else if (range[0] < range[1]) {
     warn(element, fmt::format("position: ctrlrange has nothing in common with the range of joint "
                               "'{}'; not used",
@@ -242,7 +302,12 @@ void Couplings::read_actuator(const XmlElement& element) {
                       "ctrllimited", "forcerange", "forcelimited", "kp", "kv", "gear"});
   if (values.has("joint") || values.has("jointinparent")) {
     has_actuators_ = true;
-    drive_joint(element, values, joint(values, values.has("joint") ? "joint" : "jointinparent"));
+    turns_of_balls_.clear();
+    const auto number = joint(values, values.has("joint") ? "joint" : "jointinparent");
+    if (number)
+      drive_joint(element, values, *number);
+    else
+      driven_.insert(driven_.end(), turns_of_balls_.begin(), turns_of_balls_.end());
   } else if (values.has("tendon")) {
     has_actuators_ = true;
     drive_tendon(element, tendon(values, "tendon"));

@@ -28,7 +28,7 @@ MjcfDocument::MjcfDocument(const fs::path& path, Library& library)
   classes_.emplace_back();
   class_numbers_["main"] = 0;
   for (const auto& node : root_.children)
-    if (node.name() == "default") read_defaults(node, 0);
+    if (node.name() == "default") read_defaults(node, -1);
 }
 
 // --- elements ---
@@ -102,8 +102,14 @@ void MjcfDocument::read_compiler(const MjcfNode& node) {
 
 void MjcfDocument::read_defaults(const MjcfNode& node, int parent) {
   const std::string name = node.element.attribute("class").value_or("");
-  int number = parent;
-  if (!name.empty() && name != "main") {
+  int number = std::max(parent, 0);
+  if (parent < 0 && !name.empty() && name != "main") {
+    // MuJoCo once called the global class so, and refuses it today
+    if (const auto [at, is_new] = class_numbers_.emplace(name, 0); !is_new && at->second != 0)
+      node.element.fail("default: there is another class '{}'", name);
+    library_.warn(fmt::format("{}: default: the outermost class is called main; {} is taken for it",
+                              node.element.place(), in_quotes(name)));
+  } else if (!name.empty() && name != "main") {
     number = static_cast<int>(classes_.size());
     if (!class_numbers_.emplace(name, number).second)
       node.element.fail("default: there is another class '{}'", name);

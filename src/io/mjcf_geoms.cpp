@@ -89,6 +89,10 @@ std::shared_ptr<const Geometry> MjcfGeoms::read_mesh(Asset& asset) {
       values.has("vertex")
           ? inline_mesh(asset)
           : geometry_.file(document_.mesh_file(values.text("file"), library_.options()));
+  if (const double size = size_of(geometry->mesh); size >= large_mesh && !values.has("scale"))
+    library_.warn(fmt::format("{}: mesh {}: it is {:.4g} m large: is a scale of 0.001 missing?",
+                              asset.element.place(),
+                              in_quotes(values.text("name", values.text("file", ""))), size));
   const Eigen::Vector3d scale = values.vec3("scale", {1, 1, 1}),
                         origin = values.vec3("refpos", {0, 0, 0});
   if (scale.cwiseAbs().minCoeff() == 0) values.fail("scale", "wanted factors other than 0");
@@ -167,6 +171,12 @@ void MjcfGeoms::set_primitive(const std::string& type, const XmlValues& values, 
               : type == "box"      ? box_mesh(2 * Eigen::Vector3d(size[0], size[1], size[2]))
                                    : ellipsoid_mesh({size[0], size[1], size[2]});
   geom.piece.geometry = geometry_.made(name, std::move(mesh));
+  if (type == "capsule" || type == "cylinder")
+    geom.piece.solid = type == "capsule" ? capsule_solid(size[0], 2 * size[1])
+                                         : cylinder_solid(size[0], 2 * size[1]);
+  else if (type != "box")
+    geom.piece.solid =
+        type == "sphere" ? capsule_solid(size[0], 0) : ellipsoid_solid({size[0], size[1], size[2]});
 }
 
 std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::string& child_class,
@@ -204,7 +214,7 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
   }
   geom.piece.X_LG = X_frame * X;
   geom.piece.color = color(values);
-  const double volume = std::abs(solid_mass(geom.piece.geometry->mesh).volume);
+  const double volume = std::abs(solid_of(geom.piece).volume);
   geom.mass = values.has("mass") ? values.not_negative("mass", 0)
                                  : values.not_negative("density", 1000) * volume;
   return geom;

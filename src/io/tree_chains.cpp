@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/text.h"
 #include "io/closing_choice.h"
@@ -63,7 +64,21 @@ void ChainMaker::number_dofs() {
   }
 }
 
+// limits beyond this are those of nobody [rad or m]
+constexpr double unlimited = 1e6;
+
+std::string way_text(double low, double high) {
+  return low <= -unlimited && high >= unlimited ? "without limits"
+                                                : fmt::format("from {:.6g} to {:.6g}", low, high);
+}
+
+std::string limits_text(double low, double high) {
+  return low <= -unlimited && high >= unlimited ? "(unlimited)"
+                                                : fmt::format("[{:.6g}, {:.6g}]", low, high);
+}
+
 void ChainMaker::widen_followers() {
+  std::map<int, std::pair<double, double>> ranges;  // by leader: what its followers leave
   for (TreeJoint& joint : tree_.joints) {
     if (joint.leader < 0 || joint.ratio == 0) continue;
     const TreeJoint& leader = tree_.joints[joint.leader];
@@ -71,13 +86,30 @@ void ChainMaker::widen_followers() {
                  b = joint.ratio * leader.max + joint.offset;
     const double low = std::min(a, b), high = std::max(a, b);
     const double left = std::min(high, joint.max) - std::max(low, joint.min);
-    if (left >= least_range * (high - low)) continue;
-    library_.warn(fmt::format(
-        "{}: joint '{}' follows '{}' from {} to {}, and its own limits [{}, {}] would stop that; "
-        "they are not used",
-        joint.place, joint.name, leader.name, low, high, joint.min, joint.max));
-    joint.min = low;
-    joint.max = high;
+    // what its limits leave of the leader's range, counted as dof_range does
+    const double c = (joint.min - joint.offset) / joint.ratio,
+                 d = (joint.max - joint.offset) / joint.ratio;
+    auto& range = ranges.try_emplace(joint.leader, leader.min, leader.max).first->second;
+    const std::pair<double, double> narrower(std::max(range.first, std::min(c, d)),
+                                             std::min(range.second, std::max(c, d)));
+    const bool slips = left < least_range * (high - low);
+    if (!slips && narrower.first <= narrower.second) {
+      range = narrower;
+      continue;
+    }
+    library_.warn(
+        slips
+            ? fmt::format("{}: joint '{}' follows '{}' {}, and its own limits {} would stop "
+                          "that; they are not used",
+                          joint.place, joint.name, leader.name, way_text(low, high),
+                          limits_text(joint.min, joint.max))
+            : fmt::format("{}: joint '{}' follows '{}', and its own limits {} have no value in "
+                          "common with those of others that follow it; they are not used",
+                          joint.place, joint.name, leader.name, limits_text(joint.min, joint.max)));
+    // a leader that stands still must not be moved by rounding
+    const double slack = high - low < 1e-9 ? 1e-9 * std::max(1.0, std::abs(low)) : 0;
+    joint.min = low - slack;
+    joint.max = high + slack;
   }
 }
 
@@ -220,10 +252,6 @@ RobotSpec ChainMaker::make() {
   for (int i = 1; i < static_cast<int>(tree_.links.size()); ++i) add_link(i);
   for (const auto& [a, b] : tree_.never_meet)
     robot_.collision_rules.pairs_off.push_back({part(a), part(b)});
-  for (size_t d = 0; d < robot_.dofs.size(); ++d)
-    if (const auto [low, high] = dof_range(robot_, static_cast<int>(d)); low > high)
-      fail("{}: DOF '{}': the limits of its joints have no value in common", file_,
-           robot_.dofs[d].name);
   close_hand();
   try {
     check_robot(robot_);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/mass.h"
 #include "io/geometry_builder.h"
 #include "math/pose.h"
 
@@ -21,9 +22,19 @@ struct PieceColor {
 struct GeometryPiece {
   std::shared_ptr<const Geometry> geometry;  ///< as its file or its formula gives it
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-  Pose X_LG;                        ///< in the link, after scaling
-  std::optional<PieceColor> color;  ///< over that of the file
+  Pose X_LG;                            ///< in the link, after scaling
+  std::optional<PieceColor> color;      ///< over that of the file
+  std::optional<MassProperties> solid;  ///< of a round shape, which its mesh only comes near
 };
+
+/// Mass properties of what a piece shows, without its scale.
+MassProperties solid_of(const GeometryPiece& piece);
+
+/// Longest edge of the box around a mesh [m].
+double size_of(const Mesh& mesh);
+
+/// Meshes as large are likely to be in millimetres [m].
+inline constexpr double large_mesh = 10;
 
 /// Meshes already read and shapes already made for one robot: five fingers share theirs.
 class TreeGeometry {

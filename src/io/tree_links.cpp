@@ -35,7 +35,7 @@ static std::string some_names(const std::vector<std::string>& names) {
 
 void InertialFaults::add(Inertial fault, const std::string& place, const std::string& link) {
   if (fault == Inertial::sound) return;
-  const int kind = fault == Inertial::no_body ? 0 : 1;
+  const int kind = static_cast<int>(fault) - static_cast<int>(Inertial::no_body);
   if (links_[kind].empty()) places_[kind] = place;
   links_[kind].push_back(link);
 }
@@ -51,15 +51,24 @@ void InertialFaults::tell(const Library& library) const {
         fmt::format("{}: inertia that is not positive definite; it is computed from the "
                     "geometry: {}",
                     places_[1], some_names(links_[1])));
+  if (!links_[2].empty())
+    library.note(
+        fmt::format("{}: a mass without an inertia, which is computed from the geometry: {}",
+                    places_[2], some_names(links_[2])));
 }
 
-static void guess_mass(BodySpec& body, bool& guessed, bool& frame) {
-  const ShapePtr& shape = body.shape ? body.shape : body.appearance.visual;
-  frame = !shape;
-  guessed = true;
-  const double volume = shape && shape->closed() ? std::abs(shape->solid().volume) : 0;
-  body.mass = volume > 0 && std::isfinite(water * volume) ? std::max(water * volume, frame_mass)
-                                                          : frame_mass;
+/// False for an open surface, which has none.   `pieces`  of the shape
+static bool guess_mass(BodySpec& body, const ShapePtr& shape,
+                       const std::vector<GeometryPiece>& pieces) {
+  body.mass = frame_mass;
+  if (!shape || !shape->closed()) return !shape;
+  double volume = std::abs(shape->solid().volume);
+  // round shapes fill more than their meshes
+  for (const GeometryPiece& piece : pieces)
+    if (piece.solid) volume += piece.solid->volume - solid_mass(piece.geometry->mesh).volume;
+  if (!(volume > 0 && std::isfinite(water * volume))) return false;
+  body.mass = std::max(water * volume, frame_mass);
+  return true;
 }
 
 /// A file may name one surface for both, coloured once.
@@ -73,7 +82,7 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
                                [](const LinkPieces& p) { return !p.collision.empty(); });
   const bool any_visual = std::any_of(pieces.begin(), pieces.end(),
                                       [](const LinkPieces& p) { return !p.visual.empty(); });
-  std::vector<std::string> ghosts, weightless;
+  std::vector<std::string> ghosts, weightless, open;
   for (size_t i = 0; i < tree.links.size(); ++i) {
     BodySpec& body = tree.links[i].body;
     const std::string subject = fmt::format("{}: link '{}'", file, body.name);
@@ -86,9 +95,11 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     body.material = "plastic";
     if (visual.shape && !collision.shape) ghosts.push_back(body.name);
     if (pieces[i].has_inertial) continue;
-    bool guessed = false, frame = false;
-    guess_mass(body, guessed, frame);
-    if (guessed && !frame) weightless.push_back(body.name);
+    const bool seen = !body.shape;  // its pieces for pictures alone
+    const ShapePtr& shape = seen ? visual.shape : body.shape;
+    const bool has_volume =
+        guess_mass(body, shape, seen || !any ? pieces[i].visual : pieces[i].collision);
+    if (shape) (has_volume ? weightless : open).push_back(body.name);
   }
   if (!any && any_visual)
     library.note(fmt::format(
@@ -100,6 +111,11 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
   if (!weightless.empty())
     library.note(fmt::format("{}: links without a mass weigh what their volume of water does: {}",
                              file, some_names(weightless)));
+  if (!open.empty())
+    library.warn(
+        fmt::format("{}: links without a mass whose surface is open, and so bounds no "
+                    "volume, weigh {} kg: {}",
+                    file, frame_mass, some_names(open)));
   library.note(fmt::format("{}: says nothing of friction; all links count as plastic", file));
 }
 

@@ -14,7 +14,7 @@ struct LinkPieces {
 
 /// Gives each link its shape and looks. Bodies collide with the collision pieces alone; where no
 /// link of the robot has any, all collide with the visual ones. Links without mass in the file weigh
-/// what water of their volume does, frames without geometry a gram. Tells what it guesses.
+/// what water of their volume does, frames without geometry and open surfaces a gram. Tells what it guesses.
 /// `pieces`  one a link
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
                  const std::string& file, const Library& library);
@@ -23,6 +23,7 @@ enum class Inertial {
   sound,
   no_body,       ///< one moment exceeds the sum of the others; used as it stands
   not_definite,  ///< not positive definite; left to the shape
+  not_given,     ///< left to the shape, too
 };
 
 /// Mass, centre and inertia of a link from the inertia about its centre of mass [kg m^2].
@@ -36,8 +37,8 @@ class InertialFaults {
   void tell(const Library& library) const;
 
  private:
-  std::array<std::string, 2> places_;  // of the first; no_body, not_definite
-  std::array<std::vector<std::string>, 2> links_;
+  std::array<std::string, 3> places_;  // of the first; no_body, not_definite, not_given
+  std::array<std::vector<std::string>, 3> links_;
 };
 
 /// Largest numbers of a robot's parts, far above any robot.

@@ -75,4 +75,32 @@ Mesh ellipsoid_mesh(const Eigen::Vector3d& radii) {
   return mesh;
 }
 
+static MassProperties solid(double volume, const Eigen::Vector3d& moments) {
+  MassProperties out;
+  out.volume = volume;
+  out.inertia = moments.asDiagonal();
+  return out;
+}
+
+MassProperties cylinder_solid(double radius, double length) {
+  const double r2 = radius * radius, across = r2 / 4 + length * length / 12;
+  return solid(std::numbers::pi * r2 * length, {across, across, r2 / 2});
+}
+
+MassProperties capsule_solid(double radius, double length) {
+  const MassProperties middle = cylinder_solid(radius, length);
+  const double r2 = radius * radius, ball = 4.0 / 3 * std::numbers::pi * r2 * radius;
+  const double volume = middle.volume + ball, part = ball / volume;
+  // half balls, their centres of mass 3/8 r beyond the ends
+  const double along = 0.4 * r2, across = along + length * length / 4 + 3.0 / 8 * length * radius;
+  const Eigen::Vector3d ends(across, across, along);
+  return solid(volume, (1 - part) * middle.inertia.diagonal() + part * ends);
+}
+
+MassProperties ellipsoid_solid(const Eigen::Vector3d& radii) {
+  const Eigen::Vector3d squares = radii.cwiseAbs2();
+  return solid(4.0 / 3 * std::numbers::pi * radii.prod(),
+               (Eigen::Vector3d::Constant(squares.sum()) - squares) / 5);
+}
+
 }  // namespace clench

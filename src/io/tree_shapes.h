@@ -1,7 +1,7 @@
 // Meshes of the primitive shapes that robot files name. All are closed, centred, and face outward;
 // round ones have their vertices on the true surface.
 #pragma once
-#include "geometry/mesh.h"
+#include "geometry/mass.h"
 
 namespace clench {
 
@@ -18,5 +18,10 @@ Mesh cylinder_mesh(double radius, double length);
 Mesh capsule_mesh(double radius, double length);
 
 Mesh ellipsoid_mesh(const Eigen::Vector3d& radii);
+
+/// Of the true solids, which are larger than these meshes.
+MassProperties cylinder_solid(double radius, double length);
+MassProperties capsule_solid(double radius, double length);
+MassProperties ellipsoid_solid(const Eigen::Vector3d& radii);
 
 }  // namespace clench

@@ -74,7 +74,7 @@ std::vector<double> XmlValues::numbers(const char* name, int least, int most) co
     const auto value = parse_number(word);
     if (!value) fail(name, "wanted a number, got {}", in_quotes(word));
     if (std::abs(*value) > largest_number)
-      fail(name, "wanted a number of at most {}, got {}", largest_number, in_quotes(word));
+      fail(name, "wanted a number of at most {:g}, got {}", largest_number, in_quotes(word));
     out.push_back(*value);
   }
   const int count = static_cast<int>(out.size());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "base/suggest.h"
 #include "io/tree_chains.h"
@@ -48,6 +49,7 @@ class UrdfReader {
   std::optional<GeometryPiece> read_piece(const XmlElement& element, const std::string& link,
                                           bool visual);
   std::optional<GeometryPiece> read_geometry_of(const XmlElement& shape, bool visual);
+  void warn_if_large(const XmlElement& shape, const GeometryPiece& piece, const std::string& link);
   std::optional<PieceColor> read_color(const XmlElement& material);
   Pose read_origin(const XmlElement& element);
   void read_joint_names(const XmlElement& element);
@@ -71,6 +73,7 @@ class UrdfReader {
   std::map<std::string, int> link_numbers_;
   std::vector<FileJoint> joints_;
   size_t piece_count_ = 0;
+  std::set<std::string> large_;  // meshes that were told of
   TreeModel tree_;
   std::map<std::string, int> joint_numbers_;  // in the tree
 };
@@ -142,7 +145,8 @@ void UrdfReader::read_inertial(const XmlElement& element, BodySpec& body, LinkPi
     const double m = values.number("value");
     if (!(m > 0)) values.fail("value", "wanted a mass > 0, got {}", m);
     const Pose X_LC = read_origin(element);
-    inertial_faults_.add(set_inertial(body, m, X_LC, I), element.place(), body.name);
+    const Inertial fault = set_inertial(body, m, X_LC, I);
+    inertial_faults_.add(inertia ? fault : Inertial::not_given, element.place(), body.name);
     pieces.has_inertial = true;
   } catch (const Error& error) {
     library_.warn(
@@ -170,10 +174,12 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
   } else if (kind == "sphere") {
     const double r = positive("radius");
     made(fmt::format("capsule {} 0", r), capsule_mesh(r, 0));
+    piece.solid = capsule_solid(r, 0);
   } else if (kind == "cylinder" || kind == "capsule") {
     const double r = positive("radius"), l = positive("length");
     made(fmt::format("{} {} {}", kind, r, l),
          kind == "cylinder" ? cylinder_mesh(r, l) : capsule_mesh(r, l));
+    piece.solid = kind == "cylinder" ? cylinder_solid(r, l) : capsule_solid(r, l);
   } else {
     piece.scale = values.vec3("scale", {1, 1, 1});
     if (piece.scale.cwiseAbs().minCoeff() == 0) values.fail("scale", "wanted factors other than 0");
@@ -188,6 +194,16 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
     }
   }
   return piece;
+}
+
+/// A mesh in millimetres that lacks its scale looks like one of many metres.
+void UrdfReader::warn_if_large(const XmlElement& shape, const GeometryPiece& piece,
+                               const std::string& link) {
+  if (shape.name() != "mesh" || shape.attribute("scale")) return;
+  const double size = size_of(piece.geometry->mesh);
+  if (size < large_mesh || !large_.insert(shape.attribute("filename").value_or("")).second) return;
+  warn(shape, fmt::format("link '{}': its mesh is {:.4g} m large: is a scale of 0.001 missing?",
+                          link, size));
 }
 
 std::optional<GeometryPiece> UrdfReader::read_piece(const XmlElement& element,
@@ -216,6 +232,7 @@ std::optional<GeometryPiece> UrdfReader::read_piece(const XmlElement& element,
   unused_.attributes(shape, {"size", "radius", "length", "filename", "scale"});
   auto piece = read_geometry_of(shape, visual);
   if (!piece) return {};
+  warn_if_large(shape, *piece, link);
   piece->X_LG = read_origin(element);
   if (const XmlElement material = element.child("material"); material && visual)
     piece->color = read_color(material);

@@ -80,7 +80,8 @@ TEST_CASE("a model of many elements is read whole") {
   // the mesh is in millimetres by the scale of its class
   CHECK(hand.body("thumb").shape->solid().volume == doctest::Approx(0.008 * 0.02 * 0.06));
   CHECK(hand.noted("body 'palm' is the base; its place in the file is not used"));
-  CHECK(hand.warned("hand.mjcf:12: <geom> is not used"));
+  CHECK(
+      hand.warned("hand.mjcf:12: a geom of the world itself, on no body, is no part of the robot"));
   CHECK(hand.warned("<sensor> is not used"));
   CHECK(hand.warned("of <joint>, here and further on, not used: armature"));
 }
@@ -261,4 +262,131 @@ TEST_CASE("meshes are looked for in the folder that the compiler names") {
   CHECK_THROWS_AS(read_robot(folder.write("m.xml", text("meshdir='assets'"))), Error);
   CHECK(Told(folder.write("m.xml", text("meshdir='assets' strippath='true'"))).robot.base.shape);
   CHECK(Told(folder.write("m.xml", text("assetdir='assets' strippath='true'"))).robot.base.shape);
+}
+
+TEST_CASE("a motor or tendon of a joint that the robot lacks is told, and the robot read") {
+  const Told ball = model("<joint name='j' type='ball' range='0 30'/>",
+                          "<actuator><motor joint='j'/></actuator>");
+  CHECK(ball.dofs() == std::vector<std::string>{"j_x", "j_y", "j_z"});
+  CHECK(
+      ball.warned("m.xml:1: motor: joint 'j' is a ball, which became three turns; this is not "
+                  "used"));
+  CHECK_FALSE(ball.noted("no actuator drives"));  // the motor moves them all the same
+  TemporaryFolder folder;
+  const auto read = [&](const std::string& beside, const std::string& rest) {
+    return Told(folder.write("m.xml", "<mujoco model='m'><worldbody><body name='a'>" + beside +
+                                          "<body name='b'><joint name='p' range='0 30'/><joint "
+                                          "name='q' range='0 30'/></body></body>"
+                                          "<body><freejoint/><body><joint name='hinge'/></body>"
+                                          "</body></worldbody>" +
+                                          rest + "</mujoco>"));
+  };
+  CHECK(read("<freejoint name='root'/>", "<actuator><motor joint='root'/></actuator>")
+            .warned("motor: joint 'root' is free, and no joint of the robot; this is not used"));
+  const Told beside = read("", "<equality><joint joint1='hinge'/></equality>");
+  CHECK(beside.dofs().size() == 2);
+  CHECK(beside.warned("joint: joint 'hinge' is of a body that is not read; this is not used"));
+  CHECK(read("", "<equality><joint joint1='p' joint2='hinge'/></equality>").dofs().size() == 2);
+  // a tendon that has lost a joint ties no others
+  const Told tendon = read("",
+                           "<tendon><fixed name='t'><joint joint='p' coef='1'/><joint joint='q' "
+                           "coef='1'/><joint joint='hinge' coef='1'/></fixed></tendon>"
+                           "<equality><tendon tendon1='t'/></equality>");
+  CHECK(tendon.dofs().size() == 2);
+  CHECK(tendon.warned("joint: joint 'hinge' is of a body that is not read"));
+  const std::string copies =
+      "<replicate count='3' euler='0 0 120'><body name='f'><joint name='f'/>"
+      "<geom size='1'/></body></replicate>";
+  CHECK(read(copies, "<actuator><motor joint='f1'/></actuator>")
+            .warned("motor: joint 'f1' is of a <replicate>, which is not read"));
+  CHECK(read("<attach model='x' body='y' prefix='z'/>", "<actuator><motor joint='zj'/></actuator>")
+            .warned("motor: joint 'zj' may be of an <attach> or <composite>, which are not read"));
+}
+
+TEST_CASE("a range of two zeros means none, as it undoes that of a class") {
+  const std::string undone = "<default><joint range='-10 10'/></default>";
+  const Told hinge = model("<joint name='j' range='0 0'/>", undone);
+  CHECK(hinge.joint("j").max == doctest::Approx(2 * pi));
+  CHECK(hinge.noted("joint 'j' has no limits"));
+  CHECK(model("<joint name='j' type='ball' range='0 0'/>").dofs().size() == 3);
+  // even where a range alone would be an error
+  CHECK(model("<joint name='j' range='0 0'/>", "<compiler autolimits='false'/>").dofs().size() ==
+        1);
+  const Told locked = model("<joint name='j' range='0 0' limited='true'/>");
+  CHECK(locked.joint("j").max == 0);
+  CHECK(locked.noted("m.xml:1: joint 'j' may only stand at 0 rad"));
+  const std::string servo = "<actuator><position joint='j' ctrlrange='0 0'";
+  CHECK(model("<joint name='j' range='-10 90'/>", servo + "/></actuator>").joint("j").max ==
+        doctest::Approx(pi / 2));
+  const Told held =
+      model("<joint name='j' range='-10 90'/>", servo + " ctrllimited='true'/></actuator>");
+  CHECK(held.joint("j").max == 0);
+  CHECK(held.noted("joint 'j' may only stand at 0, as ctrlrange says"));
+}
+
+TEST_CASE("an outermost class by another name is the global one, which is told") {
+  const Told told = model("<geom type='box' size='0.1 0.1 0.1'/>",
+                          "<default class='robot'><geom density='2000'/></default>");
+  CHECK(told.body("b").mass == doctest::Approx(16));
+  CHECK(
+      told.warned("m.xml:1: default: the outermost class is called main; 'robot' is taken for "
+                  "it"));
+  // it may be named
+  CHECK(model("<geom class='robot' size='1'/>", "<default class='robot'/><default class='robot'/>")
+            .body("b")
+            .shape);
+}
+
+TEST_CASE("a tendon may be held longer than it is at first") {
+  const Told told =
+      model("<joint name='p' range='-1 1' ref='0.5'/><joint name='q' range='-9 9'/>",
+            radian +
+                "<tendon><fixed name='t'><joint joint='p' coef='1'/><joint joint='q' coef='-2'/>"
+                "</fixed></tendon><equality><tendon tendon1='t' polycoef='0.2'/></equality>");
+  // p - 0.5 - 2 q = 0.2
+  CHECK(told.joint("q").ratio == 0.5);
+  CHECK(told.joint("q").theta == doctest::Approx(-0.35));
+}
+
+TEST_CASE("round geoms weigh what their true solids do") {
+  const auto mass = [](const std::string& geom) {
+    return model("<geom " + geom + "/>").body("b").mass;
+  };
+  CHECK(mass("size='0.1'") == doctest::Approx(4000 * pi / 3 * 1e-3));
+  CHECK(mass("type='cylinder' size='0.1 0.2'") == doctest::Approx(1000 * pi * 0.01 * 0.4));
+  CHECK(mass("type='ellipsoid' size='0.1 0.2 0.3'") == doctest::Approx(4000 * pi / 3 * 6e-3));
+  CHECK(mass("type='capsule' size='0.1 0.2'") ==
+        doctest::Approx(1000 * pi * 0.01 * 0.4 + 4000 * pi / 3 * 1e-3));
+}
+
+TEST_CASE("bodies and geoms that are lost are told as lost") {
+  const Told told = model(
+      "<geom size='0.1'/><replicate count='3'><body><geom size='1'/><geom size='1'/></body>"
+      "</replicate><attach model='finger' body='tip' prefix='a'/><composite/>");
+  CHECK(
+      told.warned("m.xml:1: <replicate> is not used: the robot lacks all that it repeats "
+                  "(bodies: 1, geoms: 2); save the model expanded by MuJoCo"));
+  CHECK(
+      told.warned("m.xml:1: <attach> is not used: the robot lacks the body 'tip' of model "
+                  "'finger' and all that hangs on it"));
+  CHECK(told.warned("m.xml:1: <composite> is not used: the robot lacks the bodies that it makes"));
+  TemporaryFolder folder;
+  CHECK(Told(folder.write("m.xml",
+                          "<mujoco><worldbody><geom size='1'/><geom size='1'/><body name='a'/>"
+                          "</worldbody></mujoco>"))
+            .warned("m.xml:1: 2 geoms of the world itself, on no body, are no part of the robot"));
+}
+
+TEST_CASE("a mesh of many metres without a scale is told") {
+  const std::string corners = "vertex='0 0 0 20 0 0 0 20 0 0 0 20'";
+  const std::string geom = "<geom type='mesh' mesh='c'/>";
+  CHECK(model(geom, "<asset><mesh name='c' " + corners + "/></asset>")
+            .warned("m.xml:1: mesh 'c': it is 20 m large: is a scale of 0.001 missing?"));
+  CHECK_FALSE(model(geom, "<asset><mesh name='c' scale='1 1 1' " + corners + "/></asset>")
+                  .warned("a scale"));
+}
+
+TEST_CASE("a mass without an inertia is told as such") {
+  CHECK(model("<inertial mass='1' pos='0 0 0'/><geom size='0.1'/>")
+            .noted("m.xml:1: a mass without an inertia, which is computed from the geometry: 'b'"));
 }

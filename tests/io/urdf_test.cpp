@@ -335,3 +335,99 @@ TEST_CASE("limits of zero width make a DOF that stays") {
   CHECK(dof_range(told.robot, 0)[0] == 0.5);
   CHECK(told.robot.dofs[0].default_velocity == 0);
 }
+
+TEST_CASE("a mesh of many metres without a scale is told") {
+  TemporaryFolder folder;
+  folder.write("a.obj",
+               "v 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const auto read = [&](const std::string& scale) {
+    const std::string mesh = "<geometry><mesh filename='a.obj'" + scale + "/></geometry>";
+    return Told(folder.write(
+        "a.urdf", two_links("<visual>" + mesh + "</visual><collision>" + mesh + "</collision>")));
+  };
+  const Told large = read("");
+  CHECK(large.warned("a.urdf:1: link 'a': its mesh is 20 m large: is a scale of 0.001 missing?"));
+  CHECK(large.warnings.size() == 1);
+  CHECK(read(" scale='0.001 0.001 0.001'").warnings.empty());
+  CHECK(read(" scale='1 1 1'").warnings.empty());
+}
+
+TEST_CASE("an open surface without a mass weighs a gram, which is told") {
+  TemporaryFolder folder;
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+  const Told told(folder.write(
+      "a.urdf", two_links("<collision><geometry><mesh filename='a.obj'/></geometry></collision>")));
+  CHECK(told.robot.base.mass == 0.001);
+  CHECK(
+      told.warned("a.urdf: links without a mass whose surface is open, and so bounds no volume, "
+                  "weigh 0.001 kg: 'a'"));
+  CHECK_FALSE(told.noted("volume of water"));
+}
+
+TEST_CASE("round shapes weigh what water of their true volume does") {
+  TemporaryFolder folder;
+  const auto mass = [&](const std::string& element, const std::string& shape) {
+    return Told(folder.write("a.urdf", two_links("<" + element + "><geometry>" + shape +
+                                                 "</geometry></" + element + ">")))
+        .robot.base.mass;
+  };
+  const double ball = 4000 * pi / 3 * 1e-3, rod = 1000 * pi * 0.01 * 0.4;
+  for (const std::string element : {"collision", "visual"}) {
+    CHECK(mass(element, "<sphere radius='0.1'/>") == doctest::Approx(ball));
+    CHECK(mass(element, "<cylinder radius='0.1' length='0.4'/>") == doctest::Approx(rod));
+    CHECK(mass(element, "<capsule radius='0.1' length='0.4'/>") == doctest::Approx(rod + ball));
+  }
+}
+
+TEST_CASE("limits of followers that contradict each other are dropped, which is told") {
+  TemporaryFolder folder;
+  const Told told(folder.write(
+      "a.urdf", R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+<joint name="k" type="revolute"><parent link="a"/><child link="b"/><limit lower="-1" upper="1"/></joint>
+<joint name="m" type="revolute"><parent link="a"/><child link="c"/><limit lower="0.2" upper="1"/><mimic joint="k"/></joint>
+<joint name="n" type="revolute"><parent link="a"/><child link="d"/><limit lower="0.2" upper="1"/><mimic joint="k" multiplier="-1"/></joint>
+</robot>)"));
+  CHECK(
+      told.warned("a.urdf:4: joint 'n' follows 'k', and its own limits [0.2, 1] have no value in "
+                  "common with those of others that follow it; they are not used"));
+  const auto [low, high] = dof_range(told.robot, 0);
+  CHECK(low == 0.2);
+  CHECK(high == 1);
+}
+
+TEST_CASE("a follower of a joint that stands still does not keep the robot from being read") {
+  TemporaryFolder folder;
+  // 0.3 * 0.7 + 0.1, taken back, is not 0.7 to the bit
+  const Told told(
+      folder.write("a.urdf", R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+<joint name="k" type="revolute"><parent link="a"/><child link="b"/><limit lower="0.7" upper="0.7"/></joint>
+<joint name="m" type="revolute"><parent link="a"/><child link="c"/><limit lower="-1e15" upper="0"/><mimic joint="k" multiplier="0.3" offset="0.1"/></joint>
+</robot>)"));
+  const auto [low, high] = dof_range(told.robot, 0);
+  CHECK(low == 0.7);
+  CHECK(high == 0.7);
+}
+
+TEST_CASE("limits that are none print as such") {
+  TemporaryFolder folder;
+  const Told told(
+      folder.write("a.urdf", R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+<joint name="k" type="revolute"><parent link="a"/><child link="b"/><limit lower="-1e15" upper="1e15"/></joint>
+<joint name="m" type="revolute"><parent link="a"/><child link="c"/><limit lower="0" upper="1"/><mimic joint="k"/></joint>
+</robot>)"));
+  CHECK(
+      told.warned("joint 'm' follows 'k' without limits, and its own limits [0, 1] would stop "
+                  "that; they are not used"));
+}
+
+TEST_CASE("a mass without an inertia is told as such") {
+  TemporaryFolder folder;
+  const Told told(folder.write(
+      "a.urdf", two_links("<inertial><mass value='2'/></inertial><collision><geometry><box "
+                          "size='0.1 0.1 0.1'/></geometry></collision>")));
+  CHECK(told.robot.base.mass == 2);
+  CHECK(
+      told.noted("a.urdf:1: a mass without an inertia, which is computed from the geometry: "
+                 "'a'"));
+  CHECK(told.warnings.empty());
+}
