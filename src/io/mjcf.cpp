@@ -170,7 +170,7 @@ int MjcfReader::add_link(const XmlElement& element, const std::string& name, int
   if (!links_.emplace(link.body.name, number).second)
     element.fail("body: there is another one of the name '{}'", link.body.name);
   tree_.links.push_back(std::move(link));
-  pieces_.emplace_back();
+  pieces_.emplace_back().place = element.place();
   link_geoms_.emplace_back();
   return number;
 }

@@ -240,6 +240,7 @@ void ChainMaker::close_hand() {
 
 RobotSpec ChainMaker::make() {
   resolve_leaders(tree_);
+  order_branches(tree_);
   robot_.name = tree_.name;
   robot_.class_name = tree_.class_name;
   robot_.chain_links_collide = true;

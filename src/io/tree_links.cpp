@@ -83,6 +83,7 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
   const bool any_visual = std::any_of(pieces.begin(), pieces.end(),
                                       [](const LinkPieces& p) { return !p.visual.empty(); });
   std::vector<std::string> ghosts, weightless, open;
+  std::string first_open;
   for (size_t i = 0; i < tree.links.size(); ++i) {
     BodySpec& body = tree.links[i].body;
     const std::string subject = fmt::format("{}: link '{}'", file, body.name);
@@ -99,6 +100,7 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     const ShapePtr& shape = seen ? visual.shape : body.shape;
     const bool has_volume =
         guess_mass(body, shape, seen || !any ? pieces[i].visual : pieces[i].collision);
+    if (shape && !has_volume && open.empty()) first_open = pieces[i].place;
     if (shape) (has_volume ? weightless : open).push_back(body.name);
   }
   if (!any && any_visual)
@@ -115,7 +117,7 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     library.warn(
         fmt::format("{}: links without a mass whose surface is open, and so bounds no "
                     "volume, weigh {} kg: {}",
-                    file, frame_mass, some_names(open)));
+                    first_open, frame_mass, some_names(open)));
   library.note(fmt::format("{}: says nothing of friction; all links count as plastic", file));
 }
 

@@ -9,6 +9,7 @@ namespace clench {
 /// Pieces of one link as its file gives them.
 struct LinkPieces {
   std::vector<GeometryPiece> collision, visual;
+  std::string place;          ///< "hand.urdf:31", for sentences
   bool has_inertial = false;  ///< are mass, centre and inertia in the link's body?
 };
 

@@ -54,6 +54,11 @@ Pose joint_pose(const TreeJoint& joint, double q);
 /// throws  Error "hand.urdf:31: joint 'a' follows itself by way of 'b'"
 void resolve_leaders(TreeModel& tree);
 
+/// Orders branches so that of the joints of a DOF one comes first that slides or turns as the leader
+/// does: by its first joint a DOF counts in lengths or angles. A leader behind its follower in one
+/// branch stays there.   `tree`  each link after its parent, leaders resolved
+void order_branches(TreeModel& tree);
+
 /// Poses of the links in the root's frame.   q  one a joint [rad or m]
 std::vector<Pose> link_poses(const TreeModel& tree, const std::vector<double>& q);
 

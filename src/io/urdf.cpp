@@ -250,6 +250,7 @@ void UrdfReader::read_link(const XmlElement& element) {
   if (links_.size() >= most_links) element.fail("wanted at most {} links", most_links);
   unused_.attributes(element, {"name"});
   LinkPieces pieces;
+  pieces.place = element.place();
   for (const auto& child : element.children()) {
     const bool visual = child.name() == "visual";
     if (visual || child.name() == "collision") {

@@ -359,7 +359,7 @@ TEST_CASE("an open surface without a mass weighs a gram, which is told") {
       "a.urdf", two_links("<collision><geometry><mesh filename='a.obj'/></geometry></collision>")));
   CHECK(told.robot.base.mass == 0.001);
   CHECK(
-      told.warned("a.urdf: links without a mass whose surface is open, and so bounds no volume, "
+      told.warned("a.urdf:1: links without a mass whose surface is open, and so bounds no volume, "
                   "weigh 0.001 kg: 'a'"));
   CHECK_FALSE(told.noted("volume of water"));
 }
@@ -430,4 +430,36 @@ TEST_CASE("a mass without an inertia is told as such") {
       told.noted("a.urdf:1: a mass without an inertia, which is computed from the geometry: "
                  "'a'"));
   CHECK(told.warnings.empty());
+}
+
+TEST_CASE("a DOF slides or turns as its leader does, whichever stands first") {
+  TemporaryFolder folder;
+  const auto read = [&](const std::string& arm) {
+    return Told(
+        folder.write("a.urdf", R"(<robot name="r"><link name="a"/><link name="arm"/>
+<link name="b"/><link name="c"/><link name="d"/>
+<joint name="s" type="prismatic"><parent link="a"/><child link="d"/><limit lower="0" upper="1"/></joint>
+<joint name="arm" type="fixed"><parent link="a"/><child link="arm"/></joint>
+<joint name="j" type="prismatic"><parent link="arm"/><child link="b"/><limit lower="0" upper="0.03"/><mimic joint="k" multiplier="0.02"/></joint>
+<joint name="k" type="revolute"><parent link=")" +
+                                   arm + R"("/><child link="c"/><limit lower="0" upper="1"/></joint>
+</robot>)"));
+  };
+  for (const std::string arm : {"a", "arm"}) {
+    const Told told = read(arm);
+    REQUIRE(told.robot.dofs.size() == 2);
+    std::vector<std::string> joints;
+    for (const auto& chain : told.robot.chains)
+      for (const auto& joint : chain.joints)
+        if (joint.dof == told.joint("k").dof) joints.push_back(joint.name);
+    CHECK(joints == std::vector<std::string>{"k", "j"});
+    // others stay where they were
+    CHECK(told.robot.dofs[0].name == "s");
+    CHECK(told.robot.chains[0].joints[0].name == "s");
+    CHECK(told.joint("j").ratio == 0.02);
+  }
+  // behind its follower the leader stays
+  const Told behind = read("b");
+  CHECK(behind.joint("k").ratio == 1);
+  CHECK(behind.robot.dofs.size() == 2);
 }
