@@ -1,4 +1,5 @@
 --- What a file was understood to be, as tables: what `clench check` prints, or writes as JSON.
+local reading = require "clench.host.reading"
 local report = {}
 
 local function numbers(v) return {v.x, v.y, v.z} end
@@ -98,16 +99,17 @@ local readers = {
 
 --- One file, understood.
 ---@param path string
----@param options? {root?: string}
+---@param options? {root?: string, folder?: string, package?: string, unit?: string}  those that its kind takes are used
 ---@return {file: string, kind: string?, understood: table?, guessed: string[], ignored: string[], wrong: string?}
 function report.of(path, options)
   local kind
+  options = options or {}
   local heard, ok, result = listen(function()
     kind = clench.file_kind(path)
-    return readers[kind](path, options)
+    return readers[kind](path, reading(kind, options))
   end)
   return {file = path, kind = kind, understood = ok and result or nil, guessed = heard.guessed, ignored = heard.ignored,
-          wrong = not ok and tostring(result):gsub("^[^:]*:%d+: ", "") or nil}
+          wrong = not ok and tostring(result):gsub("^stdlib/report.lua:%d+: ", "") or nil}
 end
 
 return report

@@ -11,7 +11,9 @@ int check_files(const CheckOptions& options) {
   State state;
   catch_interrupts();
   const Interruptible running(state);
-  std::vector<std::string> arguments{options.json ? "json" : "text", options.root};
+  const ReadingOptions& reading = options.reading;
+  std::vector<std::string> arguments{options.json ? "json" : "text", reading.root, reading.folder,
+                                     reading.package, reading.unit};
   arguments.insert(arguments.end(), options.files.begin(), options.files.end());
   const auto result = state.call("host.check", "files", arguments);
   std::fflush(stdout);

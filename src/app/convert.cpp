@@ -10,8 +10,10 @@ int convert_file(const ConvertOptions& options) {
   State state;
   catch_interrupts();
   const Interruptible running(state);
-  const auto result =
-      state.call("host.convert", "file", {options.from, options.to, options.root, options.unit});
+  const ReadingOptions& reading = options.reading;
+  const auto result = state.call(
+      "host.convert", "file",
+      {options.from, options.to, reading.root, reading.folder, reading.package, reading.unit});
   const bool wrong = result.ok && !result.values.empty() && result.values[0] != "nil";
   if (result.ok && !wrong) return 0;
   const std::string& sentence = wrong ? result.values[0] : result.error;

@@ -38,6 +38,15 @@ static CommandLine split(int argc, char** argv) {
   return line;
 }
 
+static void add_reading(CLI::App& verb, ReadingOptions& reading) {
+  verb.add_option("--root", reading.root, "where names in the files count from")->type_name("DIR");
+  verb.add_option("--folder", reading.folder, "where names in a robot's file are looked up, too")
+      ->type_name("DIR");
+  verb.add_option("--package", reading.package, "folder of the packages that a URDF names")
+      ->type_name("DIR");
+  verb.add_option("--unit", reading.unit, "of meshes: mm cm m inch foot")->type_name("UNIT");
+}
+
 static int main_of(int argc, char** argv) {
   CommandLine line = split(argc, argv);
   CLI::App app("Clench simulates, judges and plans robotic grasps.", "clench");
@@ -79,8 +88,7 @@ static int main_of(int argc, char** argv) {
   check_verb
       ->add_option("FILE", checking.files, "robots, bodies, worlds, eigengrasps, virtual contacts")
       ->required();
-  check_verb->add_option("--root", checking.root, "where names in the files count from")
-      ->type_name("DIR");
+  add_reading(*check_verb, checking.reading);
   check_verb->add_flag("--json", checking.json, "as JSON");
   check_verb->footer(
       "Examples:\n  clench check hand.urdf\n  clench check --json mug.stl worlds/dlr_flask.wld\n\n"
@@ -89,10 +97,7 @@ static int main_of(int argc, char** argv) {
   auto* convert_verb = app.add_subcommand("convert", "write what a file holds as another format");
   convert_verb->add_option("IN", converting.from, "a file of any kind that is read")->required();
   convert_verb->add_option("OUT", converting.to, "what to write; its ending says how")->required();
-  convert_verb->add_option("--root", converting.root, "where names in the files count from")
-      ->type_name("DIR");
-  convert_verb->add_option("--unit", converting.unit, "of the mesh: mm cm m inch foot")
-      ->type_name("UNIT");
+  add_reading(*convert_verb, converting.reading);
   convert_verb->footer(
       "Examples:\n  clench convert --unit mm mug.stl mug.xml\n"
       "  clench convert models/hands/barrett/barrett.cfg barrett.urdf\n"

@@ -21,9 +21,17 @@ int run_tests(const std::string& path, bool quiet);
 /// Writes the API's pages and the editor's stub to a folder; check: compares, and writes nothing.
 int write_docs(const std::string& folder, bool check);
 
+/// What is said of the files that are read; empty: nothing.
+struct ReadingOptions {
+  std::string root;     ///< where names in them count from
+  std::string folder;   ///< where names in a robot's file are looked up, too
+  std::string package;  ///< folder of the packages that a URDF names
+  std::string unit;     ///< of a mesh
+};
+
 struct CheckOptions {
   std::vector<std::string> files;
-  std::string root;  ///< where names in the files count from; empty: nothing is said
+  ReadingOptions reading;
   bool json = false;
 };
 
@@ -32,8 +40,7 @@ int check_files(const CheckOptions& options);
 
 struct ConvertOptions {
   std::string from, to;
-  std::string root;  ///< where names in the files count from; empty: nothing is said
-  std::string unit;  ///< of the mesh that is read; empty: nothing is said
+  ReadingOptions reading;
 };
 
 /// Writes what a file holds as another format, and says what that cannot hold.

@@ -31,13 +31,14 @@ int edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
-  if (name.size() < 3) return "";
+  constexpr size_t longest = 64;  // of what a person mistypes
+  if (name.size() < 3 || name.size() > longest) return "";
   // a slip is at most a third of the letters, and never the whole of a short name
   const int limit = std::clamp(static_cast<int>(name.size()) / 3, 1, 3);
   int best = limit + 1;
   std::string_view nearest;
   for (const auto& candidate : known) {
-    if (candidate == name) continue;
+    if (candidate == name || candidate.size() > longest) continue;
     const int edits = edit_distance(name, candidate);
     if (edits < best) best = edits, nearest = candidate;
   }

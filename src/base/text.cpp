@@ -46,6 +46,11 @@ std::string with_plain_line_ends(std::string raw) {
 }
 
 std::string read_text(const std::filesystem::path& path) {
+  constexpr uintmax_t most = uintmax_t{256} << 20;
+  std::error_code code;
+  const auto size = std::filesystem::file_size(path, code);
+  if (!code && size > most)
+    fail("{}: wanted a text file of at most 256 MB, got {} bytes", path.generic_string(), size);
   return with_plain_line_ends(read_bytes(path));
 }
 
@@ -152,31 +157,34 @@ int Line::integer(int i, std::string_view what, int low, int high) const {
 }
 
 LineReader::LineReader(std::string file, std::string text)
-    : file_(std::move(file)), text_(std::move(text)) {
-  const std::string_view all = text_;
-  for (size_t start = 0; start < all.size();) {
-    const size_t end = std::min(all.find('\n', start), all.size());
-    lines_.push_back(all.substr(start, end - start));
-    start = end + 1;
-  }
+    : file_(std::move(file)), text_(std::move(text)) {}
+
+std::string_view LineReader::line() const {
+  const std::string_view rest = std::string_view(text_).substr(at_);
+  return rest.substr(0, rest.find('\n'));
+}
+
+void LineReader::step() {
+  at_ = std::min(at_ + line().size() + 1, text_.size());
+  ++passed_;
 }
 
 Line LineReader::peek() const {
-  if (done()) return Line(&file_, std::max<int>(1, static_cast<int>(lines_.size())), "");
-  return Line(&file_, static_cast<int>(next_) + 1, lines_[next_]);
+  if (done()) return Line(&file_, std::max(1, passed_), "");
+  return Line(&file_, passed_ + 1, line());
 }
 
 Line LineReader::next() {
   const Line line = peek();
-  if (!done()) ++next_;
+  if (!done()) step();
   return line;
 }
 
 bool LineReader::skip_to_full() {
   while (!done()) {
-    const auto text = trim(lines_[next_]);
+    const auto text = trim(line());
     if (!text.empty() && text.front() != '#') return true;
-    ++next_;
+    step();
   }
   return false;
 }

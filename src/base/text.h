@@ -79,7 +79,7 @@ class LineReader {
   LineReader& operator=(const LineReader&) = delete;
 
   const std::string& file() const { return file_; }
-  bool done() const { return next_ >= lines_.size(); }
+  bool done() const { return at_ >= text_.size(); }
   /// The next line, blank ones and those that begin with '#' too; stays there.
   /// At the end: an empty line whose place is the last one.
   Line peek() const;
@@ -91,9 +91,12 @@ class LineReader {
   bool skip_to_full();
 
  private:
+  std::string_view line() const;
+  void step();
+
   std::string file_, text_;
-  std::vector<std::string_view> lines_;
-  size_t next_ = 0;
+  size_t at_ = 0;   // where the next line begins
+  int passed_ = 0;  // lines
 };
 
 }  // namespace clench

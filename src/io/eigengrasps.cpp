@@ -191,7 +191,9 @@ std::string text_of(const EigengraspSet& set) {
   return out;
 }
 
-std::string xml_of(const EigengraspSet& set) {
+}  // namespace
+
+std::string eigengrasps_xml(const EigengraspSet& set) {
   std::string out =
       fmt::format("<?xml version=\"1.0\"?>\n<EigenGrasps dimensions=\"{}\">\n", set.dofs);
   const auto block = [&](const char* name, double eigenvalue, const VectorXd& values,
@@ -209,8 +211,6 @@ std::string xml_of(const EigengraspSet& set) {
   return out + "</EigenGrasps>\n";
 }
 
-}  // namespace
-
 EigengraspSet read_eigengrasps(const fs::path& path, const ReadOptions& options) {
   std::string text = read_text(path);
   const std::string file = path.filename().string();
@@ -222,7 +222,7 @@ void write_eigengrasps(const EigengraspSet& set, const fs::path& path,
                        const std::function<void(const std::string&)>& warn) {
   check_eigengrasps(set, path.filename().string());
   const std::string ending = lower_case(path.extension().string());
-  if (ending == ".xml") return write_file(path, xml_of(set));
+  if (ending == ".xml") return write_file(path, eigengrasps_xml(set));
   if (ending != ".egr")
     fail("{}: wanted a file of eigengrasps, .egr or .xml, got {}", path.filename().string(),
          in_quotes(ending));

@@ -11,6 +11,9 @@ namespace clench {
 /// throws Error  "hand.egr:5: eigengrasp 2: wanted a number, got 'x'"
 EigengraspSet read_eigengrasps(const std::filesystem::path& path, const ReadOptions& options = {});
 
+/// The text of an .xml.
+std::string eigengrasps_xml(const EigengraspSet& set);
+
 /// As .egr or .xml, by the ending; every number with the digits that give it back to the bit. The
 /// text format has no limits: `warn` is told when there are some.
 /// throws Error when the ending is another one, or the file cannot be written

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/hash.h"
 #include "base/units.h"
 #include "io/world_parts.h"
 #include "io/write_file.h"
@@ -113,23 +114,29 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
 
 // --- what is written beside ---
 
-fs::path SavedFiles::beside(const std::string& name, const std::string& ending) {
+/// A name that every file system takes, and that other formats can quote.
+static std::string file_stem(const std::string& name) {
   std::string stem = name.substr(0, 100);
   for (char& c : stem)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
-  std::string file = stem + ending;
-  for (int i = 2; !taken_.insert(file).second; ++i) file = fmt::format("{}_{}{}", stem, i, ending);
-  const fs::path own = folder_ / fmt::format("{}_files", path_.stem().string());
+  return stem;
+}
+
+fs::path SavedFiles::write_beside(const std::string& name, const std::vector<Beside>& files) {
+  Hasher hash;
+  for (const Beside& file : files) hash.add(file.text);
+  const fs::path own = folder_ / fmt::format("{}_files", path_.stem().string()) /
+                       fmt::format("{:08x}", static_cast<uint32_t>(hash.value()));
   std::error_code code;
-  fs::create_directory(own, code);  // what fails is told by who writes there
-  return own / file;
+  fs::create_directories(own, code);  // what fails is told by who writes there
+  const std::string stem = file_stem(name);
+  for (const Beside& file : files) write_file(own / (stem + file.ending), file.text);
+  return own / (stem + files.front().ending);
 }
 
 fs::path SavedFiles::write_surface(const BodySpec& body) {
   if (!body.shape) return {};
-  const fs::path file = beside(body.name, ".off");
-  write_mesh(body.shape->mesh(), file);
-  return file;
+  return write_beside(body.name, {{".off", off_text(body.shape->mesh())}});
 }
 
 std::string body_elements(const BodySpec& body, const std::string& surface,
@@ -165,10 +172,9 @@ std::string body_xml_text(const BodySpec& body, const std::string& surface) {
 }
 
 fs::path SavedFiles::write_body(const BodySpec& body) {
-  const std::string surface = write_surface(body).filename().string();
-  const fs::path file = beside(body.name, ".xml");
-  write_file(file, body_xml_text(body, surface));
-  return file;
+  if (!body.shape) return write_beside(body.name, {{".xml", body_xml_text(body, "")}});
+  return write_beside(body.name, {{".xml", body_xml_text(body, file_stem(body.name) + ".off")},
+                                  {".off", off_text(body.shape->mesh())}});
 }
 
 }  // namespace clench

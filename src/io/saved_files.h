@@ -27,12 +27,17 @@ class SavedFiles {
   /// throws Error  "robot 'DLR' cannot be saved: ..."
   const RobotSpec& again(const RobotSpec& robot);
 
-  /// Writes the body's surface as w_files/ball.off.   returns  its path; empty when it has none
+  /// Writes the body's surface as ball.off.   returns  its path; empty when it has none
   std::filesystem::path write_surface(const BodySpec& body);
-  /// Writes the body as w_files/ball.xml and w_files/ball.off.   returns  the path of the first
+  /// Writes the body as ball.xml, and ball.off beside.   returns  the path of the first
   std::filesystem::path write_body(const BodySpec& body);
-  /// A path in the world's own folder, w_files, that no other call gives.
-  std::filesystem::path beside(const std::string& name, const std::string& ending);
+  /// Writes files of one name that differ by their endings into a folder of the world's own,
+  /// w_files/1a2b3c4d, which is called after what they hold: no other world's are touched.
+  /// returns  the path of the first
+  struct Beside {
+    std::string ending, text;
+  };
+  std::filesystem::path write_beside(const std::string& name, const std::vector<Beside>& files);
 
   void warn(const std::string& sentence) const {
     if (warn_) warn_(sentence);
@@ -46,7 +51,6 @@ class SavedFiles {
   Library library_;
   std::function<void(const std::string&)> warn_;
   std::map<std::string, RobotSpec> given_;  // robots whose reading was given folders, by name
-  std::set<std::string> taken_;
   std::set<std::string> warned_;
 };
 

@@ -187,7 +187,9 @@ std::string text_of(const VirtualContactSet& set) {
   return out;
 }
 
-std::string xml_of(const VirtualContactSet& set) {
+}  // namespace
+
+std::string virtual_contacts_xml(const VirtualContactSet& set) {
   std::string out = fmt::format(
       "<?xml version=\"1.0\"?>\n<virtual_contacts>\n  <robot_name>{}</robot_name>\n  "
       "<num_contacts>{}</num_contacts>\n",
@@ -214,8 +216,6 @@ std::string xml_of(const VirtualContactSet& set) {
   return out + "</virtual_contacts>\n";
 }
 
-}  // namespace
-
 VirtualContactSet read_virtual_contacts(const fs::path& path, const ReadOptions& options) {
   std::string text = read_text(path);
   const std::string file = path.filename().string();
@@ -230,7 +230,7 @@ void write_virtual_contacts(const VirtualContactSet& set, const fs::path& path) 
   const std::string ending = lower_case(path.extension().string());
   if (ending != ".vgr" && ending != ".xml")
     fail("{}: wanted a file of virtual contacts, .vgr or .xml, got {}", file, in_quotes(ending));
-  write_file(path, ending == ".xml" ? xml_of(set) : text_of(set));
+  write_file(path, ending == ".xml" ? virtual_contacts_xml(set) : text_of(set));
 }
 
 // --- contacts on objects ---

@@ -11,6 +11,9 @@ namespace clench {
 VirtualContactSet read_virtual_contacts(const std::filesystem::path& path,
                                         const ReadOptions& options = {});
 
+/// The text of an .xml.
+std::string virtual_contacts_xml(const VirtualContactSet& set);
+
 /// As .vgr or .xml, by the ending.
 /// throws Error when the ending is another one, or the file cannot be written
 void write_virtual_contacts(const VirtualContactSet& set, const std::filesystem::path& path);

@@ -254,15 +254,15 @@ std::string LuaWriter::sets_of(const RobotSpec& now, const RobotSpec& was) {
   std::string out;
   if (!same(now.eigengrasps, was.eigengrasps)) {
     if (now.eigengrasps) {
-      const fs::path path = files_.beside(now.name + "_eigengrasps", ".xml");
-      write_eigengrasps(*now.eigengrasps, path, [&](const std::string& s) { files_.warn(s); });
+      const fs::path path = files_.write_beside(now.name + "_eigengrasps",
+                                                {{".xml", eigengrasps_xml(*now.eigengrasps)}});
       out += ", eigengrasps = " + file(path.generic_string());
     }
   }
   if (!same(now.virtual_contacts, was.virtual_contacts)) {
     if (now.virtual_contacts) {
-      const fs::path path = files_.beside(now.name + "_virtual_contacts", ".xml");
-      write_virtual_contacts(*now.virtual_contacts, path);
+      const fs::path path = files_.write_beside(
+          now.name + "_virtual_contacts", {{".xml", virtual_contacts_xml(*now.virtual_contacts)}});
       out += ", virtual_contacts = " + file(path.generic_string());
     }
   }

@@ -25,14 +25,6 @@ std::string obj_text(const Mesh& mesh) {
   return out;
 }
 
-std::string off_text(const Mesh& mesh) {
-  std::string out = fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
-  const auto to = std::back_inserter(out);
-  for (const auto& p : mesh.vertices) fmt::format_to(to, "{} {} {}\n", p.x(), p.y(), p.z());
-  for (const auto& t : mesh.triangles) fmt::format_to(to, "3 {} {} {}\n", t[0], t[1], t[2]);
-  return out;
-}
-
 std::string ply_bytes(const Mesh& mesh) {
   std::string out = fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment metres\nelement vertex {}\n"
@@ -78,6 +70,14 @@ std::string stl_bytes(const Mesh& mesh, const std::string& file) {
 constexpr std::string_view endings[] = {".obj", ".off", ".ply", ".stl"};
 
 }  // namespace
+
+std::string off_text(const Mesh& mesh) {
+  std::string out = fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
+  const auto to = std::back_inserter(out);
+  for (const auto& p : mesh.vertices) fmt::format_to(to, "{} {} {}\n", p.x(), p.y(), p.z());
+  for (const auto& t : mesh.triangles) fmt::format_to(to, "3 {} {} {}\n", t[0], t[1], t[2]);
+  return out;
+}
 
 bool is_mesh_ending(std::string_view ending) { return std::ranges::count(endings, ending) > 0; }
 

@@ -13,6 +13,9 @@ namespace clench {
 /// be written
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path);
 
+/// The text of an .off, metres.
+std::string off_text(const Mesh& mesh);
+
 /// Is it the ending of a mesh file that can be written? ".obj", in lower case
 bool is_mesh_ending(std::string_view ending);
 

@@ -45,33 +45,63 @@ static Eigen::Vector3d point_velocity(const JointSpec& joint, const Pose& frame,
                                            : axis;
 }
 
-BlockedJoints blocked_joints(const World& world, Id<Robot> id,
-                             const std::vector<std::vector<double>>& speeds,
-                             std::span<const Id<Body>> moving, double closed) {
+namespace {
+
+/// What one joint does to a contact.
+struct Share {
+  JointPlace joint;
+  bool moves_body;  ///< or the other one
+  double leaving;   ///< [m per unit of path]
+  double margin;    ///< what counts as nothing of it
+};
+
+}  // namespace
+
+// of joints that move one side of the contact, not both
+static std::vector<Share> shares_of(const World& world, Id<Robot> id,
+                                    const std::vector<ChainFrames>& frames,
+                                    const std::vector<std::vector<double>>& speeds,
+                                    const Contact& contact) {
   const Robot& robot = world.robot(id);
   const Pose& X_WB = world.body(robot.base).X_WB;
-  const auto frames = chain_frames(robot);
+  std::vector<Share> shares;
+  for (int c = 0; c < static_cast<int>(robot.chains.size()); ++c)
+    for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j) {
+      if (speeds[c][j] == 0) continue;
+      const bool moves_body = joint_moves(world, id, {c, j}, contact.body);
+      if (moves_body == joint_moves(world, id, {c, j}, contact.other)) continue;
+      const Eigen::Vector3d v =
+          speeds[c][j] *
+          point_velocity(robot.chains[c].joints[j], X_WB * frames[c].axes[j], contact.p_W);
+      shares.push_back({{c, j},
+                        moves_body,
+                        (moves_body ? 1 : -1) * v.dot(contact.n_W),
+                        std::max(grazing * v.norm(), no_lever * std::abs(speeds[c][j]))});
+    }
+  return shares;
+}
 
+BlockedJoints blocked_joints(const World& world, Id<Robot> id,
+                             const std::vector<std::vector<double>>& speeds,
+                             std::span<const Contact> touching, double closed) {
+  const auto frames = chain_frames(world.robot(id));
   BlockedJoints out;
   std::set<BodyPair> seen;
-  for (const Contact& contact : contacts(world, world.bodies(), moving)) {
-    for (int c = 0; c < static_cast<int>(robot.chains.size()); ++c)
-      for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j) {
-        // what the joint moves relative to the other side of the contact: one of them, or neither
-        const bool moves_body = joint_moves(world, id, {c, j}, contact.body);
-        const bool moves_other = joint_moves(world, id, {c, j}, contact.other);
-        if (speeds[c][j] == 0 || moves_body == moves_other) continue;
-        const Eigen::Vector3d v =
-            speeds[c][j] *
-            point_velocity(robot.chains[c].joints[j], X_WB * frames[c].axes[j], contact.p_W);
-        const double leaving = (moves_body ? 1 : -1) * v.dot(contact.n_W);
-        const double margin = std::max(grazing * v.norm(), no_lever * std::abs(speeds[c][j]));
-        if (leaving >= (contact.gap <= closed ? margin : -margin)) continue;
-        out.joints.emplace(c, j);
-        const BodyPair pair = moves_body ? BodyPair(contact.body, contact.other)
-                                         : BodyPair(contact.other, contact.body);
-        if (seen.insert(std::minmax(pair.first, pair.second)).second) out.pairs.push_back(pair);
-      }
+  for (const Contact& contact : touching) {
+    const auto pushes = [&](double leaving, double margin) {
+      return leaving < (contact.gap <= closed ? margin : -margin);
+    };
+    const auto shares = shares_of(world, id, frames, speeds, contact);
+    double leaving = 0, margin = 0;
+    for (const Share& share : shares) leaving += share.leaving, margin += share.margin;
+    if (!pushes(leaving, margin)) continue;
+    for (const Share& share : shares) {
+      if (!pushes(share.leaving, share.margin)) continue;
+      out.joints.insert(share.joint);
+      const BodyPair pair = share.moves_body ? BodyPair(contact.body, contact.other)
+                                             : BodyPair(contact.other, contact.body);
+      if (seen.insert(std::minmax(pair.first, pair.second)).second) out.pairs.push_back(pair);
+    }
   }
   return out;
 }

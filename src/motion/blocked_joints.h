@@ -16,12 +16,12 @@ struct BlockedJoints {
 };
 
 /// speeds  of each joint, by chain [rad or m per unit of path]; a joint at 0 is never blocked
-/// moving  the robot's bodies, and those of all robots that it carries
-/// A joint is blocked by a contact of a body beyond it whose point it would move into the other body. A gap below
-/// `closed` [m] blocks also what would merely slide.
+/// touching  contacts of the robot's bodies, and of those of all robots that it carries
+/// A contact that all joints together lead apart blocks none. Of the others, each blocks the joints that alone would
+/// move one body into the other. A gap below `closed` [m] blocks also what would merely slide.
 BlockedJoints blocked_joints(const World& world, Id<Robot> robot,
                              const std::vector<std::vector<double>>& speeds,
-                             std::span<const Id<Body>> moving, double closed);
+                             std::span<const Contact> touching, double closed);
 
 /// The link of the robot that the body is, or that carries it, as {chain, link}; chain -1: the base, or none.
 std::pair<int, int> carrying_link(const World& world, Id<Robot> robot, Id<Body> body);

@@ -84,6 +84,30 @@ bool goes_on(Drive& drive, int dof, double rate, const BlockedJoints& blocked) {
   return true;
 }
 
+// Stops the DOFs that contacts block; what one of them held apart may block others.
+// returns  the pairs whose contacts do
+std::vector<BodyPair> stop_blocked(Drive& drive, Eigen::VectorXd& rates, double closed,
+                                   std::vector<DofStop>& stops) {
+  const auto touching = contacts(drive.world, drive.world.bodies(), drive.moving);
+  std::vector<BodyPair> pairs;
+  for (bool changed = true; changed;) {
+    changed = false;
+    const auto left_behind = drive.breakaway;
+    const auto blocked =
+        blocked_joints(drive.world, drive.id, joint_speeds(drive, rates), touching, closed);
+    for (int i = 0; i < rates.size(); ++i)
+      if (rates[i] != 0 && !goes_on(drive, i, rates[i], blocked)) {
+        rates[i] = 0;
+        stops[i] = DofStop::contact;
+        changed = true;
+      }
+    changed = changed || left_behind != drive.breakaway;
+    for (const BodyPair& pair : blocked.pairs)
+      if (std::ranges::find(pairs, pair) == pairs.end()) pairs.push_back(pair);
+  }
+  return pairs;
+}
+
 // how far the path runs before a DOF arrives or, opening, picks up a joint that it had left behind
 double path_length(const Drive& drive, const Eigen::VectorXd& rates) {
   double length = std::numeric_limits<double>::infinity();
@@ -239,14 +263,7 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
       rates[i] = 0;
     }
     const double closed = 2 * nearly_closed * world.contact_threshold();
-    const auto blocked =
-        blocked_joints(world, id, joint_speeds(drive, rates), drive.moving, closed);
-    for (int i = 0; i < rates.size(); ++i)
-      if (rates[i] != 0 && !goes_on(drive, i, rates[i], blocked)) {
-        rates[i] = 0;
-        result.stops[i] = DofStop::contact;
-      }
-    result.stopped_by = blocked.pairs;
+    result.stopped_by = stop_blocked(drive, rates, closed, result.stops);
     if (rates.isZero(0)) break;
     if (result.events >= most_events) {
       give_up(result, rates);

@@ -4,6 +4,7 @@
 #include "script/bind_log.h"
 #include "script/guard.h"
 #include "script/push.h"
+#include "script/read_robot.h"
 #include "script/read_spec.h"
 #include "script/table.h"
 #include "script/world_files.h"
@@ -14,14 +15,14 @@ static int convert(lua_State* L) {
   check_count(L, 3);
   const std::string from = check_string(L, 1, "from"), to = check_string(L, 2, "to");
   Table options(L, 3);
-  const ReadOptions reading = read_options(L, options);
-  options.done();
-  lua_settop(L, 3);
+  ReadOptions reading = read_options(L, options);
   const auto found = find_file(from, {}, reading);
   std::error_code code;
   if (std::filesystem::equivalent(found, to, code))
     fail("{}: wanted another file to write, got the same", to);
   const FileKind kind = file_kind(found);
+  if (kind == FileKind::robot) read_robot_options(L, options, reading);
+  options.done();
   if (kind == FileKind::world)  // built on the way, which tells what the new file does not hold
     save_world(L, *push_world_of(L, found, reading), to, reading.root);
   else
@@ -36,7 +37,7 @@ Writes what a file holds as another format, by the ending of `to`: bodies as .xm
 told in warnings; where it cannot hold the matter itself, that is an error, and nothing is written.
 @param from string
 @param to string
-@param options? {root?: string, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number}  of reading
+@param options? {root?: string, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number}  of reading; of robots those of add_robot, too
 @return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
 > path = os.tmpname()
 > clench.convert("models/objects/flask.iv", path .. ".ply")  --> body

@@ -361,7 +361,7 @@ Adds a body that only stands in the way; as add_object.
     {"add_robot", guarded<add_robot>, R"(
 Adds a robot from a file.
 @param path string  .cfg .xml .urdf .mjcf
-@param options? {pose?: pose, name?: string, root?: string, folder?: string, package?: string|table, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}}  folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
+@param options? {pose?: pose, name?: string, root?: string, folder?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}}  folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; eigengrasps, virtual_contacts: files to read in place of those it names; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
 @return robot
 > world:add_robot("nothing.cfg")  --> error: nothing.cfg)"},
     {"remove", guarded<remove>, R"(

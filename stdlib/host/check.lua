@@ -102,10 +102,10 @@ end
 
 --- Prints what each file was understood to be.
 ---@param form "text"|"json"
----@param root string  where names in the files count from; "" when nothing is said
+---@param root string  this and the next: what is said of reading, "" when nothing is
 ---@return integer  how many files could not be read
-function check.files(form, root, ...)
-  local options = root ~= "" and {root = root} or nil
+function check.files(form, root, folder, package, unit, ...)
+  local options = {root = root, folder = folder, package = package, unit = unit}
   local all, wrong = {}, 0
   for i, path in ipairs {...} do
     all[i] = report.of(path, options)

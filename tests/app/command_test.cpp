@@ -149,6 +149,8 @@ TEST_CASE("check says what a file is, and fails with 1 when one cannot be read")
   CHECK(json.code == 0);
   CHECK(json.out.front() == '[');
   CHECK(run("check no_such.iv").code == 1);
+  CHECK(has(run("check tests/data/urdf/gripper.urdf").out, "package"));
+  CHECK(run("check --package tests/data/urdf tests/data/urdf/gripper.urdf").code == 0);
   CHECK(run("check").code == 2);
 }
 

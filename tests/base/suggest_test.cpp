@@ -22,6 +22,12 @@ TEST_CASE("the number of edits is a distance") {
     }
 }
 
+TEST_CASE("a name longer than anyone types gets no suggestion, at once") {
+  const std::string name(10'000'000, 'a');
+  CHECK(did_you_mean(name, {name + "b", "flask"}).empty());
+  CHECK(did_you_mean("flask.iv", {name}).empty());
+}
+
 TEST_CASE("only a near name is suggested") {
   CHECK(did_you_mean("flsk.iv", {"mug.iv", "flask.iv"}) == "; did you mean 'flask.iv'?");
   CHECK(did_you_mean("wod", {"wood", "rubber"}) == "; did you mean 'wood'?");

@@ -1,5 +1,7 @@
 #include "io/write_file.h"
 
+#include <sys/stat.h>
+
 #include "base/error.h"
 #include "base/text.h"
 #include "temporary.h"
@@ -43,4 +45,18 @@ TEST_CASE("what cannot be written is told, and the old file stays") {
       (path.generic_string() + ": the file cannot be written: no permission, or no space").c_str(),
       Error);
   CHECK(read_text(path) == "old");
+}
+
+TEST_CASE("what is no regular file is not replaced, and a file keeps its permissions") {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH_AS(write_file(pipe, "text"),
+                       (pipe.generic_string() + ": wanted a file to write, got a special file").c_str(),
+                       Error);
+  CHECK(fs::is_fifo(pipe));
+  const auto secret = folder.write("secret", "old");
+  fs::permissions(secret, fs::perms::owner_read | fs::perms::owner_write);
+  write_file(secret, "new");
+  CHECK(fs::status(secret).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
 }

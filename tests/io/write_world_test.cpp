@@ -186,9 +186,15 @@ TEST_CASE("a body without a file is written beside, with all that the format hol
   for (const std::string ending : {".wld", ".xml"}) {
     const fs::path saved = folder.path() / ("w" + ending);
     write_world(world, saved);
-    CHECK(fs::exists(folder.path() / "w_files/my_ball.off"));
-    CHECK(fs::exists(folder.path() / "w_files/my_ball.xml") == (ending == ".wld"));
     const WorldSpec again = read_world(saved);
+    const auto file = [&](const char* name) {
+      int found = 0;
+      for (const auto& entry : fs::recursive_directory_iterator(folder.path() / "w_files"))
+        found += entry.path().filename() == name;
+      return found;
+    };
+    CHECK(file("my_ball.off") > 0);
+    CHECK((file("my_ball.xml") > 0) == (ending == ".wld"));
     const BodySpec& b = again.bodies[0].body;
     CHECK(b.shape->hash() == ball.shape->hash());
     CHECK(b.material == "rubber");
@@ -262,4 +268,29 @@ TEST_CASE("what cannot be written is refused in a sentence") {
   CHECK_THROWS_WITH_AS(write_world(made, folder.path() / "w.wld"),
                        "the name of a file cannot stand in a line of a .wld: 'a?b.iv'", Error);
   CHECK_NOTHROW(write_world(made, folder.path() / "w.xml"));
+}
+
+TEST_CASE("what is saved, or fails to be, changes no world that was saved before") {
+  const TemporaryFolder folder;
+  const auto world_with = [](double radius) {
+    PlacedBody ball;
+    ball.body.name = "ball";
+    ball.body.shape = Shape::make(test::ball(radius), "ball");
+    WorldSpec world;
+    world.order = {{WorldEntry::Kind::body, 0}};
+    world.bodies = {ball};
+    return world;
+  };
+  const auto radius_in = [&](const char* name) {
+    return read_world(folder.path() / name).bodies[0].body.shape->bounds().high.z();
+  };
+  write_world(world_with(0.03), folder.path() / "desk.wld");
+  write_world(world_with(0.05), folder.path() / "desk.xml");
+  CHECK(radius_in("desk.wld") == doctest::Approx(0.03).epsilon(1e-12));
+  CHECK(radius_in("desk.xml") == doctest::Approx(0.05).epsilon(1e-12));
+  WriteOptions refusing;
+  refusing.check = [](const fs::path&) { fail("no"); };
+  CHECK_THROWS_WITH_AS(write_world(world_with(0.07), folder.path() / "desk.wld", refusing),
+                       "desk.wld cannot be saved: no", Error);
+  CHECK(radius_in("desk.wld") == doctest::Approx(0.03).epsilon(1e-12));
 }

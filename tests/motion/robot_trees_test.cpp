@@ -336,6 +336,20 @@ TEST_CASE("our gripper closes until its fingers meet, and holds what stands betw
   CHECK(contacts(world).size() > 1);
 }
 
+TEST_CASE("pads that turn back as their levers turn in open after they have closed") {
+  World world;
+  const auto id = add_robot(world, read_robot("tests/data/urdf/linkage.urdf"), Pose{});
+  const DriveResult closed = autograsp(world, id);
+  CHECK(closed.stops == std::vector<DofStop>{DofStop::contact});
+  CHECK(colliding_pairs(world).empty());
+  // the pads met where the levers, 8 cm long, have brought each 4.7 cm inward, and then some of their thickness
+  const double meeting = std::asin((0.05 - 0.003) / 0.08);
+  CHECK(world.robot(id).q[0] == doctest::Approx(meeting).epsilon(2e-3));  // the contact threshold
+  const DriveResult opened = open_hand(world, id);
+  CHECK(opened.moved);
+  CHECK(world.robot(id).q[0] == 0);
+}
+
 TEST_CASE("our hand closes without self-collision") {
   World world;
   const auto id = add_robot(world, read_robot("tests/data/mjcf/hand.mjcf"), Pose{});

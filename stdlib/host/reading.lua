@@ -1,0 +1,16 @@
+--- What the command line says of files, as options for the reader of their kind.
+local keys = {
+  body = {"root", "unit"},
+  robot = {"root", "unit", "folder", "package"},
+  world = {"root", "unit"},
+  eigengrasps = {"root"},
+  ["virtual contacts"] = {"root"},
+}
+
+---@param kind string  as clench.file_kind tells it
+---@param said table<string, string>  "" when nothing is said
+return function(kind, said)
+  local options = {}
+  for _, key in ipairs(keys[kind]) do options[key] = said[key] ~= "" and said[key] or nil end
+  return options
+end
