@@ -200,6 +200,9 @@ void Scanner::include_value(const Token& token) {
   std::string name(token.text);
   if (token.kind == Token::string) name = name.substr(1, name.size() - 2);
   if (trim(name).empty()) refuse(token.line, "File: wanted the name of a file, got nothing");
+  if (includes.size() >= most_includes)
+    refuse(token.line, "wanted at most {} included files, each counted as often as it is named",
+           most_includes);
   edits_.push_back(
       {token.start,
        {token.text.size(), '"' + include_key(static_cast<int>(includes.size())) + '"'}});
@@ -232,10 +235,13 @@ void Scanner::run() {
 }
 
 std::string Scanner::take_text() {
-  // from the back, so that earlier places stay where they are
-  for (auto edit = edits_.rbegin(); edit != edits_.rend(); ++edit)
-    out_.replace(edit->first, edit->second.first, edit->second.second);
-  return std::move(out_);
+  std::string out;
+  size_t done = 0;
+  for (const auto& [start, edit] : edits_) {
+    out.append(out_, done, start - done) += edit.second;
+    done = start + edit.first;
+  }
+  return out.append(out_, done);
 }
 
 constexpr std::array<std::string_view, 5> headers = {"#Inventor V2.1 ascii", "#Inventor V2.0 ascii",

@@ -21,6 +21,9 @@ struct InventorText {
   std::vector<std::string> warnings;      ///< "box.iv:7: unknown node 'Foo' is skipped"
 };
 
+/// Files included, each counted as often as it is named: far above what models name.
+inline constexpr size_t most_includes = 10'000;
+
 /// What a File node's name is replaced by.
 std::string include_key(int number);
 

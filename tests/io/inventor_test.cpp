@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cmath>
 
 #include "base/error.h"
@@ -261,6 +262,36 @@ TEST_CASE("a chain of included files has an end") {
   CHECK_THROWS_WITH_AS(read_body(folder.path() / "f0.iv"),
                        "f31.iv:2: 'f32.iv': wanted files that include one another at most 32 deep",
                        Error);
+}
+
+TEST_CASE("a file may be included ten thousand times, and no more often") {
+  const TemporaryFolder folder;
+  folder.write("empty.iv", "#Inventor V2.1 ascii\nSeparator { }\n");
+  const auto read = [&](int count, const std::string& node) {
+    std::string text = "#Inventor V2.1 ascii\n";
+    for (int i = 0; i < count; ++i) text += node;
+    return read_body(folder.write("many.iv", text));
+  };
+  CHECK_NOTHROW(read(10'000, "File { name \"empty.iv\" }\n"));
+  CHECK_THROWS_WITH_AS(
+      read(10'001, "File { name \"empty.iv\" }\n"),
+      "many.iv:10002: wanted at most 10000 included files, each counted as often as it is named",
+      Error);
+  CHECK_THROWS_WITH_AS(
+      read(10'001, "WWWInline { name \"empty.iv\" }\n"),
+      "many.iv: wanted at most 10000 included files, each counted as often as it is named", Error);
+}
+
+TEST_CASE("a file included again is not read again") {
+  const TemporaryFolder folder;
+  // ten thousand times two megabytes would take half a minute
+  folder.write("large.iv", "#Inventor V2.1 ascii\n" + std::string(2 << 20, '\n'));
+  std::string text = "#Inventor V2.1 ascii\n";
+  for (int i = 0; i < 10'000; ++i) text += "File { name \"large.iv\" }\n";
+  const auto file = folder.write("many.iv", text);
+  const auto start = std::chrono::steady_clock::now();
+  read_body(file);
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
 }
 
 TEST_CASE("nodes that use one another have a limit of depth") {
