@@ -48,7 +48,9 @@ NodeType node_type(const std::string& name) {
         if (!list[i].canCreateInstance() || type.ends_with("Manip")) continue;
         const bool is_idle = std::any_of(std::begin(idle), std::end(idle),
                                          [&](SoType t) { return list[i].isDerivedFrom(t); });
-        out[type] = is_idle ? NodeType::idle : NodeType::known;
+        const bool is_shape =
+            list[i].isDerivedFrom(SoShape::getClassTypeId()) && !type.starts_with("VRML");
+        out[type] = is_idle ? NodeType::idle : is_shape ? NodeType::shape : NodeType::known;
         if (type.starts_with("VRML")) out.emplace(type.substr(4), out[type]);
       }
     }
