@@ -25,11 +25,11 @@ struct Token {
 struct Open {
   char bracket = '{';
   int line = 0;
-  std::string type;    // node type before a '{', else empty
-  std::string name;    // given by DEF
-  size_t start = 0;    // where the node begins, DEF included
-  bool cut = false;    // unknown, or not needed
-  bool proto = false;  // body of a PROTO
+  std::string type = {};  // node type before a '{', else empty
+  std::string name = {};  // given by DEF
+  size_t start = 0;       // where the node begins, DEF included
+  bool cut = false;       // unknown, or not needed
+  bool proto = false;     // body of a PROTO
   bool shape = false;
   bool direct = false;      // inside a shape, and no value of its fields
   size_t edits = 0;         // made before it

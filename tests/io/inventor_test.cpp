@@ -372,7 +372,7 @@ TEST_CASE("what is lifted out of a shape leaves lines as they are, and a file th
       read_body(folder.write("a.iv", head + square +
                                          "FaceSet {\n Material {\n diffuseColor 1 0 0\n }\n "
                                          "numVertices 3\n}\nCube { widht 3 }\n")),
-      "a.iv:9: Unknown field \"widht\"", Error);
+      "a.iv:9: Unknown field \"widht\" in \"Cube\"", Error);
   Warnings warnings;
   read_body(
       folder.write("b.iv", head + square + "FaceSet {\n File { name \"b.iv\" } numVertices 3 }"),
