@@ -41,7 +41,7 @@ struct ReadOptions {
 /// throws Error  "flask.iv:31: ..." one sentence: place, subject, wanted, got
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// A robot from .cfg or .xml.
+/// A robot from .cfg or .xml of GraspIt!, .urdf, .mjcf, or .xml that holds one of these.
 RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// A world from .wld or .xml.
