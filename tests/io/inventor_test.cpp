@@ -340,7 +340,7 @@ TEST_CASE("nodes that stand inside a shape, as in old files, are its own") {
   };
   const std::string red = "Material { diffuseColor 1 0 0 # \"red\" }\n}",
                     green = "Material { diffuseColor 0 1 0 } ";
-  for (const std::string shape :
+  for (const std::string& shape :
        {"FaceSet { " + red + " numVertices 3 }", "FaceSet { numVertices 3 " + red + " }",
         "FaceSet {\n numVertices [ 3 ]\n DEF hue " + red + "\n}",
         "IndexedFaceSet { Normal { vector [0 0 1] } " + red + " coordIndex [ 0, 1, 2 ] }",
