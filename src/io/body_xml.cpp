@@ -39,46 +39,45 @@ Eigen::Vector3d read_scaling(const XmlElement& body) {
   return scaling;
 }
 
+/// By the file's ending; where nobody knows that, by the attribute `type`.
+GeometryFormat read_format(const XmlElement& file, const ReadOptions& options) {
+  const GeometryFormat format = geometry_format(ending_of(file.text()));
+  const auto type = file.attribute("type");
+  if (!type) return format;
+  const std::string word = lower_case(*type);
+  const GeometryFormat said =
+      word == "inventor" ? GeometryFormat::inventor : geometry_format("." + word);
+  if (format == GeometryFormat::none && said == GeometryFormat::none)
+    file.fail("geometryFile: wanted type Inventor, off, ply or that of another mesh, got {}",
+              in_quotes(*type));
+  if (format == GeometryFormat::none) return said;
+  if (said != format && options.warn)
+    options.warn(fmt::format("{}: geometryFile: type {} is not that of {}; its ending counts",
+                             file.place(), in_quotes(*type), in_quotes(file.text())));
+  return format;
+}
+
 /// Triangles in the body frame; coordinates of the file count as millimetres.
-Geometry read_scaled(const XmlElement& body, const fs::path& path, Library& library) {
-  const XmlElement element = body.child("geometryFile");
-  const std::string name = element.text();
-  element.check({.attributes = {"type"}}, library.options().warn);
-  Eigen::Vector3d scaling = read_scaling(body);
+Geometry read_scaled(const XmlElement& element, const PlacedFile& file, Library& library) {
+  Eigen::Vector3d scaling = file.scaling;
   ReadOptions options = library.options();
   options.mesh_scale.reset();
+  if (file.format != GeometryFormat::inventor) {
+    // one factor for both, so that metres scaled by 1000 lose no digit
+    options.mesh_scale = units::millimetre * scaling.x();
+    scaling /= scaling.x();
+  }
   Geometry geometry;
   try {
-    const fs::path found = find_file(name, path, options);
-    if (!is_inventor(found)) {
-      // one factor for both, so that metres scaled by 1000 lose no digit
-      options.mesh_scale = units::millimetre * scaling.x();
-      scaling /= scaling.x();
-    }
-    geometry = read_geometry(found, options);
+    geometry = read_geometry(file.path, options, file.format);
   } catch (const Error& error) {
     element.fail("{}", error.what());
   }
-  const XmlElement offset = body.child("geometryOffset");
-  const Pose X_BG = offset ? read_transform_of(offset, library.options().warn) : Pose{};
-  if (offset) offset.check({.once = {"transform"}}, library.options().warn);
   if (scaling != Eigen::Vector3d::Ones())
     for (auto& v : geometry.mesh.vertices) v = scaling.cwiseProduct(v);
-  if (offset)
-    for (auto& v : geometry.mesh.vertices) v = X_BG * v;
+  if (file.X_BG)
+    for (auto& v : geometry.mesh.vertices) v = *file.X_BG * v;
   return geometry;
-}
-
-void read_type(const XmlElement& geometry_file, const Library& library) {
-  const auto type = geometry_file.attribute("type");
-  if (!type) return;
-  const std::string ending = lower_case(fs::path(geometry_file.text()).extension().string());
-  const std::string wanted = lower_case(*type);
-  const bool inventor = wanted == "inventor" && (ending == ".iv" || ending == ".wrl");
-  if (!inventor && "." + wanted != ending)
-    library.warn(fmt::format("{}: geometryFile: type {} is not that of {}; its ending counts",
-                             geometry_file.place(), in_quotes(*type),
-                             in_quotes(geometry_file.text())));
 }
 
 void read_compliance(const XmlElement& body, const Library& library) {
@@ -127,6 +126,26 @@ void read_matter(const XmlElement& body, const Library& library, BodySpec& out) 
 
 }  // namespace
 
+std::optional<PlacedFile> read_placed_file(const XmlElement& body, const fs::path& path,
+                                           const ReadOptions& options) {
+  const XmlElement element = body.child("geometryFile");
+  if (!element) return {};
+  element.check({.attributes = {"type"}}, options.warn);
+  PlacedFile out;
+  out.format = read_format(element, options);
+  out.scaling = read_scaling(body);
+  try {
+    out.path = find_file(element.text(), path, options);
+  } catch (const Error& error) {
+    element.fail("{}", error.what());
+  }
+  if (const XmlElement offset = body.child("geometryOffset")) {
+    out.X_BG = read_transform_of(offset, options.warn);
+    offset.check({.once = {"transform"}}, options.warn);
+  }
+  return out;
+}
+
 BodySpec read_body_element(const XmlElement& element, const fs::path& path, Library& library) {
   element.check(known, library.options().warn);
   BodySpec body;
@@ -138,8 +157,8 @@ BodySpec read_body_element(const XmlElement& element, const fs::path& path, Libr
                              element.place()));
     return body;
   }
-  read_type(file, library);
-  Geometry geometry = read_scaled(element, path, library);
+  Geometry geometry =
+      read_scaled(file, *read_placed_file(element, path, library.options()), library);
   body.appearance = std::move(geometry.appearance);
   body.mesh_report = std::move(geometry.report);
   if (geometry.mesh.triangles.empty()) return body;
@@ -151,8 +170,7 @@ BodySpec read_body_element(const XmlElement& element, const fs::path& path, Libr
   return body;
 }
 
-BodySpec read_body_xml(const fs::path& path, Library& library) {
-  const XmlFile file(path);
+void check_body_root(const XmlFile& file) {
   for (const char* other : {"robot", "world", "mujoco", "EigenGrasps", "virtual_contacts"})
     if (file.root().name() == other)
       file.root().fail("wanted a body, got <{}>", file.root().name());
@@ -161,6 +179,11 @@ BodySpec read_body_xml(const fs::path& path, Library& library) {
           children, [](const XmlElement& e) { return std::ranges::count(known.once, e.name()); }))
     file.root().fail("wanted a body with geometryFile, mass or the like, got <{}> without any",
                      file.root().name());
+}
+
+BodySpec read_body_xml(const fs::path& path, Library& library) {
+  const XmlFile file(path);
+  check_body_root(file);
   return read_body_element(file.root(), path, library);
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/suggest.h"
 #include "base/text.h"
+#include "io/world_parts.h"
 
 namespace clench {
 
@@ -12,16 +13,11 @@ namespace clench {
 static constexpr double turning = 1;     // [rad/s]
 static constexpr double sliding = 0.05;  // [m/s]
 
-static bool slides(const RobotSpec& robot, int dof) {
-  for (const auto& chain : robot.chains)
-    for (const auto& joint : chain.joints)
-      if (joint.dof == dof && joint.ratio == 1) return joint.kind == JointKind::prismatic;
-  return false;
-}
-
 void set_closing(RobotSpec& robot, int dof, double sense) {
   double& velocity = robot.dofs[dof].default_velocity;
-  const double pace = velocity != 0 ? std::abs(velocity) : slides(robot, dof) ? sliding : turning;
+  const double pace = velocity != 0            ? std::abs(velocity)
+                      : dof_slides(robot, dof) ? sliding
+                                               : turning;
   velocity = sense > 0 ? pace : sense < 0 ? -pace : 0;
 }
 

@@ -207,17 +207,7 @@ bool read_collada(const MeshInput& input, GeometryBuilder& builder) {
   const std::string file = input.file(), text = with_plain_line_ends(input.bytes);
   const auto tags = std::count(text.begin(), text.end(), '<');
   if (tags > most_tags) fail("{}: wanted at most {} tags, got {}", file, most_tags, tags);
-  try {
-    ColladaReader reader(file, text, builder);
-    const bool colors = reader.read();
-    for (const auto& warning : reader.warnings()) input.warn(file + ": " + warning);
-    return colors;
-  } catch (const Error& error) {
-    // what the builder refuses does not name the file
-    const std::string what = error.what();
-    if (what.starts_with(file)) throw;
-    fail("{}: {}", file, what);
-  }
+  return run_reader(input, [&] { return ColladaReader(file, text, builder); });
 }
 
 }  // namespace clench

@@ -100,9 +100,10 @@ void EgrReader::read_block(const std::string& keyword, const Line& line) {
   }
   auto& target = keyword == "norm" ? set_.norm : set_.origin;
   if (target)
-    warn(options_, fmt::format("{}: a second {}; the last one counts", line.place(), keyword));
+    warn(options_, fmt::format("{}: a second {}; the first one counts", line.place(), keyword));
   read_eigenvalue(keyword);  // stands there, and means nothing
-  target = read_values(keyword);
+  const VectorXd values = read_values(keyword);
+  if (!target) target = values;
 }
 
 // --- XML ---

@@ -2,33 +2,51 @@
 
 #include <algorithm>
 #include <iterator>
-#include <string_view>
 
 #include "base/text.h"
 #include "io/xml.h"
 
 namespace clench {
 
-struct Mark {
+namespace {
+
+using Format = GeometryFormat;
+
+struct Ending {
+  std::string_view text;
+  FileKind kind;
+  Format format = Format::none;
+};
+
+// a Lua file may hold anything; those that name a world return one
+constexpr Ending endings[] = {
+    {".wld", FileKind::world},
+    {".lua", FileKind::world},
+    {".cfg", FileKind::robot},
+    {".urdf", FileKind::robot},
+    {".xacro", FileKind::robot},
+    {".mjcf", FileKind::robot},
+    {".egr", FileKind::eigengrasps},
+    {".vgr", FileKind::virtual_contacts},
+    {".iv", FileKind::body, Format::inventor},
+    {".wrl", FileKind::body, Format::inventor},
+    {".vrml", FileKind::body, Format::inventor},
+    {".off", FileKind::body, Format::off},
+    {".ply", FileKind::body, Format::ply},
+    {".obj", FileKind::body, Format::obj},
+    {".stl", FileKind::body, Format::stl},
+    {".gltf", FileKind::body, Format::gltf},
+    {".glb", FileKind::body, Format::gltf},
+    {".dae", FileKind::body, Format::collada},
+};
+
+struct Root {
   std::string_view text;
   FileKind kind;
 };
 
-// a Lua file may hold anything; those that name a world return one
-static constexpr Mark endings[] = {
-    {".wld", FileKind::world},       {".lua", FileKind::world},
-    {".cfg", FileKind::robot},       {".urdf", FileKind::robot},
-    {".xacro", FileKind::robot},     {".mjcf", FileKind::robot},
-    {".egr", FileKind::eigengrasps}, {".vgr", FileKind::virtual_contacts},
-    {".iv", FileKind::body},         {".wrl", FileKind::body},
-    {".obj", FileKind::body},        {".stl", FileKind::body},
-    {".ply", FileKind::body},        {".off", FileKind::body},
-    {".gltf", FileKind::body},       {".glb", FileKind::body},
-    {".dae", FileKind::body},
-};
-
 // the outermost element of a body is called as its author likes
-static constexpr Mark roots[] = {
+constexpr Root roots[] = {
     {"world", FileKind::world},
     {"robot", FileKind::robot},
     {"mujoco", FileKind::robot},
@@ -36,28 +54,72 @@ static constexpr Mark roots[] = {
     {"virtual_contacts", FileKind::virtual_contacts},
 };
 
+template <class Entries>
+auto find(const Entries& entries, std::string_view text) {
+  const auto* found = std::ranges::find_if(entries, [&](const auto& e) { return e.text == text; });
+  return found == std::end(entries) ? nullptr : found;
+}
+
+}  // namespace
+
 FileKind file_kind(const std::filesystem::path& path) {
-  const std::string ending = lower_case(path.extension().string());
-  const auto find = [](const auto& marks, std::string_view text) {
-    return std::find_if(std::begin(marks), std::end(marks),
-                        [&](const Mark& mark) { return mark.text == text; });
-  };
+  const std::string ending = ending_of(path);
   if (ending == ".xml") {
     const std::string text = read_text(path);
-    const auto* root = find(roots, xml_root_name(text));
-    return root == std::end(roots) ? FileKind::body : root->kind;
+    const Root* root = find(roots, xml_root_name(text));
+    return root ? root->kind : FileKind::body;
   }
-  const auto* mark = find(endings, ending);
-  if (mark == std::end(endings))
+  const Ending* known = find(endings, ending);
+  if (!known)
     fail("{}: wanted a model, a world, eigengrasps or virtual contacts, got {}",
          path.filename().string(), in_quotes(ending));
-  return mark->kind;
+  return known->kind;
 }
 
 const char* kind_name(FileKind kind) {
   static constexpr const char* names[] = {"body", "robot", "world", "eigengrasps",
                                           "virtual contacts"};
   return names[static_cast<int>(kind)];
+}
+
+std::string ending_of(const std::filesystem::path& path) {
+  return lower_case(path.extension().string());
+}
+
+GeometryFormat geometry_format(std::string_view ending) {
+  const Ending* known = find(endings, ending);
+  return known ? known->format : Format::none;
+}
+
+bool is_inventor(const std::filesystem::path& path) {
+  return geometry_format(ending_of(path)) == Format::inventor;
+}
+
+std::vector<std::string> geometry_endings() {
+  std::vector<std::string> out;
+  for (const Ending& e : endings)
+    if (e.format != Format::none) out.emplace_back(e.text);
+  return out;
+}
+
+std::vector<std::string> body_endings() {
+  std::vector<std::string> out = geometry_endings();
+  out.insert(out.begin(), ".xml");
+  return out;
+}
+
+std::vector<std::string> endings_of(GeometryFormat format) {
+  std::vector<std::string> out;
+  for (const Ending& e : endings)
+    if (e.format == format) out.emplace_back(e.text);
+  return out;
+}
+
+std::string one_of(const std::vector<std::string>& endings) {
+  std::string out;
+  for (size_t i = 0; i < endings.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == endings.size() ? " or " : ", ") + endings[i];
+  return out;
 }
 
 }  // namespace clench

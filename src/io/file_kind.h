@@ -1,6 +1,10 @@
-// What a file describes, told from its ending and, in XML, from its outermost element.
+// What a file describes, told from its ending and, in XML, from its outermost element. The one list
+// of the endings that are read.
 #pragma once
 #include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace clench {
 
@@ -12,5 +16,26 @@ FileKind file_kind(const std::filesystem::path& path);
 
 /// "body", "robot", "world", "eigengrasps", "virtual contacts"
 const char* kind_name(FileKind kind);
+
+/// Who reads a file of geometry.
+enum class GeometryFormat { none, inventor, off, ply, obj, stl, gltf, collada };
+
+/// In small letters: ".iv"; empty when there is none.
+std::string ending_of(const std::filesystem::path& path);
+
+/// none: no file of that ending holds geometry alone
+GeometryFormat geometry_format(std::string_view ending);
+
+/// Is it a file that Coin reads?
+bool is_inventor(const std::filesystem::path& path);
+
+/// Endings of files of geometry, in the order in which they are tried; of a body's, .xml first.
+std::vector<std::string> geometry_endings();
+std::vector<std::string> body_endings();
+/// Those of one format.
+std::vector<std::string> endings_of(GeometryFormat format);
+
+/// For a sentence: ".iv, .wrl or .off"
+std::string one_of(const std::vector<std::string>& endings);
 
 }  // namespace clench

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 
-#include "base/text.h"
+#include "base/error.h"
+#include "io/file_kind.h"
 
 namespace clench {
 
 namespace fs = std::filesystem;
 
-static const std::vector<std::string>& endings(ModelKind kind) {
-  static const std::vector<std::string> bodies = {".xml", ".iv",  ".wrl", ".off",
-                                                  ".ply", ".obj", ".stl"};
-  static const std::vector<std::string> robots = {".xml", ".cfg"};
-  return kind == ModelKind::body ? bodies : robots;
+// robots: of the two generations only, for a tree need not be the same robot
+static std::vector<std::string> endings(ModelKind kind) {
+  return kind == ModelKind::body ? body_endings() : std::vector<std::string>{".xml", ".cfg"};
 }
 
 // the name itself, else with another ending; empty when there is none

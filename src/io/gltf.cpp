@@ -208,21 +208,10 @@ bool GltfReader::read() {
 }  // namespace
 
 bool read_gltf(const MeshInput& input, GeometryBuilder& builder) {
-  const std::string file = input.file();
   builder.report.format = "glTF";
   builder.report.unit_source = UnitSource::format;
   builder.report.up = 'y';
-  try {
-    GltfReader reader(input, builder);
-    const bool colors = reader.read();
-    for (const auto& warning : reader.warnings()) input.warn(file + ": " + warning);
-    return colors;
-  } catch (const Error& error) {
-    // what the builder refuses does not name the file
-    const std::string what = error.what();
-    if (what.starts_with(file)) throw;
-    fail("{}: {}", file, what);
-  }
+  return run_reader(input, [&] { return GltfReader(input, builder); });
 }
 
 }  // namespace clench

@@ -48,7 +48,9 @@ NodeType node_type(const std::string& name) {
         if (!list[i].canCreateInstance() || type.ends_with("Manip")) continue;
         const bool is_idle = std::any_of(std::begin(idle), std::end(idle),
                                          [&](SoType t) { return list[i].isDerivedFrom(t); });
-        out[type] = is_idle ? NodeType::idle : NodeType::known;
+        const bool is_shape =
+            list[i].isDerivedFrom(SoShape::getClassTypeId()) && !type.starts_with("VRML");
+        out[type] = is_idle ? NodeType::idle : is_shape ? NodeType::shape : NodeType::known;
         if (type.starts_with("VRML")) out.emplace(type.substr(4), out[type]);
       }
     }
@@ -92,13 +94,16 @@ class Loader {
  private:
   void fill_includes(SoNode* root, const fs::path& path, const InventorText& scanned);
   Ref<SoSeparator> include(const std::string& name, const fs::path& referrer, int line);
+  const fs::path& find(const std::string& name, const fs::path& referrer);
   void visit(SoNode* node, const std::string& file, std::vector<SoNode*>& found, int depth = 1);
 
   CoinLease& coin_;
   const ReadOptions& options_;
   std::vector<std::string>& warnings_;
   std::map<fs::path, Ref<SoSeparator>> done_;
-  std::vector<fs::path> open_;
+  std::map<std::pair<fs::path, std::string>, fs::path> found_;  // by referrer and name
+  size_t includes_ = 0;
+  std::vector<fs::path> open_;  // canonical
   std::map<SoNode*, int> heights_;
 };
 
@@ -114,7 +119,7 @@ Ref<SoSeparator> Loader::load(const fs::path& path, const std::string& text) {
   const bool harmless = root.get() && coin_.error.find("floating point") == std::string::npos;
   if (!harmless) rethrow(coin_.error, file, scanned.skipped_lines);
 
-  open_.push_back(path);
+  open_.push_back(fs::weakly_canonical(path));
   fill_includes(root.get(), path, scanned);
   open_.pop_back();
   return root;
@@ -145,6 +150,7 @@ void Loader::fill_includes(SoNode* root, const fs::path& path, const InventorTex
   std::map<std::string, int> numbers;
   for (size_t i = 0; i < scanned.includes.size(); ++i)
     numbers[include_key(static_cast<int>(i))] = static_cast<int>(i);
+  const size_t before = includes_;
   for (SoNode* node : nodes) {
     Ref<SoSeparator> part;
     if (node->isOfType(SoFile::getClassTypeId())) {
@@ -168,26 +174,43 @@ void Loader::fill_includes(SoNode* root, const fs::path& path, const InventorTex
   // the parts make it deeper
   nodes.clear();
   heights_.clear();
-  if (!scanned.includes.empty()) visit(root, path.filename().string(), nodes);
+  if (includes_ > before) visit(root, path.filename().string(), nodes);
+}
+
+const fs::path& Loader::find(const std::string& name, const fs::path& referrer) {
+  const auto key = std::pair(referrer, name);
+  auto found = found_.find(key);
+  if (found == found_.end()) {
+    const fs::path path = fs::weakly_canonical(find_file(name, referrer, options_));
+    found = found_.emplace(key, path).first;
+  }
+  return found->second;
 }
 
 Ref<SoSeparator> Loader::include(const std::string& name, const fs::path& referrer, int line) {
   const std::string place =
       referrer.filename().string() + (line > 0 ? fmt::format(":{}", line) : "");
+  if (++includes_ > most_includes)
+    fail("{}: wanted at most {} included files, each counted as often as it is named", place,
+         most_includes);
   fs::path path;
-  std::string text;
   try {
-    path = fs::weakly_canonical(find_file(name, referrer, options_));
-    text = read_text(path);
+    path = find(name, referrer);
   } catch (const Error& error) {
     fail("{}: {}", place, error.what());
   }
   for (const auto& above : open_)
-    if (fs::weakly_canonical(above) == path) fail("{}: '{}' includes itself", place, name);
+    if (above == path) fail("{}: '{}' includes itself", place, name);
   if (open_.size() >= deepest_include)
     fail("{}: '{}': wanted files that include one another at most {} deep", place, name,
          deepest_include);
   if (const auto found = done_.find(path); found != done_.end()) return found->second;
+  std::string text;
+  try {
+    text = read_text(path);
+  } catch (const Error& error) {
+    fail("{}: {}", place, error.what());
+  }
   auto part = load(path, text);
   done_[path] = part;
   return part;

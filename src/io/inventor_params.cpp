@@ -1,5 +1,7 @@
 #include "io/inventor_params.h"
 
+#include <algorithm>
+
 #include "base/text.h"
 #include "base/units.h"
 #include "io/inertia.h"
@@ -8,6 +10,18 @@
 namespace clench {
 
 namespace {
+
+constexpr const char* keys[] = {"material", "youngs", "useFlockOfBirds",
+                                "mass",     "cog",    "inertia_matrix"};
+
+/// Does each line begin with '#', with no blank before it?
+std::vector<bool> marked_lines(std::string_view text) {
+  std::vector<bool> out;
+  for (size_t start = 0; start < text.size();
+       start = std::min(text.find('\n', start), text.size()) + 1)
+    out.push_back(text[start] == '#');
+  return out;
+}
 
 double positive(const Line& line, const char* what, const char* unit) {
   const double value = line.number(1, what);
@@ -46,11 +60,18 @@ std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
 
 void read_inventor_params(const std::string& text, const std::string& file,
                           const ReadOptions& options, BodySpec& body) {
+  const std::vector<bool> marked = marked_lines(text);
   LineReader lines(file, text);
   while (!lines.done()) {
     const Line line = lines.next();
     if (!line.text().starts_with('#')) continue;
     const std::string_view key = line.word(0).substr(1);
+    if (!marked[line.number() - 1]) {
+      if (std::ranges::count(keys, key) && options.warn)
+        options.warn(
+            fmt::format("{}: #{} is a comment, for it does not begin its line", line.place(), key));
+      continue;
+    }
     if (key == "material") {
       try {
         check_material(line.word(1));

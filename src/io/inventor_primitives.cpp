@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "io/body_xml.h"
 #include "io/inventor_faces.h"
 #include "io/inventor_graph.h"
 
@@ -152,6 +153,30 @@ Primitive PrimitiveCollector::placed(const Solid& shape, const SbMatrix& X) {
   return out;
 }
 
+/// The file that an XML body names; without a path where it names none, which is warned of.
+PlacedFile geometry_of_body(const fs::path& path, const ReadOptions& options) {
+  const XmlFile body(path);
+  check_body_root(body);
+  const auto found = read_placed_file(body.root(), path, options);
+  if (!found && options.warn)
+    options.warn(fmt::format("{}: no <geometryFile>: no primitives", body.root().place()));
+  return found.value_or(PlacedFile());
+}
+
+/// Millimetres to millimetres; Coin multiplies rows.
+SoMatrixTransform* new_placement(const PlacedFile& file) {
+  const Pose X_BG = file.X_BG.value_or(Pose{});
+  const Matrix3d axes = X_BG.rotation.toRotationMatrix() * file.scaling.asDiagonal();
+  SbMatrix X = SbMatrix::identity();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) X[i][j] = static_cast<float>(axes(j, i));
+    X[3][i] = static_cast<float>(X_BG.position[i] / units::millimetre);
+  }
+  auto* placement = new SoMatrixTransform;
+  placement->matrix = X;
+  return placement;
+}
+
 }  // namespace
 
 std::vector<Primitive> read_primitives(const fs::path& path, const ReadOptions& options) {
@@ -159,19 +184,27 @@ std::vector<Primitive> read_primitives(const fs::path& path, const ReadOptions& 
   const fs::path beside =
       path.parent_path() / "primitives" / fs::path(path.filename()).replace_extension(".iv");
   std::error_code code;
-  const fs::path source = fs::is_regular_file(beside, code) ? beside : path;
-  const std::string file = source.filename().string(),
-                    ending = lower_case(source.extension().string());
-  if (ending != ".iv" && ending != ".wrl" && ending != ".vrml")
-    fail("{}: wanted primitives from .iv or .wrl, got {}", file, in_quotes(ending));
+  PlacedFile source{.path = path};
+  if (fs::is_regular_file(beside, code))
+    source.path = beside;
+  else if (ending_of(path) == ".xml")
+    source = geometry_of_body(path, options);
+  if (source.path.empty()) return {};
+  const std::string file = source.path.filename().string(), ending = ending_of(source.path);
+  if (source.format == GeometryFormat::none) source.format = geometry_format(ending);
+  if (source.format != GeometryFormat::inventor)
+    fail("{}: wanted primitives from {}, got {}", file,
+         one_of(endings_of(GeometryFormat::inventor)), in_quotes(ending));
 
   PrimitiveCollector collector(file);
   std::vector<std::string> warnings;
   {
-    const std::string text = read_text(source);
+    const std::string text = read_text(source.path);
     CoinLease coin;
-    const Ref<SoSeparator> root = load_graph(coin, source, text, options, warnings);
-    collector.apply(root.get());
+    const Ref<SoSeparator> all(new SoSeparator);
+    all.get()->addChild(new_placement(source));
+    all.get()->addChild(load_graph(coin, source.path, text, options, warnings).get());
+    collector.apply(all.get());
   }
   // told when Coin is free again, for a listener may want to read, too
   warnings.insert(warnings.end(), collector.warnings.begin(), collector.warnings.end());

@@ -17,9 +17,9 @@ struct Primitive {
   double height = 0;                               ///< of cylinder and cone [m]
 };
 
-/// The primitives in an Inventor or VRML file, in its order. Of an object's file those in
-/// primitives/<its name>.iv beside it are read instead, when that exists. Other geometry is not
-/// used, with a warning.
+/// The primitives in an Inventor or VRML file, in its order, or in the one that an XML body names,
+/// scaled and placed as it says. Of an object's file those in primitives/<its name>.iv beside it are
+/// read instead, when that exists. Other geometry is not used, with a warning.
 /// throws Error  "mug.iv: ..." when the file is malformed, or skews a primitive
 std::vector<Primitive> read_primitives(const std::filesystem::path& path,
                                        const ReadOptions& options = {});

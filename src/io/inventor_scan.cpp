@@ -25,11 +25,15 @@ struct Token {
 struct Open {
   char bracket = '{';
   int line = 0;
-  std::string type;    // node type before a '{', else empty
-  std::string name;    // given by DEF
-  size_t start = 0;    // where the node begins, DEF included
-  bool cut = false;    // unknown, or not needed
-  bool proto = false;  // body of a PROTO
+  std::string type = {};  // node type before a '{', else empty
+  std::string name = {};  // given by DEF
+  size_t start = 0;       // where the node begins, DEF included
+  bool cut = false;       // unknown, or not needed
+  bool proto = false;     // body of a PROTO
+  bool shape = false;
+  bool direct = false;      // inside a shape, and no value of its fields
+  size_t edits = 0;         // made before it
+  std::string lifted = {};  // nodes that stand inside, as one line
 };
 
 bool ends_word(char c) {
@@ -64,6 +68,10 @@ class Scanner {
   void on_open(const Token& token);
   void on_close(const Token& token);
   void include_value(const Token& token);
+  /// Does a node behind that token stand inside a shape without a field's name?
+  bool is_direct(const Token& before) const;
+  /// takes the text from start on out, to stand before the shape around it
+  void lift(size_t start);
   bool in_cut() const {
     return std::any_of(open_.begin(), open_.end(), [](const Open& o) { return o.cut; });
   }
@@ -78,9 +86,9 @@ class Scanner {
   const std::function<NodeType(const std::string&)>& node_type_;
   std::string out_;
   std::vector<Open> open_;
-  Token last_;                      // the token before, when it was a word
-  Token before_last_, third_last_;  // for DEF name type
-  size_t route_ = 0;                // where an open ROUTE begins, plus 1
+  Token last_;                                    // the token before, when it was a word
+  Token before_last_, third_last_, fourth_last_;  // for field DEF name type
+  size_t route_ = 0;                              // where an open ROUTE begins, plus 1
   std::set<std::string> cut_names_, protos_;
   std::map<std::string, NodeType> types_;
   std::vector<std::pair<size_t, std::pair<size_t, std::string>>> edits_;  // start, length, text
@@ -145,21 +153,27 @@ void Scanner::on_word(const Token& token) {
     for (const auto& o : open_)
       if (o.name == name)
         refuse(token.line, "USE of '{}' inside itself, which line {} defines", name, o.line);
-    if (cut_names_.contains(name) && !in_cut()) cut(last_.start, at_);
+    if (cut_names_.contains(name) && !in_cut())
+      cut(last_.start, at_);
+    else if (is_direct(before_last_))
+      lift(last_.start);
   }
 }
 
 void Scanner::on_open(const Token& token) {
   if (open_.size() >= deepest)
     refuse(token.line, "wanted brackets nested at most {} deep", deepest);
-  Open open{token.text[0], token.line, "", "", token.start, false, false};
+  Open open{.bracket = token.text[0], .line = token.line, .start = token.start};
+  open.edits = edits_.size();
   if (open.bracket == '{' && last_.kind == Token::word) {
     open.type = last_.text;
     open.start = last_.start;
-    if (third_last_.text == "DEF") {
+    const bool named = third_last_.text == "DEF";
+    if (named) {
       open.name = before_last_.text;
       open.start = third_last_.start;
     }
+    open.direct = is_direct(named ? fourth_last_ : before_last_);
     const bool nested_proto =
         protos_.contains(open.type) &&
         std::any_of(open_.begin(), open_.end(), [](const Open& o) { return o.proto; });
@@ -167,7 +181,9 @@ void Scanner::on_open(const Token& token) {
       refuse(token.line, "PROTO '{}' is used inside a PROTO, which is not read", open.type);
     auto type = types_.find(open.type);
     if (type == types_.end()) type = types_.emplace(open.type, node_type_(open.type)).first;
-    open.cut = type->second != NodeType::known && !protos_.contains(open.type);
+    open.shape = type->second == NodeType::shape && !vrml2_;
+    open.cut = (type->second == NodeType::idle || type->second == NodeType::unknown) &&
+               !protos_.contains(open.type);
     if (open.cut && type->second == NodeType::unknown && !in_cut())
       warnings.push_back(fmt::format("{}:{}: unknown node {} is skipped", file_, token.line,
                                      in_quotes(open.type)));
@@ -191,15 +207,57 @@ void Scanner::on_close(const Token& token) {
   if (open.cut && !in_cut()) {
     cut(open.start, at_);
     if (!open.name.empty()) cut_names_.insert(open.name);
-  } else if (!open.name.empty()) {
-    cut_names_.erase(open.name);
+    return;
   }
+  if (!open.name.empty()) cut_names_.erase(open.name);
+  if (in_cut()) return;
+  if (open.direct && edits_.size() > open.edits) {
+    warnings.push_back(fmt::format("{}:{}: {} inside {} is skipped", file_, open.line, open.type,
+                                   open_.back().type));
+    edits_.resize(open.edits);
+    if (!open.name.empty()) cut_names_.insert(open.name);
+    cut(open.start, at_);
+  } else if (open.direct) {
+    lift(open.start);
+  } else if (!open.lifted.empty()) {
+    edits_.insert(edits_.begin() + open.edits,
+                  {open.start, {0, "Separator { " + open.lifted + " "}});
+    edits_.push_back({at_, {0, " }"}});
+  }
+}
+
+bool Scanner::is_direct(const Token& before) const {
+  // fields begin with a small letter, their values with none; engines stand behind '='
+  const bool field = before.kind == Token::word &&
+                     ((before.text[0] >= 'a' && before.text[0] <= 'z') || before.text == "=");
+  return !open_.empty() && open_.back().shape && !in_cut() && !field;
+}
+
+void Scanner::lift(size_t start) {
+  bool string = false, comment = false;
+  std::string& lifted = open_.back().lifted;
+  for (size_t i = start; i < at_; ++i) {
+    const char c = out_[i];
+    if (comment) {
+      comment = c != '\n';
+      continue;
+    }
+    if (c == '"') string = !string;
+    comment = c == '#' && !string;
+    lifted += c == '\n' || comment ? ' ' : c;
+    if (string && c == '\\' && i + 1 < at_) lifted += out_[++i];
+  }
+  lifted += ' ';
+  cut(start, at_);
 }
 
 void Scanner::include_value(const Token& token) {
   std::string name(token.text);
   if (token.kind == Token::string) name = name.substr(1, name.size() - 2);
   if (trim(name).empty()) refuse(token.line, "File: wanted the name of a file, got nothing");
+  if (includes.size() >= most_includes)
+    refuse(token.line, "wanted at most {} included files, each counted as often as it is named",
+           most_includes);
   edits_.push_back(
       {token.start,
        {token.text.size(), '"' + include_key(static_cast<int>(includes.size())) + '"'}});
@@ -219,6 +277,7 @@ void Scanner::run() {
       on_open(token);
     else if (token.kind == Token::close)
       on_close(token);
+    fourth_last_ = third_last_;
     third_last_ = before_last_;
     before_last_ = last_;
     last_ = token;
@@ -232,10 +291,13 @@ void Scanner::run() {
 }
 
 std::string Scanner::take_text() {
-  // from the back, so that earlier places stay where they are
-  for (auto edit = edits_.rbegin(); edit != edits_.rend(); ++edit)
-    out_.replace(edit->first, edit->second.first, edit->second.second);
-  return std::move(out_);
+  std::string out;
+  size_t done = 0;
+  for (const auto& [start, edit] : edits_) {
+    out.append(out_, done, start - done) += edit.second;
+    done = start + edit.first;
+  }
+  return out.append(out_, done);
 }
 
 constexpr std::array<std::string_view, 5> headers = {"#Inventor V2.1 ascii", "#Inventor V2.0 ascii",

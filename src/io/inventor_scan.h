@@ -21,13 +21,17 @@ struct InventorText {
   std::vector<std::string> warnings;      ///< "box.iv:7: unknown node 'Foo' is skipped"
 };
 
+/// Files included, each counted as often as it is named: far above what models name.
+inline constexpr size_t most_includes = 10'000;
+
 /// What a File node's name is replaced by.
 std::string include_key(int number);
 
-enum class NodeType { known, idle, unknown };  ///< idle: without effect on triangles and colours
+/// idle: without effect on triangles and colours; shape: takes nodes only as values of its fields
+enum class NodeType { known, shape, idle, unknown };
 
 /// Checks header, brackets, strings and names; cuts out nodes that are idle or of unknown type, and
-/// routes.
+/// routes. What stands inside a shape, as in old files, is lifted to stand before it, for it alone.
 /// `file` is the name shown in errors, `node_type` tells what the library knows by a name.
 /// throws Error  "box.iv:31: '}' missing for 'Separator' of line 4", and so on
 InventorText scan_inventor(const std::string& text, const std::string& file,

@@ -14,47 +14,36 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-static std::string ending(const fs::path& path) { return lower_case(path.extension().string()); }
-
-bool is_inventor(const fs::path& path) {
-  const std::string extension = ending(path);
-  return extension == ".iv" || extension == ".wrl" || extension == ".vrml";
-}
-
 std::string absolute_name(const fs::path& path) {
   return fs::absolute(path).lexically_normal().generic_string();
 }
 
-static bool is_mesh(const fs::path& path) {
-  for (const char* known : {".obj", ".stl", ".ply", ".off", ".gltf", ".glb", ".dae"})
-    if (ending(path) == known) return true;
-  return false;
-}
-
-Geometry read_geometry(const fs::path& path, const ReadOptions& options, const std::string* text) {
-  if (is_inventor(path)) return read_inventor(path, text ? *text : read_text(path), options);
-  if (is_mesh(path)) return read_mesh_file(path, options);
-  fail("{}: wanted geometry from .iv, .wrl, .obj, .stl, .ply, .off, .gltf, .glb or .dae, got {}",
-       path.filename().string(), in_quotes(ending(path)));
+Geometry read_geometry(const fs::path& path, const ReadOptions& options, GeometryFormat format,
+                       const std::string* text) {
+  if (format == GeometryFormat::none) format = geometry_format(ending_of(path));
+  if (format == GeometryFormat::none)
+    fail("{}: wanted geometry from {}, got {}", path.filename().string(),
+         one_of(geometry_endings()), in_quotes(ending_of(path)));
+  if (format == GeometryFormat::inventor)
+    return read_inventor(path, text ? *text : read_text(path), options);
+  return read_mesh_file(path, options, format);
 }
 
 static BodySpec load_body(const fs::path& path, Library& library) {
   const std::string file = path.filename().string();
   const ReadOptions& options = library.options();
   BodySpec body;
-  if (ending(path) == ".xml") {
+  if (ending_of(path) == ".xml") {
     body = read_body_xml(path, library);
-  } else if (!is_inventor(path) && !is_mesh(path)) {
-    fail(
-        "{}: wanted a body from .iv, .wrl, .xml, .obj, .stl, .ply, .off, .gltf, .glb or .dae, got "
-        "{}",
-        file, in_quotes(ending(path)));
+  } else if (geometry_format(ending_of(path)) == GeometryFormat::none) {
+    fail("{}: wanted a body from {}, got {}", file, one_of(body_endings()),
+         in_quotes(ending_of(path)));
   } else {
     Geometry geometry;
     if (is_inventor(path)) {
       const std::string text = read_text(path);
       read_inventor_params(text, file, options, body);
-      geometry = read_geometry(path, options, &text);
+      geometry = read_geometry(path, options, GeometryFormat::inventor, &text);
     } else {
       geometry = read_geometry(path, options);
     }
@@ -69,7 +58,7 @@ static BodySpec load_body(const fs::path& path, Library& library) {
 }
 
 static RobotSpec load_robot(const fs::path& path, Library& library) {
-  const std::string extension = ending(path);
+  const std::string extension = ending_of(path);
   RobotSpec robot;
   if (extension == ".cfg")
     robot = read_robot_cfg(path, library);

@@ -2,6 +2,7 @@
 #pragma once
 #include <map>
 
+#include "io/file_kind.h"
 #include "io/find_model.h"
 #include "io/geometry_builder.h"
 
@@ -42,14 +43,12 @@ class Library {
   std::map<std::filesystem::path, RobotSpec> robots_;
 };
 
-/// Triangles of a file that holds nothing else; `text` is what an Inventor or VRML file holds, read
-/// when it is null.
-/// throws Error when the ending is none of a geometry file
+/// Triangles of a file that holds nothing else, in a format, none: the one of its ending. `text` is
+/// what an Inventor or VRML file holds, read when it is null.
+/// throws Error when the ending is none of a geometry file, and no format is given
 Geometry read_geometry(const std::filesystem::path& path, const ReadOptions& options,
+                       GeometryFormat format = GeometryFormat::none,
                        const std::string* text = nullptr);
-
-/// Is it a file that Coin reads?
-bool is_inventor(const std::filesystem::path& path);
 
 /// The path from the root of the file system, as specs keep it.
 std::string absolute_name(const std::filesystem::path& path);

@@ -51,18 +51,29 @@ static Eigen::Matrix3d turn_up(char up) {
 
 /// returns  do colours come from the file?
 static bool read_triangles(const MeshInput& input, GeometryBuilder& builder) {
-  const std::string extension = lower_case(input.path.extension().string());
-  if (extension == ".obj") return read_obj(input, builder);
-  if (extension == ".ply") return read_ply(input, builder);
-  if (extension == ".off") return read_off(input, builder);
-  if (extension == ".dae") return read_collada(input, builder);
-  if (extension == ".gltf" || extension == ".glb") return read_gltf(input, builder);
-  if (extension == ".stl") {
-    read_stl(input, builder);
-    return false;
+  const std::string ending = ending_of(input.path);
+  const bool given = input.format != GeometryFormat::none;
+  switch (given ? input.format : geometry_format(ending)) {
+    case GeometryFormat::obj:
+      return read_obj(input, builder);
+    case GeometryFormat::ply:
+      return read_ply(input, builder);
+    case GeometryFormat::off:
+      return read_off(input, builder);
+    case GeometryFormat::collada:
+      return read_collada(input, builder);
+    case GeometryFormat::gltf:
+      return read_gltf(input, builder);
+    case GeometryFormat::stl:
+      read_stl(input, builder);
+      return false;
+    case GeometryFormat::none:
+    case GeometryFormat::inventor:
+      break;
   }
-  fail("{}: wanted a mesh from .obj, .stl, .ply, .off, .gltf, .glb or .dae, got {}", input.file(),
-       in_quotes(extension));
+  std::vector<std::string> wanted = geometry_endings();
+  std::erase_if(wanted, [](const auto& e) { return is_inventor(e); });
+  fail("{}: wanted a mesh from {}, got {}", input.file(), one_of(wanted), in_quotes(ending));
 }
 
 Geometry read_mesh(const MeshInput& input) {
@@ -81,9 +92,10 @@ Geometry read_mesh(const MeshInput& input) {
   return builder.finish(colors_given, file, options);
 }
 
-Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options) {
+Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options,
+                        GeometryFormat format) {
   const std::string bytes = read_bytes(path);
-  return read_mesh({path, bytes, options});
+  return read_mesh({path, bytes, options, format});
 }
 
 }  // namespace clench

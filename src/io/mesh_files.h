@@ -9,8 +9,10 @@ namespace clench {
 
 /// Triangles in metres, by options.mesh_scale, else by the unit that the file names, else by
 /// options.silent_mesh_unit, else by a guess from the size, which is noted.
+/// format  none: the one of the ending
 /// throws Error  "part.stl: ..." when malformed, empty or cut short
-Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options);
+Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options,
+                        GeometryFormat format = GeometryFormat::none);
 
 /// The same of a file that has been read.
 Geometry read_mesh(const MeshInput& input);

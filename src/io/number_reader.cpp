@@ -49,11 +49,11 @@ void NumberReader::finish(const std::function<void(const std::string&)>& warn) {
 }
 
 std::optional<Eigen::Quaterniond> made_unit(const Eigen::Vector4d& wxyz) {
-  const double norm = wxyz.stableNorm();
+  const Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  const double norm = q.coeffs().stableNorm();
   if (!(norm > 1e-6) || !std::isfinite(norm)) return {};
-  const bool unit = std::abs(norm - 1) <= 4 * std::numeric_limits<double>::epsilon();
-  const Eigen::Vector4d x = unit ? wxyz : Eigen::Vector4d(wxyz / norm);
-  return Eigen::Quaterniond(x[0], x[1], x[2], x[3]);
+  if (std::abs(norm - 1) <= 4 * std::numeric_limits<double>::epsilon()) return q;
+  return Eigen::Quaterniond(q.coeffs() / norm);
 }
 
 }  // namespace clench

@@ -37,11 +37,11 @@ struct ReadOptions {
   bool turn_mesh_up = true;
 };
 
-/// A body from .xml, .iv .wrl (millimetres), .obj .stl .ply .off .gltf .glb .dae, in any case.
+/// A body from .xml, .iv .wrl .vrml (millimetres), .off .ply .obj .stl .gltf .glb .dae, in any case.
 /// throws Error  "flask.iv:31: ..." one sentence: place, subject, wanted, got
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// A robot from .cfg or .xml.
+/// A robot from .cfg or .xml of GraspIt!, .urdf, .mjcf, or .xml that holds one of these.
 RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// A world from .wld or .xml.

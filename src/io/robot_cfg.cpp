@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "io/joint_expression.h"
+#include "io/robot_classes.h"
 #include "io/robot_files.h"
 #include "io/transform_list.h"
 
@@ -74,7 +75,10 @@ BodySpec CfgReader::body(const Line& line, const std::string& name) {
 RobotSpec CfgReader::read() {
   robot_.name = path_.stem().string();
   robot_.source = path_.generic_string();
-  robot_.class_name = wanted("the robot's class").word(0);
+  const Line head = wanted("the robot's class");
+  robot_.class_name = head.word(0);
+  check_class(robot_.class_name, head.place(), library_.options().warn);
+  used_up(head, 1);
   const Line palm = wanted("the palm's file");
   used_up(palm, 1);
   robot_.base = body(palm, robot_.name + "_base");

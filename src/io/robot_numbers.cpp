@@ -8,13 +8,6 @@
 
 namespace clench {
 
-bool dof_slides(const RobotSpec& robot, int dof) {
-  for (const auto& chain : robot.chains)
-    for (const auto& joint : chain.joints)
-      if (joint.dof == dof) return joint.kind == JointKind::prismatic;
-  return false;
-}
-
 DofTexts dof_texts(const RobotSpec& robot, int number, const std::string& file) {
   const DofSpec& dof = robot.dofs[number];
   const bool slides = dof_slides(robot, number);

@@ -18,8 +18,6 @@ struct JointTexts {
   std::string a, alpha, min, max, viscous, coulomb, spring, rest;
 };
 
-/// Does the DOF count in lengths, as its first joint does?
-bool dof_slides(const RobotSpec& robot, int dof);
 /// throws Error  "hand.cfg: DOF 0: wanted finite numbers, got inf"
 DofTexts dof_texts(const RobotSpec& robot, int dof, const std::string& file);
 JointTexts joint_texts(const RobotSpec& robot, const JointSpec& joint);

@@ -5,6 +5,7 @@
 #include "base/suggest.h"
 #include "base/units.h"
 #include "io/joint_expression.h"
+#include "io/robot_classes.h"
 #include "io/robot_files.h"
 #include "io/tendons_xml.h"
 #include "io/transform_xml.h"
@@ -92,17 +93,12 @@ RobotSpec XmlRobotReader::read() {
 }
 
 void XmlRobotReader::read_type() {
-  static const std::vector<std::string> types = {
-      "Robot", "Hand",   "Puma560",   "Barrett", "Robonaut", "Pr2Gripper", "Pr2Gripper2010",
-      "M7",    "M7Tool", "HumanHand", "Shadow",  "McGrip",   "RobotIQ"};
   robot_.class_name = root_.attribute("type").value_or("");
   if (robot_.class_name.empty()) {
     library_.note(fmt::format("{}: robot: no type; it is taken for a Hand", root_.place()));
     robot_.class_name = "Hand";
-  } else if (std::ranges::find(types, robot_.class_name) == types.end()) {
-    library_.warn(fmt::format("{}: robot: unknown type {} has no meaning{}", root_.place(),
-                              in_quotes(robot_.class_name),
-                              did_you_mean(robot_.class_name, types)));
+  } else {
+    check_class(robot_.class_name, root_.place(), warn());
   }
 }
 

@@ -1,5 +1,8 @@
 #include "io/tendons_xml.h"
 
+#include <algorithm>
+
+#include "base/suggest.h"
 #include "base/units.h"
 
 namespace clench {
@@ -92,6 +95,20 @@ TendonWrapper read_wrapper(const XmlElement& element, const PartCheck& check, co
   return wrapper;
 }
 
+/// Tells of tendons that wrappers name and nobody has.
+void check_names(const std::vector<XmlElement>& wrappers, const std::vector<TendonSpec>& tendons,
+                 const Warn& warn) {
+  std::vector<std::string> names;
+  for (const TendonSpec& tendon : tendons) names.push_back(tendon.name);
+  for (const XmlElement& wrapper : wrappers)
+    for (const char* kind : {"exemption", "wrapping_side"})
+      for (const XmlElement& e : wrapper.children(kind))
+        if (const std::string name = e.wanted_attribute("tendon");
+            std::ranges::find(names, name) == names.end())
+          warn(fmt::format("{}: {}: there is no tendon {}{}", e.place(), kind, in_quotes(name),
+                           did_you_mean(name, names)));
+}
+
 }  // namespace
 
 void read_tendons(const XmlElement& robot, const PartCheck& check, const Warn& warn,
@@ -99,6 +116,7 @@ void read_tendons(const XmlElement& robot, const PartCheck& check, const Warn& w
   const auto tendons = robot.children("tendon"), wrappers = robot.children("tendonWrapper");
   for (const XmlElement& e : tendons) out.tendons.push_back(read_tendon(e, check, warn));
   for (const XmlElement& e : wrappers) out.wrappers.push_back(read_wrapper(e, check, warn));
+  if (warn) check_names(wrappers, out.tendons, warn);
   if (warn && !(tendons.empty() && wrappers.empty()))
     warn(fmt::format("{}: tendons and their wrappers are kept, {} and {}, but do not act yet",
                      (tendons.empty() ? wrappers : tendons).front().place(), tendons.size(),

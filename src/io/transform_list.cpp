@@ -1,6 +1,7 @@
 #include "io/transform_list.h"
 
 #include "base/units.h"
+#include "io/number_reader.h"
 
 namespace clench {
 
@@ -11,8 +12,6 @@ bool begins_transform(const Line& line) {
 
 // files write six digits
 static constexpr double nearly_unit = 1e-4;
-// what was written with all digits is kept to the bit
-static constexpr double unit_but_rounding = 4 * std::numeric_limits<double>::epsilon();
 
 Pose read_full_transform(const Line& line, std::string_view text, const TransformWarning& warn) {
   text = trim(text.substr(0, text.find('#')));
@@ -29,17 +28,15 @@ Pose read_full_transform(const Line& line, std::string_view text, const Transfor
     if (!value) line.fail("transform: wanted a number, got {}", in_quotes(words[i]));
     x[i] = *value;
   }
-  const Eigen::Quaterniond q(x[0], x[1], x[2], x[3]);
-  const double norm = q.coeffs().stableNorm();
-  if (!(norm > 1e-6) || !std::isfinite(norm))
+  const Eigen::Vector4d wxyz(x[0], x[1], x[2], x[3]);
+  const auto q = made_unit(wxyz);
+  if (!q)
     line.fail("transform: wanted a quaternion of length 1, got ({} {} {} {})", x[0], x[1], x[2],
               x[3]);
-  if (warn && std::abs(norm - 1) > nearly_unit)
+  if (warn && std::abs(wxyz.stableNorm() - 1) > nearly_unit)
     warn(fmt::format("{}: the quaternion ({} {} {} {}) is not of length 1; it is scaled to it",
                      line.place(), x[0], x[1], x[2], x[3]));
-  const double scale = std::abs(norm - 1) <= unit_but_rounding ? 1 : norm;
-  return {Eigen::Quaterniond(q.coeffs() / scale),
-          Eigen::Vector3d(x[4], x[5], x[6]) * units::millimetre};
+  return {*q, Eigen::Vector3d(x[4], x[5], x[6]) * units::millimetre};
 }
 
 static Eigen::Vector3d axis(const Line& line, int i) {

@@ -44,6 +44,11 @@ Pose contact_pose(const Place& place, const std::string& subject, const Tell& wa
   return {place.rotation, place.translation * units::millimetre};
 }
 
+/// The palm has no links: files write -1 or anything.
+int least_link(const VirtualContactSpec& contact) {
+  return contact.chain < 0 ? std::numeric_limits<int>::min() : 0;
+}
+
 // --- text ---
 
 FrictionEdges read_edges(NumberReader& numbers, const std::string& what) {
@@ -65,7 +70,7 @@ VirtualContactSpec read_vgr_contact(NumberReader& numbers, int number, const Tel
   const std::string what = fmt::format("contact {}", number);
   VirtualContactSpec contact;
   contact.chain = numbers.integer(what + ": finger", -1, most_chains);
-  contact.link = numbers.integer(what + ": link", 0, most_chains);
+  contact.link = numbers.integer(what + ": link", least_link(contact), most_chains);
   contact.edges = read_edges(numbers, what);
   Place place;
   place.location = numbers.vector(what + ": location");
@@ -98,7 +103,7 @@ VirtualContactSpec read_xml_contact(const XmlElement& e, const Tell& warn) {
           warn);
   VirtualContactSpec contact;
   contact.chain = e.wanted("finger_number").integer(-1, most_chains);
-  contact.link = e.wanted("link_number").integer(0, most_chains);
+  contact.link = e.wanted("link_number").integer(least_link(contact), most_chains);
   if (contact.chain < 0) contact.link = 0;
 
   const XmlElement list = e.wanted("friction_edges");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "io/number_reader.h"
 
 namespace clench {
 
@@ -27,15 +28,18 @@ const JointSpec& joint_at(const RobotSpec& robot, const JointPlace& at) {
 }
 
 /// A DOF counts in the unit of its first joint: rad or mm.
-double unit_of(const RobotSpec& robot, const std::vector<JointPlace>& joints) {
-  const bool slides =
-      !joints.empty() && joint_at(robot, joints.front()).kind == JointKind::prismatic;
-  return slides ? units::millimetre : 1.0;
+double unit_of(const RobotSpec& robot, int dof) {
+  return dof_slides(robot, dof) ? units::millimetre : 1.0;
 }
 
 }  // namespace
 
 // --- DOFs ---
+
+bool dof_slides(const RobotSpec& robot, int dof) {
+  const auto joints = joints_of(robot, dof);
+  return !joints.empty() && joint_at(robot, joints.front()).kind == JointKind::prismatic;
+}
 
 void read_dof_values(const Line& line, PlacedRobot& placed) {
   const RobotSpec& robot = placed.robot;
@@ -53,7 +57,7 @@ void read_dof_values(const Line& line, PlacedRobot& placed) {
   int next = 0;
   for (int d = 0; d < dofs; ++d) {
     const auto joints = joints_of(robot, d);
-    const double unit = unit_of(robot, joints);
+    const double unit = unit_of(robot, d);
     placed.dofs.push_back(line.number(next++, fmt::format("DOF {} of {}", d, dofs)) * unit);
     if (robot.dofs[d].kind != DofKind::breakaway || plain) continue;
     for (const JointPlace& at : joints) {
@@ -75,7 +79,7 @@ std::string dof_values(const PlacedRobot& placed) {
   const auto add = [&](const std::string& word) { out += (out.empty() ? "" : " ") + word; };
   for (size_t d = 0; d < robot.dofs.size(); ++d) {
     const auto joints = joints_of(robot, static_cast<int>(d));
-    const double unit = unit_of(robot, joints);
+    const double unit = unit_of(robot, static_cast<int>(d));
     const double value = d < placed.dofs.size() ? placed.dofs[d] : robot.dofs[d].default_value;
     add(number_in(value, unit));
     if (robot.dofs[d].kind != DofKind::breakaway) continue;
@@ -116,12 +120,7 @@ void check_connections(const WorldSpec& world, const std::vector<std::string>& p
 }
 
 std::optional<Eigen::Quaterniond> camera_orientation(double x, double y, double z, double w) {
-  const Eigen::Quaterniond q(w, x, y, z);
-  const double norm = q.coeffs().stableNorm();
-  if (!(norm > 1e-6) || !std::isfinite(norm)) return {};
-  // what was written with all digits is kept to the bit
-  if (std::abs(norm - 1) <= 4 * std::numeric_limits<double>::epsilon()) return q;
-  return Eigen::Quaterniond(q.coeffs() / norm);
+  return made_unit(Eigen::Vector4d(w, x, y, z));
 }
 
 // --- numbers as texts ---

@@ -8,6 +8,9 @@
 
 namespace clench {
 
+/// Does the DOF count in lengths, as its first joint does?
+bool dof_slides(const RobotSpec& robot, int dof);
+
 /// Values of the robot's DOFs in their order [rad or mm]; after that of a breakaway DOF, for each of
 /// its joints, 0, or 1 and the value of the DOF at which the joint broke away. One value a DOF and
 /// nothing else is understood too.

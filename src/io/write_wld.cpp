@@ -7,9 +7,10 @@
 
 namespace clench {
 
-/// A name that stands alone on its line.
+/// A name that stands alone on its line, and is no comment.
 static std::string in_a_line(const std::string& name) {
-  if (name.find_first_of("\r\n") != std::string::npos || name != trim(name))
+  if (name.find_first_of("\r\n") != std::string::npos || name != trim(name) ||
+      name.starts_with('#'))
     fail("the name of a file cannot stand in a line of a .wld: {}", in_quotes(name));
   return name + "\n";
 }

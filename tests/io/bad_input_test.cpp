@@ -52,10 +52,12 @@ TEST_CASE("a malformed COLLADA file is told by file, wanted and got") { check_fo
 
 TEST_CASE("a format that is not read is refused with the list of those that are") {
   CHECK_THROWS_WITH_AS(read_body("tests/CMakeLists.txt"),
-                       "CMakeLists.txt: wanted a body from .iv, .wrl, .xml, .obj, .stl, .ply, .off, .gltf, .glb or .dae, got '.txt'",
+                       "CMakeLists.txt: wanted a body from .xml, .iv, .wrl, .vrml, .off, .ply, "
+                       ".obj, .stl, .gltf, .glb or .dae, got '.txt'",
                        Error);
   CHECK_THROWS_WITH_AS(read_robot("tests/CMakeLists.txt"),
-                       "CMakeLists.txt: wanted a robot from .cfg, .xml, .urdf or .mjcf, got '.txt'", Error);
+                       "CMakeLists.txt: wanted a robot from .cfg, .xml, .urdf or .mjcf, got '.txt'",
+                       Error);
   CHECK_THROWS_WITH_AS(read_world("tests/CMakeLists.txt"),
                        "CMakeLists.txt: wanted a world from .wld or .xml, got '.txt'", Error);
 }

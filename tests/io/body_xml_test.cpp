@@ -68,6 +68,28 @@ TEST_CASE("OFF and PLY count as millimetres, whatever their size") {
   }
 }
 
+TEST_CASE("the type tells how geometry is written whose ending says nothing") {
+  const TemporaryFolder folder;
+  const std::string off =
+      "OFF\n4 4 6\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  folder.write("c.mesh", off);
+  folder.write("b.mesh", "#Inventor V2.1 ascii\nCube { }");
+  const auto read = [&](const std::string& element) {
+    return read_body(folder.write("a.xml", "<root>\n" + element + "\n</root>"));
+  };
+  CHECK(read("<geometryFile type='off'>c.mesh</geometryFile>").shape->mesh().triangles.size() == 4);
+  CHECK(read("<geometryFile type='OFF'>c.mesh</geometryFile>").shape->bounds().high.x() ==
+        doctest::Approx(0.009));
+  CHECK(
+      read("<geometryFile type='Inventor'>b.mesh</geometryFile>").shape->mesh().triangles.size() ==
+      12);
+  CHECK_THROWS_WITH_AS(
+      read("<geometryFile type='of'>c.mesh</geometryFile>"),
+      "a.xml:2: geometryFile: wanted type Inventor, off, ply or that of another mesh, got 'of'",
+      Error);
+  CHECK_THROWS_AS(read("<geometryFile>c.mesh</geometryFile>"), Error);
+}
+
 TEST_CASE("geometry is scaled first, then moved by an offset that is not") {
   for (const std::string file : {"box.iv", "box.off"}) {
     const BodySpec body =

@@ -85,9 +85,11 @@ TEST_CASE("what belongs to no block, and words behind numbers, are warnings") {
                              "a.egr:5: the line '1.57 1.22' and 2 more belong to no block and are "
                              "not used"});
   warnings.list.clear();
-  read("DIMENSIONS 1\nEG\n0.5\n1\nORIGIN\n0\n1\nORIGIN\n0\n2\n1.57\n", warnings.options());
+  const auto set =
+      read("DIMENSIONS 1\nEG\n0.5\n1\nORIGIN\n0\n1\nORIGIN\n0\n2\n1.57\n", warnings.options());
+  CHECK(*set.origin == vec({1}));
   CHECK(warnings.list ==
-        std::vector<std::string>{"a.egr:8: a second origin; the last one counts",
+        std::vector<std::string>{"a.egr:8: a second origin; the first one counts",
                                  "a.egr:11: the line '1.57' belongs to no block and is not used"});
 }
 
@@ -109,6 +111,27 @@ TEST_CASE("XML says the same, with limits, and what it leaves out has the format
   // a scale of 0 would hold a DOF for ever: what is left out is 1
   CHECK(*set.norm == vec({1, 1, 3}));
   CHECK_FALSE(read("<EigenGrasps dimensions='1'><EG><DimVals d0='1'/></EG></EigenGrasps>").origin);
+}
+
+TEST_CASE("of a second origin or norm the first counts, in XML as in text") {
+  Warnings warnings;
+  const auto block = [](const char* name, int value) {
+    return fmt::format("<{}><DimVals d0='{}'/></{}>", name, value, name);
+  };
+  const auto xml =
+      read("<EigenGrasps dimensions='1'>" + block("EG", 1) + block("ORIGIN", 2) +
+               block("ORIGIN", 3) + block("NORM", 4) + block("NORM", 5) + "</EigenGrasps>",
+           warnings.options());
+  CHECK(warnings.list ==
+        std::vector<std::string>{
+            "a.egr:1: <ORIGIN> stands in <EigenGrasps> again; the first one counts",
+            "a.egr:1: <NORM> stands in <EigenGrasps> again; the first one counts"});
+  const auto text =
+      read("DIMENSIONS 1\nEG\n1\n1\nORIGIN\n0\n2\nNORM\n0\n4\nORIGIN\n0\n3\nNORM\n0\n5\n");
+  for (const auto* set : {&xml, &text}) {
+    CHECK(*set->origin == vec({2}));
+    CHECK(*set->norm == vec({4}));
+  }
 }
 
 TEST_CASE("unknown elements of an XML set are warnings") {

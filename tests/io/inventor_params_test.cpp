@@ -44,6 +44,17 @@ TEST_CASE("other comments are comments: another key, a blank after the '#', anot
   CHECK_FALSE(b.elastic_modulus);
 }
 
+TEST_CASE("an indented line is a comment, and a key in it is told") {
+  Warnings warnings;
+  const BodySpec b =
+      body(" #mass 20\n\t#of 3 parts\n#mass 30\n  #cog 1 2 3\r\n", warnings.options());
+  CHECK(b.mass == doctest::Approx(0.03));
+  CHECK_FALSE(b.com);
+  CHECK(warnings.list ==
+        std::vector<std::string>{"box.iv:2: #mass is a comment, for it does not begin its line",
+                                 "box.iv:5: #cog is a comment, for it does not begin its line"});
+}
+
 TEST_CASE("the last of a key counts") {
   CHECK(body("#mass 5\n#mass 7").mass == doctest::Approx(0.007));
 }

@@ -82,6 +82,47 @@ TEST_CASE("of an object's file the primitives beside it are read, if there are s
   CHECK(read_primitives(object)[0].kind == PrimitiveKind::sphere);
 }
 
+TEST_CASE("of an XML body the geometry's primitives are read, scaled and placed as it says") {
+  TemporaryFolder folder;
+  const std::string head = "#Inventor V2.1 ascii\n";
+  folder.write("shape.iv",
+               head + "Translation { translation 10 0 0 } Cube { width 2 height 4 depth 6 }");
+  const auto read = [&](const std::string& rest, const ReadOptions& options = {}) {
+    return read_primitives(folder.write("mug.xml", "<root>\n" + rest + "</root>"), options);
+  };
+  const std::string file = "<geometryFile type='Inventor'>shape.iv</geometryFile>";
+  const auto list = read(file +
+                         "<geometryScaling>2</geometryScaling><geometryOffset><transform>"
+                         "<translation>0 0 5</translation><rotation>90 z</rotation></transform>"
+                         "</geometryOffset>");
+  REQUIRE(list.size() == 1);
+  CHECK((list[0].size - Vector3d(0.004, 0.008, 0.012)).norm() < single);
+  // 20 mm along x, which a quarter turn brings to y
+  CHECK((list[0].X_OP.position - Vector3d(0, 0.02, 0.005)).norm() < single);
+  CHECK((list[0].X_OP.rotation * Vector3d::UnitX() - Vector3d::UnitY()).norm() < single);
+  CHECK((read(file + "<geometryScalingZ>3</geometryScalingZ>")[0].size -
+         Vector3d(0.002, 0.004, 0.018))
+            .norm() < single);
+
+  // of a file whose ending says nothing the type counts
+  folder.write("shape.dat", head + "Sphere { }");
+  CHECK(read("<geometryFile type='Inventor'>shape.dat</geometryFile>").size() == 1);
+  CHECK_THROWS_WITH_AS(read("<geometryFile>shape.off</geometryFile>"),
+                       "mug.xml:2: no such file: shape.off; did you mean 'shape.dat'?", Error);
+  folder.write("shape.off", "OFF\n");
+  CHECK_THROWS_WITH_AS(read("<geometryFile>shape.off</geometryFile>"),
+                       "shape.off: wanted primitives from .iv, .wrl or .vrml, got '.off'", Error);
+  Warnings warnings;
+  CHECK(read("<mass>3</mass>", warnings.options()).empty());
+  CHECK(warnings.list == std::vector<std::string>{"mug.xml:1: no <geometryFile>: no primitives"});
+  CHECK_THROWS_WITH_AS(read_primitives(folder.write("hand.xml", "<robot/>")),
+                       "hand.xml:1: wanted a body, got <robot>", Error);
+
+  // what somebody has simplified goes before it, and stands in the body's frame
+  folder.write("primitives/mug.iv", head + "Cone { }");
+  CHECK(read(file + "<geometryScaling>2</geometryScaling>")[0].kind == PrimitiveKind::cone);
+}
+
 TEST_CASE("the primitives of the original's objects load") {
   REQUIRE_SHARED();
   const auto folder = test::shared() / "data/graspit/models/objects";

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cmath>
 
 #include "base/error.h"
@@ -263,6 +264,36 @@ TEST_CASE("a chain of included files has an end") {
                        Error);
 }
 
+TEST_CASE("a file may be included ten thousand times, and no more often") {
+  const TemporaryFolder folder;
+  folder.write("empty.iv", "#Inventor V2.1 ascii\nSeparator { }\n");
+  const auto read = [&](int count, const std::string& node) {
+    std::string text = "#Inventor V2.1 ascii\n";
+    for (int i = 0; i < count; ++i) text += node;
+    return read_body(folder.write("many.iv", text));
+  };
+  CHECK_NOTHROW(read(10'000, "File { name \"empty.iv\" }\n"));
+  CHECK_THROWS_WITH_AS(
+      read(10'001, "File { name \"empty.iv\" }\n"),
+      "many.iv:10002: wanted at most 10000 included files, each counted as often as it is named",
+      Error);
+  CHECK_THROWS_WITH_AS(
+      read(10'001, "WWWInline { name \"empty.iv\" }\n"),
+      "many.iv: wanted at most 10000 included files, each counted as often as it is named", Error);
+}
+
+TEST_CASE("a file included again is not read again") {
+  const TemporaryFolder folder;
+  // ten thousand times two megabytes would take half a minute
+  folder.write("large.iv", "#Inventor V2.1 ascii\n" + std::string(2 << 20, '\n'));
+  std::string text = "#Inventor V2.1 ascii\n";
+  for (int i = 0; i < 10'000; ++i) text += "File { name \"large.iv\" }\n";
+  const auto file = folder.write("many.iv", text);
+  const auto start = std::chrono::steady_clock::now();
+  read_body(file);
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
+}
+
 TEST_CASE("nodes that use one another have a limit of depth") {
   std::string text = "DEF g0 Group { }\n";
   for (int i = 1; i < 1200; ++i)
@@ -296,6 +327,57 @@ TEST_CASE("one colour is the body's, several are one a triangle") {
   CHECK(two.appearance.triangle_colors[0] == Eigen::Vector3f(1, 0, 0));
   CHECK(two.appearance.triangle_colors[23] == Eigen::Vector3f(0, 0, 1));
   CHECK_FALSE(body("Cube { }").appearance.given);
+}
+
+TEST_CASE("nodes that stand inside a shape, as in old files, are its own") {
+  const std::string old = "#Inventor V1.0 ascii";
+  const auto colors = [&](const std::string& nodes, const std::string& header) {
+    const BodySpec b = body("Separator { " + square + nodes + " }", header);
+    REQUIRE(b.appearance.triangle_colors.size() > 1);
+    std::vector<Eigen::Vector3f> out;
+    for (const auto& c : b.appearance.triangle_colors) out.push_back(c.head<3>());
+    return out;
+  };
+  const std::string red = "Material { diffuseColor 1 0 0 # \"red\" }\n}",
+                    green = "Material { diffuseColor 0 1 0 } ";
+  for (const std::string& shape :
+       {"FaceSet { " + red + " numVertices 3 }", "FaceSet { numVertices 3 " + red + " }",
+        "FaceSet {\n numVertices [ 3 ]\n DEF hue " + red + "\n}",
+        "IndexedFaceSet { Normal { vector [0 0 1] } " + red + " coordIndex [ 0, 1, 2 ] }",
+        "DEF face FaceSet { " + red + " numVertices 3 }"}) {
+    INFO(shape);
+    // for it alone: the next face has the colour from before
+    const auto found = colors(green + shape + " FaceSet { numVertices 3 }", old);
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].x() == 1);
+    CHECK(found[1].y() == 1);
+  }
+  const auto used = colors("Switch { whichChild -1 DEF red " + red + " }" + green +
+                               "FaceSet { USE red numVertices 3 } FaceSet { numVertices 3 }",
+                           old);
+  CHECK(used[0].x() == 1);
+  CHECK(used[1].y() == 1);
+  // in a shape's field it stays
+  CHECK(body("FaceSet { vertexProperty DEF v VertexProperty { vertex [ 0 0 0, 10 0 0, 10 10 0 ] } "
+             "numVertices 3 }",
+             old)
+            .shape->mesh()
+            .triangles.size() == 1);
+}
+
+TEST_CASE("what is lifted out of a shape leaves lines as they are, and a file there is skipped") {
+  const TemporaryFolder folder;
+  const std::string head = "#Inventor V1.0 ascii\n";
+  CHECK_THROWS_WITH_AS(
+      read_body(folder.write("a.iv", head + square +
+                                         "FaceSet {\n Material {\n diffuseColor 1 0 0\n }\n "
+                                         "numVertices 3\n}\nCube { widht 3 }\n")),
+      "a.iv:9: Unknown field \"widht\" in \"Cube\"", Error);
+  Warnings warnings;
+  read_body(
+      folder.write("b.iv", head + square + "FaceSet {\n File { name \"b.iv\" } numVertices 3 }"),
+      warnings.options());
+  CHECK(warnings.list == std::vector<std::string>{"b.iv:4: File inside FaceSet is skipped"});
 }
 
 TEST_CASE("faces have the colours that their binding gives them") {

@@ -6,6 +6,7 @@
 #include "io/mesh_files.h"
 #include "mesh_writers.h"
 #include "support/meshes.h"
+#include "support/mutate.h"
 
 using namespace clench;
 using namespace clench::test;
@@ -25,32 +26,8 @@ bool refused(const MeshFile& file) {
   }
 }
 
-std::string changed(std::string s, Random& random) {
-  static const char* const pieces[] = {"-1", "4294967295", "1e308", "nan", "0", "\"", "<", ">",
-                                       "{",  "[",          "]",     ",",   " ", "\n", "#", "/"};
-  const int changes = 1 + static_cast<int>(random.bits() % 3);
-  for (int i = 0; i < changes && !s.empty(); ++i) {
-    const size_t at = random.bits() % s.size();
-    const std::string piece = pieces[random.bits() % std::size(pieces)];
-    switch (random.bits() % 5) {
-      case 0:
-        s[at] = static_cast<char>(random.bits());
-        break;
-      case 1:
-        s.erase(at, random.bits() % 16);
-        break;
-      case 2:
-        s.insert(at, piece);
-        break;
-      case 3:
-        s.replace(at, std::min(piece.size(), s.size() - at), piece);
-        break;
-      default:
-        s.insert(at, s.substr(random.bits() % s.size(), random.bits() % 60));
-    }
-  }
-  return s;
-}
+const Oddities odd = {{"-1", "4294967295", "1e308", "nan", "0", "\"", "<", ">", "{", "[", "]", ",",
+                       " ", "\n", "#", "/"}};
 
 std::string repeated(const std::string& piece, int times) {
   std::string out;
@@ -77,7 +54,7 @@ TEST_CASE("a mesh file changed at random is an Error or a mesh") {
   for (const MeshFile& file : in_every_format(box(1, 1, 1)))
     for (uint64_t i = 0; i < 150; ++i) {
       Random random(17, i);
-      const std::string bad = changed(file.content, random);
+      const std::string bad = mutated(file.content, odd, random);
       INFO(file.name << " seed " << i);
       refused({file.name, bad});
     }
@@ -87,12 +64,11 @@ TEST_CASE("noise is an Error in every mesh format, behind a sound beginning too"
   for (const MeshFile& file : in_every_format(box(1, 1, 1)))
     for (uint64_t i = 0; i < 20; ++i) {
       Random random(19, i);
-      std::string noise(random.bits() % 300, '\0');
-      for (char& c : noise) c = static_cast<char>(random.bits());
+      const std::string bytes = noise(random);
       INFO(file.name << " seed " << i);
-      CHECK(refused({file.name, noise}));
+      CHECK(refused({file.name, bytes}));
       const size_t start = random.bits() % (file.content.size() / 2);
-      refused({file.name, file.content.substr(0, start) + noise});
+      refused({file.name, file.content.substr(0, start) + bytes});
     }
 }
 

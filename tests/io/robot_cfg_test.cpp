@@ -13,6 +13,7 @@ static constexpr double degree = std::numbers::pi / 180;
 
 /// A robot of one chain, its joint lines and what stands before and behind them given.
 struct Cfg {
+  std::string class_line = "Hand\n";
   std::string dofs = "1\nr 1.5 5e9 1e9 1e7 20\n";
   std::string transforms = "t 0 0 0\n";
   std::string joints = "1\n1\n", joint_lines = "d0 0 10 0 -10 90\n";
@@ -23,9 +24,10 @@ struct Cfg {
     const TemporaryFolder folder;
     folder.write("iv/box.iv", "#Inventor V2.1 ascii\n#mass 20\nCube { }\n");
     folder.write("eigen/a.egr", "DIMENSIONS 1\nEG\n1\n1\n");
-    return read_robot(folder.write("hand.cfg", "#class\nHand\nbox.iv\n" + dofs + "1\n" + joints +
-                                                   transforms + joint_lines + links + rest),
-                      options);
+    return read_robot(
+        folder.write("hand.cfg", "#class\n" + class_line + "box.iv\n" + dofs + "1\n" + joints +
+                                     transforms + joint_lines + links + rest),
+        options);
   }
 };
 
@@ -112,6 +114,20 @@ TEST_CASE("a DOF that turns and slides joints counts in the unit of its first") 
   CHECK(cfg.read().chains[0].joints[1].ratio == doctest::Approx(100));  // 0.1 rad a millimetre
 }
 
+TEST_CASE("a DOF that is told to close slides at 5 cm/s, whatever the ratio of its joints") {
+  Cfg cfg;
+  cfg.dofs = "1\nr 0 5e9 1e9 1e7 20\n";
+  ReadOptions options;
+  options.closing = {{"1", -1}};
+  for (const char* expression : {"d0", "d0*2", "d0*-1"}) {
+    INFO(expression);
+    cfg.joint_lines = fmt::format("0 {} 10 0 -10 90\n", expression);
+    CHECK(cfg.read(options).dofs[0].default_velocity == -0.05);
+    cfg.joint_lines = fmt::format("{} 0 10 0 -10 90\n", expression);
+    CHECK(cfg.read(options).dofs[0].default_velocity == -1);
+  }
+}
+
 TEST_CASE("comments, tabs, blank lines and other line ends change nothing") {
   Cfg cfg;
   cfg.joint_lines = "# theta d\n\n  \t\n d0+90 \t0\t10\t-90 +0 +180 # friction\r\n\r\n";
@@ -134,6 +150,20 @@ TEST_CASE("surplus words are not used, with a warning, and comments are none") {
                              "hand.cfg:12: 1 surplus word is not used",
                              "hand.cfg:14: 1 surplus word is not used",
                          });
+}
+
+TEST_CASE("a class that is none and words behind it are told, and change nothing") {
+  Cfg cfg;
+  Warnings warnings;
+  cfg.class_line = "Puma560 # an arm\n";
+  cfg.read(warnings.options());
+  CHECK(warnings.list.empty());
+  cfg.class_line = "Hnad 3 4\n";
+  CHECK(cfg.read(warnings.options()).class_name == "Hnad");
+  CHECK(warnings.list ==
+        std::vector<std::string>{
+            "hand.cfg:2: robot: unknown type 'Hnad' has no meaning; did you mean 'Hand'?",
+            "hand.cfg:2: 2 surplus words are not used"});
 }
 
 TEST_CASE("links without a last joint take the next one") {

@@ -112,9 +112,10 @@ TEST_CASE("a text robot and an XML robot that say the same are the same") {
 
 TEST_CASE("each kind of link takes as many joints as it has") {
   const RobotSpec r =
-      read(dof() + chain(joint("d0") + joint("d0") + joint("d0") + joint("d0") + joint("d0") +
-                         joint("0", "d0") + joint("d0") + link_of("Fixed") + link_of("Universal") +
-                         link_of("Ball") + link_of("Prismatic") + link_of("Fixed") + link_of("Revolute")));
+      read(dof() +
+           chain(joint("d0") + joint("d0") + joint("d0") + joint("d0") + joint("d0") +
+                 joint("0", "d0") + joint("d0") + link_of("Fixed") + link_of("Universal") +
+                 link_of("Ball") + link_of("Prismatic") + link_of("Fixed") + link_of("Revolute")));
   const int last[] = {-1, 1, 4, 5, 5, 6};
   for (int i = 0; i < 6; ++i) CHECK(r.chains[0].links[i].last_joint == last[i]);
   CHECK(r.chains[0].links[3].joint == LinkJoint::prismatic);
@@ -122,8 +123,8 @@ TEST_CASE("each kind of link takes as many joints as it has") {
 
 TEST_CASE("limits written in the DOF's direction are exchanged, with a warning") {
   Warnings warnings;
-  const RobotSpec r =
-      read(dof() + chain(joint("0", "d0*-10", "-0 -20") + link_of("Prismatic")), warnings.options());
+  const RobotSpec r = read(dof() + chain(joint("0", "d0*-10", "-0 -20") + link_of("Prismatic")),
+                           warnings.options());
   CHECK(r.chains[0].joints[0].min == doctest::Approx(-0.02));
   CHECK(r.chains[0].joints[0].max == 0);
   CHECK(dof_range(r, 0)[1] == doctest::Approx(0.002));
@@ -147,14 +148,15 @@ TEST_CASE(
 }
 
 TEST_CASE("collision rules name links, the base, or all") {
-  const RobotSpec r = read(
-      dof() +
-      chain(joint("d0") + joint("d0") + joint("d0") + link_of("Revolute", " collisionRule=\"Off\"") +
-            link_of("Revolute", " collisionRule=\"OverlappingPair\" targetChain=\"base\"") +
-            link_of("Revolute",
-                 " collisionRule=\"OverlappingPair\" targetChain=\"0\" targetLink=\"0\"")) +
-      "<disableCollision body1_chain=\"0\" body1_link=\"1\" body2_chain=\"-1\" "
-      "body2_link=\"0\"/>");
+  const RobotSpec r =
+      read(dof() +
+           chain(joint("d0") + joint("d0") + joint("d0") +
+                 link_of("Revolute", " collisionRule=\"Off\"") +
+                 link_of("Revolute", " collisionRule=\"OverlappingPair\" targetChain=\"base\"") +
+                 link_of("Revolute",
+                         " collisionRule=\"OverlappingPair\" targetChain=\"0\" targetLink=\"0\"")) +
+           "<disableCollision body1_chain=\"0\" body1_link=\"1\" body2_chain=\"-1\" "
+           "body2_link=\"0\"/>");
   const CollisionRules& rules = r.collision_rules;
   CHECK(rules.near_pairs_off);
   REQUIRE(rules.parts_off.size() == 1);
@@ -177,7 +179,7 @@ TEST_CASE("tendons, wrappers and tactile sensors are kept, and one warning says 
           "6</position><friction>0.1</friction></insertionPoint></tendon>\n"
           "<tendonWrapper><chain>0</chain><link>0</link><position>0 0 1</position><orientation>0 3 "
           "0</orientation><radius>5</radius><exemption tendon=\"flexor\"/><wrapping_side "
-          "tendon=\"other\"><orientation>2 0 0</orientation></wrapping_side></tendonWrapper>\n",
+          "tendon=\"flexor\"><orientation>2 0 0</orientation></wrapping_side></tendonWrapper>\n",
       warnings.options());
   REQUIRE(r.tendons.size() == 1);
   CHECK(r.tendons[0].name == "flexor");
@@ -200,6 +202,25 @@ TEST_CASE("tendons, wrappers and tactile sensors are kept, and one warning says 
   CHECK(warnings.list ==
         std::vector<std::string>{
             "hand.xml:9: tendons and their wrappers are kept, 1 and 1, but do not act yet"});
+}
+
+TEST_CASE("a wrapper that names a tendon which does not exist is told") {
+  Warnings warnings;
+  const std::string point =
+      "<insertionPoint><chain>-1</chain><link>-1</link><position>1 2 3</position></insertionPoint>";
+  const RobotSpec r =
+      read(dof() + chain(joint("d0") + link_of("Revolute")) + "<tendon name=\"flexor\">" + point +
+               point +
+               "</tendon>\n<tendonWrapper><chain>0</chain><link>0</link><position>0 0 1</position>"
+               "<orientation>0 3 0</orientation><radius>5</radius>\n<exemption tendon=\"flexr\"/>"
+               "\n<wrapping_side tendon=\"other\"><orientation>2 0 0</orientation></wrapping_side>"
+               "</tendonWrapper>\n",
+           warnings.options());
+  CHECK(r.wrappers[0].exempt == std::vector<std::string>{"flexr"});
+  REQUIRE(warnings.list.size() == 3);
+  CHECK(warnings.list[0] ==
+        "hand.xml:10: exemption: there is no tendon 'flexr'; did you mean 'flexor'?");
+  CHECK(warnings.list[1] == "hand.xml:11: wrapping_side: there is no tendon 'other'");
 }
 
 TEST_CASE("types and elements that are unknown are warned of, a type that is missing is noted") {

@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "base/text.h"
 #include "io/read.h"
+#include "support/mutate.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -95,43 +96,11 @@ CameraFull
 1 2 3 0 0 0 1 100
 )";
 
-const char* const pieces[] = {
-    "-1", "999999999",  "-2147483648", "1e38",   "nan",    "1e-40", "{",    "}",    "[",
-    "]",  "USE C",      "USE L",       "DEF C",  "\"",     "#",     "NULL", "Cube", "Separator { ",
-    "-7", "PER_VERTEX", "OVERALL",     "CONVEX", "100000", ",",     "T",    "\n",   "d0",
-    "r"};
-
-std::string changed(std::string s, Random& random) {
-  const int changes = 1 + static_cast<int>(random.bits() % 3);
-  for (int i = 0; i < changes && !s.empty(); ++i) {
-    const size_t at = random.bits() % s.size();
-    const char* piece = pieces[random.bits() % std::size(pieces)];
-    // the word at that place
-    const size_t before = s.find_last_of(" \n[],", at),
-                 first = before == std::string::npos ? 0 : before + 1;
-    const size_t end = std::max(first, std::min(s.find_first_of(" \n[],", at), s.size()));
-    switch (random.bits() % 6) {
-      case 0:
-        s[at] = static_cast<char>(random.bits());
-        break;
-      case 1:
-        s.erase(at, random.bits() % 8);
-        break;
-      case 2:
-        s.insert(at, piece);
-        break;
-      case 3:
-        s.replace(first, end - first, piece);
-        break;
-      case 4:
-        s.erase(first, end - first);
-        break;
-      default:
-        s.insert(at, s.substr(random.bits() % s.size(), random.bits() % 40));
-    }
-  }
-  return s;
-}
+const test::Oddities odd = {
+    {"-1", "999999999",  "-2147483648", "1e38",   "nan",    "1e-40", "{",    "}",    "[",
+     "]",  "USE C",      "USE L",       "DEF C",  "\"",     "#",     "NULL", "Cube", "Separator { ",
+     "-7", "PER_VERTEX", "OVERALL",     "CONVEX", "100000", ",",     "T",    "\n",   "d0",
+     "r"}};
 
 /// The folder with the files that others name, and a reader for a text of each format.
 class Bench {
@@ -174,7 +143,7 @@ void change_at_random(const std::string& name, const std::string& text, int time
   Bench bench;
   for (int i = 0; i < times; ++i) {
     Random random(11, static_cast<uint64_t>(i));
-    const std::string bad = changed(text, random);
+    const std::string bad = test::mutated(text, odd, random);
     INFO(bad);
     bench.refused(name, bad);
   }
@@ -229,8 +198,7 @@ TEST_CASE("noise is an Error in every format") {
   Bench bench;
   for (uint64_t i = 0; i < 40; ++i) {
     Random random(13, i);
-    std::string noise(random.bits() % 300, '\0');
-    for (char& c : noise) c = static_cast<char>(random.bits());
+    const std::string noise = test::noise(random);
     for (const auto* name : {"a.iv", "a.wrl", "a.cfg", "a.wld", "a.stl"})
       CHECK(bench.refused(name, noise));
   }

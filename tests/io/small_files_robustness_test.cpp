@@ -10,6 +10,7 @@
 #include "io/grasp_lists.h"
 #include "io/inventor_primitives.h"
 #include "io/virtual_contacts.h"
+#include "support/mutate.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -72,40 +73,10 @@ bool refused(const TemporaryFolder& folder, const Format& format, const std::str
   }
 }
 
-const char* const pieces[] = {"-1", "999999999", "-2147483648", "1e308", "nan",   "1e-320",
-                              "EG", "#",         "\n",          "[",     "]",     "<",
-                              ">",  "0 0 0 0",   "\"",          "d7=",   "</EG>", "inf",
-                              ",",  "Cube {",    "NORM",        "100",   "+",     "\0x"};
-
-std::string changed(std::string s, Random& random) {
-  for (int i = 1 + static_cast<int>(random.bits() % 3); i > 0 && !s.empty(); --i) {
-    const size_t at = random.bits() % s.size();
-    const std::string piece = pieces[random.bits() % std::size(pieces)];
-    switch (random.bits() % 6) {
-      case 0:
-        s[at] = static_cast<char>(random.bits());
-        break;
-      case 1:
-        s.erase(at, random.bits() % 8);
-        break;
-      case 2:
-        s.insert(at, piece);
-        break;
-      case 3:
-        s.replace(at, std::min(piece.size(), s.size() - at), piece);
-        break;
-      case 4: {  // a line is dropped
-        const size_t begin = s.rfind('\n', at), end = s.find('\n', at);
-        if (begin != std::string::npos && end != std::string::npos && end > begin)
-          s.erase(begin, end - begin);
-        break;
-      }
-      default:
-        s.insert(at, s.substr(random.bits() % s.size(), random.bits() % 40));
-    }
-  }
-  return s;
-}
+const test::Oddities odd = {{"-1", "999999999", "-2147483648", "1e308", "nan",   "1e-320",
+                             "EG", "#",         "\n",          "[",     "]",     "<",
+                             ">",  "0 0 0 0",   "\"",          "d7=",   "</EG>", "inf",
+                             ",",  "Cube {",    "NORM",        "100",   "+",     ""}};
 
 }  // namespace
 
@@ -157,7 +128,7 @@ TEST_CASE("small files changed at random are values or Errors that name the file
   for (const Format& format : formats)
     for (uint64_t i = 0; i < 150; ++i) {
       Random random(17, i);
-      const std::string bad = changed(format.sound, random);
+      const std::string bad = test::mutated(format.sound, odd, random);
       INFO(bad);
       refused(folder, format, bad);
     }
@@ -168,9 +139,7 @@ TEST_CASE("noise is an Error in every small format") {
   for (const Format& format : formats)
     for (uint64_t i = 0; i < 20; ++i) {
       Random random(18, i);
-      std::string noise(1 + random.bits() % 300, '\0');
-      for (char& c : noise) c = static_cast<char>(random.bits());
-      noise[0] = 'x';
+      const std::string noise = 'x' + test::noise(random);
       CHECK(refused(folder, format, noise));
     }
 }

@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "base/text.h"
 #include "io/read.h"
+#include "support/mutate.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -146,8 +147,7 @@ TEST_CASE("noise is an Error in formats of robot trees") {
   Bench bench;
   for (uint64_t i = 0; i < 40; ++i) {
     Random random(19, i);
-    std::string noise(random.bits() % 300, '\0');
-    for (char& c : noise) c = static_cast<char>(random.bits());
+    const std::string noise = test::noise(random);
     CHECK(bench.refused("a.urdf", noise));
     CHECK(bench.refused("a.mjcf", noise));
   }

@@ -79,6 +79,24 @@ TEST_CASE("a text file gives place, frame, edges and coefficient, in metres") {
   CHECK((link.X_LC.rotation * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitX()).norm() < 1e-15);
 }
 
+TEST_CASE("the link of a contact on the palm means nothing") {
+  for (const char* link : {"-1", "-7", "0", "3"}) {
+    INFO(link);
+    const auto text = read(fmt::format("H\n1\n-1 {} 0\n1 2 3\n1 0 0 0\n1 2 3\n0 0 1\n0.5\n", link));
+    const auto xml = read(fmt::format(
+        "<virtual_contacts><virtual_contact><finger_number>-1</finger_number>"
+        "<link_number>{}</link_number><num_friction_edges>0</num_friction_edges><friction_edges/>"
+        "<location>1 2 3</location><rotation>1 0 0 0</rotation><translation>1 2 3</translation>"
+        "<normal>0 0 1</normal><sCof>0.5</sCof></virtual_contact></virtual_contacts>",
+        link));
+    for (const auto* set : {&text, &xml}) {
+      REQUIRE(set->contacts.size() == 1);
+      CHECK(set->contacts[0].chain == -1);
+      CHECK(set->contacts[0].link == 0);
+    }
+  }
+}
+
 TEST_CASE("line ends mean nothing between the numbers of a contact") {
   const auto set = read("H\r\n1\r\n0 0 0 1 2 3 # no edges\r\n1 0 0 0 1 2 3 0 0\r\n1 0.25\r\n");
   REQUIRE(set.contacts.size() == 1);

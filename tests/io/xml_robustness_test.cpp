@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "io/read.h"
+#include "support/mutate.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -59,45 +60,11 @@ const std::string world = R"(<world>
 </world>
 )";
 
-const char* const pieces[] = {
-    "-1",   "999999999", "1e308", "nan", "<",    ">",    "/",   "</chain>",
-    "<a>",  "\"",        "'",     "&",   "&lt;", "<!--", "-->", "<![CDATA[",
-    "base", "d0",        "d5*0",  "]]>", "",     "0",    "=",   "(0 0 0 0)[0 0 0]"};
-
-std::string changed(std::string s, Random& random) {
-  const int changes = 1 + static_cast<int>(random.bits() % 3);
-  for (int i = 0; i < changes && !s.empty(); ++i) {
-    const size_t at = random.bits() % s.size();
-    const std::string piece = pieces[random.bits() % std::size(pieces)];
-    // the word at that place
-    const size_t before = s.find_last_of(" \n<>\"", at), first = before == s.npos ? 0 : before + 1;
-    const size_t end = std::max(first, std::min(s.find_first_of(" \n<>\"", at), s.size()));
-    switch (random.bits() % 6) {
-      case 0:
-        s[at] = static_cast<char>(random.bits());
-        break;
-      case 1:
-        s.erase(at, random.bits() % 30);
-        break;
-      case 2:
-        s.insert(at, piece);
-        break;
-      case 3:
-        s.replace(first, end - first, piece);
-        break;
-      case 4: {
-        // a whole line, here or twice
-        const size_t line = s.find_last_of('\n', at) + 1, next = s.find('\n', at);
-        const std::string text = s.substr(line, next == s.npos ? s.npos : next + 1 - line);
-        random.bits() % 2 ? s.insert(line, text) : s.erase(line, text.size());
-        break;
-      }
-      default:
-        s.insert(at, s.substr(random.bits() % s.size(), random.bits() % 80));
-    }
-  }
-  return s;
-}
+const test::Oddities odd = {
+    {"-1",   "999999999", "1e308", "nan", "<",    ">",    "/",   "</chain>",
+     "<a>",  "\"",        "'",     "&",   "&lt;", "<!--", "-->", "<![CDATA[",
+     "base", "d0",        "d5*0",  "]]>", "",     "0",    "=",   "(0 0 0 0)[0 0 0]"},
+    " \n<>\""};
 
 /// The folder with the files that others name, and a reader for a text of each kind.
 class Bench {
@@ -135,7 +102,7 @@ void try_all(const std::string& kind, const std::string& text, int times) {
   for (size_t n = 0; n + 8 < text.size(); n += 7) CHECK(bench.refused(kind, text.substr(0, n)));
   for (int i = 0; i < times; ++i) {
     Random random(17, static_cast<uint64_t>(i));
-    const std::string bad = changed(text, random);
+    const std::string bad = test::mutated(text, odd, random);
     INFO(bad);
     bench.refused(kind, bad);
   }
