@@ -116,7 +116,7 @@ function world:add_obstacle(body, options) end
 
 ---Adds a robot from a file.
 ---@param path string # .cfg .xml .urdf .mjcf
----@param options? {pose?: pose, name?: string, root?: string, folder?: string, package?: string|table, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}} # folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
+---@param options? {pose?: pose, name?: string, root?: string, folder?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}} # folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; eigengrasps, virtual_contacts: files to read in place of those it names; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
 ---@return robot
 function world:add_robot(path, options) end
 
@@ -507,7 +507,7 @@ function clench.catalog() end
 ---Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as .cfg .xml .urdf, worlds as .wld .xml .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml. What the format cannot hold is told in warnings; where it cannot hold the matter itself, that is an error, and nothing is written.
 ---@param from string
 ---@param to string
----@param options? {root?: string, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # of reading
+---@param options? {root?: string, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # of reading; of robots those of add_robot, too
 ---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
 function clench.convert(from, to, options) end
 
