@@ -151,6 +151,8 @@ void Loader::fill_includes(SoNode* root, const fs::path& path, const InventorTex
   for (size_t i = 0; i < scanned.includes.size(); ++i)
     numbers[include_key(static_cast<int>(i))] = static_cast<int>(i);
   const size_t before = includes_;
+  // filling a node drops what stood below it, which is among these, too
+  const std::vector<Ref<SoNode>> kept(nodes.begin(), nodes.end());
   for (SoNode* node : nodes) {
     Ref<SoSeparator> part;
     if (node->isOfType(SoFile::getClassTypeId())) {

@@ -247,6 +247,18 @@ TEST_CASE("an included file is found beside the one that includes it, and read o
   check_box(b, {-0.001, 0.004, -0.001}, {0.011, 0.006, 0.001});
 }
 
+TEST_CASE("an Inline stands alone, or in a Transform beside others") {
+  const TemporaryFolder folder;
+  folder.write("box.wrl", "#VRML V2.0 utf8\nShape { geometry Box { size 10 20 30 } }\n");
+  const auto alone = folder.write("alone.wrl", "#VRML V2.0 utf8\nInline { url \"box.wrl\" }\n");
+  check_box(read_body(alone), {-0.005, -0.01, -0.015}, {0.005, 0.01, 0.015});
+  const auto two = folder.write(
+      "two.wrl",
+      "#VRML V2.0 utf8\nTransform { children [ Inline { url \"box.wrl\" } Transform { translation "
+      "50 0 0 children Inline { url [ \"box.wrl\" ] } } ] }\n");
+  check_box(read_body(two), {-0.005, -0.01, -0.015}, {0.055, 0.01, 0.015});
+}
+
 TEST_CASE("files that include one another in a circle are refused") {
   const TemporaryFolder folder;
   folder.write("b.iv", "#Inventor V2.1 ascii\nFile { name \"a.iv\" }\n");
