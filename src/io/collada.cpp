@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 constexpr size_t most_bytes = size_t{256} << 20;
 constexpr long most_tags = 8'000'000;  // each takes some 100 bytes when it is parsed
 constexpr int most_nodes = 200'000;    // those that are used several times count each time
-constexpr int most_depth = 200;
+constexpr int deepest_node = 200;
 
 class ColladaReader {
  public:
@@ -114,8 +114,8 @@ Affine3d ColladaReader::placement(const XmlElement& node) {
 }
 
 void ColladaReader::read_node(const XmlElement& node, const Affine3d& X_parent, int depth) {
-  if (depth > most_depth)
-    node.fail("node: wanted at most {} nodes in each other, and none in itself", most_depth);
+  if (depth > deepest_node)
+    node.fail("node: wanted at most {} nodes in each other, and none in itself", deepest_node);
   if (++nodes_ > most_nodes)
     node.fail("node: wanted at most {} nodes, those used several times counted each time",
               most_nodes);

@@ -19,7 +19,7 @@ struct Ending {
 };
 
 // a Lua file may hold anything; those that name a world return one
-constexpr Ending endings[] = {
+constexpr Ending known_endings[] = {
     {".wld", FileKind::world},
     {".lua", FileKind::world},
     {".cfg", FileKind::robot},
@@ -69,7 +69,7 @@ FileKind file_kind(const std::filesystem::path& path) {
     const Root* root = find(roots, xml_root_name(text));
     return root ? root->kind : FileKind::body;
   }
-  const Ending* known = find(endings, ending);
+  const Ending* known = find(known_endings, ending);
   if (!known)
     fail("{}: wanted a model, a world, eigengrasps or virtual contacts, got {}",
          path.filename().string(), in_quotes(ending));
@@ -87,7 +87,7 @@ std::string ending_of(const std::filesystem::path& path) {
 }
 
 GeometryFormat geometry_format(std::string_view ending) {
-  const Ending* known = find(endings, ending);
+  const Ending* known = find(known_endings, ending);
   return known ? known->format : Format::none;
 }
 
@@ -97,7 +97,7 @@ bool is_inventor(const std::filesystem::path& path) {
 
 std::vector<std::string> geometry_endings() {
   std::vector<std::string> out;
-  for (const Ending& e : endings)
+  for (const Ending& e : known_endings)
     if (e.format != Format::none) out.emplace_back(e.text);
   return out;
 }
@@ -110,7 +110,7 @@ std::vector<std::string> body_endings() {
 
 std::vector<std::string> endings_of(GeometryFormat format) {
   std::vector<std::string> out;
-  for (const Ending& e : endings)
+  for (const Ending& e : known_endings)
     if (e.format == format) out.emplace_back(e.text);
   return out;
 }

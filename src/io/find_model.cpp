@@ -10,7 +10,7 @@ namespace clench {
 namespace fs = std::filesystem;
 
 // robots: of the two generations only, for a tree need not be the same robot
-static std::vector<std::string> endings(ModelKind kind) {
+static std::vector<std::string> endings_of(ModelKind kind) {
   return kind == ModelKind::body ? body_endings() : std::vector<std::string>{".xml", ".cfg"};
 }
 
@@ -18,7 +18,7 @@ static std::vector<std::string> endings(ModelKind kind) {
 static fs::path try_endings(const std::string& name, const fs::path& referrer, ModelKind kind,
                             const ReadOptions& options) {
   std::vector<std::string> names = {name};
-  for (const auto& ending : endings(kind))
+  for (const auto& ending : endings_of(kind))
     names.push_back(fs::path(name).replace_extension(ending).generic_string());
   for (const auto& wanted : names) {
     try {

@@ -7,13 +7,13 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-static constexpr int most = 1000;  // DOFs, sensors of a glove
+static constexpr int most_entries = 1000;  // DOFs, sensors of a glove
 
 GloveCalibration read_glove_calibration(const fs::path& path, const ReadOptions& options) {
   LineReader lines(path.filename().string(), read_text(path));
   NumberReader numbers(lines);
-  const int dofs = numbers.integer("number of DOFs", 1, most);
-  const int sensors = numbers.integer("number of sensors", 1, most);
+  const int dofs = numbers.integer("number of DOFs", 1, most_entries);
+  const int sensors = numbers.integer("number of sensors", 1, most_entries);
   std::vector<double> slopes;  // grows with the file, not with what it promises
   for (int d = 0; d < dofs; ++d)
     for (int s = 0; s < sensors; ++s)
@@ -40,7 +40,7 @@ static int read_whole(NumberReader& numbers, const std::string& what) {
   return numbers.integer(what);
 }
 static int read_dof(NumberReader& numbers, const std::string& what) {
-  return numbers.integer(what, -1, most);
+  return numbers.integer(what, -1, most_entries);
 }
 static double read_real(NumberReader& numbers, const std::string& what) {
   return numbers.number(what);
@@ -48,7 +48,7 @@ static double read_real(NumberReader& numbers, const std::string& what) {
 
 static GlovePose read_pose(NumberReader& numbers, const std::string& what) {
   GlovePose pose;
-  const int n = numbers.integer(what + ": size", 0, most);
+  const int n = numbers.integer(what + ": size", 0, most_entries);
   const double distance = numbers.number(what + ": distance") * units::millimetre;
   if (distance >= 0) pose.distance = distance;
   pose.sensors = optional_list(numbers, n, what + ": sensor", read_whole);

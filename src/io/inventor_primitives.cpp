@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int most_steps = 100'000;  // nodes visited, shared ones each time
-constexpr size_t most_primitives = 10'000;
+constexpr int most_visits = 100'000;  // nodes visited, shared ones each time
+constexpr size_t most_found = 10'000;
 constexpr double digits =
     1e-4;  // matrices of scene graphs have six digits, and several are multiplied
 
@@ -98,9 +98,9 @@ void PrimitiveCollector::apply(SoNode* root) {
 }
 
 SoCallbackAction::Response PrimitiveCollector::enter(SoCallbackAction* action, SoNode* node) {
-  if (++steps_ > most_steps || found.size() > most_primitives)
-    error_ = fmt::format("{}: wanted at most {} primitives and {} nodes", file_, most_primitives,
-                         most_steps);
+  if (++steps_ > most_visits || found.size() > most_found)
+    error_ = fmt::format("{}: wanted at most {} primitives and {} nodes", file_, most_found,
+                         most_visits);
   if (!error_.empty()) return SoCallbackAction::ABORT;
   // no exception may pass through Coin
   try {

@@ -11,8 +11,8 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-static constexpr int most_files = 100;  // included; far above any robot
-static constexpr int most_depth = 200;  // of elements, over all includes
+static constexpr int most_files = 100;       // included; far above any robot
+static constexpr int deepest_element = 200;  // of elements, over all includes
 
 MjcfDocument::MjcfDocument(const fs::path& path, Library& library)
     : path_(path), file_(path.filename().string()), library_(library) {
@@ -34,7 +34,8 @@ MjcfDocument::MjcfDocument(const fs::path& path, Library& library)
 // --- elements ---
 
 MjcfNode MjcfDocument::load(const XmlElement& element, int depth) {
-  if (depth > most_depth) element.fail("wanted at most {} elements in each other", most_depth);
+  if (depth > deepest_element)
+    element.fail("wanted at most {} elements in each other", deepest_element);
   MjcfNode node{element, {}};
   for (const auto& child : element.children()) {
     if (child.name() == "include")

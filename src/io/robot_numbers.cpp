@@ -27,6 +27,10 @@ DofTexts dof_texts(const RobotSpec& robot, int number, const std::string& file) 
   return out;
 }
 
+std::string words(const Eigen::Vector3d& v) {
+  return fmt::format("{} {} {}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+}
+
 static std::string expression(const JointSpec& joint, double ratio_unit, double offset,
                               double unit) {
   std::string out = fmt::format("d{}", joint.dof);

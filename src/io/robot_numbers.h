@@ -21,5 +21,7 @@ struct JointTexts {
 /// throws Error  "hand.cfg: DOF 0: wanted finite numbers, got inf"
 DofTexts dof_texts(const RobotSpec& robot, int dof, const std::string& file);
 JointTexts joint_texts(const RobotSpec& robot, const JointSpec& joint);
+/// "x y z", in the unit of v.
+std::string words(const Eigen::Vector3d& v);
 
 }  // namespace clench

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t most = 1000;  // DOFs, chains, joints, links: far above any hand
+constexpr size_t most_parts = 1000;  // DOFs, chains, joints, links: far above any hand
 
 class XmlRobotReader {
  public:
@@ -69,8 +69,8 @@ RobotSpec XmlRobotReader::read() {
   robot_.base.name = robot_.name + "_base";
   dofs_ = root_.children("dof");
   const auto chains = root_.children("chain");
-  if (dofs_.size() > most || chains.size() > most)
-    root_.fail("wanted at most {} DOFs and chains, got {} and {}", most, dofs_.size(),
+  if (dofs_.size() > most_parts || chains.size() > most_parts)
+    root_.fail("wanted at most {} DOFs and chains, got {} and {}", most_parts, dofs_.size(),
                chains.size());
   dof_kinds_.resize(dofs_.size());
   for (const XmlElement& e : chains) read_chain(e);
@@ -173,8 +173,8 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
   element.check({.once = {"transform"}, .many = {"joint", "link", "filter"}}, warn());
   ChainSpec chain;
   const auto joints = element.children("joint"), links = element.children("link");
-  if (joints.size() > most || links.size() > most)
-    element.fail("chain: wanted at most {} joints and links, got {} and {}", most, joints.size(),
+  if (joints.size() > most_parts || links.size() > most_parts)
+    element.fail("chain: wanted at most {} joints and links, got {} and {}", most_parts, joints.size(),
                  links.size());
   chain.X_BC = read_transform_of(element, warn());
   for (const XmlElement& e : joints) read_joint(e, chain);

@@ -13,9 +13,6 @@ namespace clench {
 
 namespace {
 
-// a follower's limits that leave its leader less than this part of its range are taken for a slip
-constexpr double least_range = 0.1;
-
 /// Turns z to the axis: about their common normal.
 Pose axis_frame(const Eigen::Vector3d& axis) {
   if (axis == Eigen::Vector3d::UnitZ()) return {};
@@ -92,7 +89,7 @@ void ChainMaker::widen_followers() {
     auto& range = ranges.try_emplace(joint.leader, leader.min, leader.max).first->second;
     const std::pair<double, double> narrower(std::max(range.first, std::min(c, d)),
                                              std::min(range.second, std::max(c, d)));
-    const bool slips = left < least_range * (high - low);
+    const bool slips = left < least_follower_range * (high - low);
     if (!slips && narrower.first <= narrower.second) {
       range = narrower;
       continue;

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "io/denavit_hartenberg.h"
+#include "io/tree_chains.h"
 
 namespace clench {
 
@@ -13,8 +14,6 @@ namespace {
 
 // a frame no further from an axis than this stands on it [m]
 constexpr double on_axis = 1e-14;
-// readers take a follower's limits that leave less than this part of the leader's range for a slip
-constexpr double least_range = 0.1;
 
 class Planner {
  public:
@@ -95,7 +94,7 @@ bool stops(const JointSpec& joint, const JointSpec& leader) {
   const double c = leader.min / leader.ratio, d = leader.max / leader.ratio;
   const double left =
       std::min(std::max(a, b), std::max(c, d)) - std::max(std::min(a, b), std::min(c, d));
-  return left < 1.01 * least_range * std::abs(d - c);
+  return left < 1.01 * least_follower_range * std::abs(d - c);
 }
 
 void Planner::set_limits(UrdfJoint& joint) const {

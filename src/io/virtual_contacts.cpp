@@ -153,7 +153,7 @@ VirtualContactSet read_xml(const std::string& name, const std::string& text, con
 // --- writing ---
 
 template <class Vector>
-std::string words(const Vector& x) {
+std::string listed(const Vector& x) {
   std::string out;
   for (int i = 0; i < x.size(); ++i) out += fmt::format("{}{}", i ? " " : "", x[i]);
   return out;
@@ -164,12 +164,12 @@ struct Written {
   explicit Written(const Pose& X_LC, const FrictionEdges& friction) {
     const Eigen::Quaterniond& q = X_LC.rotation;
     rotation = fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z());
-    location = words(Vector3d(X_LC.position / units::millimetre));
-    normal = words(Vector3d(q * Vector3d::UnitZ()));
+    location = listed(Vector3d(X_LC.position / units::millimetre));
+    normal = listed(Vector3d(q * Vector3d::UnitZ()));
     for (int e = 0; e < friction.cols(); ++e) {
       Vector6d edge = friction.col(e);
       edge.tail<3>() /= units::millimetre;
-      edges.push_back(words(edge));
+      edges.push_back(listed(edge));
     }
   }
   std::string rotation, location, normal;
@@ -293,7 +293,7 @@ void write_object_contacts(const std::vector<ObjectContact>& contacts, const fs:
     out += fmt::format("{}\n", w.edges.size());
     for (const auto& edge : w.edges) out += edge + '\n';
     for (const auto* line : {&w.rotation, &w.location}) out += *line + '\n';
-    out += fmt::format("{}\n{}\n", words(c.n_O), c.mu);
+    out += fmt::format("{}\n{}\n", listed(c.n_O), c.mu);
   }
   write_file(path, out);
 }

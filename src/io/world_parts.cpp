@@ -158,4 +158,9 @@ std::string full_transform(const Pose& pose) {
   return fmt::format("({} {} {} {})[{}]", q.w(), q.x(), q.y(), q.z(), millimetres(pose.position));
 }
 
+std::string transform_element(const Pose& pose) {
+  return "    <transform>\n      <fullTransform>" + full_transform(pose) +
+         "</fullTransform>\n    </transform>\n";
+}
+
 }  // namespace clench

@@ -31,6 +31,7 @@ std::string number_in(double value, double unit, double factor = 1);
 
 /// "(w x y z)[x y z]", millimetres.
 std::string full_transform(const Pose& pose);
+std::string transform_element(const Pose& pose);       ///< <transform>, indented by four
 std::string millimetres(const Eigen::Vector3d& p);     ///< "x y z"
 std::string orientation(const Eigen::Quaterniond& q);  ///< "x y z w"
 

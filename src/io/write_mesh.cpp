@@ -67,7 +67,7 @@ std::string stl_bytes(const Mesh& mesh, const std::string& file) {
   return out;
 }
 
-constexpr std::string_view endings[] = {".obj", ".off", ".ply", ".stl"};
+constexpr std::string_view written_endings[] = {".obj", ".off", ".ply", ".stl"};
 
 }  // namespace
 
@@ -79,7 +79,9 @@ std::string off_text(const Mesh& mesh) {
   return out;
 }
 
-bool is_mesh_ending(std::string_view ending) { return std::ranges::count(endings, ending) > 0; }
+bool is_mesh_ending(std::string_view ending) {
+  return std::ranges::count(written_endings, ending) > 0;
+}
 
 void write_mesh(const Mesh& mesh, const fs::path& path) {
   const std::string ending = lower_case(path.extension().string()), file = path.filename().string();

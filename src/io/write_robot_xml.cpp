@@ -15,15 +15,6 @@ std::string element(int depth, const char* name, const std::string& text) {
   return fmt::format("{:{}}<{}>{}</{}>\n", "", 2 * depth, name, xml_escaped(text), name);
 }
 
-std::string words(const Eigen::Vector3d& v) {
-  return fmt::format("{} {} {}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
-}
-
-std::string transform(const Pose& pose) {
-  return "    <transform>\n" + element(3, "fullTransform", full_transform(pose)) +
-         "    </transform>\n";
-}
-
 class XmlRobotText {
  public:
   XmlRobotText(const RobotSpec& robot, RobotFolder& folder) : robot_(robot), folder_(folder) {}
@@ -103,7 +94,7 @@ std::string XmlRobotText::link(const RobotPart& part) {
 
 std::string XmlRobotText::chain(int number) {
   const ChainSpec& chain = robot_.chains[number];
-  std::string out = "  <chain>\n" + transform(chain.X_BC);
+  std::string out = "  <chain>\n" + transform_element(chain.X_BC);
   for (const JointSpec& j : chain.joints) out += joint(j);
   for (int l = 0; l < static_cast<int>(chain.links.size()); ++l) out += link({number, l});
   for (const TactileSpec& sensor : robot_.tactile) {
@@ -182,7 +173,7 @@ std::string XmlRobotText::mounts() const {
            "  </approachDirection>\n";
   if (robot_.tracker)
     out += fmt::format("  <flockOfBirds number=\"{}\">\n", robot_.tracker->number) +
-           transform(robot_.tracker->X_BS) + "  </flockOfBirds>\n";
+           transform_element(robot_.tracker->X_BS) + "  </flockOfBirds>\n";
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "io/read.h"
+#include "io/robot_numbers.h"
 #include "io/urdf_plan.h"
 #include "io/write_file.h"
 #include "io/write_robot_texts.h"
@@ -12,10 +13,6 @@ namespace clench {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string words(const Eigen::Vector3d& v) {
-  return fmt::format("{} {} {}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
-}
 
 /// Angles about the fixed axes x, then y, then z. The first and the last are found one after the
 /// other, so that they fit together where the second is near a quarter turn, too.
@@ -216,15 +213,15 @@ void UrdfText::beside_glove() {
 }
 
 /// A file that is gone at the end.
-class Draft {
+class UrdfDraft {
  public:
-  explicit Draft(fs::path path) : path_(std::move(path)) {}
-  ~Draft() {
+  explicit UrdfDraft(fs::path path) : path_(std::move(path)) {}
+  ~UrdfDraft() {
     std::error_code code;
     fs::remove(path_, code);
   }
-  Draft(const Draft&) = delete;
-  Draft& operator=(const Draft&) = delete;
+  UrdfDraft(const UrdfDraft&) = delete;
+  UrdfDraft& operator=(const UrdfDraft&) = delete;
   const fs::path& path() const { return path_; }
 
  private:
@@ -236,8 +233,8 @@ class Draft {
 void UrdfText::beside_contacts(const std::string& text) {
   if (!robot_.virtual_contacts) return;
   folder_.write_parts();
-  const Draft draft(folder_.path().parent_path() /
-                    fmt::format(".{}.saving.urdf", folder_.path().stem().string()));
+  const UrdfDraft draft(folder_.path().parent_path() /
+                        fmt::format(".{}.saving.urdf", folder_.path().stem().string()));
   write_file(draft.path(), text);
   const RobotSpec read = read_robot(draft.path());
   std::map<std::string, RobotPart> parts;

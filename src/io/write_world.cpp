@@ -11,15 +11,17 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A file that is gone at the end.
-class Draft {
+class WorldDraft {
  public:
-  Draft(const fs::path& path, const std::string& text) : path_(path) { write_file(path, text); }
-  ~Draft() {
+  WorldDraft(const fs::path& path, const std::string& text) : path_(path) {
+    write_file(path, text);
+  }
+  ~WorldDraft() {
     std::error_code code;
     fs::remove(path_, code);
   }
-  Draft(const Draft&) = delete;
-  Draft& operator=(const Draft&) = delete;
+  WorldDraft(const WorldDraft&) = delete;
+  WorldDraft& operator=(const WorldDraft&) = delete;
 
  private:
   const fs::path& path_;
@@ -46,7 +48,7 @@ void write_world(const WorldSpec& world, const fs::path& path, const WriteOption
                                               : text_of_lua(world, files);
   if (options.check) {
     const fs::path seen = folder / fmt::format(".{}.saving{}", path.stem().string(), ending);
-    const Draft draft(seen, text);
+    const WorldDraft draft(seen, text);
     try {
       options.check(seen);
     } catch (const Error& error) {

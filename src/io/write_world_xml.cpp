@@ -9,11 +9,6 @@ static std::string element(const char* name, const std::string& text) {
   return fmt::format("    <{}>{}</{}>\n", name, xml_escaped(text), name);
 }
 
-static std::string transform(const Pose& pose) {
-  return "    <transform>\n      <fullTransform>" + full_transform(pose) +
-         "</fullTransform>\n    </transform>\n";
-}
-
 static std::string body_element(const PlacedBody& placed, SavedFiles& files) {
   const char* name = placed.role == Role::obstacle ? "obstacle" : "graspableBody";
   std::string inside;
@@ -24,13 +19,13 @@ static std::string body_element(const PlacedBody& placed, SavedFiles& files) {
     const std::string surface = path.empty() ? "" : files.name(path);
     inside = "    <body>\n" + body_elements(placed.body, surface, "      ") + "    </body>\n";
   }
-  return fmt::format("  <{}>\n{}{}  </{}>\n", name, inside, transform(placed.X_WB), name);
+  return fmt::format("  <{}>\n{}{}  </{}>\n", name, inside, transform_element(placed.X_WB), name);
 }
 
 static std::string robot_element(const PlacedRobot& placed, SavedFiles& files) {
   files.again(placed.robot);
   return "  <robot>\n" + element("filename", files.name(placed.robot.file)) +
-         element("dofValues", dof_values(placed)) + transform(placed.X_WB) + "  </robot>\n";
+         element("dofValues", dof_values(placed)) + transform_element(placed.X_WB) + "  </robot>\n";
 }
 
 static std::string connection_element(const Connection& c, SavedFiles& files) {
@@ -42,7 +37,7 @@ static std::string connection_element(const Connection& c, SavedFiles& files) {
         files.again(*c.mount) ? c.mount->file : files.write_body(*c.mount).generic_string();
     out += element("mountFilename", files.name(file));
   }
-  return out + transform(c.X_LB) + "  </connection>\n";
+  return out + transform_element(c.X_LB) + "  </connection>\n";
 }
 
 static std::string camera_element(const Camera& camera) {

@@ -11,7 +11,7 @@ namespace clench {
 
 namespace {
 
-constexpr int most_depth = 64;         // the parser calls itself for each
+constexpr int deepest_nesting = 64;    // the parser calls itself for each
 constexpr int most_attributes = 1000;  // the parser compares each with all
 
 int line_at(std::string_view text, size_t at) {
@@ -76,8 +76,9 @@ void check_limits(const std::string& file, std::string_view text, size_t most_by
       --depth;
     else if (!tag.closed)
       ++depth;
-    if (depth > most_depth)
-      fail("{}:{}: wanted at most {} elements in each other", file, line_at(text, at), most_depth);
+    if (depth > deepest_nesting)
+      fail("{}:{}: wanted at most {} elements in each other", file, line_at(text, at),
+           deepest_nesting);
     at = tag.end;
   }
 }

@@ -5,9 +5,6 @@
 
 namespace clench {
 
-// every query runs on the pair in one order, so that (a, b) and (b, a) give the same bits
-static BodyPair ordered(Id<Body> a, Id<Body> b) { return std::minmax(a, b); }
-
 static Pose relative(const Body& a, const Body& b) { return a.X_WB.inverse() * b.X_WB; }
 
 static bool pair_collides(const World& world, Id<Body> a, Id<Body> b) {

@@ -1,6 +1,7 @@
 // Which bodies of a world are near enough to be looked at: a sweep over their boxes, then their spheres.
 // source  Cohen, Lin, Manocha & Ponamgi (1995), I-COLLIDE: sweep and prune
 #pragma once
+#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -10,6 +11,8 @@
 namespace clench {
 
 using BodyPair = std::pair<Id<Body>, Id<Body>>;
+/// Every query runs on a pair in one order, so that (a, b) and (b, a) give the same bits.
+inline BodyPair ordered(Id<Body> a, Id<Body> b) { return std::minmax(a, b); }
 
 /// Least distance that the bounding spheres of two bodies with geometry allow; negative when they
 /// overlap [m].

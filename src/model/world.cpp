@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/suggest.h"
 #include "math/decompositions.h"
+#include "model/near_bodies.h"
 
 namespace clench {
 
@@ -39,8 +40,6 @@ static void check_pose(const Pose& X_WB, const char* what, const std::string& na
   if (far > farthest)
     fail("{} '{}': wanted a position within {} m of the origin, got {}", what, name, farthest, far);
 }
-
-static std::pair<Id<Body>, Id<Body>> ordered(Id<Body> a, Id<Body> b) { return std::minmax(a, b); }
 
 const Body& World::body(Id<Body> id) const { return follow(state_.bodies, id, "body"); }
 const Robot& World::robot(Id<Robot> id) const { return follow(state_.robots, id, "robot"); }

@@ -5,8 +5,7 @@
 
 namespace clench {
 
-// a contact blocks a motion that leans into it by more than this sine, of a lever longer than a nanometre
-static constexpr double grazing = 1e-6;
+// a contact blocks a joint that has a lever longer than a nanometre
 static constexpr double no_lever = 1e-9;
 
 std::pair<int, int> carrying_link(const World& world, Id<Robot> robot, Id<Body> id) {

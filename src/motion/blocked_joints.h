@@ -8,6 +8,9 @@
 
 namespace clench {
 
+/// A contact blocks a motion that leans into it by more than this sine.
+constexpr double grazing = 1e-6;
+
 using JointPlace = std::pair<int, int>;  ///< chain, joint
 
 struct BlockedJoints {

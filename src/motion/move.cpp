@@ -6,11 +6,9 @@
 
 #include "base/error.h"
 #include "motion/advance.h"
+#include "motion/blocked_joints.h"
 
 namespace clench {
-
-// a contact blocks a motion that leans into it by more than this sine
-static constexpr double grazing = 1e-6;
 
 void refuse_collision(const World& world, std::span<const Id<Body>> moving,
                       const std::string& subject) {

@@ -101,19 +101,19 @@ local function print_report(r)
 end
 
 --- Prints what each file was understood to be.
+---@param root string  this and the next three: what is said of reading, "" when nothing is
 ---@param form "text"|"json"
----@param root string  this and the next: what is said of reading, "" when nothing is
----@return integer  how many files could not be read
-function check.files(form, root, folder, package, unit, ...)
+---@return integer  the exit code: 1 when a file could not be read
+function check.main(root, folder, package, unit, form, ...)
   local options = {root = root, folder = folder, package = package, unit = unit}
-  local all, wrong = {}, 0
+  local all, code = {}, 0
   for i, path in ipairs {...} do
     all[i] = report.of(path, options)
-    if all[i].wrong then wrong = wrong + 1 end
+    if all[i].wrong then code = 1 end
     if form == "text" then print_report(all[i]) end
   end
   if form == "json" then print(clench.json.encode(all)) end
-  return wrong
+  return code
 end
 
 return check

@@ -2,15 +2,20 @@
 local reading = require "clench.host.reading"
 local convert = {}
 
---- Writes `to`, and prints what it is. What is said of reading is "" when nothing is.
----@return string?  what went wrong
-function convert.file(from, to, root, folder, package, unit)
+--- Writes `to`, and prints what it is.
+---@param root string  this and the next three: what is said of reading, "" when nothing is
+---@return integer  the exit code
+function convert.main(root, folder, package, unit, from, to)
   local said = {root = root, folder = folder, package = package, unit = unit}
   local ok, kind = pcall(function()
     return clench.convert(from, to, reading(clench.file_kind(from), said))
   end)
-  if not ok then return (tostring(kind):gsub("^stdlib/host/convert.lua:%d+: ", "")) end
+  if not ok then
+    io.stderr:write("clench convert: ", (tostring(kind):gsub("^stdlib/host/convert.lua:%d+: ", "")), "\n")
+    return 1
+  end
   print(("%s: %s, from %s"):format(to, kind, from))
+  return 0
 end
 
 return convert

@@ -1,29 +1,21 @@
 // Every URDF and MJCF file of tests/data/bad is refused with the sentence that stands beside it.
 #include <algorithm>
 
-#include "base/text.h"
+#include "bad_files.h"
 #include "io/read.h"
 #include "temporary.h"
 
 using namespace clench;
+using clench::test::check_bad_files;
 using clench::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
-static void check_format(const std::string& format) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator("tests/data/bad/" + format))
-    if (entry.path().extension() == "." + format) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  REQUIRE(files.size() > 20);
-  for (const auto& file : files) {
-    const std::string sentence(trim(read_text(fs::path(file).replace_extension(".txt"))));
-    INFO(file.string());
-    CHECK_THROWS_WITH_AS(read_robot(file), sentence.c_str(), Error);
-  }
+static void check_trees(const std::string& format) {
+  check_bad_files(format, "", "." + format, 25, [](const fs::path& path) { read_robot(path); });
 }
 
-TEST_CASE("a malformed URDF file is told by file, line, wanted and got") { check_format("urdf"); }
-TEST_CASE("a malformed MJCF file is told by file, line, wanted and got") { check_format("mjcf"); }
+TEST_CASE("a malformed URDF file is told by file, line, wanted and got") { check_trees("urdf"); }
+TEST_CASE("a malformed MJCF file is told by file, line, wanted and got") { check_trees("mjcf"); }
 
 TEST_CASE("an unexpanded xacro file is told to be expanded") {
   TemporaryFolder folder;

@@ -21,7 +21,7 @@ static void write_boxes(const TemporaryFolder& folder) {
                    corners + faces);
 }
 
-static BodySpec read(const std::string& inside, const ReadOptions& options = {}) {
+static BodySpec read_xml_body(const std::string& inside, const ReadOptions& options = {}) {
   const TemporaryFolder folder;
   write_boxes(folder);
   return read_body(folder.write("body.xml", "<root>\n" + inside + "</root>\n"), options);
@@ -32,7 +32,7 @@ static Eigen::Vector3d size(const BodySpec& body) {
 }
 
 TEST_CASE("every element of a body is read in SI") {
-  const BodySpec body = read(
+  const BodySpec body = read_xml_body(
       "<material>rubber</material><youngs>1500000</youngs><mass>178.5</mass><cog>0 40.1 "
       "-2</cog><inertia_matrix>1043 0 1 0 611 0 1 0 "
       "1043</inertia_matrix><useFlockOfBirds>2.0</useFlockOfBirds><geometryFile "
@@ -52,7 +52,7 @@ TEST_CASE("every element of a body is read in SI") {
 }
 
 TEST_CASE("the geometry's own '#' lines do not count, for the XML is the body") {
-  const BodySpec body = read("<geometryFile>box.iv</geometryFile>\n");
+  const BodySpec body = read_xml_body("<geometryFile>box.iv</geometryFile>\n");
   CHECK(body.mass == 0.3);
   CHECK(body.material == "wood");
   CHECK_FALSE(body.com);
@@ -62,7 +62,7 @@ TEST_CASE("the geometry's own '#' lines do not count, for the XML is the body") 
 TEST_CASE("OFF and PLY count as millimetres, whatever their size") {
   for (const std::string format : {"off", "ply"}) {
     const BodySpec body =
-        read("<geometryFile type=\"" + format + "\">box." + format + "</geometryFile>\n");
+        read_xml_body("<geometryFile type=\"" + format + "\">box." + format + "</geometryFile>\n");
     CHECK((size(body) - Eigen::Vector3d(0.002, 0.004, 0.006)).norm() < 1e-15);
     CHECK(body.shape->closed());
   }
@@ -74,29 +74,31 @@ TEST_CASE("the type tells how geometry is written whose ending says nothing") {
       "OFF\n4 4 6\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
   folder.write("c.mesh", off);
   folder.write("b.mesh", "#Inventor V2.1 ascii\nCube { }");
-  const auto read = [&](const std::string& element) {
+  const auto read_xml_body = [&](const std::string& element) {
     return read_body(folder.write("a.xml", "<root>\n" + element + "\n</root>"));
   };
-  CHECK(read("<geometryFile type='off'>c.mesh</geometryFile>").shape->mesh().triangles.size() == 4);
-  CHECK(read("<geometryFile type='OFF'>c.mesh</geometryFile>").shape->bounds().high.x() ==
+  CHECK(read_xml_body("<geometryFile type='off'>c.mesh</geometryFile>")
+            .shape->mesh()
+            .triangles.size() == 4);
+  CHECK(read_xml_body("<geometryFile type='OFF'>c.mesh</geometryFile>").shape->bounds().high.x() ==
         doctest::Approx(0.009));
-  CHECK(
-      read("<geometryFile type='Inventor'>b.mesh</geometryFile>").shape->mesh().triangles.size() ==
-      12);
+  CHECK(read_xml_body("<geometryFile type='Inventor'>b.mesh</geometryFile>")
+            .shape->mesh()
+            .triangles.size() == 12);
   CHECK_THROWS_WITH_AS(
-      read("<geometryFile type='of'>c.mesh</geometryFile>"),
+      read_xml_body("<geometryFile type='of'>c.mesh</geometryFile>"),
       "a.xml:2: geometryFile: wanted type Inventor, off, ply or that of another mesh, got 'of'",
       Error);
-  CHECK_THROWS_AS(read("<geometryFile>c.mesh</geometryFile>"), Error);
+  CHECK_THROWS_AS(read_xml_body("<geometryFile>c.mesh</geometryFile>"), Error);
 }
 
 TEST_CASE("geometry is scaled first, then moved by an offset that is not") {
   for (const std::string file : {"box.iv", "box.off"}) {
-    const BodySpec body =
-        read("<geometryFile>" + file +
-             "</geometryFile><geometryScaling>10</geometryScaling><geometryOffset><transform>"
-             "<translation>100 0 0</translation><rotation>90 z</rotation></transform>"
-             "</geometryOffset>\n");
+    const BodySpec body = read_xml_body(
+        "<geometryFile>" + file +
+        "</geometryFile><geometryScaling>10</geometryScaling><geometryOffset><transform>"
+        "<translation>100 0 0</translation><rotation>90 z</rotation></transform>"
+        "</geometryOffset>\n");
     // turned about z, x and y are exchanged
     CHECK((size(body) - Eigen::Vector3d(0.04, 0.02, 0.06)).norm() < 1e-8);
     const Eigen::Vector3d middle = 0.5 * (body.shape->bounds().high + body.shape->bounds().low);
@@ -106,11 +108,12 @@ TEST_CASE("geometry is scaled first, then moved by an offset that is not") {
 
 TEST_CASE("factors along x, y and z apply alone or together") {
   const std::string file = "<geometryFile>box.off</geometryFile>";
-  const BodySpec three = read(file +
-                              "<geometryScalingX>2</geometryScalingX><geometryScalingY>3</"
-                              "geometryScalingY><geometryScalingZ>0.5</geometryScalingZ>\n");
+  const BodySpec three =
+      read_xml_body(file +
+                    "<geometryScalingX>2</geometryScalingX><geometryScalingY>3</"
+                    "geometryScalingY><geometryScalingZ>0.5</geometryScalingZ>\n");
   CHECK((size(three) - Eigen::Vector3d(0.004, 0.012, 0.003)).norm() < 1e-15);
-  const BodySpec one = read(file + "<geometryScalingY>3</geometryScalingY>\n");
+  const BodySpec one = read_xml_body(file + "<geometryScalingY>3</geometryScalingY>\n");
   CHECK((size(one) - Eigen::Vector3d(0.002, 0.012, 0.006)).norm() < 1e-15);
 }
 
@@ -128,7 +131,7 @@ TEST_CASE("metres scaled by 1000 keep every digit") {
 
 TEST_CASE("a body without geometry is a frame, with a warning") {
   Warnings warnings;
-  const BodySpec body = read("<mass>10</mass>\n", warnings.options());
+  const BodySpec body = read_xml_body("<mass>10</mass>\n", warnings.options());
   CHECK_FALSE(body.shape);
   CHECK(body.mass == doctest::Approx(0.01));
   CHECK(warnings.list ==
@@ -138,7 +141,7 @@ TEST_CASE("a body without geometry is a frame, with a warning") {
 
 TEST_CASE("what a body's file holds and is not used is warned of") {
   Warnings warnings;
-  read(
+  read_xml_body(
       "<geometryFile type=\"ply\">box.off</geometryFile>\n<normalCompliance>1</"
       "normalCompliance><shearCompliance>1</shearCompliance>\n<youngs>1.5</youngs>\n<colour/>\n"
       "<inertia_matrix>1 2 0 0 1 0 0 0 1</inertia_matrix>\n",

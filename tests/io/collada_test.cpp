@@ -9,20 +9,14 @@
 using namespace clench;
 using namespace clench::test;
 
-static Geometry read(const std::string& content, const ReadOptions& options = {}) {
+static Geometry read_collada(const std::string& content, const ReadOptions& options = {}) {
   const TemporaryFolder folder;
   return read_mesh_file(folder.write("q.dae", content), options);
 }
 
-static std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const size_t at = text.find(what);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), by);
-}
-
 TEST_CASE("the unit and the upward axis of a COLLADA file are its own") {
   const auto read_with = [](const std::string& asset) {
-    return read(collada_text(box(100, 200, 400), "", asset));
+    return read_collada(collada_text(box(100, 200, 400), "", asset));
   };
   const Geometry cm =
       read_with("<unit name=\"centimeter\" meter=\"0.01\"/><up_axis>Z_UP</up_axis>");
@@ -37,7 +31,7 @@ TEST_CASE("the unit and the upward axis of a COLLADA file are its own") {
 
 TEST_CASE("the transformations of a COLLADA node multiply in their order") {
   const auto centre = [](const std::string& node) {
-    return Eigen::Vector3d(read(collada_text(box(1, 1, 1), node)).mesh.bounds().centre());
+    return Eigen::Vector3d(read_collada(collada_text(box(1, 1, 1), node)).mesh.bounds().centre());
   };
   CHECK(centre("<translate>1 2 3</translate>") == Eigen::Vector3d(1, 2, 3));
   CHECK(centre("<scale>2 2 2</scale><translate>1 0 0</translate>") == Eigen::Vector3d(2, 0, 0));
@@ -46,8 +40,8 @@ TEST_CASE("the transformations of a COLLADA node multiply in their order") {
             .norm() < 1e-15);  // cosine of a right angle
   CHECK(centre("<matrix>1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1</matrix>") == Eigen::Vector3d(5, 6, 7));
   Warnings warnings;
-  CHECK_FALSE(
-      read(collada_text(box(1, 1, 1), "<scale>1 -1 1</scale>"), warnings.options()).report.turned);
+  CHECK_FALSE(read_collada(collada_text(box(1, 1, 1), "<scale>1 -1 1</scale>"), warnings.options())
+                  .report.turned);
 }
 
 TEST_CASE("polygons of every kind of COLLADA element are cut alike") {
@@ -57,7 +51,7 @@ TEST_CASE("polygons of every kind of COLLADA element are cut alike") {
       "<input semantic=\"VERTEX\" source=\"#v\" offset=\"1\"/>"
       "<input semantic=\"NORMAL\" source=\"#n\" offset=\"0\"/>";
   const auto with = [&](const std::string& element) {
-    return read(good.substr(0, first) + element + good.substr(last)).mesh;
+    return read_collada(good.substr(0, first) + element + good.substr(last)).mesh;
   };
   const auto corners = [](const Mesh& mesh) {
     std::vector<std::array<Eigen::Vector3d, 3>> out;
@@ -88,7 +82,7 @@ TEST_CASE("nodes and skins are found by their names, and circles are refused") {
                               "<library_nodes>" + node + "</library_nodes><library_visual_scenes>");
   used = replaced(used, "<visual_scene id=\"s\">",
                   "<visual_scene id=\"s\"><node><instance_node url=\"#twice\"/></node>");
-  CHECK(read(used).mesh.triangles.size() == 24);
+  CHECK(read_collada(used).mesh.triangles.size() == 24);
   Warnings warnings;
   std::string skin = replaced(
       good, "<library_visual_scenes>",
@@ -97,12 +91,12 @@ TEST_CASE("nodes and skins are found by their names, and circles are refused") {
       "1</bind_shape_matrix></skin></controller></library_controllers><library_visual_scenes>");
   skin = replaced(skin, "<instance_geometry url=\"#g\">", "<instance_controller url=\"#c\">");
   skin = replaced(skin, "</instance_geometry>", "</instance_controller>");
-  CHECK(read(skin, warnings.options()).mesh.bounds().centre() == Eigen::Vector3d(0, 0, 9));
+  CHECK(read_collada(skin, warnings.options()).mesh.bounds().centre() == Eigen::Vector3d(0, 0, 9));
   CHECK(warnings.list == std::vector<std::string>{
                              "q.dae: skins and morphs are not used: their meshes keep the shape "
                              "they were drawn in"});
   const std::string circle = replaced(good, "<node>", "<node id=\"a\"><instance_node url=\"#a\"/>");
-  CHECK_THROWS_WITH_AS(read(circle),
+  CHECK_THROWS_WITH_AS(read_collada(circle),
                        "q.dae:20: node: wanted at most 200 nodes in each other, and none in itself",
                        Error);
 }
@@ -113,7 +107,7 @@ TEST_CASE("what is wrong in a COLLADA file is told by line") {
                            const std::string& sentence) {
     INFO(by);
     try {
-      read(replaced(good, what, by));
+      read_collada(replaced(good, what, by));
       FAIL("not refused");
     } catch (const Error& error) {
       const std::string text = error.what();
@@ -122,7 +116,8 @@ TEST_CASE("what is wrong in a COLLADA file is told by line") {
       CHECK(text.substr(colon + 2) == sentence);
     }
   };
-  CHECK_THROWS_WITH_AS(read("<a/>"), "q.dae:1: wanted an element <COLLADA>, got <a>", Error);
+  CHECK_THROWS_WITH_AS(read_collada("<a/>"), "q.dae:1: wanted an element <COLLADA>, got <a>",
+                       Error);
   refused("meter=\"1\"", "meter=\"-1\"", "unit: wanted a length > 0 [m], got -1");
   refused("Z_UP", "W_UP", "up_axis: wanted X_UP, Y_UP or Z_UP, got 'W_UP'");
   refused("url=\"#s\"", "url=\"#t\"",
@@ -151,6 +146,6 @@ TEST_CASE("what is wrong in a COLLADA file is told by line") {
   refused("<p>0 0 ", "<p>0 0 0 0 ", "triangles: wanted 3 corners of a face, got 1");
   refused("1 0.5 0 1", "1 0.5", "color: wanted three or four numbers, got 2");
   CHECK_THROWS_WITH_AS(
-      read(replaced(replaced(good, "<triangles", "<lines"), "</triangles", "</lines")),
+      read_collada(replaced(replaced(good, "<triangles", "<lines"), "</triangles", "</lines")),
       "q.dae: wanted triangles, got none", Error);
 }

@@ -3,18 +3,11 @@
 #include <numbers>
 
 #include "robot_compare.h"
+#include "support/meshes.h"
 
 using namespace clench;
 using Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
-
-static Pose any_pose(Random& random, double reach = 0.5) {
-  Eigen::Vector4d q;
-  Vector3d p;
-  for (double& x : q) x = random.uniform(-1, 1);
-  for (double& x : p) x = random.uniform(-reach, reach);
-  return {Eigen::Quaterniond(q).normalized(), p};
-}
+using std::numbers::pi;
 
 static Pose made_of(const CommonNormal& n) {
   return dh_pose(n.theta, n.d, n.a, n.alpha) * dh_pose(n.phi, n.h, 0, 0);
@@ -27,7 +20,7 @@ static double difference(const Pose& a, const Pose& b) {
 TEST_CASE("two frames are as far apart as their axes' common normal and the ways to it say") {
   Random random(1, 1);
   for (int i = 0; i < 1000; ++i) {
-    const Pose X = any_pose(random);
+    const Pose X = test::random_pose(random, 0.5);
     // a lean of 0.01 rad, of which few frames have less, makes 100 times a rounding of 1 m
     CHECK(difference(made_of(common_normal(X)), X) < 1e-13);
   }
@@ -79,7 +72,7 @@ static RobotSpec any_robot(uint64_t seed) {
   RobotSpec robot;
   robot.name = "any";
   ChainSpec chain;
-  chain.X_BC = any_pose(random);
+  chain.X_BC = test::random_pose(random, 0.5);
   for (int j = 0; j < 6; ++j) {
     DofSpec dof;
     robot.dofs.push_back(dof);
@@ -95,8 +88,8 @@ static RobotSpec any_robot(uint64_t seed) {
     joint.max = random.uniform(0, 1);
     if (random.uniform(0, 1) < 0.6) {
       joint.placed_freely = true;
-      joint.X_before = any_pose(random);
-      joint.X_after = any_pose(random);
+      joint.X_before = test::random_pose(random, 0.5);
+      joint.X_after = test::random_pose(random, 0.5);
     }
     chain.joints.push_back(joint);
   }
@@ -105,7 +98,7 @@ static RobotSpec any_robot(uint64_t seed) {
     link.last_joint = l;
     link.body.name = "any_link" + std::to_string(l + 1);
     link.body.com = Vector3d(random.uniform(-1, 1), 0, 0);
-    if (l % 2) link.X_JL = any_pose(random);
+    if (l % 2) link.X_JL = test::random_pose(random, 0.5);
     chain.links.push_back(link);
   }
   robot.chains.push_back(chain);

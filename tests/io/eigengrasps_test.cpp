@@ -16,7 +16,7 @@ VectorXd vec(std::initializer_list<double> x) {
   return Eigen::Map<const VectorXd>(x.begin(), static_cast<int>(x.size()));
 }
 
-EigengraspSet read(const std::string& text, const ReadOptions& options = {}) {
+EigengraspSet read_set(const std::string& text, const ReadOptions& options = {}) {
   TemporaryFolder folder;
   return read_eigengrasps(folder.write("a.egr", text), options);
 }
@@ -27,7 +27,7 @@ VectorXd random_vector(Random& random, int size) {
   return x;
 }
 
-EigengraspSet random_set(uint64_t seed) {
+EigengraspSet random_eigengrasps(uint64_t seed) {
   Random random(5, seed);
   EigengraspSet set;
   set.dofs = 2 + static_cast<int>(random.bits() % 20);
@@ -57,7 +57,7 @@ void check_equal(const EigengraspSet& a, const EigengraspSet& b, bool with_limit
 }  // namespace
 
 TEST_CASE("a text file gives vectors, eigenvalues, origin and norm, in any order") {
-  const auto set = read(
+  const auto set = read_set(
       "DIMENSIONS 3\n\nNORM\n0\n1 2 3\nEG\n0.51\n1.0\t0 +0.5\nORIGIN\n0.0\n.1 .2 .3\nEG\n.25\n0 1 "
       "0\n");
   CHECK(set.dofs == 3);
@@ -72,21 +72,21 @@ TEST_CASE("a text file gives vectors, eigenvalues, origin and norm, in any order
 
 TEST_CASE("blank lines, comments, CR LF and values over several lines are read") {
   const auto set =
-      read("# a hand\r\nDIMENSIONS 3\r\n\r\nEG # the first\r\n0.5\r\n1 0\r\n0 # done\r\n");
+      read_set("# a hand\r\nDIMENSIONS 3\r\n\r\nEG # the first\r\n0.5\r\n1 0\r\n0 # done\r\n");
   REQUIRE(set.grasps.size() == 1);
   CHECK(set.grasps[0].vector == vec({1, 0, 0}));
 }
 
 TEST_CASE("what belongs to no block, and words behind numbers, are warnings") {
   Warnings warnings;
-  read("DIMENSIONS 2\nEG\n0.5\n1 0 7 8\n1.57 1.22\n  R MCP\nORGIN\n", warnings.options());
+  read_set("DIMENSIONS 2\nEG\n0.5\n1 0 7 8\n1.57 1.22\n  R MCP\nORGIN\n", warnings.options());
   CHECK(warnings.list == std::vector<std::string>{
                              "a.egr:4: 2 surplus words are not used",
                              "a.egr:5: the line '1.57 1.22' and 2 more belong to no block and are "
                              "not used"});
   warnings.list.clear();
   const auto set =
-      read("DIMENSIONS 1\nEG\n0.5\n1\nORIGIN\n0\n1\nORIGIN\n0\n2\n1.57\n", warnings.options());
+      read_set("DIMENSIONS 1\nEG\n0.5\n1\nORIGIN\n0\n1\nORIGIN\n0\n2\n1.57\n", warnings.options());
   CHECK(*set.origin == vec({1}));
   CHECK(warnings.list ==
         std::vector<std::string>{"a.egr:8: a second origin; the first one counts",
@@ -101,7 +101,7 @@ TEST_CASE("XML says the same, with limits, and what it leaves out has the format
   <ORIGIN><EigenValue value="0.0"/><DimVals d1="0.2"/></ORIGIN>
   <NORM><DimVals d2="3"/></NORM>
 </EigenGrasps>)";
-  const auto set = read(xml);
+  const auto set = read_set(xml);
   REQUIRE(set.grasps.size() == 2);
   CHECK(set.grasps[0].vector == vec({1, 0, 0.5}));
   REQUIRE(set.grasps[0].limits);
@@ -110,7 +110,8 @@ TEST_CASE("XML says the same, with limits, and what it leaves out has the format
   CHECK(*set.origin == vec({0, 0.2, 0}));
   // a scale of 0 would hold a DOF for ever: what is left out is 1
   CHECK(*set.norm == vec({1, 1, 3}));
-  CHECK_FALSE(read("<EigenGrasps dimensions='1'><EG><DimVals d0='1'/></EG></EigenGrasps>").origin);
+  CHECK_FALSE(
+      read_set("<EigenGrasps dimensions='1'><EG><DimVals d0='1'/></EG></EigenGrasps>").origin);
 }
 
 TEST_CASE("of a second origin or norm the first counts, in XML as in text") {
@@ -119,15 +120,15 @@ TEST_CASE("of a second origin or norm the first counts, in XML as in text") {
     return fmt::format("<{}><DimVals d0='{}'/></{}>", name, value, name);
   };
   const auto xml =
-      read("<EigenGrasps dimensions='1'>" + block("EG", 1) + block("ORIGIN", 2) +
-               block("ORIGIN", 3) + block("NORM", 4) + block("NORM", 5) + "</EigenGrasps>",
-           warnings.options());
+      read_set("<EigenGrasps dimensions='1'>" + block("EG", 1) + block("ORIGIN", 2) +
+                   block("ORIGIN", 3) + block("NORM", 4) + block("NORM", 5) + "</EigenGrasps>",
+               warnings.options());
   CHECK(warnings.list ==
         std::vector<std::string>{
             "a.egr:1: <ORIGIN> stands in <EigenGrasps> again; the first one counts",
             "a.egr:1: <NORM> stands in <EigenGrasps> again; the first one counts"});
   const auto text =
-      read("DIMENSIONS 1\nEG\n1\n1\nORIGIN\n0\n2\nNORM\n0\n4\nORIGIN\n0\n3\nNORM\n0\n5\n");
+      read_set("DIMENSIONS 1\nEG\n1\n1\nORIGIN\n0\n2\nNORM\n0\n4\nORIGIN\n0\n3\nNORM\n0\n5\n");
   for (const auto* set : {&xml, &text}) {
     CHECK(*set->origin == vec({2}));
     CHECK(*set->norm == vec({4}));
@@ -136,8 +137,8 @@ TEST_CASE("of a second origin or norm the first counts, in XML as in text") {
 
 TEST_CASE("unknown elements of an XML set are warnings") {
   Warnings warnings;
-  read("<EigenGrasps dimensions='1'><EG><DimVals d0='1'/><Limit/></EG></EigenGrasps>",
-       warnings.options());
+  read_set("<EigenGrasps dimensions='1'><EG><DimVals d0='1'/><Limit/></EG></EigenGrasps>",
+           warnings.options());
   CHECK(warnings.list == std::vector<std::string>{"a.egr:1: unknown element <Limit> in <EG> is not "
                                                   "used; did you mean 'Limits'?"});
 }
@@ -145,7 +146,7 @@ TEST_CASE("unknown elements of an XML set are warnings") {
 TEST_CASE("a set written and read again is the same to the bit") {
   TemporaryFolder folder;
   for (uint64_t seed = 0; seed < 40; ++seed) {
-    const auto set = random_set(seed);
+    const auto set = random_eigengrasps(seed);
     for (const auto* name : {"a.egr", "a.xml"}) {
       INFO(name << " " << seed);
       write_eigengrasps(set, folder.path() / name);
@@ -180,13 +181,13 @@ TEST_CASE("every set of the original loads, text and XML say the same") {
               read_eigengrasps(xml / "Barrett/eigen/barrett_eigen.xml"), true);
   check_equal(read_eigengrasps(text / "HumanHand/eigen/human_eigen_nodip.egr"),
               read_eigengrasps(xml / "HumanHand/eigen/human_eigen_nodip.xml"), true);
-  int read = 0;
+  int read_set = 0;
   for (const auto& folder : {text, xml})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
       if (!entry.is_regular_file() || entry.path().parent_path().filename() != "eigen") continue;
       INFO(entry.path().string());
       CHECK_NOTHROW(read_eigengrasps(entry.path()));
-      ++read;
+      ++read_set;
     }
-  CHECK(read == 17);
+  CHECK(read_set == 17);
 }

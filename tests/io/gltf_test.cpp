@@ -9,8 +9,8 @@
 using namespace clench;
 using namespace clench::test;
 
-static Geometry read(const std::string& content, const ReadOptions& options = {},
-                     const std::string& name = "q.gltf") {
+static Geometry read_gltf(const std::string& content, const ReadOptions& options = {},
+                          const std::string& name = "q.gltf") {
   const TemporaryFolder folder;
   return read_mesh_file(folder.write(name, content), options);
 }
@@ -19,14 +19,8 @@ static std::string whole(const Mesh& mesh, const std::string& node = "") {
   return gltf_text(mesh, "data:application/octet-stream;base64," + base64(gltf_buffer(mesh)), node);
 }
 
-static std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const size_t at = text.find(what);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), by);
-}
-
 TEST_CASE("a glTF file is in metres with y up, and has the colours of its materials") {
-  const Geometry geometry = read(whole(box(1, 2, 4)));
+  const Geometry geometry = read_gltf(whole(box(1, 2, 4)));
   CHECK(geometry.mesh.bounds().size() == Eigen::Vector3d(1, 2, 4));
   CHECK(geometry.report.format == "glTF");
   CHECK(geometry.report.unit_source == UnitSource::format);
@@ -46,21 +40,22 @@ TEST_CASE("the buffer of a glTF file may be a file of its own, its name written 
 TEST_CASE("nodes of a glTF file move, turn and scale their meshes") {
   const Mesh mesh = box(1, 1, 1);
   // by 3 along the file's y, which is z
-  CHECK(read(whole(mesh, R"(, "translation": [0, 3, 0])")).mesh.bounds().centre() ==
+  CHECK(read_gltf(whole(mesh, R"(, "translation": [0, 3, 0])")).mesh.bounds().centre() ==
         Eigen::Vector3d(0, 0, 3));
-  CHECK(read(whole(mesh, R"(, "scale": [1, 2, 3])")).mesh.bounds().size() ==
+  CHECK(read_gltf(whole(mesh, R"(, "scale": [1, 2, 3])")).mesh.bounds().size() ==
         Eigen::Vector3d(1, 3, 2));
-  CHECK(
-      read(whole(mesh, R"(, "matrix": [1,0,0,0, 0,2,0,0, 0,0,1,0, 5,0,0,1])")).mesh.bounds().high ==
-      Eigen::Vector3d(5.5, 0.5, 1));
+  CHECK(read_gltf(whole(mesh, R"(, "matrix": [1,0,0,0, 0,2,0,0, 0,0,1,0, 5,0,0,1])"))
+            .mesh.bounds()
+            .high == Eigen::Vector3d(5.5, 0.5, 1));
   // a quarter turn about y exchanges x and z of the file
   const Mesh turned =
-      read(whole(box(1, 2, 4), R"(, "rotation": [0, 0.7071067811865476, 0, 0.7071067811865476])"))
+      read_gltf(
+          whole(box(1, 2, 4), R"(, "rotation": [0, 0.7071067811865476, 0, 0.7071067811865476])"))
           .mesh;
   CHECK((turned.bounds().size() - Eigen::Vector3d(2, 1, 4)).norm() < 1e-12);  // rounding of 1
   // a mirrored mesh still faces outward
   Warnings warnings;
-  CHECK_FALSE(read(whole(mesh, R"(, "scale": [-1, 1, 1])"), warnings.options()).report.turned);
+  CHECK_FALSE(read_gltf(whole(mesh, R"(, "scale": [-1, 1, 1])"), warnings.options()).report.turned);
   CHECK(warnings.list.empty());
 }
 
@@ -68,12 +63,12 @@ TEST_CASE("what is wrong in a glTF file is told by the name of its value") {
   const std::string good = whole(box(1, 1, 1));
   const auto refused = [&](const std::string& what, const std::string& by,
                            const std::string& sentence) {
-    CHECK_THROWS_WITH_AS(read(replaced(good, what, by)), ("q.gltf" + sentence).c_str(), Error);
+    CHECK_THROWS_WITH_AS(read_gltf(replaced(good, what, by)), ("q.gltf" + sentence).c_str(), Error);
   };
-  CHECK_THROWS_WITH_AS(read("{\n\"asset\": x}"),
+  CHECK_THROWS_WITH_AS(read_gltf("{\n\"asset\": x}"),
                        "q.gltf:2: wanted JSON, got something else at byte 12 of it", Error);
-  CHECK_THROWS_WITH_AS(read("[]"), "q.gltf: wanted a JSON object, got a JSON array", Error);
-  CHECK_THROWS_WITH_AS(read("{}"), "q.gltf: wanted asset.version 2.0, got none", Error);
+  CHECK_THROWS_WITH_AS(read_gltf("[]"), "q.gltf: wanted a JSON object, got a JSON array", Error);
+  CHECK_THROWS_WITH_AS(read_gltf("{}"), "q.gltf: wanted asset.version 2.0, got none", Error);
   refused("2.0", "1.0", ": wanted glTF of version 2, got '1.0'");
   refused("\"scene\": 0", "\"extensionsRequired\": [\"KHR_draco_mesh_compression\"]",
           ": it cannot be read without the extension 'KHR_draco_mesh_compression', which is not "
@@ -108,16 +103,16 @@ TEST_CASE("what is wrong in a glTF file is told by the name of its value") {
   refused("\"byteLength\": 144", "\"byteLength\": 145",
           ": bufferViews[1]: wanted 241 bytes of its buffer, got 240");
   refused("base64,", "base64,!", ": buffers[0].uri: wanted data in base64");
-  CHECK_THROWS_WITH_AS(read(gltf_text(box(1, 1, 1), "")),
+  CHECK_THROWS_WITH_AS(read_gltf(gltf_text(box(1, 1, 1), "")),
                        "q.gltf: buffers[0]: wanted a uri, got none", Error);
-  CHECK_THROWS_WITH_AS(read(gltf_text(box(1, 1, 1), "no.bin")), "q.gltf: no such file: no.bin",
+  CHECK_THROWS_WITH_AS(read_gltf(gltf_text(box(1, 1, 1), "no.bin")), "q.gltf: no such file: no.bin",
                        Error);
 }
 
 TEST_CASE("what is wrong in the chunks of a GLB file is told in bytes") {
   const std::string good = glb(box(1, 1, 1));
   const auto refused = [](const std::string& bytes, const std::string& sentence) {
-    CHECK_THROWS_WITH_AS(read(bytes, {}, "q.glb"), ("q.glb: " + sentence).c_str(), Error);
+    CHECK_THROWS_WITH_AS(read_gltf(bytes, {}, "q.glb"), ("q.glb: " + sentence).c_str(), Error);
   };
   std::string old = good;
   old[4] = 1;
@@ -133,7 +128,7 @@ TEST_CASE("what a glTF file holds and is not used is told") {
   text = replaced(text, "\"scene\": 0", "\"scene\": 0, \"animations\": [{}]");
   text =
       replaced(text, "\"primitives\": [", "\"weights\": [1], \"primitives\": [{\"mode\": 1}, {}, ");
-  read(text, warnings.options());
+  read_gltf(text, warnings.options());
   CHECK(warnings.list ==
         std::vector<std::string>{
             "q.gltf: its animations are not used", "q.gltf: its morph targets are not used",

@@ -9,7 +9,7 @@ using namespace clench;
 using namespace clench::test;
 
 // degrees and millimetres cost a rounding or two
-static constexpr double rounding = 1e-15;
+static constexpr double unit_rounding = 1e-15;
 
 TEST_CASE("pre-grasps are read in metres and radians, their directions made unit") {
   TemporaryFolder folder;
@@ -34,10 +34,10 @@ TEST_CASE("pre-grasps written and read again are the same but for rounding") {
   const auto back = read_pregrasps(folder.path() / "a.txt");
   REQUIRE(back.size() == list.size());
   for (size_t i = 0; i < list.size(); ++i) {
-    CHECK((back[i].point - list[i].point).norm() < rounding);
-    CHECK((back[i].direction - list[i].direction).norm() < rounding);
-    CHECK((back[i].thumb - list[i].thumb).norm() < rounding);
-    CHECK(std::abs(back[i].spread - list[i].spread) < rounding);
+    CHECK((back[i].point - list[i].point).norm() < unit_rounding);
+    CHECK((back[i].direction - list[i].direction).norm() < unit_rounding);
+    CHECK((back[i].thumb - list[i].thumb).norm() < unit_rounding);
+    CHECK(std::abs(back[i].spread - list[i].spread) < unit_rounding);
   }
 }
 
@@ -70,9 +70,9 @@ TEST_CASE("planned grasps written and read again are the same, runs and all") {
   REQUIRE(back.size() == list.size());
   for (size_t i = 0; i < list.size(); ++i) {
     CHECK(back[i].run == list[i].run);
-    CHECK((back[i].X_OH.position - list[i].X_OH.position).norm() < rounding);
+    CHECK((back[i].X_OH.position - list[i].X_OH.position).norm() < unit_rounding);
     CHECK(back[i].X_OH.rotation.coeffs() == list[i].X_OH.rotation.coeffs());
-    CHECK(std::abs(back[i].spread - list[i].spread) < rounding);
+    CHECK(std::abs(back[i].spread - list[i].spread) < unit_rounding);
     CHECK(back[i].quality == list[i].quality);
   }
   std::swap(list.front(), list.back());

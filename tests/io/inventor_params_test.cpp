@@ -6,14 +6,14 @@ using namespace clench;
 using clench::test::TemporaryFolder;
 using clench::test::Warnings;
 
-static BodySpec body(const std::string& comments, const ReadOptions& options = {}) {
+static BodySpec body_with(const std::string& comments, const ReadOptions& options = {}) {
   const TemporaryFolder folder;
   return read_body(folder.write("box.iv", "#Inventor V2.1 ascii\n" + comments + "\nCube { }\n"),
                    options);
 }
 
 TEST_CASE("grams, millimetres and their squares become kilograms, metres and theirs") {
-  const BodySpec b = body(
+  const BodySpec b = body_with(
       "#material plastic\n#mass 178.5\n#cog 0 40.1 -1\n#inertia_matrix\n#1043 1 0\n# 1 611 0\n#0 0 "
       "1043\n#youngs 1.5e6\n#useFlockOfBirds 2");
   CHECK(b.material == "plastic");
@@ -28,7 +28,7 @@ TEST_CASE("grams, millimetres and their squares become kilograms, metres and the
 }
 
 TEST_CASE("nothing said leaves the defaults") {
-  const BodySpec b = body("");
+  const BodySpec b = body_with("");
   CHECK(b.material == "wood");
   CHECK(b.mass == doctest::Approx(0.3));
   CHECK_FALSE(b.com);
@@ -38,8 +38,8 @@ TEST_CASE("nothing said leaves the defaults") {
 }
 
 TEST_CASE("other comments are comments: another key, a blank after the '#', another case") {
-  const BodySpec b =
-      body("##youngs 3\n# mass 5\n#Mass of the thing\n#massive 7\n#--youngs\n#inertia_tensor\n#");
+  const BodySpec b = body_with(
+      "##youngs 3\n# mass 5\n#Mass of the thing\n#massive 7\n#--youngs\n#inertia_tensor\n#");
   CHECK(b.mass == doctest::Approx(0.3));
   CHECK_FALSE(b.elastic_modulus);
 }
@@ -47,7 +47,7 @@ TEST_CASE("other comments are comments: another key, a blank after the '#', anot
 TEST_CASE("an indented line is a comment, and a key in it is told") {
   Warnings warnings;
   const BodySpec b =
-      body(" #mass 20\n\t#of 3 parts\n#mass 30\n  #cog 1 2 3\r\n", warnings.options());
+      body_with(" #mass 20\n\t#of 3 parts\n#mass 30\n  #cog 1 2 3\r\n", warnings.options());
   CHECK(b.mass == doctest::Approx(0.03));
   CHECK_FALSE(b.com);
   CHECK(warnings.list ==
@@ -56,12 +56,12 @@ TEST_CASE("an indented line is a comment, and a key in it is told") {
 }
 
 TEST_CASE("the last of a key counts") {
-  CHECK(body("#mass 5\n#mass 7").mass == doctest::Approx(0.007));
+  CHECK(body_with("#mass 5\n#mass 7").mass == doctest::Approx(0.007));
 }
 
 TEST_CASE("an inertia that is not symmetric is made so, with a warning") {
   Warnings warnings;
-  const BodySpec b = body("#inertia_matrix\n#5 0 1\n#0 5 2\n#1 0 5", warnings.options());
+  const BodySpec b = body_with("#inertia_matrix\n#5 0 1\n#0 5 2\n#1 0 5", warnings.options());
   CHECK((*b.inertia_per_mass)(1, 2) == doctest::Approx(1e-6));
   CHECK((*b.inertia_per_mass)(2, 1) == doctest::Approx(1e-6));
   REQUIRE(warnings.list.size() == 1);
@@ -73,7 +73,7 @@ TEST_CASE("an inertia that no body has is left to the shape, with a warning") {
   for (const std::string rows : {"#0 0 0\n#0 0 0\n#0 0 0", "#5 0 0\n#0 -5 0\n#0 0 5",
                                  "#1 2 0\n#2 1 0\n#0 0 1", "#-1 0 0\n#0 -1 0\n#0 0 -1"}) {
     Warnings warnings;
-    CHECK_FALSE(body("#inertia_matrix\n" + rows, warnings.options()).inertia_per_mass);
+    CHECK_FALSE(body_with("#inertia_matrix\n" + rows, warnings.options()).inertia_per_mass);
     CHECK(warnings.list ==
           std::vector<std::string>{"box.iv:2: inertia_matrix is not positive definite; it is "
                                    "computed from the shape"});
@@ -81,14 +81,14 @@ TEST_CASE("an inertia that no body has is left to the shape, with a warning") {
 }
 
 TEST_CASE("a row of an inertia has three numbers") {
-  CHECK_THROWS_WITH_AS(body("#inertia_matrix\n#5 0 0\n#0 5 0 7\n#0 0 5"),
+  CHECK_THROWS_WITH_AS(body_with("#inertia_matrix\n#5 0 0\n#0 5 0 7\n#0 0 5"),
                        "box.iv:4: inertia_matrix: wanted 3 numbers in a row, got 4", Error);
-  CHECK(body("#inertia_matrix\n#5 0 0 # x\n#0 5 0\n#0 0 5").inertia_per_mass);
+  CHECK(body_with("#inertia_matrix\n#5 0 0 # x\n#0 5 0\n#0 0 5").inertia_per_mass);
 }
 
 TEST_CASE("a modulus that looks like megapascals is kept, with a warning") {
   Warnings warnings;
-  CHECK(body("#youngs 1.5", warnings.options()).elastic_modulus == 1.5);
+  CHECK(body_with("#youngs 1.5", warnings.options()).elastic_modulus == 1.5);
   REQUIRE(warnings.list.size() == 1);
   CHECK(warnings.list[0] ==
         "box.iv:2: youngs 1.5 Pa is softer than any rubber; is it meant in MPa?");

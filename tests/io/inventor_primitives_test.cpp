@@ -14,13 +14,14 @@ using Eigen::Vector3d;
 // scene graphs are single precision
 static constexpr double single = 1e-6;
 
-static std::vector<Primitive> read(const std::string& body, const ReadOptions& options = {}) {
+static std::vector<Primitive> read_inventor(const std::string& body,
+                                            const ReadOptions& options = {}) {
   TemporaryFolder folder;
   return read_primitives(folder.write("a.iv", "#Inventor V2.1 ascii\n" + body), options);
 }
 
 TEST_CASE("each kind of primitive comes with its sizes in metres and its pose") {
-  const auto list = read(R"(
+  const auto list = read_inventor(R"(
 Separator { Translation { translation 10 20 30 } Cube { width 20 height 30 depth 40 } }
 Separator { RotationXYZ { axis X angle 1.5707963 } Cylinder { radius 5 height 50 } }
 Sphere { radius 7 }
@@ -53,7 +54,7 @@ TEST_CASE("VRML says the same") {
 }
 
 TEST_CASE("scales go into the sizes, mirrored ones too") {
-  const auto list = read(
+  const auto list = read_inventor(
       "Scale { scaleFactor -2 3 4 } Cube { width 1 height 1 depth 1 }\n"
       "Separator { Scale { scaleFactor 2 1 1 } Cylinder { radius 1 height 2 } }");
   CHECK((list[0].size - Vector3d(0.002, 0.003, 0.004)).norm() < single);
@@ -64,7 +65,7 @@ TEST_CASE("scales go into the sizes, mirrored ones too") {
 
 TEST_CASE("what is no primitive, and what is oval, are warnings") {
   Warnings warnings;
-  read(
+  read_inventor(
       "Coordinate3 { point [0 0 0, 1 0 0, 0 1 0] } IndexedFaceSet { coordIndex [0,1,2] } Scale { "
       "scaleFactor 2 1 1 } Sphere { }",
       warnings.options());
@@ -87,40 +88,42 @@ TEST_CASE("of an XML body the geometry's primitives are read, scaled and placed 
   const std::string head = "#Inventor V2.1 ascii\n";
   folder.write("shape.iv",
                head + "Translation { translation 10 0 0 } Cube { width 2 height 4 depth 6 }");
-  const auto read = [&](const std::string& rest, const ReadOptions& options = {}) {
+  const auto read_inventor = [&](const std::string& rest, const ReadOptions& options = {}) {
     return read_primitives(folder.write("mug.xml", "<root>\n" + rest + "</root>"), options);
   };
   const std::string file = "<geometryFile type='Inventor'>shape.iv</geometryFile>";
-  const auto list = read(file +
-                         "<geometryScaling>2</geometryScaling><geometryOffset><transform>"
-                         "<translation>0 0 5</translation><rotation>90 z</rotation></transform>"
-                         "</geometryOffset>");
+  const auto list =
+      read_inventor(file +
+                    "<geometryScaling>2</geometryScaling><geometryOffset><transform>"
+                    "<translation>0 0 5</translation><rotation>90 z</rotation></transform>"
+                    "</geometryOffset>");
   REQUIRE(list.size() == 1);
   CHECK((list[0].size - Vector3d(0.004, 0.008, 0.012)).norm() < single);
   // 20 mm along x, which a quarter turn brings to y
   CHECK((list[0].X_OP.position - Vector3d(0, 0.02, 0.005)).norm() < single);
   CHECK((list[0].X_OP.rotation * Vector3d::UnitX() - Vector3d::UnitY()).norm() < single);
-  CHECK((read(file + "<geometryScalingZ>3</geometryScalingZ>")[0].size -
+  CHECK((read_inventor(file + "<geometryScalingZ>3</geometryScalingZ>")[0].size -
          Vector3d(0.002, 0.004, 0.018))
             .norm() < single);
 
   // of a file whose ending says nothing the type counts
   folder.write("shape.dat", head + "Sphere { }");
-  CHECK(read("<geometryFile type='Inventor'>shape.dat</geometryFile>").size() == 1);
-  CHECK_THROWS_WITH_AS(read("<geometryFile>shape.off</geometryFile>"),
+  CHECK(read_inventor("<geometryFile type='Inventor'>shape.dat</geometryFile>").size() == 1);
+  CHECK_THROWS_WITH_AS(read_inventor("<geometryFile>shape.off</geometryFile>"),
                        "mug.xml:2: no such file: shape.off; did you mean 'shape.dat'?", Error);
   folder.write("shape.off", "OFF\n");
-  CHECK_THROWS_WITH_AS(read("<geometryFile>shape.off</geometryFile>"),
+  CHECK_THROWS_WITH_AS(read_inventor("<geometryFile>shape.off</geometryFile>"),
                        "shape.off: wanted primitives from .iv, .wrl or .vrml, got '.off'", Error);
   Warnings warnings;
-  CHECK(read("<mass>3</mass>", warnings.options()).empty());
+  CHECK(read_inventor("<mass>3</mass>", warnings.options()).empty());
   CHECK(warnings.list == std::vector<std::string>{"mug.xml:1: no <geometryFile>: no primitives"});
   CHECK_THROWS_WITH_AS(read_primitives(folder.write("hand.xml", "<robot/>")),
                        "hand.xml:1: wanted a body, got <robot>", Error);
 
   // what somebody has simplified goes before it, and stands in the body's frame
   folder.write("primitives/mug.iv", head + "Cone { }");
-  CHECK(read(file + "<geometryScaling>2</geometryScaling>")[0].kind == PrimitiveKind::cone);
+  CHECK(read_inventor(file + "<geometryScaling>2</geometryScaling>")[0].kind ==
+        PrimitiveKind::cone);
 }
 
 TEST_CASE("the primitives of the original's objects load") {

@@ -36,8 +36,8 @@ Mesh box_of_loose_faces() {
   return out;
 }
 
-Geometry read(const TemporaryFolder& folder, const MeshFile& file,
-              const ReadOptions& options = {}) {
+Geometry read_file_of(const TemporaryFolder& folder, const MeshFile& file,
+                      const ReadOptions& options = {}) {
   return read_mesh_file(folder.write(file.name, file.content), options);
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("a mesh is the same to the bit in every format, and closed") {
   for (const Mesh& mesh : {stretched_box(), in_32_bits(potato(random, 0.5, 8))})
     for (const MeshFile& file : in_every_format(mesh)) {
       INFO(file.name);
-      const Geometry geometry = read(folder, file);
+      const Geometry geometry = read_file_of(folder, file);
       check_same_surface(geometry.mesh, mesh);
       CHECK(geometry.mesh.vertices.size() == mesh.vertices.size());
       CHECK(find_faults(geometry.mesh).none());
@@ -73,8 +73,8 @@ TEST_CASE("line ends of every system are read alike") {
       for (const char c : file.content.substr(0, text_end))
         changed += c == '\n' ? end : std::string(1, c);
       INFO(file.name);
-      check_same_surface(read(folder, {file.name, changed + file.content.substr(text_end)}).mesh,
-                         mesh);
+      check_same_surface(
+          read_file_of(folder, {file.name, changed + file.content.substr(text_end)}).mesh, mesh);
     }
   }
 }
@@ -84,7 +84,7 @@ TEST_CASE("vertices that faces do not share are welded, and counted") {
   const Mesh loose = box_of_loose_faces();
   for (const MeshFile& file : in_every_format(loose)) {
     INFO(file.name);
-    const Geometry geometry = read(folder, file);
+    const Geometry geometry = read_file_of(folder, file);
     CHECK(geometry.mesh.vertices.size() == 8);
     CHECK(find_faults(geometry.mesh).none());
     CHECK(geometry.report.vertices_read == 36);
@@ -97,7 +97,7 @@ TEST_CASE("what a file connects into closed surfaces stays as it is, though plac
   const TemporaryFolder folder;
   const Mesh two =
       joined(box(1, 1, 1), moved(box(1, 1, 1), {Eigen::Quaterniond::Identity(), {1, 1, 0}}));
-  const Geometry geometry = read(folder, {"two.obj", obj_text(two)});
+  const Geometry geometry = read_file_of(folder, {"two.obj", obj_text(two)});
   CHECK(geometry.mesh.vertices.size() == 16);
   CHECK(find_faults(geometry.mesh).none());
   CHECK(geometry.report.welded_vertices == 0);
@@ -106,7 +106,7 @@ TEST_CASE("what a file connects into closed surfaces stays as it is, though plac
   Mesh pinched = ball(0.5);
   const Triangle cut = pinched.triangles[40];
   pinched.vertices[cut[1]] = pinched.vertices[cut[0]];
-  const Geometry kept = read(folder, {"pinched.off", off_text(pinched)});
+  const Geometry kept = read_file_of(folder, {"pinched.off", off_text(pinched)});
   CHECK(kept.mesh.triangles.size() == pinched.triangles.size());
   CHECK(kept.report.dropped_triangles == 0);
   CHECK(find_faults(kept.mesh).closed());
@@ -118,7 +118,7 @@ TEST_CASE("triangles without area go, and are counted, unless the surface needs 
   // a vertex twice, two vertices at one place, three in a line
   const std::string bad = obj_text(whole) + "v -0.125 -0.25 -0.0625\nv 0 -0.25 -0.0625\nv 9 9 9\n" +
                           "f 1 1 2\nf 1 2 9\nf 1 2 10\n";
-  const Geometry geometry = read(folder, {"bad.obj", bad});
+  const Geometry geometry = read_file_of(folder, {"bad.obj", bad});
   check_same_surface(geometry.mesh, whole);
   CHECK(geometry.report.triangles_read == 15);
   CHECK(geometry.report.dropped_triangles == 3);
@@ -133,7 +133,7 @@ TEST_CASE("triangles without area go, and are counted, unless the surface needs 
   CHECK_FALSE(find_faults(seam).closed());
   seam.triangles.push_back({t[0], t[1], 8});
   CHECK(find_faults(seam).closed());
-  const Geometry closed = read(folder, {"seam.obj", obj_text(seam)});
+  const Geometry closed = read_file_of(folder, {"seam.obj", obj_text(seam)});
   CHECK(closed.mesh.triangles.size() == 14);
   CHECK(find_faults(closed.mesh).closed());
 }
@@ -148,21 +148,22 @@ TEST_CASE("triangles that lie on each other go, a fold whole and a double one on
   folded.triangles.push_back({t[0], t[1], 8});
   folded.triangles.push_back({t[1], t[0], 8});
   folded.triangles.push_back({t[1], t[2], t[0]});
-  const Geometry geometry = read(folder, {"folded.ply", ascii_ply(folded)});
+  const Geometry geometry = read_file_of(folder, {"folded.ply", ascii_ply(folded)});
   check_same_surface(geometry.mesh, whole);
   CHECK(geometry.mesh.vertices.size() == 8);
   CHECK(geometry.report.dropped_triangles == 3);
   // a sheet with two sides is closed as it is
   const Geometry sheet =
-      read(folder, {"sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n"});
+      read_file_of(folder, {"sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n"});
   CHECK(sheet.mesh.triangles.size() == 2);
   CHECK(sheet.report.dropped_triangles == 0);
 }
 
 TEST_CASE("a mesh of nothing but lines in disguise is kept rather than emptied") {
   const TemporaryFolder folder;
-  CHECK(read(folder, {"a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"}).mesh.triangles.size() == 1);
-  CHECK_THROWS_WITH_AS(read(folder, {"a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 2\n"}),
+  CHECK(read_file_of(folder, {"a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"})
+            .mesh.triangles.size() == 1);
+  CHECK_THROWS_WITH_AS(read_file_of(folder, {"a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 2\n"}),
                        "a.obj: wanted triangles, got none", Error);
 }
 
@@ -170,10 +171,10 @@ TEST_CASE("colours follow their triangles when others are dropped") {
   const TemporaryFolder folder;
   folder.write("p.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 0\n";
-  const Geometry geometry =
-      read(folder, {"p.obj", "mtllib p.mtl\n" + points +
-                                 "usemtl red\nf 1 3 2\nf 1 5 2\nf 1 2 2\nusemtl blue\nf 1 2 4\nf 1 "
-                                 "4 3\nf 2 3 4\n"});
+  const Geometry geometry = read_file_of(
+      folder, {"p.obj", "mtllib p.mtl\n" + points +
+                            "usemtl red\nf 1 3 2\nf 1 5 2\nf 1 2 2\nusemtl blue\nf 1 2 4\nf 1 "
+                            "4 3\nf 2 3 4\n"});
   REQUIRE(geometry.mesh.triangles.size() == 4);
   REQUIRE(geometry.appearance.triangle_colors.size() == 4);
   CHECK(geometry.appearance.triangle_colors[0] == Eigen::Vector3f(1, 0, 0));
@@ -185,7 +186,7 @@ TEST_CASE("a closed mesh that is inside out is turned, with a warning and a word
   const TemporaryFolder folder;
   for (const MeshFile& file : in_every_format(inverted(stretched_box()))) {
     Warnings warnings;
-    const Geometry geometry = read(folder, file, warnings.options());
+    const Geometry geometry = read_file_of(folder, file, warnings.options());
     CHECK(geometry.report.turned);
     CHECK(solid_mass(geometry.mesh).volume == doctest::Approx(0.25 * 0.5 * 0.125));
     REQUIRE(warnings.list.size() == 1);
@@ -199,7 +200,7 @@ TEST_CASE("the unit is the option's, else the file's, else the caller's, else gu
   ReadOptions options;
   options.note = [&](const std::string& note) { notes.push_back(note); };
   const auto size = [&](const MeshFile& file) {
-    const Geometry g = read(folder, file, options);
+    const Geometry g = read_file_of(folder, file, options);
     return g.mesh.bounds().size().x();
   };
   const MeshFile metres{"a.obj", obj_text(box(10, 1, 1))},
@@ -240,8 +241,9 @@ TEST_CASE("what a file calls up becomes z, unless its axes are to stay") {
   const Mesh tall = box(1, 2, 4);
   const auto size = [&](const std::string& up) {
     const std::string asset = "<up_axis>" + up + "</up_axis>";
-    return Eigen::Vector3d(
-        read(folder, {"a.dae", collada_text(tall, "", asset)}, options).mesh.bounds().size());
+    return Eigen::Vector3d(read_file_of(folder, {"a.dae", collada_text(tall, "", asset)}, options)
+                               .mesh.bounds()
+                               .size());
   };
   CHECK(size("Z_UP") == Eigen::Vector3d(1, 2, 4));
   CHECK(notes.empty());
@@ -255,9 +257,10 @@ TEST_CASE("what a file calls up becomes z, unless its axes are to stay") {
   // a turn, not a reflection
   options.turn_mesh_up = true;
   for (const std::string up : {"X_UP", "Y_UP", "Z_UP"})
-    CHECK_FALSE(
-        read(folder, {"a.dae", collada_text(tall, "", "<up_axis>" + up + "</up_axis>")}, options)
-            .report.turned);
+    CHECK_FALSE(read_file_of(folder,
+                             {"a.dae", collada_text(tall, "", "<up_axis>" + up + "</up_axis>")},
+                             options)
+                    .report.turned);
 }
 
 TEST_CASE("a body keeps the report, which describes itself") {

@@ -14,7 +14,7 @@ using namespace clench::test;
 namespace {
 
 /// returns  was it refused?
-bool refused(const MeshFile& file) {
+bool refused_mesh(const MeshFile& file) {
   try {
     const Geometry geometry = read_mesh({file.name, file.content, {}});
     // what is read is fit for a Shape
@@ -26,8 +26,8 @@ bool refused(const MeshFile& file) {
   }
 }
 
-const Oddities odd = {{"-1", "4294967295", "1e308", "nan", "0", "\"", "<", ">", "{", "[", "]", ",",
-                       " ", "\n", "#", "/"}};
+const Oddities odd_meshes = {{"-1", "4294967295", "1e308", "nan", "0", "\"", "<", ">", "{", "[",
+                              "]", ",", " ", "\n", "#", "/"}};
 
 std::string repeated(const std::string& piece, int times) {
   std::string out;
@@ -43,7 +43,7 @@ TEST_CASE("a mesh file cut short anywhere is an Error or a mesh") {
     const size_t step = std::max<size_t>(1, file.content.size() / 150);
     int bad = 0, all = 0;
     for (size_t n = 0; n < file.content.size(); n += step, ++all)
-      bad += refused({file.name, file.content.substr(0, n)});
+      bad += refused_mesh({file.name, file.content.substr(0, n)});
     // lists without an end that the format counts may lose their last lines unseen
     CHECK(bad * 2 > all);
     if (file.name != "a.obj") CHECK(bad >= all - 2);
@@ -54,9 +54,9 @@ TEST_CASE("a mesh file changed at random is an Error or a mesh") {
   for (const MeshFile& file : in_every_format(box(1, 1, 1)))
     for (uint64_t i = 0; i < 150; ++i) {
       Random random(17, i);
-      const std::string bad = mutated(file.content, odd, random);
+      const std::string bad = mutated(file.content, odd_meshes, random);
       INFO(file.name << " seed " << i);
-      refused({file.name, bad});
+      refused_mesh({file.name, bad});
     }
 }
 
@@ -66,38 +66,38 @@ TEST_CASE("noise is an Error in every mesh format, behind a sound beginning too"
       Random random(19, i);
       const std::string bytes = noise(random);
       INFO(file.name << " seed " << i);
-      CHECK(refused({file.name, bytes}));
+      CHECK(refused_mesh({file.name, bytes}));
       const size_t start = random.bits() % (file.content.size() / 2);
-      refused({file.name, file.content.substr(0, start) + bytes});
+      refused_mesh({file.name, file.content.substr(0, start) + bytes});
     }
 }
 
 TEST_CASE("numbers beyond the range of lengths are an Error, small ones and far ones are not") {
   for (const double size : {1e-300, 1e-30, 1e-6, 1e6, 1e20})
-    CHECK_FALSE(refused({"a.obj", obj_text(box(size, size, size))}));
-  CHECK(refused({"a.obj", obj_text(box(1e200, 1, 1))}));
-  CHECK(refused({"a.off", off_text(box(1e308, 1e308, 1e308))}));
+    CHECK_FALSE(refused_mesh({"a.obj", obj_text(box(size, size, size))}));
+  CHECK(refused_mesh({"a.obj", obj_text(box(1e200, 1, 1))}));
+  CHECK(refused_mesh({"a.off", off_text(box(1e308, 1e308, 1e308))}));
 }
 
 TEST_CASE("elements, nodes and brackets in each other without end are Errors") {
-  CHECK(refused({"a.gltf", repeated("[", 1'000'000)}));
-  CHECK(refused({"a.gltf", "{\"asset\": " + repeated("{\"a\":", 300'000)}));
-  CHECK(refused({"a.dae", repeated("<a>", 300'000)}));
+  CHECK(refused_mesh({"a.gltf", repeated("[", 1'000'000)}));
+  CHECK(refused_mesh({"a.gltf", "{\"asset\": " + repeated("{\"a\":", 300'000)}));
+  CHECK(refused_mesh({"a.dae", repeated("<a>", 300'000)}));
   // a scene that doubles with every node
   std::string nodes;
   for (int i = 0; i < 40; ++i)
     nodes += fmt::format(
         "<node id=\"n{}\"><instance_node url=\"#n{}\"/><instance_node url=\"#n{}\"/></node>", i,
         i + 1, i + 1);
-  CHECK(refused({"a.dae",
-                 "<COLLADA><library_visual_scenes><visual_scene><node><instance_"
-                 "node url=\"#n0\"/></node></visual_scene></library_visual_scenes>"
-                 "<library_nodes>" +
-                     nodes + "<node id=\"n40\"/></library_nodes></COLLADA>"}));
+  CHECK(refused_mesh({"a.dae",
+                      "<COLLADA><library_visual_scenes><visual_scene><node><instance_"
+                      "node url=\"#n0\"/></node></visual_scene></library_visual_scenes>"
+                      "<library_nodes>" +
+                          nodes + "<node id=\"n40\"/></library_nodes></COLLADA>"}));
   // a chain of nodes as long as the file
   std::string chain = "{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [";
   for (int i = 1; i < 20'000; ++i) chain += fmt::format("{{\"children\": [{}]}},", i);
-  CHECK(refused({"a.gltf", chain + "{}]}"}));
+  CHECK(refused_mesh({"a.gltf", chain + "{}]}"}));
 }
 
 TEST_CASE("a face of very many corners is cut or refused, in no time") {
@@ -110,7 +110,7 @@ TEST_CASE("a face of very many corners is cut or refused, in no time") {
     }
     return MeshFile{"a.obj", points + face + "\n"};
   };
-  CHECK_FALSE(refused(star(20'000, 1)));
-  CHECK_FALSE(refused(star(1000, 0.5)));
-  CHECK(refused(star(1002, 0.5)));
+  CHECK_FALSE(refused_mesh(star(20'000, 1)));
+  CHECK_FALSE(refused_mesh(star(1000, 0.5)));
+  CHECK(refused_mesh(star(1002, 0.5)));
 }

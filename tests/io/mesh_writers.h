@@ -1,6 +1,7 @@
 // One mesh in every format that is read, for tests. Vertices should be 32-bit numbers, which all of
 // the formats hold exactly.
 #pragma once
+#include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <bit>
@@ -10,6 +11,12 @@
 #include "geometry/mesh.h"
 
 namespace clench::test {
+
+inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const size_t at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, what.size(), by);
+}
 
 /// its vertices rounded to 32 bits
 inline Mesh in_32_bits(Mesh mesh) {

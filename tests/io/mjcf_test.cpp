@@ -5,61 +5,23 @@
 
 #include "base/error.h"
 #include "temporary.h"
+#include "told_robot.h"
 
 using namespace clench;
 using clench::test::TemporaryFolder;
+using clench::test::ToldRobot;
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-struct Told {
-  std::vector<std::string> warnings, notes;
-  RobotSpec robot;
-
-  explicit Told(const fs::path& file) {
-    ReadOptions options;
-    options.warn = [this](const std::string& s) { warnings.push_back(s); };
-    options.note = [this](const std::string& s) { notes.push_back(s); };
-    robot = read_robot(file, options);
-  }
-  static bool has(const std::vector<std::string>& list, const std::string& part) {
-    for (const auto& s : list)
-      if (s.find(part) != std::string::npos) return true;
-    return false;
-  }
-  bool warned(const std::string& part) const { return has(warnings, part); }
-  bool noted(const std::string& part) const { return has(notes, part); }
-
-  const BodySpec& body(const std::string& name) const {
-    if (robot.base.name == robot.name + "_" + name) return robot.base;
-    for (const auto& chain : robot.chains)
-      for (const auto& l : chain.links)
-        if (l.body.name == robot.name + "_" + name) return l.body;
-    FAIL("no link " << name);
-    return robot.base;
-  }
-  const JointSpec& joint(const std::string& name) const {
-    for (const auto& chain : robot.chains)
-      for (const auto& j : chain.joints)
-        if (j.name == name) return j;
-    FAIL("no joint " << name);
-    return robot.chains.at(0).joints.at(0);
-  }
-  std::vector<std::string> dofs() const {
-    std::vector<std::string> out;
-    for (const auto& d : robot.dofs) out.push_back(d.name);
-    return out;
-  }
-};
+using std::numbers::pi;
 
 /// A model with this in the body 'b' of its base 'a'.
-Told model(const std::string& in_b, const std::string& beside = "") {
+ToldRobot model(const std::string& in_b, const std::string& beside = "") {
   TemporaryFolder folder;
-  return Told(folder.write("m.xml", "<mujoco model='m'>" + beside +
-                                        "<worldbody><body name='a'><body name='b'>" + in_b +
-                                        "</body></body></worldbody></mujoco>"));
+  return ToldRobot(folder.write("m.xml", "<mujoco model='m'>" + beside +
+                                             "<worldbody><body name='a'><body name='b'>" + in_b +
+                                             "</body></body></worldbody></mujoco>"));
 }
 
 const std::string radian = "<compiler angle='radian'/>";
@@ -67,7 +29,7 @@ const std::string radian = "<compiler angle='radian'/>";
 }  // namespace
 
 TEST_CASE("a model of many elements is read whole") {
-  const Told hand("tests/data/mjcf/hand.mjcf");
+  const ToldRobot hand("tests/data/mjcf/hand.mjcf");
   CHECK(hand.robot.name == "small_hand");
   CHECK(hand.robot.base.name == "small_hand_palm");
   CHECK(hand.dofs() ==
@@ -87,7 +49,7 @@ TEST_CASE("a model of many elements is read whole") {
 }
 
 TEST_CASE("geoms that collide and geoms that are drawn are kept apart") {
-  const Told hand("tests/data/mjcf/hand.mjcf");
+  const ToldRobot hand("tests/data/mjcf/hand.mjcf");
   const BodySpec& palm = hand.body("palm");
   CHECK(palm.shape->bounds().high.x() == doctest::Approx(0.04));
   REQUIRE(palm.appearance.visual);
@@ -97,12 +59,12 @@ TEST_CASE("geoms that collide and geoms that are drawn are kept apart") {
 }
 
 TEST_CASE("an equality ties a joint to another, counted from where both stand at first") {
-  const Told hand("tests/data/mjcf/hand.mjcf");
+  const ToldRobot hand("tests/data/mjcf/hand.mjcf");
   const JointSpec& tied = hand.joint("middle_pip");
   CHECK(tied.dof == hand.joint("middle_mcp").dof);
   CHECK(tied.ratio == 0.8);
   CHECK(tied.theta == doctest::Approx(0.1));
-  const Told from(
+  const ToldRobot from(
       model("<joint name='p' range='-9 9' ref='1'/><joint name='q' range='-9 9' ref='2'/>",
             radian + "<equality><joint joint1='q' joint2='p' polycoef='0.5 3'/></equality>"));
   // q = 2 + 0.5 + 3 (p - 1), and the pose counts from q = 2
@@ -111,7 +73,7 @@ TEST_CASE("an equality ties a joint to another, counted from where both stand at
 }
 
 TEST_CASE("a motor on a tendon moves its joints together, in proportion") {
-  const Told hand("tests/data/mjcf/hand.mjcf");
+  const ToldRobot hand("tests/data/mjcf/hand.mjcf");
   CHECK(hand.joint("index_pip").dof == hand.joint("index_mcp").dof);
   CHECK(hand.joint("index_pip").ratio == 0.5);
   CHECK(
@@ -120,7 +82,7 @@ TEST_CASE("a motor on a tendon moves its joints together, in proportion") {
 }
 
 TEST_CASE("a tendon of two joints that an equality holds ties them") {
-  const Told told(model(
+  const ToldRobot told(model(
       "<joint name='p' range='-1 1'/><joint name='q' range='-9 9'/>",
       radian + "<tendon><fixed name='t'><joint joint='p' coef='1'/><joint joint='q' coef='-2'/>"
                "</fixed></tendon><equality><tendon tendon1='t'/></equality>"));
@@ -129,7 +91,7 @@ TEST_CASE("a tendon of two joints that an equality holds ties them") {
 }
 
 TEST_CASE("actuators limit their joints and say what drives them") {
-  const Told hand("tests/data/mjcf/hand.mjcf");
+  const ToldRobot hand("tests/data/mjcf/hand.mjcf");
   const auto dof = [&](const std::string& name) {
     for (const auto& d : hand.robot.dofs)
       if (d.name == name) return d;
@@ -146,13 +108,13 @@ TEST_CASE("actuators limit their joints and say what drives them") {
 }
 
 TEST_CASE("excluded pairs never collide, nor do pairs whose bits differ") {
-  const Told hand("tests/data/mjcf/hand.mjcf");
+  const ToldRobot hand("tests/data/mjcf/hand.mjcf");
   REQUIRE(hand.robot.collision_rules.pairs_off.size() == 1);
   const auto& [a, b] = hand.robot.collision_rules.pairs_off[0];
   CHECK(hand.robot.chains[a.chain].links[a.link].body.name == "small_hand_index_1");
   CHECK(hand.robot.chains[b.chain].links[b.link].body.name == "small_hand_middle_1");
   TemporaryFolder folder;
-  const Told bits(folder.write("m.xml", R"(<mujoco model="m"><worldbody><body name="a">
+  const ToldRobot bits(folder.write("m.xml", R"(<mujoco model="m"><worldbody><body name="a">
 <geom size="1" contype="2" conaffinity="1"/><body name="b"><geom size="1" contype="2" conaffinity="1"/></body>
 <body name="c"><geom size="1"/></body></body></worldbody></mujoco>)"));
   // a and b share no bit, and both meet c
@@ -169,22 +131,22 @@ TEST_CASE("angles are degrees unless the compiler says radian") {
 TEST_CASE("a joint without a range, or unlimited, goes a full turn either way, which is told") {
   for (const std::string joint :
        {"<joint name='j'/>", "<joint name='j' limited='false' range='0 1'/>"}) {
-    const Told told = model(joint);
+    const ToldRobot told = model(joint);
     CHECK(told.joint("j").max == doctest::Approx(2 * pi));
     CHECK(told.noted("joint 'j' has no limits"));
   }
 }
 
 TEST_CASE("a ball joint becomes three turns, a free one none") {
-  const Told ball = model("<joint name='j' type='ball' range='0 60'/>");
+  const ToldRobot ball = model("<joint name='j' type='ball' range='0 60'/>");
   CHECK(ball.dofs() == std::vector<std::string>{"j_x", "j_y", "j_z"});
   CHECK(ball.joint("j_y").max == doctest::Approx(pi / 3));
   CHECK(ball.noted("joint 'j' is a ball"));
-  const Told free = model("<joint name='j' type='free'/>");
+  const ToldRobot free = model("<joint name='j' type='free'/>");
   CHECK(free.robot.dofs.empty());
   CHECK(free.warned("joint 'j' is free; body 'b' stays where the file puts it"));
   TemporaryFolder folder;
-  const Told base(folder.write(
+  const ToldRobot base(folder.write(
       "m.xml", "<mujoco><worldbody><body name='a'><freejoint/></body></worldbody></mujoco>"));
   CHECK(base.warnings.empty());
 }
@@ -206,7 +168,7 @@ TEST_CASE("geoms are of the sizes that their types mean") {
 }
 
 TEST_CASE("a robot without masses weighs what its geoms do") {
-  const Told told = model(
+  const ToldRobot told = model(
       "<geom type='box' size='0.1 0.1 0.1' density='500'/>"
       "<geom type='box' size='0.1 0.1 0.1' pos='0 0 1' mass='4'/>");
   const BodySpec& body = told.body("b");
@@ -218,7 +180,7 @@ TEST_CASE("a robot without masses weighs what its geoms do") {
 }
 
 TEST_CASE("points of a mesh without faces mean their hull") {
-  const Told told =
+  const ToldRobot told =
       model("<geom type='mesh' mesh='cube'/>",
             "<asset><mesh name='cube' scale='2 1 1' refpos='1 0 0' vertex='0 0 0 1 0 0 0 1 0 1 1 0 "
             "0 0 1 1 0 1 0 1 1 1 1 1 0.5 0.5 0.5'/></asset>");
@@ -230,14 +192,14 @@ TEST_CASE("points of a mesh without faces mean their hull") {
 
 TEST_CASE("the body with the most joints is the robot, things that move freely beside it are not") {
   TemporaryFolder folder;
-  const Told told(folder.write("m.xml", R"(<mujoco model="m"><worldbody>
+  const ToldRobot told(folder.write("m.xml", R"(<mujoco model="m"><worldbody>
 <body name="ball"><freejoint/><geom size="0.1"/></body>
 <body name="hand"><body name="finger"><joint name="j" range="0 1"/></body></body>
 </worldbody></mujoco>)"));
   CHECK(told.robot.base.name == "m_hand");
   CHECK(told.warned("m.xml:2: body 'ball' moves freely beside the robot; it is not read"));
   // several bodies, or one with joints of its own, stand in the world's frame
-  const Told two(folder.write("m.xml", R"(<mujoco model="m"><worldbody>
+  const ToldRobot two(folder.write("m.xml", R"(<mujoco model="m"><worldbody>
 <body name="left" pos="1 0 0"><joint name="j" type="slide" range="0 1"/></body><body name="right"/>
 </worldbody></mujoco>)"));
   CHECK(two.robot.base.name == "m_world");
@@ -245,8 +207,9 @@ TEST_CASE("the body with the most joints is the robot, things that move freely b
 }
 
 TEST_CASE("what would close a loop is told and left open") {
-  const Told told = model("<joint name='j' range='0 1'/>",
-                          "<equality><connect body1='a' body2='b' anchor='0 0 0'/></equality>");
+  const ToldRobot told =
+      model("<joint name='j' range='0 1'/>",
+            "<equality><connect body1='a' body2='b' anchor='0 0 0'/></equality>");
   CHECK(told.warned("equality: <connect> would close a loop of bodies; it is left open"));
 }
 
@@ -260,13 +223,15 @@ TEST_CASE("meshes are looked for in the folder that the compiler names") {
            "type='mesh' mesh='a'/></body></worldbody></mujoco>";
   };
   CHECK_THROWS_AS(read_robot(folder.write("m.xml", text("meshdir='assets'"))), Error);
-  CHECK(Told(folder.write("m.xml", text("meshdir='assets' strippath='true'"))).robot.base.shape);
-  CHECK(Told(folder.write("m.xml", text("assetdir='assets' strippath='true'"))).robot.base.shape);
+  CHECK(
+      ToldRobot(folder.write("m.xml", text("meshdir='assets' strippath='true'"))).robot.base.shape);
+  CHECK(ToldRobot(folder.write("m.xml", text("assetdir='assets' strippath='true'")))
+            .robot.base.shape);
 }
 
 TEST_CASE("a motor or tendon of a joint that the robot lacks is told, and the robot read") {
-  const Told ball = model("<joint name='j' type='ball' range='0 30'/>",
-                          "<actuator><motor joint='j'/></actuator>");
+  const ToldRobot ball = model("<joint name='j' type='ball' range='0 30'/>",
+                               "<actuator><motor joint='j'/></actuator>");
   CHECK(ball.dofs() == std::vector<std::string>{"j_x", "j_y", "j_z"});
   CHECK(
       ball.warned("m.xml:1: motor: joint 'j' is a ball, which became three turns; this is not "
@@ -274,24 +239,26 @@ TEST_CASE("a motor or tendon of a joint that the robot lacks is told, and the ro
   CHECK_FALSE(ball.noted("no actuator drives"));  // the motor moves them all the same
   TemporaryFolder folder;
   const auto read = [&](const std::string& beside, const std::string& rest) {
-    return Told(folder.write("m.xml", "<mujoco model='m'><worldbody><body name='a'>" + beside +
-                                          "<body name='b'><joint name='p' range='0 30'/><joint "
-                                          "name='q' range='0 30'/></body></body>"
-                                          "<body><freejoint/><body><joint name='hinge'/></body>"
-                                          "</body></worldbody>" +
-                                          rest + "</mujoco>"));
+    return ToldRobot(
+        folder.write("m.xml", "<mujoco model='m'><worldbody><body name='a'>" + beside +
+                                  "<body name='b'><joint name='p' range='0 30'/><joint "
+                                  "name='q' range='0 30'/></body></body>"
+                                  "<body><freejoint/><body><joint name='hinge'/></body>"
+                                  "</body></worldbody>" +
+                                  rest + "</mujoco>"));
   };
   CHECK(read("<freejoint name='root'/>", "<actuator><motor joint='root'/></actuator>")
             .warned("motor: joint 'root' is free, and no joint of the robot; this is not used"));
-  const Told beside = read("", "<equality><joint joint1='hinge'/></equality>");
+  const ToldRobot beside = read("", "<equality><joint joint1='hinge'/></equality>");
   CHECK(beside.dofs().size() == 2);
   CHECK(beside.warned("joint: joint 'hinge' is of a body that is not read; this is not used"));
   CHECK(read("", "<equality><joint joint1='p' joint2='hinge'/></equality>").dofs().size() == 2);
   // a tendon that has lost a joint ties no others
-  const Told tendon = read("",
-                           "<tendon><fixed name='t'><joint joint='p' coef='1'/><joint joint='q' "
-                           "coef='1'/><joint joint='hinge' coef='1'/></fixed></tendon>"
-                           "<equality><tendon tendon1='t'/></equality>");
+  const ToldRobot tendon =
+      read("",
+           "<tendon><fixed name='t'><joint joint='p' coef='1'/><joint joint='q' "
+           "coef='1'/><joint joint='hinge' coef='1'/></fixed></tendon>"
+           "<equality><tendon tendon1='t'/></equality>");
   CHECK(tendon.dofs().size() == 2);
   CHECK(tendon.warned("joint: joint 'hinge' is of a body that is not read"));
   const std::string copies =
@@ -305,28 +272,28 @@ TEST_CASE("a motor or tendon of a joint that the robot lacks is told, and the ro
 
 TEST_CASE("a range of two zeros means none, as it undoes that of a class") {
   const std::string undone = "<default><joint range='-10 10'/></default>";
-  const Told hinge = model("<joint name='j' range='0 0'/>", undone);
+  const ToldRobot hinge = model("<joint name='j' range='0 0'/>", undone);
   CHECK(hinge.joint("j").max == doctest::Approx(2 * pi));
   CHECK(hinge.noted("joint 'j' has no limits"));
   CHECK(model("<joint name='j' type='ball' range='0 0'/>").dofs().size() == 3);
   // even where a range alone would be an error
   CHECK(model("<joint name='j' range='0 0'/>", "<compiler autolimits='false'/>").dofs().size() ==
         1);
-  const Told locked = model("<joint name='j' range='0 0' limited='true'/>");
+  const ToldRobot locked = model("<joint name='j' range='0 0' limited='true'/>");
   CHECK(locked.joint("j").max == 0);
   CHECK(locked.noted("m.xml:1: joint 'j' may only stand at 0 rad"));
   const std::string servo = "<actuator><position joint='j' ctrlrange='0 0'";
   CHECK(model("<joint name='j' range='-10 90'/>", servo + "/></actuator>").joint("j").max ==
         doctest::Approx(pi / 2));
-  const Told held =
+  const ToldRobot held =
       model("<joint name='j' range='-10 90'/>", servo + " ctrllimited='true'/></actuator>");
   CHECK(held.joint("j").max == 0);
   CHECK(held.noted("joint 'j' may only stand at 0, as ctrlrange says"));
 }
 
 TEST_CASE("an outermost class by another name is the global one, which is told") {
-  const Told told = model("<geom type='box' size='0.1 0.1 0.1'/>",
-                          "<default class='robot'><geom density='2000'/></default>");
+  const ToldRobot told = model("<geom type='box' size='0.1 0.1 0.1'/>",
+                               "<default class='robot'><geom density='2000'/></default>");
   CHECK(told.body("b").mass == doctest::Approx(16));
   CHECK(
       told.warned("m.xml:1: default: the outermost class is called main; 'robot' is taken for "
@@ -338,7 +305,7 @@ TEST_CASE("an outermost class by another name is the global one, which is told")
 }
 
 TEST_CASE("a tendon may be held longer than it is at first") {
-  const Told told =
+  const ToldRobot told =
       model("<joint name='p' range='-1 1' ref='0.5'/><joint name='q' range='-9 9'/>",
             radian +
                 "<tendon><fixed name='t'><joint joint='p' coef='1'/><joint joint='q' coef='-2'/>"
@@ -360,7 +327,7 @@ TEST_CASE("round geoms weigh what their true solids do") {
 }
 
 TEST_CASE("bodies and geoms that are lost are told as lost") {
-  const Told told = model(
+  const ToldRobot told = model(
       "<geom size='0.1'/><replicate count='3'><body><geom size='1'/><geom size='1'/></body>"
       "</replicate><attach model='finger' body='tip' prefix='a'/><composite/>");
   CHECK(
@@ -371,9 +338,9 @@ TEST_CASE("bodies and geoms that are lost are told as lost") {
                   "'finger' and all that hangs on it"));
   CHECK(told.warned("m.xml:1: <composite> is not used: the robot lacks the bodies that it makes"));
   TemporaryFolder folder;
-  CHECK(Told(folder.write("m.xml",
-                          "<mujoco><worldbody><geom size='1'/><geom size='1'/><body name='a'/>"
-                          "</worldbody></mujoco>"))
+  CHECK(ToldRobot(folder.write("m.xml",
+                               "<mujoco><worldbody><geom size='1'/><geom size='1'/><body name='a'/>"
+                               "</worldbody></mujoco>"))
             .warned("m.xml:1: 2 geoms of the world itself, on no body, are no part of the robot"));
 }
 

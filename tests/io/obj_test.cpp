@@ -12,7 +12,7 @@ static const std::string cube_points =
 static const std::string cube_faces =
     "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
-static Mesh read(const std::string& text, const ReadOptions& options = {}) {
+static Mesh read_obj_text(const std::string& text, const ReadOptions& options = {}) {
   const TemporaryFolder folder;
   return read_body(folder.write("q.obj", text), options).shape->mesh();
 }
@@ -34,17 +34,18 @@ TEST_CASE("an OBJ cube is closed, in metres as written, or in the unit that is g
 
 TEST_CASE("the faces of an OBJ may count backwards, stand first, and go on in the next line") {
   const std::string back = "f -8 -5 -6 -7\nf -4 -3 -2 -1\n";
-  CHECK(read(cube_points + back).triangles.size() == 4);
-  CHECK(read(cube_faces + cube_points).triangles.size() == 12);
-  CHECK(read(cube_points + "f 1 4 \\\n3 2\nf 5\\\n 6 7 8 # a face\n").triangles.size() == 4);
-  CHECK(
-      read(cube_points + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 1//1 2//1 4//1\nf 1/1 2/1 5/1\n")
-          .triangles.size() == 3);
+  CHECK(read_obj_text(cube_points + back).triangles.size() == 4);
+  CHECK(read_obj_text(cube_faces + cube_points).triangles.size() == 12);
+  CHECK(read_obj_text(cube_points + "f 1 4 \\\n3 2\nf 5\\\n 6 7 8 # a face\n").triangles.size() ==
+        4);
+  CHECK(read_obj_text(cube_points +
+                      "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 1//1 2//1 4//1\nf 1/1 2/1 5/1\n")
+            .triangles.size() == 3);
 }
 
 TEST_CASE("an OBJ face that is not convex is cut along its own inside") {
   // an arrowhead: area 1, and a fan from its first corner would cover 3
-  const Mesh arrow = read("v 0 0 0\nv 2 1 0\nv 0 2 0\nv 1 1 0\nf 1 2 3 4\n");
+  const Mesh arrow = read_obj_text("v 0 0 0\nv 2 1 0\nv 0 2 0\nv 1 1 0\nf 1 2 3 4\n");
   CHECK(arrow.triangles.size() == 2);
   CHECK(arrow.area() == doctest::Approx(1));
 }
@@ -88,7 +89,7 @@ TEST_CASE("colours of the points of an OBJ are those of its triangles") {
 
 TEST_CASE("a point or a face of an OBJ that is wrong is told by line") {
   const auto refused = [&](const std::string& line, const std::string& sentence) {
-    CHECK_THROWS_WITH_AS(read(cube_points + line + "\n" + cube_faces),
+    CHECK_THROWS_WITH_AS(read_obj_text(cube_points + line + "\n" + cube_faces),
                          ("q.obj:9: wanted " + sentence).c_str(), Error);
   };
   refused("v 1 abc 2", "three numbers after v, got 'abc'");
@@ -105,9 +106,10 @@ TEST_CASE("a point or a face of an OBJ that is wrong is told by line") {
 
 TEST_CASE("what an OBJ holds and is not used is told by line, each kind once") {
   Warnings warnings;
-  read(cube_points + "l 1 2\np 1\ncurv 0 1 1 2\nsurf 0 1\nfrob 1\nfrob 2\nf 1 2\ng a b\ns off\n" +
-           cube_faces,
-       warnings.options());
+  read_obj_text(cube_points +
+                    "l 1 2\np 1\ncurv 0 1 1 2\nsurf 0 1\nfrob 1\nfrob 2\nf 1 2\ng a b\ns off\n" +
+                    cube_faces,
+                warnings.options());
   CHECK(warnings.list ==
         std::vector<std::string>{"q.obj:9: lines and points are not used as geometry",
                                  "q.obj:11: free-form curves and surfaces are not used",

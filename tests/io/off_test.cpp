@@ -7,7 +7,7 @@ using namespace clench;
 using clench::test::TemporaryFolder;
 using clench::test::Warnings;
 
-static BodySpec read(const std::string& text, const ReadOptions& options = {}) {
+static BodySpec read_off_text(const std::string& text, const ReadOptions& options = {}) {
   const TemporaryFolder folder;
   return read_body(folder.write("q.off", text), options);
 }
@@ -18,7 +18,7 @@ TEST_CASE("the header of an OFF file may stand in one line, in two, or be the co
   for (const std::string head : {"OFF\n4 4 6\n", "OFF 4 4 6\n", "OFF4 4 6\n", "4 4 6\n",
                                  "# a comment\nOFF # another\n\n4 4\n"}) {
     INFO(head);
-    const BodySpec body = read(head + rows);
+    const BodySpec body = read_off_text(head + rows);
     CHECK(body.shape->faults().none());
     CHECK(body.shape->mesh().triangles.size() == 4);
     CHECK_FALSE(body.appearance.given);
@@ -29,7 +29,7 @@ TEST_CASE("normals, colours and texture coordinates of OFF vertices are stepped 
   const auto with = [](const std::string& kind, const std::string& more) {
     std::string text = kind + "\n4 1 0\n";
     for (const std::string p : {"0 0 0", "1 0 0", "0 1 0", "0 0 1"}) text += p + more + "\n";
-    return read(text + "3 0 1 2\n");
+    return read_off_text(text + "3 0 1 2\n");
   };
   CHECK(with("NOFF", " 0 0 1").shape->mesh().vertices[1] == Eigen::Vector3d(1, 0, 0));
   CHECK(with("COFF", " 1.0 0.0 0.0 1.0").appearance.color == Eigen::Vector3f(1, 0, 0));
@@ -39,7 +39,8 @@ TEST_CASE("normals, colours and texture coordinates of OFF vertices are stepped 
 
 TEST_CASE("colours of OFF faces are shares or bytes") {
   const Appearance look =
-      read("OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2 255 0 0\n3 0 2 3 0.0 0.0 1.0 1.0\n")
+      read_off_text(
+          "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2 255 0 0\n3 0 2 3 0.0 0.0 1.0 1.0\n")
           .appearance;
   REQUIRE(look.triangle_colors.size() == 2);
   CHECK(look.triangle_colors[0] == Eigen::Vector3f(1, 0, 0));
@@ -48,7 +49,7 @@ TEST_CASE("colours of OFF faces are shares or bytes") {
 
 TEST_CASE("what is wrong in an OFF file is told by line") {
   const auto refused = [](const std::string& text, const std::string& sentence) {
-    CHECK_THROWS_WITH_AS(read(text), ("q.off:" + sentence).c_str(), Error);
+    CHECK_THROWS_WITH_AS(read_off_text(text), ("q.off:" + sentence).c_str(), Error);
   };
   refused("", "1: wanted 'OFF', got the end of the file");
   refused("OFT\n", "1: wanted 'OFF', got 'OFT'");
@@ -71,7 +72,8 @@ TEST_CASE("what is wrong in an OFF file is told by line") {
 
 TEST_CASE("what an OFF file holds and is not used is told by line, each kind once") {
   Warnings warnings;
-  read("OFF 4 2 0 9\n0 0 0 7\n1 0 0\n0 1 0 7\n0 0 1\n3 0 1 2 5\n2 0 1\nmore\n", warnings.options());
+  read_off_text("OFF 4 2 0 9\n0 0 0 7\n1 0 0\n0 1 0 7\n0 0 1\n3 0 1 2 5\n2 0 1\nmore\n",
+                warnings.options());
   CHECK(warnings.list == std::vector<std::string>{
                              "q.off:1: what follows the counts is not used",
                              "q.off:2: what follows a vertex's numbers is not used",

@@ -8,7 +8,7 @@
 using namespace clench;
 using namespace clench::test;
 
-static BodySpec read(const std::string& content, const ReadOptions& options = {}) {
+static BodySpec read_ply_text(const std::string& content, const ReadOptions& options = {}) {
   const TemporaryFolder folder;
   return read_body(folder.write("q.ply", content), options);
 }
@@ -20,17 +20,18 @@ static const std::string point_rows = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
 
 TEST_CASE("faces, strips and polygons of a PLY file are cut alike") {
   const std::string head = "ply\nformat ascii 1.0\n" + points;
-  const Mesh two =
-      read(head + faces + "end_header\n" + point_rows + "3 0 1 2\n3 2 1 3\n").shape->mesh();
+  const Mesh two = read_ply_text(head + faces + "end_header\n" + point_rows + "3 0 1 2\n3 2 1 3\n")
+                       .shape->mesh();
   const Mesh strip =
-      read(head + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
-           point_rows + "8 0 1 2 3 -1 0 1 3\n")
+      read_ply_text(head +
+                    "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
+                    point_rows + "8 0 1 2 3 -1 0 1 3\n")
           .shape->mesh();
   REQUIRE(strip.triangles.size() == 3);
   CHECK(strip.triangles[0] == two.triangles[0]);
   CHECK(strip.triangles[1] == two.triangles[1]);
   CHECK(strip.triangles[2] == Triangle{0, 1, 3});
-  CHECK(read(head + faces + "end_header\n" + point_rows + "4 0 1 2 3\n3 0 1 3\n")
+  CHECK(read_ply_text(head + faces + "end_header\n" + point_rows + "4 0 1 2 3\n3 0 1 3\n")
             .shape->mesh()
             .triangles.size() == 3);
 }
@@ -38,17 +39,17 @@ TEST_CASE("faces, strips and polygons of a PLY file are cut alike") {
 TEST_CASE("colours of a PLY file stand at its vertices or its faces") {
   const std::string color = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   const std::string head = "ply\nformat ascii 1.0\n" + points;
-  const Appearance by_face = read(head + faces + color + "end_header\n" + point_rows +
-                                  "3 0 1 2 255 0 0\n3 0 2 3 0 0 255\n")
+  const Appearance by_face = read_ply_text(head + faces + color + "end_header\n" + point_rows +
+                                           "3 0 1 2 255 0 0\n3 0 2 3 0 0 255\n")
                                  .appearance;
   CHECK(by_face.given);
   REQUIRE(by_face.triangle_colors.size() == 2);
   CHECK(by_face.triangle_colors[0] == Eigen::Vector3f(1, 0, 0));
   CHECK(by_face.triangle_colors[1] == Eigen::Vector3f(0, 0, 1));
   const Appearance by_vertex =
-      read(head + color + faces +
-           "end_header\n0 0 0 0 255 0\n1 0 0 0 255 0\n0 1 0 0 255 0\n0 0 1 0 "
-           "255 0\n3 0 1 2\n3 0 2 3\n")
+      read_ply_text(head + color + faces +
+                    "end_header\n0 0 0 0 255 0\n1 0 0 0 255 0\n0 1 0 0 255 0\n0 0 1 0 "
+                    "255 0\n3 0 1 2\n3 0 2 3\n")
           .appearance;
   CHECK(by_vertex.given);
   CHECK(by_vertex.color == Eigen::Vector3f(0, 1, 0));
@@ -56,7 +57,7 @@ TEST_CASE("colours of a PLY file stand at its vertices or its faces") {
 
 TEST_CASE("what is wrong in the header of a PLY file is told by line") {
   const auto refused = [](const std::string& lines, const std::string& sentence) {
-    CHECK_THROWS_WITH_AS(read(lines), ("q.ply" + sentence).c_str(), Error);
+    CHECK_THROWS_WITH_AS(read_ply_text(lines), ("q.ply" + sentence).c_str(), Error);
   };
   refused("plus\n", ":1: wanted 'ply' in the first line");
   refused("ply\nformat text 1.0\n",
@@ -91,7 +92,7 @@ TEST_CASE("what is wrong in the header of a PLY file is told by line") {
 TEST_CASE("what is wrong in the lines of a PLY file is told by line") {
   const std::string head = "ply\nformat ascii 1.0\n" + points + faces + "end_header\n";
   const auto refused = [&](const std::string& rows, const std::string& sentence) {
-    CHECK_THROWS_WITH_AS(read(head + rows), ("q.ply:" + sentence).c_str(), Error);
+    CHECK_THROWS_WITH_AS(read_ply_text(head + rows), ("q.ply:" + sentence).c_str(), Error);
   };
   refused("0 0 0\n1 0 x\n", "11: wanted a number, got 'x'");
   refused("0 0 0\n1 0 nan\n", "11: wanted a number, got 'nan'");
@@ -102,9 +103,10 @@ TEST_CASE("what is wrong in the lines of a PLY file is told by line") {
   refused(point_rows + "3 0 1 0.5\n", "14: wanted a whole number, got 0.5");
   refused(point_rows + "-3 0 1 2\n", "14: wanted a count of vertex_index from 0 on, got -3");
   Warnings warnings;
-  read("ply\nformat ascii 1.0\n" + points + faces + "element edge 1\nproperty int a\nend_header\n" +
-           point_rows + "3 0 1 2 9\n3 0 1 3\n5\nmore\n",
-       warnings.options());
+  read_ply_text("ply\nformat ascii 1.0\n" + points + faces +
+                    "element edge 1\nproperty int a\nend_header\n" + point_rows +
+                    "3 0 1 2 9\n3 0 1 3\n5\nmore\n",
+                warnings.options());
   CHECK(warnings.list ==
         std::vector<std::string>{"q.ply: its elements 'edge' are not used",
                                  "q.ply:16: what follows the values of a face is not used"});
@@ -115,7 +117,7 @@ TEST_CASE("what is wrong in the bytes of a PLY file is told by element") {
   const std::string content = binary_ply(mesh, false);
   const size_t body = content.find("end_header\n") + 11;
   const auto refused = [&](const std::string& bytes, const std::string& sentence) {
-    CHECK_THROWS_WITH_AS(read(bytes), ("q.ply: " + sentence).c_str(), Error);
+    CHECK_THROWS_WITH_AS(read_ply_text(bytes), ("q.ply: " + sentence).c_str(), Error);
   };
   refused(content.substr(0, body + 20 * 3 + 5),
           "vertex 4 of 8: wanted 8 bytes, got the end of the file");
@@ -129,7 +131,7 @@ TEST_CASE("what is wrong in the bytes of a PLY file is told by element") {
   bad[body + 20 * 8 + 14 + 2] = 8;
   refused(bad, "face 2 of 12: wanted a vertex from 0 to 7, got 8");
   Warnings warnings;
-  read(content + "more", warnings.options());
+  read_ply_text(content + "more", warnings.options());
   CHECK(warnings.list ==
         std::vector<std::string>{"q.ply: 4 bytes after the last element are not used"});
 }

@@ -9,7 +9,7 @@ using namespace clench;
 using clench::test::TemporaryFolder;
 using clench::test::Warnings;
 
-static constexpr double degree = std::numbers::pi / 180;
+static constexpr double one_degree = std::numbers::pi / 180;
 
 /// A robot of one chain, its joint lines and what stands before and behind them given.
 struct Cfg {
@@ -70,12 +70,12 @@ TEST_CASE("numbers of a turning joint come in radians, newton metres and metres"
   const JointSpec& j = r.chains[0].joints[0];
   CHECK(j.kind == JointKind::revolute);
   CHECK(j.ratio == -0.5);
-  CHECK(j.theta == doctest::Approx(90 * degree));
+  CHECK(j.theta == doctest::Approx(90 * one_degree));
   CHECK(j.d == doctest::Approx(0.007));
   CHECK(j.a == doctest::Approx(0.010));
-  CHECK(j.alpha == doctest::Approx(-90 * degree));
-  CHECK(j.min == doctest::Approx(-10 * degree));
-  CHECK(j.max == doctest::Approx(90 * degree));
+  CHECK(j.alpha == doctest::Approx(-90 * one_degree));
+  CHECK(j.min == doctest::Approx(-10 * one_degree));
+  CHECK(j.max == doctest::Approx(90 * one_degree));
   CHECK(j.viscous == doctest::Approx(0.05));
   CHECK(j.coulomb == doctest::Approx(0.002));
   CHECK(j.spring == doctest::Approx(1.6));
@@ -95,7 +95,7 @@ TEST_CASE("a sliding joint stands in the d column, its numbers in millimetres") 
   cfg.joint_lines = "30 d0*2+-5 10 0 -10 90 5e7 2e6 3 0.5\n";
   const JointSpec j = cfg.read().chains[0].joints[0];
   CHECK(j.kind == JointKind::prismatic);
-  CHECK(j.theta == doctest::Approx(30 * degree));
+  CHECK(j.theta == doctest::Approx(30 * one_degree));
   CHECK(j.d == doctest::Approx(-0.005));
   CHECK(j.ratio == 2);
   CHECK(j.min == doctest::Approx(-0.010));
@@ -132,7 +132,7 @@ TEST_CASE("comments, tabs, blank lines and other line ends change nothing") {
   Cfg cfg;
   cfg.joint_lines = "# theta d\n\n  \t\n d0+90 \t0\t10\t-90 +0 +180 # friction\r\n\r\n";
   const RobotSpec r = cfg.read();
-  CHECK(r.chains[0].joints[0].max == doctest::Approx(180 * degree));
+  CHECK(r.chains[0].joints[0].max == doctest::Approx(180 * one_degree));
   CHECK(r.chains[0].joints[0].viscous == 0);
 }
 
@@ -201,7 +201,7 @@ TEST_CASE("blocks at the end may come in any order") {
   REQUIRE(r.tracker);
   CHECK(r.tracker->number == 3);
   CHECK(r.tracker->X_BS.position.z() == doctest::Approx(0.01));
-  CHECK(r.tracker->X_BS.angle() == doctest::Approx(90 * degree));
+  CHECK(r.tracker->X_BS.angle() == doctest::Approx(90 * one_degree));
   CHECK(r.files.eigengrasps.ends_with("eigen/a.egr"));
   CHECK(warnings.list.empty());
 }
@@ -244,8 +244,8 @@ TEST_CASE("the Barrett hand of the original has the figures of its manual") {
   CHECK(r.dofs[3].breakaway_torque == 0.5);
   REQUIRE(r.chains.size() == 3);
   CHECK(r.chains[0].joints[2].ratio == 0.333333333);
-  CHECK(dof_range(r, 0)[1] == doctest::Approx(180 * degree));
-  CHECK(dof_range(r, 1)[1] == doctest::Approx(144 * degree));
+  CHECK(dof_range(r, 0)[1] == doctest::Approx(180 * one_degree));
+  CHECK(dof_range(r, 1)[1] == doctest::Approx(144 * one_degree));
   CHECK(r.files.virtual_contacts.ends_with("virtual/all_16_contacts.vgr"));
   CHECK(r.tracker->number == 1);
 }

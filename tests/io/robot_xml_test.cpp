@@ -11,8 +11,8 @@ using clench::test::Warnings;
 static constexpr double degree = std::numbers::pi / 180;
 
 /// A robot of the elements given, with a box for its palm.
-static RobotSpec read(const std::string& inside, const ReadOptions& options = {},
-                      const std::string& head = "type=\"Barrett\" DBName=\"Thing\"") {
+static RobotSpec read_xml_robot(const std::string& inside, const ReadOptions& options = {},
+                                const std::string& head = "type=\"Barrett\" DBName=\"Thing\"") {
   const TemporaryFolder folder;
   folder.write("iv/box.iv", "#Inventor V2.1 ascii\nCube { }\n");
   folder.write("iv/part.xml", "<root><mass>20</mass><geometryFile>box.iv</geometryFile></root>");
@@ -41,7 +41,7 @@ static std::string link_of(const std::string& type, const std::string& more = ""
 static std::string chain(const std::string& inside) { return "<chain>\n" + inside + "</chain>\n"; }
 
 TEST_CASE("a robot's elements are read in SI") {
-  const RobotSpec r = read(
+  const RobotSpec r = read_xml_robot(
       dof() + dof("b", "<breakAwayTorque>0.5</breakAwayTorque><defaultValue>30</defaultValue>") +
       chain("<transform><translation>25 0 -1</translation><rotation>180 y</rotation></transform>" +
             joint("d0+90", "3", "-10 90",
@@ -92,7 +92,7 @@ TEST_CASE("a text robot and an XML robot that say the same are the same") {
       "hand.cfg",
       "Hand\nbox.iv\n2\nr 1.5 5e9 1e11 1e7 20\nr 1.5 5e9 1e11 1e7 20\n1\n2\n2\nt 1 2 3\nr 40 "
       "x\nd0*-1+90 0 50 -90 -10 90\n30 d1*2 50 -90 -10 90\nRevolute\nbox.iv\nPrismatic\nbox.iv\n"));
-  const RobotSpec xml = read(
+  const RobotSpec xml = read_xml_robot(
       dof() + dof() +
       chain("<transform><translation>1 2 3</translation><rotation>40 x</rotation></transform>" +
             joint("d0*-1+90") + joint("30", "d1*2") + link_of("Revolute") + link_of("Prismatic")));
@@ -112,10 +112,10 @@ TEST_CASE("a text robot and an XML robot that say the same are the same") {
 
 TEST_CASE("each kind of link takes as many joints as it has") {
   const RobotSpec r =
-      read(dof() +
-           chain(joint("d0") + joint("d0") + joint("d0") + joint("d0") + joint("d0") +
-                 joint("0", "d0") + joint("d0") + link_of("Fixed") + link_of("Universal") +
-                 link_of("Ball") + link_of("Prismatic") + link_of("Fixed") + link_of("Revolute")));
+      read_xml_robot(dof() + chain(joint("d0") + joint("d0") + joint("d0") + joint("d0") +
+                                   joint("d0") + joint("0", "d0") + joint("d0") + link_of("Fixed") +
+                                   link_of("Universal") + link_of("Ball") + link_of("Prismatic") +
+                                   link_of("Fixed") + link_of("Revolute")));
   const int last[] = {-1, 1, 4, 5, 5, 6};
   for (int i = 0; i < 6; ++i) CHECK(r.chains[0].links[i].last_joint == last[i]);
   CHECK(r.chains[0].links[3].joint == LinkJoint::prismatic);
@@ -123,8 +123,8 @@ TEST_CASE("each kind of link takes as many joints as it has") {
 
 TEST_CASE("limits written in the DOF's direction are exchanged, with a warning") {
   Warnings warnings;
-  const RobotSpec r = read(dof() + chain(joint("0", "d0*-10", "-0 -20") + link_of("Prismatic")),
-                           warnings.options());
+  const RobotSpec r = read_xml_robot(
+      dof() + chain(joint("0", "d0*-10", "-0 -20") + link_of("Prismatic")), warnings.options());
   CHECK(r.chains[0].joints[0].min == doctest::Approx(-0.02));
   CHECK(r.chains[0].joints[0].max == 0);
   CHECK(dof_range(r, 0)[1] == doctest::Approx(0.002));
@@ -137,9 +137,10 @@ TEST_CASE("limits written in the DOF's direction are exchanged, with a warning")
 TEST_CASE(
     "a default value beyond the range is brought to the limit, with a warning if it was given") {
   Warnings warnings;
-  const RobotSpec r = read(dof("r", "<defaultValue>120</defaultValue>") + dof() +
-                               chain(joint("d0") + joint("d1", "0", "10 20") + link_of("Revolute")),
-                           warnings.options());
+  const RobotSpec r =
+      read_xml_robot(dof("r", "<defaultValue>120</defaultValue>") + dof() +
+                         chain(joint("d0") + joint("d1", "0", "10 20") + link_of("Revolute")),
+                     warnings.options());
   CHECK(r.dofs[0].default_value == doctest::Approx(90 * degree));
   CHECK(r.dofs[1].default_value == doctest::Approx(10 * degree));
   REQUIRE(warnings.list.size() == 1);
@@ -148,15 +149,15 @@ TEST_CASE(
 }
 
 TEST_CASE("collision rules name links, the base, or all") {
-  const RobotSpec r =
-      read(dof() +
-           chain(joint("d0") + joint("d0") + joint("d0") +
-                 link_of("Revolute", " collisionRule=\"Off\"") +
-                 link_of("Revolute", " collisionRule=\"OverlappingPair\" targetChain=\"base\"") +
-                 link_of("Revolute",
-                         " collisionRule=\"OverlappingPair\" targetChain=\"0\" targetLink=\"0\"")) +
-           "<disableCollision body1_chain=\"0\" body1_link=\"1\" body2_chain=\"-1\" "
-           "body2_link=\"0\"/>");
+  const RobotSpec r = read_xml_robot(
+      dof() +
+      chain(joint("d0") + joint("d0") + joint("d0") +
+            link_of("Revolute", " collisionRule=\"Off\"") +
+            link_of("Revolute", " collisionRule=\"OverlappingPair\" targetChain=\"base\"") +
+            link_of("Revolute",
+                    " collisionRule=\"OverlappingPair\" targetChain=\"0\" targetLink=\"0\"")) +
+      "<disableCollision body1_chain=\"0\" body1_link=\"1\" body2_chain=\"-1\" "
+      "body2_link=\"0\"/>");
   const CollisionRules& rules = r.collision_rules;
   CHECK(rules.near_pairs_off);
   REQUIRE(rules.parts_off.size() == 1);
@@ -169,7 +170,7 @@ TEST_CASE("collision rules name links, the base, or all") {
 
 TEST_CASE("tendons, wrappers and tactile sensors are kept, and one warning says they do not act") {
   Warnings warnings;
-  const RobotSpec r = read(
+  const RobotSpec r = read_xml_robot(
       dof() +
           chain(joint("d0") + link_of("Revolute") + "<filter params=\"0,1,2,3,4,5\">0</filter>\n") +
           "<tendon name=\"flexor\"><stiffness>2</stiffness><restLength>-1</restLength>"
@@ -208,14 +209,14 @@ TEST_CASE("a wrapper that names a tendon which does not exist is told") {
   Warnings warnings;
   const std::string point =
       "<insertionPoint><chain>-1</chain><link>-1</link><position>1 2 3</position></insertionPoint>";
-  const RobotSpec r =
-      read(dof() + chain(joint("d0") + link_of("Revolute")) + "<tendon name=\"flexor\">" + point +
-               point +
-               "</tendon>\n<tendonWrapper><chain>0</chain><link>0</link><position>0 0 1</position>"
-               "<orientation>0 3 0</orientation><radius>5</radius>\n<exemption tendon=\"flexr\"/>"
-               "\n<wrapping_side tendon=\"other\"><orientation>2 0 0</orientation></wrapping_side>"
-               "</tendonWrapper>\n",
-           warnings.options());
+  const RobotSpec r = read_xml_robot(
+      dof() + chain(joint("d0") + link_of("Revolute")) + "<tendon name=\"flexor\">" + point +
+          point +
+          "</tendon>\n<tendonWrapper><chain>0</chain><link>0</link><position>0 0 1</position>"
+          "<orientation>0 3 0</orientation><radius>5</radius>\n<exemption tendon=\"flexr\"/>"
+          "\n<wrapping_side tendon=\"other\"><orientation>2 0 0</orientation></wrapping_side>"
+          "</tendonWrapper>\n",
+      warnings.options());
   CHECK(r.wrappers[0].exempt == std::vector<std::string>{"flexr"});
   REQUIRE(warnings.list.size() == 3);
   CHECK(warnings.list[0] ==
@@ -225,8 +226,9 @@ TEST_CASE("a wrapper that names a tendon which does not exist is told") {
 
 TEST_CASE("types and elements that are unknown are warned of, a type that is missing is noted") {
   Warnings warnings;
-  read(dof() + chain(joint("d0") + link_of("Revolute")) + "<eigengrasps>a.xml</eigengrasps>",
-       warnings.options(), "type=\"Barret\"");
+  read_xml_robot(
+      dof() + chain(joint("d0") + link_of("Revolute")) + "<eigengrasps>a.xml</eigengrasps>",
+      warnings.options(), "type=\"Barret\"");
   REQUIRE(warnings.list.size() == 2);
   CHECK(warnings.list[0] ==
         "hand.xml:8: unknown element <eigengrasps> in <robot> is not used; did you mean "
@@ -236,12 +238,13 @@ TEST_CASE("types and elements that are unknown are warned of, a type that is mis
   ReadOptions options;
   std::vector<std::string> notes;
   options.note = [&](const std::string& s) { notes.push_back(s); };
-  CHECK(read(dof() + chain(joint("d0") + link_of("Revolute")), options, "").class_name == "Hand");
+  CHECK(read_xml_robot(dof() + chain(joint("d0") + link_of("Revolute")), options, "").class_name ==
+        "Hand");
   CHECK(notes == std::vector<std::string>{"hand.xml:1: robot: no type; it is taken for a Hand"});
 }
 
 TEST_CASE("a DOF that moves nothing is warned of") {
   Warnings warnings;
-  read(dof() + dof() + chain(joint("d0") + link_of("Revolute")), warnings.options());
+  read_xml_robot(dof() + dof() + chain(joint("d0") + link_of("Revolute")), warnings.options());
   CHECK(warnings.list == std::vector<std::string>{"hand.xml:4: DOF 1 moves no joint"});
 }

@@ -30,7 +30,7 @@ Separator { ShapeHints { vertexOrdering CLOCKWISE faceType UNKNOWN_FACE_TYPE }
  Texture2 { filename "x.jpg" } Whirl { a 1 } MatrixTransform { matrix 1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1 } }
 )";
 
-const std::string vrml = R"(#VRML V2.0 utf8
+const std::string vrml_body = R"(#VRML V2.0 utf8
 DEF T Transform { translation 1 2 3 scale 1 2 3 children [
  Shape { appearance Appearance { material DEF M Material { diffuseColor 1 0 0 } texture ImageTexture { url "a.png" } }
   geometry IndexedFaceSet { coord Coordinate { point [0 0 0, 1 0 0, 1 1 0, 0 1 0] } coordIndex [0,1,2,3,-1] colorPerVertex FALSE
@@ -43,7 +43,7 @@ PROTO P [ field SFFloat r 1 ] { Shape { geometry Sphere { radius IS r } } }
 P { r 3 }
 )";
 
-const std::string robot = R"(Hand
+const std::string cfg_robot = R"(Hand
 box.iv
 2
 r 1 1e9 1e9 1e7 20
@@ -71,7 +71,7 @@ FlockOfBirds
 t 0 0 1
 )";
 
-const std::string world = R"(#GraspIt! version 2.0
+const std::string wld_world = R"(#GraspIt! version 2.0
 Obstacle
 box.iv
 wood
@@ -96,19 +96,19 @@ CameraFull
 1 2 3 0 0 0 1 100
 )";
 
-const test::Oddities odd = {
+const test::Oddities odd_texts = {
     {"-1", "999999999",  "-2147483648", "1e38",   "nan",    "1e-40", "{",    "}",    "[",
      "]",  "USE C",      "USE L",       "DEF C",  "\"",     "#",     "NULL", "Cube", "Separator { ",
      "-7", "PER_VERTEX", "OVERALL",     "CONVEX", "100000", ",",     "T",    "\n",   "d0",
      "r"}};
 
 /// The folder with the files that others name, and a reader for a text of each format.
-class Bench {
+class TextBench {
  public:
-  Bench() {
+  TextBench() {
     for (const auto* name : {"box.iv", "iv/box.iv"})
       folder_.write(name, "#Inventor V2.1 ascii\nCube { }\n");
-    folder_.write("hand.cfg", robot);
+    folder_.write("hand.cfg", cfg_robot);
   }
   /// returns  was it refused?   fails the test when the sentence does not name the file
   bool refused(const std::string& name, const std::string& text) {
@@ -131,19 +131,19 @@ class Bench {
   TemporaryFolder folder_;
 };
 
-void cut_everywhere(const std::string& name, const std::string& text, size_t step) {
-  Bench bench;
+void cut_text_everywhere(const std::string& name, const std::string& text, size_t step) {
+  TextBench bench;
   int refused = 0;
   for (size_t n = 0; n <= text.size(); n += step) refused += bench.refused(name, text.substr(0, n));
   // most cuts fall within something
   CHECK(refused * 2 > static_cast<int>(text.size() / step));
 }
 
-void change_at_random(const std::string& name, const std::string& text, int times) {
-  Bench bench;
+void change_text_at_random(const std::string& name, const std::string& text, int times) {
+  TextBench bench;
   for (int i = 0; i < times; ++i) {
     Random random(11, static_cast<uint64_t>(i));
-    const std::string bad = test::mutated(text, odd, random);
+    const std::string bad = test::mutated(text, odd_texts, random);
     INFO(bad);
     bench.refused(name, bad);
   }
@@ -152,36 +152,36 @@ void change_at_random(const std::string& name, const std::string& text, int time
 }  // namespace
 
 TEST_CASE("the texts of this file are sound") {
-  Bench bench;
+  TextBench bench;
   CHECK_FALSE(bench.refused("a.iv", inventor));
-  CHECK_FALSE(bench.refused("a.wrl", vrml));
-  CHECK_FALSE(bench.refused("a.cfg", robot));
-  CHECK_FALSE(bench.refused("a.wld", world));
+  CHECK_FALSE(bench.refused("a.wrl", vrml_body));
+  CHECK_FALSE(bench.refused("a.cfg", cfg_robot));
+  CHECK_FALSE(bench.refused("a.wld", wld_world));
 }
 
 TEST_CASE("an Inventor file cut short anywhere is an Error or a body") {
-  cut_everywhere("a.iv", inventor, 17);
+  cut_text_everywhere("a.iv", inventor, 17);
 }
 TEST_CASE("a VRML file cut short anywhere is an Error or a body") {
-  cut_everywhere("a.wrl", vrml, 17);
+  cut_text_everywhere("a.wrl", vrml_body, 17);
 }
 TEST_CASE("a robot file cut short anywhere is an Error or a robot") {
-  cut_everywhere("a.cfg", robot, 1);
+  cut_text_everywhere("a.cfg", cfg_robot, 1);
 }
 TEST_CASE("a world file cut short anywhere is an Error or a world") {
-  cut_everywhere("a.wld", world, 1);
+  cut_text_everywhere("a.wld", wld_world, 1);
 }
 TEST_CASE("an Inventor file changed at random is an Error or a body") {
-  change_at_random("a.iv", inventor, 100);
+  change_text_at_random("a.iv", inventor, 100);
 }
 TEST_CASE("a VRML file changed at random is an Error or a body") {
-  change_at_random("a.wrl", vrml, 100);
+  change_text_at_random("a.wrl", vrml_body, 100);
 }
 TEST_CASE("a robot file changed at random is an Error or a robot") {
-  change_at_random("a.cfg", robot, 300);
+  change_text_at_random("a.cfg", cfg_robot, 300);
 }
 TEST_CASE("a world file changed at random is an Error or a world") {
-  change_at_random("a.wld", world, 200);
+  change_text_at_random("a.wld", wld_world, 200);
 }
 TEST_CASE("mesh files changed at random are Errors or bodies") {
   const std::string obj =
@@ -190,12 +190,12 @@ TEST_CASE("mesh files changed at random are Errors or bodies") {
   const std::string stl =
       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
       "0\nendloop\nendfacet\nendsolid a\n";
-  cut_everywhere("a.stl", stl, 3);
-  change_at_random("a.obj", obj, 200);
-  change_at_random("a.stl", stl, 200);
+  cut_text_everywhere("a.stl", stl, 3);
+  change_text_at_random("a.obj", obj, 200);
+  change_text_at_random("a.stl", stl, 200);
 }
 TEST_CASE("noise is an Error in every format") {
-  Bench bench;
+  TextBench bench;
   for (uint64_t i = 0; i < 40; ++i) {
     Random random(13, i);
     const std::string noise = test::noise(random);

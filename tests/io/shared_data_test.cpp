@@ -5,26 +5,16 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "files_below.h"
 #include "io/read.h"
 #include "support/measured.h"
 #include "support/shared.h"
 
 using namespace clench;
+using clench::test::files_below;
 namespace fs = std::filesystem;
 
 static fs::path root() { return test::shared() / "data/graspit"; }
-
-static std::vector<fs::path> files_below(const fs::path& folder,
-                                         const std::vector<std::string>& extensions) {
-  std::vector<fs::path> out;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string extension = lower_case(entry.path().extension().string());
-    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
-      out.push_back(entry.path());
-  }
-  std::sort(out.begin(), out.end());
-  return out;
-}
 
 static Eigen::Vector3d vector(const nlohmann::json& j) {
   return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};

@@ -62,7 +62,7 @@ const Format formats[] = {
 
 /// fails the test when the sentence does not name the file
 /// returns  was it refused?
-bool refused(const TemporaryFolder& folder, const Format& format, const std::string& text) {
+bool refused_text(const TemporaryFolder& folder, const Format& format, const std::string& text) {
   const std::string name = std::string("a.") + format.ending;
   try {
     format.read(folder.write(name, text));
@@ -73,10 +73,10 @@ bool refused(const TemporaryFolder& folder, const Format& format, const std::str
   }
 }
 
-const test::Oddities odd = {{"-1", "999999999", "-2147483648", "1e308", "nan",   "1e-320",
-                             "EG", "#",         "\n",          "[",     "]",     "<",
-                             ">",  "0 0 0 0",   "\"",          "d7=",   "</EG>", "inf",
-                             ",",  "Cube {",    "NORM",        "100",   "+",     ""}};
+const test::Oddities odd_lines = {{"-1", "999999999", "-2147483648", "1e308", "nan",   "1e-320",
+                                   "EG", "#",         "\n",          "[",     "]",     "<",
+                                   ">",  "0 0 0 0",   "\"",          "d7=",   "</EG>", "inf",
+                                   ",",  "Cube {",    "NORM",        "100",   "+",     ""}};
 
 }  // namespace
 
@@ -117,9 +117,9 @@ TEST_CASE("small files cut short anywhere are values or Errors that name the fil
   TemporaryFolder folder;
   for (const Format& format : formats) {
     INFO(format.folder << " " << format.ending);
-    CHECK_FALSE(refused(folder, format, format.sound));
+    CHECK_FALSE(refused_text(folder, format, format.sound));
     for (size_t n = 0; n < format.sound.size(); ++n)
-      refused(folder, format, format.sound.substr(0, n));
+      refused_text(folder, format, format.sound.substr(0, n));
   }
 }
 
@@ -128,9 +128,9 @@ TEST_CASE("small files changed at random are values or Errors that name the file
   for (const Format& format : formats)
     for (uint64_t i = 0; i < 150; ++i) {
       Random random(17, i);
-      const std::string bad = test::mutated(format.sound, odd, random);
+      const std::string bad = test::mutated(format.sound, odd_lines, random);
       INFO(bad);
-      refused(folder, format, bad);
+      refused_text(folder, format, bad);
     }
 }
 
@@ -140,6 +140,6 @@ TEST_CASE("noise is an Error in every small format") {
     for (uint64_t i = 0; i < 20; ++i) {
       Random random(18, i);
       const std::string noise = 'x' + test::noise(random);
-      CHECK(refused(folder, format, noise));
+      CHECK(refused_text(folder, format, noise));
     }
 }

@@ -31,9 +31,9 @@ void check_sane(const RobotSpec& robot) {
 }
 
 /// A folder with the files that the robots name.
-class Bench {
+class TreeBench {
  public:
-  Bench() {
+  TreeBench() {
     for (const auto* name : {"finger.obj", "parts/finger.obj"})
       folder_.write(name, read_text("tests/data/urdf/finger.obj"));
     folder_.write("defaults.xml", read_text("tests/data/mjcf/defaults.xml"));
@@ -60,8 +60,8 @@ class Bench {
 const std::string urdf = read_text("tests/data/urdf/gripper.urdf");
 const std::string mjcf = read_text("tests/data/mjcf/hand.mjcf");
 
-void cut_everywhere(const std::string& name, const std::string& text) {
-  Bench bench;
+void cut_tree_everywhere(const std::string& name, const std::string& text) {
+  TreeBench bench;
   for (size_t n = 0; n + 20 < text.size(); n += 41) CHECK(bench.refused(name, text.substr(0, n)));
 }
 
@@ -114,8 +114,8 @@ std::string changed(std::string s, Random& random) {
   return s;
 }
 
-void change_at_random(const std::string& name, const std::string& text, int times) {
-  Bench bench;
+void change_tree_at_random(const std::string& name, const std::string& text, int times) {
+  TreeBench bench;
   int refused = 0;
   for (int i = 0; i < times; ++i) {
     Random random(17, static_cast<uint64_t>(i));
@@ -131,20 +131,20 @@ void change_at_random(const std::string& name, const std::string& text, int time
 }  // namespace
 
 TEST_CASE("the robots of this file are sound") {
-  Bench bench;
+  TreeBench bench;
   CHECK_FALSE(bench.refused("a.urdf", urdf));
   CHECK_FALSE(bench.refused("a.xml", mjcf));
 }
-TEST_CASE("a URDF file cut short anywhere is an Error") { cut_everywhere("a.urdf", urdf); }
-TEST_CASE("an MJCF file cut short anywhere is an Error") { cut_everywhere("a.mjcf", mjcf); }
+TEST_CASE("a URDF file cut short anywhere is an Error") { cut_tree_everywhere("a.urdf", urdf); }
+TEST_CASE("an MJCF file cut short anywhere is an Error") { cut_tree_everywhere("a.mjcf", mjcf); }
 TEST_CASE("a URDF file changed at random is an Error or a robot") {
-  change_at_random("a.urdf", urdf, 300);
+  change_tree_at_random("a.urdf", urdf, 300);
 }
 TEST_CASE("an MJCF file changed at random is an Error or a robot") {
-  change_at_random("a.mjcf", mjcf, 300);
+  change_tree_at_random("a.mjcf", mjcf, 300);
 }
 TEST_CASE("noise is an Error in formats of robot trees") {
-  Bench bench;
+  TreeBench bench;
   for (uint64_t i = 0; i < 40; ++i) {
     Random random(19, i);
     const std::string noise = test::noise(random);

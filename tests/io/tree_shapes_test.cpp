@@ -6,7 +6,7 @@
 
 using namespace clench;
 
-static constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // a circle of n edges has this part of the disc's area
 static const double disc = circle_edges / (2 * pi) * std::sin(2 * pi / circle_edges);
 

@@ -5,54 +5,16 @@
 
 #include "base/text.h"
 #include "temporary.h"
+#include "told_robot.h"
 
 using namespace clench;
 using clench::test::TemporaryFolder;
+using clench::test::ToldRobot;
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-/// A robot read with all that is told of it.
-struct Told {
-  std::vector<std::string> warnings, notes;
-  RobotSpec robot;
-
-  explicit Told(const fs::path& file, ReadOptions options = {}) {
-    options.warn = [this](const std::string& s) { warnings.push_back(s); };
-    options.note = [this](const std::string& s) { notes.push_back(s); };
-    robot = read_robot(file, options);
-  }
-  static bool has(const std::vector<std::string>& list, const std::string& part) {
-    for (const auto& s : list)
-      if (s.find(part) != std::string::npos) return true;
-    return false;
-  }
-  bool warned(const std::string& part) const { return has(warnings, part); }
-  bool noted(const std::string& part) const { return has(notes, part); }
-
-  const LinkSpec& link(const std::string& name) const {
-    for (const auto& chain : robot.chains)
-      for (const auto& l : chain.links)
-        if (l.body.name == robot.name + "_" + name) return l;
-    FAIL("no link " << name);
-    return robot.chains.at(0).links.at(0);
-  }
-  const DofSpec& dof(const std::string& name) const {
-    for (const auto& d : robot.dofs)
-      if (d.name == name) return d;
-    FAIL("no DOF " << name);
-    return robot.dofs.at(0);
-  }
-  const JointSpec& joint(const std::string& name) const {
-    for (const auto& chain : robot.chains)
-      for (const auto& j : chain.joints)
-        if (j.name == name) return j;
-    FAIL("no joint " << name);
-    return robot.chains.at(0).joints.at(0);
-  }
-};
+using std::numbers::pi;
 
 ReadOptions with_package() {
   ReadOptions options;
@@ -72,7 +34,7 @@ std::string two_links(const std::string& first, const std::string& joint = "type
 }  // namespace
 
 TEST_CASE("a URDF keeps the names of its links, joints and DOFs") {
-  const Told gripper(gripper_file, with_package());
+  const ToldRobot gripper(gripper_file, with_package());
   CHECK(gripper.robot.name == "gripper");
   CHECK(gripper.robot.base.name == "gripper_mount");
   CHECK_FALSE(gripper.robot.base.shape);
@@ -84,7 +46,7 @@ TEST_CASE("a URDF keeps the names of its links, joints and DOFs") {
 }
 
 TEST_CASE("limits, effort, velocity and friction of a URDF joint are kept") {
-  const Told gripper(gripper_file, with_package());
+  const ToldRobot gripper(gripper_file, with_package());
   const JointSpec& joint = gripper.joint("left_slide");
   CHECK(joint.kind == JointKind::prismatic);
   CHECK(joint.min == 0);
@@ -96,7 +58,7 @@ TEST_CASE("limits, effort, velocity and friction of a URDF joint are kept") {
 }
 
 TEST_CASE("a body collides with all its collision shapes and shows the visual ones") {
-  const Told gripper(gripper_file, with_package());
+  const ToldRobot gripper(gripper_file, with_package());
   const BodySpec& palm = gripper.link("palm").body;
   // a box collides, a cylinder is drawn
   CHECK(palm.shape->solid().volume == doctest::Approx(0.14 * 0.05 * 0.04));
@@ -112,14 +74,14 @@ TEST_CASE("a body collides with all its collision shapes and shows the visual on
 }
 
 TEST_CASE("a mirrored mesh still faces outward") {
-  const Told gripper(gripper_file, with_package());
+  const ToldRobot gripper(gripper_file, with_package());
   const ShapePtr shape = gripper.link("right_finger").body.shape;
   CHECK(shape->closed());
   CHECK(shape->solid().volume == doctest::Approx(0.008 * 0.02 * 0.06));
 }
 
 TEST_CASE("an inertia is turned into the frame of its link") {
-  const Told gripper(gripper_file, with_package());
+  const ToldRobot gripper(gripper_file, with_package());
   const BodySpec& palm = gripper.link("palm").body;
   CHECK(palm.mass == 0.5);
   REQUIRE(palm.com);
@@ -131,13 +93,13 @@ TEST_CASE("an inertia is turned into the frame of its link") {
 }
 
 TEST_CASE("links without a mass weigh what water of their volume does, which is told") {
-  const Told gripper(gripper_file, with_package());
+  const ToldRobot gripper(gripper_file, with_package());
   CHECK(gripper.link("right_finger").body.mass == doctest::Approx(1000 * 0.008 * 0.02 * 0.06));
   CHECK(gripper.noted("weigh what their volume of water does: 'left_finger', 'right_finger'"));
 }
 
 TEST_CASE("elements that are not used are told once for each kind") {
-  const Told gripper(gripper_file, with_package());
+  const ToldRobot gripper(gripper_file, with_package());
   CHECK(gripper.warned("<gazebo> is not used, nor is another one"));
   CHECK(gripper.warned("<transmission> is not used"));
   CHECK(gripper.warnings.size() == 2);
@@ -150,7 +112,7 @@ TEST_CASE("a joint that mimics is of its leader's DOF, its offset a constant par
 <joint name="lead" type="revolute"><parent link="a"/><child link="b"/><limit lower="0" upper="1" effort="1" velocity="1"/></joint>
 <joint name="next" type="revolute"><parent link="b"/><child link="c"/><limit lower="-1" upper="3" effort="1" velocity="1"/>
 <mimic joint="lead" multiplier="2" offset="0.5"/></joint></robot>)");
-  const Told told(file);
+  const ToldRobot told(file);
   REQUIRE(told.robot.dofs.size() == 1);
   const JointSpec& next = told.joint("next");
   CHECK(next.dof == 0);
@@ -171,7 +133,7 @@ TEST_CASE("limits of a follower that would hold its leader are not used, which i
 <joint name="lead" type="revolute"><parent link="a"/><child link="b"/><limit lower="0" upper="0.8" effort="1" velocity="1"/></joint>
 <joint name="next" type="revolute"><parent link="a"/><child link="c"/><limit lower="0" upper="0.8" effort="1" velocity="1"/>
 <mimic joint="lead" multiplier="-1"/></joint></robot>)");
-  const Told told(file);
+  const ToldRobot told(file);
   const auto [low, high] = dof_range(told.robot, 0);
   CHECK(low == 0);
   CHECK(high == doctest::Approx(0.8));
@@ -187,7 +149,7 @@ TEST_CASE("a follower of a follower follows the first") {
 <joint name="third" type="continuous"><parent link="c"/><child link="d"/><mimic joint="second" multiplier="2" offset="1"/></joint>
 <joint name="second" type="continuous"><parent link="b"/><child link="c"/><mimic joint="first" multiplier="3" offset="0.25"/></joint>
 <joint name="first" type="continuous"><parent link="a"/><child link="b"/></joint></robot>)");
-  const Told told(file);
+  const ToldRobot told(file);
   REQUIRE(told.robot.dofs.size() == 1);
   CHECK(told.joint("third").ratio == 6);
   CHECK(told.joint("third").theta == 1.5);
@@ -200,7 +162,7 @@ TEST_CASE("a follower that does not follow stays at its offset") {
 <joint name="lead" type="continuous"><parent link="a"/><child link="b"/></joint>
 <joint name="stays" type="continuous"><parent link="b"/><child link="c"/><axis xyz="0 0 1"/>
 <mimic joint="lead" multiplier="0" offset="0.5"/></joint></robot>)");
-  const Told told(file);
+  const ToldRobot told(file);
   CHECK(told.robot.chains[0].joints.size() == 1);
   REQUIRE(told.link("c").X_JL);
   CHECK(told.link("c").X_JL->angle() == doctest::Approx(0.5));
@@ -209,10 +171,10 @@ TEST_CASE("a follower that does not follow stays at its offset") {
 
 TEST_CASE("joints without limits may go a full turn or a metre either way, which is told") {
   TemporaryFolder folder;
-  const Told turns(folder.write("a.urdf", two_links("", "type='continuous'")));
+  const ToldRobot turns(folder.write("a.urdf", two_links("", "type='continuous'")));
   CHECK(turns.joint("j").max == doctest::Approx(2 * pi));
   CHECK(turns.noted("joint 'j' turns without end; it may go from -6.283 to 6.283 rad"));
-  const Told slides(folder.write("a.urdf", two_links("", "type='prismatic'")));
+  const ToldRobot slides(folder.write("a.urdf", two_links("", "type='prismatic'")));
   CHECK(slides.joint("j").min == -1);
   CHECK(slides.noted("joint 'j' has no limits; it may go from -1 to 1 m"));
 }
@@ -220,7 +182,7 @@ TEST_CASE("joints without limits may go a full turn or a metre either way, which
 TEST_CASE("floating and planar joints stay, which is told") {
   TemporaryFolder folder;
   for (const std::string type : {"floating", "planar"}) {
-    const Told told(
+    const ToldRobot told(
         folder.write("a.urdf", two_links("", "type='" + type + "'", "<origin xyz='1 2 3'/>")));
     CHECK(told.robot.dofs.empty());
     CHECK(told.robot.chains[0].X_BC.position == Eigen::Vector3d(1, 2, 3));
@@ -230,7 +192,7 @@ TEST_CASE("floating and planar joints stay, which is told") {
 
 TEST_CASE("where no link has geometry to collide with, that for pictures serves") {
   TemporaryFolder folder;
-  const Told told(folder.write(
+  const ToldRobot told(folder.write(
       "a.urdf", two_links("<visual><geometry><box size='1 1 1'/></geometry></visual>")));
   CHECK(told.robot.base.shape);
   CHECK_FALSE(told.robot.base.appearance.visual);
@@ -239,7 +201,7 @@ TEST_CASE("where no link has geometry to collide with, that for pictures serves"
 
 TEST_CASE("a link with geometry for pictures only collides with nothing, which is told") {
   TemporaryFolder folder;
-  const Told told(folder.write("a.urdf", R"(<robot name="r">
+  const ToldRobot told(folder.write("a.urdf", R"(<robot name="r">
 <link name="a"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
 <link name="b"><visual><geometry><sphere radius="1"/></geometry></visual></link>
 <joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>)"));
@@ -250,7 +212,7 @@ TEST_CASE("a link with geometry for pictures only collides with nothing, which i
 
 TEST_CASE("a missing mesh for pictures is told, and not drawn") {
   TemporaryFolder folder;
-  const Told told(folder.write(
+  const ToldRobot told(folder.write(
       "a.urdf", two_links("<visual><geometry><mesh filename='x.stl'/></geometry></visual>")));
   CHECK(told.warned("a.urdf:1: mesh: no such file: x.stl; it is not drawn"));
   CHECK_FALSE(told.robot.base.appearance.visual);
@@ -263,20 +225,20 @@ TEST_CASE("a wrong inertia is told and does not keep the robot from its work") {
                      "' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>"
                      "<collision><geometry><box size='0.1 0.1 0.1'/></geometry></collision>");
   };
-  const Told negative(folder.write("a.urdf", inertial("1", "-1")));
+  const ToldRobot negative(folder.write("a.urdf", inertial("1", "-1")));
   CHECK(
       negative.warned("a.urdf:1: inertia that is not positive definite; it is computed from the "
                       "geometry: 'a'"));
   CHECK_FALSE(negative.robot.base.inertia_per_mass);
   CHECK(negative.robot.base.mass == 1);
-  const Told impossible(folder.write("a.urdf", inertial("1", "3")));
+  const ToldRobot impossible(folder.write("a.urdf", inertial("1", "3")));
   CHECK(impossible.warned("inertia that no body has"));
-  const Told weightless(folder.write("a.urdf", inertial("0", "1")));
+  const ToldRobot weightless(folder.write("a.urdf", inertial("0", "1")));
   CHECK(
       weightless.warned("a.urdf:1: mass: value: wanted a mass > 0, got 0; the inertial of link "
                         "'a' is not used"));
   CHECK(weightless.robot.base.mass == doctest::Approx(1));
-  const Told nonsense(folder.write("a.urdf", inertial("1", "nan")));
+  const ToldRobot nonsense(folder.write("a.urdf", inertial("1", "nan")));
   CHECK(nonsense.warned("inertia: ixx: wanted a number, got 'nan'"));
 }
 
@@ -286,7 +248,7 @@ TEST_CASE("a package is found by option, by its name above the file, or by what 
   const std::string urdf = two_links(
       "<collision><geometry><mesh filename='package://my_hand/meshes/part.obj' scale='0.001 0.001 "
       "0.001'/></geometry></collision>");
-  const auto shape = [](const Told& told) { return told.robot.base.shape->solid().volume; };
+  const auto shape = [](const ToldRobot& told) { return told.robot.base.shape->solid().volume; };
   const double volume = 0.008 * 0.02 * 0.06;
 
   folder.write("elsewhere/part_of/my_hand/meshes/part.obj", obj);
@@ -294,17 +256,17 @@ TEST_CASE("a package is found by option, by its name above the file, or by what 
   CHECK_THROWS_AS(read_robot(away), Error);
   ReadOptions options;
   options.packages["my_hand"] = folder.path() / "elsewhere/part_of/my_hand";
-  CHECK(shape(Told(away, options)) == doctest::Approx(volume));
+  CHECK(shape(ToldRobot(away, options)) == doctest::Approx(volume));
   options.packages = {{"", folder.path() / "elsewhere/part_of"}};
-  CHECK(shape(Told(away, options)) == doctest::Approx(volume));
+  CHECK(shape(ToldRobot(away, options)) == doctest::Approx(volume));
   options.packages = {{"", folder.path() / "elsewhere/part_of/my_hand"}};
-  CHECK(shape(Told(away, options)) == doctest::Approx(volume));
+  CHECK(shape(ToldRobot(away, options)) == doctest::Approx(volume));
 
   const auto within = folder.write("elsewhere/part_of/my_hand/urdf/robot.urdf", urdf);
-  CHECK(shape(Told(within)) == doctest::Approx(volume));
+  CHECK(shape(ToldRobot(within)) == doctest::Approx(volume));
 
   folder.write("copied/meshes/part.obj", obj);
-  const Told guessed(folder.write("copied/robot.urdf", urdf));
+  const ToldRobot guessed(folder.write("copied/robot.urdf", urdf));
   CHECK(shape(guessed) == doctest::Approx(volume));
   CHECK(guessed.noted("robot.urdf: package 'my_hand' is taken to be "));
 }
@@ -316,12 +278,12 @@ TEST_CASE("names count from the folder of the call, too") {
                                            "scale='0.001 0.001 0.001'/></geometry></collision>"));
   ReadOptions options;
   options.folder = "tests/data/urdf";
-  CHECK(Told(file, options).robot.base.shape);
+  CHECK(ToldRobot(file, options).robot.base.shape);
 }
 
 TEST_CASE("a URDF by another ending is known by what it holds") {
   TemporaryFolder folder;
-  CHECK(Told(folder.write("a.xml", two_links(""))).robot.name == "r");
+  CHECK(ToldRobot(folder.write("a.xml", two_links(""))).robot.name == "r");
   CHECK_FALSE(
       looks_like_urdf("<robot type='Hand'><palm>p.xml</palm><chain><link>l.xml</link>"
                       "</chain></robot>"));
@@ -329,7 +291,7 @@ TEST_CASE("a URDF by another ending is known by what it holds") {
 
 TEST_CASE("limits of zero width make a DOF that stays") {
   TemporaryFolder folder;
-  const Told told(folder.write(
+  const ToldRobot told(folder.write(
       "a.urdf", two_links("", "type='revolute'",
                           "<limit lower='0.5' upper='0.5' effort='1' velocity='1'/>")));
   CHECK(dof_range(told.robot, 0)[0] == 0.5);
@@ -342,10 +304,10 @@ TEST_CASE("a mesh of many metres without a scale is told") {
                "v 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   const auto read = [&](const std::string& scale) {
     const std::string mesh = "<geometry><mesh filename='a.obj'" + scale + "/></geometry>";
-    return Told(folder.write(
+    return ToldRobot(folder.write(
         "a.urdf", two_links("<visual>" + mesh + "</visual><collision>" + mesh + "</collision>")));
   };
-  const Told large = read("");
+  const ToldRobot large = read("");
   CHECK(large.warned("a.urdf:1: link 'a': its mesh is 20 m large: is a scale of 0.001 missing?"));
   CHECK(large.warnings.size() == 1);
   CHECK(read(" scale='0.001 0.001 0.001'").warnings.empty());
@@ -355,7 +317,7 @@ TEST_CASE("a mesh of many metres without a scale is told") {
 TEST_CASE("an open surface without a mass weighs a gram, which is told") {
   TemporaryFolder folder;
   folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
-  const Told told(folder.write(
+  const ToldRobot told(folder.write(
       "a.urdf", two_links("<collision><geometry><mesh filename='a.obj'/></geometry></collision>")));
   CHECK(told.robot.base.mass == 0.001);
   CHECK(
@@ -367,8 +329,8 @@ TEST_CASE("an open surface without a mass weighs a gram, which is told") {
 TEST_CASE("round shapes weigh what water of their true volume does") {
   TemporaryFolder folder;
   const auto mass = [&](const std::string& element, const std::string& shape) {
-    return Told(folder.write("a.urdf", two_links("<" + element + "><geometry>" + shape +
-                                                 "</geometry></" + element + ">")))
+    return ToldRobot(folder.write("a.urdf", two_links("<" + element + "><geometry>" + shape +
+                                                      "</geometry></" + element + ">")))
         .robot.base.mass;
   };
   const double ball = 4000 * pi / 3 * 1e-3, rod = 1000 * pi * 0.01 * 0.4;
@@ -381,7 +343,7 @@ TEST_CASE("round shapes weigh what water of their true volume does") {
 
 TEST_CASE("limits of followers that contradict each other are dropped, which is told") {
   TemporaryFolder folder;
-  const Told told(folder.write(
+  const ToldRobot told(folder.write(
       "a.urdf", R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
 <joint name="k" type="revolute"><parent link="a"/><child link="b"/><limit lower="-1" upper="1"/></joint>
 <joint name="m" type="revolute"><parent link="a"/><child link="c"/><limit lower="0.2" upper="1"/><mimic joint="k"/></joint>
@@ -398,7 +360,7 @@ TEST_CASE("limits of followers that contradict each other are dropped, which is 
 TEST_CASE("a follower of a joint that stands still does not keep the robot from being read") {
   TemporaryFolder folder;
   // 0.3 * 0.7 + 0.1, taken back, is not 0.7 to the bit
-  const Told told(
+  const ToldRobot told(
       folder.write("a.urdf", R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
 <joint name="k" type="revolute"><parent link="a"/><child link="b"/><limit lower="0.7" upper="0.7"/></joint>
 <joint name="m" type="revolute"><parent link="a"/><child link="c"/><limit lower="-1e15" upper="0"/><mimic joint="k" multiplier="0.3" offset="0.1"/></joint>
@@ -410,7 +372,7 @@ TEST_CASE("a follower of a joint that stands still does not keep the robot from 
 
 TEST_CASE("limits that are none print as such") {
   TemporaryFolder folder;
-  const Told told(
+  const ToldRobot told(
       folder.write("a.urdf", R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
 <joint name="k" type="revolute"><parent link="a"/><child link="b"/><limit lower="-1e15" upper="1e15"/></joint>
 <joint name="m" type="revolute"><parent link="a"/><child link="c"/><limit lower="0" upper="1"/><mimic joint="k"/></joint>
@@ -422,7 +384,7 @@ TEST_CASE("limits that are none print as such") {
 
 TEST_CASE("a mass without an inertia is told as such") {
   TemporaryFolder folder;
-  const Told told(folder.write(
+  const ToldRobot told(folder.write(
       "a.urdf", two_links("<inertial><mass value='2'/></inertial><collision><geometry><box "
                           "size='0.1 0.1 0.1'/></geometry></collision>")));
   CHECK(told.robot.base.mass == 2);
@@ -435,7 +397,7 @@ TEST_CASE("a mass without an inertia is told as such") {
 TEST_CASE("a DOF slides or turns as its leader does, whichever stands first") {
   TemporaryFolder folder;
   const auto read = [&](const std::string& arm) {
-    return Told(
+    return ToldRobot(
         folder.write("a.urdf", R"(<robot name="r"><link name="a"/><link name="arm"/>
 <link name="b"/><link name="c"/><link name="d"/>
 <joint name="s" type="prismatic"><parent link="a"/><child link="d"/><limit lower="0" upper="1"/></joint>
@@ -446,7 +408,7 @@ TEST_CASE("a DOF slides or turns as its leader does, whichever stands first") {
 </robot>)"));
   };
   for (const std::string arm : {"a", "arm"}) {
-    const Told told = read(arm);
+    const ToldRobot told = read(arm);
     REQUIRE(told.robot.dofs.size() == 2);
     std::vector<std::string> joints;
     for (const auto& chain : told.robot.chains)
@@ -459,7 +421,7 @@ TEST_CASE("a DOF slides or turns as its leader does, whichever stands first") {
     CHECK(told.joint("j").ratio == 0.02);
   }
   // behind its follower the leader stays
-  const Told behind = read("b");
+  const ToldRobot behind = read("b");
   CHECK(behind.joint("k").ratio == 1);
   CHECK(behind.robot.dofs.size() == 2);
 }

@@ -16,7 +16,7 @@ const std::string edges8 =
     "8\n1 0 0 0 0 0\n0.7 0.7 0 0 0 0\n0 1 0 0 0 0\n-0.7 0.7 0 0 0 0\n-1 0 0 0 0 0\n-0.7 -0.7 0 0 0 "
     "0\n0 -1 0 0 0 0\n0.7 -0.7 0 0 0 0\n";
 
-VirtualContactSet read(const std::string& text, const ReadOptions& options = {}) {
+VirtualContactSet read_contacts(const std::string& text, const ReadOptions& options = {}) {
   TemporaryFolder folder;
   return read_virtual_contacts(folder.write("a.vgr", text), options);
 }
@@ -28,7 +28,7 @@ FrictionEdges random_edges(Random& random) {
   return edges;
 }
 
-VirtualContactSet random_set(uint64_t seed) {
+VirtualContactSet random_contacts(uint64_t seed) {
   Random random(3, seed);
   VirtualContactSet set{.robot = "a hand & <more>", .contacts = {}};
   for (int i = static_cast<int>(random.bits() % 5); i >= 0; --i) {
@@ -62,9 +62,9 @@ void check_near(const VirtualContactSet& a, const VirtualContactSet& b) {
 
 TEST_CASE("a text file gives place, frame, edges and coefficient, in metres") {
   const auto set =
-      read("My Hand\n2\n-1 0\n" + edges8 +
-           "10 20 30\n1 0 0 0\n10 20 30\n0 0 1\n0.5\n2 1\n1\n0 0 0 0 0 1.64\n-5 0 0\n0.5 "
-           "0.5 0.5 0.5\n-5 0 0\n1 0 0\n0.2\n");
+      read_contacts("My Hand\n2\n-1 0\n" + edges8 +
+                    "10 20 30\n1 0 0 0\n10 20 30\n0 0 1\n0.5\n2 1\n1\n0 0 0 0 0 1.64\n-5 0 0\n0.5 "
+                    "0.5 0.5 0.5\n-5 0 0\n1 0 0\n0.2\n");
   CHECK(set.robot == "My Hand");
   REQUIRE(set.contacts.size() == 2);
   const auto &palm = set.contacts[0], &link = set.contacts[1];
@@ -82,8 +82,9 @@ TEST_CASE("a text file gives place, frame, edges and coefficient, in metres") {
 TEST_CASE("the link of a contact on the palm means nothing") {
   for (const char* link : {"-1", "-7", "0", "3"}) {
     INFO(link);
-    const auto text = read(fmt::format("H\n1\n-1 {} 0\n1 2 3\n1 0 0 0\n1 2 3\n0 0 1\n0.5\n", link));
-    const auto xml = read(fmt::format(
+    const auto text =
+        read_contacts(fmt::format("H\n1\n-1 {} 0\n1 2 3\n1 0 0 0\n1 2 3\n0 0 1\n0.5\n", link));
+    const auto xml = read_contacts(fmt::format(
         "<virtual_contacts><virtual_contact><finger_number>-1</finger_number>"
         "<link_number>{}</link_number><num_friction_edges>0</num_friction_edges><friction_edges/>"
         "<location>1 2 3</location><rotation>1 0 0 0</rotation><translation>1 2 3</translation>"
@@ -98,7 +99,8 @@ TEST_CASE("the link of a contact on the palm means nothing") {
 }
 
 TEST_CASE("line ends mean nothing between the numbers of a contact") {
-  const auto set = read("H\r\n1\r\n0 0 0 1 2 3 # no edges\r\n1 0 0 0 1 2 3 0 0\r\n1 0.25\r\n");
+  const auto set =
+      read_contacts("H\r\n1\r\n0 0 0 1 2 3 # no edges\r\n1 0 0 0 1 2 3 0 0\r\n1 0.25\r\n");
   REQUIRE(set.contacts.size() == 1);
   CHECK(set.contacts[0].edges.cols() == 0);
   CHECK(set.contacts[0].mu == 0.25);
@@ -107,7 +109,7 @@ TEST_CASE("line ends mean nothing between the numbers of a contact") {
 TEST_CASE(
     "what a file says twice and differently, and what follows the last contact, are warnings") {
   Warnings warnings;
-  read("H\n1\n0 0 0\n1 2 3\n1 0 0 0\n1 2 4\n1 0 0\n0.5\nmore\n", warnings.options());
+  read_contacts("H\n1\n0 0 0\n1 2 3\n1 0 0 0\n1 2 4\n1 0 0\n0.5\nmore\n", warnings.options());
   CHECK(warnings.list ==
         std::vector<std::string>{
             "a.vgr:7: contact 1: location and translation differ; the translation is used",
@@ -118,7 +120,7 @@ TEST_CASE(
 TEST_CASE("contacts written and read again are the same but for the last place of lengths") {
   TemporaryFolder folder;
   for (uint64_t seed = 0; seed < 30; ++seed) {
-    const auto set = random_set(seed);
+    const auto set = random_contacts(seed);
     for (const auto* name : {"a.vgr", "a.xml"}) {
       INFO(name << " " << seed);
       write_virtual_contacts(set, folder.path() / name);
@@ -147,7 +149,7 @@ TEST_CASE("every set of the original loads, text and XML say the same") {
   REQUIRE_SHARED();
   const auto text = shared() / "data/graspit/models/robots",
              xml = shared() / "data/graspit-xml/models/robots";
-  int read = 0, compared = 0;
+  int read_contacts = 0, compared = 0;
   for (const auto& folder : {text, xml})
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       const fs::path& path = entry.path();
@@ -155,7 +157,7 @@ TEST_CASE("every set of the original loads, text and XML say the same") {
       INFO(path.string());
       Warnings warnings;
       const auto set = read_virtual_contacts(path, warnings.options());
-      ++read;
+      ++read_contacts;
       for (const auto& contact : set.contacts)
         CHECK((contact.edges.cols() == 8 || contact.edges.cols() == 20));
       fs::path other = xml / fs::relative(path, text);
@@ -164,7 +166,7 @@ TEST_CASE("every set of the original loads, text and XML say the same") {
         ++compared;
       }
     }
-  CHECK(read == 35);
+  CHECK(read_contacts == 35);
   CHECK(compared == 8);
 }
 

@@ -7,7 +7,7 @@ using clench::test::TemporaryFolder;
 using clench::test::Warnings;
 
 /// A world in a folder with a box, a hand of a rigid and a breakaway DOF, and a robot without DOFs.
-static WorldSpec world(const std::string& text, const ReadOptions& options = {}) {
+static WorldSpec wld_world_of(const std::string& text, const ReadOptions& options = {}) {
   const TemporaryFolder folder;
   const std::string box = "#Inventor V2.1 ascii\n#material rubber\nCube { }\n";
   folder.write("models/box.iv", box);
@@ -27,8 +27,9 @@ static const std::string hand = "Robot\nmodels/robots/hand.cfg\n0 0 0 0 0\n" + s
 static const std::string bare = "Robot\nmodels/robots/bare.cfg\n\n" + stay;
 
 TEST_CASE("bodies stand where their blocks say, in the file's order") {
-  const WorldSpec w = world(head + "Obstacle\nmodels/box.iv\nwood\nT (+1 0 0 0)[+1 -2 3]\n\n" +
-                            hand + "\nGraspableBody\nmodels/box.iv\nT (0 0 0 2)[0 0 0]\n");
+  const WorldSpec w =
+      wld_world_of(head + "Obstacle\nmodels/box.iv\nwood\nT (+1 0 0 0)[+1 -2 3]\n\n" + hand +
+                   "\nGraspableBody\nmodels/box.iv\nT (0 0 0 2)[0 0 0]\n");
   REQUIRE(w.bodies.size() == 2);
   CHECK(w.bodies[0].role == Role::obstacle);
   CHECK(w.bodies[0].body.name == "box");
@@ -44,15 +45,15 @@ TEST_CASE("bodies stand where their blocks say, in the file's order") {
 }
 
 TEST_CASE("an obstacle's material is the block's, or the file's where the block has none") {
-  const WorldSpec w =
-      world(head + "Obstacle\nmodels/box.iv\nglass\n" + stay + "Obstacle\nmodels/box.iv\n" + stay);
+  const WorldSpec w = wld_world_of(head + "Obstacle\nmodels/box.iv\nglass\n" + stay +
+                                   "Obstacle\nmodels/box.iv\n" + stay);
   CHECK(w.bodies[0].body.material == "glass");
   CHECK(w.bodies[1].body.material == "rubber");
 }
 
 TEST_CASE("DOF values are written by kind: breakaway ones with the state of each joint") {
   const WorldSpec w =
-      world(head + "Robot\nmodels/robots/hand.cfg\n+5 +0.9 0 1 +0.25 -0.5 \n" + stay);
+      wld_world_of(head + "Robot\nmodels/robots/hand.cfg\n+5 +0.9 0 1 +0.25 -0.5 \n" + stay);
   const PlacedRobot& r = w.robots[0];
   REQUIRE(r.dofs.size() == 3);
   CHECK(r.dofs[0] == doctest::Approx(0.005));  // it slides: mm
@@ -85,21 +86,21 @@ TEST_CASE("a broken-away joint is written as the value of its DOF, and kept as i
 
 TEST_CASE("surplus words in a world are not used, with a warning") {
   Warnings warnings;
-  world(head + "Camera\n0 0 0 0 0 0 1 8 9 10\n" + hand + bare + "Connection\n0 0 1 # two\n\n" +
-            "T (1 0 0 0)[0 0 0] # at the wrist\n",
-        warnings.options());
+  wld_world_of(head + "Camera\n0 0 0 0 0 0 1 8 9 10\n" + hand + bare +
+                   "Connection\n0 0 1 # two\n\n" + "T (1 0 0 0)[0 0 0] # at the wrist\n",
+               warnings.options());
   CHECK(warnings.list == std::vector<std::string>{"w.wld:3: 3 surplus words are not used"});
 }
 
 TEST_CASE("one value a DOF is enough") {
-  const WorldSpec w = world(head + "Robot\nmodels/robots/hand.cfg\n1 2 3\n" + stay);
+  const WorldSpec w = wld_world_of(head + "Robot\nmodels/robots/hand.cfg\n1 2 3\n" + stay);
   CHECK(w.robots[0].dofs[1] == 2);
   CHECK(w.robots[0].dofs[2] == 3);
 }
 
 TEST_CASE("a robot without DOFs has an empty line for them, or none") {
-  CHECK(world(head + bare).robots.size() == 1);
-  CHECK(world(head + "Robot\nmodels/robots/bare.cfg\n" + stay).robots.size() == 1);
+  CHECK(wld_world_of(head + bare).robots.size() == 1);
+  CHECK(wld_world_of(head + "Robot\nmodels/robots/bare.cfg\n" + stay).robots.size() == 1);
 }
 
 TEST_CASE(
@@ -107,7 +108,7 @@ TEST_CASE(
   const std::string move = "T (+1 0 0 0)[0 0 +175.05]\n";
   for (const std::string mount : {"\n", "", "models/box.iv\n"}) {
     const WorldSpec w =
-        world(head + "Connection\n+0 +0 +1 \n" + mount + move + "\n" + hand + "\n" + bare);
+        wld_world_of(head + "Connection\n+0 +0 +1 \n" + mount + move + "\n" + hand + "\n" + bare);
     REQUIRE(w.connections.size() == 1);
     const Connection& c = w.connections[0];
     CHECK(c.parent == 0);
@@ -119,18 +120,18 @@ TEST_CASE(
 }
 
 TEST_CASE("a camera's quaternion is x y z w, its place and focal distance millimetres") {
-  const WorldSpec full = world(head + "CameraFull\n+500 0 -1 0 0 1 0 +501\n");
+  const WorldSpec full = wld_world_of(head + "CameraFull\n+500 0 -1 0 0 1 0 +501\n");
   REQUIRE(full.camera);
   CHECK(full.camera->X_WC.rotation.z() == 1);
   CHECK(full.camera->X_WC.position.x() == doctest::Approx(0.5));
   CHECK(full.camera->focal_distance == doctest::Approx(0.501));
-  const WorldSpec plain = world(head + "Camera\n0 0 0 0 0 0 1\n");
+  const WorldSpec plain = wld_world_of(head + "Camera\n0 0 0 0 0 0 1\n");
   CHECK(plain.camera->X_WC.rotation.w() == 1);
   CHECK(plain.camera->focal_distance == doctest::Approx(0.1));
 }
 
 TEST_CASE("line ends, trailing blanks, comments and tagged transforms are tolerated") {
-  const WorldSpec w = world(
+  const WorldSpec w = wld_world_of(
       "#GraspIt! version 2.0\r\n# a comment\r\nGraspableBody  \r\nmodels\\BOX.iv "
       "\r\n<transform>\r\n"
       "<fullTransform>(+1 +0 +0 +0)[+1 +0 "
@@ -142,12 +143,13 @@ TEST_CASE("line ends, trailing blanks, comments and tagged transforms are tolera
 
 TEST_CASE("a world without its first line is read, with a warning") {
   Warnings warnings;
-  CHECK(world("GraspableBody\nmodels/box.iv\n" + stay, warnings.options()).bodies.size() == 1);
+  CHECK(wld_world_of("GraspableBody\nmodels/box.iv\n" + stay, warnings.options()).bodies.size() ==
+        1);
   CHECK(warnings.list ==
         std::vector<std::string>{"w.wld:1: the first line '#GraspIt! version ...' is missing"});
 }
 
-TEST_CASE("an empty world is a world") { CHECK(world(head).order.empty()); }
+TEST_CASE("an empty world is a world") { CHECK(wld_world_of(head).order.empty()); }
 
 TEST_CASE("the test worlds of two fingers are read") {
   const WorldSpec w = read_world("tests/data/two_finger/claw.wld");

@@ -15,7 +15,7 @@ static void write_library(const TemporaryFolder& folder) {
                "90\nRevolute\nbox.iv\n");
 }
 
-static WorldSpec world(const std::string& inside, const ReadOptions& options = {}) {
+static WorldSpec xml_world_of(const std::string& inside, const ReadOptions& options = {}) {
   const TemporaryFolder folder;
   write_library(folder);
   return read_world(
@@ -23,16 +23,16 @@ static WorldSpec world(const std::string& inside, const ReadOptions& options = {
       options);
 }
 
-static const std::string stay =
+static const std::string unmoved =
     "<transform><fullTransform>(+1 0 0 0)[0 0 0]</fullTransform></transform>\n";
 
 TEST_CASE("bodies, robots, connections and the camera are read in the file's order") {
-  const WorldSpec w = world(
+  const WorldSpec w = xml_world_of(
       "<obstacle><filename>models\\BOX.iv</filename><transform><translation>1 -2 "
       "3</translation></transform></obstacle>\n<robot><filename>models/robots/hand.cfg</"
       "filename><dofValues>0.5 1 +0.2</dofValues>" +
-      stay + "</robot>\n<graspableBody><filename>models/box.iv</filename>" + stay +
-      "</graspableBody>\n<robot><filename>models/robots/hand.cfg</filename>" + stay +
+      unmoved + "</robot>\n<graspableBody><filename>models/box.iv</filename>" + unmoved +
+      "</graspableBody>\n<robot><filename>models/robots/hand.cfg</filename>" + unmoved +
       "</robot>\n<connection><parentRobot>0</parentRobot><parentChain>0</parentChain><childRobot>1"
       "</childRobot><mountFilename>models/box.iv</mountFilename><transform><translation>0 0 "
       "5</translation></transform></connection>\n<camera><position>500 0 -1</position><orientation>"
@@ -57,10 +57,10 @@ TEST_CASE("bodies, robots, connections and the camera are read in the file's ord
 }
 
 TEST_CASE("a body may stand in the world itself") {
-  const WorldSpec w = world(
+  const WorldSpec w = xml_world_of(
       "<graspableBody><filename>unspecified</filename><body><material>glass</material><mass>50</"
       "mass><geometryFile>../models/box.iv</geometryFile></body>" +
-      stay + "</graspableBody>\n");
+      unmoved + "</graspableBody>\n");
   CHECK(w.bodies[0].body.material == "glass");
   CHECK(w.bodies[0].body.mass == doctest::Approx(0.05));
   CHECK(w.bodies[0].body.name == "box");
@@ -73,7 +73,7 @@ TEST_CASE("an unknown element is warned of, and what stands nowhere is at the or
   std::vector<std::string> notes;
   ReadOptions options = warnings.options();
   options.note = [&](const std::string& s) { notes.push_back(s); };
-  const WorldSpec w = world(
+  const WorldSpec w = xml_world_of(
       "<grspableBody/>\n<graspableBody><filename>models/box.iv</filename></graspableBody>\n"
       "<robot><filename>models/robots/hand.cfg</filename></robot>\n",
       options);
@@ -94,8 +94,8 @@ TEST_CASE("a name of another generation finds the file of this one, and a note s
   ReadOptions options;
   options.note = [&](const std::string& s) { notes.push_back(s); };
   const auto file = folder.write(
-      "worlds/w.xml", "<world>\n<robot><filename>models/robots/hand.xml</filename>" + stay +
-                          "</robot><graspableBody>\n<filename>models/box.xml</filename>" + stay +
+      "worlds/w.xml", "<world>\n<robot><filename>models/robots/hand.xml</filename>" + unmoved +
+                          "</robot><graspableBody>\n<filename>models/box.xml</filename>" + unmoved +
                           "</graspableBody></world>");
   const WorldSpec w = read_world(file, options);
   CHECK(w.robots[0].robot.name == "hand");
@@ -117,7 +117,7 @@ TEST_CASE("what the root does not hold is taken from the library beside it, with
   folder.write("new/models/none", "");
   const auto file =
       folder.write("new/worlds/w.xml", "<world>\n<obstacle><filename>models/box.xml</filename>" +
-                                           stay + "</obstacle></world>");
+                                           unmoved + "</obstacle></world>");
   for (const bool rooted : {true, false}) {
     Warnings warnings;
     ReadOptions options = warnings.options();

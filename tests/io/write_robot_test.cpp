@@ -5,45 +5,19 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "files_below.h"
 #include "io/read.h"
 #include "robot_compare.h"
 #include "support/shapes.h"
 #include "support/shared.h"
 #include "temporary.h"
+#include "written_robot.h"
 
 using namespace clench;
 using namespace clench::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// What a writer told.
-struct Written {
-  RobotSpec robot;  ///< read again
-  std::vector<std::string> lost;
-  std::vector<std::string> warnings;  ///< of reading it
-  bool told(const std::string& sentence) const { return std::ranges::count(lost, sentence) > 0; }
-};
-
-Written written(const RobotSpec& robot, const fs::path& path) {
-  Written out;
-  ReadOptions reading;
-  reading.warn = [&](const std::string& sentence) { out.warnings.push_back(sentence); };
-  WriteOptions options;
-  options.warn = [&](const std::string& sentence) { out.lost.push_back(sentence); };
-  write_robot(robot, path, options);
-  out.robot = read_robot(path, reading);
-  return out;
-}
-
-std::vector<fs::path> files_below(const fs::path& folder, const std::string& ending) {
-  std::vector<fs::path> out;
-  if (!fs::is_directory(folder)) return out;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ending) out.push_back(entry.path());
-  std::ranges::sort(out);
-  return out;
-}
 
 const std::string one_finger = R"(<?xml version="1.0" ?>
 <robot type="Hand" DBName="TOY &amp; co">
@@ -122,7 +96,7 @@ fs::path full_robot(const TemporaryFolder& folder) {
 TEST_CASE("every hand and arm of ours comes back from a .cfg as it was, and by way of an .xml") {
   int count = 0;
   for (const char* kind : {"models/hands", "models/arms"})
-    for (const fs::path& file : files_below(kind, ".cfg")) {
+    for (const fs::path& file : files_below(kind, {".cfg"})) {
       INFO(file.string());
       const TemporaryFolder folder;
       const RobotSpec robot = read_robot(file);
@@ -143,7 +117,7 @@ TEST_CASE("every hand and arm of ours comes back from a .cfg as it was, and by w
 
 TEST_CASE("every hand and arm of ours stands in a .urdf as it did, whatever its DOFs") {
   for (const char* kind : {"models/hands", "models/arms"})
-    for (const fs::path& file : files_below(kind, ".cfg")) {
+    for (const fs::path& file : files_below(kind, {".cfg"})) {
       INFO(file.string());
       const TemporaryFolder folder;
       const RobotSpec robot = read_robot(file);
@@ -239,8 +213,8 @@ TEST_CASE("what a .urdf does not hold is told, a sentence each") {
 /// Files of robots of the original, each third one from `first` on, and what is read of them.
 static std::vector<std::pair<fs::path, RobotSpec>> robots_of_the_original(size_t first) {
   std::vector<std::pair<fs::path, RobotSpec>> out;
-  auto files = files_below(shared() / "data/graspit/models/robots", ".cfg");
-  for (const fs::path& file : files_below(shared() / "data/graspit-xml/models/robots", ".xml"))
+  auto files = files_below(shared() / "data/graspit/models/robots", {".cfg"});
+  for (const fs::path& file : files_below(shared() / "data/graspit-xml/models/robots", {".xml"}))
     files.push_back(file);
   for (size_t i = first; i < files.size(); i += 3) {
     try {

@@ -12,27 +12,13 @@
 #include "support/shapes.h"
 #include "support/shared.h"
 #include "temporary.h"
+#include "written_robot.h"
 
 using namespace clench;
 using namespace clench::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Written {
-  RobotSpec robot;  ///< read again
-  std::vector<std::string> lost;
-  bool told(const std::string& sentence) const { return std::ranges::count(lost, sentence) > 0; }
-};
-
-Written written(const RobotSpec& robot, const fs::path& path) {
-  Written out;
-  WriteOptions options;
-  options.warn = [&](const std::string& sentence) { out.lost.push_back(sentence); };
-  write_robot(robot, path, options);
-  out.robot = read_robot(path);
-  return out;
-}
 
 RobotSpec gripper() {
   ReadOptions options;

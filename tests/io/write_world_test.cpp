@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "io/read.h"
 #include "io/world_parts.h"
+#include "support/meshes.h"
 #include "support/shapes.h"
 #include "temporary.h"
 
@@ -15,14 +16,6 @@ using clench::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 static const fs::path library = "tests/data/two_finger";
-
-static Pose any_pose(Random& random) {
-  Eigen::Vector4d q;
-  Eigen::Vector3d p;
-  for (double& x : q) x = random.uniform(-1, 1);
-  for (double& x : p) x = random.uniform(-2, 2);
-  return {Eigen::Quaterniond(q).normalized(), p};
-}
 
 /// Two robots, the second carried by the first, three bodies, a camera; all standing anywhere.
 static WorldSpec any_world(uint64_t seed) {
@@ -36,9 +29,9 @@ static WorldSpec any_world(uint64_t seed) {
   for (auto& entry : world.order)
     if (entry.kind == WorldEntry::Kind::robot) entry.index = &entry == &world.order[0] ? 0 : 1;
   world.order.push_back({WorldEntry::Kind::body, static_cast<int>(world.bodies.size()) - 1});
-  for (auto& placed : world.bodies) placed.X_WB = any_pose(random);
+  for (auto& placed : world.bodies) placed.X_WB = test::random_pose(random, 2);
   for (auto& placed : world.robots) {
-    placed.X_WB = any_pose(random);
+    placed.X_WB = test::random_pose(random, 2);
     for (double& q : placed.dofs) q = random.uniform(0, 0.05);
     for (auto& chain : placed.breakaway)
       for (auto& joint : chain) {
@@ -48,15 +41,15 @@ static WorldSpec any_world(uint64_t seed) {
   }
   Connection c;
   c.child = 1;
-  c.X_LB = any_pose(random);
+  c.X_LB = test::random_pose(random, 2);
   if (seed % 2) c.mount = world.bodies[0].body;
   world.connections.push_back(c);
-  world.camera = Camera{any_pose(random), random.uniform(0.1, 2)};
+  world.camera = Camera{test::random_pose(random, 2), random.uniform(0.1, 2)};
   return world;
 }
 
 /// One rounding of a length in metres to millimetres and one back.
-static constexpr double rounding = 1e-15;
+static constexpr double world_rounding = 1e-15;
 
 static double gap(const Pose& a, const Pose& b) {
   return (a.position - b.position).norm() +
@@ -129,7 +122,7 @@ TEST_CASE("worlds of any content are read back, and to the bit from the second t
                      second = folder.path() / ("second" + ending);
       write_world(world, first);
       const WorldSpec once = read_world(first);
-      check_same(world, once, rounding * 4);
+      check_same(world, once, world_rounding * 4);
       write_world(once, second);
       check_same(once, read_world(second), 0);
       CHECK(read_text(first) == read_text(second));

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string body = R"(<?xml version="1.0" ?>
+const std::string xml_body = R"(<?xml version="1.0" ?>
 <root>
   <material>rubber</material><youngs>1500000</youngs><mass>20</mass><cog>0 1 2</cog>
   <inertia_matrix>1 0 0 0 1 0 0 0 1</inertia_matrix><useFlockOfBirds>1</useFlockOfBirds>
@@ -24,7 +24,7 @@ const std::string body = R"(<?xml version="1.0" ?>
 </root>
 )";
 
-const std::string robot = R"(<robot type="HumanHand" DBName="x">
+const std::string xml_robot = R"(<robot type="HumanHand" DBName="x">
   <palm>box.iv</palm>
   <dof type="r"><defaultVelocity>1</defaultVelocity><maxEffort>5e9</maxEffort><Kp>1e9</Kp></dof>
   <dof type="b"><defaultVelocity>1</defaultVelocity><breakAwayTorque>0.5</breakAwayTorque></dof>
@@ -49,7 +49,7 @@ const std::string robot = R"(<robot type="HumanHand" DBName="x">
 </robot>
 )";
 
-const std::string world = R"(<world>
+const std::string xml_world = R"(<world>
   <obstacle><filename>box.iv</filename><transform><fullTransform>(+1 0 0 0)[+1 2 3]</fullTransform></transform></obstacle>
   <graspableBody><body><mass>3</mass><geometryFile>box.iv</geometryFile></body></graspableBody>
   <robot><filename>hand.xml</filename><dofValues>0.1 2 1 3</dofValues></robot>
@@ -60,19 +60,19 @@ const std::string world = R"(<world>
 </world>
 )";
 
-const test::Oddities odd = {
+const test::Oddities odd_xml = {
     {"-1",   "999999999", "1e308", "nan", "<",    ">",    "/",   "</chain>",
      "<a>",  "\"",        "'",     "&",   "&lt;", "<!--", "-->", "<![CDATA[",
      "base", "d0",        "d5*0",  "]]>", "",     "0",    "=",   "(0 0 0 0)[0 0 0]"},
     " \n<>\""};
 
 /// The folder with the files that others name, and a reader for a text of each kind.
-class Bench {
+class XmlBench {
  public:
-  Bench() {
+  XmlBench() {
     for (const auto* name : {"box.iv", "iv/box.iv"})
       folder_.write(name, "#Inventor V2.1 ascii\nCube { }\n");
-    folder_.write("hand.xml", robot);
+    folder_.write("hand.xml", xml_robot);
   }
   /// returns  was it refused?   fails the test when the sentence does not name the file
   bool refused(const std::string& kind, const std::string& text) {
@@ -96,13 +96,13 @@ class Bench {
 };
 
 void try_all(const std::string& kind, const std::string& text, int times) {
-  Bench bench;
+  XmlBench bench;
   CHECK_FALSE(bench.refused(kind, text));
   // without its last tag no element is whole
   for (size_t n = 0; n + 8 < text.size(); n += 7) CHECK(bench.refused(kind, text.substr(0, n)));
   for (int i = 0; i < times; ++i) {
     Random random(17, static_cast<uint64_t>(i));
-    const std::string bad = test::mutated(text, odd, random);
+    const std::string bad = test::mutated(text, odd_xml, random);
     INFO(bad);
     bench.refused(kind, bad);
   }
@@ -111,11 +111,11 @@ void try_all(const std::string& kind, const std::string& text, int times) {
 }  // namespace
 
 TEST_CASE("an XML body cut short or changed at random is an Error or a body") {
-  try_all("body", body, 150);
+  try_all("body", xml_body, 150);
 }
 TEST_CASE("an XML robot cut short or changed at random is an Error or a robot") {
-  try_all("robot", robot, 200);
+  try_all("robot", xml_robot, 200);
 }
 TEST_CASE("an XML world cut short or changed at random is an Error or a world") {
-  try_all("world", world, 60);
+  try_all("world", xml_world, 60);
 }

@@ -13,15 +13,15 @@ static Pose random_pose(Random& random) {
 }
 
 // products of unit quaternions round in the last bits only
-static constexpr double rounding = 1e-14;
+static constexpr double pose_rounding = 1e-14;
 
 TEST_CASE("poses compose as their matrices do") {
   Random random(1);
   for (int i = 0; i < 100; ++i) {
     const Pose X_AB = random_pose(random), X_BC = random_pose(random);
     const Eigen::Vector3d p_C(random.normal(), random.normal(), random.normal());
-    CHECK(((X_AB * X_BC) * p_C - X_AB * (X_BC * p_C)).norm() < rounding * 10);
-    CHECK(((X_AB * X_BC).matrix() - X_AB.matrix() * X_BC.matrix()).norm() < rounding);
+    CHECK(((X_AB * X_BC) * p_C - X_AB * (X_BC * p_C)).norm() < pose_rounding * 10);
+    CHECK(((X_AB * X_BC).matrix() - X_AB.matrix() * X_BC.matrix()).norm() < pose_rounding);
   }
 }
 
@@ -29,8 +29,8 @@ TEST_CASE("a pose times its inverse is nothing") {
   Random random(2);
   for (int i = 0; i < 100; ++i) {
     const Pose X = random_pose(random), nothing = X * X.inverse();
-    CHECK(nothing.position.norm() < rounding);
-    CHECK(nothing.angle() < rounding);
+    CHECK(nothing.position.norm() < pose_rounding);
+    CHECK(nothing.angle() < pose_rounding);
   }
 }
 

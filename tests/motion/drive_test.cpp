@@ -10,7 +10,7 @@ using namespace clench::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // a gripper and a ball or box between its fingers
 struct Bench {

@@ -23,12 +23,12 @@ namespace fs = std::filesystem;
 namespace {
 
 // poses are products of some ten to thirty rotations of doubles; lengths are metres or less
-constexpr double rounding = 1e-11;
+constexpr double urdf_rounding = 1e-11;
 
 void check_equal(const Pose& a, const Eigen::Matrix4d& b) {
-  CHECK((a.matrix() - b.topLeftCorner<3, 3>()).cwiseAbs().maxCoeff() < rounding);
+  CHECK((a.matrix() - b.topLeftCorner<3, 3>()).cwiseAbs().maxCoeff() < urdf_rounding);
   CHECK((a.position - b.topRightCorner<3, 1>()).cwiseAbs().maxCoeff() <
-        rounding * std::max(1.0, a.position.norm()));
+        urdf_rounding * std::max(1.0, a.position.norm()));
 }
 
 Eigen::Matrix4d translation(double x, double y, double z) {
@@ -296,8 +296,8 @@ TEST_CASE(
     for (const auto body : world.bodies_of(id)) {
       const Pose& X = world.body(body).X_WB;
       const Pose& Y = other.body(other.find_body(world.body(body).name)).X_WB;
-      CHECK((X.inverse() * Y).angle() < rounding);
-      CHECK((X.position - Y.position).norm() < rounding * std::max(1.0, X.position.norm()));
+      CHECK((X.inverse() * Y).angle() < urdf_rounding);
+      CHECK((X.position - Y.position).norm() < urdf_rounding * std::max(1.0, X.position.norm()));
     }
   }
 }

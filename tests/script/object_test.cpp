@@ -10,13 +10,13 @@ using clench::test::Script;
 
 namespace {
 
-int alive = 0;
+int living = 0;
 
 // not trivial, and aligned beyond what Lua gives
 struct alignas(64) Probe {
-  explicit Probe(int n) : number(n) { ++alive; }
-  Probe(Probe&& other) noexcept : number(other.number) { ++alive; }
-  ~Probe() { --alive; }
+  explicit Probe(int n) : number(n) { ++living; }
+  Probe(Probe&& other) noexcept : number(other.number) { ++living; }
+  ~Probe() { --living; }
   int number;
 };
 
@@ -105,19 +105,19 @@ TEST_CASE("values are destroyed once: by the collector, by <close>, or never aga
   {
     Probes lua;
     CHECK(lua.run("for i = 1, 100 do probe(i) end collectgarbage() collectgarbage()") == "");
-    CHECK(alive == 0);
+    CHECK(living == 0);
     CHECK(lua.run("kept = nil do local p <close> = probe(1) kept = p end return pcall(function() "
                   "return kept.number end)")
               .find("tip.number: the probe was closed") != std::string::npos);
-    CHECK(alive == 0);
+    CHECK(living == 0);
     // the finalizer, called by hand, twice and with strangers
     CHECK(lua.run("local p = probe(1) local gc = debug.getmetatable(p).__gc gc(p) gc(p) gc(1) gc() "
                   "gc(io.stdout)") == "");
-    CHECK(alive == 0);
+    CHECK(living == 0);
     lua.run("still_here = probe(2)");
-    CHECK(alive == 1);
+    CHECK(living == 1);
   }
-  CHECK(alive == 0);
+  CHECK(living == 0);
 }
 
 TEST_CASE("a metatable put on a stranger does not make it ours") {

@@ -14,7 +14,7 @@ static EigengraspSet set_of(std::vector<VectorXd> vectors) {
 
 static VectorXd vec(double x, double y, double z) { return Eigen::Vector3d(x, y, z); }
 
-static void check_refused(const EigengraspSet& set, const char* sentence) {
+static void check_set_refused(const EigengraspSet& set, const char* sentence) {
   CHECK_THROWS_WITH_AS(check_eigengrasps(set, "s"), sentence, Error);
 }
 
@@ -26,37 +26,37 @@ TEST_CASE("the identity has a unit vector a DOF and is in order") {
 }
 
 TEST_CASE("sets that are out of order are refused by a sentence") {
-  check_refused({}, "s: wanted at least one eigengrasp, got none");
+  check_set_refused({}, "s: wanted at least one eigengrasp, got none");
   auto set = set_of({vec(1, 0, 0), vec(0, 0, 0)});
-  check_refused(set, "s: eigengrasp 2: wanted a vector other than zero");
+  check_set_refused(set, "s: eigengrasp 2: wanted a vector other than zero");
   set.grasps[1].vector = VectorXd::Zero(2);
-  check_refused(set, "s: eigengrasp 2: wanted 3 numbers, got 2");
+  check_set_refused(set, "s: eigengrasp 2: wanted 3 numbers, got 2");
   set.grasps[1].vector = vec(0, NAN, 1);
-  check_refused(set, "s: eigengrasp 2: number 2: wanted at most 1e+30, got nan");
+  check_set_refused(set, "s: eigengrasp 2: number 2: wanted at most 1e+30, got nan");
   set.grasps[1].vector = vec(1, 1, 0);
   set.grasps[1].eigenvalue = INFINITY;
-  check_refused(set, "s: eigengrasp 2: wanted a finite eigenvalue, got inf");
+  check_set_refused(set, "s: eigengrasp 2: wanted a finite eigenvalue, got inf");
   set.grasps[1].eigenvalue = 1;
   set.grasps[1].limits = {2, 1};
-  check_refused(set, "s: eigengrasp 2: min 2 exceeds max 1");
+  check_set_refused(set, "s: eigengrasp 2: min 2 exceeds max 1");
   set.grasps[1].limits = {NAN, 1};
-  check_refused(set, "s: eigengrasp 2: wanted limits of at most 1e+30, got nan and 1");
+  check_set_refused(set, "s: eigengrasp 2: wanted limits of at most 1e+30, got nan and 1");
   set.grasps[1].limits.reset();
   set.origin = VectorXd::Zero(2);
-  check_refused(set, "s: origin: wanted 3 numbers, got 2");
+  check_set_refused(set, "s: origin: wanted 3 numbers, got 2");
   set.origin.reset();
   set.norm = vec(1, 0, 1);
-  check_refused(set, "s: norm: number 2: wanted a scale other than 0, got 0");
+  check_set_refused(set, "s: norm: number 2: wanted a scale other than 0, got 0");
 }
 
 TEST_CASE("an eigengrasp that is a sum of others is refused, where it stands") {
   auto set = set_of({vec(1, 2, 3), vec(0, 1, 1), vec(2, 5, 7)});
-  check_refused(set, "s: eigengrasp 3: it is a sum of those before it");
+  check_set_refused(set, "s: eigengrasp 3: it is a sum of those before it");
   CHECK_THROWS_WITH_AS(check_eigengrasps(set, "s", {"a:1", "a:4", "a:7"}),
                        "a:7: eigengrasp 3: it is a sum of those before it", Error);
   set.grasps[2].vector = vec(2, 5, 7.001);
   CHECK_NOTHROW(check_eigengrasps(set, "s"));
   // more than there are DOFs cannot be independent
   set.grasps.push_back({vec(5, 5, 5), 0.5, std::nullopt});
-  check_refused(set, "s: eigengrasp 4: it is a sum of those before it");
+  check_set_refused(set, "s: eigengrasp 4: it is a sum of those before it");
 }

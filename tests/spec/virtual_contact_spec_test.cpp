@@ -4,7 +4,7 @@
 
 using namespace clench;
 
-static void check_refused(const VirtualContactSpec& contact, const char* sentence) {
+static void check_contact_refused(const VirtualContactSpec& contact, const char* sentence) {
   CHECK_THROWS_WITH_AS(check_virtual_contact(contact, "s"), sentence, Error);
 }
 
@@ -12,15 +12,15 @@ TEST_CASE("a virtual contact is in order as it is made, and refused by a sentenc
   VirtualContactSpec contact;
   CHECK_NOTHROW(check_virtual_contact(contact, "s"));
   contact.X_LC.rotation = Eigen::Quaterniond(1, 1, 0, 0);
-  check_refused(contact, "s: its quaternion must be unit");
+  check_contact_refused(contact, "s: its quaternion must be unit");
   contact.X_LC = Pose::translation({NAN, 0, 0});
-  check_refused(contact, "s: wanted a finite pose in its link");
+  check_contact_refused(contact, "s: wanted a finite pose in its link");
   contact.X_LC = {};
   contact.mu = NAN;
-  check_refused(contact, "s: mu must be >= 0, got nan");
+  check_contact_refused(contact, "s: mu must be >= 0, got nan");
   contact.mu = 0;
   contact.edges.setZero(6, 101);
-  check_refused(contact, "s: wanted at most 100 friction edges, got 101");
+  check_contact_refused(contact, "s: wanted at most 100 friction edges, got 101");
   contact.edges.setConstant(6, 1, INFINITY);
-  check_refused(contact, "s: wanted finite friction edges");
+  check_contact_refused(contact, "s: wanted finite friction edges");
 }

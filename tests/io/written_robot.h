@@ -1,0 +1,28 @@
+// A robot written and read again, with all that was said on the way.
+#pragma once
+#include <algorithm>
+
+#include "io/read.h"
+#include "io/write_robot.h"
+
+namespace clench::test {
+
+struct WrittenRobot {
+  RobotSpec robot;  ///< read again
+  std::vector<std::string> lost;
+  std::vector<std::string> warnings;  ///< of reading it
+  bool told(const std::string& sentence) const { return std::ranges::count(lost, sentence) > 0; }
+};
+
+inline WrittenRobot written(const RobotSpec& robot, const std::filesystem::path& path) {
+  WrittenRobot out;
+  ReadOptions reading;
+  reading.warn = [&](const std::string& sentence) { out.warnings.push_back(sentence); };
+  WriteOptions options;
+  options.warn = [&](const std::string& sentence) { out.lost.push_back(sentence); };
+  write_robot(robot, path, options);
+  out.robot = read_robot(path, reading);
+  return out;
+}
+
+}  // namespace clench::test
