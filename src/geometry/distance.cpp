@@ -12,9 +12,9 @@ static constexpr double infinity = std::numeric_limits<double>::infinity();
 namespace {
 
 // The least distance of the pairs of triangles offered, below a limit.
-class Nearest {
+class NearestPair {
  public:
-  explicit Nearest(double limit) : limit_(limit) { start(); }
+  explicit NearestPair(double limit) : limit_(limit) { start(); }
 
   // a reach above 0 lets meeting pairs in whatever the limit
   void start() {
@@ -51,7 +51,7 @@ Distance distance(const Shape& a, const Shape& b, const Pose& X_AB, double limit
     if (clear > 0 && limit <= clear) return {.distance = infinity};
   }
 
-  Nearest nearest(limit);
+  NearestPair nearest(limit);
   const auto offer = [&](const NearPair& pair, const Closest& c) { nearest.offer(pair, c); };
   // the last closest pair bounds the search; a pair that meets says nothing of which is found first
   if (cache && a.has_triangle(cache->closest_a) && b.has_triangle(cache->closest_b)) {

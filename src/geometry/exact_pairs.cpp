@@ -11,9 +11,7 @@ namespace {
 using F = DoubleLanes;
 using Vector = Triple<F>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-// as in triangle.cpp: of a projection, relative to the axis and the extent of what is projected
-constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+constexpr double outside_face = std::numeric_limits<double>::infinity();
 
 CLENCH_INLINE F load(const double* from) {
   F out;
@@ -28,8 +26,8 @@ CLENCH_INLINE Vector load(const double (&rows)[9][8], int corner) {
 // not a number becomes 0
 CLENCH_INLINE F unit_clamp(const F& x) { return min(max(x, F::all(0)), F::all(1)); }
 
-struct Nearest {
-  F squared = F::all(infinity);
+struct NearestLanes {
+  F squared = F::all(std::numeric_limits<double>::infinity());
   Vector p, q;
 
   CLENCH_INLINE void offer(const F& candidate, const Vector& on_first, const Vector& on_second) {
@@ -40,10 +38,10 @@ struct Nearest {
   }
 };
 
-// Nearest points a + s u and b + t v. Crossed lines by cross products, which keep their digits
+// NearestLanes points a + s u and b + t v. Crossed lines by cross products, which keep their digits
 // where the normal equations lose them: nearly parallel edges are the rule in meshes.
 CLENCH_INLINE void offer_segments(const Vector& a, const Vector& u, const F& uu, const Vector& b,
-                                  const Vector& v, const F& vv, Nearest& best) {
+                                  const Vector& v, const F& vv, NearestLanes& best) {
   const F zero = F::all(0);
   const Vector r = a - b, n = cross(u, v);
   const F nn = dot(n, n), uv = dot(u, v), ur = dot(u, r), vr = dot(v, r);
@@ -71,8 +69,8 @@ struct Face {
     at = corner + u.scaled(along_u) + v.scaled(along_v);
     const Vector rest = x - at;
     const auto outside = (along_u < 0.0) | (along_v < 0.0) | (along_u + along_v > 1.0);
-    const F squared = select(outside, F::all(infinity), dot(rest, rest));
-    return select(nn > 0.0, squared, F::all(infinity));
+    const F squared = select(outside, F::all(outside_face), dot(rest, rest));
+    return select(nn > 0.0, squared, F::all(outside_face));
   }
 };
 
@@ -93,7 +91,7 @@ void nearest_of(const PairBundle& pairs, NearestBundle& out) {
     edge_a[k] = a[(k + 1) % 3] - a[k], edge_b[k] = b[(k + 1) % 3] - b[k];
     length_a[k] = dot(edge_a[k], edge_a[k]), length_b[k] = dot(edge_b[k], edge_b[k]);
   }
-  Nearest best;
+  NearestLanes best;
   best.p = a[0], best.q = b[0];
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
@@ -111,7 +109,7 @@ void nearest_of(const PairBundle& pairs, NearestBundle& out) {
   const F high = max(max(dot(axis, a[0]), dot(axis, a[1])), dot(axis, a[2]));
   const F low = min(min(dot(axis, b[0]), dot(axis, b[1])), dot(axis, b[2]));
   const F sum = abs(axis.x) + abs(axis.y) + abs(axis.z);
-  out.apart = (low - high > extent * sum * rounding).set();
+  out.apart = (low - high > extent * sum * projection_rounding).set();
   best.squared.store(out.squared);
   best.p.x.store(out.p[0]), best.p.y.store(out.p[1]), best.p.z.store(out.p[2]);
   best.q.x.store(out.q[0]), best.q.y.store(out.q[1]), best.q.z.store(out.q[2]);

@@ -1,9 +1,12 @@
 // Nearest points of eight pairs of triangles at once, in double precision. For triangle.h and the
 // queries of this module only. Includes no Eigen: it may be compiled for the machine at hand.
 #pragma once
-#include <cstdint>
+#include <limits>
 
 namespace clench {
+
+/// of a projection, relative to the length of the axis and the extent of what is projected
+inline constexpr double projection_rounding = 64 * std::numeric_limits<double>::epsilon();
 
 /// Corners about a common origin near by: coordinate m of corner k of pair i at [3 k + m][i].
 struct alignas(64) PairBundle {

@@ -6,8 +6,7 @@
 #include "geometry/frame_boxes.h"
 #include "geometry/precision.h"
 #include "geometry/tree_pair.h"
-#include "geometry/triangle_lanes.h"
-#include "geometry/walk.h"
+#include "geometry/waiting_pairs.h"
 
 namespace clench {
 
@@ -201,12 +200,9 @@ class PairWalk {
       while (rows.row[i]) {
         const int j = __builtin_ctz(rows.row[i]);
         rows.row[i] &= static_cast<uint8_t>(rows.row[i] - 1);
-        for (int k = 0; k < 9; ++k) {
-          waiting_.a[k][waiting_.count] = side_a_.corners[k][i];
-          waiting_.b[k][waiting_.count] = side_b_.corners[k][j];
-        }
-        waiting_.pairs[waiting_.count] = {from_a.triangle[i], from_b.triangle[j]};
-        if (++waiting_.count < 8) continue;
+        waiting_.add(side_a_.corners, i, side_b_.corners, j,
+                     {from_a.triangle[i], from_b.triangle[j]});
+        if (!waiting_.full()) continue;
         const Real before = limit_;
         if (judge(visit)) return true;
         if (limit_ < before) {
@@ -215,36 +211,26 @@ class PairWalk {
         }
       }
     // what may bring the limit down does not wait
-    return waiting_.count >= patience && judge(visit);
-  }
-
-  static TrianglesOf<F> load(const Real (&rows)[9][8]) {
-    TrianglesOf<F> out;
-    std::memcpy(&out, rows, sizeof out);
-    return out;
+    return waiting_.count() >= patience && judge(visit);
   }
 
   // What waits: is it in reach?   returns whether the walk ends
   bool judge(PairVisit visit) {
-    const int count = waiting_.count;
-    if (count == 0) return false;
-    waiting_.count = 0;
-    for (int k = 0; k < 9; ++k)
-      for (int i = count; i < 8; ++i)
-        waiting_.a[k][i] = waiting_.a[k][0], waiting_.b[k][i] = waiting_.b[k][0];
-    const TrianglesOf<F> a = load(waiting_.a), b = load(waiting_.b);
-    return judge_nearest(a, b, (1u << count) - 1, visit);
+    return waiting_.take(
+        [&](const TrianglesOf<F>& a, const TrianglesOf<F>& b, unsigned all, const NearPair* pairs) {
+          return judge_nearest(a, b, all, pairs, visit);
+        });
   }
 
   bool judge_nearest(const TrianglesOf<F>& a, const TrianglesOf<F>& b, unsigned all,
-                     PairVisit meet) {
+                     const NearPair* pairs, PairVisit meet) {
     const NearBounds<F> bounds = near_bounds(a, b);
     lower_limit(bounds, all);
     Real low[8];
     bounds.low.store(low);
     for (unsigned left = all & ~(bounds.low > limit_).set(); left; left &= left - 1) {
       const int k = __builtin_ctz(left);
-      const NearPair& pair = waiting_.pairs[k];
+      const NearPair& pair = pairs[k];
       found_.push_back({low[k], pair});
       if (!(low[k] > slack_) && meet(pair.triangle_a, pair.triangle_b)) return true;
     }
@@ -281,11 +267,7 @@ class PairWalk {
     NearPair pair;
   };
   std::vector<Found> found_;
-  struct Waiting {
-    Real a[9][8], b[9][8];
-    NearPair pairs[8];
-    int count = 0;
-  } waiting_;
+  WaitingPairs<F> waiting_;
 };
 
 template <class Walk>

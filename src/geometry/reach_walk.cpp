@@ -5,8 +5,7 @@
 #include "geometry/frame_boxes.h"
 #include "geometry/precision.h"
 #include "geometry/tree_pair.h"
-#include "geometry/triangle_lanes.h"
-#include "geometry/walk.h"
+#include "geometry/waiting_pairs.h"
 
 namespace clench {
 
@@ -176,38 +175,24 @@ class ReachWalk {
       const int i = __builtin_ctz(rest);
       for (unsigned row = near_row(i, lanes_b); row; row &= row - 1) {
         const int j = __builtin_ctz(row);
-        for (int k = 0; k < 9; ++k) {
-          waiting_.a[k][waiting_.count] = side_a_.corners[k][i];
-          waiting_.b[k][waiting_.count] = side_b_.corners[k][j];
-        }
-        waiting_.pairs[waiting_.count] = {from_a.triangle[i], from_b.triangle[j]};
-        if (++waiting_.count == 8 && judge(visit)) return true;
+        waiting_.add(side_a_.corners, i, side_b_.corners, j,
+                     {from_a.triangle[i], from_b.triangle[j]});
+        if (waiting_.full() && judge(visit)) return true;
       }
     }
     return false;
   }
 
-  static TrianglesOf<F> load(const Real (&rows)[9][8]) {
-    TrianglesOf<F> out;
-    std::memcpy(&out, rows, sizeof out);
-    return out;
-  }
-
   // What waits: is it in reach?   returns whether the walk ends
   bool judge(PairVisit visit) {
-    const int count = waiting_.count;
-    if (count == 0) return false;
-    waiting_.count = 0;
-    for (int k = 0; k < 9; ++k)
-      for (int i = count; i < 8; ++i)
-        waiting_.a[k][i] = waiting_.a[k][0], waiting_.b[k][i] = waiting_.b[k][0];
-    unsigned left =
-        edges_within_reach(load(waiting_.a), load(waiting_.b), limit_, (1u << count) - 1);
-    for (; left; left &= left - 1) {
-      const NearPair& pair = waiting_.pairs[__builtin_ctz(left)];
-      if (visit(pair.triangle_a, pair.triangle_b)) return true;
-    }
-    return false;
+    return waiting_.take(
+        [&](const TrianglesOf<F>& a, const TrianglesOf<F>& b, unsigned all, const NearPair* pairs) {
+          for (unsigned left = edges_within_reach(a, b, limit_, all); left; left &= left - 1) {
+            const NearPair& pair = pairs[__builtin_ctz(left)];
+            if (visit(pair.triangle_a, pair.triangle_b)) return true;
+          }
+          return false;
+        });
   }
 
   const Tree &a_, &b_;
@@ -218,11 +203,7 @@ class ReachWalk {
   Real squared_limit_;
   Task stack_[16 * deepest_tree];
   Side side_a_, side_b_;
-  struct Waiting {
-    Real a[9][8], b[9][8];
-    NearPair pairs[8];
-    int count = 0;
-  } waiting_;
+  WaitingPairs<F> waiting_;
 };
 
 bool visit_within(const TreePair& pair, double reach, PairVisit visit) {

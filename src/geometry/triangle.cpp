@@ -13,11 +13,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// rounding of a projection, relative to the length of the axis and the extent of what is projected
-constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-
 double unit_clamp(double x) { return x > 0 ? (x < 1 ? x : 1) : 0; }  // not a number becomes 0
 
 // Two triangles relative to the first corner of the first one, so that a far origin costs
@@ -46,7 +41,8 @@ struct Local {
   bool apart_along(const Vector3d& axis) const {
     const auto [low_a, high_a] = std::minmax({axis.dot(a[0]), axis.dot(a[1]), axis.dot(a[2])});
     const auto [low_b, high_b] = std::minmax({axis.dot(b[0]), axis.dot(b[1]), axis.dot(b[2])});
-    return std::max(low_b - high_a, low_a - high_b) > rounding * extent * axis.lpNorm<1>();
+    return std::max(low_b - high_a, low_a - high_b) >
+           projection_rounding * extent * axis.lpNorm<1>();
   }
 
   // the axes that decide for triangles with area in different planes
@@ -59,7 +55,7 @@ struct Local {
   }
 };
 
-// Nearest points p = a0 + s u and q = b0 + t v. Crossed lines by cross products, which keep their
+// NearestPoints points p = a0 + s u and q = b0 + t v. Crossed lines by cross products, which keep their
 // digits where the normal equations lose them: nearly parallel edges are the rule in meshes.
 Vector3d between_segments(const Vector3d& a0, const Vector3d& u, const Vector3d& b0,
                           const Vector3d& v, double& s, double& t) {
@@ -82,8 +78,8 @@ Vector3d between_segments(const Vector3d& a0, const Vector3d& u, const Vector3d&
   return b0 + t * v - a0 - s * u;
 }
 
-struct Nearest {
-  double squared = infinity;
+struct NearestPoints {
+  double squared = std::numeric_limits<double>::infinity();
   Vector3d p = Vector3d::Zero(), q = Vector3d::Zero();  // on the first and on the second
 
   void offer(double squared_distance, const Vector3d& on_first, const Vector3d& on_second) {
@@ -147,7 +143,7 @@ Closest segment_segment(const Vector3d& a0, const Vector3d& a1, const Vector3d& 
 
 Closest point_triangle(const Vector3d& p, const Corners& triangle) {
   // the boundary first: it is all there is of a triangle without area
-  Nearest best;
+  NearestPoints best;
   Corners edge;
   for (int i = 0; i < 3; ++i) {
     edge[i] = triangle[(i + 1) % 3] - triangle[i];

@@ -15,12 +15,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double beyond_all = std::numeric_limits<double>::infinity();
 
 // every query on a pair against all pairs of triangles, moved by the same arithmetic: equal to the bit
 void check_all_queries(const Shape& a, const Shape& b, const Pose& X, double threshold) {
   const Eigen::Matrix3d R = X.rotation.normalized().toRotationMatrix();
-  double least = infinity;
+  double least = beyond_all;
   std::vector<std::pair<int, int>> within;
   for (int s = 0; a.has_triangle(s); ++s)
     for (int t = 0; b.has_triangle(t); ++t) {
@@ -39,7 +39,7 @@ void check_all_queries(const Shape& a, const Shape& b, const Pose& X, double thr
   for (size_t i = 0; i < found.size(); ++i)
     CHECK(std::pair(found[i].triangle_a, found[i].triangle_b) == within[i]);
   const Vector3d p = X.position;
-  least = infinity;
+  least = beyond_all;
   for (int s = 0; a.has_triangle(s); ++s)
     least = std::min(least, point_triangle(p, a.mesh().corners(s)).distance);
   CHECK(closest_point(a, p).distance == least);
@@ -144,7 +144,7 @@ TEST_CASE("a cache that is kept over long walks changes no verdict and no distan
           Eigen::Quaterniond::Identity().slerp(pace, random_turn(random));
       X = {turn * X.rotation, X.position + random_point(random, pace)};
       if (X.position.norm() > 2.2) X.position *= 0.8;
-      const double limit = i % 3 == 0 ? infinity : random.uniform(0, 1);
+      const double limit = i % 3 == 0 ? beyond_all : random.uniform(0, 1);
       const double cold = distance(*a, *b, X, limit).distance;
       if (i % 2 == 0) CHECK(colliding(*a, *b, X, &cache) == (cold == 0));
       CHECK(distance(*a, *b, X, limit, &cache).distance == cold);
