@@ -4,11 +4,17 @@ local report = {}
 
 local function numbers(v) return {v.x, v.y, v.z} end
 
--- what is logged while a file is read: guessed at the level of information, ignored at that of warnings
+local function names(list)
+  local out = {}
+  for i, item in ipairs(list) do out[i] = item.name end
+  return out
+end
+
+-- what is logged while a file is read, by what it is about; a script's own messages by their level
 local function listen(run)
-  local heard = {guessed = {}, ignored = {}}
-  clench.log.sink(function(level, text)
-    local list = level == "info" and heard.guessed or level == "warning" and heard.ignored
+  local heard = {guessed = {}, ignored = {}, mended = {}, doubtful = {}}
+  clench.log.sink(function(level, text, about)
+    local list = heard[about] or level == "info" and heard.guessed or level == "warning" and heard.ignored
     if list then list[#list + 1] = text end
   end)
   local ok, result = pcall(run)
@@ -25,7 +31,18 @@ end
 
 local function of_body(body)
   return {name = body.name, material = body.material, mass = body.mass, center_of_mass = numbers(body.com),
-          inertia = body.inertia, elastic_modulus = body.elastic_modulus, mesh = of_mesh(body.mesh)}
+          inertia = body.inertia, elastic_modulus = body.elastic_modulus, mesh = of_mesh(body.mesh), tracker = body.tracker}
+end
+
+-- boxes, spheres, cylinders and cones that a planner would find, by their kind; nil when there are none
+local function of_primitives(path, options)
+  local counts = {}
+  if not path:lower():find "%.iv$" then return nil end
+  local before = clench.log.level "quiet"  -- what is no primitive is the rule here
+  local ok, list = pcall(clench.files.primitives, path, {root = options.root})
+  clench.log.level(before)
+  for _, p in ipairs(ok and list or {}) do counts[p.kind] = (counts[p.kind] or 0) + 1 end
+  return next(counts) and counts
 end
 
 local function of_dofs(robot)
@@ -63,12 +80,24 @@ local function of_chains(robot)
   return chains
 end
 
+-- what its file describes and nothing acts on yet; nil when there is nothing
+local function of_kept(robot)
+  local kept = {
+    tendons = #robot.tendons > 0 and names(robot.tendons) or nil,
+    tendon_wrappers = #robot.tendon_wrappers > 0 and #robot.tendon_wrappers or nil,
+    tactile_sensors = #robot.tactile_sensors > 0 and #robot.tactile_sensors or nil,
+    glove = robot.glove and {dofs = #robot.glove.slopes, sensors = #robot.glove.slopes[1]},
+    tracker = robot.tracker and robot.tracker.number,
+  }
+  return next(kept) and kept
+end
+
 local function of_robot(robot)
   local dofs, units = of_dofs(robot), units_of(robot)
   for i, dof in ipairs(dofs) do dof.unit = units[i] or "rad" end
   return {name = robot.name, base = of_body(robot.base), dofs = dofs, chains = of_chains(robot),
           approach = {point = numbers(robot.approach.point), direction = numbers(robot.approach.direction)},
-          eigengrasps = #robot.eigengrasps, virtual_contacts = #robot.virtual_contacts}
+          eigengrasps = #robot.eigengrasps, virtual_contacts = #robot.virtual_contacts, kept = of_kept(robot)}
 end
 
 local function of_world(world)
@@ -84,7 +113,11 @@ local function of_world(world)
 end
 
 local readers = {
-  body = function(path, options) return of_body(clench.world():add_object(path, options)) end,
+  body = function(path, options)
+    local body = of_body(clench.world():add_object(path, options))
+    body.primitives = of_primitives(path, options)
+    return body
+  end,
   robot = function(path, options) return of_robot(clench.world():add_robot(path, options)) end,
   world = function(path, options) return of_world(clench.load(path, options)) end,
   eigengrasps = function(path, options)
@@ -95,12 +128,38 @@ local readers = {
     local list = clench.files.virtual_contacts(path, options)
     return {count = #list, robot = list.robot}
   end,
+  ["object contacts"] = function(path, options)
+    local list = clench.files.object_contacts(path, options)
+    return {count = #list, placed = not list[1] or list[1].placed}
+  end,
+  ["pre-grasps"] = function(path, options) return {count = #clench.files.pregrasps(path, options)} end,
+  ["planned grasps"] = function(path, options)
+    local list, best = clench.files.planned_grasps(path, options), nil
+    for _, grasp in ipairs(list) do best = math.max(best or grasp.quality, grasp.quality) end
+    return {count = #list, runs = list[1] and list[#list].run or 0, best = best}
+  end,
+  ["glove calibration"] = function(path, options)
+    local glove = clench.files.glove_calibration(path, options)
+    return {dofs = #glove.slopes, sensors = #glove.slopes[1]}
+  end,
+  ["glove poses"] = function(path, options)
+    local list, sensors, joints = clench.files.glove_poses(path, options), 0, 0
+    for _, pose in ipairs(list) do
+      sensors = math.max(sensors, pose.sensors and #pose.sensors or 0)
+      joints = math.max(joints, pose.joints and #pose.joints or 0)
+    end
+    return {count = #list, sensors = sensors, joints = joints}
+  end,
 }
 
---- One file, understood.
+--- One file, understood: what `clench check` says of it. Loaded by require "clench.report" or as clench.report.
+--- `understood` is a table of what its kind holds, all in metres, kilograms and radians; without it `wrong` says why.
 ---@param path string
 ---@param options? {root?: string, folder?: string, package?: string, unit?: string}  those that its kind takes are used
----@return {file: string, kind: string?, understood: table?, guessed: string[], ignored: string[], wrong: string?}
+---@return {file: string, kind: string?, understood: table?, guessed: string[], mended: string[], ignored: string[], doubtful: string[], wrong: string?}
+--- > r = clench.report.of "models/hands/barrett/barrett.cfg"
+--- > r.kind, #r.understood.dofs, r.understood.dofs[2].unit  --> robot, 4, rad
+--- > clench.report.of("no/such.urdf").wrong  --> no such file: no/such.urdf
 function report.of(path, options)
   local kind
   options = options or {}
@@ -108,7 +167,8 @@ function report.of(path, options)
     kind = clench.file_kind(path)
     return readers[kind](path, reading(kind, options))
   end)
-  return {file = path, kind = kind, understood = ok and result or nil, guessed = heard.guessed, ignored = heard.ignored,
+  return {file = path, kind = kind, understood = ok and result or nil, guessed = heard.guessed, mended = heard.mended,
+          ignored = heard.ignored, doubtful = heard.doubtful,
           wrong = not ok and tostring(result):gsub("^stdlib/report.lua:%d+: ", "") or nil}
 end
 

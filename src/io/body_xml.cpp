@@ -100,7 +100,7 @@ void read_mass(const XmlElement& body, const Library& library, BodySpec& out) {
     const auto x = inertia.numbers(9);
     Eigen::Matrix3d rows;
     for (int i = 0; i < 9; ++i) rows(i / 3, i % 3) = x[i] * units::square_millimetre;
-    out.inertia_per_mass = checked_inertia(rows, inertia.place(), library.options().warn);
+    out.inertia_per_mass = checked_inertia(rows, inertia.place(), library.options().listeners());
   }
 }
 
@@ -116,8 +116,8 @@ void read_matter(const XmlElement& body, const Library& library, BodySpec& out) 
   if (const XmlElement youngs = body.child("youngs")) {
     out.elastic_modulus = positive(youngs, " [Pa]");
     if (*out.elastic_modulus < 1e4)
-      library.warn(fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
-                               youngs.place(), *out.elastic_modulus));
+      library.doubted(fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
+                                  youngs.place(), *out.elastic_modulus));
   }
   if (const XmlElement bird = body.child("useFlockOfBirds"))
     out.tracker = bird.integer(0, 1'000'000);
@@ -140,7 +140,7 @@ std::optional<PlacedFile> read_placed_file(const XmlElement& body, const fs::pat
     element.fail("{}", error.what());
   }
   if (const XmlElement offset = body.child("geometryOffset")) {
-    out.X_BG = read_transform_of(offset, options.warn);
+    out.X_BG = read_transform_of(offset, options.listeners());
     offset.check({.once = {"transform"}}, options.warn);
   }
   return out;
@@ -153,8 +153,8 @@ BodySpec read_body_element(const XmlElement& element, const fs::path& path, Libr
   read_mass(element, library, body);
   const XmlElement file = element.child("geometryFile");
   if (!file) {
-    library.warn(fmt::format("{}: no <geometryFile>: the body is a frame without a surface",
-                             element.place()));
+    library.doubted(fmt::format("{}: no <geometryFile>: the body is a frame without a surface",
+                                element.place()));
     return body;
   }
   Geometry geometry =

@@ -32,7 +32,8 @@ void choose_closing(RobotSpec& robot, const std::string& file, const ReadOptions
     if (found == names.end())
       fail("{}: close: wanted the name of a DOF or a number from 1 to {}, got {}{}", file,
            names.size(), in_quotes(key), did_you_mean(key, names));
-    if (!std::isfinite(sense)) fail("{}: close: {}: wanted a number, got {}", file, key, sense);
+    if (sense != 1 && sense != -1 && sense != 0)
+      fail("{}: close: {}: wanted 1, -1 or 0, got {}", file, key, sense);
     set_closing(robot, static_cast<int>(found - names.begin()), sense);
   }
   if (options.approach) robot.X_BA = options.approach;

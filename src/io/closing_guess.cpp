@@ -10,13 +10,14 @@ namespace clench {
 
 namespace {
 
-constexpr int samples = 256;          // of all DOFs, for the centre
-constexpr int steps = 32;             // of a DOF from end to end
-constexpr double along = 0.8;         // axes whose cosine exceeds this turn the same way
-constexpr double hardly = 0.02;       // of the way of the tips: nearer by less is not nearer
-constexpr double sideways = 0.15;     // the same for a DOF that swings a finger sideways
-constexpr double lopsided = 0.1;      // of the range: a middle farther than this from 0 is no swing
-constexpr double common = 0.4;        // mean of unit vectors: longer means they agree
+constexpr int samples = 256;       // of all DOFs, for the centre
+constexpr int steps = 32;          // of a DOF from end to end
+constexpr double along = 0.8;      // axes whose cosine exceeds this turn the same way
+constexpr double hardly = 0.02;    // of the way of the tips: nearer by less is not nearer
+constexpr double sideways = 0.15;  // the same for a DOF that swings a finger sideways
+constexpr double rolling = 0.02;   // of the tips' distance to the centre: a shorter way is a roll
+constexpr double lopsided = 0.1;   // of the range: a middle farther than this from 0 is no swing
+constexpr double common = 0.4;     // mean of unit vectors: longer means they agree
 constexpr double nearly_axis = 0.94;  // cosine of 20 degrees: a direction this near an axis is it
 
 struct Finger {
@@ -215,29 +216,30 @@ bool flexes(const Hand& hand, int dof) {
   return false;
 }
 
-/// What the tips do while one DOF goes from its rest to an end.
+/// What the tips do while one DOF goes from where it is to an end.
 struct Way {
   double length = 0;      // that the tips go [m]
   double nearer = 0;      // most that they come nearer to the centre [m]
   double nearest_at = 0;  // the way that they have gone there [m]
   double end = 0;         // nearer at the end [m]
+  double far = 0;         // from the centre at first [m]
 };
 
-Way way_to(const Hand& hand, int dof, const std::vector<int>& fingers,
+Way way_to(const Hand& hand, std::vector<double> q, int dof, const std::vector<int>& fingers,
            const Eigen::Vector3d& centre, double end) {
   Way way;
-  auto q = hand.rest;
+  const double start = q[dof];
   std::vector<Eigen::Vector3d> before;
   double first = 0;
   for (int s = 0; s <= steps; ++s) {
-    set(hand, q, dof, hand.rest[dof] + (end - hand.rest[dof]) * s / steps);
+    set(hand, q, dof, start + (end - start) * s / steps);
     const auto tips = tips_at(hand, q);
     double distance = 0;
     for (const int f : fingers) {
       distance += (tips[f] - centre).norm();
       if (s > 0) way.length += (tips[f] - before[f]).norm();
     }
-    if (s == 0) first = distance;
+    if (s == 0) first = way.far = distance;
     way.end = first - distance;
     if (way.end > way.nearer) way.nearer = way.end, way.nearest_at = way.length;
     before = tips;
@@ -250,8 +252,19 @@ double sense_of(const Hand& hand, int dof, const Eigen::Vector3d& centre) {
   const auto [low, high] = hand.ranges[dof];
   if (fingers.empty() || hand.tree.joints[dof].passive) return 0;
   if (!(high - low < 1.5 * endless_turn)) return 0;
-  const Way up = way_to(hand, dof, fingers, centre, high),
-            down = way_to(hand, dof, fingers, centre, low);
+  auto posture = hand.rest;
+  Way up = way_to(hand, posture, dof, fingers, centre, high),
+      down = way_to(hand, posture, dof, fingers, centre, low);
+  if (up.length + down.length < rolling * up.far) {
+    // a straight finger about its own axis: where it goes shows when it is bent
+    for (const int other : hand.dofs) {
+      const auto [least, most] = hand.ranges[other];
+      if (other != dof && most - least < 1.5 * endless_turn)
+        set(hand, posture, other, (least + most) / 2);
+    }
+    up = way_to(hand, posture, dof, fingers, centre, high);
+    down = way_to(hand, posture, dof, fingers, centre, low);
+  }
   const double length = up.length + down.length;
   if (!(length > 0)) return 0;
   const Way& better = up.nearer > down.nearer ? up : down;

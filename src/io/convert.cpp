@@ -26,6 +26,9 @@ void convert_file(FileKind kind, const fs::path& from, const fs::path& to,
       return write_eigengrasps(read_eigengrasps(from, reading), to, writing.warn);
     case FileKind::virtual_contacts:
       return write_virtual_contacts(read_virtual_contacts(from, reading), to);
+    default:
+      fail("{}: wanted a model, a world, eigengrasps or virtual contacts, got {}",
+           from.filename().string(), kind_name(kind));
   }
 }
 

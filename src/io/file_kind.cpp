@@ -1,6 +1,8 @@
 #include "io/file_kind.h"
 
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <iterator>
 
 #include "base/text.h"
@@ -60,7 +62,103 @@ auto find(const Entries& entries, std::string_view text) {
   return found == std::end(entries) ? nullptr : found;
 }
 
+/// Numbers, taken one after the other; beyond the last one there are none.
+class Numbers {
+ public:
+  explicit Numbers(const std::vector<double>& numbers) : numbers_(numbers) {}
+
+  /// A count of things, or empty.
+  std::optional<size_t> count() {
+    if (at_ >= numbers_.size()) return {};
+    const double x = numbers_[at_++];
+    if (!(x >= 0 && x <= 1e6 && x == std::floor(x))) return {};
+    return static_cast<size_t>(x);
+  }
+  void skip(size_t n) { at_ += n; }
+  bool used_up() const { return at_ == numbers_.size(); }
+
+ private:
+  const std::vector<double>& numbers_;
+  size_t at_ = 0;
+};
+
+bool is_calibration(Numbers x) {
+  const auto dofs = x.count(), sensors = x.count();
+  if (!dofs || !sensors || *dofs == 0 || *sensors == 0) return false;
+  x.skip(*dofs * *sensors + *dofs);
+  return x.used_up();
+}
+
+/// `placed`  has each contact a point?
+bool is_contacts(Numbers x, bool placed) {
+  const auto count = x.count();
+  for (size_t i = 0; count && i < *count; ++i) {
+    const auto edges = x.count();
+    if (!edges) return false;
+    x.skip(6 * *edges + (placed ? 11 : 8));
+  }
+  return count && x.used_up();
+}
+
+bool is_glove_poses(Numbers x) {
+  const auto count = x.count();
+  for (size_t i = 0; count && i < *count; ++i) {
+    const auto size = x.count();
+    if (!size) return false;
+    x.skip(1);
+    for (int list = 0; list < 3; ++list) {
+      const auto flag = x.count();
+      if (!flag || *flag > 1) return false;
+      x.skip(*flag * *size);
+    }
+    x.skip(7);
+  }
+  return count && x.used_up();
+}
+
+/// The first part of a file, whole when it is no longer than any of these lists would be.
+std::string start_of(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
+  std::ifstream file(path, std::ios::binary);
+  std::string text(size_t{4} << 20, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<size_t>(file.gcount()));
+  return with_plain_line_ends(std::move(text));
+}
+
 }  // namespace
+
+std::optional<FileKind> kind_of_numbers(const std::string& text) {
+  LineReader lines("", text);
+  std::vector<double> numbers;
+  std::vector<int> widths;  // how many numbers each line holds
+  while (lines.skip_to_full()) {
+    const Line line = lines.next().before('#');
+    if (numbers.empty() && line.text().front() == '[')
+      return split_words(line.text(), "[],").size() > 6 ? std::optional(FileKind::pregrasps)
+                                                        : std::nullopt;
+    for (int i = 0; i < line.size(); ++i) {
+      const auto value = parse_number(line.word(i));
+      // a mistake further down is the reader's to tell
+      if (!value && widths.empty()) return {};
+      numbers.push_back(value.value_or(0));
+    }
+    widths.push_back(line.size());
+  }
+  if (widths.empty()) return {};
+  if (widths.front() >= 9) return FileKind::planned_grasps;
+  if (is_calibration(Numbers(numbers))) return FileKind::glove_calibration;
+  if (is_contacts(Numbers(numbers), true) || is_contacts(Numbers(numbers), false))
+    return FileKind::object_contacts;
+  if (is_glove_poses(Numbers(numbers))) return FileKind::glove_poses;
+  // one that is cut off or has a number too many is known by how its lines begin
+  Numbers counts(numbers);
+  if (widths[0] == 2 && widths.size() > 1 && counts.count() && counts.count())
+    return FileKind::glove_calibration;
+  if (widths[0] != 1 || widths.size() < 3) return {};
+  return widths[2] == 6 ? FileKind::object_contacts : FileKind::glove_poses;
+}
 
 FileKind file_kind(const std::filesystem::path& path) {
   const std::string ending = ending_of(path);
@@ -69,16 +167,23 @@ FileKind file_kind(const std::filesystem::path& path) {
     const Root* root = find(roots, xml_root_name(text));
     return root ? root->kind : FileKind::body;
   }
-  const Ending* known = find(known_endings, ending);
-  if (!known)
-    fail("{}: wanted a model, a world, eigengrasps or virtual contacts, got {}",
-         path.filename().string(), in_quotes(ending));
-  return known->kind;
+  if (const Ending* known = find(known_endings, ending)) return known->kind;
+  if (const auto kind = kind_of_numbers(start_of(path))) return *kind;
+  fail("{}: wanted a model, a world, or a file that goes with one, got {}",
+       path.filename().string(), in_quotes(ending));
 }
 
 const char* kind_name(FileKind kind) {
-  static constexpr const char* names[] = {"body", "robot", "world", "eigengrasps",
-                                          "virtual contacts"};
+  static constexpr const char* names[] = {"body",
+                                          "robot",
+                                          "world",
+                                          "eigengrasps",
+                                          "virtual contacts",
+                                          "object contacts",
+                                          "pre-grasps",
+                                          "planned grasps",
+                                          "glove calibration",
+                                          "glove poses"};
   return names[static_cast<int>(kind)];
 }
 

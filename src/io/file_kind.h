@@ -2,19 +2,35 @@
 // of the endings that are read.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace clench {
 
-enum class FileKind { body, robot, world, eigengrasps, virtual_contacts };
+enum class FileKind {
+  body,
+  robot,
+  world,
+  eigengrasps,
+  virtual_contacts,
+  object_contacts,
+  pregrasps,
+  planned_grasps,
+  glove_calibration,
+  glove_poses
+};
 
-/// path  of a file that exists
-/// throws Error  "notes.txt: wanted a model, a world, eigengrasps or virtual contacts, got '.txt'"
+/// path  of a file that exists. One whose ending says nothing is known by how its numbers stand.
+/// throws Error  "notes.txt: wanted a model, a world, or a file that goes with one, got '.txt'"
 FileKind file_kind(const std::filesystem::path& path);
 
-/// "body", "robot", "world", "eigengrasps", "virtual contacts"
+/// What a text of nothing but numbers describes; empty when it is no such text, or fits none.
+std::optional<FileKind> kind_of_numbers(const std::string& text);
+
+/// "body", "robot", "world", "eigengrasps", "virtual contacts", "object contacts", "pre-grasps",
+/// "planned grasps", "glove calibration", "glove poses"
 const char* kind_name(FileKind kind);
 
 /// Who reads a file of geometry.

@@ -73,8 +73,7 @@ fs::path find_model(const std::string& name, const fs::path& referrer, ModelKind
     const fs::path root = options.root.empty() ? referrer.parent_path() / ".." : options.root;
     const fs::path found = rooted ? try_neighbours(name, root, kind) : fs::path();
     if (found.empty()) throw missing;
-    if (options.warn)
-      options.warn(fmt::format("{}: {} is not below the root; {} is taken", place, name,
+    options.mended(fmt::format("{}: {} is not below the root; {} is taken", place, name,
                                found.generic_string()));
     return found;
   }

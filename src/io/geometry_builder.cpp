@@ -268,7 +268,7 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
   if (s.faults.closed() && solid_mass(s.mesh).volume < 0) {
     for (auto& t : s.mesh.triangles) std::swap(t[1], t[2]);
     out.report.turned = true;
-    if (options.warn) options.warn(subject + ": its triangles face inward; turned to face outward");
+    options.mended(subject + ": its triangles face inward; turned to face outward");
   }
   if (colors_given) out.appearance = mean_appearance(s.kept);
   out.mesh = std::move(s.mesh);

@@ -193,7 +193,8 @@ int GltfDocument::integer(const GltfValue& object, const char* key, int fallback
   if (!found) return fallback;
   const bool whole = found.json->is_number_integer();
   if (!whole || *found.json < low || *found.json > std::numeric_limits<int>::max())
-    fail("{}: wanted a whole number from {} on", found.name, low);
+    fail("{}: wanted a whole number from {} on, got {}", found.name, low,
+         found.json->dump().substr(0, 40));
   return found.json->get<int>();
 }
 

@@ -31,6 +31,7 @@ class Collector {
   GeometryBuilder builder;
   bool colors_given = false;
   std::set<std::string> warnings;
+  std::set<std::string> units;  ///< named by nodes
 
  private:
   static SoCallbackAction::Response on_node(void* self, SoCallbackAction* action,
@@ -49,7 +50,7 @@ class Collector {
            const SbColor* given = nullptr);
 
   std::string file_, error_;
-  double unit_;    // [m]
+  double unit_;  // [m]
   int steps_ = 0;
   bool clockwise_ = false;  // how the shape at hand turns
 };
@@ -78,6 +79,11 @@ SoCallbackAction::Response Collector::enter(SoCallbackAction* action, SoNode* no
   if (is(SoMaterial::getClassTypeId()) || is(SoBaseColor::getClassTypeId()) ||
       is(SoPackedColor::getClassTypeId()) || is(SoVRMLMaterial::getClassTypeId()))
     colors_given = true;
+  if (is(SoUnits::getClassTypeId())) {
+    SbString name;
+    static_cast<SoUnits*>(node)->units.get(name);
+    if (name != "METERS") units.insert(name.getString());  // which is what stands without any
+  }
   if (!is(SoShape::getClassTypeId())) return SoCallbackAction::CONTINUE;
 
   // no exception may pass through Coin
@@ -180,6 +186,12 @@ Geometry read_inventor(const std::filesystem::path& path, const std::string& tex
   warnings.insert(warnings.end(), collector.warnings.begin(), collector.warnings.end());
   if (options.warn)
     for (const auto& warning : warnings) options.warn(warning);
+  if (options.note)
+    for (const auto& unit : collector.units)
+      options.note(
+          fmt::format("{}: Units {} scales what follows it by its length beside METERS, "
+                      "or beside that of the Units before it",
+                      file, unit));
   return collector.builder.finish(collector.colors_given, file, options);
 }
 

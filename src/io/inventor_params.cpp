@@ -53,7 +53,7 @@ std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
       rows(i, j) = *value * units::square_millimetre;
     }
   }
-  return checked_inertia(rows, head.place(), options.warn);
+  return checked_inertia(rows, head.place(), options.listeners());
 }
 
 }  // namespace
@@ -82,8 +82,9 @@ void read_inventor_params(const std::string& text, const std::string& file,
     } else if (key == "youngs") {
       body.elastic_modulus = positive(line, "youngs", "Pa");
       if (*body.elastic_modulus < 1e4 && options.warn)
-        options.warn(fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
-                                 line.place(), *body.elastic_modulus));
+        options.doubted(
+            fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
+                        line.place(), *body.elastic_modulus));
     } else if (key == "useFlockOfBirds") {
       body.tracker = line.integer(1, "useFlockOfBirds", 0);
     } else if (key == "mass") {

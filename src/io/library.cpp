@@ -49,7 +49,10 @@ static BodySpec load_body(const fs::path& path, Library& library) {
     }
     body.appearance = std::move(geometry.appearance);
     body.mesh_report = std::move(geometry.report);
-    if (!geometry.mesh.triangles.empty()) body.shape = Shape::make(std::move(geometry.mesh), file);
+    if (geometry.mesh.triangles.empty())
+      options.doubted(file + ": no surface: the body is a frame, which touches nothing");
+    else
+      body.shape = Shape::make(std::move(geometry.mesh), file);
   }
   body.name = path.stem().string();
   body.source = path.generic_string();

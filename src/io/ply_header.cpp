@@ -74,7 +74,8 @@ PlyHeader read_ply_header(WordReader& words) {
     } else if (keyword == "element") {
       PlyElement element;
       element.name = words.word();
-      element.count = words.integer("number of elements", 0, std::numeric_limits<int>::max());
+      element.count = words.integer(fmt::format("number of elements {}", in_quotes(element.name)),
+                                    0, std::numeric_limits<int>::max());
       if (header.elements.size() == most_elements)
         words.fail("wanted at most {} elements", most_elements);
       header.elements.push_back(std::move(element));

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "base/listeners.h"
 #include "spec/world_spec.h"
 
 namespace clench {
@@ -19,6 +20,10 @@ struct ReadOptions {
   std::function<void(const std::string&)> warn = {};
   /// told of what a file leaves open and we guess
   std::function<void(const std::string&)> note = {};
+  /// told of what a file has wrong and we put right; empty: warn is told
+  std::function<void(const std::string&)> mend = {};
+  /// told of what is used as it stands, and looks wrong; empty: warn is told
+  std::function<void(const std::string&)> doubt = {};
   /// geometry files: length of their unit, > 0 [m]; absent: what the format or the file says, else
   /// silent_mesh_unit
   std::optional<double> mesh_scale = {};
@@ -28,13 +33,17 @@ struct ReadOptions {
   std::filesystem::path folder = {};
   /// where the packages lie that URDF files name: by name; under "" any of them
   std::map<std::string, std::filesystem::path> packages = {};
-  /// how DOFs close, by name or number from 1: > 0 up, < 0 down, 0 not; the
+  /// how DOFs close, by name or number from 1: 1 up, -1 down, 0 not; the
   /// rest is as the file says, else guessed
   std::map<std::string, double> closing = {};
   /// approach frame in the base; absent: what the file says, else guessed
   std::optional<Pose> approach = {};
   /// .dae .gltf .glb: turn what the file calls up to z? (A URDF takes the axes as they stand.)
   bool turn_mesh_up = true;
+
+  Listeners listeners() const { return {warn, note, mend, doubt}; }
+  void mended(const std::string& sentence) const { tell(mend, warn, sentence); }
+  void doubted(const std::string& sentence) const { tell(doubt, warn, sentence); }
 };
 
 /// A body from .xml, .iv .wrl .vrml (millimetres), .off .ply .obj .stl .gltf .glb .dae, in any case.

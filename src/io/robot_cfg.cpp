@@ -88,7 +88,11 @@ RobotSpec CfgReader::read() {
   set_dof_units();
   check_ranges();
   read_optional_blocks();
-  check_robot(robot_);
+  try {
+    check_robot(robot_);
+  } catch (const Error& error) {
+    head.fail("{}", error.what());
+  }
   read_robot_files(robot_, named_, path_, library_.options());
   return std::move(robot_);
 }
@@ -128,17 +132,26 @@ void CfgReader::read_dofs() {
 void CfgReader::read_chain(int number) {
   ChainSpec chain;
   const int joints = count("number of joints", 0), links = count("number of links", 0);
-  chain.X_BC = read_transform_list(lines_, library_.options().warn);
+  chain.X_BC = read_transform_list(lines_, library_.options().listeners());
   for (int j = 0; j < joints; ++j) read_joint(chain, j);
   for (int l = 0; l < links; ++l)
     read_link(chain, l, fmt::format("{}_chain{}_link{}", robot_.name, number, l));
   robot_.chains.push_back(std::move(chain));
 }
 
+/// Lengths whose squares and products overflow are no lengths.
+static void check_size(const Line& line, double x, int joint, const char* what) {
+  constexpr double largest = 1e30;
+  if (!(std::abs(x) <= largest))
+    line.fail("joint {}: {}: wanted a number of at most {}, got {}", joint, what, largest, x);
+}
+
 void CfgReader::read_joint(ChainSpec& chain, int number) {
   const Line line = wanted(fmt::format("the line of joint {}", number));
   const auto value = [&](int i, const char* what) {
-    return line.number(i, fmt::format("joint {}: {}", number, what));
+    const double x = line.number(i, fmt::format("joint {}: {}", number, what));
+    check_size(line, x, number, what);
+    return x;
   };
   JointSpec joint;
 
@@ -157,6 +170,9 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
     line.fail("joint {}: wanted a DOF below {}, got d{}", number, dof_lines_.size(), joint.dof);
   if (expression->ratio == 0)
     line.fail("joint {}: wanted a ratio other than 0, got {}", number, in_quotes(text));
+
+  check_size(line, expression->offset, number, "offset");
+  check_size(line, expression->ratio, number, "ratio");
 
   // degrees and millimetres to radians and metres
   const double unit = revolute ? units::degree : units::millimetre;
@@ -180,8 +196,10 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
                    (revolute ? units::newton_millimetre : units::newton_per_millimetre);
   if (line.size() > 9) joint.rest = value(9, "rest value") * (revolute ? 1.0 : units::millimetre);
   used_up(line, 10);
-  if (joint.viscous < 0 || joint.coulomb < 0 || joint.spring < 0)
-    line.fail("joint {}: wanted friction and spring stiffness >= 0", number);
+  constexpr const char* losses[] = {"viscous friction", "Coulomb friction", "spring stiffness"};
+  for (int i = 0; i < 3 && line.size() > 6 + i; ++i)
+    if (const double x = line.number(6 + i, losses[i]); x < 0)
+      line.fail("joint {}: {}: wanted a number >= 0, got {}", number, losses[i], x);
 
   // a DOF counts in the unit of its first joint: rad or mm
   auto& kind = dof_kinds_[joint.dof];
@@ -229,7 +247,8 @@ void CfgReader::set_dof_units() {
   for (size_t i = 0; i < dof_lines_.size(); ++i) {
     const DofLine& d = dof_lines_[i];
     const bool slides = dof_kinds_[i] == JointKind::prismatic;
-    if (!dof_kinds_[i]) library_.warn(fmt::format("{}: DOF {} moves no joint", d.line.place(), i));
+    if (!dof_kinds_[i])
+      library_.doubted(fmt::format("{}: DOF {} moves no joint", d.line.place(), i));
     DofSpec dof;
     dof.kind = d.kind;
     dof.default_velocity = d.velocity * (slides ? units::millimetre : 1.0);
@@ -263,7 +282,7 @@ void CfgReader::read_tracker() {
         fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
   else
     tracker.number = wanted("a bird number").integer(0, "FlockOfBirds", 0);
-  tracker.X_BS = read_transform_list(lines_, library_.options().warn);
+  tracker.X_BS = read_transform_list(lines_, library_.options().listeners());
   robot_.tracker = tracker;
 }
 

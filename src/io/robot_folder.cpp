@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "io/eigengrasps.h"
 #include "io/saved_files.h"
 #include "io/virtual_contacts.h"
@@ -22,6 +23,15 @@ static std::string plain(const std::string& name) {
   return out.empty() ? "part" : out;
 }
 
+// the same for two names only when they are one
+static std::string own_stem(const std::string& name) {
+  const std::string out = plain(name);
+  if (out == name) return out;
+  Hasher hash;
+  hash.add(name);
+  return fmt::format("{}_{:08x}", out, static_cast<uint32_t>(hash.value()));
+}
+
 std::string part_name(const BodySpec& body, const RobotSpec& robot) {
   if (!body.file.empty()) return fs::path(body.file).stem().string();
   const std::string prefix = robot.name + "_";
@@ -31,7 +41,8 @@ std::string part_name(const BodySpec& body, const RobotSpec& robot) {
 RobotFolder::RobotFolder(const fs::path& path, const WriteOptions& options)
     : path_(path),
       file_(path.filename().string()),
-      stem_(plain(path.stem().string())),
+      stem_(own_stem(path.stem().string())),
+      own_(stem_ + '_' + plain(path.extension().string().substr(1))),
       warn_(options.warn) {}
 
 std::string RobotFolder::add(const std::string& folder, const std::string& part,
@@ -79,11 +90,11 @@ static std::string off_text(const Mesh& mesh, const Appearance& looks) {
 }
 
 std::string RobotFolder::body(const BodySpec& body, const std::string& part) {
-  const std::string folder = "iv/" + stem_ + "/";
+  const std::string folder = "iv/" + own_ + "/";
   std::string surface;
   if (body.shape)
     surface = add(folder, part, ".off", off_text(body.shape->mesh(), body.appearance));
-  return stem_ + "/" +
+  return own_ + "/" +
          add(folder, part, ".xml",
              "<?xml version=\"1.0\" ?>\n<root>\n" + body_elements(body, surface, "  ") +
                  "</root>\n");
@@ -129,7 +140,7 @@ std::string RobotFolder::mesh(const Mesh& mesh, const Appearance& looks, const s
 // --- what a robot's file names ---
 
 std::string RobotFolder::named_file(const std::string& folder, const std::string& ending) const {
-  return folder + "/" + stem_ + ending;
+  return folder + "/" + own_ + ending;
 }
 
 std::string RobotFolder::eigengrasps(const EigengraspSet& set) {

@@ -23,14 +23,14 @@ class RobotFolder {
   /// "hand.cfg does not hold ..."
   void lost(const std::string& what) const { warn(file_ + " does not hold " + what); }
 
-  /// A body as iv/HAND/PART.xml, its surface and its colours beside as .off. Equal ones share a
+  /// A body as iv/HAND_cfg/PART.xml (HAND_xml for hand.xml), so that robots side by side share no file; its surface and its colours beside as .off. Equal ones share a
   /// file.
-  /// returns  its name as robots call it: HAND/PART.xml
+  /// returns  its name as robots call it: HAND_cfg/PART.xml
   std::string body(const BodySpec& body, const std::string& part);
   /// Triangles as HAND_files/PART.obj, in metres, with their colours when these differ.
   /// returns  the name from the robot's folder on
   std::string mesh(const Mesh& mesh, const Appearance& looks, const std::string& part);
-  /// eigen/HAND.egr, or .xml where amplitudes have limits; virtual/HAND.vgr; glove/HAND.txt.
+  /// eigen/HAND_cfg.egr, or .xml where amplitudes have limits; virtual/HAND_cfg.vgr; glove/HAND_cfg.txt.
   /// returns  the name from the robot's folder on
   std::string eigengrasps(const EigengraspSet& set);
   std::string virtual_contacts(const VirtualContactSet& set);
@@ -47,7 +47,8 @@ class RobotFolder {
   std::string named_file(const std::string& folder, const std::string& ending) const;
 
   std::filesystem::path path_;
-  std::string file_, stem_;
+  std::string file_;
+  std::string stem_, own_;  // of its name; the same with its ending
   std::function<void(const std::string&)> warn_;
   std::map<std::string, std::string> texts_;  // name in the folder, from the robot's on, to text
   std::map<std::string, std::string> names_;  // by folder, ending and text

@@ -122,7 +122,8 @@ void XmlRobotReader::read_dof(const XmlElement& element) {
                 warn());
   const size_t i = robot_.dofs.size();
   const bool slides = dof_kinds_[i] == JointKind::prismatic;
-  if (!dof_kinds_[i]) library_.warn(fmt::format("{}: DOF {} moves no joint", element.place(), i));
+  if (!dof_kinds_[i])
+    library_.doubted(fmt::format("{}: DOF {} moves no joint", element.place(), i));
   DofSpec dof;
   const std::string kind = element.wanted_attribute("type");
   if (kind == "b")
@@ -159,7 +160,7 @@ void XmlRobotReader::set_dof_units() {
     if (dof.default_value < low || dof.default_value > high) {
       // 0 is only what nobody chose
       if (const XmlElement given = dofs_[i].child("defaultValue"))
-        library_.warn(
+        library_.mended(
             fmt::format("{}: DOF {}: defaultValue {} is outside its range; moved to the limit",
                         given.place(), i, given.text()));
       dof.default_value = std::clamp(dof.default_value, low, high);
@@ -176,13 +177,23 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
   if (joints.size() > most_parts || links.size() > most_parts)
     element.fail("chain: wanted at most {} joints and links, got {} and {}", most_parts, joints.size(),
                  links.size());
-  chain.X_BC = read_transform_of(element, warn());
+  chain.X_BC = read_transform_of(element, library_.options().listeners());
   for (const XmlElement& e : joints) read_joint(e, chain);
   for (const XmlElement& e : links) read_link(e, chain);
   robot_.chains.push_back(std::move(chain));
   read_tactile(
       element, static_cast<int>(robot_.chains.size()) - 1,
       [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), robot_);
+}
+
+/// A number whose squares and products do not overflow.
+static double bounded(const XmlElement& element, const std::string& joint) {
+  constexpr double largest = 1e30;
+  const double x = element.number();
+  if (!(std::abs(x) <= largest))
+    element.fail("{}: {}: wanted a number of at most {}, got {}", joint, element.name(), largest,
+                 x);
+  return x;
 }
 
 void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
@@ -199,8 +210,8 @@ void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
     element.fail("{}: wanted type Revolute or Prismatic, got {}{}", subject, in_quotes(type),
                  did_you_mean(type, {"Revolute", "Prismatic"}));
   read_expression(element, joint, subject);
-  joint.a = element.wanted("a").number() * units::millimetre;
-  joint.alpha = element.wanted("alpha").number() * units::degree;
+  joint.a = bounded(element.wanted("a"), subject) * units::millimetre;
+  joint.alpha = bounded(element.wanted("alpha"), subject) * units::degree;
   read_limits(element, joint, subject);
   read_losses(element, joint, subject);
 
@@ -228,17 +239,17 @@ void XmlRobotReader::read_expression(const XmlElement& element, JointSpec& joint
     moved.fail("{}: wanted a ratio other than 0, got {}", subject, in_quotes(text));
   joint.dof = expression->dof;
   joint.ratio = expression->ratio;
-  joint.theta = (revolute ? expression->offset : theta.number()) * units::degree;
-  joint.d = (revolute ? d.number() : expression->offset) * units::millimetre;
+  joint.theta = (revolute ? expression->offset : bounded(theta, subject)) * units::degree;
+  joint.d = (revolute ? bounded(d, subject) : expression->offset) * units::millimetre;
 }
 
 void XmlRobotReader::read_limits(const XmlElement& element, JointSpec& joint,
                                  const std::string& subject) const {
   const XmlElement low = element.wanted("minValue"), high = element.wanted("maxValue");
-  double min = low.number(), max = high.number();
+  double min = bounded(low, subject), max = bounded(high, subject);
   if (min > max && joint.ratio < 0) {
     // some files write the limits in the DOF's direction
-    library_.warn(
+    library_.mended(
         fmt::format("{}: {}: minValue {} exceeds maxValue {}; as the joint runs against "
                     "its DOF they are exchanged",
                     low.place(), subject, min, max));
@@ -363,7 +374,7 @@ void XmlRobotReader::read_tracker() {
     tracker.number = element.integer_attribute("number", 0);
   else
     library_.warn(fmt::format("{}: flockOfBirds: no bird number, 0 is used", element.place()));
-  tracker.X_BS = read_transform_of(element, warn());
+  tracker.X_BS = read_transform_of(element, library_.options().listeners());
   robot_.tracker = tracker;
 }
 

@@ -112,6 +112,17 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
   return *read;
 }
 
+void SavedFiles::warn_of_folders(const RobotSpec& robot) const {
+  const bool folder = !robot.files.folder.empty(), packages = !robot.files.packages.empty();
+  if (!folder && !packages) return;
+  warn(fmt::format("{} does not hold {} that robot '{}' was read with; .lua does",
+                   path_.filename().string(),
+                   folder && packages ? "the options 'folder' and 'package'"
+                   : folder           ? "the option 'folder'"
+                                      : "the option 'package'",
+                   robot.name));
+}
+
 // --- what is written beside ---
 
 /// A name that every file system takes, and that other formats can quote.

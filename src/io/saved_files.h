@@ -42,6 +42,8 @@ class SavedFiles {
   void warn(const std::string& sentence) const {
     if (warn_) warn_(sentence);
   }
+  /// Warns of the folders that the robot was read with, if there are any: only .lua holds them.
+  void warn_of_folders(const RobotSpec& robot) const;
 
  private:
   bool finds(const std::string& name, const std::string& file) const;

@@ -13,7 +13,7 @@ bool begins_transform(const Line& line) {
 // files write six digits
 static constexpr double nearly_unit = 1e-4;
 
-Pose read_full_transform(const Line& line, std::string_view text, const TransformWarning& warn) {
+Pose read_full_transform(const Line& line, std::string_view text, const Listeners& listeners) {
   text = trim(text.substr(0, text.find('#')));
   // the brackets in their order, then the numbers between them
   std::string shape;
@@ -33,8 +33,9 @@ Pose read_full_transform(const Line& line, std::string_view text, const Transfor
   if (!q)
     line.fail("transform: wanted a quaternion of length 1, got ({} {} {} {})", x[0], x[1], x[2],
               x[3]);
-  if (warn && std::abs(wxyz.stableNorm() - 1) > nearly_unit)
-    warn(fmt::format("{}: the quaternion ({} {} {} {}) is not of length 1; it is scaled to it",
+  if (std::abs(wxyz.stableNorm() - 1) > nearly_unit)
+    tell(listeners.mend, listeners.warn,
+         fmt::format("{}: the quaternion ({} {} {} {}) is not of length 1; it is scaled to it",
                      line.place(), x[0], x[1], x[2], x[3]));
   return {*q, Eigen::Vector3d(x[4], x[5], x[6]) * units::millimetre};
 }
@@ -46,11 +47,12 @@ static Eigen::Vector3d axis(const Line& line, int i) {
   line.fail("rotation: wanted an axis x, y or z, got {}", in_quotes(word));
 }
 
-static void warn_of_surplus(const Line& line, int used, const TransformWarning& warn) {
-  if (const std::string sentence = line.surplus(used); warn && !sentence.empty()) warn(sentence);
+static void warn_of_surplus(const Line& line, int used, const Listeners& listeners) {
+  if (const std::string sentence = line.surplus(used); listeners.warn && !sentence.empty())
+    listeners.warn(sentence);
 }
 
-static Pose read_matrix(const Line& head, LineReader& lines, const TransformWarning& warn) {
+static Pose read_matrix(const Line& head, LineReader& lines, const Listeners& listeners) {
   // nine numbers, wherever the lines end
   Eigen::Matrix3d R;
   Line line = head.before('#');
@@ -62,7 +64,7 @@ static Pose read_matrix(const Line& head, LineReader& lines, const TransformWarn
     }
     R.col(i / 3)[i % 3] = line.number(next++, "rotation matrix");
   }
-  warn_of_surplus(line, next, warn);
+  warn_of_surplus(line, next, listeners);
   const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error < 1e-2) || !(R.determinant() > 0))
     head.fail(
@@ -71,12 +73,12 @@ static Pose read_matrix(const Line& head, LineReader& lines, const TransformWarn
   return Pose::turn(Eigen::Quaterniond(R).normalized());
 }
 
-Pose read_transform(const Line& line, LineReader& lines, const TransformWarning& warn) {
+Pose read_transform(const Line& line, LineReader& lines, const Listeners& listeners) {
   const std::string_view key = line.word(0);
   if (line.text().starts_with('T') && (key == "T" || key.starts_with("T(")))
-    return read_full_transform(line, trim(line.text().substr(1)), warn);
-  if (key == "R") return read_matrix(line, lines, warn);
-  warn_of_surplus(line, key == "t" ? 4 : 3, warn);
+    return read_full_transform(line, trim(line.text().substr(1)), listeners);
+  if (key == "R") return read_matrix(line, lines, listeners);
+  warn_of_surplus(line, key == "t" ? 4 : 3, listeners);
   if (key == "t")
     return Pose::translation(Eigen::Vector3d(line.number(1, "translation x"),
                                              line.number(2, "translation y"),
@@ -87,11 +89,11 @@ Pose read_transform(const Line& line, LineReader& lines, const TransformWarning&
   line.fail("transform: wanted t, r, rr, T or R, got {}", in_quotes(key));
 }
 
-Pose read_transform_list(LineReader& lines, const TransformWarning& warn) {
+Pose read_transform_list(LineReader& lines, const Listeners& listeners) {
   std::optional<Pose> total;  // the only one is kept to the bit
   while (lines.skip_to_full() && begins_transform(lines.peek())) {
     const Line line = lines.next();
-    const Pose next = read_transform(line, lines, warn);
+    const Pose next = read_transform(line, lines, listeners);
     total = total ? *total * next : next;
   }
   return total.value_or(Pose{});

@@ -6,8 +6,8 @@ namespace clench {
 
 // one element as a line of the text formats
 Pose read_transform_element(const Line& line, std::string_view tag, std::string_view value,
-                            const TransformWarning& warn) {
-  if (tag == "fullTransform") return read_full_transform(line, trim(value), warn);
+                            const Listeners& listeners) {
+  if (tag == "fullTransform") return read_full_transform(line, trim(value), listeners);
   const char* key = tag == "translation"      ? "t "
                     : tag == "rotation"       ? "r "
                     : tag == "rotationMatrix" ? "R "
@@ -18,10 +18,10 @@ Pose read_transform_element(const Line& line, std::string_view tag, std::string_
   LineReader one(file, std::string(line.number() - 1, '\n') + key + std::string(value));
   Line entry;
   while (!one.done()) entry = one.next();
-  return read_transform(entry, one, warn);
+  return read_transform(entry, one, listeners);
 }
 
-Pose read_tagged_transform(const Line& line, LineReader& lines, const TransformWarning& warn) {
+Pose read_tagged_transform(const Line& line, LineReader& lines, const Listeners& listeners) {
   // the element as one text, white space between its parts
   const std::string_view name = line.text().substr(1, line.text().find_first_of("> ") - 1);
   const std::string closing = "</" + std::string(name) + ">";
@@ -47,7 +47,7 @@ Pose read_tagged_transform(const Line& line, LineReader& lines, const TransformW
     const size_t tail = rest.find(end, head);
     if (tail == std::string_view::npos) line.fail("transform: wanted {} for <{}>", end, tag);
     const Pose next =
-        read_transform_element(line, tag, rest.substr(head + 1, tail - head - 1), warn);
+        read_transform_element(line, tag, rest.substr(head + 1, tail - head - 1), listeners);
     total = total ? *total * next : next;
     rest = trim(rest.substr(tail + end.size()));
   }

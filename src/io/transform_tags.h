@@ -10,11 +10,11 @@ namespace clench {
 /// axis", rotationMatrix (9 numbers), fullTransform "(w x y z)[x y z]".
 /// throws Error at the line when it is none of these
 Pose read_transform_element(const Line& line, std::string_view tag, std::string_view value,
-                            const TransformWarning& warn = {});
+                            const Listeners& listeners = {});
 
 /// `<transform> <fullTransform>(w x y z)[x y z]</fullTransform> ... </transform>`, or one of the
 /// inner elements alone, composed left to right. `line` is the first line; reads on to the closing
 /// tag.
-Pose read_tagged_transform(const Line& line, LineReader& lines, const TransformWarning& warn = {});
+Pose read_tagged_transform(const Line& line, LineReader& lines, const Listeners& listeners = {});
 
 }  // namespace clench

@@ -8,9 +8,9 @@ namespace clench {
 
 /// The children of <transform>, composed left to right; see read_transform_element.
 /// throws Error at the line of a child that is none
-Pose read_transform_xml(const XmlElement& transform, const TransformWarning& warn);
+Pose read_transform_xml(const XmlElement& transform, const Listeners& listeners);
 
 /// The child <transform> of an element, or identity when there is none.
-Pose read_transform_of(const XmlElement& element, const TransformWarning& warn);
+Pose read_transform_of(const XmlElement& element, const Listeners& listeners);
 
 }  // namespace clench

@@ -42,7 +42,7 @@ void InertialFaults::add(Inertial fault, const std::string& place, const std::st
 
 void InertialFaults::tell(const Library& library) const {
   if (!links_[0].empty())
-    library.warn(
+    library.doubted(
         fmt::format("{}: inertia that no body has, as one moment exceeds the sum of the "
                     "others; it is used as it stands: {}",
                     places_[0], some_names(links_[0])));
@@ -114,7 +114,7 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     library.note(fmt::format("{}: links without a mass weigh what their volume of water does: {}",
                              file, some_names(weightless)));
   if (!open.empty())
-    library.warn(
+    library.note(
         fmt::format("{}: links without a mass whose surface is open, and so bounds no "
                     "volume, weigh {} kg: {}",
                     first_open, frame_mass, some_names(open)));

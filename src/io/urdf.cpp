@@ -202,8 +202,10 @@ void UrdfReader::warn_if_large(const XmlElement& shape, const GeometryPiece& pie
   if (shape.name() != "mesh" || shape.attribute("scale")) return;
   const double size = size_of(piece.geometry->mesh);
   if (size < large_mesh || !large_.insert(shape.attribute("filename").value_or("")).second) return;
-  warn(shape, fmt::format("link '{}': its mesh is {:.4g} m large: is a scale of 0.001 missing?",
-                          link, size));
+  library_.doubted(
+      fmt::format("{}: link '{}': its mesh is {:.4g} m large: is a scale of 0.001 "
+                  "missing?",
+                  shape.place(), link, size));
 }
 
 std::optional<GeometryPiece> UrdfReader::read_piece(const XmlElement& element,

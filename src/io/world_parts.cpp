@@ -34,6 +34,12 @@ double unit_of(const RobotSpec& robot, int dof) {
 
 }  // namespace
 
+void check_position(const Pose& X, const std::string& place) {
+  const double far = X.position.cwiseAbs().maxCoeff();
+  if (!(far <= farthest))
+    fail("{}: wanted a position within {} m of the origin, got {}", place, farthest, far);
+}
+
 // --- DOFs ---
 
 bool dof_slides(const RobotSpec& robot, int dof) {

@@ -8,6 +8,9 @@
 
 namespace clench {
 
+/// throws Error  "place: wanted a position within 1e9 m of the origin, got ..."
+void check_position(const Pose& X, const std::string& place);
+
 /// Does the DOF count in lengths, as its first joint does?
 bool dof_slides(const RobotSpec& robot, int dof);
 

@@ -34,6 +34,7 @@ class WldReader {
     if (const std::string sentence = line.surplus(used); !sentence.empty()) library_.warn(sentence);
   }
   Pose pose();
+  Pose any_pose();
   bool begins_pose(const Line& line) const;
   /// runs a reader of another file; what it throws gets this line's place
   template <class Read>
@@ -62,14 +63,22 @@ bool WldReader::begins_pose(const Line& line) const {
 }
 
 Pose WldReader::pose() {
+  lines_.skip_to_full();
+  const std::string place = lines_.peek().place();
+  const Pose X = any_pose();
+  check_position(X, place);
+  return X;
+}
+
+Pose WldReader::any_pose() {
   const Line line = lines_.next_full("a transform 'T (w x y z)[x y z]'");
   if (line.text().starts_with('<'))
-    return read_tagged_transform(line, lines_, library_.options().warn);
+    return read_tagged_transform(line, lines_, library_.options().listeners());
   if (!begins_pose(line))
     line.fail("wanted a transform 'T (w x y z)[x y z]', got {}", in_quotes(line.text()));
   const std::string_view text = line.text();
   return read_full_transform(line, trim(text.substr(text.front() == 'T' ? 1 : 0)),
-                             library_.options().warn);
+                             library_.options().listeners());
 }
 
 void WldReader::read_header() {
@@ -78,7 +87,8 @@ void WldReader::read_header() {
   const bool named = lower_case(first.text()).starts_with("#graspit!");
   if (!named && !lines_.skip_to_full())
     first.fail("wanted '#GraspIt! version ...', got {}", in_quotes(first.text()));
-  if (!named) library_.warn(first.place() + ": the first line '#GraspIt! version ...' is missing");
+  if (!named)
+    library_.doubted(first.place() + ": the first line '#GraspIt! version ...' is missing");
 }
 
 static constexpr const char* block_names[] = {"Obstacle",   "GraspableBody", "Robot",

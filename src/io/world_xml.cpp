@@ -58,7 +58,9 @@ Pose XmlWorldReader::pose(const XmlElement& element) const {
   if (!element.child("transform"))
     library_.note(fmt::format("{}: {}: no <transform>; it stands at the origin", element.place(),
                               element.name()));
-  return read_transform_of(element, warn());
+  const Pose X = read_transform_of(element, library_.options().listeners());
+  check_position(X, fmt::format("{}: {}", element.place(), element.name()));
+  return X;
 }
 
 BodySpec XmlWorldReader::inline_body(const XmlElement& element) {

@@ -5,8 +5,8 @@
 namespace clench {
 
 /// By the ending: .cfg and .xml as GraspIt! has them, .urdf. What stands beside, in folders made
-/// where they are missing: links as iv/HAND/LINK.xml and .off (.cfg, .xml) or HAND_files/LINK.obj
-/// (.urdf); eigen/HAND.egr (.xml where amplitudes have limits), virtual/HAND.vgr, glove/HAND.txt,
+/// where they are missing: links as iv/HAND_cfg/LINK.xml and .off (.cfg, .xml) or HAND_files/LINK.obj
+/// (.urdf); eigen/HAND_cfg.egr (.xml where amplitudes have limits), virtual/HAND_cfg.vgr, glove/HAND_cfg.txt,
 /// which a .urdf cannot name. Read again, a robot has the same DOFs in the same ranges, and every
 /// surface stands in the same place for all their values; what its own format holds comes back to
 /// the bit where the format's unit allows it; a surface with doubled triangles is mended. A robot

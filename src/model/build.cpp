@@ -6,15 +6,13 @@
 
 namespace clench {
 
-using Warn = std::function<void(const std::string&)>;
-
 // six digits of a metre and of a radian
 static constexpr double digits = 1e-5;
 
 // broken away is a joint whose DOF has gone on beyond it, inside the joint's limits; any other follows its DOF
 static std::vector<std::vector<Breakaway>> checked_breakaway(
     const Robot& robot, const Eigen::VectorXd& q, const std::vector<std::vector<Breakaway>>& given,
-    const Warn& warn) {
+    const Listeners& listeners) {
   auto out = given;
   if (out.size() != robot.chains.size())
     fail("robot '{}': wanted breakaway states of {} chains, got {}", robot.name,
@@ -29,8 +27,8 @@ static std::vector<std::vector<Breakaway>> checked_breakaway(
       const JointSpec& joint = joints[j];
       const bool beyond = (joint.ratio * q[joint.dof] - *out[c][j]) * joint.ratio > 0;
       if (beyond && *out[c][j] >= joint.min - digits && *out[c][j] <= joint.max + digits) continue;
-      if (warn && beyond)
-        warn(
+      if (listeners.warn && beyond)
+        listeners.warn(
             fmt::format("robot '{}': joint {} of chain {} broke away at {}, outside [{}, {}]; it "
                         "follows its DOF",
                         robot.name, j + 1, c + 1, *out[c][j], joint.min, joint.max));
@@ -41,7 +39,7 @@ static std::vector<std::vector<Breakaway>> checked_breakaway(
 }
 
 static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed,
-                           const Warn& warn) {
+                           const Listeners& listeners) {
   const Robot& robot = world.robot(id);
   if (placed.dofs.empty()) return;
   if (placed.dofs.size() != robot.dofs.size())
@@ -51,17 +49,18 @@ static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed
   for (int i = 0; i < q.size(); ++i) {
     const auto [low, high] = robot.limits[i];
     q[i] = std::clamp(placed.dofs[i], low, high);
-    if (warn && std::abs(q[i] - placed.dofs[i]) > digits)
-      warn(fmt::format("robot '{}': DOF {} starts at {}, outside [{}, {}]; moved to the limit",
+    if (std::abs(q[i] - placed.dofs[i]) > digits)
+      tell(listeners.mend, listeners.warn,
+           fmt::format("robot '{}': DOF {} starts at {}, outside [{}, {}]; moved to the limit",
                        robot.name, i + 1, placed.dofs[i], low, high));
   }
   world.set_dofs(id, q);
   if (!placed.breakaway.empty())
-    world.set_dofs_unchecked(id, q, checked_breakaway(robot, q, placed.breakaway, warn));
+    world.set_dofs_unchecked(id, q, checked_breakaway(robot, q, placed.breakaway, listeners));
 }
 
 static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robot> child,
-                    const Warn& warn) {
+                    const Listeners& listeners) {
   const Robot& carrier = world.robot(parent);
   Pose X_LB = c.X_LB;
   if (c.chain >= 0 && c.chain < static_cast<int>(carrier.chains.size()) &&
@@ -73,8 +72,8 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
     if (off.position.norm() < digits && off.angle() < digits)
       // both as they are when they agree to the bit
       X_LB = X_WL * X_LB == X_WB ? X_LB : as_written;
-    else if (warn)
-      warn(
+    else if (listeners.warn)
+      listeners.warn(
           fmt::format("robot '{}': its pose and its connection to '{}' differ by {:.3g} m and "
                       "{:.3g} rad; the connection is used",
                       world.robot(child).name, carrier.name, off.position.norm(), off.angle()));
@@ -98,12 +97,12 @@ std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot, double 
 }
 
 Id<Robot> add_robot(World& world, const RobotSpec& spec, const Pose& X_WB, const std::string& name,
-                    const Warn& warn) {
+                    const Listeners& listeners) {
   const auto id = world.add_robot(spec, X_WB, name);
   const bool near = spec.collision_rules.near_pairs_off;
   const auto pairs = switch_off_overlaps(world, id, near ? world.contact_threshold() : 0);
-  if (warn && !pairs.empty())
-    warn(fmt::format(
+  if (listeners.note && !pairs.empty())
+    listeners.note(fmt::format(
         "robot '{}': these of its bodies overlap{} as it is loaded, and may from now on: {}",
         world.robot(id).name, near ? " or touch" : "", describe(world, pairs)));
   return id;
@@ -114,9 +113,9 @@ namespace {
 /// Makes the world of a spec, entry by entry.
 class Builder {
  public:
-  Builder(const WorldSpec& spec, const Warn& warn)
+  Builder(const WorldSpec& spec, const Listeners& listeners)
       : spec_(spec),
-        warn_(warn),
+        listeners_(listeners),
         robots_(spec.robots.size()),
         connected_(spec.connections.size()) {}
   World build();
@@ -128,7 +127,7 @@ class Builder {
   Id<Body> named(const std::string& name) const;
 
   const WorldSpec& spec_;
-  const Warn& warn_;
+  const Listeners& listeners_;
   World world_;
   std::vector<Id<Robot>> robots_;
   std::vector<bool> connected_;
@@ -139,8 +138,8 @@ void Builder::add_robot(int index) {
   // who tells all that is off needs no search for what overlaps
   robots_[index] = spec_.collision
                        ? world_.add_robot(placed.robot, placed.X_WB)
-                       : clench::add_robot(world_, placed.robot, placed.X_WB, "", warn_);
-  set_start_dofs(world_, robots_[index], placed, warn_);
+                       : clench::add_robot(world_, placed.robot, placed.X_WB, "", listeners_);
+  set_start_dofs(world_, robots_[index], placed, listeners_);
 }
 
 void Builder::add_connection(int index) {
@@ -148,7 +147,7 @@ void Builder::add_connection(int index) {
   const int count = static_cast<int>(robots_.size());
   if (c.parent < 0 || c.parent >= count || c.child < 0 || c.child >= count)
     fail("a connection names robots {} and {}, but the world has {}", c.parent, c.child, count);
-  connect(world_, c, robots_[c.parent], robots_[c.child], warn_);
+  connect(world_, c, robots_[c.parent], robots_[c.child], listeners_);
   if (spec_.collision && c.mount)
     world_.set_name(*world_.robot(robots_[c.child]).mounting->piece, c.mount->name);
   connected_[index] = true;
@@ -195,6 +194,8 @@ World Builder::build() {
 
 }  // namespace
 
-World build_world(const WorldSpec& spec, const Warn& warn) { return Builder(spec, warn).build(); }
+World build_world(const WorldSpec& spec, const Listeners& listeners) {
+  return Builder(spec, listeners).build();
+}
 
 }  // namespace clench

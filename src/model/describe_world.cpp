@@ -68,6 +68,11 @@ RobotSpec Describer::robot(const Robot& r) const {
   if (r.glove) out.glove = *r.glove;
   out.files = r.files;
   out.tracker = r.tracker;
+  if (r.passive) {
+    out.tactile = r.passive->tactile;
+    out.tendons = r.passive->tendons;
+    out.wrappers = r.passive->wrappers;
+  }
   return out;
 }
 

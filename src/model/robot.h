@@ -16,8 +16,8 @@ struct Chain {
   int parent_link = -1;
   Pose X_BC;  ///< chain frame in the base, or in the parent link
   std::vector<JointSpec> joints;
-  std::vector<Breakaway> breakaway;  ///< one a joint: q where it broke away, else empty
-  std::vector<int> last_joints;      ///< one a link
+  std::vector<Breakaway> breakaway;       ///< one a joint: q where it broke away, else empty
+  std::vector<int> last_joints;           ///< one a link
   std::vector<std::optional<Pose>> X_JL;  ///< one a link: in the frame after its last joint
   std::vector<LinkJoint> link_joints;
   std::vector<Id<Body>> links;
@@ -50,6 +50,7 @@ struct Robot {
   std::shared_ptr<const GloveCalibration> glove;
   RobotFiles files;  ///< where the three above came from
   std::optional<TrackerSpec> tracker;
+  std::shared_ptr<const PassiveParts> passive;  ///< null: none; nothing acts on them yet
 };
 
 /// q of a joint: ratio * dof, or where it broke away.

@@ -119,6 +119,9 @@ Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::s
   robot.X_BA = spec.X_BA.value_or(Pose{});
   robot.files = spec.files;
   robot.tracker = spec.tracker;
+  if (!(spec.tactile.empty() && spec.tendons.empty() && spec.wrappers.empty()))
+    robot.passive =
+        std::make_shared<PassiveParts>(PassiveParts{spec.tactile, spec.tendons, spec.wrappers});
   if (spec.eigengrasps) robot.eigengrasps = std::make_shared<EigengraspSet>(*spec.eigengrasps);
   if (spec.virtual_contacts)
     robot.virtual_contacts =
@@ -380,7 +383,14 @@ void World::set_mass(Id<Body> id, double mass) {
 
 void World::set_com(Id<Body> id, const Eigen::Vector3d& com) {
   if (!com.allFinite()) fail("body '{}': its centre of mass must be finite", body(id).name);
-  edit(id).com = com;
+  Body& b = edit(id);
+  BodySpec spec;
+  spec.shape = b.shape;
+  spec.com = b.com;
+  // an inertia that the shape gave is the shape's about the new centre
+  const bool from_shape = b.inertia_per_mass == inertia_of(spec);
+  b.com = spec.com.emplace(com);
+  if (from_shape) b.inertia_per_mass = inertia_of(spec);
 }
 
 void World::set_inertia(Id<Body> id, const Eigen::Matrix3d& inertia) {

@@ -22,7 +22,6 @@ struct Slot {
   T value;  ///< of the last occupant; its name outlives it, for errors
 };
 
-inline constexpr double farthest = 1e9;          ///< bodies stand this near the origin [m]
 inline constexpr double least_threshold = 1e-9;  ///< of contact: above the rounding of a metre [m]
 inline constexpr double most_threshold =
     0.01;  ///< beyond it whole fingers would be one contact [m]
@@ -98,6 +97,7 @@ class World {
   void set_name(Id<Body> body, const std::string& name);
   void set_material(Id<Body> body, std::string_view material);
   void set_mass(Id<Body> body, double mass);
+  /// An inertia that the body's shape gave is computed anew about it, one that was given stays.
   void set_com(Id<Body> body, const Eigen::Vector3d& com);
   void set_inertia(Id<Body> body, const Eigen::Matrix3d& inertia);  ///< about com [kg m^2]
   void set_elastic_modulus(Id<Body> body, std::optional<double> modulus);

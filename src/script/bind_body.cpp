@@ -38,6 +38,13 @@ static int get_robot(lua_State* L) {
 
 static int get_source(lua_State* L) { return push(L, self<BodyHandle>(L)->source); }
 
+static int get_tracker(lua_State* L) {
+  const auto& body = self<BodyHandle>(L);
+  if (body->tracker) return push(L, *body->tracker);
+  lua_pushnil(L);
+  return 1;
+}
+
 int push_move(lua_State* L, const WorldPtr& world, const MoveResult& result) {
   push_list(L, 0, 5);
   set_field(L, "fraction", result.fraction);
@@ -92,6 +99,10 @@ The robot that it is a part of; nil for objects and obstacles.
 File that it was read from; empty when it was made by a script.
 @type string
 > world:add_object(clench.shapes.box {1, 1, 1}).source == ""  --> true)"},
+    {"tracker", guarded<get_tracker>, R"(
+Number of the position sensor that is to move it; nil when its file names none.
+@type integer?
+> flask.tracker  --> nil)"},
 };
 
 static const Entry methods[] = {

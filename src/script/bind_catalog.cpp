@@ -96,12 +96,13 @@ static int kind_of_file(lua_State* L) {
 
 static const Entry functions[] = {
     {"file_kind", guarded<kind_of_file>, R"(
-What a file describes, by its ending, or by its outermost element in XML.
+What a file describes, by its ending, or by its outermost element in XML; where the ending says nothing, by how its numbers
+stand.
 @param path string
-@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
+@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"object contacts"|"pre-grasps"|"planned grasps"|"glove calibration"|"glove poses"
 > clench.file_kind "models/objects/flask.iv"  --> body
 > clench.file_kind "worlds/dlr_flask.wld"  --> world
-> clench.file_kind "README.md"  --> error: wanted a model, a world, eigengrasps or virtual contacts, got '.md')"},
+> clench.file_kind "README.md"  --> error: wanted a model, a world, or a file that goes with one, got '.md')"},
     {"catalog", guarded<catalog>, R"(
 Paths of the models and worlds that come with Clench, sorted.
 @return {hands: string[], arms: string[], objects: string[], obstacles: string[], worlds: string[]}

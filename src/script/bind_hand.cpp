@@ -1,8 +1,12 @@
 #include "script/bind_hand.h"
 
+#include <cmath>
+#include <filesystem>
+
 #include "io/virtual_contacts.h"
 #include "motion/virtual_contacts.h"
 #include "script/bind_eigengrasps.h"
+#include "script/bind_log.h"
 #include "script/bind_thing.h"
 #include "script/bind_virtual_contact.h"
 #include "script/guard.h"
@@ -43,9 +47,21 @@ struct Wanted {
   std::vector<int> clamped;
 };
 
-static Wanted wanted_posture(lua_State* L, const RobotHandle& robot, bool keep) {
+static Wanted wanted_posture(lua_State* L, const RobotHandle& robot, Table& options) {
   const Eigengrasps grasps(*robot);
-  const VectorXd amplitudes = check_amplitudes(L, 2, grasps);
+  VectorXd amplitudes = check_amplitudes(L, 2, grasps);
+  const bool keep = options.boolean("keep", false);
+  if (options.has("fixed")) {
+    // these stay as they are, whatever is asked for
+    const VectorXd now = grasps.amplitudes(robot->q);
+    for (const double x : options.numbers("fixed")) {
+      if (!(x >= 1 && x <= grasps.size() && x == std::floor(x)))
+        fail("{}: fixed: wanted one of {} eigengrasps, got {}", options.subject(), grasps.size(),
+             x);
+      amplitudes[static_cast<int>(x) - 1] = now[static_cast<int>(x) - 1];
+    }
+  }
+  options.done();
   Wanted out{keep ? grasps.posture(amplitudes, robot->q) : grasps.posture(amplitudes), {}};
   for (int d = 0; d < out.dofs.size(); ++d) {
     const auto [low, high] = robot->limits[d];
@@ -64,7 +80,8 @@ static int push_clamped(lua_State* L, const Wanted& wanted) {
 
 static int set_amplitudes_field(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  robot.world->set_dofs(robot.id, wanted_posture(L, robot, false).dofs);
+  Table none(L, 3);
+  robot.world->set_dofs(robot.id, wanted_posture(L, robot, none).dofs);
   return 0;
 }
 
@@ -72,9 +89,7 @@ static int set_amplitudes(lua_State* L) {
   check_count(L, 2);
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 3);
-  const bool keep = options.boolean("keep", false);
-  options.done();
-  const Wanted wanted = wanted_posture(L, robot, keep);
+  const Wanted wanted = wanted_posture(L, robot, options);
   robot.world->set_dofs(robot.id, wanted.dofs);
   return push_clamped(L, wanted);
 }
@@ -83,10 +98,8 @@ static int move_amplitudes(lua_State* L) {
   check_count(L, 2);
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 3);
-  const bool keep = options.boolean("keep", false);
   const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
-  options.done();
-  const Wanted wanted = wanted_posture(L, robot, keep);
+  const Wanted wanted = wanted_posture(L, robot, options);
   push_drive(L, robot.world, drive_to(*robot.world, robot.id, wanted.dofs, driving));
   push_clamped(L, wanted);
   lua_setfield(L, -2, "clamped");
@@ -104,6 +117,19 @@ static void give(const RobotHandle& robot, Contacts contacts) {
   robot.world->set_virtual_contacts(robot.id, std::make_shared<Contacts>(std::move(contacts)));
 }
 
+static std::string source_stem(const Robot& robot) {
+  return std::filesystem::path(robot.source).stem().string();
+}
+
+// tells when contacts were made for a hand of another file than this one
+static void doubt_other_hand(lua_State* L, const RobotHandle& robot, const std::string& made_for) {
+  if (made_for.empty() || made_for == robot->name || made_for == source_stem(*robot)) return;
+  log(L, LogLevel::warning,
+      fmt::format("{}: virtual contacts made for '{}' are used for '{}'", subject(L), made_for,
+                  robot->name),
+      "doubtful");
+}
+
 static int set_virtual_contacts(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   if (!given(L, 2)) {
@@ -113,13 +139,22 @@ static int set_virtual_contacts(lua_State* L) {
   const What what{L, {}, "virtual_contacts"};
   if (!lua_istable(L, 2)) fail_wanted(what, "a list of virtual contacts", 2);
   Contacts contacts;
+  lua_pushstring(L, "robot");
+  std::string made_for;  // as lists from files say it
+  if (lua_rawget(L, 2) == LUA_TSTRING) made_for = lua_tostring(L, -1);
+  lua_pop(L, 1);
   const int count = static_cast<int>(lua_rawlen(L, 2));
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, 2, i);
     contacts.push_back(read_virtual_contact(L, -1, what.item(i), robot));
+    if (const auto* other = to<VirtualContactHandle>(L, -1); other && made_for.empty()) {
+      const World& world = *other->robot.world;
+      if (world.alive(other->robot.id)) made_for = source_stem(*other->robot);
+    }
     lua_pop(L, 1);
   }
   give(robot, std::move(contacts));
+  doubt_other_hand(L, robot, made_for);
   return 0;
 }
 
@@ -193,6 +228,70 @@ static int get_tracker(lua_State* L) {
   return 1;
 }
 
+// --- parts that do not act yet ---
+
+// base or link that a part stands for
+static void set_link(lua_State* L, const RobotHandle& robot, const RobotPart& part) {
+  const auto id = part.chain < 0 ? robot->base : robot->chains[part.chain].links[part.link];
+  push(L, BodyHandle{robot.world, id});
+  lua_setfield(L, -2, "link");
+}
+
+// a list of what push_part makes of each of the robot's
+template <class Part, class PushPart>
+static int push_parts(lua_State* L, std::vector<Part> PassiveParts::*list, PushPart push_part) {
+  const auto& robot = self<RobotHandle>(L);
+  const std::vector<Part> none;
+  return push_list_of(L, robot->passive ? (*robot->passive).*list : none,
+                      [&](const Part& part) { push_part(robot, part); });
+}
+
+static int get_tendons(lua_State* L) {
+  return push_parts(L, &PassiveParts::tendons, [L](const RobotHandle& robot, const TendonSpec& t) {
+    push_list(L, 0, 5);
+    set_field(L, "name", std::string_view(t.name));
+    set_field(L, "stiffness", t.stiffness);
+    if (t.rest_length) set_field(L, "rest_length", *t.rest_length);
+    if (t.pre_tension_length) set_field(L, "pre_tension_length", *t.pre_tension_length);
+    push_list_of(L, t.points, [&](const TendonPoint& p) {
+      push_list(L, 0, 3);
+      set_link(L, robot, p.part);
+      set_field(L, "point", p.p_L);
+      set_field(L, "friction", p.friction);
+    });
+    lua_setfield(L, -2, "points");
+  });
+}
+
+static int get_tendon_wrappers(lua_State* L) {
+  const auto push_wrapper = [L](const RobotHandle& robot, const TendonWrapper& w) {
+    push_list(L, 0, 7);
+    set_link(L, robot, w.part);
+    set_field(L, "point", w.p_L);
+    set_field(L, "axis", w.axis_L);
+    set_field(L, "radius", w.radius);
+    set_field(L, "friction", w.friction);
+    push_list_of(L, w.exempt, [L](const std::string& name) { push(L, std::string_view(name)); });
+    lua_setfield(L, -2, "exempt");
+    push_list_of(L, w.sides, [L](const TendonWrapper::Side& side) {
+      push_list(L, 0, 2);
+      set_field(L, "tendon", std::string_view(side.tendon));
+      set_field(L, "direction", side.direction_L);
+    });
+    lua_setfield(L, -2, "sides");
+  };
+  return push_parts(L, &PassiveParts::wrappers, push_wrapper);
+}
+
+static int get_tactile_sensors(lua_State* L) {
+  return push_parts(L, &PassiveParts::tactile, [L](const RobotHandle& robot, const TactileSpec& s) {
+    push_list(L, 0, 3);
+    set_link(L, robot, s.part);
+    set_field(L, "low", s.low_L);
+    set_field(L, "high", s.high_L);
+  });
+}
+
 // --- tables ---
 
 static const Entry fields[] = {
@@ -229,22 +328,38 @@ DOF = intercept + slopes * raw. nil when there is none.
 Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
 @type {number: integer, pose: pose}?
 > hand.tracker  --> nil)"},
+    {"tendons", guarded<get_tendons>, R"(
+Tendons of its file, as they are there: they do not act yet. Points are in the frame of their link.
+@type {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[]  [N/m, m]
+> #hand.tendons  --> 0)"},
+    {"tendon_wrappers", guarded<get_tendon_wrappers>, R"(
+Posts that tendons wrap around, each an endless cylinder; `exempt` names the tendons that pass it by, `sides` say on which
+side of it the others lie. They do not act yet.
+@type {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[]
+> #hand.tendon_wrappers  --> 0)"},
+    {"tactile_sensors", guarded<get_tactile_sensors>, R"(
+Boxes in which contacts count as one sensor's, by their `low` and `high` corners in the frame of their `link`. They do not
+act yet.
+@type {link: body, low: vec3, high: vec3}[]
+> #hand.tactile_sensors  --> 0)"},
 };
 
 static const Entry methods[] = {
     {"set_amplitudes", guarded<set_amplitudes>, R"(
 Takes the posture that amplitudes of its eigengrasps stand for, whatever is in the way. DOFs stop at their limits.
 @param amplitudes number[]
-@param options? {keep?: boolean}  true: what its posture has besides its amplitudes is kept
+@param options? {keep?: boolean, fixed?: integer[]}  keep: what its posture has besides its amplitudes is kept; fixed: these amplitudes stay as they are
 @return integer[] clamped  numbers of the DOFs whose limit was in the way
 > hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
 > hand:set_amplitudes{0.1}  --> {}
 > hand:set_amplitudes{100}  --> {1, 4, 7, 10}
+> hand:set_amplitudes({0.1}, {fixed = {1}})  --> {}
+> hand:set_amplitudes({0.1}, {fixed = {2}})  --> error: fixed: wanted one of 1 eigengrasps, got 2
 > hand:set_amplitudes{1, 2}  --> error: wanted 1 amplitudes, got 2)"},
     {"move_amplitudes", guarded<move_amplitudes>, R"(
 Drives the DOFs towards the posture of amplitudes, as move_dofs, until contact stops them.
 @param amplitudes number[]
-@param options? {keep?: boolean, stop_at_contact?: boolean}  keep: what its posture has besides is kept
+@param options? {keep?: boolean, fixed?: integer[], stop_at_contact?: boolean}  keep and fixed as of set_amplitudes
 @return table result  as of autograsp, and `clamped`, numbers of the DOFs whose limit was in the way
 > hand:move_amplitudes(hand.amplitudes, {keep = true}).moved  --> false)"},
     {"add_virtual_contact", guarded<add_virtual_contact>, R"(

@@ -1,4 +1,4 @@
-// hand: what a robot has for grasping: eigengrasps, virtual contacts, a glove, a position sensor.
+// hand: what a robot has for grasping: eigengrasps, virtual contacts, a glove, sensors, tendons.
 #pragma once
 #include "motion/drive.h"
 #include "script/handles.h"

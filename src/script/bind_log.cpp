@@ -29,13 +29,14 @@ void set_log_level(lua_State* L, LogLevel level) {
   lua_rawsetp(L, LUA_REGISTRYINDEX, &level_key);
 }
 
-void log(lua_State* L, LogLevel level, const std::string& message) {
+void log(lua_State* L, LogLevel level, const std::string& message, const char* about) {
   if (!lua_checkstack(L, 6) || level < log_level(L)) return;
   const char* name = level_names[static_cast<int>(level)];
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &sink_key) == LUA_TFUNCTION) {
     lua_pushstring(L, name);
     lua_pushlstring(L, message.data(), message.size());
-    protected_call(L, 2, 0);
+    lua_pushstring(L, about);  // nil when null
+    protected_call(L, 3, 0);
     return;
   }
   lua_pop(L, 1);
@@ -124,8 +125,9 @@ Says from which level on messages are shown, and sets it if one is given.
 > clench.log.level "info"  --> quiet
 > clench.log.level "loud"  --> error: wanted one of debug, info, warning, error, quiet)"},
     {"sink", guarded<sink>, R"(
-Sends messages to a function(level, text) instead of stderr; without one, to stderr again.
-@param fn? fun(level: string, text: string)
+Sends messages to a function(level, text, about) instead of stderr; without one, to stderr again. `about` says of what
+the reader of a file tells: what is "guessed", "ignored", "mended" or "doubtful"; nil otherwise.
+@param fn? fun(level: string, text: string, about: string?)
 > clench.log.sink(function(level, text) said = text end)
 > clench.log.info "hello"
 > clench.log.sink()

@@ -12,8 +12,9 @@ enum class LogLevel { debug, info, warning, error, quiet };
 
 /// Tells the script's log, if its level lets the message through. May be called under the engine's
 /// functions.
+/// `about`  what a message of a file's reader tells: of what was "guessed", "ignored", "mended" or "doubtful"; null: of nothing such
 /// throws  Raised when the script's own sink fails
-void log(lua_State* L, LogLevel level, const std::string& message);
+void log(lua_State* L, LogLevel level, const std::string& message, const char* about = nullptr);
 
 inline void log_warning(lua_State* L, const std::string& message) {
   log(L, LogLevel::warning, message);

@@ -149,7 +149,8 @@ Its mass.
 > flask.mass  --> 0.5)",
      guarded<set_mass>},
     {"com", guarded<get_com>, R"(
-Centre of mass in the body frame.
+Centre of mass in the body frame. Setting it takes an inertia that comes from its shape to the new centre; one that was
+given stays.
 @type vec3  [m]
 > flask.com = {0, 0, 0.01}
 > flask.com  --> (0, 0, 0.01))",

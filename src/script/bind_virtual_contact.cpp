@@ -73,6 +73,9 @@ static FrictionEdges read_edges(Table& table) {
 }
 
 static Pose read_frame(Table& table) {
+  const bool both = table.has("point") || table.has("normal");
+  if (table.has("frame") && both)
+    fail("{}: wanted frame, or point and normal, got both", table.subject());
   if (table.has("frame")) return table.pose("frame");
   const Eigen::Vector3d normal = table.vec3("normal");
   if (!(normal.norm() > 1e-9) || !std::isfinite(normal.norm()))

@@ -68,8 +68,8 @@ static int add_robot(lua_State* L) {
   const std::string name = options.string("name", "");
   options.done();
   const RobotSpec spec = read_robot(find_file(path, {}, reading), reading);
-  return push(L, RobotHandle{handle.world,
-                             clench::add_robot(*handle.world, spec, pose, name, reading.warn)});
+  return push(L, RobotHandle{handle.world, clench::add_robot(*handle.world, spec, pose, name,
+                                                             reading.listeners())});
 }
 
 static int remove(lua_State* L) {

@@ -26,14 +26,16 @@ ReadOptions read_options(lua_State* L, Table& options) {
   if (!out.root.empty() && !std::filesystem::is_directory(out.root))
     fail("{}: root: wanted a folder, got '{}'", options.subject(), out.root.string());
   out.mesh_scale = read_unit(options);
-  out.warn = [L](const std::string& message) { log_warning(L, message); };
-  out.note = [L](const std::string& message) { log(L, LogLevel::info, message); };
+  out.warn = [L](const std::string& message) { log(L, LogLevel::warning, message, "ignored"); };
+  out.note = [L](const std::string& message) { log(L, LogLevel::info, message, "guessed"); };
+  out.mend = [L](const std::string& message) { log(L, LogLevel::warning, message, "mended"); };
+  out.doubt = [L](const std::string& message) { log(L, LogLevel::warning, message, "doubtful"); };
   return out;
 }
 
 // a table of vertices and triangles, as the shapes of the standard library are
 static Mesh read_mesh(lua_State* L, int i) {
-  Table table(L, i);
+  Table table(L, i, subject(L) + ": mesh");
   Mesh mesh;
   int number = 0;
   for (const auto& row : table.rows("vertices", 3)) {
@@ -100,7 +102,10 @@ BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions&
   } else if (lua_istable(L, i)) {
     const std::string name = options.string("name", "body");
     spec.name = name;
-    spec.shape = Shape::make(read_mesh(L, i), name);
+    Mesh mesh = read_mesh(L, i);
+    if (reading.mesh_scale)
+      for (auto& vertex : mesh.vertices) vertex *= *reading.mesh_scale;
+    spec.shape = Shape::make(std::move(mesh), name);
   } else {
     fail_wanted({L, {}, "body"}, "a file name or a mesh {vertices = ..., triangles = ...}", i);
   }

@@ -43,7 +43,8 @@ WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& re
     if (world->source().empty()) world->set_source(path.generic_string());
     return world;
   }
-  const auto world = std::make_shared<World>(build_world(read_world(path, reading), reading.warn));
+  const auto world =
+      std::make_shared<World>(build_world(read_world(path, reading), reading.listeners()));
   push_object(L, WorldHandle{world});
   return world;
 }

@@ -46,6 +46,12 @@ static std::string mended_sentence(const MeshReport& report) {
   return text;
 }
 
+// numbers that are rounding beside `scale` become 0
+template <class Numbers>
+static Numbers without_rounding(const Numbers& numbers, double scale) {
+  return (numbers.array().abs() < 1e-9 * scale).select(Numbers::Zero(), numbers);
+}
+
 std::vector<std::string> describe(const MeshReport& report, const Shape& shape) {
   std::vector<std::string> out;
   out.push_back(fmt::format("{}: {} of {}", report.format,
@@ -61,8 +67,8 @@ std::vector<std::string> describe(const MeshReport& report, const Shape& shape) 
                             faults));
   if (!shape.has_volume()) return out;
   const MassProperties& solid = shape.solid();
-  const Eigen::Vector3d& c = solid.centroid;
-  const Eigen::Matrix3d& I = solid.inertia;
+  const Eigen::Vector3d c = without_rounding(solid.centroid, size.maxCoeff());
+  const Eigen::Matrix3d I = without_rounding(solid.inertia, solid.inertia.cwiseAbs().maxCoeff());
   out.push_back(fmt::format("volume {:.6g} m^3, centre of mass ({:.6g}, {:.6g}, {:.6g}) m",
                             solid.volume, c.x(), c.y(), c.z()));
   out.push_back(fmt::format(

@@ -19,21 +19,21 @@ struct TendonPoint {
 
 struct TendonSpec {
   std::string name;
-  double stiffness = 0;                ///< [N/m]
-  std::optional<double> rest_length;   ///< [m]
+  double stiffness = 0;                      ///< [N/m]
+  std::optional<double> rest_length;         ///< [m]
   std::optional<double> pre_tension_length;  ///< [m]
-  std::vector<TendonPoint> points;     ///< two or more, from one end to the other
+  std::vector<TendonPoint> points;           ///< two or more, from one end to the other
 };
 
 /// A cylinder without ends around which tendons wrap.
 struct TendonWrapper {
   RobotPart part;
-  Eigen::Vector3d p_L = Eigen::Vector3d::Zero();        ///< on its axis, in the part's frame [m]
-  Eigen::Vector3d axis_L = Eigen::Vector3d::UnitZ();    ///< unit
-  double radius = 0;                                    ///< [m]
-  double length = 0.01;                                 ///< of its picture [m]
-  double friction = 0;                                  ///< Coulomb coefficient, >= 0
-  std::vector<std::string> exempt;                      ///< tendons that pass it by
+  Eigen::Vector3d p_L = Eigen::Vector3d::Zero();      ///< on its axis, in the part's frame [m]
+  Eigen::Vector3d axis_L = Eigen::Vector3d::UnitZ();  ///< unit
+  double radius = 0;                                  ///< [m]
+  double length = 0.01;                               ///< of its picture [m]
+  double friction = 0;                                ///< Coulomb coefficient, >= 0
+  std::vector<std::string> exempt;                    ///< tendons that pass it by
   struct Side {
     std::string tendon;
     Eigen::Vector3d direction_L;  ///< unit: towards the side on which it wraps
@@ -44,7 +44,15 @@ struct TendonWrapper {
 /// A box on a link in which contacts count as one sensor's.
 struct TactileSpec {
   RobotPart part;
-  Eigen::Vector3d low_L = Eigen::Vector3d::Zero(), high_L = Eigen::Vector3d::Zero();  ///< corners [m]
+  Eigen::Vector3d low_L = Eigen::Vector3d::Zero(),
+                  high_L = Eigen::Vector3d::Zero();  ///< corners [m]
+};
+
+/// All of these that a robot has.
+struct PassiveParts {
+  std::vector<TactileSpec> tactile;
+  std::vector<TendonSpec> tendons;
+  std::vector<TendonWrapper> wrappers;
 };
 
 }  // namespace clench

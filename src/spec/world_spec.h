@@ -8,6 +8,8 @@
 
 namespace clench {
 
+inline constexpr double farthest = 1e9;  ///< things stand this near the origin of a world [m]
+
 enum class Role { object, obstacle };
 
 struct PlacedBody {

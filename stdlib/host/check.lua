@@ -10,6 +10,14 @@ local function quantity(x, unit)
   return ("%.4g %s"):format(x, unit)
 end
 
+-- three numbers; one that is rounding beside `scale`, the largest unless given, is 0
+local function vector(v, format, scale)
+  scale = scale or math.max(math.abs(v[1]), math.abs(v[2]), math.abs(v[3]))
+  local parts = {}
+  for i = 1, 3 do parts[i] = format:format(math.abs(v[i]) < 1e-9 * scale and 0 or v[i]) end
+  return table.concat(parts, " ")
+end
+
 local function size(mesh)
   return ("%.1f x %.1f x %.1f mm"):format(mesh.size[1] * 1000, mesh.size[2] * 1000, mesh.size[3] * 1000)
 end
@@ -33,16 +41,44 @@ local function body_row(body)
           mesh and size(mesh) or "", mesh and (mesh.watertight and "watertight" or mesh.faults) or ""}
 end
 
+-- "2 boxes, 1 cone"
+local function counted(counts)
+  local many = {box = "boxes", sphere = "spheres", cylinder = "cylinders", cone = "cones"}
+  local list = {}
+  for _, kind in ipairs {"box", "sphere", "cylinder", "cone"} do
+    local count = counts[kind]
+    if count then list[#list + 1] = ("%d %s"):format(count, count == 1 and kind or many[kind]) end
+  end
+  return table.concat(list, ", ")
+end
+
+-- what a robot's file describes and nothing acts on
+local function kept_words(kept)
+  local list = {}
+  local function add(format, ...) list[#list + 1] = format:format(...) end
+  if kept.tendons then add("%d tendons (%s)", #kept.tendons, table.concat(kept.tendons, ", ")) end
+  if kept.tendon_wrappers then add("%d tendon wrappers", kept.tendon_wrappers) end
+  if kept.tactile_sensors then add("%d tactile sensors", kept.tactile_sensors) end
+  if kept.glove then add("a glove of %d sensors for %d DOFs", kept.glove.sensors, kept.glove.dofs) end
+  if kept.tracker then add("position sensor %d", kept.tracker) end
+  return table.concat(list, ", ")
+end
+
 local print_kind = {}
 
 function print_kind.body(body)
   columns({body_row(body)}, "  ")
-  print(("  centre of mass %.4g %.4g %.4g m"):format(table.unpack(body.center_of_mass)))
+  local mesh = body.mesh
+  local length = mesh and math.max(table.unpack(mesh.size)) or 0
+  print(("  centre of mass %s m"):format(vector(body.center_of_mass, "%.4g", length)))
+  local moment = math.max(body.inertia[1][1], body.inertia[2][2], body.inertia[3][3])
   for i = 1, 3 do
-    print((i == 1 and "  inertia        " or "                 ") .. ("%10.3g %10.3g %10.3g kg m^2"):format(table.unpack(body.inertia[i])))
+    print((i == 1 and "  inertia        " or "                 ") .. vector(body.inertia[i], "%10.3g", moment) .. " kg m^2")
   end
   if body.mesh and body.mesh.volume then print(("  volume         %.4g m^3, area %.4g m^2"):format(body.mesh.volume, body.mesh.area)) end
   if body.elastic_modulus then print(("  elastic        %.3g Pa"):format(body.elastic_modulus)) end
+  if body.primitives then print("  for planners   " .. counted(body.primitives)) end
+  if body.tracker then print(("  kept, without effect yet: position sensor %d"):format(body.tracker)) end
 end
 
 function print_kind.robot(robot)
@@ -69,7 +105,8 @@ function print_kind.robot(robot)
     end
   end
   columns(rows, "  ")
-  print(("  approaches along %.3g %.3g %.3g"):format(table.unpack(robot.approach.direction)))
+  print(("  approaches along %s"):format(vector(robot.approach.direction, "%.3g")))
+  if robot.kept then print("  kept, without effect yet: " .. kept_words(robot.kept)) end
 end
 
 function print_kind.world(world)
@@ -81,6 +118,9 @@ function print_kind.world(world)
                        robot.carried_by and "carried by " .. robot.carried_by or "stands by itself"}
   end
   columns(rows, "  ")
+  for _, robot in ipairs(world.robots) do
+    if robot.kept then print(("  %s: kept, without effect yet: %s"):format(robot.name, kept_words(robot.kept))) end
+  end
   for _, pair in ipairs(world.overlaps) do print(("  %s and %s overlap"):format(pair[1], pair[2])) end
 end
 
@@ -88,13 +128,29 @@ function print_kind.eigengrasps(set) print(("  %d of %d DOFs"):format(set.count,
 
 print_kind["virtual contacts"] = function(set) print(("  %d of %s"):format(set.count, set.robot)) end
 
-local nouns = {body = "a body", robot = "a robot", world = "a world"}
+print_kind["object contacts"] = function(list)
+  print(("  %d%s"):format(list.count, list.placed and "" or ", without their points"))
+end
+
+print_kind["pre-grasps"] = function(list) print(("  %d"):format(list.count)) end
+
+print_kind["planned grasps"] = function(list)
+  print(("  %d in %d runs%s"):format(list.count, list.runs, list.best and (", the best of quality %.4g"):format(list.best) or ""))
+end
+
+print_kind["glove calibration"] = function(glove) print(("  %d sensors for %d DOFs"):format(glove.sensors, glove.dofs)) end
+
+print_kind["glove poses"] = function(list)
+  print(("  %d, of up to %d sensors and %d joints"):format(list.count, list.sensors, list.joints))
+end
+
+local nouns = {body = "a body", robot = "a robot", world = "a world", ["glove calibration"] = "a glove calibration"}
 
 local function print_report(r)
   local noun = nouns[r.kind] or r.kind
   print(("%s: %s"):format(r.file, r.understood and noun or noun and ("not %s that can be read"):format(noun) or "not read"))
   if r.understood then print_kind[r.kind](r.understood) end
-  for _, list in ipairs {"guessed", "ignored"} do
+  for _, list in ipairs {"guessed", "mended", "ignored", "doubtful"} do
     for _, sentence in ipairs(r[list]) do print(("  %s: %s"):format(list, sentence)) end
   end
   if r.wrong then print("  wrong: " .. r.wrong) end

@@ -143,12 +143,14 @@ local function class_page(class)
   return page.text()
 end
 
--- the block of `---` lines before a module's `return function(...)`, as an entry's doc
-local function packed_function(file)
-  local comment = {}
+-- each block of `---` lines before a function that a module offers, its `return function(...)` or its `function module.name(...)`,
+-- as an entry's doc
+local function packed_functions_of(file)
+  local comment, found = {}, {}
+  local module = file.path:gsub("%.lua$", ""):gsub("/", ".")
   for line in (file.text .. "\n"):gmatch "(.-)\n" do
     local said = line:match "^%-%-%-%s?(.*)$"
-    if said and said:sub(1, 1) ~= "@" and #comment > 0 and comment[#comment]:sub(1, 1) == "@" then
+    if said and not said:find "^[@>]" and #comment > 0 and comment[#comment]:sub(1, 1) == "@" then
       -- a tag goes on: with its type while a brace is open, else with prose
       local tag = comment[#comment]
       local _, opened = tag:gsub("{", "")
@@ -157,22 +159,26 @@ local function packed_function(file)
       comment[#comment] = tag .. ((opened > closed or prose) and " " or "  ") .. said:gsub("^%s+", "")
     elseif said then
       comment[#comment + 1] = said
-    elseif line:match "^return function%(" then
-      local name = file.path:gsub("%.lua$", ""):gsub("/", ".")
-      return #comment > 0 and {name = name, doc = table.concat(comment, "\n")} or nil
     else
+      local name = line:match("^function " .. module .. "%.(%w+)%(")
+      local offers = name or line:match "^return function%("
+      if offers and #comment > 0 then
+        found[#found + 1] = {name = name and module .. "." .. name or module, doc = table.concat(comment, "\n")}
+      end
       comment = {}
     end
   end
+  return found
 end
 
--- what a module's init.lua offers by name
-local function packed_functions(files)
+--- Functions of the standard library that scripts find by name: what a module's init.lua offers, or its only file.
+---@param files {path: string, text: string}[]
+---@return {name: string, doc: string}[]
+function doc.packed_functions(files)
   local list = {}
   for _, file in ipairs(files) do
-    local module, name = file.path:match "^(%w+)/(%w+)%.lua$"
-    local entry = module and module ~= "host" and name ~= "init" and packed_function(file)
-    if entry and rawget(_G, "clench")[module] then
+    for _, entry in ipairs(file.path:find "^host/" and {} or packed_functions_of(file)) do
+      local module, name = entry.name:match "^(%w+)%.(%w+)$"
       local ok, offered = pcall(function() return clench[module][name] end)
       if ok and offered then list[#list + 1] = entry end
     end
@@ -183,7 +189,7 @@ end
 local function packed_page(files)
   local page = new_page "The standard library"
   page "\nModules in Lua, loaded when they are first used.\n"
-  for _, entry in ipairs(packed_functions(files)) do add_entry(page, "clench." .. entry.name, entry) end
+  for _, entry in ipairs(doc.packed_functions(files)) do add_entry(page, "clench." .. entry.name, entry) end
   return page.text()
 end
 

@@ -3,14 +3,12 @@ local keys = {
   body = {"root", "unit"},
   robot = {"root", "unit", "folder", "package"},
   world = {"root", "unit"},
-  eigengrasps = {"root"},
-  ["virtual contacts"] = {"root"},
 }
 
 ---@param kind string  as clench.file_kind tells it
 ---@param said table<string, string>  "" when nothing is said
 return function(kind, said)
   local options = {}
-  for _, key in ipairs(keys[kind]) do options[key] = said[key] ~= "" and said[key] or nil end
+  for _, key in ipairs(keys[kind] or {"root"}) do options[key] = said[key] ~= "" and said[key] or nil end
   return options
 end

@@ -98,5 +98,5 @@ TEST_CASE("options that name no DOF, or no number, are refused by name") {
                        Error);
   options.closing = {{"1", NAN}};
   CHECK_THROWS_WITH_AS(read_robot(gripper, options),
-                       "gripper.urdf: close: 1: wanted a number, got nan", Error);
+                       "gripper.urdf: close: 1: wanted 1, -1 or 0, got nan", Error);
 }

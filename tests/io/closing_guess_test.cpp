@@ -2,9 +2,12 @@
 
 #include <numbers>
 
+#include "io/read.h"
 #include "io/tree_shapes.h"
+#include "support/shared.h"
 
 using namespace clench;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -116,6 +119,45 @@ TEST_CASE("the guess does not depend on where the hand stands, nor on the sense 
   CHECK(turned.senses[0] == 0);
   for (size_t j = 0; j < hand.tree.joints.size(); ++j)
     CHECK(turned.senses[j + 1] == ((j + 1) % 2 ? -1 : 1) * plain.senses[j]);
+}
+
+TEST_CASE(
+    "a joint that rolls a straight thumb is judged with the thumb bent, alike in both hands") {
+  const auto with_thumb = [](double side) {
+    Sketch hand;
+    for (const double x : {-0.03, 0.0, 0.03}) {
+      const int first = hand.phalanx(0, Pose::translation({x, 0, 0.04}));
+      hand.phalanx(hand.phalanx(first, up40), up40);
+    }
+    // the thumb points to -y; its first joint rolls it about itself
+    const Pose X_PT{
+        Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX())),
+        {side * 0.06, -0.015, -0.03}};
+    const int root = hand.add("thumb", 0, X_PT, {0, 0, 0}, {0, 0, 0});
+    hand.joint(root, {0, 0, side}, -0.1, 1.2);
+    hand.phalanx(hand.phalanx(root, {}, -1.6, 0.2), up40, -1.6, 0.2);
+    return guess_closing(hand.tree).senses;
+  };
+  const auto right = with_thumb(1), left = with_thumb(-1);
+  CHECK(right == left);
+  CHECK(right[9] == 1);
+  CHECK(right[10] == -1);
+}
+
+TEST_CASE("the left and the right hand of a maker close alike") {
+  REQUIRE_SHARED();
+  const fs::path folder = test::shared() / "data/hands-urdf";
+  ReadOptions options;
+  options.packages[""] = folder;
+  for (const std::string name : {"allegro_hand/allegro_hand_", "shadow_hand/shadow_hand_"}) {
+    const RobotSpec left = read_robot(folder / (name + "left.urdf"), options),
+                    right = read_robot(folder / (name + "right.urdf"), options);
+    REQUIRE(left.dofs.size() == right.dofs.size());
+    for (size_t d = 0; d < left.dofs.size(); ++d) {
+      INFO(name << left.dofs[d].name);
+      CHECK(left.dofs[d].default_velocity == right.dofs[d].default_velocity);
+    }
+  }
 }
 
 TEST_CASE("a gripper closes whether it is drawn open or shut") {

@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "io/find_model.h"
+#include "io/grasp_lists.h"
+#include "io/virtual_contacts.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -56,8 +58,40 @@ TEST_CASE("every ending of a body's file is loaded, checked and tried for anothe
 TEST_CASE("an ending that no reader has is refused") {
   CHECK_THROWS_WITH_AS(
       file_kind("notes.txt"),
-      "notes.txt: wanted a model, a world, eigengrasps or virtual contacts, got '.txt'", Error);
-  CHECK_THROWS_WITH_AS(
-      file_kind("notes"),
-      "notes: wanted a model, a world, eigengrasps or virtual contacts, got nothing", Error);
+      "notes.txt: wanted a model, a world, or a file that goes with one, got '.txt'", Error);
+  CHECK_THROWS_WITH_AS(file_kind("notes"),
+                       "notes: wanted a model, a world, or a file that goes with one, got nothing",
+                       Error);
+}
+
+TEST_CASE("a file of numbers is known by how they stand") {
+  const test::TemporaryFolder folder;
+  const auto kind = [&](const std::string& text) { return file_kind(folder.write("x.txt", text)); };
+  CHECK(kind("# list\n[1 2 3][0 0 1][1 0 0]45\n") == FileKind::pregrasps);
+  CHECK(kind("0 0 0 0 0 0 0 0 -2\n1 2 3 1 0 0 0 90 0.5\n") == FileKind::planned_grasps);
+  CHECK(kind("1 2\n0.1 0.2\n0.3\n") == FileKind::glove_calibration);
+  const std::string edge = "1 0 0 0 0 0\n";
+  CHECK(kind("1\n1\n" + edge + "1 0 0 0\n1 2 3\n0 0 1\n0.5\n") == FileKind::object_contacts);
+  CHECK(kind("1\n1\n" + edge + "1 0 0 0\n0 0 1\n0.5\n") == FileKind::object_contacts);
+  CHECK(kind("1\n2\n-1\n1 7 8\n0\n0\n0 0 0 1\n1 2 3\n") == FileKind::glove_poses);
+  // with mistakes in them
+  CHECK(kind("1 2\n0.1 x\n0.3\n") == FileKind::glove_calibration);
+  CHECK(kind("2 2\n0.1 1\n0.3\n") == FileKind::glove_calibration);
+  CHECK(kind("2\n1\n" + edge) == FileKind::object_contacts);
+  CHECK(kind("1\n2\n-1\n1 7 8 9 9\n0\n0\n") == FileKind::glove_poses);
+  for (const char* text :
+       {"", "# 1 2\n", "shopping\n1 2\n", "7\n", "[see 1]\n", "3 apples\n1\n2\n"})
+    CHECK_FALSE(kind_of_numbers(text));
+}
+
+TEST_CASE("what the lists hold that Clench writes is known again") {
+  const test::TemporaryFolder folder;
+  write_pregrasps({{.spread = 1}}, folder.path() / "a.txt");
+  write_planned_grasps({{.X_OH = Pose{}, .quality = 1}}, folder.path() / "b.txt");
+  ObjectContact contact;
+  contact.edges = FrictionEdges::Identity(6, 8);
+  write_object_contacts({contact, contact}, folder.path() / "c.txt");
+  CHECK(file_kind(folder.path() / "a.txt") == FileKind::pregrasps);
+  CHECK(file_kind(folder.path() / "b.txt") == FileKind::planned_grasps);
+  CHECK(file_kind(folder.path() / "c.txt") == FileKind::object_contacts);
 }

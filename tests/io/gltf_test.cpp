@@ -87,7 +87,7 @@ TEST_CASE("what is wrong in a glTF file is told by the name of its value") {
           ": nodes[1].rotation: wanted a unit quaternion");
   refused("\"POSITION\": 0", "\"POSITION\": 1", ": accessors[1]: wanted the type VEC3");
   refused("\"indices\": 1", "\"indices\": -1",
-          ": meshes[0].primitives[0].indices: wanted a whole number from 0 on");
+          ": meshes[0].primitives[0].indices: wanted a whole number from 0 on, got -1");
   refused("\"indices\": 1", "\"indices\": 1, \"extensions\": {\"KHR_draco_mesh_compression\": {}}",
           ": meshes[0].primitives[0]: meshes compressed by Draco are not supported");
   refused("5125", "5126", ": accessors[1]: wanted indices of an unsigned componentType, got 5126");

@@ -445,3 +445,28 @@ TEST_CASE("the same text with other line ends is the same body") {
   CHECK(b.mass == doctest::Approx(0.05));
   CHECK(b.shape->bounds().size().x() == doctest::Approx(0.004));
 }
+
+TEST_CASE("Units are told, for they scale what nobody may expect to be scaled") {
+  const test::TemporaryFolder folder;
+  ReadOptions options;
+  std::vector<std::string> notes;
+  options.note = [&](const std::string& sentence) { notes.push_back(sentence); };
+  const auto file = folder.write(
+      "inch.iv", "#Inventor V2.1 ascii\nUnits { units INCHES }\nCube { width 1000 }\n");
+  const BodySpec body = read_body(file, options);
+  // 0.0254 is a 32-bit number there
+  CHECK(body.shape->bounds().size().x() == doctest::Approx(0.0254).epsilon(1e-6));
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0].starts_with("inch.iv: Units INCHES scales what follows it"));
+}
+
+TEST_CASE("a file without a surface is a frame, which is told") {
+  const test::TemporaryFolder folder;
+  ReadOptions options;
+  std::vector<std::string> doubts;
+  options.doubt = [&](const std::string& sentence) { doubts.push_back(sentence); };
+  CHECK(
+      !read_body(folder.write("none.iv", "#Inventor V2.1 ascii\nSeparator { }\n"), options).shape);
+  CHECK(doubts == std::vector<std::string>{
+                      "none.iv: no surface: the body is a frame, which touches nothing"});
+}

@@ -63,9 +63,9 @@ TEST_CASE("what is wrong in the header of a PLY file is told by line") {
   refused("ply\nformat text 1.0\n",
           ":2: wanted ascii, binary_little_endian or binary_big_endian, got 'text'");
   refused("ply\nelement vertex many\n",
-          ":2: number of elements: wanted a whole number, got 'many'");
+          ":2: number of elements 'vertex': wanted a whole number, got 'many'");
   refused("ply\nelement vertex -1\n",
-          ":2: number of elements: wanted a whole number from 0 to 2147483647, got -1");
+          ":2: number of elements 'vertex': wanted a whole number from 0 to 2147483647, got -1");
   refused("ply\nproperty float x\n", ":2: wanted an element before its properties");
   refused("ply\nelement vertex 1\nproperty real x\n",
           ":3: wanted a type of PLY such as float or uchar, got 'real'");

@@ -43,13 +43,16 @@ TEST_CASE("a full transform is a quaternion w x y z, made unit, and a position")
         doctest::Approx(1).epsilon(1e-15));
 }
 
-TEST_CASE("a quaternion of six digits is scaled in silence, one that is far from unit with a warning") {
+TEST_CASE(
+    "a quaternion of six digits is scaled in silence, one that is far from unit with a warning") {
   std::vector<std::string> warnings;
   const auto warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
   LineReader lines("x.cfg", "T (0.707107 0.707107 0 0)[0 0 0]\nT (2 0 0 0)[0 0 0]");
-  CHECK(same(read_transform_list(lines, warn), Pose::turn(right, Eigen::Vector3d::UnitX())));
-  CHECK(warnings == std::vector<std::string>{
-                        "x.cfg:2: the quaternion (2 0 0 0) is not of length 1; it is scaled to it"});
+  CHECK(same(read_transform_list(lines, {.warn = warn}),
+             Pose::turn(right, Eigen::Vector3d::UnitX())));
+  CHECK(warnings ==
+        std::vector<std::string>{
+            "x.cfg:2: the quaternion (2 0 0 0) is not of length 1; it is scaled to it"});
 }
 
 TEST_CASE("a unit quaternion with all its digits is kept to the bit") {
@@ -71,7 +74,7 @@ TEST_CASE("a comment behind an entry changes nothing, surplus words give a warni
   std::vector<std::string> warnings;
   const auto warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
   LineReader lines("x.cfg", "t 1 2 3 # 4\nt 0 0 0 9 9\nr 0 x 9\nR\n1 0 0 0 1 0\n0 0 1 5\n");
-  CHECK(same(read_transform_list(lines, warn), X));
+  CHECK(same(read_transform_list(lines, {.warn = warn}), X));
   CHECK(warnings == std::vector<std::string>{"x.cfg:2: 2 surplus words are not used",
                                              "x.cfg:3: 1 surplus word is not used",
                                              "x.cfg:6: 1 surplus word is not used"});

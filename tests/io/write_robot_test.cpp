@@ -122,8 +122,8 @@ TEST_CASE("every hand and arm of ours stands in a .urdf as it did, whatever its 
       const TemporaryFolder folder;
       const RobotSpec robot = read_robot(file);
       ReadOptions reading;
-      const fs::path egr = folder.path() / "eigen/hand.egr",
-                     vgr = folder.path() / "virtual/hand.vgr";
+      const fs::path egr = folder.path() / "eigen/hand_urdf.egr",
+                     vgr = folder.path() / "virtual/hand_urdf.vgr";
       const auto urdf = written(robot, folder.path() / "hand.urdf");
       REQUIRE(urdf.robot.dofs.size() == robot.dofs.size());
       for (int d = 0; d < static_cast<int>(robot.dofs.size()); ++d) {
@@ -177,10 +177,10 @@ TEST_CASE("what a .urdf does not hold is told, a sentence each") {
       "hand.urdf: 'chain0_joint0_frame' is a frame without mass between two joints of one link",
       "hand.urdf: DOF 0 counts 0.7 times as far in it, as its joint 'chain0_joint0' does",
       "hand.urdf names no eigengrasps; they stand beside it: read it with eigengrasps = "
-      "\"eigen/hand.xml\"",
-      "hand.urdf names no calibration of a glove; it stands beside it in glove/hand.txt",
+      "\"eigen/hand_urdf.xml\"",
+      "hand.urdf names no calibration of a glove; it stands beside it in glove/hand_urdf.txt",
       "hand.urdf names no virtual contacts; they stand beside it: read it with virtual_contacts = "
-      "\"virtual/hand.vgr\"",
+      "\"virtual/hand_urdf.vgr\"",
       "hand.urdf does not hold which DOFs are breakaway or compliant",
       "hand.urdf does not hold how fast DOFs close; which do is guessed from the geometry when it "
       "is read",
@@ -471,6 +471,23 @@ TEST_CASE("what a robot loses with its place and its name in a .cfg is told") {
   CHECK(*cfg.robot.chains[0].links[0].body.com == Eigen::Vector3d(0, 0, 0.1));
 }
 
+TEST_CASE("robots of one name, or of names alike, that are written into one folder share no file") {
+  const TemporaryFolder folder;
+  const auto of_mass = [](double mass) {
+    RobotSpec robot = bare_hand();
+    robot.chains[0].links[0].body.mass = mass;
+    return robot;
+  };
+  const std::vector<std::string> files = {"any.cfg", "any.xml", "any hand.xml", "any_hand.xml"};
+  for (size_t i = 0; i < files.size(); ++i)
+    write_robot(of_mass(1.0 + static_cast<double>(i)), folder.path() / files[i]);
+  for (size_t i = 0; i < files.size(); ++i) {
+    INFO(files[i]);
+    const RobotSpec again = read_robot(folder.path() / files[i]);
+    CHECK(again.chains[0].links[0].body.mass == 1.0 + static_cast<double>(i));
+  }
+}
+
 TEST_CASE("parts that are equal share their files, and others of one name have their own") {
   const TemporaryFolder folder;
   RobotSpec robot = bare_hand();
@@ -481,9 +498,9 @@ TEST_CASE("parts that are equal share their files, and others of one name have t
   robot.chains[0].links[2].body.mass = 7;
   const auto cfg = written(robot, folder.path() / "any.cfg");
   for (const char* name : {"link.xml", "link.off", "link_2.xml", "base.xml"})
-    CHECK(fs::exists(folder.path() / "iv/any" / name));
-  CHECK(!fs::exists(folder.path() / "iv/any/link_3.xml"));
-  CHECK(!fs::exists(folder.path() / "iv/any/link_2.off"));
+    CHECK(fs::exists(folder.path() / "iv/any_cfg" / name));
+  CHECK(!fs::exists(folder.path() / "iv/any_cfg/link_3.xml"));
+  CHECK(!fs::exists(folder.path() / "iv/any_cfg/link_2.off"));
   CHECK(cfg.robot.chains[0].links[2].body.mass == 7);
 }
 

@@ -283,7 +283,7 @@ TEST_CASE("leaders keep their DOF's order, opposite and partial ratios their sen
       for (size_t i = 0; i < points.size(); ++i) CHECK((points[i] - b[name][i]).norm() < 1e-15);
   }
   ReadOptions options;
-  options.eigengrasps = (folder.path() / "eigen/hand.egr").string();
+  options.eigengrasps = (folder.path() / "eigen/hand_urdf.egr").string();
   const auto again = read_robot(folder.path() / "hand.urdf", options);
   REQUIRE(again.eigengrasps);
   CHECK((*again.eigengrasps->origin)[0] == -0.15);
@@ -316,7 +316,7 @@ TEST_CASE("virtual contacts of a .urdf name its own chains and links") {
   write_robot(robot, folder.path() / "hand.urdf");
   CHECK(!fs::exists(folder.path() / ".hand.saving.urdf"));
   ReadOptions options;
-  options.virtual_contacts = (folder.path() / "virtual/hand.vgr").string();
+  options.virtual_contacts = (folder.path() / "virtual/hand_urdf.vgr").string();
   const auto again = read_robot(folder.path() / "hand.urdf", options);
   REQUIRE(again.virtual_contacts);
   const VirtualContactSpec& read = again.virtual_contacts->contacts.at(0);

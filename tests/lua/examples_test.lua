@@ -68,6 +68,11 @@ for _, class in ipairs(all.classes) do
   for _, entry in ipairs(class.methods) do check(class.variable .. ":" .. entry.name, entry) end
 end
 
+for _, entry in ipairs(doc.packed_functions(all.files)) do
+  -- most of the standard library is shown at work in the guide instead
+  if #doc.parse(entry.doc).examples > 0 then check("clench." .. entry.name, entry) end
+end
+
 test("every function that clench has is in the tables", function(t)
   local known = {}
   for _, library in ipairs(all.libraries) do

@@ -143,3 +143,43 @@ test("a virtual contact lies on a link of the hand, in its world", function(t)
   t.fails(function() clench.files.save_planned_grasps("x", {{pose = {}, quality = 1, run = 0}}) end, "run: wanted a number from 1")
   t.fails(function() clench.files.save_pregrasps("x", 3) end, "list: wanted a list of tables, got 3")
 end)
+
+test("a fixed amplitude stays while others are set", function(t)
+  local hand = human()
+  hand:set_amplitudes {0.2, 0.1, 0, 0, 0, 0}
+  t.equal(hand:set_amplitudes({0.1, 9, 0, 0.05, 0, 0}, {fixed = {2}}), {})
+  -- sums of twenty products of numbers below two
+  t.close(hand.amplitudes, {0.1, 0.1, 0, 0.05, 0, 0}, 1e-13)
+  hand:move_amplitudes({0, 0, 0, 0, 0, 0}, {fixed = {1}})
+  t.close(hand.amplitudes[1], 0.1, 1e-9)  -- where a drive ends, it is within its own tolerance
+  t.fails(function() hand:set_amplitudes({0, 0, 0, 0, 0, 0}, {fixed = {7}}) end, "fixed: wanted one of 6 eigengrasps, got 7")
+  t.fails(function() hand:set_amplitudes({0, 0, 0, 0, 0, 0}, {fixed = {1.5}}) end, "fixed: wanted one of 6 eigengrasps, got 1.5")
+end)
+
+test("virtual contacts that were made for another hand are taken with a warning", function(t)
+  local said = {}
+  local hand, other = human(), clench.world():add_robot "models/hands/human/human16.cfg"
+  local function give(list)
+    said = {}
+    clench.log.sink(function(_, text, about) said[#said + 1] = about .. " " .. text end)
+    local ok, message = pcall(function() hand.virtual_contacts = list end)
+    clench.log.sink()
+    if not ok then error(message, 0) end
+  end
+  local path = os.tmpname() .. ".vgr"
+  other:save_virtual_contacts(path)
+  local list = clench.files.virtual_contacts(path)
+  os.remove(path)
+  local ok = pcall(give, list)
+  t.equal(said, ok and {"doubtful hand.virtual_contacts: virtual contacts made for 'human16' are used for 'human20'"} or {})
+  give {hand.virtual_contacts[1]}
+  t.equal(said, {})
+  give {other.virtual_contacts[1]}
+  t.equal(said, {"doubtful hand.virtual_contacts: virtual contacts made for 'human16' are used for 'human20'"})
+end)
+
+test("a virtual contact has a frame, or a point and a normal", function(t)
+  local hand = human()
+  t.fails(function() hand:add_virtual_contact {link = hand.base, frame = {}, normal = {0, 0, 1}} end,
+    "wanted frame, or point and normal, got both")
+end)

@@ -60,3 +60,12 @@ test("a mesh's report counts what was read and mended", function(t)
   t.equal(report[3], "3 vertices welded, 1 degenerate triangle dropped, 2 unused vertices left out")
   t.equal(clench.world():add_object(clench.shapes.box {1, 1, 1}).mesh_report, nil)
 end)
+
+test("a mesh of the script's own takes a unit, too, and a wrong key is its own", function(t)
+  local mesh = clench.shapes.box {1, 2, 3}
+  local box = clench.world():add_object(mesh, {unit = "mm"})
+  t.close(box.mesh.bounds.high.z, 0.0015, 1e-18)
+  t.close(clench.world():add_object(mesh, {mesh_scale = 2}).mesh.bounds.high.z, 3, 0)
+  local odd = {vertices = mesh.vertices, triangles = mesh.triangles, normals = {}}
+  t.fails(function() clench.world():add_object(odd) end, "add_object: mesh: unknown key 'normals'")
+end)

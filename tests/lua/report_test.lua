@@ -41,7 +41,7 @@ test("what is wrong is one sentence, and the log is as it was", function(t)
   t.equal(heard, nil)
 end)
 
-test("what a file leaves unused is among the ignored", function(t)
+test("what looks wrong and is used as it stands is doubtful", function(t)
   local path = os.tmpname() .. ".wld"
   local file = assert(io.open(path, "w"))
   file:write("Camera\n0 0 0 0 0 0 1\n")
@@ -49,8 +49,8 @@ test("what a file leaves unused is among the ignored", function(t)
   local r = report.of(path)
   os.remove(path)
   t.equal(r.wrong, nil)
-  t.equal(#r.ignored, 1)
-  t.ok(r.ignored[1]:find "first line")
+  t.equal(#r.doubtful, 1)
+  t.ok(r.doubtful[1]:find "first line")
 end)
 
 test("eigengrasps and virtual contacts are told with their counts", function(t)
@@ -67,4 +67,99 @@ test("eigengrasps and virtual contacts are told with their counts", function(t)
   t.equal(grasps.understood, {dofs = 4, count = #hand.eigengrasps.vectors})
   t.equal(contacts.wrong, nil)
   t.equal(contacts.understood, {count = #hand.virtual_contacts, robot = hand.name})
+end)
+
+-- what is said of a file with that text
+local function report_of(ending, text)
+  local path = os.tmpname() .. ending
+  local file = assert(io.open(path, "wb"))
+  file:write(text)
+  file:close()
+  local r = report.of(path)
+  os.remove(path)
+  return r
+end
+
+test("files of numbers are told with their counts", function(t)
+  local path = os.tmpname()
+  clench.files.save_pregrasps(path, {{point = {0, 0, 0}, direction = {0, 0, 1}, thumb = {1, 0, 0}}})
+  t.equal(report.of(path).understood, {count = 1})
+  clench.files.save_planned_grasps(path, {{pose = {}, quality = 0.25}, {pose = {}, quality = 0.5, run = 2}})
+  t.equal(report.of(path).understood, {count = 2, runs = 2, best = 0.5})
+  clench.files.save_object_contacts(path, {{frame = {}, normal = {0, 0, 1}}})
+  t.equal(report.of(path).understood, {count = 1, placed = true})
+  os.remove(path)
+  local glove = report_of(".txt", "2 3\n1 2 3\n4 5 6\n7 8\n")
+  t.equal(glove.kind, "glove calibration")
+  t.equal(glove.understood, {dofs = 2, sensors = 3})
+  local poses = report_of("", "1\n2\n-1\n1 7 8\n0\n0\n0 0 0 1\n1 2 3\n")
+  t.equal(poses.kind, "glove poses")
+  t.equal(poses.understood, {count = 1, sensors = 2, joints = 0})
+  t.ok(report_of(".txt", "2 2\n1 2\n").wrong:find "got the end of the file")
+end)
+
+test("what is guessed, mended, ignored and doubtful stands apart", function(t)
+  local r = report_of(".iv", [[
+#Inventor V2.1 ascii
+#youngs 3
+Units { units FEET }
+Whirl { }
+Coordinate3 { point [0 0 0, 1 0 0, 0 1 0, 0 0 1] }
+IndexedFaceSet { coordIndex [0 1 2 -1 0 3 1 -1 0 2 3 -1 1 3 2 -1] }]])
+  t.equal(r.wrong, nil)
+  t.ok(#r.guessed == 1 and r.guessed[1]:find "Units FEET")
+  t.ok(#r.mended == 1 and r.mended[1]:find "turned to face outward")
+  t.ok(#r.ignored == 1 and r.ignored[1]:find "Whirl")
+  t.ok(#r.doubtful == 1 and r.doubtful[1]:find "youngs")
+end)
+
+test("primitives of an object are counted", function(t)
+  local r = report_of(".iv", "#Inventor V2.1 ascii\nSeparator { Cube { } Translation { translation 9 0 0 } Cube { } Sphere { } }")
+  t.equal(r.understood.primitives, {box = 2, sphere = 1})
+end)
+
+test("what a robot has and nothing acts on is kept, and told", function(t)
+  local folder = os.tmpname()
+  os.remove(folder)
+  assert(os.execute("mkdir -p " .. folder .. "/iv"))
+  local function write(name, text)
+    local file = assert(io.open(folder .. "/" .. name, "wb"))
+    file:write(text)
+    file:close()
+  end
+  write("iv/part.iv", "#Inventor V2.1 ascii\n#useFlockOfBirds 4\nCube { }")
+  write("glove.txt", "1 2\n0.1 0.2\n0.3\n")
+  write("hand.xml", [[<robot type="Hand">
+    <palm>part.iv</palm>
+    <dof type="r"><defaultVelocity>1</defaultVelocity></dof>
+    <chain>
+      <joint type="Revolute"><theta>d0</theta><d>0</d><a>50</a><alpha>0</alpha><minValue>0</minValue><maxValue>90</maxValue></joint>
+      <link dynamicJointType="Revolute">part.iv</link>
+      <filter params="0,0,0,1,2,3">0</filter>
+    </chain>
+    <cyberGlove>glove.txt</cyberGlove>
+    <flockOfBirds number="2"/>
+    <tendon name="flexor"><stiffness>2</stiffness>
+      <insertionPoint><chain>-1</chain><link>-1</link><position>0 0 0</position></insertionPoint>
+      <insertionPoint><chain>0</chain><link>0</link><position>1 0 0</position></insertionPoint>
+    </tendon>
+    <tendonWrapper><chain>0</chain><link>0</link><position>0 0 0</position><orientation>0 0 1</orientation><radius>3</radius>
+      <wrapping_side tendon="flexor"><orientation>1 0 0</orientation></wrapping_side></tendonWrapper>
+  </robot>]])
+  local path = folder .. "/hand.xml"
+  local r, hand = report.of(path), clench.world():add_robot(path)
+  local json = clench.json.encode(r)
+  os.execute("rm -r " .. folder)
+  t.equal(r.wrong, nil)
+  t.equal(r.understood.kept, {tendons = {"flexor"}, tendon_wrappers = 1, tactile_sensors = 1, glove = {dofs = 1, sensors = 2}, tracker = 2})
+  t.ok(json:find('"tendons":["flexor"]', 1, true), json)
+  t.equal(r.understood.base.tracker, 4)
+  local tendon, wrapper, sensor = hand.tendons[1], hand.tendon_wrappers[1], hand.tactile_sensors[1]
+  t.equal(tendon.stiffness, 2000)
+  t.ok(tendon.points[1].link == hand.base and tendon.points[2].link == hand.links[1])
+  t.close(tendon.points[2].point, {0.001, 0, 0}, 1e-18)
+  t.ok(wrapper.link == hand.links[1] and wrapper.sides[1].tendon == "flexor")
+  t.close(wrapper.radius, 0.003, 1e-18)
+  t.ok(sensor.link == hand.links[1])
+  t.close(sensor.high, {0.001, 0.002, 0.003}, 1e-18)
 end)

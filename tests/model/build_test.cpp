@@ -39,7 +39,8 @@ TEST_CASE(
     "a carried robot keeps its written pose when it agrees with the connection to six digits") {
   const WorldSpec spec = arm_and_hand(3e-6);
   std::vector<std::string> warnings;
-  const World world = build_world(spec, [&](const std::string& w) { warnings.push_back(w); });
+  const World world =
+      build_world(spec, {.warn = [&](const std::string& w) { warnings.push_back(w); }});
   const Pose X = world.body(world.robot(world.robots()[1]).base).X_WB;
   CHECK((X.position - spec.robots[1].X_WB.position).norm() < 1e-15);
   CHECK(warnings.empty());
@@ -47,7 +48,7 @@ TEST_CASE(
 
 TEST_CASE("a connection that contradicts the pose wins, with a warning") {
   std::vector<std::string> warnings;
-  build_world(arm_and_hand(0.01), [&](const std::string& w) { warnings.push_back(w); });
+  build_world(arm_and_hand(0.01), {.warn = [&](const std::string& w) { warnings.push_back(w); }});
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0] ==
         "robot 'gripper_2': its pose and its connection to 'gripper' differ by 0.01 m and 0 rad; "
@@ -58,12 +59,24 @@ TEST_CASE("a start outside the limits is brought to the limit, with a warning be
   WorldSpec spec = arm_and_hand(0);
   spec.robots[1].dofs = {-4e-6, -0.1};
   std::vector<std::string> warnings;
-  const World world = build_world(spec, [&](const std::string& w) { warnings.push_back(w); });
+  const World world =
+      build_world(spec, {.warn = [&](const std::string& w) { warnings.push_back(w); }});
   CHECK(world.robot(world.robots()[1]).q == Eigen::Vector2d(0, 0));
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0] ==
         "robot 'gripper_2': DOF 2 starts at -0.1, outside [0, 1.5707963267948966]; moved to the "
         "limit");
+}
+
+TEST_CASE("who listens for what is mended is told of a start that is moved, and nobody else") {
+  WorldSpec spec = arm_and_hand(0);
+  spec.robots[1].dofs = {0, 9};
+  int ignored = 0, guessed = 0, mended = 0;
+  const auto count = [](int& n) { return [&n](const std::string&) { ++n; }; };
+  build_world(spec, {.warn = count(ignored), .note = count(guessed), .mend = count(mended)});
+  CHECK(ignored == 0);
+  CHECK(guessed == 0);
+  CHECK(mended == 1);
 }
 
 TEST_CASE("breakaway states are taken over") {
@@ -87,7 +100,8 @@ TEST_CASE(
   spec.robots[1].dofs = {0.6, 0.6};
   spec.robots[1].breakaway = {{0.9, -3.0}, {std::nullopt, 0.1}};
   std::vector<std::string> warnings;
-  const World world = build_world(spec, [&](const std::string& w) { warnings.push_back(w); });
+  const World world =
+      build_world(spec, {.warn = [&](const std::string& w) { warnings.push_back(w); }});
   const Robot& hand = world.robot(world.robots()[1]);
   CHECK(joint_value(hand, 0, 0) == 0.6);
   CHECK(joint_value(hand, 0, 1) == doctest::Approx(0.3));
@@ -108,14 +122,14 @@ TEST_CASE("wrong counts are refused") {
                        Error);
 }
 
-TEST_CASE("links that overlap as a robot is loaded are switched off, and said to be") {
+TEST_CASE("links that overlap as a robot is loaded are switched off, and said to be guessed") {
   RobotSpec spec = two_finger();
   // the second links reach back into the base
   spec.chains[0].links[1].body.shape = Shape::make(moved(box(0.4, 0.01, 0.01), {-0.025, 0, 0}));
   World world;
   std::vector<std::string> warnings;
-  const auto id =
-      add_robot(world, spec, {}, "", [&](const std::string& w) { warnings.push_back(w); });
+  const auto id = add_robot(world, spec, {}, "",
+                            {.note = [&](const std::string& w) { warnings.push_back(w); }});
   const Robot& robot = world.robot(id);
   CHECK_FALSE(world.may_collide(robot.base, robot.chains[0].links[1]));
   CHECK(world.may_collide(robot.base, robot.chains[1].links[1]));

@@ -14,6 +14,25 @@ static Id<Body> add_box(World& world, const std::string& name, const Eigen::Vect
                         Pose::translation(at));
 }
 
+TEST_CASE(
+    "a centre of mass that is set later gives the inertia that it gives as part of the spec") {
+  const Eigen::Vector3d com(0.01, -0.02, 0.03);
+  BodySpec spec = body_spec("box", box(0.1, 0.2, 0.3)), moved = spec;
+  moved.com = com;
+  World world;
+  const auto later = world.add_body(spec, BodyKind::object, {}),
+             at_once = world.add_body(moved, BodyKind::object, {});
+  world.set_com(later, com);
+  CHECK(world.body(later).inertia_per_mass == world.body(at_once).inertia_per_mass);
+  // back again, and one that was given
+  world.set_com(later, com_of(spec));
+  CHECK(world.body(later).inertia_per_mass == inertia_of(spec));
+  world.set_inertia(later, Eigen::Vector3d(1, 2, 2).asDiagonal());
+  const Eigen::Matrix3d given = world.body(later).inertia_per_mass;
+  world.set_com(later, com);
+  CHECK(world.body(later).inertia_per_mass == given);
+}
+
 TEST_CASE("names are unique: the second box of the same name gets a number") {
   World world;
   add_box(world, "box", {0, 0, 0});
