@@ -50,6 +50,10 @@ Distance distance(const Shape& a, const Shape& b, const Pose& X_AB, double limit
     const double clear = cache->measured.clear - motion_bound(b, cache->measured.X_AB, X_AB);
     if (clear > 0 && limit <= clear) return {.distance = infinity};
   }
+  if (limit < infinity && placement.clearly_apart(limit, cache)) {
+    if (cache) cache->measured = {fingerprint(a, b), X_AB, std::max(0.0, limit)};
+    return {.distance = infinity};
+  }
 
   NearestPair nearest(limit);
   const auto offer = [&](const NearPair& pair, const Closest& c) { nearest.offer(pair, c); };
@@ -79,6 +83,7 @@ Distance distance(const Shape& a, const Shape& b, const Pose& X_AB, double limit
     cache->hit_a = best.triangle_a, cache->hit_b = best.triangle_b;
     return best;
   }
+  if (best.triangle_a >= 0) cache->separation = (best.p_b - best.p_a).normalized();
   // without a pair below the limit all are at least as far
   cache->measured = {fingerprint(a, b), X_AB, std::max(0.0, std::min(best.distance, limit))};
   return best;

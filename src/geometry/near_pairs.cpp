@@ -13,6 +13,7 @@ std::vector<TrianglePair> pairs_within(const Shape& a, const Shape& b, const Pos
   if (std::isnan(threshold))
     fail("pairs_within: threshold must be a number [m], got {}", threshold);
   const Placement placement(a, b, X_AB);
+  if (placement.clearly_apart(threshold)) return {};
   std::vector<NearPair> near;
   near.reserve(64);
   find_pairs_within(placement.trees(), threshold, near);

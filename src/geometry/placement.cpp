@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "geometry/queries.h"
 
 namespace clench {
 
@@ -43,6 +44,13 @@ Placement::Placement(const Shape& a, const Shape& b, const Pose& X_AB)
   Vector3d::Map(trees_.offset) =
       to_a(Vector3d::Map(b.tree().centre())) - Vector3d::Map(a.tree().centre());
   trees_.rounding = rounding_of(a.bounds(), position_) + rounding_of(b.bounds(), position_);
+}
+
+bool Placement::clearly_apart(double reach, PairCache* cache) const {
+  const Vector3d start = cache ? cache->separation : Vector3d::Zero();
+  const Separation found = find_separation(trees_, std::max(reach, 0.0), start.data());
+  if (found.found && cache) cache->separation = Vector3d::Map(found.along);
+  return found.found;
 }
 
 }  // namespace clench

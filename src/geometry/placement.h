@@ -22,6 +22,8 @@ inline uint64_t fingerprint(const Shape& a, const Shape& b) {
 /// No point of b moves more between the two poses of it, rounding of coordinates included [m]
 double motion_bound(const Shape& b, const Pose& from, const Pose& to);
 
+struct PairCache;
+
 /// All pair queries move corners by the same arithmetic.
 class Placement {
  public:
@@ -45,6 +47,8 @@ class Placement {
   const Eigen::Vector3d& position() const { return position_; }
   const TreePair& trees() const { return trees_; }
   double rounding() const { return trees_.rounding; }
+  /// Is it soon seen that the solids are farther apart than reach [m]? Looks first where the cache remembers.
+  bool clearly_apart(double reach, PairCache* cache = nullptr) const;
 
  private:
   const Mesh &mesh_a_, &mesh_b_;

@@ -26,6 +26,8 @@ struct PairMeasure {
 struct PairCache {
   int closest_a = -1, closest_b = -1;  ///< triangles of the last closest pair
   int hit_a = -1, hit_b = -1;          ///< triangles of the last intersection
+  /// along which b may lie beyond a, in the frame of a, unit; zero when unknown
+  Eigen::Vector3d separation = Eigen::Vector3d::Zero();
   PairMeasure measured = {};
 };
 

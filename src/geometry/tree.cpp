@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "geometry/make_casing.h"
 #include "geometry/mesh.h"
 #include "geometry/principal_axes.h"
 
@@ -56,6 +57,7 @@ class TreeBuilder {
     tree.leaves_.reserve(static_cast<size_t>(count) / 5 + 1);
     tree.boxes_.emplace_back();
     fill(0, {{0, count, 0}});
+    encase();
   }
 
  private:
@@ -68,6 +70,19 @@ class TreeBuilder {
     int begin, end, depth;
     int count() const { return end - begin; }
   };
+
+  void encase() {
+    std::vector<char> used(points_.size(), 0);
+    for (const Triangle& t : mesh_.triangles)
+      for (const int v : t) used[v] = 1;
+    std::vector<Vector3d> points;
+    for (size_t v = 0; v < points_.size(); ++v)
+      if (used[v]) points.push_back(points_[v]);
+    Matrix3d axes;
+    for (int k = 0; k < 3; ++k)
+      for (int m = 0; m < 3; ++m) axes(m, k) = tree_.boxes_[0].axes[3 * k + m][0];
+    tree_.casing_ = make_casing(points, axes);
+  }
 
   // a bundle of the groups' boxes, then what is below
   void fill(int bundle, const std::vector<Group>& groups) {

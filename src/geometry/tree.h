@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/casing.h"
+
 namespace clench {
 
 struct Mesh;
@@ -40,6 +42,7 @@ class Tree {
     for (int line = 0; line < 3; ++line)
       __builtin_prefetch(static_cast<const char*>(at) + 128 * line);
   }
+  const Casing& casing() const { return casing_; }
   int box_count() const { return static_cast<int>(boxes_.size()); }
   int leaf_count() const { return static_cast<int>(leaves_.size()); }
   const double* centre() const { return centre_; }  ///< in the mesh's frame [m]
@@ -50,6 +53,7 @@ class Tree {
   friend class TreeBuilder;
   std::vector<BoxBundle> boxes_;
   std::vector<TriangleBundle> leaves_;
+  Casing casing_;
   double centre_[3] = {};
   double radius_ = 0;
 };

@@ -33,6 +33,16 @@ struct NearPair {
   int triangle_a, triangle_b;
 };
 
+/// Two meshes beside each other.
+struct Separation {
+  bool found = false;  ///< sure: b lies farther than the reach beyond a along the direction
+  double along[3] = {0, 0, 0};  ///< in the frame of a; unit, up to 2^-14
+};
+
+/// Looks for a direction along which b lies farther than reach, >= 0 [m], beyond a. Gives up soon.
+/// start  tried first, unit; anything else is ignored
+Separation find_separation(const TreePair& pair, double reach, const double start[3]);
+
 /// Finds all pairs of triangles that may be as near as the reach.
 void find_pairs_within(const TreePair& pair, double reach, std::vector<NearPair>& out);
 

@@ -1,0 +1,132 @@
+#include <doctest/doctest.h>
+
+#include "geometry/placement.h"
+#include "geometry/queries.h"
+#include "geometry/tree.h"
+#include "support/meshes.h"
+#include "support/shared.h"
+
+using namespace clench;
+using namespace clench::test;
+using Eigen::Vector3d;
+
+namespace {
+
+double highest(const Mesh& mesh, const Vector3d& centre, const Vector3d& n) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Triangle& t : mesh.triangles)
+    for (const int v : t) most = std::max(most, n.dot(mesh.vertices[v] - centre));
+  return most;
+}
+
+double highest(const Casing& casing, const Vector3d& n) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const PointBundle& points : casing.corners)
+    for (int i = 0; i < lane_count; ++i)
+      most = std::max(most, n.dot(Vector3d(points.at[0][i], points.at[1][i], points.at[2][i])));
+  return most;
+}
+
+// how far the casing reaches beyond the mesh, at most, in parts of the radius
+double excess_of(const Mesh& mesh, Random& random) {
+  const auto shape = Shape::make(mesh);
+  const Vector3d centre = Vector3d::Map(shape->tree().centre());
+  double most = 0;
+  for (int i = 0; i < 300; ++i) {
+    Vector3d n = random_direction(random);
+    if (i < 3) n = Vector3d::Unit(i);
+    const double excess = (highest(shape->tree().casing(), n) - highest(mesh, centre, n)) /
+                          std::max(shape->radius(), 1e-300);
+    // casing.h says by how much rounding may let it fall short
+    CHECK(excess > -16 * 0x1p-24);
+    most = std::max(most, excess);
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("a casing holds its mesh, and lies close around it") {
+  Random random(1);
+  // three faces meet in most of the 128 corners: 66 of them, evenly about a ball, leave 5 % of its
+  // radius at the corners; not quite evenly, twice as much
+  CHECK(excess_of(ball(1, 40, 80), random) < 0.12);
+  CHECK(excess_of(potato(random, 1, 20), random) < 0.12);
+  CHECK(excess_of(moved(scaled(ball(1, 12, 30), 1e-6), Pose::translation({1, 0, 0})), random) <
+        0.12);
+  // few vertices: it is their hull
+  CHECK(excess_of(box(1, 2, 3), random) < 1e-6);
+  CHECK(excess_of(potato(random, 1, 6), random) < 1e-6);
+  CHECK(excess_of(soup(random, 30), random) < 1e-6);
+}
+
+TEST_CASE("a casing holds what has no volume, no area, or no size") {
+  Random random(2);
+  Mesh flat = ball(1, 20, 30), needle = flat, spot = flat;
+  for (Vector3d& p : flat.vertices) p.z() = 0.3 * p.x();
+  for (Vector3d& p : needle.vertices) p = p.x() * Vector3d(1, 2, 3);
+  for (Vector3d& p : spot.vertices) p.setConstant(0.25);
+  CHECK(excess_of(flat, random) < 0.12);
+  CHECK(excess_of(needle, random) < 0.01);
+  CHECK(excess_of(spot, random) == 0);
+  Mesh slivers = soup(random, 200);
+  for (Vector3d& p : slivers.vertices) p = p.cwiseProduct(Vector3d(1, 1e-3, 1e-7));
+  CHECK(excess_of(slivers, random) < 0.12);
+}
+
+TEST_CASE("a separation that is found is one, whatever it was begun with") {
+  Random random(3);
+  const std::vector<ShapePtr> shapes = {
+      Shape::make(potato(random, 1, 12)), Shape::make(box(1, 0.2, 3)),
+      Shape::make(soup(random, 80)),
+      Shape::make(moved(ball(0.7, 12, 25), Pose::translation({100, 50, -30})))};
+  int found = 0, beside = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const Shape &a = *shapes[i % 4], &b = *shapes[i / 4 % 4];
+    Pose X{random_turn(random), Vector3d::Zero()};
+    X.position = a.centre() - X.rotation * b.centre() +
+                 random.uniform(0, a.radius() + b.radius()) * random_direction(random);
+    const double reach = i % 3 == 0 ? random.uniform(0, 0.3) : 0;
+    Vector3d start = i % 2 ? random_direction(random) : Vector3d::Zero();
+    if (i % 10 == 1) start = Vector3d(std::nan(""), 1e300, 0);
+    const Placement placement(a, b, X);
+    const Separation s = find_separation(placement.trees(), reach, start.data());
+    const double exact = distance(a, b, X).distance;
+    beside += exact > reach + 0.1 * (a.radius() + b.radius());
+    if (!s.found) continue;
+    ++found;
+    CHECK(exact > reach);
+    const Vector3d n = Vector3d::Map(s.along);
+    CHECK(std::abs(n.norm() - 1) < 0x1p-14);
+    const double gap = n.dot(X.position) -
+                       highest(b.mesh(), Vector3d::Zero(), -(X.rotation.inverse() * n)) -
+                       highest(a.mesh(), Vector3d::Zero(), n);
+    // in units of 100 m, the farthest coordinate
+    CHECK(gap > reach - 1e-13);
+  }
+  // those that are not convex may interlock
+  CHECK(beside > 200);
+  CHECK(found > 0.9 * beside);
+}
+
+TEST_CASE("a direction that the cache remembers changes no answer along a slow walk") {
+  Random random(4);
+  const auto a = Shape::make(potato(random, 1, 12)), b = Shape::make(potato(random, 0.6, 12));
+  PairCache cache;
+  Pose X{Eigen::Quaterniond::Identity(), {1.7, 0, 0}};
+  int hits = 0, remembered = 0;
+  for (int i = 0; i < 1500; ++i) {
+    X = Pose{random_turn(random).slerp(0.99, X.rotation), X.position + random_point(random, 0.02)};
+    X.position *= 1.85 / X.position.norm();
+    const bool cold = colliding(*a, *b, X);
+    CHECK(colliding(*a, *b, X, &cache) == cold);
+    hits += cold;
+    remembered += cache.separation.norm() > 0.5;
+    const double limit = random.uniform(0, 0.2);
+    CHECK(distance(*a, *b, X, limit, &cache).distance == distance(*a, *b, X, limit).distance);
+    CHECK(pairs_within(*a, *b, X, limit).empty() == (distance(*a, *b, X).distance >= limit));
+  }
+  CHECK(hits > 50);
+  CHECK(hits < 1450);
+  CHECK(remembered > 1000);
+}
