@@ -38,7 +38,7 @@ struct NearestLanes {
   }
 };
 
-// NearestLanes points a + s u and b + t v. Crossed lines by cross products, which keep their digits
+// Nearest points a + s u and b + t v. Crossed lines by cross products, which keep their digits
 // where the normal equations lose them: nearly parallel edges are the rule in meshes.
 CLENCH_INLINE void offer_segments(const Vector& a, const Vector& u, const F& uu, const Vector& b,
                                   const Vector& v, const F& vv, NearestLanes& best) {

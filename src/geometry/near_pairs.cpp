@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "base/error.h"
 #include "geometry/placement.h"
@@ -17,9 +16,13 @@ std::vector<TrianglePair> pairs_within(const Shape& a, const Shape& b, const Pos
   std::vector<NearPair> near;
   near.reserve(64);
   find_pairs_within(placement.trees(), threshold, near);
-  std::sort(near.begin(), near.end(), [](const NearPair& x, const NearPair& y) {
-    return std::tie(x.triangle_a, x.triangle_b) < std::tie(y.triangle_a, y.triangle_b);
-  });
+  // numbers of triangles are not negative
+  const auto key = [](const NearPair& pair) {
+    return uint64_t{static_cast<uint32_t>(pair.triangle_a)} << 32 |
+           static_cast<uint32_t>(pair.triangle_b);
+  };
+  std::sort(near.begin(), near.end(),
+            [&](const NearPair& x, const NearPair& y) { return key(x) < key(y); });
   std::vector<TrianglePair> out;
   out.reserve(near.size());
   placement.measure(near, [&](const NearPair& pair, const Closest& c) {

@@ -14,7 +14,8 @@ namespace clench {
 // of its bounds shows in an answer: the compiler may contract products and sums in this file.
 namespace {
 
-template <class F>
+// ordered: what overlaps most first
+template <class F, bool ordered>
 class ReachWalk {
   using Real = typename F::Real;
 
@@ -31,7 +32,7 @@ class ReachWalk {
     squared_limit_ = limit_ * limit_ * up;
   }
 
-  // depth first, boxes that overlap most first
+  // depth first
   bool run(PairVisit visit) {
     if (!(limit_ >= 0)) return false;
     int height = 0;
@@ -88,7 +89,8 @@ class ReachWalk {
       (opens_a ? next.child_a : next.child_b) = child;
       (opens_a ? next.size_a : next.size_b) = child & 1 ? -1 : from.size[lane];
       int at = height++;
-      for (; at > first && stack_[at - 1].gap < next.gap; --at) stack_[at] = stack_[at - 1];
+      if constexpr (ordered)
+        for (; at > first && stack_[at - 1].gap < next.gap; --at) stack_[at] = stack_[at - 1];
       stack_[at] = next;
     }
     return height;
@@ -206,24 +208,25 @@ class ReachWalk {
   WaitingPairs<F> waiting_;
 };
 
+template <bool ordered>
 bool visit_within(const TreePair& pair, double reach, PairVisit visit) {
   const double extent = extent_of(pair);
   if (single_is_enough(extent, pair.a->radius() + pair.b->radius()))
-    return ReachWalk<FloatLanes>(pair, extent, reach).run(visit);
-  return ReachWalk<DoubleLanes>(pair, extent, reach).run(visit);
+    return ReachWalk<FloatLanes, ordered>(pair, extent, reach).run(visit);
+  return ReachWalk<DoubleLanes, ordered>(pair, extent, reach).run(visit);
 }
 
 }  // namespace
 
 void find_pairs_within(const TreePair& pair, double reach, std::vector<NearPair>& out) {
-  visit_within(pair, reach, [&](int triangle_a, int triangle_b) {
+  visit_within<false>(pair, reach, [&](int triangle_a, int triangle_b) {
     out.push_back({triangle_a, triangle_b});
     return false;
   });
 }
 
 bool for_meeting_pairs(const TreePair& pair, PairVisit visit) {
-  return visit_within(pair, 0, visit);
+  return visit_within<true>(pair, 0, visit);
 }
 
 }  // namespace clench

@@ -238,7 +238,7 @@ class TreeBuilder {
   }
 
   // Puts the smallest of a few boxes around a group into a lane: along the mesh's axes, along the
-  // principal directions, and for small groups along their longest edge.
+  // principal directions, for small groups along edges, and near the best of these.
   void fit(const Group& group, BoxBundle& bundle, int lane) const {
     Bounds plain;
     for (int i = group.begin; i < group.end; ++i) join(plain, items_[i].bounds);
@@ -250,12 +250,31 @@ class TreeBuilder {
       Bounds bounds;
       for (int i = group.begin; i < group.end; ++i)
         for (int k = 0; k < 3; ++k) bounds.add(turned.transpose() * point(items_[i].triangle, k));
-      if (surface(bounds.size()) < surface(best.size())) best = bounds, axes = turned;
+      const bool smaller = surface(bounds.size()) < surface(best.size());
+      if (smaller) best = bounds, axes = turned;
+      return smaller;
     };
     const Matrix3d principal = spread(group);
     offer(principal);
-    if (group.count() <= 64) offer(axes_of(longest_edge(group), principal.col(0)));
+    if (group.count() <= 8)
+      for (int i = group.begin; i < group.end; ++i) offer_sides(items_[i].triangle, offer);
+    else if (group.count() <= 64)
+      offer(axes_of(longest_edge(group), principal.col(0)));
+    // then turned a little about each of its axes, one way or the other
+    for (const double angle : {0.4, 0.2, 0.1})
+      for (int k = 0; k < 3; ++k)
+        for (const double turn : {angle, -angle})
+          if (offer(axes * Eigen::AngleAxisd(turn, Vector3d::Unit(k)).toRotationMatrix())) break;
     store(axes, best, bundle, lane);
+  }
+
+  // along each edge of a triangle, and flat on it
+  template <class Offer>
+  void offer_sides(int triangle, const Offer& offer) const {
+    Vector3d edges[3];
+    for (int k = 0; k < 3; ++k) edges[k] = point(triangle, (k + 1) % 3) - point(triangle, k);
+    const Vector3d normal = edges[0].cross(edges[1]).stableNormalized();
+    for (const Vector3d& edge : edges) offer(axes_of(edge, normal));
   }
 
   static void store(const Matrix3d& axes, const Bounds& along, BoxBundle& bundle, int lane) {

@@ -55,7 +55,7 @@ struct Local {
   }
 };
 
-// NearestPoints points p = a0 + s u and q = b0 + t v. Crossed lines by cross products, which keep their
+// Nearest points p = a0 + s u and q = b0 + t v. Crossed lines by cross products, which keep their
 // digits where the normal equations lose them: nearly parallel edges are the rule in meshes.
 Vector3d between_segments(const Vector3d& a0, const Vector3d& u, const Vector3d& b0,
                           const Vector3d& v, double& s, double& t) {
