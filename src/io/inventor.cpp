@@ -26,7 +26,7 @@ constexpr size_t most_triangles = 2'000'000;
 class Collector {
  public:
   Collector(std::string file, double unit) : file_(std::move(file)), unit_(unit) {}
-  void apply(SoNode* root);
+  void apply(const InventorGraph& graph);
 
   GeometryBuilder builder;
   bool colors_given = false;
@@ -50,12 +50,13 @@ class Collector {
            const SbColor* given = nullptr);
 
   std::string file_, error_;
-  double unit_;  // [m]
+  const SoNode* wrong_ = nullptr;  // what the error is about
+  double unit_;                    // [m]
   int steps_ = 0;
   bool clockwise_ = false;  // how the shape at hand turns
 };
 
-void Collector::apply(SoNode* root) {
+void Collector::apply(const InventorGraph& graph) {
   SoCallbackAction action;
   action.addPreCallback(SoNode::getClassTypeId(), on_node, this);
   action.addTriangleCallback(SoShape::getClassTypeId(), on_triangle, this);
@@ -64,9 +65,9 @@ void Collector::apply(SoNode* root) {
   auto* hints = new SoShapeHints;
   hints->faceType = SoShapeHints::UNKNOWN_FACE_TYPE;
   all.get()->addChild(hints);
-  all.get()->addChild(root);
+  all.get()->addChild(graph.root.get());
   action.apply(all.get());
-  if (!error_.empty()) fail("{}: {}", file_, error_);
+  if (!error_.empty()) fail("{}: {}", graph.place(wrong_, file_), error_);
 }
 
 SoCallbackAction::Response Collector::enter(SoCallbackAction* action, SoNode* node) {
@@ -91,6 +92,7 @@ SoCallbackAction::Response Collector::enter(SoCallbackAction* action, SoNode* no
     return enter_shape(action, node);
   } catch (const Error& error) {
     error_ = error.what();
+    wrong_ = node;
   }
   return SoCallbackAction::ABORT;
 }
@@ -179,8 +181,7 @@ Geometry read_inventor(const std::filesystem::path& path, const std::string& tex
   std::vector<std::string> warnings;
   {
     CoinLease coin;
-    const Ref<SoSeparator> root = load_graph(coin, path, text, options, warnings);
-    collector.apply(root.get());
+    collector.apply(load_graph(coin, path, text, options, warnings));
   }
   // told when Coin is free again, for a listener may want to read, too
   warnings.insert(warnings.end(), collector.warnings.begin(), collector.warnings.end());

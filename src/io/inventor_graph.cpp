@@ -87,19 +87,23 @@ NodeType node_type(const std::string& name) {
 /// Files to scene graphs, each read once.
 class Loader {
  public:
-  Loader(CoinLease& coin, const ReadOptions& options, std::vector<std::string>& warnings)
-      : coin_(coin), options_(options), warnings_(warnings) {}
+  Loader(CoinLease& coin, const ReadOptions& options, std::vector<std::string>& warnings,
+         std::map<const SoNode*, std::string>& places)
+      : coin_(coin), options_(options), warnings_(warnings), places_(places) {}
   Ref<SoSeparator> load(const fs::path& path, const std::string& text);
 
  private:
   void fill_includes(SoNode* root, const fs::path& path, const InventorText& scanned);
   Ref<SoSeparator> include(const std::string& name, const fs::path& referrer, int line);
   const fs::path& find(const std::string& name, const fs::path& referrer);
+  std::map<const SoNode*, int> lines_of(const std::vector<SoNode*>& nodes,
+                                        const InventorText& scanned) const;
   void visit(SoNode* node, const std::string& file, std::vector<SoNode*>& found, int depth = 1);
 
   CoinLease& coin_;
   const ReadOptions& options_;
   std::vector<std::string>& warnings_;
+  std::map<const SoNode*, std::string>& places_;
   std::map<fs::path, Ref<SoSeparator>> done_;
   std::map<std::pair<fs::path, std::string>, fs::path> found_;  // by referrer and name
   size_t includes_ = 0;
@@ -143,10 +147,46 @@ void Loader::visit(SoNode* node, const std::string& file, std::vector<SoNode*>& 
   heights_[node] = height + 1;
 }
 
+/// "IndexedFaceSet" of SoIndexedFaceSet and VRMLIndexedFaceSet.
+std::string bare_type(std::string name) {
+  for (const char* prefix : {"So", "VRML"})
+    if (name.starts_with(prefix)) name.erase(0, std::string_view(prefix).size());
+  return name;
+}
+
+/// Where shapes and inclusions stand: nodes of a type come in the order of the text, unless something
+/// made more of them, or fewer.   `nodes`  of one file, each once, in order
+std::map<const SoNode*, int> Loader::lines_of(const std::vector<SoNode*>& nodes,
+                                              const InventorText& scanned) const {
+  std::map<std::string, std::vector<const SoNode*>> by_type;
+  for (const SoNode* node : nodes)
+    if (node->isOfType(SoShape::getClassTypeId()) ||
+        node->isOfType(SoVRMLInline::getClassTypeId()) ||
+        node->isOfType(SoWWWInline::getClassTypeId()))
+      by_type[bare_type(node->getTypeId().getName().getString())].push_back(node);
+  std::map<std::string, std::vector<int>> lines;
+  for (const auto& [type, line] : scanned.nodes)
+    if (const std::string name = bare_type(type); by_type.contains(name))
+      lines[name].push_back(line);
+  std::map<const SoNode*, int> out;
+  for (const auto& [type, same] : by_type) {
+    const std::vector<int>& known = lines[type];
+    for (size_t i = 0; known.size() == same.size() && i < same.size(); ++i) out[same[i]] = known[i];
+  }
+  return out;
+}
+
 void Loader::fill_includes(SoNode* root, const fs::path& path, const InventorText& scanned) {
   std::vector<SoNode*> nodes;
   heights_.clear();
   visit(root, path.filename().string(), nodes);
+  const auto lines = lines_of(nodes, scanned);
+  for (const auto& [node, line] : lines)
+    places_[node] = fmt::format("{}:{}", path.filename().string(), line);
+  const auto line_of = [&](SoNode* node) {
+    const auto found = lines.find(node);
+    return found == lines.end() ? 0 : found->second;
+  };
   std::map<std::string, int> numbers;
   for (size_t i = 0; i < scanned.includes.size(); ++i)
     numbers[include_key(static_cast<int>(i))] = static_cast<int>(i);
@@ -164,12 +204,12 @@ void Loader::fill_includes(SoNode* root, const fs::path& path, const InventorTex
     } else if (node->isOfType(SoVRMLInline::getClassTypeId())) {
       auto* inlined = static_cast<SoVRMLInline*>(node);
       if (inlined->url.getNum() == 0) continue;
-      part = include(inlined->url[0].getString(), path, 0);
+      part = include(inlined->url[0].getString(), path, line_of(node));
       inlined->setChildData(part.get());
     } else if (node->isOfType(SoWWWInline::getClassTypeId())) {
       auto* inlined = static_cast<SoWWWInline*>(node);
       if (inlined->name.getValue().getLength() == 0) continue;
-      part = include(inlined->name.getValue().getString(), path, 0);
+      part = include(inlined->name.getValue().getString(), path, line_of(node));
       inlined->setChildData(part.get());
     }
   }
@@ -248,9 +288,17 @@ void CoinLease::on_read_error(const SoError* error, void* self) {
   if (first.empty() && text.find("clench:include:") == std::string::npos) first = text;
 }
 
-Ref<SoSeparator> load_graph(CoinLease& coin, const fs::path& path, const std::string& text,
-                            const ReadOptions& options, std::vector<std::string>& warnings) {
-  return Loader(coin, options, warnings).load(path, text);
+std::string InventorGraph::place(const SoNode* node, const std::string& file) const {
+  const auto found = places.find(node);
+  if (found == places.end()) return file;
+  return found->second.starts_with(file + ":") ? found->second : file + ": " + found->second;
+}
+
+InventorGraph load_graph(CoinLease& coin, const fs::path& path, const std::string& text,
+                         const ReadOptions& options, std::vector<std::string>& warnings) {
+  InventorGraph graph;
+  graph.root = Loader(coin, options, warnings, graph.places).load(path, text);
+  return graph;
 }
 
 }  // namespace clench

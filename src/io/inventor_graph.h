@@ -5,6 +5,7 @@
 #include <Inventor/nodes/SoSeparator.h>
 
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -55,11 +56,20 @@ class Ref {
   T* node_;
 };
 
+struct InventorGraph {
+  Ref<SoSeparator> root;
+  std::map<const SoNode*, std::string> places;  ///< of shapes: "part.iv:31", where that is known
+
+  /// For a sentence on a node: "box.iv:31", "box.iv: part.iv:31" of one in a file that it includes,
+  /// or "box.iv" alone.
+  std::string place(const SoNode* node, const std::string& file) const;
+};
+
 /// The graph of a file. Its lines are `text`; what is not used is told to `warnings`.
 /// throws Error  "box.iv:31: ..." when the file or one that it includes is malformed, missing or
 /// includes itself
-Ref<SoSeparator> load_graph(CoinLease& coin, const std::filesystem::path& path,
-                            const std::string& text, const ReadOptions& options,
-                            std::vector<std::string>& warnings);
+InventorGraph load_graph(CoinLease& coin, const std::filesystem::path& path,
+                         const std::string& text, const ReadOptions& options,
+                         std::vector<std::string>& warnings);
 
 }  // namespace clench

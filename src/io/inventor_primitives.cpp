@@ -72,7 +72,8 @@ const char* name_of(PrimitiveKind kind) {
 /// Walks a scene graph and gathers its primitives.
 class PrimitiveCollector {
  public:
-  explicit PrimitiveCollector(std::string file) : file_(std::move(file)) {}
+  PrimitiveCollector(std::string file, const InventorGraph& graph)
+      : file_(std::move(file)), graph_(graph) {}
   void apply(SoNode* root);
 
   std::vector<Primitive> found;
@@ -86,7 +87,8 @@ class PrimitiveCollector {
   SoCallbackAction::Response enter(SoCallbackAction* action, SoNode* node);
   Primitive placed(const Solid& shape, const SbMatrix& X);
 
-  std::string file_, error_;
+  std::string file_, error_, place_;  // of the node at hand
+  const InventorGraph& graph_;
   int steps_ = 0;
 };
 
@@ -102,6 +104,7 @@ SoCallbackAction::Response PrimitiveCollector::enter(SoCallbackAction* action, S
     error_ = fmt::format("{}: wanted at most {} primitives and {} nodes", file_, most_found,
                          most_visits);
   if (!error_.empty()) return SoCallbackAction::ABORT;
+  place_ = graph_.place(node, file_);
   // no exception may pass through Coin
   try {
     if (const auto shape = primitive_of(node))
@@ -123,7 +126,7 @@ Primitive PrimitiveCollector::placed(const Solid& shape, const SbMatrix& X) {
   const bool box = shape.kind == PrimitiveKind::box, ball = shape.kind == PrimitiveKind::sphere;
   const double least =
       box ? shape.size.minCoeff() : std::min(shape.radius, ball ? shape.radius : shape.height);
-  if (!(least > 0)) fail("{}: {}: wanted sizes > 0, got {}", file_, name, least);
+  if (!(least > 0)) fail("{}: {}: wanted sizes > 0, got {}", place_, name, least);
 
   // turn and scale of each axis; Coin multiplies rows
   Matrix3d axes;
@@ -134,10 +137,10 @@ Primitive PrimitiveCollector::placed(const Solid& shape, const SbMatrix& X) {
   }
   const Vector3d scale = axes.colwise().norm();
   if (!axes.allFinite() || !position.allFinite() || !(scale.minCoeff() > 0))
-    fail("{}: {}: wanted a finite scale other than 0", file_, name);
+    fail("{}: {}: wanted a finite scale other than 0", place_, name);
   axes = axes * scale.cwiseInverse().asDiagonal();
   if ((axes.transpose() * axes - Matrix3d::Identity()).cwiseAbs().maxCoeff() > digits)
-    fail("{}: {}: it is skewed, and is none any more", file_, name);
+    fail("{}: {}: it is skewed, and is none any more", place_, name);
   if (axes.determinant() < 0) axes.col(0) *= -1;  // all of them are the same mirrored
   const double across = std::max(scale.x(), scale.z());
   const bool oval = ball ? scale.maxCoeff() - scale.minCoeff() > digits * scale.maxCoeff()
@@ -196,21 +199,24 @@ std::vector<Primitive> read_primitives(const fs::path& path, const ReadOptions& 
     fail("{}: wanted primitives from {}, got {}", file,
          one_of(endings_of(GeometryFormat::inventor)), in_quotes(ending));
 
-  PrimitiveCollector collector(file);
+  std::vector<Primitive> found;
   std::vector<std::string> warnings;
   {
     const std::string text = read_text(source.path);
     CoinLease coin;
     const Ref<SoSeparator> all(new SoSeparator);
     all.get()->addChild(new_placement(source));
-    all.get()->addChild(load_graph(coin, source.path, text, options, warnings).get());
+    const InventorGraph graph = load_graph(coin, source.path, text, options, warnings);
+    all.get()->addChild(graph.root.get());
+    PrimitiveCollector collector(file, graph);
     collector.apply(all.get());
+    warnings.insert(warnings.end(), collector.warnings.begin(), collector.warnings.end());
+    found = std::move(collector.found);
   }
   // told when Coin is free again, for a listener may want to read, too
-  warnings.insert(warnings.end(), collector.warnings.begin(), collector.warnings.end());
   if (options.warn)
     for (const auto& warning : warnings) options.warn(warning);
-  return std::move(collector.found);
+  return found;
 }
 
 }  // namespace clench

@@ -56,6 +56,8 @@ class Scanner {
   std::string take_text();
   std::vector<InventorInclude> includes;
   std::vector<std::string> warnings;
+  std::vector<std::pair<std::string, int>> nodes;
+  bool has_protos() const { return !protos_.empty(); }
 
  private:
   template <class... Args>
@@ -187,6 +189,7 @@ void Scanner::on_open(const Token& token) {
     if (open.cut && type->second == NodeType::unknown && !in_cut())
       warnings.push_back(fmt::format("{}:{}: unknown node {} is skipped", file_, token.line,
                                      in_quotes(open.type)));
+    if (!open.cut && !in_cut()) nodes.emplace_back(open.type, token.line);
   } else if (open.bracket == '{') {
     open.proto = last_.kind == Token::close && last_.text == "]" && vrml2_;
     if (!open.proto)
@@ -347,6 +350,7 @@ InventorText scan_inventor(const std::string& text, const std::string& file,
   scanner.run();
   out.includes = std::move(scanner.includes);
   out.warnings = std::move(scanner.warnings);
+  if (!scanner.has_protos()) out.nodes = std::move(scanner.nodes);
   out.text = std::string(header) + scanner.take_text() + "\n";
   return out;
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace clench {
@@ -17,6 +18,8 @@ struct InventorInclude {
 struct InventorText {
   std::string text;       ///< for the library; line n of it is line n + skipped_lines of the file
   int skipped_lines = 0;  ///< lines before the header
+  /// Types of the nodes in it and their lines, in order; empty where PROTOs make nodes of their own.
+  std::vector<std::pair<std::string, int>> nodes;
   std::vector<InventorInclude> includes;  ///< number i is called include_key(i) in `text`
   std::vector<std::string> warnings;      ///< "box.iv:7: unknown node 'Foo' is skipped"
 };

@@ -278,7 +278,7 @@ void CfgReader::read_tracker() {
   TrackerSpec tracker;
   // some files leave the number out
   if (lines_.skip_to_full() && begins_transform(lines_.peek()))
-    library_.warn(
+    library_.note(
         fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
   else
     tracker.number = wanted("a bird number").integer(0, "FlockOfBirds", 0);

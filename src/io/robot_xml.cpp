@@ -373,7 +373,7 @@ void XmlRobotReader::read_tracker() {
   if (element.attribute("number"))
     tracker.number = element.integer_attribute("number", 0);
   else
-    library_.warn(fmt::format("{}: flockOfBirds: no bird number, 0 is used", element.place()));
+    library_.note(fmt::format("{}: flockOfBirds: no bird number, 0 is used", element.place()));
   tracker.X_BS = read_transform_of(element, library_.options().listeners());
   robot_.tracker = tracker;
 }

@@ -161,10 +161,14 @@ std::string body_elements(const BodySpec& body, const std::string& surface,
   if (body.elastic_modulus) add("youngs", fmt::format("{}", *body.elastic_modulus));
   if (body.tracker) add("useFlockOfBirds", fmt::format("{}", *body.tracker));
   add("mass", number_in(body.mass, units::gram));
-  if (body.com) add("cog", millimetres(*body.com));
-  if (body.inertia_per_mass) {
-    const Eigen::Matrix3d even =
-        0.5 * (*body.inertia_per_mass + body.inertia_per_mass->transpose());
+  // what a reader mends has another centre and inertia
+  const bool mended = body.shape && !body.shape->closed() &&
+                      (body.shape->faults().duplicate_triangles > 0 ||
+                       body.shape->faults().degenerate_triangles > 0);
+  if (body.com || mended) add("cog", millimetres(com_of(body)));
+  if (body.inertia_per_mass || mended) {
+    const Eigen::Matrix3d inertia = inertia_of(body);
+    const Eigen::Matrix3d even = 0.5 * (inertia + inertia.transpose());
     std::vector<std::string> rows;
     for (int i = 0; i < 9; ++i)
       rows.push_back(number_in(even(i / 3, i % 3), units::square_millimetre));

@@ -95,6 +95,17 @@ std::vector<std::string> lost(const BodySpec& body, const std::string& ending) {
   return out;
 }
 
+/// Triangles of which corners become one in 32 bits.
+int too_small(const Mesh& mesh) {
+  int count = 0;
+  for (const Triangle& t : mesh.triangles) {
+    Eigen::Vector3f p[3];
+    for (int i = 0; i < 3; ++i) p[i] = (mesh.vertices[t[i]] / units::millimetre).cast<float>();
+    count += p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
+  }
+  return count;
+}
+
 void tell(const BodySpec& body, const fs::path& path, const std::string& ending,
           const WriteOptions& options) {
   if (!options.warn) return;
@@ -102,8 +113,15 @@ void tell(const BodySpec& body, const fs::path& path, const std::string& ending,
   if (const auto list = lost(body, ending); !list.empty())
     options.warn(fmt::format("{} does not hold {}", file, fmt::join(list, ", ")));
   if (!body.shape) return;
-  if (ending == ".iv" || ending == ".stl")
-    options.warn(fmt::format("{}: coordinates keep 32 bits, as {} holds them", file, ending));
+  if (ending == ".iv" || ending == ".stl") {
+    const int small = too_small(body.shape->mesh());
+    options.warn(fmt::format("{}: coordinates keep 32 bits, as {} holds them{}", file, ending,
+                             small == 0   ? ""
+                             : small == 1 ? "; a triangle is too small for them, and vanishes"
+                                          : fmt::format("; {} triangles are too small for them, "
+                                                        "and vanish",
+                                                        small)));
+  }
   const double largest = body.shape->mesh().bounds().size().maxCoeff();
   if (is_mesh_ending(ending) && guess_mesh_unit(largest) != 1)
     options.warn(

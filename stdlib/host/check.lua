@@ -18,6 +18,8 @@ local function vector(v, format, scale)
   return table.concat(parts, " ")
 end
 
+local function several(n, noun) return ("%d %s%s"):format(n, noun, n == 1 and "" or "s") end
+
 local function size(mesh)
   return ("%.1f x %.1f x %.1f mm"):format(mesh.size[1] * 1000, mesh.size[2] * 1000, mesh.size[3] * 1000)
 end
@@ -56,10 +58,10 @@ end
 local function kept_words(kept)
   local list = {}
   local function add(format, ...) list[#list + 1] = format:format(...) end
-  if kept.tendons then add("%d tendons (%s)", #kept.tendons, table.concat(kept.tendons, ", ")) end
-  if kept.tendon_wrappers then add("%d tendon wrappers", kept.tendon_wrappers) end
-  if kept.tactile_sensors then add("%d tactile sensors", kept.tactile_sensors) end
-  if kept.glove then add("a glove of %d sensors for %d DOFs", kept.glove.sensors, kept.glove.dofs) end
+  if kept.tendons then add("%s (%s)", several(#kept.tendons, "tendon"), table.concat(kept.tendons, ", ")) end
+  if kept.tendon_wrappers then add("%s", several(kept.tendon_wrappers, "tendon wrapper")) end
+  if kept.tactile_sensors then add("%s", several(kept.tactile_sensors, "tactile sensor")) end
+  if kept.glove then add("a glove of %s for %s", several(kept.glove.sensors, "sensor"), several(kept.glove.dofs, "DOF")) end
   if kept.tracker then add("position sensor %d", kept.tracker) end
   return table.concat(list, ", ")
 end
@@ -86,8 +88,8 @@ function print_kind.robot(robot)
   for _, chain in ipairs(robot.chains) do
     for _, link in ipairs(chain.links) do links[#links + 1] = body_row(link) end
   end
-  print(("  %d DOFs, %d chains, %d links, %d eigengrasps, %d virtual contacts"):format(#robot.dofs, #robot.chains, #links - 1,
-    robot.eigengrasps, robot.virtual_contacts))
+  print("  " .. table.concat({several(#robot.dofs, "DOF"), several(#robot.chains, "chain"), several(#links - 1, "link"),
+    several(robot.eigengrasps, "eigengrasp"), several(robot.virtual_contacts, "virtual contact")}, ", "))
   columns(links, "  ")
   local rows = {{"DOF", "name", "kind", "from", "to", "at", "closes", "effort"}}
   for i, dof in ipairs(robot.dofs) do
@@ -114,7 +116,7 @@ function print_kind.world(world)
   for _, body in ipairs(world.objects) do rows[#rows + 1] = {"object", table.unpack(body_row(body))} end
   for _, body in ipairs(world.obstacles) do rows[#rows + 1] = {"obstacle", table.unpack(body_row(body))} end
   for _, robot in ipairs(world.robots) do
-    rows[#rows + 1] = {"robot", robot.name, ("%d DOFs"):format(#robot.dofs),
+    rows[#rows + 1] = {"robot", robot.name, several(#robot.dofs, "DOF"),
                        robot.carried_by and "carried by " .. robot.carried_by or "stands by itself"}
   end
   columns(rows, "  ")
@@ -135,7 +137,7 @@ end
 print_kind["pre-grasps"] = function(list) print(("  %d"):format(list.count)) end
 
 print_kind["planned grasps"] = function(list)
-  print(("  %d in %d runs%s"):format(list.count, list.runs, list.best and (", the best of quality %.4g"):format(list.best) or ""))
+  print(("  %d in %s%s"):format(list.count, several(list.runs, "run"), list.best and (", the best of quality %.4g"):format(list.best) or ""))
 end
 
 print_kind["glove calibration"] = function(glove) print(("  %d sensors for %d DOFs"):format(glove.sensors, glove.dofs)) end

@@ -291,7 +291,8 @@ TEST_CASE("a file may be included ten thousand times, and no more often") {
       Error);
   CHECK_THROWS_WITH_AS(
       read(10'001, "WWWInline { name \"empty.iv\" }\n"),
-      "many.iv: wanted at most 10000 included files, each counted as often as it is named", Error);
+      "many.iv:10002: wanted at most 10000 included files, each counted as often as it is named",
+      Error);
 }
 
 TEST_CASE("a file included again is not read again") {
@@ -469,4 +470,24 @@ TEST_CASE("a file without a surface is a frame, which is told") {
       !read_body(folder.write("none.iv", "#Inventor V2.1 ascii\nSeparator { }\n"), options).shape);
   CHECK(doubts == std::vector<std::string>{
                       "none.iv: no surface: the body is a frame, which touches nothing"});
+}
+
+TEST_CASE(
+    "a shape in an included file is told with both files, and one that a PROTO makes without a "
+    "line") {
+  const test::TemporaryFolder folder;
+  const std::string bad = "Separator {\n FaceSet { numVertices [3] }\n}\n";
+  folder.write("part.iv", "#Inventor V2.1 ascii\n\n" + bad);
+  const auto outer = folder.write(
+      "outer.iv", "#Inventor V2.1 ascii\nFaceSet { numVertices [] }\nFile { name \"part.iv\" }\n");
+  CHECK_THROWS_WITH_AS(
+      read_body(outer),
+      "outer.iv: part.iv:4: FaceSet: number 0 of numVertices: wanted 3 points, got 1", Error);
+  const auto proto = folder.write("proto.wrl",
+                                  "#VRML V2.0 utf8\nPROTO P [ ] { Group { } }\n"
+                                  "Shape { geometry IndexedFaceSet { coordIndex [0 1 2 -1] } }\n");
+  CHECK_THROWS_WITH_AS(read_body(proto),
+                       "proto.wrl: IndexedFaceSet: number 0 of coordIndex: wanted -1 or one of 0 "
+                       "points, got 0",
+                       Error);
 }

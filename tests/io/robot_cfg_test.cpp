@@ -212,14 +212,17 @@ TEST_CASE(
   cfg.rest =
       "EigenGrasps\neigen/b.egr\nVirtualContacts\nnone.vgr\nCyberGlov\nFlockOfBirds\nt 0 0 1\n";
   Warnings warnings;
-  const RobotSpec r = cfg.read(warnings.options());
+  ReadOptions options = warnings.options();
+  std::vector<std::string> notes;
+  options.note = [&](const std::string& sentence) { notes.push_back(sentence); };
+  const RobotSpec r = cfg.read(options);
+  CHECK(notes == std::vector<std::string>{"hand.cfg:19: FlockOfBirds: no bird number, 0 is used"});
   CHECK(r.files.eigengrasps.empty());
   CHECK(r.files.virtual_contacts.empty());
   CHECK(r.tracker->number == 0);
   CHECK(warnings.list ==
         std::vector<std::string>{
             "hand.cfg:17: unknown keyword 'CyberGlov' is not used; did you mean 'CyberGlove'?",
-            "hand.cfg:19: FlockOfBirds: no bird number, 0 is used",
             "hand.cfg:14: EigenGrasps: no such file: eigen/b.egr; did you mean 'a.egr'?",
             "hand.cfg:16: VirtualContacts: no such file: none.vgr"});
 }

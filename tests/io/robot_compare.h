@@ -102,8 +102,16 @@ inline void check_equal(const BodySpec& a, const BodySpec& b) {
   INFO(a.name);
   CHECK(a.material == b.material);
   CHECK(a.mass == b.mass);
-  CHECK(a.com == b.com);
-  CHECK(a.inertia_per_mass.has_value() == b.inertia_per_mass.has_value());
+  // what a reader mends has its centre and inertia written, where the file left them to the shape
+  const bool mended = a.shape && b.shape && !a.shape->closed() && !a.com;
+  if (mended)
+    CHECK((com_of(a) - com_of(b)).norm() < rounding);
+  else
+    CHECK(a.com == b.com);
+  if (mended && !a.inertia_per_mass)
+    CHECK((inertia_of(a) - inertia_of(b)).norm() < rounding * inertia_of(a).norm());
+  else
+    CHECK(a.inertia_per_mass.has_value() == b.inertia_per_mass.has_value());
   // the original's readers make it symmetric
   if (a.inertia_per_mass && b.inertia_per_mass)
     CHECK((*a.inertia_per_mass - *b.inertia_per_mass).norm() <= 1e-15 * a.inertia_per_mass->norm());

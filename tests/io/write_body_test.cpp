@@ -93,6 +93,25 @@ TEST_CASE("a body as .xml comes back to the bit, but for its colour, of which it
   CHECK(told.list == std::vector<std::string>{"a.xml does not hold colour"});
 }
 
+TEST_CASE("triangles that vanish in 32 bits are counted") {
+  const TemporaryFolder folder;
+  BodySpec body;
+  Mesh mesh = test::box(1, 1, 1);
+  // a corner cut off by less than 32 bits can tell
+  const int n = static_cast<int>(mesh.vertices.size());
+  for (auto& p : mesh.vertices) p += Eigen::Vector3d(100, 100, 100);
+  const Eigen::Vector3d corner = mesh.vertices[0];
+  for (int i = 0; i < 3; ++i) mesh.vertices.push_back(corner + 1e-9 * Eigen::Vector3d::Unit(i));
+  mesh.triangles.push_back({n, n + 1, n + 2});
+  body.shape = Shape::make(std::move(mesh));
+  Warnings told;
+  write_body(body, folder.path() / "a.iv", {.warn = told.options().warn});
+  REQUIRE(!told.list.empty());
+  CHECK(told.list[0] ==
+        "a.iv: coordinates keep 32 bits, as .iv holds them; a triangle is too small for them, and "
+        "vanishes");
+}
+
 TEST_CASE("a body as .iv keeps its matter to the bit, its colour, and 32 bits of coordinates") {
   const TemporaryFolder folder;
   const BodySpec body = some_body();
