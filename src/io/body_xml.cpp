@@ -161,7 +161,11 @@ BodySpec read_body_element(const XmlElement& element, const fs::path& path, Libr
       read_scaled(file, *read_placed_file(element, path, library.options()), library);
   body.appearance = std::move(geometry.appearance);
   body.mesh_report = std::move(geometry.report);
-  if (geometry.mesh.triangles.empty()) return body;
+  if (geometry.mesh.triangles.empty()) {
+    library.doubted(fmt::format("{}: no surface in {}: the body is a frame, which touches nothing",
+                                file.place(), in_quotes(file.text())));
+    return body;
+  }
   try {
     body.shape = Shape::make(std::move(geometry.mesh), path.filename().string());
   } catch (const Error& error) {

@@ -34,7 +34,7 @@ class EgrReader {
   LineReader lines_;
   const ReadOptions& options_;
   EigengraspSet set_;
-  std::vector<std::string> places_;  // of the eigengrasps
+  EigengraspPlaces places_;
   int junk_lines_ = 0;
   std::string junk_;  // the first, as it will be told
 };
@@ -95,7 +95,7 @@ void EgrReader::read_block(const std::string& keyword, const Line& line) {
     grasp.eigenvalue = read_eigenvalue(what);
     grasp.vector = read_values(what);
     set_.grasps.push_back(std::move(grasp));
-    places_.push_back(line.place());
+    places_.grasps.push_back(line.place());
     return;
   }
   auto& target = keyword == "norm" ? set_.norm : set_.origin;
@@ -103,6 +103,7 @@ void EgrReader::read_block(const std::string& keyword, const Line& line) {
     warn(options_, fmt::format("{}: a second {}; the first one counts", line.place(), keyword));
   read_eigenvalue(keyword);  // stands there, and means nothing
   const VectorXd values = read_values(keyword);
+  if (!target) (keyword == "norm" ? places_.norm : places_.origin) = line.place();
   if (!target) target = values;
 }
 
@@ -121,7 +122,7 @@ class EigengraspXml {
   XmlFile file_;
   const ReadOptions& options_;
   EigengraspSet set_;
-  std::vector<std::string> places_;  // of the eigengrasps
+  EigengraspPlaces places_;
 };
 
 EigengraspSet EigengraspXml::read() {
@@ -135,13 +136,14 @@ EigengraspSet EigengraspXml::read() {
     if (static_cast<int>(set_.grasps.size()) == set_.dofs)
       block.fail("wanted at most {} eigengrasps, one a DOF", set_.dofs);
     set_.grasps.push_back(read_grasp(block));
-    places_.push_back(block.place());
+    places_.grasps.push_back(block.place());
   }
   for (const auto& [name, target, missing] :
        {std::tuple("ORIGIN", &set_.origin, 0.0), {"NORM", &set_.norm, 1.0}})
     if (const XmlElement block = root.child(name)) {
       block.check({.once = {"EigenValue", "DimVals"}}, options_.warn);
       *target = read_values(block, missing);
+      (target == &set_.norm ? places_.norm : places_.origin) = block.place();
     }
   check_eigengrasps(set_, file_.file(), places_);
   return std::move(set_);

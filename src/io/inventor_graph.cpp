@@ -247,13 +247,12 @@ Ref<SoSeparator> Loader::include(const std::string& name, const fs::path& referr
     fail("{}: '{}': wanted files that include one another at most {} deep", place, name,
          deepest_include);
   if (const auto found = done_.find(path); found != done_.end()) return found->second;
-  std::string text;
+  Ref<SoSeparator> part;
   try {
-    text = read_text(path);
+    part = load(path, read_text(path));
   } catch (const Error& error) {
     fail("{}: {}", place, error.what());
   }
-  auto part = load(path, text);
   done_[path] = part;
   return part;
 }

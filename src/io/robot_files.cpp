@@ -54,8 +54,9 @@ static void note_other_robot(const RobotSpec& robot, const ReadOptions& options)
   if (!options.note || !robot.virtual_contacts) return;
   const std::string& other = robot.virtual_contacts->robot;
   if (other != robot.name)
-    options.note(fmt::format("{}: virtual contacts made for '{}' are used for '{}'",
-                             robot.files.virtual_contacts, other, robot.name));
+    options.note(
+        fmt::format("{}: virtual contacts made for '{}' are used for '{}'",
+                    fs::path(robot.files.virtual_contacts).filename().string(), other, robot.name));
 }
 
 void read_robot_files(RobotSpec& robot, const NamedFiles& names, const fs::path& path,

@@ -35,20 +35,21 @@ static void check_limits(const std::array<double, 2>& limits, const std::string&
 }
 
 void check_eigengrasps(const EigengraspSet& set, const std::string& subject,
-                       const std::vector<std::string>& places) {
+                       const EigengraspPlaces& places) {
   if (set.grasps.empty()) fail("{}: wanted at least one eigengrasp, got none", subject);
   // each against an orthonormal basis of those before it: at most `dofs` can pass
   Eigen::MatrixXd basis(set.dofs, std::min<int>(set.dofs, static_cast<int>(set.grasps.size())));
   for (size_t i = 0; i < set.grasps.size(); ++i) {
     const EigengraspSpec& grasp = set.grasps[i];
-    const std::string place =
-        fmt::format("{}: eigengrasp {}", i < places.size() ? places[i] : subject, i + 1);
+    const std::string place = fmt::format(
+        "{}: eigengrasp {}", i < places.grasps.size() ? places.grasps[i] : subject, i + 1);
     check_numbers(grasp.vector, set.dofs, place);
     if (!std::isfinite(grasp.eigenvalue))
       fail("{}: wanted a finite eigenvalue, got {}", place, grasp.eigenvalue);
     if (grasp.limits) check_limits(*grasp.limits, place);
     const double length = grasp.vector.stableNorm();
-    if (!(length >= least)) fail("{}: wanted a vector other than zero", place);
+    if (!(length >= least))
+      fail("{}: wanted a vector other than zero, got one of length {}", place, length);
     Eigen::VectorXd rest = grasp.vector / length;
     const auto before = basis.leftCols(static_cast<int>(i));
     for (int pass = 0; pass < 2; ++pass) rest -= before * (before.transpose() * rest);
@@ -56,12 +57,13 @@ void check_eigengrasps(const EigengraspSet& set, const std::string& subject,
       fail("{}: it is a sum of those before it", place);
     basis.col(static_cast<int>(i)) = rest.normalized();
   }
-  if (set.origin) check_numbers(*set.origin, set.dofs, subject + ": origin");
+  const auto at = [&](const std::string& place) { return place.empty() ? subject : place; };
+  if (set.origin) check_numbers(*set.origin, set.dofs, at(places.origin) + ": origin");
   if (!set.norm) return;
-  check_numbers(*set.norm, set.dofs, subject + ": norm");
+  check_numbers(*set.norm, set.dofs, at(places.norm) + ": norm");
   for (int i = 0; i < set.dofs; ++i)
     if (!(std::abs((*set.norm)[i]) >= least))
-      fail("{}: norm: number {}: wanted a scale other than 0, got {}", subject, i + 1,
+      fail("{}: norm: number {}: wanted a scale other than 0, got {}", at(places.norm), i + 1,
            (*set.norm)[i]);
 }
 

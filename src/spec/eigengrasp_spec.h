@@ -26,11 +26,17 @@ struct EigengraspSet {
 /// An eigengrasp for each DOF: amplitudes are DOFs, counted from the middle of their ranges.
 EigengraspSet identity_eigengrasps(int dofs);
 
+/// Where a file says what, "hand.egr:7"; empty: it is not known.
+struct EigengraspPlaces {
+  std::vector<std::string> grasps = {};  ///< one an eigengrasp
+  std::string origin = {}, norm = {};
+};
+
 /// throws Error with one sentence, begun by the subject, when a count does not match, a number is
 /// not finite, beyond 1e30 or below 1e-30 where zero is refused, limits are exchanged, there is no
-/// eigengrasp, or one is a sum of those before it. `places` [one an eigengrasp] stand for the
-/// subject where they are known.
+/// eigengrasp, or one is a sum of those before it. `places` stand for the subject where they are
+/// known.
 void check_eigengrasps(const EigengraspSet& set, const std::string& subject,
-                       const std::vector<std::string>& places = {});
+                       const EigengraspPlaces& places = {});
 
 }  // namespace clench

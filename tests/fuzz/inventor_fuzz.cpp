@@ -18,9 +18,11 @@ static void write(const fs::path& path, std::string_view text) {
       .write(text.data(), static_cast<std::streamsize>(text.size()));
 }
 
+// files are looked for in the folder above, too, so that it is ours
 static const fs::path& folder() {
   static const fs::path made = [] {
-    const fs::path path = fs::temp_directory_path() / fmt::format("clench_fuzz_{}", getpid());
+    const fs::path path =
+        fs::temp_directory_path() / fmt::format("clench_fuzz_{}", getpid()) / "in";
     fs::create_directories(path);
     write(path / "box.iv", "#Inventor V2.1 ascii\nCube { }\n");
     write(path / "part.wrl", "#VRML V2.0 utf8\nShape { geometry Box { } }\n");

@@ -139,6 +139,19 @@ TEST_CASE("a body without geometry is a frame, with a warning") {
             "body.xml:1: no <geometryFile>: the body is a frame without a surface"});
 }
 
+TEST_CASE(
+    "a body whose geometry has no surface is a frame, which is told with the line that names it") {
+  TemporaryFolder folder;
+  folder.write("none.iv", "#Inventor V2.1 ascii\nSeparator { }\n");
+  Warnings warnings;
+  const auto file = folder.write(
+      "body.xml", "<root>\n<mass>10</mass>\n<geometryFile>none.iv</geometryFile>\n</root>");
+  CHECK_FALSE(read_body(file, warnings.options()).shape);
+  CHECK(warnings.list ==
+        std::vector<std::string>{
+            "body.xml:3: no surface in 'none.iv': the body is a frame, which touches nothing"});
+}
+
 TEST_CASE("what a body's file holds and is not used is warned of") {
   Warnings warnings;
   read_xml_body(

@@ -32,9 +32,10 @@ TEST_CASE("sets that do not fit the robot are refused by its name") {
                        Error);
   set = identity_eigengrasps(2);
   set.grasps[1].vector[1] = 0;
-  CHECK_THROWS_WITH_AS(
-      world.set_eigengrasps(hand, std::make_shared<EigengraspSet>(set)),
-      "eigengrasps of robot 'gripper': eigengrasp 2: wanted a vector other than zero", Error);
+  CHECK_THROWS_WITH_AS(world.set_eigengrasps(hand, std::make_shared<EigengraspSet>(set)),
+                       "eigengrasps of robot 'gripper': eigengrasp 2: wanted a vector other than "
+                       "zero, got one of length 0",
+                       Error);
 
   const auto place = [&](int chain, int link, double mu = 1) {
     VirtualContactSpec contact{.chain = chain, .link = link, .X_LC = {}, .mu = mu, .edges = {}};

@@ -28,7 +28,7 @@ TEST_CASE("the identity has a unit vector a DOF and is in order") {
 TEST_CASE("sets that are out of order are refused by a sentence") {
   check_set_refused({}, "s: wanted at least one eigengrasp, got none");
   auto set = set_of({vec(1, 0, 0), vec(0, 0, 0)});
-  check_set_refused(set, "s: eigengrasp 2: wanted a vector other than zero");
+  check_set_refused(set, "s: eigengrasp 2: wanted a vector other than zero, got one of length 0");
   set.grasps[1].vector = VectorXd::Zero(2);
   check_set_refused(set, "s: eigengrasp 2: wanted 3 numbers, got 2");
   set.grasps[1].vector = vec(0, NAN, 1);
@@ -52,7 +52,7 @@ TEST_CASE("sets that are out of order are refused by a sentence") {
 TEST_CASE("an eigengrasp that is a sum of others is refused, where it stands") {
   auto set = set_of({vec(1, 2, 3), vec(0, 1, 1), vec(2, 5, 7)});
   check_set_refused(set, "s: eigengrasp 3: it is a sum of those before it");
-  CHECK_THROWS_WITH_AS(check_eigengrasps(set, "s", {"a:1", "a:4", "a:7"}),
+  CHECK_THROWS_WITH_AS(check_eigengrasps(set, "s", {.grasps = {"a:1", "a:4", "a:7"}}),
                        "a:7: eigengrasp 3: it is a sum of those before it", Error);
   set.grasps[2].vector = vec(2, 5, 7.001);
   CHECK_NOTHROW(check_eigengrasps(set, "s"));
