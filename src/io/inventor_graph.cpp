@@ -247,11 +247,20 @@ Ref<SoSeparator> Loader::include(const std::string& name, const fs::path& referr
     fail("{}: '{}': wanted files that include one another at most {} deep", place, name,
          deepest_include);
   if (const auto found = done_.find(path); found != done_.end()) return found->second;
+  const bool outermost = open_.size() == 1;
+  std::string text;
   Ref<SoSeparator> part;
   try {
-    part = load(path, read_text(path));
+    text = read_text(path);
   } catch (const Error& error) {
     fail("{}: {}", place, error.what());
+  }
+  try {
+    part = load(path, text);
+  } catch (const Error& error) {
+    // of a chain of files the first and the last are told
+    if (outermost) fail("{}: {}", place, error.what());
+    throw;
   }
   done_[path] = part;
   return part;
