@@ -27,7 +27,8 @@ struct FarPoint {
 /// Of the points the farthest along n.
 /// count  of bundles, at least one
 template <class F>
-CLENCH_INLINE FarPoint farthest(const PointBundle* bundles, int count, const Triple<float>& n) {
+CLENCH_INLINE FarPoint farthest_point(const PointBundle* bundles, int count,
+                                      const Triple<float>& n) {
   const auto height_of = [&](const PointBundle& points) {
     return dot(Triple<F>{F::load(points.at[0]), F::load(points.at[1]), F::load(points.at[2])}, n);
   };

@@ -8,19 +8,19 @@ namespace clench {
 
 namespace {
 
-using F = DoubleLanes;
+// so many at a time as fit one vector: what is known of them stays in registers
+using F = Lanes<double, DoubleLanes::width, DoubleLanes::width>;
+static_assert(nearest_step % F::count == 0);
 using Vector = Triple<F>;
 
 constexpr double outside_face = std::numeric_limits<double>::infinity();
 
-CLENCH_INLINE F load(const double* from) {
-  F out;
-  std::memcpy(&out, from, sizeof out);
-  return out;
+CLENCH_INLINE Vector load(const double (&rows)[9][8], int corner, int first) {
+  return {F::stored(rows[3 * corner] + first), F::stored(rows[3 * corner + 1] + first),
+          F::stored(rows[3 * corner + 2] + first)};
 }
-
-CLENCH_INLINE Vector load(const double (&rows)[9][8], int corner) {
-  return {load(rows[3 * corner]), load(rows[3 * corner + 1]), load(rows[3 * corner + 2])};
+CLENCH_INLINE void store(const Vector& v, double (&rows)[3][8], int first) {
+  v.x.store(rows[0] + first), v.y.store(rows[1] + first), v.z.store(rows[2] + first);
 }
 
 // not a number becomes 0
@@ -78,13 +78,12 @@ CLENCH_INLINE F largest(const F& least, const Vector& v) {
   return max(max(max(least, abs(v.x)), abs(v.y)), abs(v.z));
 }
 
-}  // namespace
-
-void nearest_of(const PairBundle& pairs, NearestBundle& out) {
+// those from lane `first` on
+void nearest_from(const PairBundle& pairs, int first, NearestBundle& out) {
   Vector a[3], b[3], edge_a[3], edge_b[3];
   F length_a[3], length_b[3], extent = F::all(0);
   for (int k = 0; k < 3; ++k) {
-    a[k] = load(pairs.a, k), b[k] = load(pairs.b, k);
+    a[k] = load(pairs.a, k, first), b[k] = load(pairs.b, k, first);
     extent = largest(largest(extent, a[k]), b[k]);
   }
   for (int k = 0; k < 3; ++k) {
@@ -109,10 +108,16 @@ void nearest_of(const PairBundle& pairs, NearestBundle& out) {
   const F high = max(max(dot(axis, a[0]), dot(axis, a[1])), dot(axis, a[2]));
   const F low = min(min(dot(axis, b[0]), dot(axis, b[1])), dot(axis, b[2]));
   const F sum = abs(axis.x) + abs(axis.y) + abs(axis.z);
-  out.apart = (low - high > extent * sum * projection_rounding).set();
-  best.squared.store(out.squared);
-  best.p.x.store(out.p[0]), best.p.y.store(out.p[1]), best.p.z.store(out.p[2]);
-  best.q.x.store(out.q[0]), best.q.y.store(out.q[1]), best.q.z.store(out.q[2]);
+  out.apart |= (low - high > extent * sum * projection_rounding).set() << first;
+  best.squared.store(out.squared + first);
+  store(best.p, out.p, first), store(best.q, out.q, first);
+}
+
+}  // namespace
+
+void nearest_of(const PairBundle& pairs, int count, NearestBundle& out) {
+  out.apart = 0;
+  for (int first = 0; first < count; first += F::count) nearest_from(pairs, first, out);
 }
 
 }  // namespace clench

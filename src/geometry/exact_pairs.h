@@ -20,6 +20,10 @@ struct alignas(64) NearestBundle {
   unsigned apart;           ///< bit i: the direction from p to q parts pair i, beyond rounding
 };
 
-void nearest_of(const PairBundle& pairs, NearestBundle& out);
+/// So many lanes are judged at once, at most: up to a multiple of it there must be numbers in them.
+inline constexpr int nearest_step = 4;
+
+/// of the first `count` pairs; the rest of `out` is of no meaning
+void nearest_of(const PairBundle& pairs, int count, NearestBundle& out);
 
 }  // namespace clench

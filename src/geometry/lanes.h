@@ -17,14 +17,14 @@ namespace clench {
 
 inline constexpr int lane_count = 8;
 
-/// Real: float or double; Width: how many fit one vector, 1, 2, 4 or 8.
-template <class Scalar, int Width>
+/// Real: float or double; Width: how many fit one vector, 1, 2, 4 or 8; Count: of all lanes.
+template <class Scalar, int Width, int Count = lane_count>
 struct Lanes {
   using Real = Scalar;
   using Int = std::conditional_t<sizeof(Real) == 4, int32_t, int64_t>;
   typedef Real Chunk __attribute__((vector_size(sizeof(Real) * Width)));
   typedef Int Bits __attribute__((vector_size(sizeof(Real) * Width)));
-  static constexpr int chunks = lane_count / Width;
+  static constexpr int width = Width, count = Count, chunks = Count / Width;
 
   /// which lanes fulfil a condition
   struct Mask {
@@ -43,17 +43,17 @@ struct Lanes {
     /// bit i for lane i
     CLENCH_INLINE unsigned set() const {
 #if defined(__AVX__)
-      if constexpr (sizeof(Real) == 4 && Width == 8)
+      if constexpr (sizeof(Real) == 4 && Width == 8 && Count == 8)
         return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<const __m256&>(bits[0])));
 #endif
 #if defined(__SSE2__)
-      if constexpr (sizeof(Real) == 4 && Width == 4)
+      if constexpr (sizeof(Real) == 4 && Width == 4 && Count == 8)
         return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<const __m128&>(bits[0])) |
                                      _mm_movemask_ps(reinterpret_cast<const __m128&>(bits[1]))
                                          << 4);
 #endif
       unsigned out = 0;
-      for (int i = 0; i < lane_count; ++i) out |= (bits[i / Width][i % Width] != 0 ? 1u : 0u) << i;
+      for (int i = 0; i < Count; ++i) out |= (bits[i / Width][i % Width] != 0 ? 1u : 0u) << i;
       return out;
     }
   };
@@ -84,7 +84,7 @@ struct Lanes {
     if constexpr (std::is_same_v<Real, float>)
       std::memcpy(&out, from, sizeof out);
     else
-      for (int i = 0; i < lane_count; ++i) out.chunk[i / Width][i % Width] = from[i];
+      for (int i = 0; i < Count; ++i) out.chunk[i / Width][i % Width] = from[i];
     return out;
   }
   /// what store has put there
@@ -154,14 +154,14 @@ struct Lanes {
   friend CLENCH_INLINE Lanes sqrt(const Lanes& x) {
     Lanes out;
 #if defined(__AVX__)
-    if constexpr (sizeof(Real) == 4 && Width == 8) {
+    if constexpr (sizeof(Real) == 4 && Width == 8 && Count == 8) {
       const __m256 root = _mm256_sqrt_ps(reinterpret_cast<const __m256&>(x.chunk[0]));
       std::memcpy(&out, &root, sizeof out);
       return out;
     }
 #endif
 #if defined(__SSE2__)
-    if constexpr (sizeof(Real) == 4 && Width == 4) {
+    if constexpr (sizeof(Real) == 4 && Width == 4 && Count == 8) {
       for (int i = 0; i < chunks; ++i) {
         const __m128 root = _mm_sqrt_ps(reinterpret_cast<const __m128&>(x.chunk[i]));
         std::memcpy(&out.chunk[i], &root, sizeof root);
@@ -169,7 +169,7 @@ struct Lanes {
       return out;
     }
 #endif
-    for (int i = 0; i < lane_count; ++i)
+    for (int i = 0; i < Count; ++i)
       out.chunk[i / Width][i % Width] = std::sqrt(x.chunk[i / Width][i % Width]);
     return out;
   }

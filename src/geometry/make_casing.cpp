@@ -22,8 +22,8 @@ class PointBundles {
   }
   Vector3d farthest_along(const Vector3d& n, double* height = nullptr) const {
     const Eigen::Vector3f single = n.cast<float>();
-    const FarPoint far = farthest<FloatLanes>(bundles_.data(), static_cast<int>(bundles_.size()),
-                                              {single.x(), single.y(), single.z()});
+    const FarPoint far = farthest_point<FloatLanes>(
+        bundles_.data(), static_cast<int>(bundles_.size()), {single.x(), single.y(), single.z()});
     if (height) *height = far.height;
     return {far.at.x, far.at.y, far.at.z};
   }

@@ -61,11 +61,17 @@ template <class Take>
 void Placement::measure(const std::vector<NearPair>& pairs, Take&& take) const {
   Corners a[8], b[8];
   Closest closest[8];
+  // most triangles come in several pairs
+  int kept[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
+  Corners kept_b[8];
   for (size_t begin = 0; begin < pairs.size(); begin += 8) {
     const size_t count = std::min<size_t>(8, pairs.size() - begin);
     for (size_t i = 0; i < count; ++i) {
-      a[i] = corners_a(pairs[begin + i].triangle_a);
-      b[i] = corners_b(pairs[begin + i].triangle_b);
+      const auto [triangle_a, triangle_b] = pairs[begin + i];
+      a[i] = corners_a(triangle_a);
+      const int slot = triangle_b % 8;
+      if (kept[slot] != triangle_b) kept_b[slot] = corners_b(triangle_b), kept[slot] = triangle_b;
+      b[i] = kept_b[slot];
     }
     triangle_pairs(a, b, static_cast<int>(count), closest);
     for (size_t i = 0; i < count; ++i) take(pairs[begin + i], closest[i]);

@@ -29,7 +29,7 @@ class Casings {
 
  private:
   static CLENCH_INLINE Triple<float> corner(const Casing& casing, const Triple<float>& n) {
-    return farthest<FloatLanes>(casing.corners, Casing::bundles, n).at;
+    return farthest_point<FloatLanes>(casing.corners, Casing::bundles, n).at;
   }
 
   const Casing &a_, &b_;

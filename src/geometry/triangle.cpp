@@ -106,10 +106,10 @@ NearestBundle nearest_features(const Local& l) {
   PairBundle pairs;
   for (int k = 0; k < 3; ++k)
     for (int m = 0; m < 3; ++m)
-      for (int lane = 0; lane < 8; ++lane)
+      for (int lane = 0; lane < nearest_step; ++lane)
         pairs.a[3 * k + m][lane] = l.a[k][m], pairs.b[3 * k + m][lane] = l.b[k][m];
   NearestBundle out;
-  nearest_of(pairs, out);
+  nearest_of(pairs, 1, out);
   return out;
 }
 
@@ -186,9 +186,10 @@ Closest triangle_triangle(const Corners& a, const Corners& b) {
 
 void triangle_pairs(const Corners* a, const Corners* b, int count, Closest* out) {
   for (int begin = 0; begin < count; begin += 8) {
-    // the last ones fill up the bundle
+    // the last ones fill up the step
+    const int here = std::min(8, count - begin);
     PairBundle pairs;
-    for (int lane = 0; lane < 8; ++lane) {
+    for (int lane = 0; lane < (here + nearest_step - 1) / nearest_step * nearest_step; ++lane) {
       const int i = std::min(begin + lane, count - 1);
       const Vector3d& origin = a[i][0];
       for (int k = 0; k < 3; ++k) {
@@ -198,8 +199,8 @@ void triangle_pairs(const Corners* a, const Corners* b, int count, Closest* out)
       }
     }
     NearestBundle nearest;
-    nearest_of(pairs, nearest);
-    for (int lane = 0; lane < 8 && begin + lane < count; ++lane) {
+    nearest_of(pairs, here, nearest);
+    for (int lane = 0; lane < here; ++lane) {
       const int i = begin + lane;
       if (!(nearest.apart >> lane & 1)) {
         out[i] = closest_of(Local(a[i], b[i]), nearest, lane);
