@@ -192,7 +192,7 @@ local snapshot = {}
 ---@class thing
 ---@field material string # Name of its material, which decides how it rubs.
 ---@field mass number # Its mass. [kg]
----@field com vec3 # Centre of mass in the body frame. [m]
+---@field com vec3 # Centre of mass in the body frame. Setting it takes an inertia that comes from its shape to the new centre; one that was given stays. [m]
 ---@field inertia number[][] # Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. [kg m^2]
 ---@field mesh mesh? # Its surface; nil when it has none.
 ---@field mesh_report table? # What was done to the triangles of its file: lines of text, and the same as fields `format`, `unit` [m], `unit_from` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `turned` (was it inside out?). Nil when it has no mesh, or none from a file.
@@ -209,6 +209,7 @@ local thing = {}
 ---@field kind string # "object", "obstacle", "base", "link" or "mount".
 ---@field robot robot? # The robot that it is a part of; nil for objects and obstacles.
 ---@field source string # File that it was read from; empty when it was made by a script.
+---@field tracker integer? # Number of the position sensor that is to move it; nil when its file names none.
 local body = {}
 
 ---Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that remains is within the contact threshold. One that starts in contact may slide and leave, but is not pushed in.
@@ -244,17 +245,20 @@ function mesh:save(path) end
 ---@field virtual_contacts virtual_contact[] # Where it would like to touch: those of its file, those it was given, or, when there are none of either, those that find_virtual_contacts finds, anew each time. Set to a list of virtual contacts, contacts, or tables as of add_virtual_contact; to {} for none, to nil for those that are found.
 ---@field glove {slopes: number[][], intercepts: number[]}? # Calibration of the data glove that its file names: `slopes` (a row a DOF, a number a sensor) and `intercepts`, so that DOF = intercept + slopes * raw. nil when there is none. [rad per count, rad]
 ---@field tracker {number: integer, pose: pose}? # Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
+---@field tendons {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[] # Tendons of its file, as they are there: they do not act yet. Points are in the frame of their link. [N/m, m]
+---@field tendon_wrappers {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[] # Posts that tendons wrap around, each an endless cylinder; `exempt` names the tendons that pass it by, `sides` say on which side of it the others lie. They do not act yet.
+---@field tactile_sensors {link: body, low: vec3, high: vec3}[] # Boxes in which contacts count as one sensor's, by their `low` and `high` corners in the frame of their `link`. They do not act yet.
 local hand = {}
 
 ---Takes the posture that amplitudes of its eigengrasps stand for, whatever is in the way. DOFs stop at their limits.
 ---@param amplitudes number[]
----@param options? {keep?: boolean} # true: what its posture has besides its amplitudes is kept
+---@param options? {keep?: boolean, fixed?: integer[]} # keep: what its posture has besides its amplitudes is kept; fixed: these amplitudes stay as they are
 ---@return integer[] clamped # numbers of the DOFs whose limit was in the way
 function hand:set_amplitudes(amplitudes, options) end
 
 ---Drives the DOFs towards the posture of amplitudes, as move_dofs, until contact stops them.
 ---@param amplitudes number[]
----@param options? {keep?: boolean, stop_at_contact?: boolean} # keep: what its posture has besides is kept
+---@param options? {keep?: boolean, fixed?: integer[], stop_at_contact?: boolean} # keep and fixed as of set_amplitudes
 ---@return table result # as of autograsp, and `clamped`, numbers of the DOFs whose limit was in the way
 function hand:move_amplitudes(amplitudes, options) end
 
@@ -495,9 +499,9 @@ function clench.pose(options) end
 ---@return random
 function clench.random(seed, item) end
 
----What a file describes, by its ending, or by its outermost element in XML.
+---What a file describes, by its ending, or by its outermost element in XML; where the ending says nothing, by how its numbers stand.
 ---@param path string
----@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
+---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"object contacts"|"pre-grasps"|"planned grasps"|"glove calibration"|"glove poses"
 function clench.file_kind(path) end
 
 ---Paths of the models and worlds that come with Clench, sorted.
@@ -590,8 +594,8 @@ function clench.log.error(...) end
 ---@return string before
 function clench.log.level(name) end
 
----Sends messages to a function(level, text) instead of stderr; without one, to stderr again.
----@param fn? fun(level: string, text: string)
+---Sends messages to a function(level, text, about) instead of stderr; without one, to stderr again. `about` says of what the reader of a file tells: what is "guessed", "ignored", "mended" or "doubtful"; nil otherwise.
+---@param fn? fun(level: string, text: string, about: string?)
 function clench.log.sink(fn) end
 
 ---The small files around hands and planners, read as tables and written from them.
