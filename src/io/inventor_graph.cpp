@@ -154,15 +154,13 @@ std::string bare_type(std::string name) {
   return name;
 }
 
-/// Where shapes and inclusions stand: nodes of a type come in the order of the text, unless something
+/// Where shapes stand: nodes of a type come in the order of the text, unless something
 /// made more of them, or fewer.   `nodes`  of one file, each once, in order
 std::map<const SoNode*, int> Loader::lines_of(const std::vector<SoNode*>& nodes,
                                               const InventorText& scanned) const {
   std::map<std::string, std::vector<const SoNode*>> by_type;
   for (const SoNode* node : nodes)
-    if (node->isOfType(SoShape::getClassTypeId()) ||
-        node->isOfType(SoVRMLInline::getClassTypeId()) ||
-        node->isOfType(SoWWWInline::getClassTypeId()))
+    if (node->isOfType(SoShape::getClassTypeId()))
       by_type[bare_type(node->getTypeId().getName().getString())].push_back(node);
   std::map<std::string, std::vector<int>> lines;
   for (const auto& [type, line] : scanned.nodes)
@@ -183,34 +181,32 @@ void Loader::fill_includes(SoNode* root, const fs::path& path, const InventorTex
   const auto lines = lines_of(nodes, scanned);
   for (const auto& [node, line] : lines)
     places_[node] = fmt::format("{}:{}", path.filename().string(), line);
-  const auto line_of = [&](SoNode* node) {
-    const auto found = lines.find(node);
-    return found == lines.end() ? 0 : found->second;
-  };
   std::map<std::string, int> numbers;
   for (size_t i = 0; i < scanned.includes.size(); ++i)
     numbers[include_key(static_cast<int>(i))] = static_cast<int>(i);
   const size_t before = includes_;
   // filling a node drops what stood below it, which is among these, too
   const std::vector<Ref<SoNode>> kept(nodes.begin(), nodes.end());
+  // the include that a node names; a PROTO may leave it open
+  const auto included = [&](const SbString& key) -> Ref<SoSeparator> {
+    const auto found = numbers.find(key.getString());
+    if (found == numbers.end()) return {};
+    const InventorInclude& wanted = scanned.includes[found->second];
+    return include(wanted.name, path, wanted.line);
+  };
   for (SoNode* node : nodes) {
-    Ref<SoSeparator> part;
     if (node->isOfType(SoFile::getClassTypeId())) {
-      const auto found = numbers.find(static_cast<SoFile*>(node)->name.getValue().getString());
-      if (found == numbers.end()) continue;
-      const auto& wanted = scanned.includes[found->second];
-      part = include(wanted.name, path, wanted.line);
-      node->getChildren()->append(part.get());
+      const auto part = included(static_cast<SoFile*>(node)->name.getValue());
+      if (part.get()) node->getChildren()->append(part.get());
     } else if (node->isOfType(SoVRMLInline::getClassTypeId())) {
       auto* inlined = static_cast<SoVRMLInline*>(node);
       if (inlined->url.getNum() == 0) continue;
-      part = include(inlined->url[0].getString(), path, line_of(node));
-      inlined->setChildData(part.get());
+      const auto part = included(inlined->url[0]);
+      if (part.get()) inlined->setChildData(part.get());
     } else if (node->isOfType(SoWWWInline::getClassTypeId())) {
       auto* inlined = static_cast<SoWWWInline*>(node);
-      if (inlined->name.getValue().getLength() == 0) continue;
-      part = include(inlined->name.getValue().getString(), path, line_of(node));
-      inlined->setChildData(part.get());
+      const auto part = included(inlined->name.getValue());
+      if (part.get()) inlined->setChildData(part.get());
     }
   }
   // the parts make it deeper

@@ -69,7 +69,9 @@ class Scanner {
   void on_word(const Token& token);
   void on_open(const Token& token);
   void on_close(const Token& token);
-  void include_value(const Token& token);
+  void include_value(const Token& token, const std::string& node);
+  /// Type of the node, File or Inline, of which the token names a file; "" when it is no such name.
+  std::string including_node(const Token& token) const;
   /// Does a node behind that token stand inside a shape without a field's name?
   bool is_direct(const Token& before) const;
   /// takes the text from start on out, to stand before the shape around it
@@ -254,10 +256,24 @@ void Scanner::lift(size_t start) {
   cut(start, at_);
 }
 
-void Scanner::include_value(const Token& token) {
+std::string Scanner::including_node(const Token& token) const {
+  if (open_.empty() || in_cut() || token.kind == Token::open || token.kind == Token::close)
+    return "";
+  const bool listed = open_.back().bracket == '[' && open_.size() > 1;
+  const std::string& type = open_[open_.size() - (listed ? 2 : 1)].type;
+  const bool named = last_.kind == Token::word && last_.text == "name",
+             url = last_.kind == Token::word && last_.text == "url";
+  if (type == "File" || type == "SoFile") return named && !listed ? type : "";
+  if (type == "WWWInline" || type == "SoWWWInline") return named || listed ? type : "";
+  const bool is_inline = type == "Inline" || type == "VRMLInline" || type == "SoVRMLInline";
+  return is_inline && (url || listed) ? type : "";
+}
+
+// the library would read these files itself, and takes what is wrong with a name for a format
+void Scanner::include_value(const Token& token, const std::string& node) {
   std::string name(token.text);
   if (token.kind == Token::string) name = name.substr(1, name.size() - 2);
-  if (trim(name).empty()) refuse(token.line, "File: wanted the name of a file, got nothing");
+  if (trim(name).empty()) refuse(token.line, "{}: wanted the name of a file, got nothing", node);
   if (includes.size() >= most_includes)
     refuse(token.line, "wanted at most {} included files, each counted as often as it is named",
            most_includes);
@@ -269,11 +285,8 @@ void Scanner::include_value(const Token& token) {
 
 void Scanner::run() {
   for (Token token = next(); token.kind != Token::end; token = next()) {
-    const bool file_name = !open_.empty() &&
-                           (open_.back().type == "File" || open_.back().type == "SoFile") &&
-                           last_.kind == Token::word && last_.text == "name" && !in_cut();
-    if (file_name && (token.kind == Token::word || token.kind == Token::string))
-      include_value(token);
+    if (const std::string node = including_node(token); !node.empty())
+      include_value(token, node);
     else if (token.kind == Token::word)
       on_word(token);
     else if (token.kind == Token::open)

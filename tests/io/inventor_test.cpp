@@ -491,3 +491,22 @@ TEST_CASE(
                        "points, got 0",
                        Error);
 }
+
+TEST_CASE("names of inlined files are ours to read, whatever stands in them") {
+  const test::TemporaryFolder folder;
+  for (const std::string name : {"%n%s%n", "100%.wrl", "%99999999d"}) {
+    for (const auto& [file, text] : std::vector<std::pair<std::string, std::string>>{
+             {"a.wrl", "#VRML V2.0 utf8\nInline { url \"" + name + "\" }\n"},
+             {"b.wrl", "#VRML V2.0 utf8\nInline { url [\"" + name + "\" \"%n\"] }\n"},
+             {"c.wrl", "#VRML V1.0 ascii\nWWWInline { name \"" + name + "\" }\n"},
+             {"d.iv", "#Inventor V2.1 ascii\nFile { name \"" + name + "\" }\n"}}) {
+      INFO(text);
+      CHECK_THROWS_WITH_AS(read_body(folder.write(file, text)),
+                           (file + ":2: no such file: " + name).c_str(), Error);
+    }
+  }
+  folder.write("part.wrl", "#VRML V2.0 utf8\nShape { geometry Box { } }\n");
+  const auto list =
+      folder.write("l.wrl", "#VRML V2.0 utf8\nInline { url [\"part.wrl\", \"other.wrl\"] }\n");
+  CHECK(read_body(list).shape);
+}
