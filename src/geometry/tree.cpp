@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "geometry/lanes.h"
 #include "geometry/make_casing.h"
 #include "geometry/mesh.h"
 #include "geometry/principal_axes.h"
@@ -70,6 +71,8 @@ class TreeBuilder {
     int begin, end, depth;
     int count() const { return end - begin; }
   };
+
+  using Four = Lanes<double, 2, 4>;
 
   void encase() {
     std::vector<char> used(points_.size(), 0);
@@ -239,17 +242,14 @@ class TreeBuilder {
 
   // Puts the smallest of a few boxes around a group into a lane: along the mesh's axes, along the
   // principal directions, for small groups along edges, and near the best of these.
-  void fit(const Group& group, BoxBundle& bundle, int lane) const {
-    Bounds plain;
-    for (int i = group.begin; i < group.end; ++i) join(plain, items_[i].bounds);
+  void fit(const Group& group, BoxBundle& bundle, int lane) {
+    gather(group);
     Matrix3d axes = Matrix3d::Identity();
-    Bounds best = plain;
+    Bounds best = bounds_along(axes);
     const auto offer = [&](const Matrix3d& given) {
       // as they will be stored
       const Matrix3d turned = given.unaryExpr(&to_single);
-      Bounds bounds;
-      for (int i = group.begin; i < group.end; ++i)
-        for (int k = 0; k < 3; ++k) bounds.add(turned.transpose() * point(items_[i].triangle, k));
+      const Bounds bounds = bounds_along(turned);
       const bool smaller = surface(bounds.size()) < surface(best.size());
       if (smaller) best = bounds, axes = turned;
       return smaller;
@@ -266,6 +266,42 @@ class TreeBuilder {
         for (const double turn : {angle, -angle})
           if (offer(axes * Eigen::AngleAxisd(turn, Vector3d::Unit(k)).toRotationMatrix())) break;
     store(axes, best, bundle, lane);
+  }
+
+  // the corners of a group, coordinate by coordinate, the last one repeated to fill the lanes
+  void gather(const Group& group) {
+    for (auto& list : corners_) list.clear();
+    const auto add = [&](const Vector3d& p) {
+      for (int m = 0; m < 3; ++m) corners_[m].push_back(p[m]);
+    };
+    for (int i = group.begin; i < group.end; ++i)
+      for (int k = 0; k < 3; ++k) add(point(items_[i].triangle, k));
+    while (corners_[0].size() % Four::count != 0) add(point(items_[group.end - 1].triangle, 2));
+  }
+
+  // least and greatest coordinates of the gathered corners along the columns of axes
+  Bounds bounds_along(const Matrix3d& axes) const {
+    const double* const xs = corners_[0].data();
+    const double* const ys = corners_[1].data();
+    const double* const zs = corners_[2].data();
+    const size_t count = corners_[0].size();
+    Bounds out;
+    for (int k = 0; k < 3; ++k) {
+      const double ax = axes(0, k), ay = axes(1, k), az = axes(2, k);
+      Four low = Four::all(std::numeric_limits<double>::infinity());
+      Four high = Four::all(-std::numeric_limits<double>::infinity());
+      for (size_t i = 0; i < count; i += Four::count) {
+        const Four along =
+            Four::stored(xs + i) * ax + Four::stored(ys + i) * ay + Four::stored(zs + i) * az;
+        low = min(along, low);
+        high = max(along, high);
+      }
+      double lows[Four::count], highs[Four::count];
+      low.store(lows), high.store(highs);
+      out.low[k] = *std::min_element(lows, lows + Four::count);
+      out.high[k] = *std::max_element(highs, highs + Four::count);
+    }
+    return out;
   }
 
   // along each edge of a triangle, and flat on it
@@ -339,6 +375,7 @@ class TreeBuilder {
   Tree& tree_;
   std::vector<Vector3d> points_;  // vertices about the centre
   std::vector<Item> items_;
+  std::array<std::vector<double>, 3> corners_;  // of the group that is fitted
 };
 
 Tree::Tree(const Mesh& mesh) {
