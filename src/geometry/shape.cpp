@@ -105,8 +105,16 @@ std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject) 
   for (const Triangle& t : shape->mesh_.triangles)
     for (const int v : t) hasher.add(static_cast<uint64_t>(v));
   shape->hash_ = hasher.value();
-  shape->tree_ = std::make_unique<const Tree>(shape->mesh_);
   return shape;
+}
+
+const Tree& Shape::build_tree() const {
+  const std::lock_guard lock(building_);
+  if (!tree_) {
+    tree_ = std::make_unique<const Tree>(mesh_);
+    built_.store(tree_.get(), std::memory_order_release);
+  }
+  return *tree_;
 }
 
 }  // namespace clench

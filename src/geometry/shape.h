@@ -1,7 +1,9 @@
 // A mesh ready to be queried: immutable, shared between worlds and threads.
 #pragma once
 #include <array>
+#include <atomic>
 #include <memory>
+#include <mutex>
 
 #include "geometry/mass.h"
 #include "geometry/mesh.h"
@@ -36,11 +38,16 @@ class Shape {
   const std::vector<Extremes>& part_extremes() const { return part_extremes_; }
   /// fingerprint of vertices and triangles: equal for equal bits
   uint64_t hash() const { return hash_; }
-  const Tree& tree() const { return *tree_; }
+  /// built when first asked: who reads, checks or converts a mesh needs none. Any thread may ask.
+  const Tree& tree() const {
+    const Tree* const built = built_.load(std::memory_order_acquire);
+    return built ? *built : build_tree();
+  }
 
  private:
   Shape();
   void find_parts();
+  const Tree& build_tree() const;
   Mesh mesh_;
   MeshFaults faults_;
   MassProperties solid_;
@@ -49,8 +56,10 @@ class Shape {
   double radius_ = 0;
   std::vector<int> parts_;
   uint64_t hash_ = 0;
-  std::unique_ptr<const Tree> tree_;
   std::vector<Extremes> part_extremes_;
+  mutable std::mutex building_;
+  mutable std::unique_ptr<const Tree> tree_;
+  mutable std::atomic<const Tree*> built_ = nullptr;
 };
 
 using ShapePtr = std::shared_ptr<const Shape>;

@@ -56,8 +56,8 @@ std::vector<double> read_numbers(const XmlElement& e, ColladaWork& work) {
 /// Rows of three numbers, as a <source> and its accessor say.
 std::vector<Vector3d> read_source(const XmlElement& source, ColladaWork& work) {
   XmlElement accessor, array = source.child("float_array");
-  if (const XmlElement common = source.child("technique_common"))
-    accessor = common.child("accessor");
+  if (const XmlElement technique = source.child("technique_common"))
+    accessor = technique.child("accessor");
   int stride = 3, offset = 0, at[3] = {0, 1, 2};
   if (accessor) {
     if (accessor.attribute("source")) array = work.ids.find(accessor, "source");

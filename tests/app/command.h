@@ -1,6 +1,7 @@
 // Runs the command as a user does, without and with a terminal.
 #pragma once
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <pty.h>
 #include <sys/wait.h>
@@ -51,7 +52,7 @@ inline Outcome run(const std::string& arguments, const std::string& input = "") 
   const Folder folder;
   const std::string in = folder.file("input", input);
   FILE* pipe =
-      popen((std::string(CLENCH_COMMAND) + " " + arguments + " 2>&1 < " + in).c_str(), "r");
+      popen(fmt::format("{} {} 2>&1 < {}", CLENCH_COMMAND, arguments, in).c_str(), "r");
   Outcome outcome;
   char buffer[4096];
   while (const size_t count = fread(buffer, 1, sizeof buffer, pipe))

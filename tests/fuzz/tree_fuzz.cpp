@@ -1,25 +1,13 @@
 // A URDF or MJCF robot of any bytes is a robot that check_robot takes, or an Error that names the file.
-#include <unistd.h>
+#include "fuzz_files.h"
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <fstream>
-
-#include "base/error.h"
-#include "io/read.h"
-
-namespace fs = std::filesystem;
-
-static void write(const fs::path& path, std::string_view text) {
-  std::ofstream(path, std::ios::binary)
-      .write(text.data(), static_cast<std::streamsize>(text.size()));
-}
+using namespace clench;
+using namespace clench::fuzz;
 
 // the files that robots name
 static const fs::path& folder() {
   static const fs::path made = [] {
-    const fs::path path = fs::temp_directory_path() / fmt::format("clench_fuzz_{}", getpid());
+    const fs::path path = new_folder();
     fs::create_directories(path / "parts");
     for (const char* name : {"finger.obj", "parts/finger.obj"})
       write(path / name,
@@ -32,17 +20,14 @@ static const fs::path& folder() {
   return made;
 }
 
+static void read_checked(const fs::path& path, ReadOptions options) {
+  options.packages[""] = folder();
+  check_robot(read_robot(path, options));
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const fs::path path = folder() / "fuzz." FORMAT;
-  write(path, {reinterpret_cast<const char*>(data), size});
-  clench::ReadOptions options;
-  options.packages[""] = folder();
-  try {
-    clench::check_robot(clench::read_robot(path, options));
-  } catch (const clench::Error& error) {
-    const std::string sentence = error.what();
-    if (!sentence.starts_with("fuzz." FORMAT) && !sentence.starts_with("defaults.xml"))
-      std::abort();
-  }
+  write(path, text_of(data, size));
+  check(path, read_checked, "defaults.xml");
   return 0;
 }

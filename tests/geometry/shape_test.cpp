@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <latch>
+#include <thread>
+
 #include "base/error.h"
 #include "support/meshes.h"
 
@@ -65,7 +68,25 @@ TEST_CASE("shapes are made of anything finite: copies, points, needles, geometri
     for (const double y : {0.0, i % 3 * x, 0.5 * x}) heap.vertices.push_back({x, y, 0});
     heap.triangles.push_back({v, v + 1, v + 2});
   }
-  CHECK(Shape::make(heap)->radius() > 0);
-  CHECK(Shape::make(scaled(heap, 1e15))->radius() > 0);
-  CHECK(Shape::make(scaled(heap, 0))->radius() == 0);
+  for (const double scale : {1.0, 1e15, 0.0}) {
+    const ShapePtr shape = Shape::make(scaled(heap, scale));
+    CHECK((shape->radius() > 0) == (scale > 0));
+    CHECK(&shape->tree() == &shape->tree());
+  }
+}
+
+TEST_CASE("threads that ask a shape for its tree at once are given the same one") {
+  const ShapePtr shape = Shape::make(ball(1, 30, 60));
+  std::array<const Tree*, 8> trees = {};
+  {
+    std::latch ready(trees.size());
+    std::vector<std::jthread> threads;
+    for (const Tree*& tree : trees)
+      threads.emplace_back([&] {
+        ready.arrive_and_wait();
+        tree = &shape->tree();
+      });
+  }
+  for (const Tree* tree : trees) CHECK(tree == trees[0]);
+  CHECK(trees[0] != nullptr);
 }

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "geometry/shape.h"
 #include "io/mesh_files.h"
 #include "mesh_writers.h"
 #include "support/meshes.h"
@@ -17,8 +18,8 @@ namespace {
 bool refused_mesh(const MeshFile& file) {
   try {
     const Geometry geometry = read_mesh({file.name, file.content, {}});
-    // what is read is fit for a Shape
-    CHECK_NOTHROW(check_mesh(geometry.mesh, file.name));
+    // what is read is fit for a Shape and its tree
+    CHECK_NOTHROW(Shape::make(geometry.mesh, file.name)->tree());
     return false;
   } catch (const Error& error) {
     CHECK_MESSAGE(std::string(error.what()).starts_with(file.name), error.what());

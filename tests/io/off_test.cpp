@@ -12,13 +12,13 @@ static BodySpec read_off_text(const std::string& text, const ReadOptions& option
   return read_body(folder.write("q.off", text), options);
 }
 
-static const std::string rows = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+static const std::string off_rows = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 
 TEST_CASE("the header of an OFF file may stand in one line, in two, or be the counts alone") {
   for (const std::string head : {"OFF\n4 4 6\n", "OFF 4 4 6\n", "OFF4 4 6\n", "4 4 6\n",
                                  "# a comment\nOFF # another\n\n4 4\n"}) {
     INFO(head);
-    const BodySpec body = read_off_text(head + rows);
+    const BodySpec body = read_off_text(head + off_rows);
     CHECK(body.shape->faults().none());
     CHECK(body.shape->mesh().triangles.size() == 4);
     CHECK_FALSE(body.appearance.given);
@@ -60,8 +60,8 @@ TEST_CASE("what is wrong in an OFF file is told by line") {
   refused("OFF\n4 4 6\n0 0 0\n1 0\n", "4: z: wanted a number, got nothing");
   refused("OFF\n4 4 6\n0 0 0\n1 0 inf\n", "4: z: wanted a number, got 'inf'");
   refused("OFF\n4 4 6\n0 0 0\n", "3: wanted vertex 2 of 4, got the end of the file");
-  refused("OFF\n9 4 6\n" + rows + "0 0 0\n", "11: wanted face 1 of 4, got the end of the file");
-  refused("OFF\n4 5 6\n" + rows, "10: wanted face 5 of 5, got the end of the file");
+  refused("OFF\n9 4 6\n" + off_rows + "0 0 0\n", "11: wanted face 1 of 4, got the end of the file");
+  refused("OFF\n4 5 6\n" + off_rows, "10: wanted face 5 of 5, got the end of the file");
   const std::string points = "OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
   refused(points + "3 0 1 4\n", "7: wanted 3 vertices from 0 to 3, got '4'");
   refused(points + "4 0 1 2\n", "7: wanted 4 vertices from 0 to 3, got nothing");

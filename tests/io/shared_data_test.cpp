@@ -26,7 +26,7 @@ static fs::path text_file(std::string file) {
   return root() / file;
 }
 
-static const std::vector<std::string> worlds = {"dlr_flask", "plannerMug", "plannerP51",
+static const std::vector<std::string> measured_worlds = {"dlr_flask", "plannerMug", "plannerP51",
                                                 "barrettGlassDyn"};
 
 TEST_CASE("every body of the original loads, with triangles unless it is a frame") {
@@ -76,7 +76,7 @@ TEST_CASE("every world of the original loads, with the root given and without") 
 TEST_CASE("triangles, bounds, area, mass and material are those of the original") {
   REQUIRE_SHARED();
   std::map<std::string, nlohmann::json> bodies;
-  for (const auto& name : worlds) {
+  for (const auto& name : measured_worlds) {
     const auto measured = test::measured("world_" + name);
     for (const auto& body : measured.at("bodies"))
       bodies[body.at("file").get<std::string>()] = body;
@@ -111,7 +111,7 @@ TEST_CASE("triangles, bounds, area, mass and material are those of the original"
 
 TEST_CASE("poses, DOFs and approach frames are those of the original") {
   REQUIRE_SHARED();
-  for (const auto& name : worlds) {
+  for (const auto& name : measured_worlds) {
     INFO(name);
     const auto measured = test::measured("world_" + name);
     const WorldSpec world = read_world(root() / "worlds" / (name + ".wld"));
