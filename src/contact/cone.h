@@ -9,6 +9,9 @@ struct PointContact {
   Eigen::Vector3d p_O = Eigen::Vector3d::Zero();   ///< contact point [m]
   Eigen::Vector3d n_O = Eigen::Vector3d::UnitZ();  ///< unit normal, into the object
   double mu = 1.0;                                 ///< Coulomb coefficient, >= 0
+  /// how far a soft contact resists a turn about its normal, 0 for a point [m]: with forces f and
+  /// torque t, |f_tangential|^2 + (t / torsion_radius)^2 <= (mu f_normal)^2
+  double torsion_radius = 0;
 };
 
 inline constexpr int most_edges = 1000;  ///< far beyond what a hull in six dimensions can use
