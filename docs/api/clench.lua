@@ -190,6 +190,7 @@ local snapshot = {}
 
 ---What bodies and robots have in common; of a robot these are its base's.
 ---@class thing
+---@field world world # The world that it is in.
 ---@field material string # Name of its material, which decides how it rubs.
 ---@field mass number # Its mass. [kg]
 ---@field com vec3 # Centre of mass in the body frame. Setting it takes an inertia that comes from its shape to the new centre; one that was given stays. [m]
@@ -552,6 +553,11 @@ function clench.eigengrasps(options) end
 ---@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer} # size: width and height in pixels; field_of_view: vertical [rad]
 ---@return picture
 function clench.render(world, options) end
+
+---Draws numbers as columns, one panel a series, each to its own scale, all over the same items; the largest of a panel is the darkest. `false` is a value that is missing, and marked. It needs no graphics hardware.
+---@param options {series: {name: string, values: (number|false)[]}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one an item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
+---@return picture
+function clench.chart(options) end
 
 ---Values as JSON text, and back.
 ---@class clench.json

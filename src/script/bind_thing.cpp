@@ -10,6 +10,8 @@
 
 namespace clench {
 
+static int get_world(lua_State* L) { return push_object(L, WorldHandle{self_body(L).world}); }
+
 static int get_material(lua_State* L) {
   const auto body = self_body(L);
   return push(L, body.world->materials().name(body->material));
@@ -135,6 +137,10 @@ static int set_transparency(lua_State* L) {
 }
 
 static const Entry fields[] = {
+    {"world", guarded<get_world>, R"(
+The world that it is in.
+@type world
+> flask.world == world, hand.world == world  --> true, true)"},
     {"material", guarded<get_material>, R"(
 Name of its material, which decides how it rubs.
 @type string

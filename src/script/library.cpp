@@ -2,6 +2,7 @@
 
 #include "script/bind_body.h"
 #include "script/bind_catalog.h"
+#include "script/bind_chart.h"
 #include "script/bind_contact.h"
 #include "script/bind_convert.h"
 #include "script/bind_eigengrasps.h"
@@ -40,6 +41,7 @@ std::span<const Library* const> all_libraries() {
       &eigengrasps_library,
       &files_library,
       &render_library,
+      &chart_library,
   };
   return libraries;
 }

@@ -1,0 +1,70 @@
+#include "script/bind_chart.h"
+
+#include "render/chart.h"
+#include "script/bind_render.h"
+#include "script/guard.h"
+#include "script/push.h"
+#include "script/table.h"
+
+namespace clench {
+
+// calls read(index, what) with each item of the list on top of the stack
+template <class Read>
+static void each_item(lua_State* L, const What& what, Read read) {
+  if (!lua_istable(L, -1)) fail_wanted(what, "a list", -1);
+  const int list = lua_gettop(L), count = static_cast<int>(lua_rawlen(L, list));
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, list, i);
+    read(lua_gettop(L), what.item(i));
+    lua_pop(L, 1);
+  }
+}
+
+static ChartSeries read_series(lua_State* L, int index, const What& what) {
+  if (!lua_istable(L, index)) fail_wanted(what, "{name = ..., values = ...}", index);
+  Table one(L, index, what.text());
+  ChartSeries series;
+  series.name = one.string("name");
+  one.push("values");
+  each_item(L, one.what("values"), [&](int i, const What& value) {
+    const bool none = lua_isboolean(L, i) && !lua_toboolean(L, i);
+    series.values.push_back(none ? NAN : read_number(L, i, value));
+  });
+  lua_pop(L, 1);
+  one.done();
+  return series;
+}
+
+static int draw(lua_State* L) {
+  check_count(L, 1);
+  Table options(L, 1);
+  Chart chart;
+  chart.title = options.string("title", "");
+  if (options.push("labels") != LUA_TNIL)
+    each_item(L, options.what("labels"),
+              [&](int i, const What& what) { chart.labels.push_back(read_string(L, i, what)); });
+  lua_pop(L, 1);
+  options.push("series");
+  each_item(L, options.what("series"),
+            [&](int i, const What& what) { chart.series.push_back(read_series(L, i, what)); });
+  lua_pop(L, 1);
+  ChartOptions drawing;
+  drawing.width = options.integer("width", drawing.width);
+  drawing.height = options.integer("height", drawing.height);
+  options.done();
+  return push_object(L, draw_chart(chart, drawing));
+}
+
+static const Entry functions[] = {
+    {"chart", guarded<draw>, R"(
+Draws numbers as columns, one panel a series, each to its own scale, all over the same items; the largest of a panel is
+the darkest. `false` is a value that is missing, and marked. It needs no graphics hardware.
+@param options {series: {name: string, values: (number|false)[]}[], labels?: string[], title?: string, width?: integer, height?: integer}  labels: one an item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
+@return picture
+> clench.chart{series = {{name = "epsilon", values = {0.1, 0.3, 0.2}}}, height = 200}  --> picture of 960 x 200 pixels
+> clench.chart{series = {}}  --> error: wanted at least one series)"},
+};
+
+const Library chart_library{.name = "clench", .doc = "", .functions = functions};
+
+}  // namespace clench

@@ -1,0 +1,31 @@
+-- stdlib/lazy.lua
+--- A module whose names are loaded when they are first used.
+---@param subject string  the module's name, in clench and for messages
+---@param names string[]  in order
+---@param home? table  in which file a name lies, unless in one of its own
+return function(subject, names, home)
+  local known = {}
+  for _, name in ipairs(names) do known[name] = true end
+
+  local function load(module, name)
+    if not known[name] then
+      error(("%s: there is no '%s', only %s"):format(subject, tostring(name), table.concat(names, ", ")), 2)
+    end
+    local file = home and home[name]
+    local unit = require("clench." .. subject .. "." .. (file or name))
+    local value = file and unit[name] or unit
+    rawset(module, name, value)
+    return value
+  end
+
+  --- all names in order, loaded or not, so that tables and consoles can list them
+  local function list(module)
+    local i = 0
+    return function()
+      i = i + 1
+      if names[i] then return names[i], module[names[i]] end
+    end
+  end
+
+  return setmetatable({}, {__index = load, __pairs = list, __name = "clench." .. subject})
+end

@@ -1,0 +1,130 @@
+-- stdlib/options.lua
+--- Reads the one table that a function is called with: each value by name, with its bounds; what nobody
+--- read is an error. Names in `places` may also be given by position: {0.02} is {radius = 0.02}.
+local Options = {}
+Options.__index = Options
+
+--- a value as an error message shows it
+local function show(value)
+  if type(value) == "number" then return ("%.10g"):format(value) end
+  if type(value) == "string" then return "'" .. value .. "'" end
+  if type(value) == "table" then return "a table of " .. #value end
+  return value == nil and "nothing" or type(value) == "boolean" and tostring(value) or "a " .. type(value)
+end
+
+local function is_number(x) return type(x) == "number" and x == x and math.abs(x) < math.huge end
+
+--- is this {number, number, ...} with `least` to `most` finite numbers?
+local function is_point(value, least, most)
+  if type(value) ~= "table" or #value < least or #value > most then return false end
+  for _, x in ipairs(value) do
+    if not is_number(x) then return false end
+  end
+  return true
+end
+
+function Options:fail(format, ...) error(("%s: " .. format):format(self.subject, ...), 0) end
+
+--- the raw value of a name, wherever it stands; nil when it was not given
+function Options:raw(name)
+  if not self.read[name] then self.known[#self.known + 1] = name end
+  local place = self.places[name]
+  local placed = place and self.given[place]
+  if place then self.read[place] = true end
+  self.read[name] = true
+  if placed ~= nil and self.given[name] ~= nil then
+    self:fail("%s is given twice, as number %d and by name", name, place)
+  end
+  if placed ~= nil then return placed end
+  return self.given[name]
+end
+
+function Options:wanted(name, what, value) self:fail("%s must be %s, got %s", name, what, show(value)) end
+
+local function read_number(self, name, default, what, fits)
+  local value = self:raw(name)
+  if value == nil then value = default end
+  if not (is_number(value) and fits(value)) then self:wanted(name, what, value) end
+  return value
+end
+
+function Options:number(name, default)
+  return read_number(self, name, default, "a finite number", function() return true end)
+end
+
+function Options:positive(name, default)
+  return read_number(self, name, default, "a number > 0", function(x) return x > 0 end)
+end
+
+function Options:not_negative(name, default)
+  return read_number(self, name, default, "a number >= 0", function(x) return x >= 0 end)
+end
+
+--- a whole number from least to most
+function Options:count(name, default, least, most)
+  local what = ("a whole number from %d to %d"):format(least, most)
+  return math.tointeger(read_number(self, name, default, what, function(x)
+    return math.tointeger(x) and x >= least and x <= most
+  end))
+end
+
+--- a point {x, y, z}; nil when it was not given and there is no default
+function Options:point(name, default)
+  local value = self:raw(name)
+  if value == nil then return default end
+  if not is_point(value, 3, 3) then self:wanted(name, "a point {x, y, z}", value) end
+  return value
+end
+
+--- a list of at least `least` points with `size` numbers each
+function Options:points(name, least, size)
+  local value = self:raw(name)
+  local form = size == 2 and "{x, y}" or "{x, y, z}"
+  if type(value) ~= "table" or #value < least then
+    self:wanted(name, ("a list of at least %d points %s"):format(least, form), value)
+  end
+  for i, point in ipairs(value) do
+    if not is_point(point, size, size) then self:wanted(name .. "[" .. i .. "]", "a point " .. form, point) end
+  end
+  return value
+end
+
+--- one of the words; the first of them when it was not given
+function Options:choice(name, words)
+  local value = self:raw(name)
+  if value == nil then return words[1] end
+  for _, word in ipairs(words) do
+    if value == word then return word end
+  end
+  self:wanted(name, "'" .. table.concat(words, "' or '") .. "'", value)
+end
+
+--- true or false; false when it was not given
+function Options:flag(name)
+  local value = self:raw(name)
+  if value ~= nil and type(value) ~= "boolean" then self:wanted(name, "true or false", value) end
+  return value == true
+end
+
+--- refuses keys that nobody read, the first in order of their names
+function Options:done()
+  local strange = {}
+  for key in pairs(self.given) do
+    if not self.read[key] then strange[#strange + 1] = type(key) == "number" and show(key) or tostring(key) end
+  end
+  if #strange == 0 then return end
+  table.sort(strange)
+  self:fail("unknown key '%s', wanted any of %s", strange[1], table.concat(self.known, ", "))
+end
+
+---@param subject string  the function's name, for messages
+---@param given table  what the caller wrote
+---@param places? string[]  names of the values that may be given by position
+return function(subject, given, places)
+  local self = setmetatable({subject = subject, given = given, read = {}, known = {}, places = {}}, Options)
+  for place, name in ipairs(places or {}) do self.places[name] = place end
+  if type(given) ~= "table" then
+    self:fail("wanted one table of options, as in %s {...}, got %s", subject, show(given))
+  end
+  return self
+end

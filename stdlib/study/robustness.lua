@@ -1,0 +1,98 @@
+-- stdlib/study/robustness.lua
+local options = require "clench.options"
+local spread = require "clench.study.spread"
+
+-- each of these is one stream of random numbers a sample, so that an error switched off changes no other
+local streams = {place = 0, friction = 1, normal = 2, count = 3}
+local function stream(seed, sample, what) return clench.random(seed, streams.count * (sample - 1) + streams[what]) end
+
+local function erred_pose(random, pose, position, angle)
+  local shift = {position * random:normal(), position * random:normal(), position * random:normal()}
+  local axis, half = random:direction(), angle * random:normal() / 2
+  local turn = math.sin(half) * axis
+  -- turned about the object's own origin, shifted in the world
+  return clench.pose {xyz = shift} * clench.pose {xyz = pose.position}
+    * clench.pose {quat = {math.cos(half), turn.x, turn.y, turn.z}} * clench.pose {quat = pose.quat}
+end
+
+-- a unit vector tilted by an angle towards any side
+local function tilted(random, normal, angle)
+  local side = normal:cross(random:direction())
+  while side:norm() < 1e-3 do side = normal:cross(random:direction()) end
+  return (math.cos(angle) * normal + math.sin(angle) * side:unit()):unit()
+end
+
+-- the contacts of a grasp in the object's frame, as clench.wrench_space takes them
+local function contacts_of(grasp)
+  local list, to_object = {}, grasp.object.pose:inverse()
+  for i, c in ipairs(grasp.contacts) do
+    list[i] = {point = to_object * c.point, normal = to_object:rotate(c.normal):unit(), mu = c.mu}
+  end
+  return list
+end
+
+local function close_again(hand) hand:autograsp() end
+
+--- What a grasp is worth when things are not where and what they were thought to be. Each sample draws errors of the
+--- normal distribution; where the object is out of place, the hand is opened, the object moved, and the hand closed on
+--- it again, all in a copy of the world. Friction is off by one factor for all contacts, normals each by their own.
+--- The same seed gives the same numbers, and sample i the same in longer runs.
+---@param grasp grasp
+---@param given {samples?: integer, seed?: integer, position?: number, angle?: number, friction?: number, normal?: number, close?: function, edges?: integer}  standard deviations, 0 unless given: of the object's position along each axis [m], its turn about any axis [rad], the factor on mu, the tilt of normals [rad]; samples: 100; close(hand, object) instead of autograsp
+---@return {samples: number[], probability: number, interval: table, taken: integer, mean: number, deviation: number, least: number, low: number, median: number, high: number, largest: number} # epsilon of each sample; probability of force closure, with the interval that holds it at 95 %; taken: how often the object's place was taken by the opened hand or something else, which counts as no grasp; low and high: 5 and 95 % of the samples
+-- > r = clench.study.robustness(grasp, {samples = 20, friction = 0.2, normal = 0.05})
+-- > #r.samples, r.low <= r.median, r.interval.low <= r.probability  --> 20, true, true
+-- > clench.study.robustness(grasp, {frictoin = 0.2})  --> error: unknown key 'frictoin'
+return function(grasp, given)
+  local read = options("study.robustness", given or {})
+  local count = read:count("samples", 100, 1, 1e6)
+  local seed = read:count("seed", 1, math.mininteger, math.maxinteger)
+  local position, angle = read:not_negative("position", 0), read:not_negative("angle", 0)
+  local friction, normal = read:not_negative("friction", 0), read:not_negative("normal", 0)
+  local edges = read:count("edges", grasp.edges, 3, 1000)
+  local close = read:raw "close" or close_again
+  if type(close) ~= "function" then read:wanted("close", "a function", close) end
+  read:done()
+
+  local moves = position > 0 or angle > 0
+  local world = grasp.object.world:clone()
+  local hand, object = world:robot(grasp.hand.name), world:body(grasp.object.name)
+  local start, place = nil, object.pose
+  if moves then
+    hand:open()
+    start = world:snapshot()
+  end
+
+  local function regrasped(sample)
+    if not moves then return grasp end
+    world:restore(start)
+    object.pose = erred_pose(stream(seed, sample, "place"), place, position, angle)
+    if #world:colliding(object) > 0 then return nil end
+    close(hand, object)
+    return clench.grasp(hand, object, {rho = grasp.rho, edges = edges})
+  end
+
+  local epsilons, closed, taken = {}, 0, 0
+  for sample = 1, count do
+    local now, epsilon = regrasped(sample), 0
+    if not now then
+      taken = taken + 1
+    else
+      local contacts = contacts_of(now)
+      local factor = math.max(0, 1 + friction * stream(seed, sample, "friction"):normal())
+      local tilts = stream(seed, sample, "normal")
+      for _, contact in ipairs(contacts) do
+        contact.mu = contact.mu * factor
+        if normal > 0 then contact.normal = tilted(tilts, contact.normal, normal * tilts:normal()) end
+      end
+      epsilon = clench.wrench_space {contacts = contacts, com = now.object.com, rho = grasp.rho, edges = edges}:epsilon()
+    end
+    epsilons[sample] = epsilon
+    if epsilon > 0 then closed = closed + 1 end
+  end
+
+  local result = spread.of(epsilons)
+  result.samples, result.taken = epsilons, taken
+  result.probability, result.interval = closed / count, spread.interval(closed, count)
+  return result
+end

@@ -1,0 +1,111 @@
+-- Studies of grasps: their random numbers, their statistics, and what they find of grasps whose answer is known.
+local test, clench = require "test", require "clench"
+local spread = require "clench.study.spread"
+
+local function closed_on_flask()
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local hand, flask = world.robots[1], world.objects[1]
+  hand:autograsp()
+  return clench.grasp(hand, flask)
+end
+
+test("a spread tells mean, deviation and quantiles of numbers", function(t)
+  local s = spread.of {4, 1, 3, 2, 5}
+  t.close({s.mean, s.least, s.median, s.largest}, {3, 1, 3, 5}, 1e-15)
+  t.close(s.deviation, math.sqrt(2.5), 1e-15)
+  t.close({s.low, s.high}, {1.2, 4.8}, 1e-15)
+  local one = spread.of {7}
+  t.close({one.mean, one.deviation, one.low, one.high}, {7, 0, 7, 7}, 0)
+end)
+
+test("the interval of a probability holds it, and shrinks with more trials", function(t)
+  for _, trials in ipairs {1, 10, 1000} do
+    for successes = 0, trials, math.max(1, trials // 7) do
+      local i = spread.interval(successes, trials)
+      t.ok(i.low <= successes / trials + 1e-15 and successes / trials - 1e-15 <= i.high and i.low >= 0 and i.high <= 1)
+    end
+  end
+  -- the table of Brown, Cai and DasGupta (2001): 0 of 10 is at most 0.278
+  t.close(spread.interval(0, 10).high, 0.2775, 5e-4)
+  t.ok(spread.interval(500, 1000).high - spread.interval(500, 1000).low < 0.07)
+end)
+
+test("without errors every sample is the grasp itself", function(t)
+  local grasp = closed_on_flask()
+  local r = clench.study.robustness(grasp, {samples = 5})
+  -- contacts pass through the object's frame once more
+  for _, epsilon in ipairs(r.samples) do t.close(epsilon, grasp:quality "epsilon", 1e-12) end
+  t.ok(r.probability == 1 and r.taken == 0 and r.deviation < 1e-12)
+end)
+
+test("the same seed gives the same bits, sample by sample, however many are drawn", function(t)
+  local grasp = closed_on_flask()
+  local errors = {samples = 12, seed = 3, friction = 0.3, normal = 0.1}
+  local first = clench.study.robustness(grasp, errors).samples
+  t.close(clench.study.robustness(grasp, errors).samples, first, 0)
+  errors.samples = 4
+  for i, epsilon in ipairs(clench.study.robustness(grasp, errors).samples) do t.ok(epsilon == first[i]) end
+  errors.seed = 4
+  t.ok(clench.study.robustness(grasp, errors).samples[1] ~= first[1])
+end)
+
+test("an object out of place is grasped anew, and the world stays as it is", function(t)
+  local grasp = closed_on_flask()
+  local before = grasp.hand.world:hash()
+  local r = clench.study.robustness(grasp, {samples = 6, position = 0.004, angle = 0.05})
+  t.ok(grasp.hand.world:hash() == before)
+  t.ok(r.deviation > 0 and r.largest < 1)
+  local far = clench.study.robustness(grasp, {samples = 6, position = 50})
+  t.ok(far.probability == 0 and far.mean == 0)
+end)
+
+test("where friction may vanish, so may force closure", function(t)
+  -- a factor 1 + 3 n, n normal, is below 0 in 37 % of all samples; 0.2 is three deviations of 60 samples
+  local r = clench.study.robustness(closed_on_flask(), {samples = 60, friction = 3})
+  t.ok(r.probability > 0.4 and r.probability < 0.85)
+  t.ok(r.least == 0 and r.interval.low < r.probability and r.probability < r.interval.high)
+end)
+
+test("closing is the caller's if he likes", function(t)
+  local grasp, called = closed_on_flask(), 0
+  clench.study.robustness(grasp, {samples = 3, position = 0.001, close = function(hand, object)
+    called = called + 1
+    t.ok(object.name == grasp.object.name and hand.world ~= grasp.hand.world)
+  end})
+  t.ok(called == 3)
+end)
+
+test("what is wrong with the options is said in a sentence", function(t)
+  local grasp = closed_on_flask()
+  local function refused(given, sentence) t.fails(function() clench.study.robustness(grasp, given) end, sentence) end
+  refused({samples = 0}, "study.robustness: samples must be a whole number from 1 to 1000000, got 0")
+  refused({position = -1}, "study.robustness: position must be a number >= 0, got -1")
+  refused({friction = "much"}, "study.robustness: friction must be a number >= 0, got 'much'")
+  refused({close = 3}, "study.robustness: close must be a function, got 3")
+  refused({frictoin = 1}, "study.robustness: unknown key 'frictoin'")
+  t.fails(function() return clench.study.robust end, "study: there is no 'robust', only compare, robustness")
+end)
+
+test("grasps are compared measure by measure, and drawn", function(t)
+  local grasp = closed_on_flask()
+  local hand, flask = grasp.hand, grasp.object
+  local list = {}
+  for i, mu in ipairs {0.2, 0.4, 0.8} do
+    hand.world:set_friction(flask.material, "rubber", {static = mu, kinetic = mu})
+    list[i] = clench.grasp(hand, flask)
+  end
+  local c = clench.study.compare(list, {measures = {"epsilon", "volume"}, labels = {"0.2", "0.4", "0.8"}})
+  t.ok(c.best.epsilon == 3 and c.best.volume == 3)
+  for i, g in ipairs(list) do t.ok(c.values.epsilon[i] == g:quality "epsilon" and c.values.volume[i] == g:quality "volume") end
+  local picture = c:chart {title = "friction", width = 400}
+  t.ok(picture.width == 400 and picture == c:chart {title = "friction", width = 400})
+end)
+
+test("a comparison without grasps or with strange ones is refused", function(t)
+  t.fails(function() clench.study.compare {} end, "study.compare: wanted at least one grasp, got none")
+  t.fails(function() clench.study.compare {3} end, "study.compare: grasps[1]: wanted a grasp, got 3")
+  t.fails(function() clench.study.compare(closed_on_flask()) end, "study.compare: wanted a list of grasps, got a grasp")
+  local grasp = closed_on_flask()
+  t.fails(function() clench.study.compare({grasp}, {measures = {"epsilom"}}) end, "did you mean 'epsilon'?")
+  t.fails(function() clench.study.compare({grasp}, {labels = {"a", "b"}}) end, "study.compare: wanted 1 label, one a grasp, got 2")
+end)

@@ -1,0 +1,142 @@
+#include "render/chart.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "render/canvas.h"
+#include "render/lettering.h"
+
+using namespace clench;
+using Eigen::Vector2f;
+
+namespace {
+
+const Canvas::Color black(0, 0, 0);
+
+int ink_of(const Picture& picture) {
+  int sum = 0;
+  for (size_t i = 0; i < picture.pixels.size(); i += 3) sum += 255 - picture.pixels[i];
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("every printable character has strokes on the grid, no two alike") {
+  for (char c = '!'; c <= '~'; ++c) {
+    const Strokes strokes = strokes_of(c);
+    CAPTURE(c);
+    CHECK_FALSE(strokes.empty());
+    for (const auto& stroke : strokes)
+      for (const Vector2f& p : stroke) {
+        CHECK((p.x() >= 0 && p.x() <= 4));
+        CHECK((p.y() >= 0 && p.y() <= 8));
+      }
+    for (char other = '!'; other < c; ++other)
+      if (!(other == '0' && c == 'O')) CHECK(strokes_of(other) != strokes);
+  }
+  CHECK(strokes_of(' ').empty());
+  CHECK(strokes_of('\xff') == strokes_of('\n'));
+}
+
+TEST_CASE("a line's ink is its area, wherever and in which direction it runs") {
+  for (const Vector2f& along : {Vector2f(40, 0), Vector2f(0, 40), Vector2f(24, 32)}) {
+    Picture picture = blank_picture(100, 100);
+    Canvas(picture).line({20.3f, 25.7f}, Vector2f(20.3f, 25.7f) + along, 3, black);
+    // 40 x 3 and two half discs; 3 % for edges that are blended by distance
+    CHECK(ink_of(picture) / 255.0 == doctest::Approx(40 * 3 + M_PI * 1.5 * 1.5).epsilon(0.03));
+  }
+}
+
+TEST_CASE("a rectangle's ink is its area to the rounding of bytes, cut off at the edges") {
+  Picture picture = blank_picture(50, 40);
+  Canvas canvas(picture);
+  canvas.rectangle({10.25f, 5.5f}, {20.5f, 15.75f}, black);
+  CHECK(ink_of(picture) / 255.0 == doctest::Approx(10.25 * 10.25).epsilon(0.002));
+  canvas.rectangle({-1e9f, -1e9f}, {1e9f, 1e9f}, black);
+  CHECK(ink_of(picture) == 255 * 50 * 40);
+  canvas.line({-1e6f, 3}, {-1e5f, 3}, 2, Canvas::Color(1, 1, 1));
+  CHECK(ink_of(picture) == 255 * 50 * 40);
+}
+
+TEST_CASE("text runs along its direction and takes the width that it tells") {
+  const float height = 12, width = Canvas::text_width("epsilon", height);
+  Picture level = blank_picture(200, 200), upright = blank_picture(200, 200);
+  Canvas(level).text("epsilon", {50, 100}, height, black);
+  Canvas(upright).text("epsilon", {100, 150}, height, black, -Vector2f::UnitY());
+  // the second is the first turned by a quarter
+  CHECK(ink_of(level) == doctest::Approx(ink_of(upright)).epsilon(0.01));
+  const auto inside = [&](const Picture& p, int x0, int y0, int x1, int y1) {
+    int sum = 0;
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) sum += 255 - p.pixels[3 * (200 * static_cast<size_t>(y) + x)];
+    return sum;
+  };
+  const int room = static_cast<int>(width) + 2;
+  CHECK(inside(level, 48, 84, 48 + room, 106) == ink_of(level));
+  CHECK(inside(upright, 84, 152 - room, 106, 152) == ink_of(upright));
+}
+
+TEST_CASE("an axis holds all values and zero in 2 to 5 steps of 1, 2 or 5") {
+  for (const auto& values : {std::vector<double>{0.0876},
+                             {-3, 7},
+                             {1e-9, 2e-9},
+                             {-1e300, 1e308},
+                             {1e308, -1e308},
+                             {42, NAN, INFINITY},
+                             {-0.001}}) {
+    const ChartAxis axis = chart_axis(values);
+    CHECK(std::isfinite(axis.low));
+    CHECK(std::isfinite(axis.high));
+    CHECK(axis.low <= 0);
+    CHECK(axis.high >= 0);
+    for (const double value : values)
+      if (std::isfinite(value)) CHECK((axis.low <= value && value <= axis.high));
+    const double steps = axis.high / axis.step - axis.low / axis.step;
+    CHECK(steps >= 2);
+    CHECK(steps <= 6);
+  }
+  CHECK(chart_axis({0, 0, NAN}).high == 1);
+  CHECK(chart_axis({5e-324}).high == 1);
+}
+
+TEST_CASE("a chart is as high as its panels need, and the same bytes every time") {
+  const Chart chart{.title = "two grasps",
+                    .labels = {"one", "two"},
+                    .series = {{"epsilon", {0.1, 0.2}}, {"volume", {NAN, -3}}}};
+  const Picture picture = draw_chart(chart);
+  CHECK(picture.width == 960);
+  CHECK(picture.height > 300);
+  CHECK(picture.pixels == draw_chart(chart).pixels);
+  Chart third = chart;
+  third.series.push_back({"rank", {6, 6}});
+  CHECK(draw_chart(third).height > picture.height);
+  CHECK(draw_chart(chart, {.width = 64, .height = 64}).pixels.size() == 3 * 64 * 64);
+}
+
+TEST_CASE("the higher column has more ink, the best is the darkest") {
+  const auto ink = [](std::vector<double> values) {
+    return ink_of(
+        draw_chart({.series = {{"x", std::move(values)}}}, {.width = 400, .height = 200}));
+  };
+  CHECK(ink({1, 1}) > ink({1, 0.5}));
+  CHECK(ink({1, 0.5}) > ink({1, 0}));
+}
+
+TEST_CASE("a chart whose counts do not fit is refused in a sentence") {
+  const auto refused = [](const Chart& chart, const char* sentence, ChartOptions options = {}) {
+    CHECK_THROWS_WITH_AS(draw_chart(chart, options), sentence, Error);
+  };
+  refused({}, "chart: wanted at least one series, got none");
+  refused({.series = {{"a", {}}}}, "chart: series 'a': wanted at least one value, got none");
+  refused({.series = {{"a", {1, 2}}, {"b", {1}}}},
+          "chart: series 'b': wanted 2 values, as the first has, got 1");
+  refused({.labels = {"x"}, .series = {{"a", {1, 2}}}},
+          "chart: wanted 2 labels, one a value, got 1");
+  refused({.series = {{"a", {1}}}}, "chart: wanted a width of 64 to 8192 pixels, got 63",
+          {.width = 63});
+  refused({.series = {{"a", {1}}}}, "chart: wanted a height of 64 to 8192 pixels, got 9000",
+          {.height = 9000});
+}
