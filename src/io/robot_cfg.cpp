@@ -263,9 +263,8 @@ void CfgReader::set_dof_units() {
 
 void CfgReader::check_ranges() {
   for (size_t i = 0; i < dof_lines_.size(); ++i) {
-    const auto [low, high] = dof_range(robot_, static_cast<int>(i));
-    if (low > high)
-      dof_lines_[i].line.fail("DOF {}: the ranges of its joints have no value in common", i);
+    const auto range = dof_range(robot_, static_cast<int>(i));
+    if (range[0] > range[1]) dof_lines_[i].line.fail("DOF {}: {}", i, no_range(range));
   }
 }
 

@@ -154,8 +154,9 @@ void XmlRobotReader::read_dof(const XmlElement& element) {
 
 void XmlRobotReader::set_dof_units() {
   for (size_t i = 0; i < dofs_.size(); ++i) {
-    const auto [low, high] = dof_range(robot_, static_cast<int>(i));
-    if (low > high) dofs_[i].fail("DOF {}: the ranges of its joints have no value in common", i);
+    const auto range = dof_range(robot_, static_cast<int>(i));
+    const auto [low, high] = range;
+    if (low > high) dofs_[i].fail("DOF {}: {}", i, no_range(range));
     DofSpec& dof = robot_.dofs[i];
     if (dof.default_value < low || dof.default_value > high) {
       // 0 is only what nobody chose

@@ -112,9 +112,10 @@ DrawList make_draw_list(const Scene& scene) {
     group.push_back(mesh_piece(m, i + 1));
   }
   const size_t first_clear = pieces.size(), first_mark = first_clear + clear.size(),
-               first_behind = first_mark + scene.cones.size();
+               first_behind = first_mark + scene.cones.size() + scene.arrows.size();
   for (Piece& piece : clear) pieces.push_back(std::move(piece));
   for (const DrawCone& c : scene.cones) pieces.push_back(cone_piece(c));
+  for (const DrawArrow& a : scene.arrows) pieces.push_back(arrow_piece(a));
   for (Piece& piece : behind) pieces.push_back(std::move(piece));
 
   DrawList list;

@@ -31,7 +31,7 @@ struct DrawList {
   std::vector<uint32_t> indices;  ///< three a triangle
   std::vector<Batch> solid;       ///< meshes that hide what is behind them
   std::vector<Batch> clear;       ///< meshes that one sees through
-  Batch marks;                    ///< friction cones: seen through, no shadow
+  Batch marks;                    ///< friction cones and arrows: seen through, no shadow
   Batch floor;  ///< a wide level net, finer below the scene: floor_lines each way, row by row
   std::optional<double> ground;  ///< its height [scene units]
   std::vector<Batch> behind;     ///< meshes that are background: solid, throw no shadow

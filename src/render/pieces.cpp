@@ -10,6 +10,8 @@ namespace {
 
 constexpr int cone_sides = 40;
 constexpr int dot_rings = 8;
+constexpr int arrow_sides = 24;
+constexpr double head_width = 3, head_length = 7;  // in radii of the rod
 
 // widest part of a cone; one without an angle is drawn as a needle, a wide one is cut off
 double cone_radius(const DrawCone& c) {
@@ -44,6 +46,13 @@ void check(const Scene& scene) {
            c.half_angle);
     if (!(c.height >= 0 && std::isfinite(c.height)))
       fail("picture: cone {}: height must be >= 0, got {} [m]", i + 1, c.height);
+  }
+  for (size_t i = 0; i < scene.arrows.size(); ++i) {
+    const DrawArrow& a = scene.arrows[i];
+    if (!a.tail.allFinite() || !a.tip.allFinite() || !a.color.allFinite())
+      fail("picture: arrow {}: tail, tip and colour must be finite numbers", i + 1);
+    if (!(a.radius > 0 && std::isfinite(a.radius)))
+      fail("picture: arrow {}: radius must be > 0, got {} [m]", i + 1, a.radius);
   }
   if (scene.ground && !std::isfinite(*scene.ground))
     fail("picture: height of the ground must be a finite number");
@@ -91,6 +100,37 @@ Piece cone_piece(const DrawCone& c) {
       const int a = first + r * cone_sides + i, b = first + r * cone_sides + (i + 1) % cone_sides;
       piece.triangles.push_back({a, a + cone_sides, b});
       piece.triangles.push_back({b, a + cone_sides, b + cone_sides});
+    }
+  return piece;
+}
+
+Piece arrow_piece(const DrawArrow& arrow) {
+  Piece piece{.colors = {arrow.color}, .opacity = 0.95f, .mark = true};
+  const double length = (arrow.tip - arrow.tail).norm();
+  if (length == 0) return piece;
+  const Eigen::Vector3d axis = (arrow.tip - arrow.tail) / length;
+  const Eigen::Vector3d side = axis.unitOrthogonal(), other = axis.cross(side);
+  const double head = std::min(head_length * arrow.radius, 0.5 * length);
+
+  // rings from the tail on: the rod's ends, then the head's base; the tip is a ring of no width
+  const struct {
+    double along, radius;
+  } rings[] = {{0, 0},
+               {0, arrow.radius},
+               {length - head, arrow.radius},
+               {length - head, head_width / head_length * head},
+               {length, 0}};
+  for (const auto& ring : rings)
+    for (int i = 0; i < arrow_sides; ++i) {
+      const double angle = 2 * std::numbers::pi * i / arrow_sides;
+      piece.p_W.push_back(arrow.tail + ring.along * axis +
+                          ring.radius * (std::cos(angle) * side + std::sin(angle) * other));
+    }
+  for (int r = 0; r + 1 < static_cast<int>(std::size(rings)); ++r)
+    for (int i = 0; i < arrow_sides; ++i) {
+      const int a = r * arrow_sides + i, b = r * arrow_sides + (i + 1) % arrow_sides;
+      if (rings[r].radius > 0) piece.triangles.push_back({a, b, b + arrow_sides});
+      if (rings[r + 1].radius > 0) piece.triangles.push_back({a, b + arrow_sides, a + arrow_sides});
     }
   return piece;
 }

@@ -1,4 +1,4 @@
-// What a scene's meshes and cones look like as triangles in the world.
+// What a scene's meshes, cones and arrows look like as triangles in the world.
 #pragma once
 #include <vector>
 
@@ -6,7 +6,7 @@
 
 namespace clench {
 
-/// Triangles of one mesh or cone.
+/// Triangles of one mesh, cone or arrow.
 struct Piece {
   std::vector<Eigen::Vector3d> p_W = {};
   std::vector<Triangle> triangles = {};
@@ -16,7 +16,7 @@ struct Piece {
   bool background = false;  ///< throws no shadow, counts for no frame
 };
 
-/// throws Error naming the mesh or cone and the number that is out of range
+/// throws Error naming the mesh, cone or arrow and the number that is out of range
 void check(const Scene& scene);
 
 /// `number` names the mesh in an error: when its pose moves it beyond all numbers
@@ -25,5 +25,8 @@ Piece mesh_piece(const DrawMesh& mesh, size_t number);
 /// The mantle, its lid, and a ball about the apex. A needle when there is no angle; a flat cone is
 /// cut off.
 Piece cone_piece(const DrawCone& cone);
+
+/// A rod and its head, which is shorter where the arrow is short.
+Piece arrow_piece(const DrawArrow& arrow);
 
 }  // namespace clench

@@ -28,6 +28,14 @@ struct DrawCone {
   Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
 };
 
+/// A force, a direction or an axis: a rod with a pointed head that ends at the tip.
+struct DrawArrow {
+  /// world [m]; an arrow without length draws nothing
+  Eigen::Vector3d tail = Eigen::Vector3d::Zero(), tip = Eigen::Vector3d::UnitZ();
+  double radius = 0.01;  ///< of the rod; its head is three times as wide [m]
+  Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
+};
+
 struct Eye {
   /// world [m]
   Eigen::Vector3d eye = Eigen::Vector3d::UnitX(), target = Eigen::Vector3d::Zero(),
@@ -38,6 +46,7 @@ struct Eye {
 struct Scene {
   std::vector<DrawMesh> meshes;
   std::vector<DrawCone> cones;
+  std::vector<DrawArrow> arrows = {};
   std::optional<double> ground = {};  ///< height of a floor plane that takes the shadow [m]
   std::optional<Eye> eye = {};        ///< empty: frame everything
 };

@@ -35,6 +35,11 @@ std::array<double, 2> dof_range(const RobotSpec& robot, int dof) {
   return {low, high};
 }
 
+std::string no_range(const std::array<double, 2>& range) {
+  return fmt::format("wanted a range that all of its joints allow, got from {:.6g} to {:.6g}",
+                     range[0], range[1]);
+}
+
 static void check_dof(const DofSpec& dof, const std::string& subject) {
   for (const double x :
        {dof.default_velocity, dof.kp, dof.kd, dof.dragger_scale, dof.default_value})
@@ -161,8 +166,8 @@ void check_robot(const RobotSpec& robot) {
     }
   }
   for (size_t i = 0; i < robot.dofs.size(); ++i)
-    if (const auto [low, high] = dof_range(robot, static_cast<int>(i)); low > high)
-      fail("{}: DOF {}: the ranges of its joints have no value in common", robot.name, i);
+    if (const auto range = dof_range(robot, static_cast<int>(i)); range[0] > range[1])
+      fail("{}: DOF {}: {}", robot.name, i, no_range(range));
   check_parts(robot);
 }
 

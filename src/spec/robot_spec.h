@@ -117,6 +117,8 @@ Pose approach_frame(const Eigen::Vector3d& point, const Eigen::Vector3d& directi
 
 /// Range of a DOF: intersection over its joints of [min, max] / ratio.   returns {low, high}
 std::array<double, 2> dof_range(const RobotSpec& robot, int dof);
+/// The end of a sentence about a range that is none.
+std::string no_range(const std::array<double, 2>& range);
 
 /// throws Error when it does not fit the robot's DOFs, chains and links
 void check_fit(const RobotSpec& robot, const EigengraspSet& set);

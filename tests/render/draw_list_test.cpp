@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "pictures.h"
+#include "render/pieces.h"
 
 using namespace clench;
 using namespace clench::test;
@@ -128,12 +129,35 @@ TEST_CASE("a cone has its apex, its angle and its height") {
   CHECK(widest().second < 2);
 }
 
+TEST_CASE("an arrow holds the volume of its rod and its head, and ends at its tip") {
+  DrawArrow arrow{.tail = {1, 2, 3}, .tip = {1, 4, 3}, .radius = 0.05};
+  // of the polygon that stands for a circle: an arrow has 24 sides
+  const double circle = 12 * std::sin(2 * std::numbers::pi / 24);
+  for (const double length : {2.0, 0.1}) {
+    arrow.tip = arrow.tail + Eigen::Vector3d(0, length, 0);
+    const Piece piece = arrow_piece(arrow);
+    const double head = std::min(0.35, length / 2), width = 3 * head / 7;
+    double volume = 0, far = 0;
+    for (const Triangle& t : piece.triangles)
+      volume += (piece.p_W[t[0]] - arrow.tail)
+                    .dot((piece.p_W[t[1]] - arrow.tail).cross(piece.p_W[t[2]] - arrow.tail)) /
+                6;
+    for (const auto& p : piece.p_W) far = std::max(far, p.y() - arrow.tail.y());
+    CHECK(volume ==
+          doctest::Approx(circle * (0.05 * 0.05 * (length - head) + width * width * head / 3)));
+    CHECK(far == doctest::Approx(length));
+  }
+  arrow.tip = arrow.tail;
+  CHECK(arrow_piece(arrow).triangles.empty());
+}
+
 TEST_CASE("what a scene may not hold is refused by name") {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                huge = std::numeric_limits<double>::max();
   const auto with = [](auto&& change) {
     Scene scene = one_box();
     scene.cones.resize(1);
+    scene.arrows.resize(1);
     change(scene);
     make_draw_list(scene);
   };
@@ -168,6 +192,10 @@ TEST_CASE("what a scene may not hold is refused by name") {
                        Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.cones[0].height = -1; }),
                        "picture: cone 1: height must be >= 0, got -1 [m]", Error);
+  CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.arrows[0].tip.x() = nan; }),
+                       "picture: arrow 1: tail, tip and colour must be finite numbers", Error);
+  CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.arrows[0].radius = 0; }),
+                       "picture: arrow 1: radius must be > 0, got 0 [m]", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.ground = nan; }),
                        "picture: height of the ground must be a finite number", Error);
 }

@@ -92,5 +92,5 @@ TEST_CASE("what is out of order in a robot is told by place") {
   refused([](RobotSpec& r) { r.dofs[0].breakaway_torque = -1; },
           "arm: DOF 0: breakaway torque must be >= 0, got -1");
   refused([](RobotSpec& r) { r.chains[0].joints[1].min = 0.9, r.chains[0].joints[0].min = 1.5; },
-          "arm: DOF 0: the ranges of its joints have no value in common");
+          "arm: DOF 0: wanted a range that all of its joints allow, got from 1.5 to -1.8");
 }
