@@ -2,7 +2,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 namespace clench {
@@ -33,6 +36,44 @@ bool is_positive_definite(const Matrix3d& m) {
 }
 
 MatrixXd solve_symmetric(const MatrixXd& m, const MatrixXd& right) { return m.ldlt().solve(right); }
+
+struct DenseLu::Parts {
+  Eigen::PartialPivLU<MatrixXd> lu;
+};
+
+DenseLu::DenseLu(const MatrixXd& m)
+    : parts_(std::make_shared<const Parts>(Parts{Eigen::PartialPivLU<MatrixXd>(m)})) {}
+
+Eigen::VectorXd DenseLu::solve(const Eigen::VectorXd& right) const {
+  return parts_->lu.solve(right);
+}
+
+IndependentRows independent_rows(const MatrixXd& m, double tolerance) {
+  IndependentRows out;
+  const int count = static_cast<int>(m.rows());
+  if (count == 0) return out;
+  Eigen::Index rank = 0;
+  Eigen::ColPivHouseholderQR<MatrixXd> qr;
+  if (m.cols() > 0) {
+    qr.setThreshold(tolerance);
+    qr.compute(m.transpose());
+    rank = qr.rank();
+  }
+  for (int k = 0; k < count; ++k) {
+    const int row = m.cols() > 0 ? qr.colsPermutation().indices()[k] : k;
+    (k < rank ? out.rows : out.others).push_back(row);
+  }
+  std::ranges::sort(out.rows);
+  std::ranges::sort(out.others);
+  const int others = static_cast<int>(out.others.size());
+  out.weights = MatrixXd::Zero(others, rank);
+  if (rank == 0 || others == 0) return out;
+  MatrixXd basis(m.cols(), rank), rest(m.cols(), others);
+  for (int k = 0; k < rank; ++k) basis.col(k) = m.row(out.rows[k]);
+  for (int k = 0; k < others; ++k) rest.col(k) = m.row(out.others[k]);
+  out.weights = Eigen::HouseholderQR<MatrixXd>(basis).solve(rest).transpose();
+  return out;
+}
 
 Eigen::Quaterniond least_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d a = from.normalized(), b = to.normalized();

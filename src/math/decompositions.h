@@ -1,6 +1,8 @@
 // What takes longest to compile of all that Eigen has, compiled once.
 #pragma once
 #include <Eigen/Geometry>
+#include <memory>
+#include <vector>
 
 namespace clench {
 
@@ -32,6 +34,27 @@ bool is_positive_definite(const Eigen::Matrix3d& m);
 
 /// x of m x = right.   m  symmetric and positive definite
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& m, const Eigen::MatrixXd& right);
+
+/// x of m x = right, for many right sides.
+class DenseLu {
+ public:
+  /// m  square; where it is singular, solutions are not finite or far off
+  explicit DenseLu(const Eigen::MatrixXd& m);
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+
+ private:
+  struct Parts;
+  std::shared_ptr<const Parts> parts_;
+};
+
+/// others = weights * rows, as rows of m; `rows` are independent.
+struct IndependentRows {
+  std::vector<int> rows, others;  ///< ascending
+  Eigen::MatrixXd weights;        ///< others x rows
+};
+
+/// A row within `tolerance` of the span of others, of the largest row, depends on them.   m  finite
+IndependentRows independent_rows(const Eigen::MatrixXd& m, double tolerance);
 
 /// The least turn that brings one direction to another; between opposite ones, any of the half turns.
 Eigen::Quaterniond least_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);

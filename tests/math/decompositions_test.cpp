@@ -1,6 +1,7 @@
 #include "math/decompositions.h"
 
 #include "base/random.h"
+#include "math/sparse_ldl.h"
 
 using namespace clench;
 using Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d;
@@ -77,4 +78,50 @@ TEST_CASE("eigenvalues of small matrices, definiteness and solutions agree with 
     const MatrixXd m = even + Matrix3d::Identity();
     CHECK((m * solve_symmetric(m, right) - right).cwiseAbs().maxCoeff() < 10 * rounding);
   }
+}
+
+TEST_CASE("rows that depend on others are told with their weights") {
+  Random random(5);
+  for (int i = 0; i < 30; ++i) {
+    const int rank = 1 + i % 4, count = rank + i % 3;
+    const MatrixXd mix = random_matrix(random, count, rank),
+                   m = mix * random_matrix(random, rank, 6);
+    const IndependentRows rows = independent_rows(m, 1e-10);
+    REQUIRE(static_cast<int>(rows.rows.size()) == rank);
+    REQUIRE(static_cast<int>(rows.others.size()) == count - rank);
+    for (size_t k = 0; k < rows.others.size(); ++k) {
+      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(6);
+      for (int r = 0; r < rank; ++r)
+        sum += rows.weights(static_cast<int>(k), r) * m.row(rows.rows[r]);
+      CHECK((sum - m.row(rows.others[k])).norm() < 1e-10);  // of conditions up to 1e3
+    }
+  }
+  CHECK(independent_rows(MatrixXd::Zero(3, 2), 1e-10).rows.empty());
+  CHECK(independent_rows(MatrixXd::Zero(3, 0), 1e-10).others.size() == 3);
+  CHECK(independent_rows(MatrixXd::Zero(0, 4), 1e-10).others.empty());
+}
+
+TEST_CASE("sparse and dense factors solve what they were made of") {
+  Random random(6);
+  for (int i = 0; i < 30; ++i) {
+    // positive definite, negative definite, and what lies between them
+    const int n = 3 + i % 5, k = 1 + i % 3;
+    MatrixXd m = MatrixXd::Zero(n + k, n + k);
+    const MatrixXd half = random_matrix(random, n, n);
+    m.topLeftCorner(n, n) = half * half.transpose() + MatrixXd::Identity(n, n);
+    m.bottomRightCorner(k, k) = -MatrixXd::Identity(k, k);
+    m.bottomLeftCorner(k, n) = random_matrix(random, k, n);
+    m.topRightCorner(n, k) = m.bottomLeftCorner(k, n).transpose();
+    const Eigen::VectorXd right = random_matrix(random, n + k, 1);
+    const SparseLdl::Matrix sparse = m.sparseView();
+    const SparseLdl::Matrix lower = sparse.triangularView<Eigen::Lower>();
+    SparseLdl ldl(lower);
+    REQUIRE(ldl.factor(lower));
+    CHECK((m * ldl.solve(right) - right).norm() < 1e-11);  // of conditions up to 100
+    CHECK((m * DenseLu(m).solve(right) - right).norm() < 1e-11);
+  }
+  SparseLdl::Matrix zero(2, 2);
+  zero.insert(0, 0) = 0;
+  zero.insert(1, 1) = 0;
+  CHECK_FALSE(SparseLdl(zero).factor(zero));
 }

@@ -1,0 +1,218 @@
+#include "math/cone_embedding.h"
+
+#include <cmath>
+#include <limits>
+
+namespace clench {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double accepted = 1e-9;  // residuals of an optimum, as the header promises
+constexpr double wanted = 1e-11;   // it goes on until here, while that succeeds
+constexpr double certain = 1e-9;   // residuals of a proof that there is no solution, or no bound
+constexpr int most_iterations = 100;
+constexpr double step_back = 0.99;  // part of the way to the boundary
+
+double size_of(const VectorXd& v) { return v.size() == 0 ? 0 : v.lpNorm<Eigen::Infinity>(); }
+
+// what is missing at a point
+struct Residuals {
+  VectorXd x, z;
+  double tau = 0;
+};
+
+VectorXd cones_of(const ConeRows& rows, const VectorXd& v) { return v.tail(rows.in_cones()); }
+
+Residuals residuals(const ConeRows& rows, const ConePoint& p) {
+  const VectorXd Px = rows.P * p.x;
+  Residuals r;
+  r.x = Px + rows.At * p.z + p.tau * rows.q;
+  r.z = rows.A * p.x - p.tau * rows.b;
+  r.z.tail(rows.in_cones()) += p.s;
+  r.tau = rows.q.dot(p.x) + rows.b.dot(p.z) + p.x.dot(Px) / p.tau + p.kappa;
+  return r;
+}
+
+VectorXd stacked(const VectorXd& a, const VectorXd& b) {
+  VectorXd out(a.size() + b.size());
+  out << a, b;
+  return out;
+}
+
+// moves v to the inside, where it is not
+void shift_inside(const ConeSizes& cones, VectorXd& v) {
+  const double margin = cone_margin(cones, v);
+  if (margin < 1e-3) v += (1 - std::min(margin, 0.0)) * cone_unit(cones);
+}
+
+// least squares of s and of z, moved inside
+ConePoint first_point(const ConeRows& rows, ConeKkt& kkt) {
+  ConePoint p;
+  const int n = rows.unknowns();
+  const VectorXd primal = kkt.solve(stacked(VectorXd::Zero(n), rows.b));
+  const VectorXd dual = kkt.solve(stacked(-rows.q, VectorXd::Zero(rows.count())));
+  p.x = primal.head(n);
+  p.s = -cones_of(rows, primal);
+  p.z = dual.tail(rows.count());
+  shift_inside(rows.cones, p.s);
+  VectorXd z = cones_of(rows, p.z);
+  shift_inside(rows.cones, z);
+  p.z.tail(rows.in_cones()) = z;
+  return p;
+}
+
+// The step that takes `part` of the residuals away and brings the products of s and z, and of tau and kappa, to
+// what is asked of them.
+struct Newton {
+  const ConeRows& rows;
+  const ConeKkt& kkt;
+  const NesterovTodd& scaling;
+  const ConePoint& at;
+  const Residuals& missing;
+  VectorXd per_tau = {};  // what x and the scaled z do per unit of tau
+
+  void prepare() {
+    VectorXd right = stacked(-rows.q, rows.b);
+    right.tail(rows.in_cones()) = scaling.apply_inverse(cones_of(rows, rows.b));
+    per_tau = kkt.solve(right);
+  }
+
+  // products: lambda o (W dz + W^-1 ds) = -products; tau dkappa + kappa dtau = -product
+  ConePoint step(double part, const VectorXd& products, double product) const {
+    const int n = rows.unknowns(), m = rows.in_cones();
+    const VectorXd asked = cone_divide(rows.cones, scaling.lambda(), products);
+    VectorXd right = stacked(-part * missing.x, -part * missing.z);
+    right.tail(m) = scaling.apply_inverse(right.tail(m)) + asked;
+    const VectorXd fixed = kkt.solve(right);
+
+    // b.z with the equations' z as it is and the cones' z scaled
+    VectorXd b = rows.b;
+    b.tail(m) = scaling.apply_inverse(b.tail(m));
+    const VectorXd xi = at.x / at.tau, off = per_tau.head(n) - xi;
+    const double curvature =
+        off.dot(rows.P * off) + per_tau.tail(m).squaredNorm() + at.kappa / at.tau;
+    const VectorXd slope = 2 * (rows.P * xi) + rows.q;
+    ConePoint d;
+    d.tau = (part * missing.tau - product / at.tau + slope.dot(fixed.head(n)) +
+             b.dot(fixed.tail(rows.count()))) /
+            curvature;
+    const VectorXd both = fixed + d.tau * per_tau;
+    d.x = both.head(n);
+    d.z = both.tail(rows.count());
+    d.z.tail(m) = scaling.apply_inverse(d.z.tail(m));
+    // from the rows, not from z: so that rounding is left to the products, which the next step mends
+    d.s = (d.tau * rows.b - part * missing.z - rows.A * d.x).tail(m);
+    d.kappa = -(product + at.kappa * d.tau) / at.tau;
+    return d;
+  }
+};
+
+double step_length(const ConeRows& rows, const ConePoint& p, const ConePoint& d) {
+  double most = std::min(longest_step(rows.cones, p.s, d.s),
+                         longest_step(rows.cones, cones_of(rows, p.z), cones_of(rows, d.z)));
+  if (d.tau < 0) most = std::min(most, -p.tau / d.tau);
+  if (d.kappa < 0) most = std::min(most, -p.kappa / d.kappa);
+  return most;
+}
+
+void move(ConePoint& p, const ConePoint& d, double step) {
+  p.x += step * d.x;
+  p.z += step * d.z;
+  p.s += step * d.s;
+  p.tau += step * d.tau;
+  p.kappa += step * d.kappa;
+  // the embedding knows directions only
+  const double size = 1 / std::max(p.tau, p.kappa);
+  p.x *= size, p.z *= size, p.s *= size, p.tau *= size, p.kappa *= size;
+}
+
+bool is_finite(const ConePoint& p) {
+  return p.x.allFinite() && p.z.allFinite() && p.s.allFinite() && std::isfinite(p.tau) &&
+         std::isfinite(p.kappa);
+}
+
+ConeQuality judge(const ConeRows& rows, const ConePoint& p) {
+  const double none = std::numeric_limits<double>::infinity();
+  const VectorXd Px = rows.P * p.x, Ax = rows.A * p.x, Az = rows.At * p.z;
+  VectorXd back = Ax;
+  back.tail(rows.in_cones()) += p.s;
+  const double qx = rows.q.dot(p.x), bz = rows.b.dot(p.z), xPx = p.x.dot(Px);
+  ConeQuality q;
+  const double tau = p.tau;
+  // rounding is of the largest terms; but where they grow without end, there is no solution
+  const auto against = [](double terms) { return std::clamp(terms, 1.0, 1e3); };
+  q.primal = size_of(back / tau - rows.b) / against(std::max(size_of(Ax), size_of(p.s)) / tau);
+  q.dual = size_of((Px + Az) / tau + rows.q) / against(std::max(size_of(Px), size_of(Az)) / tau);
+  const double above = (xPx / tau / 2 + qx) / tau, below = -(xPx / tau / 2 + bz) / tau;
+  q.gap = std::abs(above - below) / against(std::max(std::abs(above), std::abs(below)));
+  q.infeasible = bz < 0 ? size_of(Az) / -bz : none;
+  q.unbounded = qx < 0 ? std::max(size_of(Px), size_of(back)) / -qx : none;
+  return q;
+}
+
+// one iteration; false: nowhere to go
+bool advance_point(const ConeRows& rows, ConeKkt& kkt, ConePoint& p) {
+  const NesterovTodd scaling(rows.cones, p.s, cones_of(rows, p.z));
+  if (!scaling.lambda().allFinite() || !kkt.factor(scaling)) return false;
+  const Residuals missing = residuals(rows, p);
+  const double degree = static_cast<double>(rows.cones.size()) + 1;
+  const double mu = (p.s.dot(cones_of(rows, p.z)) + p.tau * p.kappa) / degree;
+
+  // straight to the solution: how far does that go?
+  Newton newton{rows, kkt, scaling, p, missing};
+  newton.prepare();
+  const VectorXd& lambda = scaling.lambda();
+  const VectorXd square = cone_product(rows.cones, lambda, lambda);
+  const ConePoint straight = newton.step(1, square, p.tau * p.kappa);
+  const double reach = std::min(1.0, step_length(rows, p, straight));
+
+  // then towards the middle as much as that fell short, with its second order
+  const double centring = std::pow(1 - reach, 3);
+  const VectorXd second = cone_product(rows.cones, scaling.apply_inverse(straight.s),
+                                       scaling.apply(cones_of(rows, straight.z)));
+  const VectorXd products = square + second - centring * mu * cone_unit(rows.cones);
+  const double product = p.tau * p.kappa + straight.tau * straight.kappa - centring * mu;
+  const ConePoint d = newton.step(1 - centring, products, product);
+  const double step = std::min(1.0, step_back * step_length(rows, p, d));
+  ConePoint next = p;
+  move(next, d, step);
+  if (!is_finite(next) || !(step > 1e-10)) return false;
+  p = next;
+  return true;
+}
+
+}  // namespace
+
+EmbeddingEnd solve_embedding(const ConeRows& rows) {
+  ConeKkt kkt(rows);
+  EmbeddingEnd best;
+  best.quality = {1e300, 1e300, 1e300, 1e300, 1e300};
+  best.point = {.x = VectorXd::Zero(rows.unknowns()),
+                .z = VectorXd::Zero(rows.count()),
+                .s = VectorXd::Zero(rows.in_cones())};
+  const NesterovTodd none(rows.cones);
+  if (!kkt.factor(none)) return best;
+  ConePoint p = first_point(rows, kkt);
+  if (!is_finite(p)) return best;
+  int without_progress = 0;
+  for (int i = 0;; ++i) {
+    const ConeQuality q = judge(rows, p);
+    const bool proves_none = q.infeasible <= certain, proves_no_bound = q.unbounded <= certain;
+    if (proves_none || proves_no_bound)
+      return {proves_none ? ConeStatus::infeasible : ConeStatus::unbounded, p, q, i};
+    if (q.worst() < best.quality.worst()) {
+      best = {best.status, p, q, i};
+      without_progress = 0;
+    } else {
+      ++without_progress;
+    }
+    const bool enough = best.quality.worst() <= accepted && without_progress > 1;
+    if (best.quality.worst() <= wanted || enough || i == most_iterations) break;
+    if (!advance_point(rows, kkt, p)) break;
+  }
+  if (best.quality.worst() <= accepted) best.status = ConeStatus::optimal;
+  return best;
+}
+
+}  // namespace clench

@@ -1,0 +1,108 @@
+#include "math/scale_program.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/decompositions.h"
+
+namespace clench {
+
+using Eigen::MatrixXd, Eigen::VectorXd;
+
+// rows that others give to this are dependent; what is said of them must then agree to ten times that
+static constexpr double depends = 1e-10, agrees = 1e-9;
+
+// 0 counts as 1
+static double power_of_two(double x) { return x > 0 ? std::exp2(std::round(std::log2(x))) : 1; }
+
+static double largest(const VectorXd& v) { return v.size() == 0 ? 0 : v.cwiseAbs().maxCoeff(); }
+
+// the norm that a factor is to bring to one; nothing there keeps its factor
+static double factor_for(double norm) { return norm > 0 ? 1 / std::sqrt(norm) : 1; }
+
+// one factor a cone, so that it stays one
+static void even_out(const std::vector<int>& cones, VectorXd& norms) {
+  int start = 0;
+  for (const int size : cones) {
+    norms.segment(start, size).setConstant(norms.segment(start, size).maxCoeff());
+    start += size;
+  }
+}
+
+static void multiply(ScaledProgram& p, const VectorXd& columns, const VectorXd& rows_equal,
+                     const VectorXd& rows_cone) {
+  if (p.P.size() > 0) p.P = columns.asDiagonal() * p.P * columns.asDiagonal();
+  if (p.A.size() > 0) p.A = rows_equal.asDiagonal() * p.A * columns.asDiagonal();
+  if (p.G.size() > 0) p.G = rows_cone.asDiagonal() * p.G * columns.asDiagonal();
+  p.columns = p.columns.cwiseProduct(columns);
+  p.rows_equal = p.rows_equal.cwiseProduct(rows_equal);
+  p.rows_cone = p.rows_cone.cwiseProduct(rows_cone);
+}
+
+// every row and column towards largest number one
+static void equilibrate(ScaledProgram& p) {
+  const auto n = p.c.size();
+  for (int pass = 0; pass < 12; ++pass) {
+    VectorXd columns = VectorXd::Zero(n), rows_equal(p.b.size()), rows_cone(p.h.size());
+    for (Eigen::Index k = 0; k < n; ++k) {
+      if (p.A.size() > 0) columns[k] = std::max(columns[k], largest(p.A.col(k)));
+      if (p.G.size() > 0) columns[k] = std::max(columns[k], largest(p.G.col(k)));
+    }
+    for (Eigen::Index k = 0; k < p.b.size(); ++k) rows_equal[k] = largest(p.A.row(k));
+    for (Eigen::Index k = 0; k < p.h.size(); ++k) rows_cone[k] = largest(p.G.row(k));
+    even_out(p.cones, rows_cone);
+    const auto to_power = [](double norm) { return power_of_two(factor_for(norm)); };
+    multiply(p, columns.unaryExpr(to_power), rows_equal.unaryExpr(to_power),
+             rows_cone.unaryExpr(to_power));
+  }
+}
+
+ScaledProgram scale_program(const ConeProgram& program) {
+  ScaledProgram p;
+  p.P = program.P, p.A = program.A, p.G = program.G;
+  p.c = program.c, p.b = program.b, p.h = program.h;
+  // what is empty has the right width
+  for (MatrixXd* m : {&p.P, &p.A, &p.G})
+    if (m->size() == 0) m->resize(m == &p.P ? 0 : m->rows(), p.c.size());
+  p.cones.assign(program.nonnegative, 1);
+  p.cones.insert(p.cones.end(), program.cones.begin(), program.cones.end());
+  p.columns.setOnes(p.c.size());
+  p.rows_equal.setOnes(p.b.size());
+  p.rows_cone.setOnes(p.h.size());
+  equilibrate(p);
+  p.c = p.columns.cwiseProduct(p.c);
+  p.b = p.rows_equal.cwiseProduct(p.b);
+  p.h = p.rows_cone.cwiseProduct(p.h);
+  // right sides and objective of size one
+  p.primal = power_of_two(std::max(largest(p.b), largest(p.h)));
+  const double curved = p.P.size() == 0 ? 0 : p.P.cwiseAbs().maxCoeff() * p.primal;
+  p.dual = power_of_two(std::max(largest(p.c), curved));
+  p.b /= p.primal, p.h /= p.primal;
+  p.c /= p.dual;
+  p.P *= p.primal / p.dual;
+  return p;
+}
+
+RowDependence row_dependence(const MatrixXd& A, const VectorXd& b) {
+  RowDependence out;
+  if (A.rows() == 0) return out;
+  const IndependentRows rows = independent_rows(A, depends);
+  out.independent = rows.rows;
+  out.dependent = rows.others;
+  // each of the others is a sum of the independent ones, and b must be the same sum
+  double worst =
+      agrees * std::max(1.0, rows.weights.size() > 0 ? rows.weights.cwiseAbs().maxCoeff() : 0);
+  for (size_t k = 0; k < rows.others.size(); ++k) {
+    VectorXd y = VectorXd::Zero(b.size());
+    y[rows.others[k]] = 1;
+    for (size_t i = 0; i < rows.rows.size(); ++i)
+      y[rows.rows[i]] = -rows.weights(static_cast<int>(k), static_cast<int>(i));
+    const double off = b.dot(y);
+    if (std::abs(off) <= worst) continue;
+    worst = std::abs(off);
+    out.contradiction = off > 0 ? VectorXd(-y) : y;
+  }
+  return out;
+}
+
+}  // namespace clench

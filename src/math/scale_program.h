@@ -1,0 +1,31 @@
+// Rows, columns and sizes of a cone program brought to about one, by powers of two: without rounding.
+#pragma once
+#include <optional>
+
+#include "math/cone_program.h"
+
+namespace clench {
+
+/// The same program in unknowns x' = x / (primal columns), with rows multiplied by rows_equal and rows_cone
+/// (one number a cone), b and h by 1/primal, the objective by 1/(primal dual).
+struct ScaledProgram {
+  Eigen::MatrixXd P, A, G;
+  Eigen::VectorXd c, b, h;
+  std::vector<int> cones;  ///< all: a nonnegative row is a cone of size 1
+  Eigen::VectorXd columns, rows_equal, rows_cone;
+  double primal = 1, dual = 1;
+};
+
+/// source  Ruiz (2001), A scaling algorithm to equilibrate both rows and columns norms in matrices
+ScaledProgram scale_program(const ConeProgram& program);
+
+/// Which equations follow from others, to 1e-10 of the largest.
+struct RowDependence {
+  std::vector<int> independent, dependent;            ///< ascending
+  std::optional<Eigen::VectorXd> contradiction = {};  ///< y with A^T y = 0, b.y < 0
+};
+
+/// A, b  scaled to about one
+RowDependence row_dependence(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
+}  // namespace clench
