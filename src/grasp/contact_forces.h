@@ -1,0 +1,95 @@
+// Which contact forces hold an object against a load, within friction, caps and what the hand's joints can give.
+#pragma once
+#include "grasp/joint_balance.h"
+
+namespace clench {
+
+/// What is best among the forces that balance; f_n normal force, f_t the rest: tangential force and torsion over its
+/// radius.
+enum class ForceObjective {
+  least,  ///< least sum of normal forces   source  Han, Trinkle & Li (2000); Boyd & Wegbreit (2007)
+  squares,   ///< least sum of f_n^2 + |f_t|^2: the only one that is always unique
+  peak,      ///< least largest normal force
+  interior,  ///< largest distance that each force keeps from the edge of its cone, and from its cap
+  interior_sum,  ///< largest sum of the distances from the cones
+};
+
+/// What the joints ask of the forces.
+struct JointDemand {
+  std::optional<Eigen::VectorXd>
+      limits;  ///< of the hand's DOFs either way, >= 0, instead of theirs [N m or N]
+  std::optional<Eigen::VectorXd> efforts = {};  ///< what the hand's motors give [N m or N]
+  /// motors of compliant DOFs give nothing, and clutches of joints that have broken away all they can
+  bool springs_only = false;
+  bool closing_only = false;  ///< efforts that open the hand are not allowed
+  std::optional<double>
+      total_torque;   ///< sum of the hand's efforts, along which it closes [N m or N]
+  bool arms = false;  ///< limits of the robots that carry the hand, too
+};
+
+struct ForceOptions {
+  /// on the object from outside, world axes, torque about its centre of mass [N, N m]
+  Vector6d load = Vector6d::Zero();
+  ForceObjective objective = ForceObjective::least;
+  std::optional<double> max_force = {};        ///< of each normal force, > 0 [N]
+  std::optional<double> max_total_force = {};  ///< of their sum, > 0 [N]
+  std::optional<double> total_force = {};      ///< their sum is this, > 0 [N]
+  std::optional<JointDemand> joints = {};      ///< empty: forces need no motor
+  /// not balance but the least unbalanced wrench, its torque over rho; the objective does not count
+  bool nearest = false;
+};
+
+struct ContactForce {
+  double normal = 0;  ///< [N]
+  Eigen::Vector2d tangential =
+      Eigen::Vector2d::Zero();                        ///< along x and y of contact_frame(n_W) [N]
+  double torsion = 0;                                 ///< about the normal [N m]
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();  ///< on the object [N]
+  double margin = 0;  ///< distance from the edge of the cone; below 0: outside [N]
+};
+
+enum class ForceStatus {
+  optimal,
+  infeasible,  ///< proved: no forces do it
+  unbounded,   ///< the more force the better: a cap is missing
+  inaccurate,  ///< the solver stopped short; what it has is given
+};
+
+/// Proof that a load is too much: a small motion of the object and of the hand's joints that gives way to it. Along it
+/// the load does more work than all that caps and motors can hold against it.
+struct ForceCertificate {
+  Vector6d twist =
+      Vector6d::Zero();  ///< of the object, world axes, about its centre of mass; |(v, rho w)| = 1
+  double power =
+      0;  ///< of the load along it, of the largest one where that was asked for [W at m/s]
+  double capacity =
+      0;  ///< most that caps, motors and springs give against it: less than the power; equal, of the largest load
+  std::vector<double> opens,
+      slides;  ///< a contact: how fast the object leaves it, and slides along it [m/s]
+  std::vector<double> cap_shares;     ///< a contact: what of the capacity its cap gives [W]
+  std::vector<double> effort_shares;  ///< a DOF of the hand: what its limits give [W]
+  int contact = -1;                   ///< that gives way most; -1: none
+  int dof = -1;  ///< whose motor does, when that is more than any contact; else -1
+};
+
+struct ForceResult {
+  ForceStatus status = ForceStatus::inaccurate;
+  double objective = 0;                    ///< what ForceObjective names [N or N^2]
+  std::vector<ContactForce> forces;        ///< one a contact of the grasp
+  Vector6d unbalanced = Vector6d::Zero();  ///< load and forces together, world axes
+  double residual = 0;                     ///< its length, torque over rho [N]
+  Eigen::VectorXd efforts;  ///< of the hand's motors; without `joints`: that fit best [N m or N]
+  double load_factor = 0;   ///< of largest_load
+  std::optional<ForceCertificate> certificate = {};
+};
+
+/// Contacts must be as the grasp was measured. None is no error: nothing holds only what is no load.
+/// throws  Error when an option is out of order
+ForceResult contact_forces(const World& world, const Grasp& grasp, const ForceOptions& options);
+
+/// The largest multiple of the load's direction, options.load, that forces balance, as load_factor; the objective does
+/// not count. unbounded: any. The certificate says what gives way beyond it.
+/// throws  Error as above, and when the load is 0
+ForceResult largest_load(const World& world, const Grasp& grasp, const ForceOptions& options);
+
+}  // namespace clench

@@ -1,0 +1,90 @@
+#include "grasp/joint_balance.h"
+
+#include <limits>
+#include <map>
+
+namespace clench {
+
+namespace {
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+double limit_or_none(double effort) { return effort > 0 ? effort : no_limit; }
+
+// what a joint's spring gives as it stands
+double spring_of(const Robot& robot, const JointRef& ref) {
+  const JointSpec& joint = robot.chains[ref.chain].joints[ref.joint];
+  return joint.spring > 0 ? -joint.spring * (joint_value(robot, ref.chain, ref.joint) - joint.rest)
+                          : 0;
+}
+
+struct Row {
+  Eigen::VectorXd forces;
+  int effort = 0;     // whose
+  double factor = 1;  // of the effort
+  double spring = 0;
+};
+
+}  // namespace
+
+JointBalance joint_balance(const World& world, const Grasp& grasp, bool arms) {
+  const HandJacobian jacobian = hand_jacobian(world, grasp, {.arms = arms});
+  JointBalance out;
+  std::vector<double> low, high;
+  std::map<std::pair<Id<Robot>, int>, int> motors;  // of a robot's DOF: its effort
+  const auto effort = [&](const EffortRef& ref, double least, double most) {
+    out.refs.push_back(ref);
+    low.push_back(least), high.push_back(most);
+    return static_cast<int>(out.refs.size()) - 1;
+  };
+  std::vector<Id<Robot>> robots = {grasp.hand};
+  for (const JointRef& ref : jacobian.joints)
+    if (ref.robot != robots.back()) robots.push_back(ref.robot);
+  for (const Id<Robot> robot : robots)
+    for (int i = 0; i < static_cast<int>(world.robot(robot).dofs.size()); ++i) {
+      const double most = limit_or_none(world.robot(robot).dofs[i].max_effort);
+      motors[{robot, i}] = effort({robot, i}, -most, most);
+    }
+
+  std::vector<Row> rows;
+  std::map<int, int> shared;  // the row of a DOF whose joints are coupled rigidly
+  for (int k = 0; k < static_cast<int>(jacobian.joints.size()); ++k) {
+    const JointRef& ref = jacobian.joints[k];
+    const Robot& robot = world.robot(ref.robot);
+    const Chain& chain = robot.chains[ref.chain];
+    const JointSpec& joint = chain.joints[ref.joint];
+    const DofSpec& dof = robot.dofs[joint.dof];
+    const int motor = motors.at({ref.robot, joint.dof});
+    Row row{jacobian.of_joints.col(k), motor, joint.ratio, spring_of(robot, ref)};
+    if (chain.breakaway[ref.joint]) {
+      row.effort = effort({ref.robot, joint.dof, ref}, 0, limit_or_none(dof.breakaway_torque));
+      row.factor = joint.ratio < 0 ? -1 : 1;
+    } else if (dof.kind != DofKind::compliant) {
+      row.forces *= joint.ratio;
+      row.spring *= joint.ratio;
+      row.factor = 1;
+      const auto [at, fresh] = shared.try_emplace(motor, static_cast<int>(rows.size()));
+      if (!fresh) {
+        rows[at->second].forces += row.forces;
+        rows[at->second].spring += row.spring;
+        continue;
+      }
+    }
+    rows.push_back(std::move(row));
+  }
+
+  const int count = static_cast<int>(rows.size());
+  out.forces.resize(count, jacobian.of_joints.rows());
+  out.efforts = Eigen::MatrixXd::Zero(count, static_cast<int>(out.refs.size()));
+  out.springs.resize(count);
+  for (int i = 0; i < count; ++i) {
+    out.forces.row(i) = rows[i].forces;
+    out.efforts(i, rows[i].effort) = rows[i].factor;
+    out.springs[i] = rows[i].spring;
+  }
+  out.low = Eigen::Map<const Eigen::VectorXd>(low.data(), static_cast<int>(low.size()));
+  out.high = Eigen::Map<const Eigen::VectorXd>(high.data(), static_cast<int>(high.size()));
+  return out;
+}
+
+}  // namespace clench

@@ -1,0 +1,28 @@
+// What holds a hand's joints against contact forces: motors through their couplings, springs, clutches.
+#pragma once
+#include "grasp/hand_jacobian.h"
+
+namespace clench {
+
+/// Who gives an effort.
+struct EffortRef {
+  Id<Robot> robot;
+  int dof = 0;
+  /// of a joint that has broken away, its clutch's; else the DOF's motor
+  std::optional<JointRef> clutch = {};
+};
+
+/// forces f = efforts u + springs, low <= u <= high: one row a rigid or breakaway DOF, by its coupling; one a joint of
+/// a compliant DOF, which springs alone hold in its ratio; one a joint that has broken away.
+struct JointBalance {
+  Eigen::MatrixXd forces, efforts;
+  Eigen::VectorXd springs;      ///< what springs give in each row [N m or N]
+  std::vector<EffortRef> refs;  ///< the hand's DOFs first, one each; then carriers', then clutches
+  Eigen::VectorXd low, high;    ///< [N m or N], infinite: none
+};
+
+/// Motors give at most max_effort either way, without limit where a model says 0. The clutch of a joint that has broken
+/// away presses the way it closed, with at most its DOF's breakaway torque, without limit where that is 0.
+JointBalance joint_balance(const World& world, const Grasp& grasp, bool arms = false);
+
+}  // namespace clench

@@ -1,0 +1,169 @@
+#include "grasp/equilibrium.h"
+
+#include "base/error.h"
+#include "grasp/held_object.h"
+
+using namespace clench;
+using Eigen::Vector2d, Eigen::Vector3d, Eigen::VectorXd;
+using test::wrench;
+
+namespace {
+
+// two jaws that slide along x towards each other, a block of 40 mm between them; a palm below that may touch it
+struct Jaws {
+  World world;
+  Grasp grasp;
+};
+
+// springs of this stiffness [N/m] press inwards until the jaws are closed
+Jaws jaws(DofKind kind, double mu, double max_effort, bool palm = false, double spring = 0) {
+  Jaws j;
+  RobotSpec spec;
+  spec.name = "jaws";
+  spec.base = test::body_spec("palm", test::box(0.1, 0.02, 0.02));
+  DofSpec dof;
+  dof.kind = kind;
+  dof.default_velocity = 1;
+  dof.max_effort = max_effort;
+  spec.dofs = {dof, dof};
+  for (int side = 0; side < 2; ++side) {
+    ChainSpec chain;
+    const double quarter = std::numbers::pi / 2;
+    // z of the chain points inwards
+    chain.X_BC = {
+        Eigen::Quaterniond(Eigen::AngleAxisd(side == 0 ? -quarter : quarter, Vector3d::UnitY())),
+        {side == 0 ? 0.1 : -0.1, 0, 0.1}};
+    chain.joints.push_back({.kind = JointKind::prismatic,
+                            .dof = side,
+                            .min = 0,
+                            .max = 0.1,
+                            .spring = spring,
+                            .rest = 0.1});
+    LinkSpec link;
+    link.body = test::body_spec("jaw" + std::to_string(side), test::box(0.02, 0.02, 0.02));
+    link.joint = LinkJoint::prismatic;
+    chain.links.push_back(link);
+    spec.chains.push_back(chain);
+  }
+  j.grasp.hand = j.world.add_robot(spec, Pose());
+  j.world.set_dofs(j.grasp.hand, Vector2d(0.07, 0.07));
+  j.grasp.object = j.world.add_body(test::body_spec("block", test::box(0.04, 0.04, 0.04)),
+                                    BodyKind::object, Pose::translation({0, 0, 0.1}));
+  j.grasp.rho = 0.02 * std::sqrt(3.0);
+  const auto touch = [&](Id<Body> part, const Vector3d& p_O, const Vector3d& n) {
+    Contact contact;
+    contact.body = j.grasp.object;
+    contact.other = part;
+    contact.p_W = p_O + Vector3d(0, 0, 0.1);
+    contact.n_W = n;
+    j.grasp.contacts.push_back(contact);
+    j.grasp.points.push_back({.p_O = p_O, .n_O = n, .mu = mu});
+  };
+  const auto& chains = j.world.robot(j.grasp.hand).chains;
+  touch(chains[0].links[0], {0.02, 0, 0}, {-1, 0, 0});
+  touch(chains[1].links[0], {-0.02, 0, 0}, {1, 0, 0});
+  if (palm) touch(j.world.robot(j.grasp.hand).base, {0, 0, -0.02}, {0, 0, 1});
+  return j;
+}
+
+Equilibrium ask(const Jaws& j, const EquilibriumOptions& options) {
+  return equilibrium(j.world, j.grasp, options);
+}
+
+}  // namespace
+
+TEST_CASE("motors hold what friction passes on, to their limit") {
+  const Jaws j = jaws(DofKind::rigid, 0.5, 10);
+  const Equilibrium held = ask(j, {.load = wrench(0, 0, -9.9, 0, 0, 0)});
+  REQUIRE(held.status == EquilibriumStatus::stable);
+  CHECK(held.result.residual < 1e-8);
+  // each jaw presses 9.9, which its motor gives
+  CHECK((held.result.efforts - Vector2d(9.9, 9.9)).norm() < 1e-6);
+  const Equilibrium falls = ask(j, {.load = wrench(0, 0, -10.1, 0, 0, 0)});
+  REQUIRE(falls.status == EquilibriumStatus::unstable);
+  CHECK((falls.result.unbalanced - wrench(0, 0, -0.1, 0, 0, 0)).norm() < 1e-6);
+  REQUIRE(falls.result.certificate.has_value());
+  CHECK(falls.result.certificate->dof >= 0);
+  const auto& shares = falls.result.certificate->effort_shares;
+  CHECK(shares[0] > 0);
+  CHECK(shares[0] + shares[1] == doctest::Approx(falls.result.certificate->capacity));
+  CHECK(falls.result.certificate->power > falls.result.certificate->capacity);
+}
+
+TEST_CASE("limits and torques can be given") {
+  const Jaws j = jaws(DofKind::rigid, 0.5, 0);  // motors of no known limit
+  const Vector6d load = wrench(0, 0, -5, 0, 0, 0);
+  CHECK(ask(j, {.load = load}).status == EquilibriumStatus::stable);
+  JointDemand weak;
+  weak.limits = Vector2d(4, 4);
+  CHECK(ask(j, {.load = load, .joints = weak}).status == EquilibriumStatus::unstable);
+  JointDemand given;
+  given.efforts = Vector2d(6, 6);
+  const Equilibrium pressed = ask(j, {.load = load, .joints = given});
+  REQUIRE(pressed.status == EquilibriumStatus::stable);
+  CHECK(std::abs(pressed.result.forces[0].normal - 6) < 1e-7);
+  // jaws that press differently push the block along
+  given.efforts = Vector2d(6, 7);
+  const Equilibrium pushed = ask(j, {.load = load, .joints = given});
+  REQUIRE(pushed.status == EquilibriumStatus::unstable);
+  CHECK((pushed.result.unbalanced - wrench(1, 0, 0, 0, 0, 0)).norm() < 1e-6);
+  // a jaw that pulls has nothing to pull at
+  given.efforts = Vector2d(-1, 6);
+  CHECK(ask(j, {.load = load, .joints = given}).status == EquilibriumStatus::moving);
+  // and a cap of the fingers counts beside the motors
+  CHECK(ask(j, {.load = load, .joints = {}, .max_force = 4.0}).status ==
+        EquilibriumStatus::unstable);
+}
+
+TEST_CASE("a palm carries without any motor") {
+  const Jaws j = jaws(DofKind::rigid, 0.5, 1, true);
+  const Equilibrium held = ask(j, {.load = wrench(0, 0, -50, 0, 0, 0)});
+  REQUIRE(held.status == EquilibriumStatus::stable);
+  CHECK(std::abs(held.result.forces[2].normal - 50) < 1e-6);
+  CHECK(held.result.efforts.norm() < 1e-6);
+}
+
+TEST_CASE("springs hold by themselves what they press, and no more") {
+  const Jaws j = jaws(DofKind::compliant, 0.5, 100, false, 100);  // 3 N at q = 0.07
+  JointDemand springs;
+  springs.springs_only = true;
+  const auto at = [&](double weight, const JointDemand& demand) {
+    return ask(j, {.load = wrench(0, 0, -weight, 0, 0, 0), .joints = demand});
+  };
+  const Equilibrium held = at(2.9, springs);
+  REQUIRE(held.status == EquilibriumStatus::stable);
+  for (const ContactForce& f : held.result.forces) CHECK(std::abs(f.normal - 3) < 1e-7);
+  CHECK(at(3.1, springs).status == EquilibriumStatus::unstable);
+  const Equilibrium helped = at(5, {});
+  REQUIRE(helped.status == EquilibriumStatus::stable);
+  CHECK((helped.result.efforts - Vector2d(2, 2)).norm() < 1e-6);
+}
+
+TEST_CASE("forces of which the sum of torques is given") {
+  const Jaws j = jaws(DofKind::rigid, 0.5, 0);
+  ForceOptions options{.load = wrench(0, 0, -2, 0, 0, 0),
+                       .objective = ForceObjective::interior_sum};
+  options.joints.emplace();
+  options.joints->total_torque = 12;
+  options.joints->closing_only = true;
+  const ForceResult r = contact_forces(j.world, j.grasp, options);
+  REQUIRE(r.status == ForceStatus::optimal);
+  CHECK((r.efforts - Vector2d(6, 6)).norm() < 1e-6);
+  CHECK(std::abs(r.objective - 2 * (0.5 * 6 - 1) / std::sqrt(1.25)) < 1e-6);
+}
+
+TEST_CASE("torques that are no numbers are refused") {
+  const Jaws j = jaws(DofKind::rigid, 0.5, 1);
+  JointDemand demand;
+  demand.limits = Vector2d(-1, 1);
+  CHECK_THROWS_WITH_AS(ask(j, {.joints = demand}),
+                       "contact forces: torque limits: wanted numbers >= 0 [N m or N], got -1",
+                       Error);
+  demand.limits.reset();
+  demand.efforts = Vector2d(std::numeric_limits<double>::quiet_NaN(), 1);
+  CHECK_THROWS_WITH_AS(ask(j, {.joints = demand}),
+                       "contact forces: torques: wanted finite numbers [N m or N], got nan", Error);
+  demand.efforts = VectorXd::Ones(3);
+  CHECK_THROWS_WITH_AS(ask(j, {.joints = demand}),
+                       "contact forces: torques: wanted 2, one a DOF, got 3", Error);
+}

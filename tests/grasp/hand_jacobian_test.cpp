@@ -1,0 +1,169 @@
+#include "grasp/hand_jacobian.h"
+
+#include "base/random.h"
+#include "grasp/joint_balance.h"
+#include "io/read.h"
+#include "support/robots.h"
+
+using namespace clench;
+using Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
+
+namespace {
+
+// a hand of models/, on an arm, with a contact at a random point of each of its parts
+struct Arranged {
+  World world;
+  Grasp grasp;
+  std::vector<Vector3d> p_L;  // contact points and normals in their links
+  std::vector<Vector3d> n_L;
+};
+
+Arranged arrange(const std::string& hand, bool on_arm, Random& random) {
+  Arranged a;
+  const auto draw = [&] {
+    const double x = random.normal(), y = random.normal(), z = random.normal();
+    return Vector3d(x, y, z);
+  };
+  a.grasp.hand = a.world.add_robot(read_robot("models/hands/" + hand), Pose());
+  if (on_arm) {
+    const auto arm = a.world.add_robot(read_robot("models/arms/puma560/puma560.cfg"),
+                                       Pose::translation({0.1, 0.2, 0.3}));
+    a.world.mount(a.grasp.hand, arm, 0,
+                  {Eigen::Quaterniond(0.9, 0.1, -0.3, 0.2).normalized(), {0, 0.01, 0.05}});
+  }
+  a.grasp.object = a.world.add_body(test::body_spec("thing", test::box(0.1, 0.1, 0.1)),
+                                    BodyKind::object, Pose::translation({3, 1, 2}));
+  const Pose X_OW = a.world.body(a.grasp.object).X_WB.inverse();
+  for (const auto robot : a.world.robots()) {
+    VectorXd q = a.world.robot(robot).q;
+    for (int i = 0; i < q.size(); ++i) {
+      const auto [low, high] = a.world.robot(robot).limits[i];
+      q[i] = random.uniform(low, high);
+    }
+    a.world.set_dofs(robot, q);
+  }
+  for (const auto part : a.world.bodies_of(a.grasp.hand)) {
+    const Pose& X_WL = a.world.body(part).X_WB;
+    a.p_L.push_back(0.05 * draw());
+    a.n_L.push_back(draw().normalized());
+    Contact contact;
+    contact.body = a.grasp.object;
+    contact.other = part;
+    contact.p_W = X_WL * a.p_L.back();
+    contact.n_W = X_WL.rotation * a.n_L.back();
+    a.grasp.contacts.push_back(contact);
+    a.grasp.points.push_back({.p_O = X_OW * contact.p_W,
+                              .n_O = (X_OW.rotation * contact.n_W).normalized(),
+                              .mu = 0.5,
+                              .torsion_radius = 0.01});
+  }
+  return a;
+}
+
+// how each contact's point and link move per unit of a robot's DOF, in the contact's frame
+VectorXd measured_column(const Arranged& a, Id<Robot> robot, int dof) {
+  const double h = 1e-6;
+  World plus = a.world, minus = a.world;
+  std::vector<std::vector<Breakaway>> broken;
+  for (const auto& chain : a.world.robot(robot).chains) broken.push_back(chain.breakaway);
+  VectorXd q = a.world.robot(robot).q;
+  q[dof] += h;
+  plus.set_dofs_unchecked(robot, q, broken);
+  q[dof] -= 2 * h;
+  minus.set_dofs_unchecked(robot, q, broken);
+  VectorXd column(4 * a.p_L.size());
+  for (size_t i = 0; i < a.p_L.size(); ++i) {
+    const auto part = a.grasp.contacts[i].other;
+    const Pose X_plus = plus.body(part).X_WB, X_minus = minus.body(part).X_WB;
+    const Vector3d v = (X_plus * a.p_L[i] - X_minus * a.p_L[i]) / (2 * h);
+    const Eigen::AngleAxisd turn(X_plus.rotation * X_minus.rotation.conjugate());
+    const Vector3d w = turn.angle() * turn.axis() / (2 * h);
+    const Eigen::Matrix3d frame =
+        a.world.body(a.grasp.object).X_WB.matrix() * contact_frame(a.grasp.points[i].n_O);
+    column.segment<4>(4 * i) << frame.col(2).dot(v), frame.col(0).dot(v), frame.col(1).dot(v),
+        frame.col(2).dot(w);
+  }
+  return column;
+}
+
+}  // namespace
+
+TEST_CASE("the hand Jacobian is what the contacts do when a DOF moves") {
+  Random random(1);
+  for (const char* hand : {"barrett/barrett.cfg", "dlr/dlr.cfg", "parallel_jaw/parallel_jaw.cfg",
+                           "adaptive_gripper/adaptive_gripper.cfg"})
+    for (const bool on_arm : {false, true}) {
+      CAPTURE(hand);
+      CAPTURE(on_arm);
+      const Arranged a = arrange(hand, on_arm, random);
+      const HandJacobian jacobian = hand_jacobian(a.world, a.grasp, {.arms = on_arm});
+      const MatrixXd dofs = dof_jacobian(a.world, a.grasp, jacobian);
+      for (int k = 0; k < dofs.cols(); ++k)
+        // second differences over 1e-12, rounding over 1e-6
+        CHECK((dofs.col(k) - measured_column(a, a.grasp.hand, k)).cwiseAbs().maxCoeff() < 1e-8);
+      if (!on_arm) continue;
+      const auto arm = a.world.robot(a.grasp.hand).mounting->parent;
+      const Robot& robot = a.world.robot(arm);
+      MatrixXd arms = MatrixXd::Zero(dofs.rows(), robot.q.size());
+      for (size_t k = 0; k < jacobian.joints.size(); ++k) {
+        const JointRef& ref = jacobian.joints[k];
+        if (ref.robot != arm) continue;
+        const JointSpec& joint = robot.chains[ref.chain].joints[ref.joint];
+        arms.col(joint.dof) += joint.ratio * jacobian.of_joints.col(static_cast<int>(k));
+      }
+      for (int k = 0; k < arms.cols(); ++k)
+        CHECK((arms.col(k) - measured_column(a, arm, k)).cwiseAbs().maxCoeff() < 1e-8);
+    }
+}
+
+TEST_CASE("a joint that has broken away is moved by no DOF, and held by its clutch") {
+  Random random(2);
+  Arranged a = arrange("barrett/barrett.cfg", false, random);
+  const Robot& robot = a.world.robot(a.grasp.hand);
+  std::vector<std::vector<Breakaway>> broken;
+  for (const auto& chain : robot.chains) broken.push_back(chain.breakaway);
+  int chain = -1, joint = -1;
+  for (int c = 0; c < static_cast<int>(robot.chains.size()) && chain < 0; ++c)
+    for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j)
+      if (robot.dofs[robot.chains[c].joints[j].dof].kind == DofKind::breakaway) {
+        chain = c, joint = j;
+        break;
+      }
+  REQUIRE(chain >= 0);
+  broken[chain][joint] = joint_value(robot, chain, joint);
+  const int dof = robot.chains[chain].joints[joint].dof;
+  a.world.set_dofs_unchecked(a.grasp.hand, robot.q, broken);
+  const HandJacobian jacobian = hand_jacobian(a.world, a.grasp);
+  const MatrixXd dofs = dof_jacobian(a.world, a.grasp, jacobian);
+  CHECK((dofs.col(dof) - measured_column(a, a.grasp.hand, dof)).cwiseAbs().maxCoeff() < 1e-8);
+
+  const JointBalance balance = joint_balance(a.world, a.grasp);
+  REQUIRE(balance.refs.back().clutch.has_value());
+  CHECK(balance.refs.back().clutch->joint == joint);
+  const int last = static_cast<int>(balance.refs.size()) - 1;
+  CHECK(balance.low[last] == 0);
+  CHECK(balance.high[last] == doctest::Approx(0.5));  // [N m], as the file says
+  CHECK(balance.high[dof] == doctest::Approx(robot.dofs[dof].max_effort));
+}
+
+TEST_CASE("a rigid DOF is one balance, a compliant one as many as it has joints") {
+  for (const auto kind : {DofKind::rigid, DofKind::compliant}) {
+    RobotSpec spec = test::two_finger(kind);
+    for (auto& chain : spec.chains)
+      for (auto& joint : chain.joints) joint.spring = 0.1, joint.rest = -0.2;
+    World world;
+    Grasp grasp;
+    grasp.hand = world.add_robot(spec, Pose());
+    grasp.object = world.add_body(test::body_spec("thing", test::box(0.1, 0.1, 0.1)),
+                                  BodyKind::object, Pose::translation({1, 0, 0}));
+    world.set_dofs(grasp.hand, Eigen::Vector2d(0.3, 0.5));
+    const JointBalance balance = joint_balance(world, grasp);
+    CHECK(balance.springs.size() == (kind == DofKind::rigid ? 2 : 4));
+    // ratios 1 and 0.5: torque -k (q - rest) of each joint, its work along the DOF
+    if (kind == DofKind::rigid)
+      CHECK(balance.springs[0] == doctest::Approx(-0.1 * 0.5 - 0.5 * 0.1 * 0.35));
+    else
+      CHECK(balance.springs[1] == doctest::Approx(-0.1 * 0.35));
+    CHECK(balance.high[0] == std::numeric_limits<double>::infinity());
+  }
+}
