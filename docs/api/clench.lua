@@ -397,8 +397,35 @@ local virtual_contact = {}
 ---@field kind string # "point" (with friction) or "frictionless".
 local contact = {}
 
+---What every grasp can say of contact forces and joint torques.
+---@class forces
+local forces = {}
+
+---Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx, fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's centre of mass; its weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "least" sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); least sum of "squares" of the forces, the only one that always has a single answer; least largest normal force ("peak"); "interior", as far from the edges of the cones and from max_force as all can be; "interior_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible", with a `certificate`; "unbounded" when more force is always better; "inaccurate". `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in the world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `opens` and `slides` of each contact along it; `cap_shares`, `effort_shares` of the capacity; `contact` or `dof`, whichever gives way.
+---@param options? {load?: number[], objective?: string, max_force?: number, max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, balance?: string} # max_force of each contact, limit and value of their sum [N]; torque_limits: the motors' own, or one a DOF; total_torque: of all motors, closing [N m or N]; closing_only: motors do not open; arms: limits of arms that carry the hand, too; balance "nearest": the least unbalanced wrench instead
+---@return table result # `status`, `forces`, `objective`, `residual`, `unbalanced`, `joint_torques`, `certificate`
+function forces:contact_forces(options) end
+
+---The largest multiple `load` of a wrench on the object that forces at the contacts balance, its axes as in contact_forces. `status` "unlimited" when no cap and no torque ends it. The `certificate` says what gives way beyond it.
+---@param options {direction: number[], max_force?: number, max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean} # as in contact_forces
+---@return table result # `status`, `load`, `forces`, `joint_torques`, `certificate`
+function forces:largest_load(options) end
+
+---Can the hand as it stands hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their couplings, within their limits (max_effort of each DOF; none where that is 0), by springs, and by the clutches of joints that have broken away. The palm takes what it must. `status`: "stable"; "unstable", then `unbalanced` is the least wrench that is left and `certificate` says what gives way; "moving" when no contact forces balance the joints, so that a finger moves; "inaccurate".
+---@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number, arms?: boolean} # torque_limits: one a DOF, or false for none; torques: what the motors give, one a DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact [N]
+---@return table result # `status`, `forces`, `residual`, `unbalanced`, `joint_torques`, `certificate`
+function forces:equilibrium(options) end
+
+---From contact forces to the wrench on the object: six rows, in the object's frame about its centre of mass, unscaled. Columns contact by contact: the normal force; with friction then the forces along x and y of contact.frame; of soft contacts then the torque about the normal.
+---@return number[][]
+function forces:grasp_map() end
+
+---How fast each DOF moves the contacts: a row for each column of the grasp map, a column for each DOF, by the ratios of its joints. Its transpose takes contact forces to the motors' torques. Joints that have broken away do not count.
+---@return number[][]
+function forces:hand_jacobian() end
+
 ---A hand, an object and the contacts between them, as they were when the grasp was measured.
----@class grasp
+---@class grasp: forces
 ---@field hand robot # The robot that grasps.
 ---@field object body # The body that is grasped.
 ---@field contacts contact[] # The contacts on the object when the grasp was measured.
@@ -550,7 +577,7 @@ function clench.eigengrasps(options) end
 
 ---Draws a world: robots, objects, obstacles, and friction cones where robots touch objects. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
 ---@param world world
----@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer} # size: width and height in pixels; field_of_view: vertical [rad]
+---@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number} # size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
 ---@return picture
 function clench.render(world, options) end
 

@@ -12,6 +12,8 @@ namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 
+constexpr double no_end = std::numeric_limits<double>::infinity();
+
 MatrixXd number(double x) { return MatrixXd::Constant(1, 1, x); }
 VectorXd numbers(double x) { return VectorXd::Constant(1, x); }
 
@@ -133,6 +135,7 @@ void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
       continue;
     }
     if (ref.robot != grasp.hand) continue;
+    if (demand.unlimited) p.high[k] = no_end, p.low[k] = -no_end;
     if (demand.limits) p.high[k] = (*demand.limits)[ref.dof], p.low[k] = -p.high[k];
     const double sense = closing_sense(world, grasp, ref.dof);
     if (demand.closing_only && sense > 0) p.low[k] = 0;
@@ -366,7 +369,7 @@ void check_options(const World& world, const Grasp& grasp, const ForceOptions& o
                            least == 0 ? "numbers >= 0" : "finite numbers", effort));
   };
   per_dof("torque limits", options.joints->limits, 0);
-  per_dof("torques", options.joints->efforts, -std::numeric_limits<double>::infinity());
+  per_dof("torques", options.joints->efforts, -no_end);
 }
 
 ForceResult answer(const World& world, const Grasp& grasp, const ForceOptions& options,

@@ -17,7 +17,8 @@ enum class ForceObjective {
 /// What the joints ask of the forces.
 struct JointDemand {
   std::optional<Eigen::VectorXd>
-      limits;  ///< of the hand's DOFs either way, >= 0, instead of theirs [N m or N]
+      limits;              ///< of the hand's DOFs either way, >= 0, instead of theirs [N m or N]
+  bool unlimited = false;  ///< motors give whatever it takes
   std::optional<Eigen::VectorXd> efforts = {};  ///< what the hand's motors give [N m or N]
   /// motors of compliant DOFs give nothing, and clutches of joints that have broken away all they can
   bool springs_only = false;

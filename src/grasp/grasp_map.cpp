@@ -28,4 +28,17 @@ GraspMap grasp_map(std::span<const PointContact> contacts, const Eigen::Vector3d
   return map;
 }
 
+Eigen::MatrixXd frame_turns(const GraspMap& map, std::span<const PointContact> contacts,
+                            const Eigen::Matrix3d& R_WO) {
+  Eigen::MatrixXd turns = Eigen::MatrixXd::Identity(map.forces(), map.forces());
+  for (int i = 0; i < map.contacts(); ++i) {
+    if (map.starts[i + 1] - map.starts[i] < 3) continue;
+    const Eigen::Matrix3d in_world = contact_frame(R_WO * contacts[i].n_O);
+    const Eigen::Matrix3d in_object = R_WO * contact_frame(contacts[i].n_O);
+    turns.block<2, 2>(map.starts[i] + 1, map.starts[i] + 1) =
+        in_object.leftCols<2>().transpose() * in_world.leftCols<2>();
+  }
+  return turns;
+}
+
 }  // namespace clench

@@ -26,4 +26,11 @@ struct GraspMap {
 /// source  Murray, Li & Sastry (1994), ch. 5
 GraspMap grasp_map(std::span<const PointContact> contacts, const Eigen::Vector3d& p_OM);
 
+/// Forces along x and y of contact_frame(n_W), as contacts of a world have it, to forces along x and y of
+/// contact_frame(n_O), as the grasp map has them; all else stays.
+///
+/// returns  forces x forces, orthogonal
+Eigen::MatrixXd frame_turns(const GraspMap& map, std::span<const PointContact> contacts,
+                            const Eigen::Matrix3d& R_WO);
+
 }  // namespace clench

@@ -31,5 +31,7 @@ inline Entry of(BodyKind kind) {
 inline const Eigen::Vector3f cone(1.0f, 0.29f, 0.0f);
 /// Cones of contacts without friction, which are needles.
 inline const Eigen::Vector3f needle(0.95f, 0.80f, 0.10f);
+/// Forces at contacts.
+inline const Eigen::Vector3f force(0.55f, 0.10f, 0.60f);
 
 }  // namespace clench::palette

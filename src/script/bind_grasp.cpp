@@ -2,6 +2,7 @@
 
 #include "base/suggest.h"
 #include "script/bind_contact.h"
+#include "script/bind_forces.h"
 #include "script/guard.h"
 #include "script/push.h"
 #include "script/table.h"
@@ -266,7 +267,8 @@ const Class grasp_class{.name = "grasp",
                             "as they were when the grasp was measured.",
                         .fields = grasp_fields,
                         .methods = grasp_methods,
-                        .operators = grasp_operators};
+                        .operators = grasp_operators,
+                        .parent = &forces_class};
 
 const Class wrench_space_class{.name = "wrench_space",
                                .variable = "space",

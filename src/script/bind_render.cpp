@@ -1,6 +1,8 @@
 #include "script/bind_render.h"
 
 #include "render/render.h"
+#include "scene/force_arrows.h"
+#include "script/bind_contact.h"
 #include "script/guard.h"
 #include "script/handles.h"
 #include "script/push.h"
@@ -15,6 +17,30 @@ static Eye read_eye(Table& options, const Eye& from) {
   eye.up = options.vec3("up", from.up);
   eye.field_of_view = options.positive("field_of_view", from.field_of_view);
   return eye;
+}
+
+static constexpr double longest_arrow = 0.6;  // part of the object's largest radius
+
+// the list `forces` of a result of grasp:contact_forces
+static std::vector<DrawArrow> read_forces(lua_State* L, Table& options) {
+  std::vector<PlacedForce> forces;
+  double longest = 0;
+  if (options.push("forces") != LUA_TNIL) {
+    if (!lua_istable(L, -1)) fail_wanted(options.what("forces"), "a list of forces", -1);
+    const int list = lua_gettop(L), count = static_cast<int>(lua_rawlen(L, list));
+    for (int i = 1; i <= count; ++i) {
+      lua_rawgeti(L, list, i);
+      Table item(L, lua_gettop(L), options.what("forces").item(i).text());
+      const auto* contact = item.object<ContactHandle>("contact");
+      if (!contact) fail_wanted(item.what("contact"), "a contact", lua_gettop(L) + 1);
+      forces.push_back({contact->contact.p_W, item.vec3("force")});
+      longest = std::max(longest, contact->world->body(contact->contact.body).max_radius());
+      lua_pop(L, 1);
+    }
+  }
+  lua_pop(L, 1);
+  const double automatic = force_scale(forces, longest > 0 ? longest_arrow * longest : 1);
+  return force_arrows(forces, options.positive("force_scale", automatic));
 }
 
 static int draw(lua_State* L) {
@@ -36,6 +62,7 @@ static int draw(lua_State* L) {
   showing.transparent_objects = options.boolean("transparent_objects", showing.transparent_objects);
   showing.file_colors = options.boolean("file_colors", showing.file_colors);
   Scene scene = make_scene(world, showing);
+  scene.arrows = read_forces(L, options);
   // a camera that is given in part begins from the one that frames everything
   const int parts =
       options.has("eye") + options.has("target") + options.has("up") + options.has("field_of_view");
@@ -86,9 +113,12 @@ static const Entry functions[] = {
 Draws a world: robots, objects, obstacles, and friction cones where robots touch objects. The camera frames everything
 unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
 @param world world
-@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer}  size: width and height in pixels; field_of_view: vertical [rad]
+@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number}  size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
 @return picture
-> clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels)"},
+> clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels
+> held = grasp:contact_forces{load = {0, 0, -3, 0, 0, 0}}
+> clench.render(world, {size = {64, 48}, forces = held.forces}) == clench.render(world, {size = {64, 48}})  --> false
+> clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: wanted a contact, got nothing)"},
 };
 
 static const Entry fields[] = {

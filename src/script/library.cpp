@@ -8,6 +8,7 @@
 #include "script/bind_eigengrasps.h"
 #include "script/bind_entries.h"
 #include "script/bind_files.h"
+#include "script/bind_forces.h"
 #include "script/bind_grasp.h"
 #include "script/bind_hand.h"
 #include "script/bind_json.h"
@@ -61,6 +62,7 @@ std::span<const Class* const> all_classes() {
       &eigengrasps_class,
       &virtual_contact_class,
       &contact_class,
+      &forces_class,
       &grasp_class,
       &wrench_space_class,
       &picture_class,

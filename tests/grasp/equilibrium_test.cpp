@@ -97,6 +97,10 @@ TEST_CASE("limits and torques can be given") {
   JointDemand weak;
   weak.limits = Vector2d(4, 4);
   CHECK(ask(j, {.load = load, .joints = weak}).status == EquilibriumStatus::unstable);
+  weak.limits.reset();
+  weak.unlimited = true;
+  CHECK(ask(jaws(DofKind::rigid, 0.5, 1), {.load = load, .joints = weak}).status ==
+        EquilibriumStatus::stable);
   JointDemand given;
   given.efforts = Vector2d(6, 6);
   const Equilibrium pressed = ask(j, {.load = load, .joints = given});

@@ -35,3 +35,21 @@ TEST_CASE("unit forces of the map are the cone's edges") {
     CHECK((map.matrix * f - edges.col(k)).norm() < 1e-14);
   }
 }
+
+TEST_CASE(
+    "turned frames give the same wrenches from forces along the axes of the world's contacts") {
+  const PointContact points[] = {test::contact_at({0.1, 0.2, 0.3}, {0, 0, 1}, 0.5),
+                                 test::contact_at({0, 0.1, 0}, {1, 1, 0}, 0),
+                                 test::contact_at({0.3, 0, 0}, {1, 2, 3}, 0.5, 0.01)};
+  const Eigen::Matrix3d R_WO = Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1).normalized().matrix();
+  const GraspMap map = grasp_map(points, Vector3d::Zero());
+  const Eigen::MatrixXd turns = frame_turns(map, points, R_WO);
+  CHECK((turns.transpose() * turns - Eigen::MatrixXd::Identity(8, 8)).norm() < 1e-14);
+  const Eigen::MatrixXd turned = map.matrix * turns;
+  for (const int i : {0, 2}) {
+    const Eigen::Matrix3d frame = contact_frame(R_WO * points[i].n_O);
+    for (int k = 0; k < 3; ++k)
+      CHECK((R_WO * turned.col(map.starts[i] + k).head<3>() - frame.col((k + 2) % 3)).norm() <
+            1e-14);
+  }
+}

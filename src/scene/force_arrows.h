@@ -1,0 +1,22 @@
+// Forces in pictures.
+#pragma once
+#include <span>
+
+#include "scene/scene.h"
+
+namespace clench {
+
+/// A force on whatever is at the point; world frame.
+struct PlacedForce {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d f_W = Eigen::Vector3d::Zero();  ///< [N]
+};
+
+/// An arrow a force, which ends where it presses: as long as the force times metres_per_newton, > 0. Forces below a
+/// thousandth of the largest are left out.
+std::vector<DrawArrow> force_arrows(std::span<const PlacedForce> forces, double metres_per_newton);
+
+/// The scale at which the largest force is as long as this [m]; 1 without forces.
+double force_scale(std::span<const PlacedForce> forces, double longest);
+
+}  // namespace clench
