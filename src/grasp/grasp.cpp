@@ -1,10 +1,27 @@
 #include "grasp/grasp.h"
 
 #include <cmath>
+#include <map>
 
 #include "base/error.h"
 
 namespace clench {
+
+// contacts that share a site have one patch
+static void add_torsion(Grasp& grasp, const GraspOptions& options) {
+  std::map<const SoftSite*, std::pair<double, bool>> known;  // radius, is it sharp?
+  for (size_t i = 0; i < grasp.contacts.size(); ++i) {
+    const SoftSite* const site = grasp.contacts[i].site.get();
+    if (!site) continue;
+    const auto [found, is_new] = known.try_emplace(site);
+    if (is_new) {
+      const SoftPatch patch = soft_patch(*site);
+      found->second = {torsion_radius(patch, options.normal_force, options.modulus), patch.sharp};
+    }
+    grasp.points[i].torsion_radius = found->second.first;
+    grasp.sharp_contacts += found->second.second;
+  }
+}
 
 Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
                     const GraspOptions& options) {
@@ -19,6 +36,8 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
     refuse(fmt::format("edges must be 3 to {}, got {}", most_edges, options.edges));
   if (options.rho && !(std::isfinite(*options.rho) && *options.rho > 0))
     refuse(fmt::format("rho must be > 0 [m], got {}", *options.rho));
+  if (!(std::isfinite(options.normal_force) && options.normal_force > 0))
+    refuse(fmt::format("the normal force must be > 0 [N], got {}", options.normal_force));
 
   Grasp grasp;
   grasp.hand = hand;
@@ -36,6 +55,7 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
     grasp.points.push_back({.p_O = X_OW * contact.p_W,
                             .n_O = (X_OW.rotation * contact.n_W).normalized(),
                             .mu = contact.friction.statics});
+  if (options.soft) add_torsion(grasp, options);
   return grasp;
 }
 

@@ -73,6 +73,9 @@ Pairs changes(const BodySpec& now, const BodySpec& was, bool together) {
   if (inertia_of(now) != inertia_of(then)) out.emplace_back("inertia", inertia(now));
   if (now.elastic_modulus != was.elastic_modulus)
     out.emplace_back("elastic_modulus", now.elastic_modulus ? number(*now.elastic_modulus) : "nil");
+  if (now.soft_layer != was.soft_layer) out.emplace_back("soft_layer", number(now.soft_layer));
+  if (now.poisson_ratio != was.poisson_ratio)
+    out.emplace_back("poisson_ratio", number(now.poisson_ratio));
   const Appearance &look = now.appearance, &old = was.appearance;
   if (look.color != old.color || (look.triangle_colors.empty() && !old.triangle_colors.empty()))
     out.emplace_back("color",

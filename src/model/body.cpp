@@ -18,6 +18,8 @@ Body make_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB) {
   body.com = com_of(spec);
   body.inertia_per_mass = inertia_of(spec);
   body.elastic_modulus = spec.elastic_modulus;
+  body.soft_layer = spec.soft_layer;
+  body.poisson_ratio = spec.poisson_ratio;
   body.tracker = spec.tracker;
   return body;
 }

@@ -27,6 +27,8 @@ struct Body {
   Eigen::Vector3d com;                    ///< in the body frame [m]
   Eigen::Matrix3d inertia_per_mass;       ///< about com, body axes [m^2]
   std::optional<double> elastic_modulus;  ///< [Pa]
+  double soft_layer = 0.003;              ///< of an elastic body: height of its soft layer [m]
+  double poisson_ratio = 0;               ///< likewise
   std::optional<int> tracker;
 
   // place in a robot, when it belongs to one

@@ -89,6 +89,8 @@ void Comparer::bodies(const Body& a, const Body& b) {
   if (a.elastic_modulus.has_value() != b.elastic_modulus.has_value() ||
       !same(a.elastic_modulus.value_or(0), b.elastic_modulus.value_or(0)))
     add("the elastic modulus of '{}'", a.name);
+  if (!same(a.soft_layer, b.soft_layer)) add("the soft layer of '{}'", a.name);
+  if (!same(a.poisson_ratio, b.poisson_ratio)) add("Poisson's ratio of '{}'", a.name);
   if (a.tracker != b.tracker) add("the position sensor of '{}'", a.name);
   if (!same_look(a.appearance, b.appearance)) add("the colour of '{}'", a.name);
   if (!same_shape(a.shape, b.shape)) add("the surface of '{}'", a.name);

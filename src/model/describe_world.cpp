@@ -40,6 +40,8 @@ BodySpec Describer::body(Id<Body> id) const {
   out.com = b.com;
   out.inertia_per_mass = b.inertia_per_mass;
   out.elastic_modulus = b.elastic_modulus;
+  out.soft_layer = b.soft_layer;
+  out.poisson_ratio = b.poisson_ratio;
   out.tracker = b.tracker;
   return out;
 }

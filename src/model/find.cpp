@@ -53,6 +53,10 @@ static bool first_is_held(const Body& first, const Body& second) {
   return !first.robot && second.robot;
 }
 
+static Elasticity elasticity(const Body& body) {
+  return {.modulus = body.elastic_modulus, .layer = body.soft_layer, .poisson = body.poisson_ratio};
+}
+
 static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
                          std::vector<Contact>& out) {
   const auto [first, second] = ordered(other, body);
@@ -61,9 +65,16 @@ static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
   if (sphere_gap(a, b) > threshold) return;
   const auto touches = contact_set(*a.shape, *b.shape, relative(a, b), {.threshold = threshold});
   const Friction friction = world.materials().friction(a.material, b.material);
-  const ContactKind kind = friction.statics > 0 ? ContactKind::point : ContactKind::frictionless;
-  for (const Touch& touch : touches) {
-    const bool on_b = body == second;
+  const bool soft = friction.statics > 0 && (a.elastic_modulus || b.elastic_modulus);
+  const ContactKind kind = soft                   ? ContactKind::soft
+                           : friction.statics > 0 ? ContactKind::point
+                                                  : ContactKind::frictionless;
+  std::vector<SoftSitePtr> sites(touches.size());
+  if (soft)
+    sites = soft_sites(a.shape, b.shape, relative(a, b), elasticity(a), elasticity(b), touches);
+  const bool on_b = body == second;
+  for (size_t i = 0; i < touches.size(); ++i) {
+    const Touch& touch = touches[i];
     const Eigen::Vector3d n_W = a.X_WB.rotation * touch.normal_b;
     out.push_back({.body = body,
                    .other = other,
@@ -71,7 +82,10 @@ static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
                    .n_W = on_b ? n_W : Eigen::Vector3d(-n_W),
                    .gap = touch.gap,
                    .friction = friction,
-                   .kind = kind});
+                   .kind = kind,
+                   .site = sites[i],
+                   .X_WA = a.X_WB,
+                   .body_is_b = on_b});
   }
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/soft_patch.h"
 #include "model/near_bodies.h"
 
 namespace clench {
@@ -24,7 +25,8 @@ struct BodyDistance {
 BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,
                       double limit = std::numeric_limits<double>::infinity());
 
-enum class ContactKind { point, frictionless };
+/// soft: there is friction, and at least one of the bodies is elastic
+enum class ContactKind { point, frictionless, soft };
 
 /// A point where `other` touches `body`.
 struct Contact {
@@ -34,6 +36,11 @@ struct Contact {
   double gap = 0;       ///< [m], in (0, threshold]
   Friction friction;
   ContactKind kind = ContactKind::point;
+  /// what the patch of a soft contact follows from; null of others. Its a is the body of the two
+  /// that was made first, which stood at X_WA
+  SoftSitePtr site = nullptr;
+  Pose X_WA = {};
+  bool body_is_b = false;
 };
 
 /// Contacts of all pairs that may collide; `body` is the later group's.

@@ -408,6 +408,18 @@ void World::set_elastic_modulus(Id<Body> id, std::optional<double> modulus) {
   edit(id).elastic_modulus = modulus;
 }
 
+void World::set_soft_layer(Id<Body> id, double height) {
+  if (!(height > 0) || !std::isfinite(height))
+    fail("body '{}': its soft layer must be > 0 [m], got {}", body(id).name, height);
+  edit(id).soft_layer = height;
+}
+
+void World::set_poisson_ratio(Id<Body> id, double ratio) {
+  if (!(ratio >= 0 && ratio < 0.5))
+    fail("body '{}': Poisson's ratio must be in [0, 0.5), got {}", body(id).name, ratio);
+  edit(id).poisson_ratio = ratio;
+}
+
 void World::set_appearance(Id<Body> id, const Appearance& appearance) {
   edit(id).appearance = appearance;
 }

@@ -46,6 +46,8 @@ uint64_t World::hash() const {
     for (const double x : b.com) h.add(x);
     for (const double x : b.inertia_per_mass.reshaped()) h.add(x);
     h.add(b.elastic_modulus.value_or(0));
+    h.add(b.soft_layer);
+    h.add(b.poisson_ratio);
     flag(state_.switched_off.contains(id));
     h.add(b.shape ? b.shape->hash() : 0);
   }

@@ -29,6 +29,9 @@ inline Entry of(BodyKind kind) {
 
 /// Friction cones: the complement of the objects' colour, which surrounds them.
 inline const Eigen::Vector3f cone(1.0f, 0.29f, 0.0f);
+/// Fitted surfaces of soft contacts, and the ellipses that press.
+inline const Eigen::Vector3f patch(0.98f, 0.80f, 0.35f);
+inline const Eigen::Vector3f ellipse(0.85f, 0.10f, 0.25f);
 /// Cones of contacts without friction, which are needles.
 inline const Eigen::Vector3f needle(0.95f, 0.80f, 0.10f);
 /// Forces at contacts.

@@ -1,7 +1,10 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <set>
 
 #include "model/find.h"
 #include "scene/palette.h"
@@ -60,7 +63,7 @@ std::vector<DrawCone> draw_contacts(const World& world) {
   }
   std::vector<DrawCone> cones;
   for (const Contact& contact : contacts(world, parts, objects)) {
-    const bool rubs = contact.kind == ContactKind::point && contact.friction.statics > 0;
+    const bool rubs = contact.kind != ContactKind::frictionless && contact.friction.statics > 0;
     cones.push_back({.apex = contact.p_W,
                      .axis = contact.n_W,
                      .half_angle = rubs ? std::atan(contact.friction.statics) : 0,
@@ -68,6 +71,65 @@ std::vector<DrawCone> draw_contacts(const World& world) {
                      .color = rubs ? palette::cone : palette::needle});
   }
   return cones;
+}
+
+constexpr int patch_rings = 8, patch_segments = 48;
+constexpr double patch_force = 5;  // [N]
+constexpr double rim = 0.85;       // an ellipse is drawn as its rim, from here outward
+
+// z = height(x, y) over an ellipse from `inner` of its size outward, in a frame of its own
+template <class Height>
+DrawMesh draw_cap(const Pose& X_WP, std::array<double, 2> axes, double inner,
+                  const Eigen::Vector3f& color, Height height) {
+  Mesh mesh;
+  for (int r = 0; r <= patch_rings; ++r)
+    for (int s = 0; s < patch_segments; ++s) {
+      const double part = inner + (1 - inner) * r / patch_rings;
+      const double angle = 2 * std::numbers::pi * s / patch_segments;
+      const double x = part * axes[0] * std::cos(angle), y = part * axes[1] * std::sin(angle);
+      mesh.vertices.push_back({x, y, height(x, y)});
+    }
+  const auto at = [](int r, int s) { return r * patch_segments + s % patch_segments; };
+  for (int r = 0; r < patch_rings; ++r)
+    for (int s = 0; s < patch_segments; ++s) {
+      if (r > 0 || inner > 0) mesh.triangles.push_back({at(r, s), at(r + 1, s + 1), at(r, s + 1)});
+      mesh.triangles.push_back({at(r, s), at(r + 1, s), at(r + 1, s + 1)});
+    }
+  return {.shape = Shape::make(std::move(mesh), "patch"), .X_WM = X_WP, .color = color};
+}
+
+// the fitted surface of the object of the two, and the rim of the ellipse on it
+void draw_patch(const World& world, const Contact& contact, std::vector<DrawMesh>& out) {
+  const SoftPatch patch = soft_patch(*contact.site);
+  const auto is_object = [&](Id<Body> id) { return world.body(id).kind == BodyKind::object; };
+  const bool on_other = !is_object(contact.body) && is_object(contact.other);
+  const bool on_b = contact.body_is_b != on_other;
+  const SurfaceFit& fit = patch.surfaces[on_b ? 1 : 0];
+  // +z into the body; along the relative directions
+  const Eigen::Vector3d inward = (on_b ? 1 : -1) * patch.normal_A;
+  Eigen::Matrix3d axes;
+  axes << patch.directions.col(0), inward.cross(patch.directions.col(0)), inward;
+  const Pose X_WP = contact.X_WA * Pose{Eigen::Quaterniond(axes), patch.centre_A};
+  const Eigen::Matrix<double, 3, 2> across = axes.transpose() * fit.directions;
+  const auto surface = [&](double lift) {
+    return [&, lift](double x, double y) {
+      const Eigen::Vector2d p = across.topRows<2>().transpose() * Eigen::Vector2d(x, y);
+      return 0.5 * fit.curvatures.dot(p.cwiseAbs2()) + lift;
+    };
+  };
+  // a little within the body, the ellipse more than what it lies on
+  const double step = 0.02 * patch.radius;
+  out.push_back(draw_cap(X_WP, {patch.radius, patch.radius}, 0, palette::patch, surface(step)));
+  const auto semi_axes = contact_ellipse(patch, patch_force).semi_axes;
+  if (semi_axes[0] > 0 && semi_axes[1] > 0)
+    out.push_back(draw_cap(X_WP, semi_axes, rim, palette::ellipse, surface(2 * step)));
+}
+
+void draw_patches(const World& world, std::vector<DrawMesh>& out) {
+  std::set<const SoftSite*> drawn_sites;
+  for (const Contact& contact : contacts(world))
+    if (contact.site && drawn_sites.insert(contact.site.get()).second)
+      draw_patch(world, contact, out);
 }
 
 }  // namespace
@@ -87,6 +149,7 @@ Scene make_scene(const World& world, const SceneOptions& options) {
     floor = floor || scene.meshes.back().background;
     all.add(bounds[i].low), all.add(bounds[i].high);
   }
+  if (options.patches) draw_patches(world, scene.meshes);
   if (options.contacts) scene.cones = draw_contacts(world);
   if (options.ground && !floor && !all.empty()) scene.ground = all.low.z();
   scene.eye = options.eye;

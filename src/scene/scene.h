@@ -53,6 +53,7 @@ struct Scene {
 
 struct SceneOptions {
   bool contacts = true;  ///< draw friction cones at the contacts of robots with objects
+  bool patches = false;  ///< draw the patches of all soft contacts
   bool ground = true;    ///< a floor under the lowest point, unless an obstacle is the floor
   bool transparent_objects = true;  ///< so that contacts show
   bool file_colors = true;  ///< colours of the files, where they give any; else by kind of body
@@ -60,7 +61,9 @@ struct SceneOptions {
 };
 
 /// Bodies in creation order with the colours of scene/palette.h, then a cone for each contact
-/// between a part of a robot and an object, opening into the object by its friction angle.
+/// between a part of a robot and an object, opening into the object by its friction angle. With
+/// patches, at each soft contact the fitted surface of the object, or of the body that is touched, as
+/// far as it was looked at, and on it the rim of the ellipse that presses at 5 N.
 Scene make_scene(const World& world, const SceneOptions& options = {});
 
 }  // namespace clench

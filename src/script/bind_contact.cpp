@@ -1,6 +1,8 @@
 #include "script/bind_contact.h"
 
 #include "contact/cone.h"
+#include "script/bind_log.h"
+#include "script/bind_patch.h"
 #include "script/guard.h"
 #include "script/push.h"
 #include "script/table.h"
@@ -9,7 +11,7 @@ namespace clench {
 
 int push_contacts(lua_State* L, const WorldPtr& world, const std::vector<Contact>& contacts) {
   return push_list_of(L, contacts, [&](const Contact& contact) {
-    push_object(L, ContactHandle{world, contact});
+    push_object(L, ContactHandle{world, contact, nullptr});
   });
 }
 
@@ -46,11 +48,63 @@ static int get_frame(lua_State* L) {
 }
 
 static const char* kind_name(ContactKind kind) {
-  return kind == ContactKind::point ? "point" : "frictionless";
+  switch (kind) {
+    case ContactKind::frictionless:
+      return "frictionless";
+    case ContactKind::soft:
+      return "soft";
+    case ContactKind::point:
+      break;
+  }
+  return "point";
 }
 
 static int get_kind(lua_State* L) {
   return push(L, kind_name(self<ContactHandle>(L).contact.kind));
+}
+
+static int push_patch(lua_State* L, const Contact& c, std::shared_ptr<const SoftPatch> patch) {
+  return push_object(L, PatchHandle{std::move(patch), c.X_WA, c.body_is_b, c.friction.statics});
+}
+
+static void tell_sharp(lua_State* L, const ContactHandle& c, const SoftPatch& patch) {
+  if (!patch.sharp) return;
+  const Eigen::Vector3d p = c.contact.X_WA * patch.centre_A;
+  log_warning(L, fmt::format("soft contact of {} on {} at ({:.6g}, {:.6g}, {:.6g}): there is a "
+                             "corner or an edge, whose patch is a guess",
+                             c.world->body(c.contact.other).name,
+                             c.world->body(c.contact.body).name, p.x(), p.y(), p.z()));
+}
+
+static int get_patch(lua_State* L) {
+  auto& c = self<ContactHandle>(L);
+  if (!c.contact.site) {
+    lua_pushnil(L);
+    return 1;
+  }
+  if (!c.patch) {
+    c.patch = std::make_shared<SoftPatch>(soft_patch(*c.contact.site));
+    tell_sharp(L, c, *c.patch);
+  }
+  return push_patch(L, c.contact, c.patch);
+}
+
+static int fit_patch(lua_State* L) {
+  check_count(L, 1);
+  const auto& c = self<ContactHandle>(L);
+  Table table(L, 2);
+  PatchOptions options;
+  if (table.has("radius")) options.radius = table.positive("radius", 1);
+  options.flat_radius = table.positive("flat_radius", options.flat_radius);
+  if (table.choice("fit", {"quadric", "jet"}, "quadric") == "jet") options.fit = PatchFit::jet;
+  table.done();
+  if (!c.contact.site) {
+    lua_pushnil(L);
+    return 1;
+  }
+  auto patch = std::make_shared<SoftPatch>(soft_patch(*c.contact.site, options));
+  tell_sharp(L, c, *patch);
+  return push_patch(L, c.contact, std::move(patch));
 }
 
 static int text(lua_State* L) {
@@ -101,9 +155,28 @@ Kinetic Coulomb coefficient of the two materials.
 @type number
 > world:contacts(hand, flask)[1].mu_kinetic >= 0  --> true)"},
     {"kind", guarded<get_kind>, R"(
-"point" (with friction) or "frictionless".
+"point" (with friction), "soft" (with friction, of bodies one of which at least is elastic) or "frictionless".
 @type string
-> world:contacts(hand, flask)[1].kind  --> point)"},
+> world:contacts(hand, flask)[1].kind  --> point
+> flask.elastic_modulus = 1.5e6
+> world:contacts(hand, flask)[1].kind  --> soft)"},
+    {"patch", guarded<get_patch>, R"(
+The surfaces around a soft contact, and the turn that it resists; nil of others. Contacts of two bodies whose
+neighbourhoods overlap have one patch. A corner or an edge is logged as a warning.
+@type patch?
+> world:contacts(hand, flask)[1].patch  --> nil
+> flask.elastic_modulus = 1.5e6
+> world:contacts(hand, flask)[1].patch.radius < 0.004  --> true)"},
+};
+
+static const Entry methods[] = {
+    {"fit_patch", guarded<fit_patch>, R"(
+The patch of a soft contact by options of one's own; nil of others.
+@param options? {radius?: number, flat_radius?: number, fit?: string}  radius: how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm [m]; flat_radius: stands for a relative radius that is none, 0.02 [m]; fit: "quadric", our own, or "jet", CGAL's
+@return patch?
+> flask.elastic_modulus = 1.5e6
+> world:contacts(hand, flask)[1]:fit_patch{radius = 0.002}.radius  --> 0.002
+> world:contacts(hand, flask)[1]:fit_patch{fit = "jets"}  --> error: did you mean 'jet'?)"},
 };
 
 static const Entry operators[] = {
@@ -116,7 +189,7 @@ const Class contact_class{.name = "contact",
                               "A point where one body touches another, as "
                               "it was when it was asked for.",
                           .fields = fields,
-                          .methods = {},
+                          .methods = methods,
                           .operators = operators};
 
 }  // namespace clench

@@ -7,6 +7,7 @@ namespace clench {
 struct ContactHandle {
   WorldPtr world;
   Contact contact;
+  std::shared_ptr<const SoftPatch> patch = nullptr;  ///< once it was asked for
 };
 
 extern const Class contact_class;

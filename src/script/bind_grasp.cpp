@@ -3,6 +3,8 @@
 #include "base/suggest.h"
 #include "script/bind_contact.h"
 #include "script/bind_forces.h"
+#include "script/bind_log.h"
+#include "script/bind_patch.h"
 #include "script/guard.h"
 #include "script/push.h"
 #include "script/table.h"
@@ -19,9 +21,17 @@ static int measure(lua_State* L) {
   GraspOptions grasp;
   grasp.edges = options.integer("edges", grasp.edges);
   if (options.has("rho")) grasp.rho = options.number("rho");
+  grasp.soft = options.boolean("soft", grasp.soft);
+  grasp.normal_force = options.positive("normal_force", grasp.normal_force);
+  grasp.modulus = read_modulus_rule(options);
   options.done();
-  return push_object(
-      L, GraspHandle{hand.world, measure_grasp(*hand.world, hand.id, object.id, grasp), nullptr});
+  Grasp measured = measure_grasp(*hand.world, hand.id, object.id, grasp);
+  if (measured.sharp_contacts > 0)
+    log_warning(L, fmt::format("grasp of {} by {}: {} of {} contacts are soft ones on corners or "
+                               "edges, whose patch is a guess",
+                               object->name, hand->name, measured.sharp_contacts,
+                               measured.contacts.size()));
+  return push_object(L, GraspHandle{hand.world, std::move(measured), nullptr});
 }
 
 static const WrenchSpacePtr& space_of(GraspHandle& handle) {
@@ -164,7 +174,7 @@ static const Entry functions[] = {
 The grasp of a hand on an object as it is now. No contact is no error: such a grasp resists nothing.
 @param hand robot
 @param object body
-@param options? {edges?: integer, rho?: number}  edges of the friction pyramids, 8; torque length, by default the object's largest radius about its centre of mass [m]
+@param options? {edges?: integer, rho?: number, soft?: boolean, normal_force?: number, modulus?: string}  edges of the friction pyramids, 8; torque length, by default the object's largest radius about its centre of mass [m]; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N]; modulus: as of `patch:ellipse`
 @return grasp
 > clench.grasp(hand, flask):is_force_closure()  --> true)"},
     {"wrench_space", guarded<new_wrench_space>, R"(

@@ -58,6 +58,7 @@ static int draw(lua_State* L) {
   rendering.samples = options.integer("samples", rendering.samples);
   SceneOptions showing;
   showing.contacts = options.boolean("contacts", showing.contacts);
+  showing.patches = options.boolean("patches", showing.patches);
   showing.ground = options.boolean("ground", showing.ground);
   showing.transparent_objects = options.boolean("transparent_objects", showing.transparent_objects);
   showing.file_colors = options.boolean("file_colors", showing.file_colors);
@@ -110,10 +111,10 @@ static int equal(lua_State* L) {
 
 static const Entry functions[] = {
     {"render", guarded<draw>, R"(
-Draws a world: robots, objects, obstacles, and friction cones where robots touch objects. The camera frames everything
-unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
+Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches
+of all soft contacts. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
 @param world world
-@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number}  size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
+@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number}  size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
 @return picture
 > clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels
 > held = grasp:contact_forces{load = {0, 0, -3, 0, 0, 0}}

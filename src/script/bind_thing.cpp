@@ -97,6 +97,22 @@ static int set_elastic_modulus(lua_State* L) {
   return 0;
 }
 
+static int get_soft_layer(lua_State* L) { return push(L, self_body(L)->soft_layer); }
+
+static int set_soft_layer(lua_State* L) {
+  const auto body = self_body(L);
+  body.world->set_soft_layer(body.id, check_number(L, 2));
+  return 0;
+}
+
+static int get_poisson_ratio(lua_State* L) { return push(L, self_body(L)->poisson_ratio); }
+
+static int set_poisson_ratio(lua_State* L) {
+  const auto body = self_body(L);
+  body.world->set_poisson_ratio(body.id, check_number(L, 2));
+  return 0;
+}
+
 static int get_contacts(lua_State* L) {
   const auto body = self_body(L);
   const std::array on{body.id};
@@ -187,6 +203,19 @@ Young's modulus; nil when it is rigid.
 > flask.elastic_modulus = 1.5e6
 > flask.elastic_modulus  --> 1500000.0)",
      guarded<set_elastic_modulus>},
+    {"soft_layer", guarded<get_soft_layer>, R"(
+Height of the soft layer of an elastic body.
+@type number  [m]
+> flask.soft_layer  --> 0.003
+> flask.soft_layer = 0.005
+> flask.soft_layer = 0  --> error: > 0)",
+     guarded<set_soft_layer>},
+    {"poisson_ratio", guarded<get_poisson_ratio>, R"(
+Poisson's ratio of an elastic body, in [0, 0.5): its layer gives way by modulus / (1 - ratio^2).
+@type number
+> flask.poisson_ratio  --> 0.0
+> flask.poisson_ratio = 0.5  --> error: 0.5)",
+     guarded<set_poisson_ratio>},
     {"contacts", guarded<get_contacts>, R"(
 Where others touch it now.
 @type contact[]

@@ -23,7 +23,8 @@
 //         @return table result  `moved`, `stops`
 //         > hand:autograsp().moved  --> true
 //     `> code` without an arrow prepares the next one. `--> error: text` wants an error that
-//     contains text. Examples run with clench, world, hand (closed on the flask), flask and grasp.
+//     contains text. Examples run with clench, world, hand (closed on the flask), flask, grasp and
+//     patch (of a fingertip with the flask as rubber).
 //     The tests run every one of them; `clench doc` writes docs/api from the same tables, and the
 //     REPL completes from them.
 #pragma once

@@ -14,6 +14,7 @@
 #include "script/bind_json.h"
 #include "script/bind_log.h"
 #include "script/bind_mesh.h"
+#include "script/bind_patch.h"
 #include "script/bind_pose.h"
 #include "script/bind_random.h"
 #include "script/bind_render.h"
@@ -63,6 +64,7 @@ std::span<const Class* const> all_classes() {
       &virtual_contact_class,
       &contact_class,
       &forces_class,
+      &patch_class,
       &grasp_class,
       &wrench_space_class,
       &picture_class,

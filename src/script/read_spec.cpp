@@ -82,6 +82,10 @@ static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
   spec.mass = options.positive("mass", spec.mass);
   if (options.has("com")) spec.com = options.vec3("com");
   if (options.has("elastic_modulus")) spec.elastic_modulus = options.positive("elastic_modulus", 1);
+  spec.soft_layer = options.positive("soft_layer", spec.soft_layer);
+  spec.poisson_ratio = options.number("poisson_ratio", spec.poisson_ratio);
+  if (!(spec.poisson_ratio >= 0 && spec.poisson_ratio < 0.5))
+    fail("{}: poisson_ratio: wanted a number in [0, 0.5), got {}", subject(L), spec.poisson_ratio);
   if (options.has("color")) {
     spec.appearance.color = options.vec3("color").cast<float>();
     spec.appearance.triangle_colors.clear();

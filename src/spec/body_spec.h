@@ -33,6 +33,8 @@ struct BodySpec {
       com;  ///< centre of mass in the body frame [m]; else from the shape
   std::optional<Eigen::Matrix3d> inertia_per_mass;  ///< about com [m^2]; else from the shape
   std::optional<double> elastic_modulus;            ///< Young's modulus [Pa]; absent: rigid
+  double soft_layer = 0.003;   ///< of an elastic body: height of its soft layer, > 0 [m]
+  double poisson_ratio = 0;    ///< likewise, in [0, 0.5)
   std::optional<int> tracker;  ///< number of the position sensor that drives it
 };
 

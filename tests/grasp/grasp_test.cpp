@@ -147,7 +147,8 @@ TEST_CASE("a grasp that makes no sense is refused by name") {
   const auto refuse = [&](Id<Body> object, const GraspOptions& options, const char* message) {
     CHECK_THROWS_WITH_AS(measure_grasp(s.world, s.hand, object, options), message, Error);
   };
-  refuse(s.object, {.edges = 2, .rho = {}}, "grasp of cube by gripper: edges must be 3 to 1000, got 2");
+  refuse(s.object, {.edges = 2, .rho = {}},
+         "grasp of cube by gripper: edges must be 3 to 1000, got 2");
   refuse(s.object, {.rho = 0.0}, "grasp of cube by gripper: rho must be > 0 [m], got 0");
   refuse(s.object, {.rho = std::numeric_limits<double>::quiet_NaN()},
          "grasp of cube by gripper: rho must be > 0 [m], got nan");
@@ -159,4 +160,34 @@ TEST_CASE("a grasp that makes no sense is refused by name") {
   const Id<Body> gone = s.object;
   s.world.remove(gone);
   CHECK_THROWS_AS(measure_grasp(s.world, s.hand, gone), Error);
+}
+
+TEST_CASE("soft contacts resist turns as their patches do, hard ones none") {
+  Scene s = scene();
+  close(s);
+  for (const PointContact& p : measure_grasp(s.world, s.hand, s.object).points)
+    CHECK(p.torsion_radius == 0);
+  s.world.set_elastic_modulus(s.object, 1.5e6);
+  const Grasp soft = measure_grasp(s.world, s.hand, s.object);
+  REQUIRE(soft.points.size() == 8);
+  CHECK(soft.sharp_contacts == 0);
+  for (size_t i = 0; i < soft.points.size(); ++i) {
+    CHECK(soft.contacts[i].kind == ContactKind::soft);
+    CHECK(soft.points[i].torsion_radius == torsion_radius(soft_patch(*soft.contacts[i].site), 5));
+    CHECK(soft.points[i].torsion_radius > 0);
+  }
+  // the radius grows with the fourth root of force and compliance
+  const auto radius = [&](const GraspOptions& options) {
+    return measure_grasp(s.world, s.hand, s.object, options).points[0].torsion_radius;
+  };
+  CHECK(radius({.normal_force = 80}) == doctest::Approx(2 * radius({})).epsilon(0.01));
+  CHECK(radius({.soft = false}) == 0);
+  s.world.set_soft_layer(s.object, 0.003 / 16);
+  CHECK(2 * radius({}) == doctest::Approx(soft.points[0].torsion_radius));
+  for (const Id<Body> id : s.world.bodies_of(s.hand)) s.world.set_elastic_modulus(id, 1e6);
+  CHECK(radius({}) > radius({.modulus = ModulusRule::larger}));
+  s.world.set_friction("rubber", "wood", {.statics = 0, .kinetic = 0});
+  CHECK(radius({}) == 0);
+  CHECK_THROWS_WITH_AS(measure_grasp(s.world, s.hand, s.object, {.normal_force = 0}),
+                       "grasp of cube by gripper: the normal force must be > 0 [N], got 0", Error);
 }

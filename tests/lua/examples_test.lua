@@ -14,6 +14,10 @@ local parts = {
   hand = function(env) return env.world.robots[1] end,
   flask = function(env) return env.world.objects[1] end,
   grasp = function(env) return clench.grasp(env.hand, env.flask) end,
+  patch = function(env)
+    env.flask.elastic_modulus = 1.5e6
+    return env.world:contacts(env.hand, env.flask)[4].patch
+  end,
 }
 
 -- what an entry's examples see: the globals, and the parts of the stage that they ask for

@@ -39,7 +39,7 @@ local function rich_world()
   world:set_friction("glass", "metal", {static = 0.3, kinetic = 0.3})
   local ball = world:add_object(clench.shapes.sphere {0.03}, {
     name = "a \"round\"\tthing", material = "felt", mass = 0.1, com = {0.001, 0, 0}, inertia = {{1, 0, 0}, {0, 2, 0}, {0, 0, 2}},
-    color = {1, 0.5, 0.1}, transparency = 0.25, elastic_modulus = 1e6, pose = {xyz = {1, 1 / 3, 0}, rpy = {1, 2, 3}}})
+    color = {1, 0.5, 0.1}, transparency = 0.25, elastic_modulus = 1e6, soft_layer = 0.004, poisson_ratio = 0.25, pose = {xyz = {1, 1 / 3, 0}, rpy = {1, 2, 3}}})
   local wrist = world:add_robot("tests/data/two_finger/pincher.cfg", {name = "wrist"})
   wrist:mount_on(claw, {chain = 2, pose = {xyz = {0.01, 0.02, 0.03}, rpy = {0, 0, 1}}, piece = "tests/data/two_finger/box.iv"})
   world:add_obstacle("models/obstacles/table.iv", {name = "last", material = "cork", pose = {xyz = {0, 0, -2}}})

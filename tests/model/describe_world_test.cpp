@@ -57,6 +57,8 @@ static World any_world(uint64_t seed) {
     if (chance(0.3)) world.set_com(id, {random.uniform(0, 0.01), 0, 0.001});
     if (chance(0.2)) world.set_inertia(id, Eigen::Vector3d(1, 2, 2.5).asDiagonal());
     if (chance(0.2)) world.set_elastic_modulus(id, 1e6);
+    if (chance(0.2)) world.set_soft_layer(id, 0.004);
+    if (chance(0.2)) world.set_poisson_ratio(id, 0.3);
     if (chance(0.3)) world.set_material(id, "rubber");
     if (chance(0.1)) world.set_collision(false, id);
     for (const auto other : world.bodies())
@@ -118,6 +120,9 @@ TEST_CASE("each difference of two worlds has its phrase") {
   CHECK(only([&](World& w) { w.set_material(cup, "glass"); }) == phrase("the material of 'cup'"));
   CHECK(only([&](World& w) { w.set_elastic_modulus(cup, 2e6); }) ==
         phrase("the elastic modulus of 'cup'"));
+  CHECK(only([&](World& w) { w.set_soft_layer(cup, 0.005); }) == phrase("the soft layer of 'cup'"));
+  CHECK(only([&](World& w) { w.set_poisson_ratio(cup, 0.3); }) ==
+        phrase("Poisson's ratio of 'cup'"));
   CHECK(only([&](World& w) { w.set_appearance(cup, {}); }).empty());
   CHECK(only([&](World& w) {
           w.set_pose(cup, Pose::translation({0, 0, 1e-11}));

@@ -270,6 +270,10 @@ TEST_CASE("properties refuse what is no mass, inertia, modulus, threshold, mater
                        Error);
   CHECK_THROWS_WITH_AS(world.set_elastic_modulus(a, 0),
                        "body 'a': its elastic modulus must be > 0 [Pa], got 0", Error);
+  CHECK_THROWS_WITH_AS(world.set_soft_layer(a, -1),
+                       "body 'a': its soft layer must be > 0 [m], got -1", Error);
+  CHECK_THROWS_WITH_AS(world.set_poisson_ratio(a, 0.5),
+                       "body 'a': Poisson's ratio must be in [0, 0.5), got 0.5", Error);
   CHECK_THROWS_WITH_AS(world.set_contact_threshold(0),
                        "contact_threshold must lie in [1e-09, 0.01] m, got 0", Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, "b"), "the name 'b' is taken in this world", Error);

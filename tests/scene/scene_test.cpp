@@ -136,3 +136,37 @@ TEST_CASE("a camera is passed on") {
   CHECK(make_scene(world, {.eye = eye}).eye->eye == eye.eye);
   CHECK(!make_scene(world).eye);
 }
+
+TEST_CASE(
+    "patches of soft contacts are drawn when asked for, in the object whichever comes first") {
+  const Eigen::Vector3d middle(0, 0, 0.02 + 5e-5);
+  BodySpec soft = body("ball", ball(0.02, 40, 80));
+  soft.elastic_modulus = 1.5e6;
+  for (const bool ball_first : {false, true}) {
+    World world;
+    const auto add_ball = [&] {
+      return world.add_body(soft, BodyKind::object, Pose::translation(middle));
+    };
+    Id<Body> held;
+    if (ball_first) held = add_ball();
+    world.add_body(body("table", box(1, 1, 0.1)), BodyKind::obstacle,
+                   Pose::translation({0, 0, -0.05}));
+    if (!ball_first) held = add_ball();
+    CHECK(make_scene(world).meshes.size() == 2);
+    const Scene scene = make_scene(world, {.patches = true});
+    REQUIRE(scene.meshes.size() == 4);
+    const DrawMesh &surface = scene.meshes[2], &rim = scene.meshes[3];
+    CHECK(surface.color == palette::patch);
+    CHECK(rim.color == palette::ellipse);
+    // just within the ball, and as round
+    for (const Eigen::Vector3d& p : surface.shape->mesh().vertices) {
+      const double inside = 0.02 - (surface.X_WM * p - middle).norm();
+      CHECK(inside > 0);
+      CHECK(inside < 1.5e-4);
+    }
+    const double a = contact_ellipse(soft_patch(*contacts(world)[0].site), 5).semi_axes[0];
+    CHECK(rim.shape->bounds().high.x() == doctest::Approx(a));
+    world.set_elastic_modulus(held, std::nullopt);
+    CHECK(make_scene(world, {.patches = true}).meshes.size() == 2);
+  }
+}

@@ -1,0 +1,50 @@
+// The curvature of a surface at a contact, from points of it.
+#pragma once
+#include <Eigen/Core>
+#include <span>
+
+namespace clench {
+
+/// How a surface bends where it is touched; in the frame of its points, whose +z goes into the
+/// body.
+struct SurfaceFit {
+  /// principal curvatures, descending; positive where the surface falls away from what touches it,
+  /// as a ball's, negative where it rises, as a socket's [1/m]
+  Eigen::Vector2d curvatures = Eigen::Vector2d::Zero();
+  /// unit, one a column, orthogonal to each other and to the normal
+  Eigen::Matrix<double, 3, 2> directions = Eigen::Matrix<double, 3, 2>::Identity();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, into the body
+  double residual = 0;  ///< how far the points lie from the fit, root of the mean square [m]
+  /// how far they lie from their mean height over the tangent plane, likewise [m]
+  double relief = 0;
+};
+
+enum class PatchFit {
+  quadric,  ///< our own
+  jet       ///< CGAL's Monge_via_jet_fitting, in builds with CLENCH_CGAL
+};
+
+/// Least squares of z = c + Dx + Ey + Ax^2 + By^2 + Cxy + m/2 z^2, in the tangent plane: the frame is
+/// turned until D and E vanish, so that a tilt is no curvature. m is the curvature found in the
+/// point's direction: profiles are circles, so balls and cylinders of any size are exact.
+///
+/// points  surface points around (0, 0), at least 3, +z into the body [m]
+/// scale   of their distances, > 0 [m]
+/// throws  Error for less than 3 points
+SurfaceFit fit_quadric(std::span<const Eigen::Vector3d> points, double scale);
+
+/// The same by a polynomial of degree 4 and the Monge form.
+///
+/// throws  Error for less than 15 points, and in builds without CGAL
+/// source  Cazals & Pouget (2005), Estimating differential quantities using polynomial fitting of
+///         osculating jets
+SurfaceFit fit_jet(std::span<const Eigen::Vector3d> points, double scale);
+
+/// Is fit_jet there?
+bool has_fit_jet();
+
+/// residual and relief of points in the frame of a fit's directions and normal, about `origin`
+void measure_fit(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& origin,
+                 SurfaceFit& fit);
+
+}  // namespace clench

@@ -1,0 +1,110 @@
+// Soft fingers: the patch over which an elastic body presses on another, and the turn about the
+// normal that it resists.
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "contact/contact_set.h"
+#include "contact/patch_fit.h"
+
+namespace clench {
+
+/// A body as a soft layer on a rigid core.
+struct Elasticity {
+  std::optional<double> modulus = {};  ///< Young's, > 0 [Pa]; none: rigid
+  double layer = 0.003;                ///< height of the soft layer, > 0 [m]
+  double poisson = 0;                  ///< Poisson's ratio, in [0, 0.5)
+};
+
+/// How far around a contact the surface counts: 0.4 m / cbrt(modulus of the stiffer elastic body in
+/// Pa), and 5 mm where that is not between 3 and 10 mm.
+double neighbourhood_radius(double modulus);
+
+/// One place where two bodies touch softly; never changes. Contacts whose neighbourhoods overlap
+/// share it.
+struct SoftSite {
+  ShapePtr a, b;
+  Pose X_AB;
+  Elasticity elastic_a, elastic_b;
+  double radius = 0;                      ///< of the neighbourhood of each point [m]
+  std::vector<Eigen::Vector3d> points_A;  ///< of the contacts, half way between the surfaces [m]
+  Eigen::Vector3d centre_A;               ///< their mean
+  Eigen::Vector3d normal_A;               ///< unit, into b: along the mean of theirs
+};
+
+using SoftSitePtr = std::shared_ptr<const SoftSite>;
+
+/// The site of each touch, equal for those that share one: touches nearer to each other than two
+/// radii, whose normals differ by less than 40 degrees, and all that such steps lead to, in whatever
+/// order they come.
+std::vector<SoftSitePtr> soft_sites(const ShapePtr& a, const ShapePtr& b, const Pose& X_AB,
+                                    const Elasticity& elastic_a, const Elasticity& elastic_b,
+                                    const std::vector<Touch>& touches);
+
+struct PatchOptions {
+  std::optional<double> radius = {};  ///< instead of the site's, > 0 [m]
+  /// stands for the relative radius of a direction along which the surfaces do not part, > 0 [m]
+  double flat_radius = 0.02;
+  PatchFit fit = PatchFit::quadric;
+};
+
+/// beyond this, a relative radius counts as none [m]
+inline constexpr double flattest_radius = 1;
+
+/// The surfaces of both bodies around a soft contact; all in the frame of a.
+struct SoftPatch {
+  Eigen::Vector3d centre_A, normal_A;  ///< unit, into b
+  double radius = 0;                   ///< of the neighbourhood [m]
+  /// of a and of b; their normals go into them
+  std::array<SurfaceFit, 2> surfaces;
+  std::array<std::vector<Eigen::Vector3d>, 2> points;  ///< that the fits are of
+  /// Of the gap between the surfaces along `directions`, the more curved one first [m]. Where they
+  /// part slower than a ball of flattest_radius from a plane, or not at all: flat_radius, but no less
+  /// than the first.
+  std::array<double, 2> relative_radii = {};
+  std::array<bool, 2> flat = {};
+  Eigen::Matrix<double, 3, 2> directions;  ///< unit, orthogonal to each other and to the normal
+  /// how far the surfaces go along them from the middle, to the farther side, where they end within
+  /// the neighbourhood, as a plate's edge does; else infinite [m]
+  std::array<double, 2> extent = {};
+  /// root of the mean square that points lie from their fit, of the worse surface [m]
+  double residual = 0;
+  /// Is there a corner or an edge? The fit is off by more than 15 % of the surface's relief, or a
+  /// surface has hardly any points.
+  bool sharp = false;
+  Elasticity elastic_a, elastic_b;
+};
+
+/// throws  Error when an option is out of range, or the fit is not in this build
+SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options = {});
+
+/// How two elastic bodies act together.
+enum class ModulusRule {
+  series,  ///< each gives way: sums of layer (1 - poisson^2) / modulus
+  larger   ///< as the original: the layer of the stiffer elastic body alone, poisson's ratio unused
+};
+
+/// Where two bodies press on each other: an ellipse along the patch's directions.
+struct ContactEllipse {
+  std::array<double, 2> semi_axes = {};  ///< [m]
+  double indentation = 0;                ///< in the middle [m]
+  double pressure = 0;                   ///< in the middle; falls as a paraboloid to the rim [Pa]
+};
+
+/// Mattress of springs: indentation = sqrt(F c / (pi sqrt(R1 R2))) with the compliance c, layer over
+/// modulus; semi-axis = sqrt(2 indentation R), no longer than the surfaces go.
+///
+/// force   normal, >= 0 [N]
+/// throws  Error when it is negative or not finite
+/// source  Johnson (1985), Contact mechanics, ch. 4.3: the elastic foundation
+ContactEllipse contact_ellipse(const SoftPatch& patch, double force,
+                               ModulusRule rule = ModulusRule::series);
+
+/// 8 sqrt(ab) / 15 of the ellipse's semi-axes: friction mu resists a torque about the normal up to
+/// mu F times this [m]. Exact where a = b.
+/// throws  as contact_ellipse
+double torsion_radius(const SoftPatch& patch, double force, ModulusRule rule = ModulusRule::series);
+
+}  // namespace clench
