@@ -145,7 +145,7 @@ ConeQuality judge(const ConeRows& rows, const ConePoint& p) {
   q.primal = size_of(back / tau - rows.b) / against(std::max(size_of(Ax), size_of(p.s)) / tau);
   q.dual = size_of((Px + Az) / tau + rows.q) / against(std::max(size_of(Px), size_of(Az)) / tau);
   const double above = (xPx / tau / 2 + qx) / tau, below = -(xPx / tau / 2 + bz) / tau;
-  q.gap = std::abs(above - below) / against(std::max(std::abs(above), std::abs(below)));
+  q.gap = std::abs(above - below) / std::max({1.0, std::abs(above), std::abs(below)});
   q.infeasible = bz < 0 ? size_of(Az) / -bz : none;
   q.unbounded = qx < 0 ? std::max(size_of(Px), size_of(back)) / -qx : none;
   return q;

@@ -122,9 +122,9 @@ TEST_CASE("whether a wedge slips out turns at the friction angle") {
                  test::contact_at({-0.05, 0, 0}, {std::cos(slope), 0, std::sin(slope)}, mu)});
   };
   const ForceOptions options{.load = wrench(0, 0, 1, 0, 0, 0)};
-  Held rough = wedge(std::tan(slope) * (1 + 1e-4));
+  Held rough = wedge(std::tan(slope) * (1 + 1e-6));
   check_forces(rough, options, hold(rough, options));
-  Held smooth = wedge(std::tan(slope) * (1 - 1e-4));
+  Held smooth = wedge(std::tan(slope) * (1 - 1e-6));
   const ForceResult slips = hold(smooth, options);
   CHECK(slips.status == ForceStatus::infeasible);
 }
