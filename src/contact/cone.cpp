@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "contact/friction_edges.h"
 
 namespace clench {
 
@@ -12,15 +13,15 @@ namespace {
 
 constexpr double unit_length = 1e-6;  // what a normal's length may be off: it passed through files
 
-void check(const PointContact& contact, const ConeOptions& options) {
+void check_cone(const PointContact& contact, const ConeOptions& options) {
   if (!contact.p_O.allFinite()) fail("contact cone: the point must be finite");
   const double length = contact.n_O.norm();
   if (!(std::abs(length - 1) <= unit_length))
     fail("contact cone: the normal must be a unit vector, got length {}", length);
   if (!std::isfinite(contact.mu) || contact.mu < 0)
     fail("contact cone: mu must be >= 0, got {}", contact.mu);
-  if (options.edges < 3 || options.edges > most_edges)
-    fail("contact cone: edges must be 3 to {}, got {}", most_edges, options.edges);
+  if (!std::isfinite(contact.torsion_radius) || contact.torsion_radius < 0)
+    fail("contact cone: torsion_radius must be >= 0, got {}", contact.torsion_radius);
   if (!std::isfinite(options.rho) || options.rho <= 0)
     fail("contact cone: rho must be > 0, got {}", options.rho);
   if (!options.p_OM.allFinite()) fail("contact cone: the point of torques must be finite");
@@ -38,14 +39,25 @@ Eigen::Matrix3d contact_frame(const Eigen::Vector3d& normal) {
   return frame;
 }
 
-Eigen::Matrix<double, 6, Eigen::Dynamic> cone_wrenches(const PointContact& contact,
-                                                       const ConeOptions& options) {
-  check(contact, options);
+Wrenches cone_wrenches(const PointContact& contact, const ConeOptions& options) {
+  check_cone(contact, options);
+  if (options.edges < 3 || options.edges > most_edges)
+    fail("contact cone: edges must be 3 to {}, got {}", most_edges, options.edges);
   const Eigen::Matrix3d frame = contact_frame(contact.n_O);
   const Eigen::Vector3d lever = (contact.p_O - options.p_OM) / options.rho;
+  if (contact.mu > 0 && contact.torsion_radius > 0) {
+    const FrictionEdges edges = friction_edges(contact.torsion_radius, options.edges);
+    Wrenches wrenches(6, edges.cols());
+    for (int j = 0; j < edges.cols(); ++j) {
+      const Eigen::Vector3d force =
+          contact.n_O + contact.mu * (frame.leftCols(2) * edges.col(j).head<2>());
+      const Eigen::Vector3d turn = contact.n_O * (contact.mu * edges(5, j) / options.rho);
+      wrenches.col(j) << force, lever.cross(force) + turn;
+    }
+    return wrenches;
+  }
   const int count = contact.mu == 0 ? 1 : options.edges;
-
-  Eigen::Matrix<double, 6, Eigen::Dynamic> wrenches(6, count);
+  Wrenches wrenches(6, count);
   for (int j = 0; j < count; ++j) {
     const double angle = 2 * std::numbers::pi * j / count;
     const Eigen::Vector3d tangent = std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1);
@@ -53,6 +65,24 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> cone_wrenches(const PointContact& conta
     wrenches.col(j) << force, lever.cross(force);
   }
   return wrenches;
+}
+
+RoundCone round_cone(const PointContact& contact, const ConeOptions& options) {
+  check_cone(contact, options);
+  const Eigen::Matrix3d frame = contact_frame(contact.n_O);
+  const Eigen::Vector3d lever = (contact.p_O - options.p_OM) / options.rho;
+  RoundCone cone;
+  cone.axis << contact.n_O, lever.cross(contact.n_O);
+  const bool soft = contact.torsion_radius > 0;
+  cone.spread.setZero(6, contact.mu == 0 ? 0 : soft ? 3 : 2);
+  for (int k = 0; k < cone.spread.cols(); ++k) {
+    if (k == 2)
+      cone.spread.col(k).tail<3>() = contact.n_O * (contact.torsion_radius / options.rho);
+    else
+      cone.spread.col(k) << frame.col(k), lever.cross(frame.col(k));
+    cone.spread.col(k) *= contact.mu;
+  }
+  return cone;
 }
 
 }  // namespace clench

@@ -15,9 +15,14 @@ struct PointContact {
 };
 
 inline constexpr int most_edges = 1000;  ///< far beyond what a hull in six dimensions can use
+/// edges of the cone itself, round, where a pyramid or a cone may be asked for
+inline constexpr int round_edges = 0;
+
+using Wrenches =
+    Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< a column a wrench (force; torque / rho)
 
 struct ConeOptions {
-  int edges = 8;     ///< generators of the pyramid, 3 to most_edges
+  int edges = 8;     ///< of the pyramid about the normal, 3 to most_edges
   double rho = 1.0;  ///< torque length scale, > 0 [m]
   /// torques are about this point, usually the centre of mass [m]
   Eigen::Vector3d p_OM = Eigen::Vector3d::Zero();
@@ -28,12 +33,24 @@ struct ConeOptions {
 Eigen::Matrix3d contact_frame(const Eigen::Vector3d& normal);
 
 /// Generators of a linearised friction cone. Column i is (f; tau/rho) with f = n + mu t_i: unit
-/// normal force. Without friction the cone is its normal: one column.
+/// normal force. Without friction the cone is its normal: one column. A soft contact has more edges,
+/// those of friction_edges: 20 for 8.
 ///
-/// returns  6 x edges (6 x 1 when mu = 0), counter-clockwise about n from the frame's x
-/// throws   Error when mu < 0, edges out of range, rho <= 0, n is not unit or a number is not finite
+/// returns  6 x count; of a point contact counter-clockwise about n from the frame's x
+/// throws   Error when mu < 0, torsion_radius < 0, edges out of range, rho <= 0, n is not unit or a number
+///          is not finite
 /// source   Murray, Li & Sastry (1994), ch. 5: grasp map, force rows first
-Eigen::Matrix<double, 6, Eigen::Dynamic> cone_wrenches(const PointContact& contact,
-                                                       const ConeOptions& options = {});
+Wrenches cone_wrenches(const PointContact& contact, const ConeOptions& options = {});
+
+/// The wrenches of unit normal force that a round cone holds: axis + spread x with |x| <= 1.
+struct RoundCone {
+  Eigen::Matrix<double, 6, 1> axis = Eigen::Matrix<double, 6, 1>::Zero();
+  /// both tangents, and of a soft contact the turn about the normal; no column without friction
+  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 3> spread;
+};
+
+/// What cone_wrenches approaches with more and more edges, which count for nothing here.
+/// throws  Error as cone_wrenches
+RoundCone round_cone(const PointContact& contact, const ConeOptions& options = {});
 
 }  // namespace clench

@@ -1,29 +1,41 @@
 #include "contact/friction_edges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 
 namespace clench {
 
-FrictionEdges friction_edges(double torsion_radius) {
+FrictionEdges friction_edges(double torsion_radius, int directions) {
   if (!(torsion_radius >= 0) || !std::isfinite(torsion_radius))
     fail("friction edges: wanted a torsion radius >= 0 [m], got {}", torsion_radius);
+  if (directions < 3) fail("friction edges: wanted 3 directions or more, got {}", directions);
   constexpr double pi = std::numbers::pi, millimetre = 1e-3;
-  constexpr std::pair<double, int> all[] = {
-      {pi / 2, 1}, {pi / 4, 5}, {0, 8}, {-pi / 4, 5}, {-pi / 2, 1}};
   const bool soft = torsion_radius > 0;
-  FrictionEdges edges = FrictionEdges::Zero(6, soft ? 20 : 8);
+  const int rings = soft ? std::clamp((directions + 2) / 4, 1, 16) : 0;
+  std::vector<std::pair<double, int>> all;
+  for (int k = rings; k >= -rings; --k) {
+    const double latitude = k * (pi / 2) / std::max(rings, 1);
+    const int around = static_cast<int>(directions * std::cos(latitude));
+    all.emplace_back(latitude, k == 0                 ? directions
+                               : std::abs(k) == rings ? 1
+                                                      : std::max(around, 1));
+  }
+  int count = 0;
+  for (const auto& ring : all) count += ring.second;
+  FrictionEdges edges = FrictionEdges::Zero(6, count);
   int next = 0;
-  for (const auto& [latitude, directions] : all) {
-    if (!soft && latitude != 0) continue;
+  for (const auto& [latitude, around] : all) {
     // from the unit sphere out to the ellipsoid, in the same direction
-    const double across = directions == 1 ? 0 : std::cos(latitude), along = std::sin(latitude);
+    const bool pole = soft && std::abs(latitude) == pi / 2;
+    const double across = pole ? 0 : std::cos(latitude), along = std::sin(latitude);
     const double length = soft ? std::hypot(across, along * millimetre / torsion_radius) : 1;
-    for (int i = 0; i < directions; ++i, ++next) {
-      const double turn = 2 * pi * i / directions;
+    for (int i = 0; i < around; ++i, ++next) {
+      const double turn = 2 * pi * i / around;
       edges(0, next) = across * std::cos(turn) / length;
       edges(1, next) = across * std::sin(turn) / length;
       edges(5, next) = along * millimetre / length;

@@ -1,5 +1,6 @@
 #include "grasp/grasp.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -32,7 +33,7 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   };
   if (held.robot)
     refuse(fmt::format("{} is a part of {}", held.name, world.robot(held.robot).name));
-  if (options.edges < 3 || options.edges > most_edges)
+  if ((options.edges < 3 || options.edges > most_edges) && options.edges != round_edges)
     refuse(fmt::format("edges must be 3 to {}, got {}", most_edges, options.edges));
   if (options.rho && !(std::isfinite(*options.rho) && *options.rho > 0))
     refuse(fmt::format("rho must be > 0 [m], got {}", *options.rho));
@@ -46,7 +47,10 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   grasp.edges = options.edges;
   // a body without extent has no contacts either: any length will do
   const double radius = held.max_radius();
-  grasp.rho = options.rho.value_or(radius > 0 ? radius : 1);
+  const double gyration = std::sqrt(std::max(0.0, held.inertia_per_mass.trace() / 2));
+  grasp.largest_radius = radius > 0 ? radius : 1;
+  grasp.gyration_radius = gyration > 0 ? gyration : 1;
+  grasp.rho = options.rho.value_or(grasp.length(options.length));
 
   const auto parts = world.bodies_of(hand);
   grasp.contacts = contacts(world, parts, std::span(&object, 1));
@@ -59,11 +63,13 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   return grasp;
 }
 
-WrenchSpace wrench_space(const Grasp& grasp) {
-  const ConeOptions options{.edges = grasp.edges, .rho = grasp.rho, .p_OM = grasp.com};
-  std::vector<Wrenches> wrenches;
-  for (const PointContact& point : grasp.points) wrenches.push_back(cone_wrenches(point, options));
-  return WrenchSpace(std::move(wrenches));
+WrenchSpace wrench_space(const Grasp& grasp, const GraspSpaceOptions& options) {
+  const ConeOptions cone{.edges = options.edges.value_or(grasp.edges),
+                         .rho = options.rho.value_or(grasp.rho),
+                         .p_OM = grasp.com};
+  std::vector<UnitWrenches> contacts;
+  for (const PointContact& point : grasp.points) contacts.push_back(unit_wrenches(point, cone));
+  return WrenchSpace(std::move(contacts), options.space);
 }
 
 }  // namespace clench

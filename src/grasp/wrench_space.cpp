@@ -1,8 +1,11 @@
 #include "grasp/wrench_space.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "grasp/expanding_polytope.h"
+#include "grasp/nearest_point.h"
 #include "grasp/wrench_hull.h"
 #include "math/decompositions.h"
 
@@ -15,80 +18,375 @@ namespace {
 // hold something.
 constexpr double rank_tolerance = 1e-10;
 
-// A facet nearer to the origin than this part of the largest wrench goes through it: qhull's planes
-// are good to some 1e-14 of the points' extent.
+// A set that reaches this far in every direction, of size one, spans them all.
+constexpr double surely_spanned = 1e-6;
+
+// A facet nearer to the origin than this part of the largest wrench goes through it: planes are good
+// to some 1e-14 of the wrenches' extent.
 constexpr double on_boundary = 1e-12;
 
-Eigen::MatrixXd side_by_side(const std::vector<Wrenches>& contacts) {
-  Eigen::Index count = 0;
-  for (const Wrenches& wrenches : contacts) count += wrenches.cols();
-  Eigen::MatrixXd all(6, count);
-  Eigen::Index column = 0;
-  for (size_t contact = 0; contact < contacts.size(); ++contact)
-    for (Eigen::Index k = 0; k < contacts[contact].cols(); ++k) {
-      const Vector6d w = contacts[contact].col(k);
-      for (const double x : w)
-        if (!std::isfinite(x))
-          fail("wrench space: contact {}, wrench {}: numbers must be finite, got {}", contact + 1,
-               k + 1, x);
-      all.col(column++) = w;
-    }
-  return all;
-}
+// What epsilon is found to, for size one: of polytopes as far as doubles go, of round cones as far as is
+// worth its time, some twenty points a digit.
+constexpr double flat_tolerance = 1e-12, round_tolerance = 1e-9;
 
-Eigen::MatrixXd times_power_of_two(const Eigen::MatrixXd& m, int exponent) {
-  return m.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
-}
+// How near to the most a contact's answer must come to count as it.
+constexpr double carries = 1e-9;
+
+constexpr int most_facets = 1'000'000;
 
 // of the two unit vectors along a line the one whose largest component is positive
-Vector6d upright(const Vector6d& direction) {
+Eigen::VectorXd upright(const Eigen::VectorXd& direction) {
   int largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
-  return direction[largest] < 0 ? Vector6d(-direction) : direction;
+  return direction[largest] < 0 ? Eigen::VectorXd(-direction) : direction;
+}
+
+void check_finite(const Eigen::Ref<const Wrenches>& wrenches, size_t contact) {
+  if (wrenches.allFinite()) return;
+  for (Eigen::Index k = 0; k < wrenches.cols(); ++k)
+    for (const double x : wrenches.col(k))
+      if (!std::isfinite(x))
+        fail("wrench space: contact {}, wrench {}: numbers must be finite, got {}", contact + 1,
+             k + 1, x);
+}
+
+void check_coordinates(const std::vector<int>& coordinates) {
+  if (coordinates.size() < 2 || coordinates.size() > 6)
+    fail("wrench space: wanted 2 to 6 coordinates, got {}", coordinates.size());
+  for (size_t i = 0; i < coordinates.size(); ++i) {
+    if (coordinates[i] < 0 || coordinates[i] > 5)
+      fail("wrench space: coordinates must be 0 to 5, got {}", coordinates[i]);
+    if (std::count(coordinates.begin(), coordinates.end(), coordinates[i]) > 1)
+      fail("wrench space: coordinate {} is there twice", coordinates[i]);
+  }
+}
+
+std::vector<UnitWrenches> edges_only(std::vector<Wrenches> contacts) {
+  std::vector<UnitWrenches> out;
+  for (Wrenches& edges : contacts) out.push_back({std::move(edges), {}});
+  return out;
+}
+
+// Are all directions spanned, surely? By Gram and Schmidt, the longest column first.
+bool surely_full_rank(Eigen::MatrixXd m) {
+  double first = 0;
+  for (int k = 0; k < m.rows(); ++k) {
+    Eigen::Index longest = 0;
+    const double length = std::sqrt(m.colwise().squaredNorm().maxCoeff(&longest));
+    if (k == 0) first = length;
+    if (!(length > surely_spanned * first)) return false;
+    const Eigen::VectorXd q = m.col(longest) / length;
+    m -= q * (q.transpose() * m).eval();
+  }
+  return true;
 }
 
 }  // namespace
 
-WrenchSpace::WrenchSpace(std::vector<Wrenches> contacts) : contacts_(std::move(contacts)) {
-  Eigen::MatrixXd all = side_by_side(contacts_);
-  const double largest = all.size() > 0 ? all.cwiseAbs().maxCoeff() : 0;
-  hull_.dimension = 6;
-  weakest_.direction = Vector6d::Unit(0);
-  if (largest == 0) return;
+UnitWrenches unit_wrenches(const PointContact& contact, const ConeOptions& options) {
+  if (options.edges != round_edges) return {cone_wrenches(contact, options), {}};
+  return {Wrenches(6, 0), round_cone(contact, options)};
+}
 
-  // of size one, exactly: a power of two changes no digit
-  const int exponent = std::ilogb(largest) + 1;
-  all = times_power_of_two(all, -exponent);
-
-  // what no contact pushes along is not resisted at all
-  const Svd svd = singular_value_decomposition(all);
-  rank_ = static_cast<int>((svd.values.array() > rank_tolerance * svd.values[0]).count());
-  hull_.rank = affine_rank(all, rank_tolerance);
-  if (rank_ < 6) {
-    weakest_.direction = upright(svd.u.col(5));
-    return;
+WrenchSpace::WrenchSpace(std::vector<UnitWrenches> contacts, WrenchSpaceOptions options)
+    : contacts_(std::move(contacts)), options_(std::move(options)) {
+  check_coordinates(options_.coordinates);
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    check_finite(contacts_[i].edges, i);
+    if (contacts_[i].round) {
+      check_finite(contacts_[i].round->axis, i);
+      check_finite(contacts_[i].round->spread, i);
+    }
   }
+}
 
-  hull_ = wrench_hull(all);
-  double offset = 0;
-  if (hull_.full()) {
-    int facet = 0;
-    offset = hull_.offsets.minCoeff(&facet);
-    weakest_.direction = -hull_.normals.col(facet);
-  } else {
-    // all wrenches lie in one hyperplane beside the origin, n . w = 1: they push along n only
-    const Eigen::VectorXd along = svd.v.transpose() * Eigen::VectorXd::Ones(all.cols());
-    const Vector6d n = svd.u * along.cwiseQuotient(svd.values);
-    offset = -1 / n.norm();
-    weakest_.direction = n.normalized();
+WrenchSpace::WrenchSpace(std::vector<Wrenches> contacts, WrenchSpaceOptions options)
+    : WrenchSpace(edges_only(std::move(contacts)), std::move(options)) {}
+
+bool WrenchSpace::is_round() const {
+  return std::any_of(contacts_.begin(), contacts_.end(),
+                     [](const UnitWrenches& c) { return c.round.has_value(); });
+}
+
+Vector6d WrenchSpace::in_all_coordinates(const Eigen::VectorXd& x) const {
+  Vector6d out = Vector6d::Zero();
+  for (int i = 0; i < dimension(); ++i) out[options_.coordinates[i]] = x[i];
+  return out;
+}
+
+const WrenchSpace::Prepared& WrenchSpace::prepared() const {
+  if (prepared_) return *prepared_;
+  double largest = 0, square = 0;
+  for (const UnitWrenches& contact : contacts_)
+    for (const int row : options_.coordinates) {
+      if (contact.edges.cols() > 0)
+        largest = std::max(largest, contact.edges.row(row).cwiseAbs().maxCoeff());
+      if (contact.round) {
+        largest = std::max(largest, std::abs(contact.round->axis[row]));
+        if (contact.round->spread.cols() > 0)
+          largest = std::max(largest, contact.round->spread.row(row).cwiseAbs().maxCoeff());
+      }
+    }
+  // a power of two changes no digit
+  int exponent = largest > 0 ? std::ilogb(largest) + 1 : 0;
+  for (const UnitWrenches& contact : contacts_) {
+    const auto add = [&](const auto& column) {
+      double sum = 0;
+      for (const int row : options_.coordinates) {
+        const double x = std::ldexp(column[row], -exponent);
+        sum += x * x;
+      }
+      square = std::max(square, sum);
+    };
+    for (const auto& column : contact.edges.colwise()) add(column);
+    if (contact.round) {
+      add(contact.round->axis);
+      for (const auto& column : contact.round->spread.colwise()) add(column);
+    }
   }
-  if (std::abs(offset) <= on_boundary * all.colwise().norm().maxCoeff()) offset = 0;
+  double zero = on_boundary * std::sqrt(square);
+  // sums of many contacts are of size one, too
+  if (options_.norm == WrenchNorm::linf && contacts_.size() > 1) {
+    const int more = std::ilogb(static_cast<double>(contacts_.size()));
+    exponent += more;
+    zero = std::ldexp(zero, -more);
+  }
+  prepared_.emplace(Prepared{exponent, zero, reach_in(options_.norm, exponent)});
+  return *prepared_;
+}
 
-  weakest_.resistance = std::ldexp(offset, exponent);
-  epsilon_ = std::max(0.0, weakest_.resistance);
-  hull_.offsets = times_power_of_two(hull_.offsets, exponent);
-  hull_.volume = std::ldexp(hull_.volume, 6 * exponent);
-  hull_.area = std::ldexp(hull_.area, 5 * exponent);
+ContactReach WrenchSpace::reach_in(WrenchNorm norm, int exponent) const {
+  const int d = dimension();
+  size_t count = 0;
+  for (const UnitWrenches& contact : contacts_)
+    count += static_cast<size_t>(contact.round ? 1 + contact.round->spread.cols()
+                                               : contact.edges.cols());
+  std::vector<double> numbers;
+  numbers.reserve(count * d);  // parts point into it
+  std::vector<ContactPart> parts;
+  // ldexp is slow, and a product with a power of two is the same unless it leaves the doubles
+  const bool common = std::abs(exponent) < 500;
+  const double scale = common ? std::ldexp(1.0, -exponent) : 0;
+  const auto add = [&](const auto& column) {
+    for (const int row : options_.coordinates)
+      numbers.push_back(common ? column[row] * scale : std::ldexp(column[row], -exponent));
+  };
+  for (const UnitWrenches& contact : contacts_) {
+    ContactPart part;
+    const double* start = numbers.data() + numbers.size();
+    if (contact.round) {
+      add(contact.round->axis);
+      for (const auto& column : contact.round->spread.colwise()) add(column);
+      part.axis = start;
+      part.spread = start + d;
+      part.width = static_cast<int>(contact.round->spread.cols());
+    } else {
+      for (const auto& column : contact.edges.colwise()) add(column);
+      part.points = start;
+      part.count = static_cast<int>(contact.edges.cols());
+    }
+    parts.push_back(part);
+  }
+  return ContactReach(d, norm, parts);
+}
+
+// the columns that span what all wrenches span, scaled
+Eigen::MatrixXd WrenchSpace::spanning() const {
+  Eigen::Index count = 0, column = 0;
+  for (const UnitWrenches& contact : contacts_)
+    count += contact.round ? 1 + contact.round->spread.cols() : contact.edges.cols();
+  Eigen::MatrixXd all(dimension(), count);
+  const int exponent = prepared().exponent;
+  const auto add = [&](const auto& wrench) {
+    for (int i = 0; i < dimension(); ++i)
+      all(i, column) = std::ldexp(wrench[options_.coordinates[i]], -exponent);
+    ++column;
+  };
+  for (const UnitWrenches& contact : contacts_) {
+    for (const auto& wrench : contact.edges.colwise()) add(wrench);
+    if (contact.round) {
+      add(contact.round->axis);
+      for (const auto& wrench : contact.round->spread.colwise()) add(wrench);
+    }
+  }
+  return all;
+}
+
+int WrenchSpace::rank() const {
+  if (rank_) return *rank_;
+  if (bracket_ && bracket_->lower > surely_spanned) return rank_.emplace(dimension());
+  const Eigen::MatrixXd all = spanning();
+  if (all.size() == 0 || all.isZero(0)) return rank_.emplace(0);
+  if (surely_full_rank(all)) return rank_.emplace(dimension());
+  const Eigen::VectorXd values = singular_value_decomposition(all).values;
+  return rank_.emplace(static_cast<int>((values.array() > rank_tolerance * values[0]).count()));
+}
+
+WrenchSpace::Bracket WrenchSpace::bracket_of(const ContactReach& reach, double tolerance,
+                                             double at_least) const {
+  const Ball ball = largest_ball(reach, {.tolerance = std::max(tolerance, flat_tolerance),
+                                         .zero = prepared().zero,
+                                         .at_least = at_least});
+  Bracket out{ball.lower, ball.upper, tolerance,
+              Eigen::Map<const Eigen::VectorXd>(ball.direction, dimension()),
+              ball.end == BallEnd::outside || ball.end == BallEnd::flat};
+  if (out.outside) out.lower = out.upper = 0;
+  return out;
+}
+
+const WrenchSpace::Bracket& WrenchSpace::final_bracket() const {
+  const double tolerance = is_round() ? round_tolerance : flat_tolerance;
+  if (bracket_ && bracket_->tolerance <= tolerance) return *bracket_;
+  bracket_ = bracket_of(prepared().reach, tolerance, 0);
+  const double width = bracket_->upper - bracket_->lower;
+  if (width > 1e-9 && !is_round() && options_.norm == WrenchNorm::l1) {
+    // rounding broke every surface that was tried: the hull whole, by qhull
+    const Hull all = hull();
+    if (all.full()) {
+      int facet = 0;
+      const double offset = std::ldexp(all.offsets.minCoeff(&facet), -prepared().exponent);
+      bracket_->lower = bracket_->upper = std::max(0.0, offset);
+      bracket_->direction = all.normals.col(facet);
+      bracket_->outside = offset <= prepared().zero;
+    }
+  }
+  return *bracket_;
+}
+
+bool WrenchSpace::is_force_closure() const {
+  if (closure_) return *closure_;
+  if (contacts_.empty()) return closure_.emplace(false);
+  // each normal force at most one resists the same directions as their sum at most one
+  const bool l1 = options_.norm == WrenchNorm::l1;
+  const double inside = 2 * prepared().zero;
+  Bracket b = bracket_ && l1 ? *bracket_
+                             : bracket_of(l1 ? prepared().reach
+                                             : reach_in(WrenchNorm::l1, prepared().exponent),
+                                          0.5, inside);
+  if (b.outside) {
+    if (l1) bracket_ = b, bracket_->tolerance = 0;
+    return closure_.emplace(false);
+  }
+  if (b.lower < inside)
+    b = l1 ? final_bracket()
+           : bracket_of(reach_in(WrenchNorm::l1, prepared().exponent), flat_tolerance, 0);
+  if (b.outside || b.upper <= prepared().zero) return closure_.emplace(false);
+  return closure_.emplace(b.lower > surely_spanned || rank() == dimension());
+}
+
+double WrenchSpace::epsilon() const {
+  if (contacts_.empty()) return 0;
+  if (options_.norm == WrenchNorm::linf && !is_force_closure()) return 0;
+  const Bracket& b = final_bracket();
+  if (!is_force_closure()) return 0;
+  const bool converged = b.upper - b.lower <= std::max(b.tolerance, 1e-9);
+  return std::ldexp(std::max(0.0, converged ? b.upper : b.lower), prepared().exponent);
+}
+
+EpsilonBounds WrenchSpace::epsilon_bounds(const EpsilonOptions& options) const {
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
+    fail("wrench space: tolerance must be >= 0, got {}", options.tolerance);
+  if (options.at_least && !std::isfinite(*options.at_least))
+    fail("wrench space: at_least must be finite, got {}", *options.at_least);
+  if (!is_force_closure()) return {0, 0, true};
+  const int exponent = prepared().exponent;
+  const double tolerance = std::max(std::ldexp(options.tolerance, -exponent), flat_tolerance);
+  const double at_least = options.at_least ? std::ldexp(*options.at_least, -exponent) : 0;
+  const auto decides = [&](const Bracket& b) {
+    return b.upper - b.lower <= tolerance ||
+           (options.at_least && (b.lower >= at_least || b.upper < at_least));
+  };
+  if (!bracket_ || !decides(*bracket_)) {
+    Bracket found = bracket_of(prepared().reach, tolerance, std::max(0.0, at_least));
+    // how near it came is what counts later
+    found.tolerance = std::max(found.upper - found.lower, flat_tolerance);
+    if (bracket_) {
+      found.lower = std::max(found.lower, bracket_->lower);
+      if (bracket_->upper < found.upper)
+        found.upper = bracket_->upper, found.direction = bracket_->direction;
+    }
+    bracket_ = found;
+  }
+  return {std::ldexp(std::max(0.0, bracket_->lower), exponent),
+          std::ldexp(bracket_->upper, exponent), bracket_->upper - bracket_->lower <= tolerance};
+}
+
+// without force closure: a wrench that nothing, or less than nothing, answers
+Weakest WrenchSpace::unresisted() const {
+  Weakest out;
+  out.direction = Vector6d::Unit(options_.coordinates[0]);
+  if (rank() == 0) return out;
+  if (rank() < dimension()) {
+    const Svd svd = singular_value_decomposition(spanning());
+    out.direction = in_all_coordinates(upright(svd.u.col(dimension() - 1)));
+    return out;
+  }
+  const int exponent = prepared().exponent;
+  const ContactReach l1 = reach_in(WrenchNorm::l1, exponent);
+  const NearestPoint nearest = nearest_point(l1, Eigen::VectorXd::Zero(dimension()));
+  Eigen::VectorXd direction, far(dimension());
+  if (nearest.distance > 10 * prepared().zero)
+    direction = nearest.point / nearest.distance;
+  else
+    direction = -bracket_of(l1, flat_tolerance, 0).direction;
+  const Eigen::VectorXd answer = -direction;
+  const double reach = l1.support(answer.data(), far.data());
+  out.direction = in_all_coordinates(direction);
+  // no contact need push at all in L-infinity
+  if (options_.norm == WrenchNorm::l1 && std::abs(reach) > prepared().zero)
+    out.resistance = std::ldexp(reach, exponent);
+  return out;
+}
+
+const Weakest& WrenchSpace::weakest() const {
+  if (weakest_) return *weakest_;
+  if (!is_force_closure()) return weakest_.emplace(unresisted());
+  Weakest out;
+  out.resistance = epsilon();
+  const Eigen::VectorXd answer = final_bracket().direction;
+  out.direction = in_all_coordinates(-answer);
+  std::vector<double> pushes;
+  for (size_t i = 0; i < contacts_.size(); ++i)
+    pushes.push_back(prepared().reach.support_of(static_cast<int>(i), answer.data()));
+  const double most = *std::max_element(pushes.begin(), pushes.end());
+  const double enough = options_.norm == WrenchNorm::l1 ? most - carries : carries;
+  for (size_t i = 0; i < pushes.size(); ++i)
+    if (pushes[i] >= enough) out.contacts.push_back(static_cast<int>(i));
+  return weakest_.emplace(out);
+}
+
+Hull WrenchSpace::hull() const {
+  if (options_.norm != WrenchNorm::l1) fail("wrench space: no hull of points in L-infinity");
+  if (is_round()) fail("wrench space: no hull of points with round cones, give edges");
+  Hull out;
+  out.dimension = dimension();
+  const Eigen::MatrixXd all = spanning();
+  if (all.size() == 0 || all.isZero(0)) return out;
+  out.rank = affine_rank(all, rank_tolerance);
+  if (out.rank < dimension()) return out;
+  const int exponent = prepared().exponent;
+  out = wrench_hull(all);
+  for (double& x : out.offsets) x = std::ldexp(x, exponent);
+  out.volume = std::ldexp(out.volume, dimension() * exponent);
+  out.area = std::ldexp(out.area, (dimension() - 1) * exponent);
+  return out;
+}
+
+double WrenchSpace::volume() const {
+  if (volume_) return *volume_;
+  if (is_round()) fail("wrench space: volume of round cones is not known, give edges");
+  const bool l1 = options_.norm == WrenchNorm::l1;
+  if (rank() < dimension()) return volume_.emplace(0);
+  if (l1 && affine_rank(spanning(), rank_tolerance) < dimension()) return volume_.emplace(0);
+  const Facets facets = all_facets(prepared().reach, {.most_facets = most_facets});
+  if (facets.end == FacetsEnd::too_many)
+    fail("wrench space: volume: the hull of {} contacts{} has more than {} facets",
+         contacts_.size(), l1 ? "" : " in L-infinity", most_facets);
+  if (facets.end == FacetsEnd::complete)
+    return volume_.emplace(std::ldexp(facets.volume, dimension() * prepared().exponent));
+  if (facets.end == FacetsEnd::flat) return volume_.emplace(0);
+  if (!l1) fail("wrench space: volume: rounding broke the hull in L-infinity");
+  return volume_.emplace(hull().volume);
 }
 
 }  // namespace clench

@@ -5,47 +5,120 @@
 
 #include "contact/cone.h"
 #include "geometry/hull.h"
+#include "grasp/contact_reach.h"
 #include "math/pose.h"
 
 namespace clench {
 
-using Wrenches =
-    Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< a column a wrench (force; torque / rho)
-
-/// The wrench on the object, from outside, that a grasp resists worst. Contacts answer w by -w, so w
-/// is resisted when -w lies in the hull: the worst direction runs against the normal of the facet
-/// nearest to the origin.
-struct Weakest {
-  Vector6d direction = Vector6d::Zero();  ///< unit
-  /// largest multiple resisted; 0: none; below 0: all contacts push along it, by as much at least
-  double resistance = 0;
+/// What a contact does with unit normal force: the edges of a pyramid or any other wrenches, a column
+/// each, or a round cone.
+struct UnitWrenches {
+  Wrenches edges;
+  std::optional<RoundCone> round;  ///< instead of edges
 };
 
-/// L1 wrench space: all that contacts resist when their normal forces sum to at most one. It is the convex
-/// hull of the unit wrenches of all contacts.   source  Ferrari & Canny (1992)
+/// options.edges may be round_edges.   throws  Error as cone_wrenches
+UnitWrenches unit_wrenches(const PointContact& contact, const ConeOptions& options = {});
+
+struct WrenchSpaceOptions {
+  WrenchNorm norm = WrenchNorm::l1;
+  /// those that count, in this order: 2 to 6 different ones of fx fy fz tx ty tz, from 0
+  std::vector<int> coordinates = {0, 1, 2, 3, 4, 5};
+
+  bool operator==(const WrenchSpaceOptions&) const = default;
+};
+
+/// The wrench on the object, from outside, that a grasp resists worst. Contacts answer w by -w, so w
+/// is resisted when -w lies in the space.
+struct Weakest {
+  Vector6d direction = Vector6d::Zero();  ///< unit; 0 in coordinates that do not count
+  /// largest multiple resisted; 0: none; below 0: all contacts push along it, by as much at least
+  double resistance = 0;
+  /// those that push against it with all they have, and so fail first; none when it is not resisted
+  std::vector<int> contacts;
+};
+
+struct EpsilonOptions {
+  double tolerance =
+      1e-6;  ///< upper - lower that is enough, >= 0; no space is told closer than 1e-12 of its size
+  std::optional<double> at_least = {};  ///< enough to know whether epsilon reaches this
+};
+
+/// lower <= epsilon <= upper. lower is certified by a polytope inside the space, upper by a direction
+/// in which the space reaches no farther.
+struct EpsilonBounds {
+  double lower = 0, upper = 0;
+  bool converged = true;  ///< upper - lower is within the tolerance; else at_least was known before
+};
+
+/// All wrenches that contacts resist when their normal forces are bounded. L1: they sum to at most
+/// one; the convex hull of the unit wrenches of all contacts. L-infinity: each is at most one; the
+/// sum of the hulls of zero and each contact's unit wrenches.
+///
+/// Known by its support function: nothing is calculated before it is asked for, and then kept. One
+/// thread at a time.   source  Ferrari & Canny (1992)
 class WrenchSpace {
  public:
-  /// contacts  unit wrenches, one matrix a contact; empty: nothing is resisted. Any number, size or rank of them
-  /// throws    Error when a number is not finite
-  explicit WrenchSpace(std::vector<Wrenches> contacts);
+  /// contacts  empty: nothing is resisted. Any number, size or rank of wrenches
+  /// throws    Error when a number is not finite or the coordinates are not as they should be
+  explicit WrenchSpace(std::vector<UnitWrenches> contacts, WrenchSpaceOptions options = {});
+  explicit WrenchSpace(std::vector<Wrenches> contacts, WrenchSpaceOptions options = {});
 
-  /// Radius of the largest ball about the origin inside the hull; 0 unless force closure. In [0, 1] for forces.
-  double epsilon() const { return epsilon_; }
-  /// Of the hull in six dimensions; 0 below rank 6.
-  double volume() const { return hull_.volume; }
-  bool is_force_closure() const { return epsilon_ > 0; }
-  int rank() const { return rank_; }  ///< dimension that the wrenches span, 0..6
-  const Weakest& weakest() const { return weakest_; }
-  const std::vector<Wrenches>& contacts() const { return contacts_; }
-  /// Its points are the columns of all contacts in order; no facets unless the hull is full.
-  const Hull& hull() const { return hull_; }
+  /// Radius of the largest ball about the origin inside the space; 0 unless force closure. In [0, 1]
+  /// for forces in L1. Within 1e-12 of the space's size; 1e-9 with round cones.
+  double epsilon() const;
+  /// An epsilon that is less certain, and found sooner.   throws Error when tolerance < 0 or not finite
+  EpsilonBounds epsilon_bounds(const EpsilonOptions& options) const;
+  /// Of the space in its coordinates; 0 when it is flat.
+  /// throws  Error when a contact has a round cone, or the hull more than a million facets, as in
+  ///         L-infinity with more than three or four contacts
+  double volume() const;
+  bool is_force_closure() const;
+  int rank() const;  ///< dimension that the wrenches span, 0 to that of the space
+  const Weakest& weakest() const;
+
+  const std::vector<UnitWrenches>& contacts() const { return contacts_; }
+  const WrenchSpaceOptions& options() const { return options_; }
+  int dimension() const { return static_cast<int>(options_.coordinates.size()); }
+  /// has a contact a round cone?
+  bool is_round() const;
+
+  /// The whole hull by qhull. Its points are the columns of all contacts in order; no facets unless
+  /// it is full.   throws  Error in L-infinity or when a contact has a round cone
+  Hull hull() const;
+
+  /// The space, times 2^-scale_exponent, so that it is of size about one.
+  const ContactReach& scaled_reach() const { return prepared().reach; }
+  int scale_exponent() const { return prepared().exponent; }
 
  private:
-  std::vector<Wrenches> contacts_;
-  Hull hull_;
-  int rank_ = 0;
-  double epsilon_ = 0;
-  Weakest weakest_;
+  // scaled to size about one
+  struct Prepared {
+    int exponent;
+    double zero;  // what is no farther from the origin goes through it
+    ContactReach reach;
+  };
+  struct Bracket {
+    double lower, upper, tolerance;
+    Eigen::VectorXd direction;
+    bool outside;
+  };
+  const Prepared& prepared() const;
+  ContactReach reach_in(WrenchNorm norm, int exponent) const;
+  Bracket bracket_of(const ContactReach& reach, double tolerance, double at_least) const;
+  const Bracket& final_bracket() const;
+  Weakest unresisted() const;
+  Eigen::MatrixXd spanning() const;
+  Vector6d in_all_coordinates(const Eigen::VectorXd& x) const;
+
+  std::vector<UnitWrenches> contacts_;
+  WrenchSpaceOptions options_;
+  mutable std::optional<Prepared> prepared_;
+  mutable std::optional<int> rank_;
+  mutable std::optional<bool> closure_;
+  mutable std::optional<Bracket> bracket_;
+  mutable std::optional<double> volume_;
+  mutable std::optional<Weakest> weakest_;
 };
 
 }  // namespace clench

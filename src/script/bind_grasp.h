@@ -1,29 +1,30 @@
-// grasp and wrench_space.
+// grasp.
 #pragma once
+#include <utility>
+#include <vector>
+
 #include "grasp/grasp.h"
+#include "script/bind_wrench_space.h"
 #include "script/handles.h"
 
 namespace clench {
 
-/// A grasp as it was measured, and its wrench space once somebody has asked for it.
+/// A grasp as it was measured, and its wrench spaces that somebody has asked for.
 struct GraspHandle {
   WorldPtr world;
   Grasp grasp;
-  std::shared_ptr<const WrenchSpace> space;
+  std::vector<std::pair<GraspSpaceOptions, WrenchSpacePtr>> spaces;
 };
 
-using WrenchSpacePtr = std::shared_ptr<const WrenchSpace>;
+/// Made at the first call, and kept.
+const WrenchSpacePtr& space_of(GraspHandle& handle, const GraspSpaceOptions& options = {});
 
-extern const Class grasp_class, wrench_space_class;
+extern const Class grasp_class;
 extern const Library grasp_library;
 
 template <>
 inline const Class& class_of<GraspHandle>() {
   return grasp_class;
-}
-template <>
-inline const Class& class_of<WrenchSpacePtr>() {
-  return wrench_space_class;
 }
 
 }  // namespace clench

@@ -21,6 +21,7 @@
 #include "script/bind_units.h"
 #include "script/bind_vec3.h"
 #include "script/bind_virtual_contact.h"
+#include "script/bind_wrench_space.h"
 #include "script/handles.h"
 
 namespace clench {
@@ -40,6 +41,7 @@ std::span<const Library* const> all_libraries() {
       &log_library,
       &world_library,
       &grasp_library,
+      &wrench_space_library,
       &eigengrasps_library,
       &files_library,
       &render_library,
@@ -67,6 +69,7 @@ std::span<const Class* const> all_classes() {
       &patch_class,
       &grasp_class,
       &wrench_space_class,
+      &projection_class,
       &picture_class,
   };
   return classes;

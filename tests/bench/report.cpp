@@ -8,7 +8,7 @@
 
 namespace clench::bench {
 
-static double median(std::vector<double> values) {
+static double middle_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<long>(values.size()) / 2;
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -29,7 +29,7 @@ void Report::count(const std::string& library, bool agrees) {
 void Report::add(const std::string& query, const std::string& pair, const Times& times) {
   Row row{query, pair, {}};
   for (const auto& [library, values] : times)
-    if (!values.empty()) row.medians[library] = median(values);
+    if (!values.empty()) row.medians[library] = middle_of(values);
   rows_.push_back(row);
 }
 
@@ -44,6 +44,12 @@ double Report::mean(const std::string& query) const {
   for (const Row& row : rows_)
     if (row.query == query) sum += std::log(row.medians.at("ours")), ++count;
   return count == 0 ? std::nan("") : std::exp(sum / count);
+}
+
+double Report::median(const std::string& query, const std::string& pair) const {
+  for (const Row& row : rows_)
+    if (row.query == query && row.pair == pair) return row.medians.at("ours");
+  return std::nan("");
 }
 
 double Report::ratio(const std::string& query, const std::string& other,

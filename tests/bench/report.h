@@ -49,6 +49,8 @@ class Report {
   /// geometric mean over the pairs of the time of `other` over that of ours, in own_query if given
   double ratio(const std::string& query, const std::string& other,
                const std::string& own_query = "") const;
+  /// our own figure of one pair; NaN when it was not measured
+  double median(const std::string& query, const std::string& pair) const;
   int checked() const { return checked_; }
   int disagreed() const { return disagreed_; }
 

@@ -73,6 +73,7 @@ TEST_CASE("a bad contact or option is refused by name and value") {
   };
   refuse({.mu = -0.1}, {}, "contact cone: mu must be >= 0, got -0.1");
   refuse({.mu = nan}, {}, "contact cone: mu must be >= 0, got nan");
+  refuse({.torsion_radius = -1}, {}, "contact cone: torsion_radius must be >= 0, got -1");
   refuse({.n_O = {0, 0, 2}}, {}, "contact cone: the normal must be a unit vector, got length 2");
   refuse({.n_O = {0, 0, nan}}, {},
          "contact cone: the normal must be a unit vector, got length nan");
@@ -108,4 +109,56 @@ TEST_CASE("the wrenches of the original's contacts come out again") {
     }
   }
   CHECK(compared > 500);
+}
+
+TEST_CASE("a soft contact's edges lie on its ellipsoid, 20 for 8, and turn about the normal") {
+  const Eigen::Vector3d about(0.1, 0.1, -0.2);
+  const PointContact contact{
+      .p_O = {0.3, -0.2, 0.5}, .n_O = {0, 0.6, 0.8}, .mu = 0.7, .torsion_radius = 0.004};
+  for (const int edges : {3, 8, 16, 100}) {
+    const ConeOptions options{.edges = edges, .rho = 0.25, .p_OM = about};
+    const auto wrenches = cone_wrenches(contact, options);
+    if (edges == 8) CHECK(wrenches.cols() == 20);
+    CHECK(wrenches.cols() > edges);
+    for (const auto& w : wrenches.colwise()) {
+      const Eigen::Vector3d force = w.head<3>();
+      CHECK(force.dot(contact.n_O) == doctest::Approx(1));
+      // what the lever does not explain is the turn about the normal
+      const Eigen::Vector3d turn = 0.25 * w.tail<3>() - (contact.p_O - about).cross(force);
+      CHECK(turn.cross(contact.n_O).norm() < 1e-15);
+      const double across = (force - contact.n_O).squaredNorm();
+      CHECK(across + std::pow(turn.norm() / 0.004, 2) == doctest::Approx(0.7 * 0.7));
+    }
+    // hardly soft is a point contact
+    const auto hard = cone_wrenches({contact.p_O, contact.n_O, contact.mu}, options);
+    CHECK(hard.cols() == edges);
+  }
+  CHECK(cone_wrenches({.mu = 0, .torsion_radius = 0.1}).cols() == 1);
+}
+
+TEST_CASE("a round cone holds its pyramid's edges on its rim") {
+  Random random(3);
+  for (const double torsion : {0.0, 0.02}) {
+    PointContact contact{.p_O = random_unit(random), .n_O = random_unit(random), .mu = 0.6};
+    contact.torsion_radius = torsion;
+    const ConeOptions options{.edges = 8, .rho = 0.5, .p_OM = random_unit(random)};
+    const RoundCone cone = round_cone(contact, options);
+    REQUIRE(cone.spread.cols() == (torsion > 0 ? 3 : 2));
+    const auto wrenches = cone_wrenches(contact, options);
+    for (const auto& w : wrenches.colwise()) {
+      Eigen::Matrix<double, 6, 1> rest = w - cone.axis;
+      double square = 0;
+      for (int k = 0; k < cone.spread.cols(); ++k) {
+        const int rows = k < 2 ? 3 : 6;
+        const auto column = cone.spread.col(k).head(rows);
+        const double x = column.dot(rest.head(rows)) / column.squaredNorm();
+        rest -= x * cone.spread.col(k);
+        square += x * x;
+      }
+      CHECK(rest.norm() < 1e-14);  // rounding of levers of length two
+      CHECK(square == doctest::Approx(1));
+    }
+  }
+  CHECK(round_cone({.mu = 0}).spread.cols() == 0);
+  CHECK_THROWS_WITH_AS(round_cone({.mu = -0.5}), "contact cone: mu must be >= 0, got -0.5", Error);
 }

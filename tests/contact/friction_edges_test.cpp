@@ -46,3 +46,17 @@ TEST_CASE("a torsion radius below zero is refused") {
                        "friction edges: wanted a torsion radius >= 0 [m], got -1", Error);
   CHECK_THROWS_AS(friction_edges(NAN), Error);
 }
+
+TEST_CASE("any number of directions: rings either side of the middle one, down to a pole") {
+  CHECK(friction_edges(0, 5).cols() == 5);
+  CHECK(friction_edges(0.01, 3).cols() == 5);    // 1, 3, 1
+  CHECK(friction_edges(0.01, 16).cols() == 80);  // 1, 6, 11, 14, 16, 14, 11, 6, 1
+  for (const int directions : {3, 4, 7, 12, 100, 1000}) {
+    const auto edges = friction_edges(0.003, directions);
+    for (const auto& e : edges.colwise())
+      CHECK(e.head<2>().squaredNorm() + std::pow(e[5] / 0.003, 2) == doctest::Approx(1));
+    CHECK(edges.row(5).maxCoeff() == doctest::Approx(0.003));
+  }
+  CHECK_THROWS_WITH_AS(friction_edges(0, 2), "friction edges: wanted 3 directions or more, got 2",
+                       Error);
+}

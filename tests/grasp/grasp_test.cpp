@@ -142,6 +142,23 @@ TEST_CASE("a longer torque length makes torques count less") {
   CHECK(epsilon(0.2) > epsilon(0.4));
 }
 
+TEST_CASE("the torque length is the largest radius, or that of gyration, or what is asked for") {
+  Scene s = scene();
+  close(s);
+  const Grasp grasp = measure_grasp(s.world, s.hand, s.object);
+  const Grasp by_mass =
+      measure_grasp(s.world, s.hand, s.object, {.length = TorqueLength::gyration_radius});
+  // of a cube of side a: a sqrt(3) / 2, and a / 2, as its inertia is m a^2 / 6 about each axis
+  CHECK(grasp.rho == doctest::Approx(0.05 * std::sqrt(3.0)));
+  CHECK(by_mass.rho == doctest::Approx(0.05));
+  CHECK(std::abs(wrench_space(grasp, {.rho = by_mass.rho}).epsilon() -
+                 wrench_space(by_mass).epsilon()) < 1e-12);
+  const WrenchSpace round = wrench_space(grasp, {.edges = round_edges});
+  CHECK(round.is_round());
+  CHECK(round.epsilon() >= wrench_space(grasp).epsilon());
+  CHECK(wrench_space(grasp, {.space = {.coordinates = {0, 1, 2}}}).dimension() == 3);
+}
+
 TEST_CASE("a grasp that makes no sense is refused by name") {
   Scene s = scene();
   const auto refuse = [&](Id<Body> object, const GraspOptions& options, const char* message) {

@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "grasp/wrench_sets.h"
+#include "math/decompositions.h"
 #include "support/linear.h"
 #include "support/measured.h"
 #include "support/shared.h"
@@ -24,11 +26,11 @@ Wrenches random_wrenches(Random& random, int count, double size = 1) {
 
 Wrenches all_of(const WrenchSpace& space) {
   Eigen::Index count = 0;
-  for (const Wrenches& w : space.contacts()) count += w.cols();
+  for (const UnitWrenches& contact : space.contacts()) count += contact.edges.cols();
   Wrenches out(6, count);
   Eigen::Index column = 0;
-  for (const Wrenches& w : space.contacts())
-    for (const auto& one : w.colwise()) out.col(column++) = one;
+  for (const UnitWrenches& contact : space.contacts())
+    for (const auto& one : contact.edges.colwise()) out.col(column++) = one;
   return out;
 }
 
@@ -62,7 +64,7 @@ double slow_epsilon(const Wrenches& points) {
 }
 
 // what holds for every wrench space
-void check_sound(const WrenchSpace& space) {
+void check_sound_cheaply(const WrenchSpace& space) {
   const Wrenches all = all_of(space);
   const double size = all.size() > 0 ? all.colwise().norm().maxCoeff() : 0;
   CHECK(space.rank() >= 0);
@@ -78,16 +80,24 @@ void check_sound(const WrenchSpace& space) {
     CHECK(std::abs(reach - space.weakest().resistance) <= 1e-10 * size);
   } else {
     CHECK(space.epsilon() == 0);
-    CHECK(space.volume() == 0);
     CHECK(space.weakest().resistance == 0);
     CHECK(std::abs(reach) <= 1e-9 * size);
   }
   if (space.is_force_closure()) {
     CHECK(space.epsilon() == space.weakest().resistance);
-    CHECK(space.volume() > 0);
+    CHECK(!space.weakest().contacts.empty());
   }
+}
+
+// and what holds for each facet
+void check_sound(const WrenchSpace& space) {
+  check_sound_cheaply(space);
+  const Wrenches all = all_of(space);
+  const double size = all.size() > 0 ? all.colwise().norm().maxCoeff() : 0;
+  if (space.is_force_closure()) CHECK(space.volume() > 0);
+  if (space.rank() < 6) CHECK(space.volume() == 0);
   // no facet cuts a point off
-  const Hull& hull = space.hull();
+  const Hull hull = space.hull();
   for (int f = 0; f < hull.normals.cols(); ++f)
     CHECK((hull.normals.col(f).transpose() * all).maxCoeff() <= hull.offsets[f] + 1e-10 * size);
 }
@@ -169,7 +179,12 @@ TEST_CASE("the original's wrench sets give the exact hull's epsilon and volume")
     // -1 there says no force closure
     CHECK(std::abs(space.epsilon() - std::max(0.0, wanted["epsilon"].get<double>())) < 1e-9);
     CHECK(std::abs(space.volume() - wanted["volume"].get<double>()) < 1e-9);
-    CHECK(std::abs(space.weakest().resistance - wanted["min_offset"].get<double>()) < 1e-9);
+    // without force closure the hull lies beyond its distance, which is beyond each of its planes
+    const double offset = wanted["min_offset"].get<double>();
+    if (space.is_force_closure())
+      CHECK(std::abs(space.weakest().resistance - offset) < 1e-9);
+    else
+      CHECK(space.weakest().resistance <= offset + 1e-9);
     CHECK(space.rank() == 6);
     check_sound(space);
     ++compared;
@@ -393,4 +408,242 @@ TEST_CASE("a number that is not finite is refused by its place") {
   bad(3, 4) = std::numeric_limits<double>::infinity();
   CHECK_THROWS_WITH_AS(WrenchSpace({bad}),
                        "wrench space: contact 1, wrench 5: numbers must be finite, got inf", Error);
+}
+
+// --- norms, round cones, soft fingers, brackets ---
+
+namespace {
+
+std::vector<UnitWrenches> cones(const std::vector<PointContact>& contacts, int edges) {
+  std::vector<UnitWrenches> out;
+  for (const PointContact& c : contacts) out.push_back(unit_wrenches(c, {.edges = edges}));
+  return out;
+}
+
+// all sums of one wrench or none of each contact
+Wrenches enumerated(const std::vector<Wrenches>& contacts) {
+  Wrenches sums = Wrenches::Zero(6, 1);
+  for (const Wrenches& w : contacts) {
+    Wrenches next(6, sums.cols() * (w.cols() + 1));
+    next.leftCols(sums.cols()) = sums;
+    for (int k = 0; k < w.cols(); ++k)
+      next.middleCols((k + 1) * sums.cols(), sums.cols()) = sums.colwise() + w.col(k);
+    sums = next;
+  }
+  return sums;
+}
+
+std::vector<PointContact> soft_pinch(double torsion_radius) {
+  std::vector<PointContact> out = ball_contacts({{1, 0, 0}, {-1, 0, 0}}, 0.5);
+  for (PointContact& c : out) c.torsion_radius = torsion_radius;
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("L-infinity has the epsilon and volume of all sums, one by one") {
+  Random random(11);
+  for (int trial = 0; trial < 12; ++trial) {
+    std::vector<PointContact> contacts(3);
+    for (PointContact& c : contacts) c = random_contact(random, 0.8);
+    if (trial < 3) contacts = ball_contacts(ring_directions(3), 0.3 + 0.2 * trial);
+    const auto set = wrenches_of(contacts, 3 + trial % 2);
+    const WrenchSpace sums(set, {.norm = WrenchNorm::linf});
+    const WrenchSpace all({enumerated(set)});
+    CHECK(std::abs(sums.epsilon() - all.epsilon()) < 1e-11);
+    CHECK(sums.is_force_closure() == WrenchSpace(set).is_force_closure());
+    CHECK(sums.epsilon() >= WrenchSpace(set).epsilon());
+    CHECK(sums.volume() == doctest::Approx(all.volume()).epsilon(1e-9));
+  }
+}
+
+TEST_CASE(
+    "without friction L-infinity is a zonotope: the volumes of all sixes of wrenches add up") {
+  Random random(12);
+  for (int trial = 0; trial < 5; ++trial) {
+    const int count = 7 + trial % 3;
+    std::vector<Wrenches> contacts;
+    for (int i = 0; i < count; ++i) contacts.push_back(random_wrenches(random, 1));
+    double sum = 0;
+    std::vector<char> chosen(count, 0);
+    std::fill(chosen.begin(), chosen.begin() + 6, 1);
+    do {
+      Eigen::MatrixXd six(6, 6);
+      int column = 0;
+      for (int i = 0; i < count; ++i)
+        if (chosen[i]) six.col(column++) = contacts[i];
+      sum += singular_value_decomposition(six).values.prod();
+    } while (std::prev_permutation(chosen.begin(), chosen.end()));
+    CHECK(WrenchSpace(contacts, {.norm = WrenchNorm::linf}).volume() ==
+          doctest::Approx(sum).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("round cones hold every pyramid, and are what more and more edges come to") {
+  Random random(13);
+  for (int trial = 0; trial < 10; ++trial)
+    for (const WrenchNorm norm : {WrenchNorm::l1, WrenchNorm::linf}) {
+      std::vector<PointContact> contacts(4);
+      for (PointContact& c : contacts) c = random_contact(random, 0.9);
+      if (trial == 0) contacts = ball_contacts(solid_directions(4), 0.5);
+      const WrenchSpace round(cones(contacts, round_edges), {.norm = norm});
+      const EpsilonBounds bounds = round.epsilon_bounds({.tolerance = 1e-7});
+      CHECK(bounds.converged);
+      CHECK(bounds.upper - bounds.lower <= 1e-7);
+      CHECK(round.epsilon() >= bounds.lower);
+      CHECK(round.epsilon() <= bounds.upper);
+      for (const int edges : {3, 8, 64, 512}) {
+        const double epsilon = WrenchSpace(cones(contacts, edges), {.norm = norm}).epsilon();
+        CHECK(epsilon <= round.epsilon() + 1e-9);
+        // a pyramid of n edges holds the cone shrunk by cos(pi / n)
+        if (edges == 512) CHECK(epsilon > round.epsilon() - 1e-3);
+      }
+    }
+}
+
+TEST_CASE("a bracket tightens with its tolerance, and at_least is enough to end it") {
+  const WrenchSpace space(cones(ball_contacts(solid_directions(6), 0.6), round_edges));
+  for (const double tolerance : {1e-1, 1e-3, 1e-5, 1e-8}) {
+    const EpsilonBounds bounds = space.epsilon_bounds({.tolerance = tolerance});
+    CHECK(bounds.converged);
+    CHECK(bounds.upper - bounds.lower <= tolerance);
+  }
+  const double epsilon = space.epsilon();
+  for (const double part : {-1.0, 0.5, 0.99, 1.01, 2.0}) {
+    const WrenchSpace fresh(cones(ball_contacts(solid_directions(6), 0.6), round_edges));
+    const EpsilonBounds bounds =
+        fresh.epsilon_bounds({.tolerance = 1e-9, .at_least = part * epsilon});
+    CHECK(bounds.lower <= epsilon + 1e-12);
+    CHECK(bounds.upper >= epsilon - 1e-9);
+    CHECK((bounds.lower >= part * epsilon) == (part < 1));
+    // and what was asked before does not matter
+    CHECK(std::abs(fresh.epsilon() - epsilon) < 2e-9);
+  }
+  const WrenchSpace nothing(cones(ball_contacts({{1, 0, 0}}, 1), 8));
+  CHECK(nothing.epsilon_bounds({.tolerance = 0}).upper == 0);
+  CHECK_THROWS_WITH_AS(space.epsilon_bounds({.tolerance = -1}),
+                       "wrench space: tolerance must be >= 0, got -1", Error);
+  CHECK_THROWS_WITH_AS(space.epsilon_bounds({.at_least = std::numeric_limits<double>::infinity()}),
+                       "wrench space: at_least must be finite, got inf", Error);
+}
+
+TEST_CASE("two soft fingers hold what two hard ones let turn, and better with larger patches") {
+  double last = 0;
+  for (const double radius : {0.0, 0.01, 0.1, 0.5})
+    for (const int edges : {8, round_edges}) {
+      const WrenchSpace space(cones(soft_pinch(radius), edges));
+      CHECK(space.rank() == (radius > 0 ? 6 : 5));
+      CHECK(space.is_force_closure() == (radius > 0));
+      if (edges == round_edges) continue;
+      CHECK((radius == 0 || space.epsilon() > last));
+      last = space.epsilon();
+    }
+  // the turn about the line is resisted by both patches: mu times the radius
+  const WrenchSpace small(cones(soft_pinch(0.01), round_edges));
+  CHECK(std::abs(small.epsilon() - 0.5 * 0.01) < 1e-6);
+  CHECK(std::abs(small.weakest().direction[3]) == doctest::Approx(1).epsilon(1e-3));
+}
+
+TEST_CASE("the weakest direction names the contacts that give way first") {
+  // strong fingers along x and y, weak ones along z
+  std::vector<Wrenches> contacts;
+  for (int axis = 0; axis < 6; ++axis)
+    for (const double side : {1, -1})
+      contacts.push_back(Wrenches((axis == 2 ? 0.1 : 1) * side * Vector6d::Unit(axis)));
+  const WrenchSpace space(contacts);
+  const Weakest& weakest = space.weakest();
+  CHECK(std::abs(weakest.direction[2]) > 0.9);
+  // one of each pair carries the facet
+  CHECK(weakest.contacts.size() == 6);
+  const WrenchSpace sums(contacts, {.norm = WrenchNorm::linf});
+  CHECK(sums.epsilon() == doctest::Approx(0.1).epsilon(1e-12));
+  CHECK(sums.weakest().contacts.size() == 1);
+  CHECK(sums.weakest().contacts[0] == (sums.weakest().direction[2] > 0 ? 5 : 4));
+  CHECK(WrenchSpace({cross_polytope().leftCols(3)}).weakest().contacts.empty());
+}
+
+TEST_CASE("only the coordinates that count are looked at") {
+  Random random(14);
+  const Wrenches all = random_wrenches(random, 30);
+  for (const std::vector<int>& coordinates :
+       std::vector<std::vector<int>>{{0, 1, 2}, {5, 2}, {3, 4, 5, 0}, {0, 1, 2, 3, 4}}) {
+    const WrenchSpace space({all}, {.coordinates = coordinates});
+    const Hull hull = convex_hull(Eigen::MatrixXd(all(coordinates, Eigen::all)));
+    CHECK(space.dimension() == static_cast<int>(coordinates.size()));
+    CHECK(space.rank() == space.dimension());
+    CHECK(space.epsilon() ==
+          doctest::Approx(std::max(0.0, hull.offsets.minCoeff())).epsilon(1e-12));
+    CHECK(space.volume() == doctest::Approx(hull.volume).epsilon(1e-12));
+    for (int c = 0; c < 6; ++c)
+      if (std::find(coordinates.begin(), coordinates.end(), c) == coordinates.end())
+        CHECK(space.weakest().direction[c] == 0);
+  }
+  const auto refuse = [&](std::vector<int> coordinates, const char* why) {
+    CHECK_THROWS_WITH_AS(WrenchSpace({all}, {.coordinates = std::move(coordinates)}), why, Error);
+  };
+  refuse({0}, "wrench space: wanted 2 to 6 coordinates, got 1");
+  refuse({0, 6}, "wrench space: coordinates must be 0 to 5, got 6");
+  refuse({0, 1, 0}, "wrench space: coordinate 0 is there twice");
+}
+
+TEST_CASE("order, doubled contacts, turns and size of a grasp change no measure, in any norm") {
+  Random random(15);
+  for (int trial = 0; trial < 6; ++trial)
+    for (const WrenchNorm norm : {WrenchNorm::l1, WrenchNorm::linf})
+      for (const int edges : {8, round_edges}) {
+        std::vector<PointContact> contacts(4);
+        for (PointContact& c : contacts) c = random_contact(random, 0.8);
+        if (trial == 0) contacts = ball_contacts(solid_directions(4), 0.5);
+        contacts[0].torsion_radius = 0.1;
+        const double epsilon = WrenchSpace(cones(contacts, edges), {.norm = norm}).epsilon();
+        // round cones are known to 1e-9
+        const double close = edges == round_edges ? 3e-9 : 1e-11;
+        std::vector<PointContact> other(contacts.rbegin(), contacts.rend());
+        CHECK(std::abs(WrenchSpace(cones(other, edges), {.norm = norm}).epsilon() - epsilon) <
+              close);
+        other.insert(other.end(), contacts.begin(), contacts.end());
+        const double doubled = WrenchSpace(cones(other, edges), {.norm = norm}).epsilon();
+        CHECK(std::abs(doubled - (norm == WrenchNorm::l1 ? 1 : 2) * epsilon) < 2 * close);
+        // a turn about the frames' own axis: the pyramids turn along
+        other = contacts;
+        Eigen::Matrix3d turn;
+        turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+        for (PointContact& c : other) c.p_O = turn * c.p_O, c.n_O = turn * c.n_O;
+        CHECK(std::abs(WrenchSpace(cones(other, edges), {.norm = norm}).epsilon() - epsilon) <
+              close);
+        // a soft contact's pyramid has directions that are even in millimetres
+        if (edges != round_edges) continue;
+        std::vector<UnitWrenches> large;
+        for (PointContact c : contacts) {
+          c.p_O *= 2, c.torsion_radius *= 2;
+          large.push_back(unit_wrenches(c, {.edges = edges, .rho = 2}));
+        }
+        CHECK(std::abs(WrenchSpace(large, {.norm = norm}).epsilon() - epsilon) < close);
+      }
+}
+
+TEST_CASE("hulls that do not exist or are too large are refused") {
+  const WrenchSpace round(cones(ball_contacts(solid_directions(4), 0.5), round_edges));
+  CHECK_THROWS_WITH_AS(round.volume(),
+                       "wrench space: volume of round cones is not known, give edges", Error);
+  CHECK_THROWS_WITH_AS(round.hull(), "wrench space: no hull of points with round cones, give edges",
+                       Error);
+  const WrenchSpace sums(ball_grasp(tetrahedron, 0.5, 8), {.norm = WrenchNorm::linf});
+  CHECK_THROWS_WITH_AS(sums.hull(), "wrench space: no hull of points in L-infinity", Error);
+}
+
+TEST_CASE("hard sets of every kind give a bracket that is closed, and L-infinity at least L1") {
+  for (int kind = 0; kind < wrench_set_kinds; ++kind)
+    for (uint64_t number = 100; number < 160; ++number) {
+      CAPTURE(wrench_set_kind(kind));
+      CAPTURE(number);
+      const auto set = wrench_set(kind, number);
+      const WrenchSpace space(set);
+      check_sound_cheaply(space);
+      CHECK(space.epsilon_bounds({.tolerance = 1e-9}).converged);
+      if (set.size() > 5 || number % 6 != 0) continue;
+      const WrenchSpace sums(set, {.norm = WrenchNorm::linf});
+      CHECK(sums.epsilon() >= space.epsilon() - 1e-9);
+      CHECK(sums.epsilon_bounds({.tolerance = 1e-8}).converged);
+    }
 }

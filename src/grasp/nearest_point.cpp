@@ -1,0 +1,119 @@
+#include "grasp/nearest_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clench {
+
+namespace {
+
+// far more steps than sets of six dimensions take, which is some dozens
+constexpr int most_steps = 2000;
+
+// Shares, summing to one, of the points that make up the point nearest to the origin of the flat
+// through them all.
+// returns  false when they are no simplex
+bool nearest_shares(const Eigen::MatrixXd& corners, Eigen::VectorXd& shares) {
+  const int d = static_cast<int>(corners.rows()), count = static_cast<int>(corners.cols());
+  if (count > d + 1) return false;
+  // edges = q r by Gram and Schmidt, twice; then r x = -q^T c0
+  Eigen::MatrixXd q(d, count - 1), r = Eigen::MatrixXd::Zero(count - 1, count - 1);
+  for (int k = 0; k < count - 1; ++k) {
+    Eigen::VectorXd v = corners.col(k + 1) - corners.col(0);
+    const double whole = v.norm();
+    for (int pass = 0; pass < 2; ++pass)
+      for (int j = 0; j < k; ++j) {
+        const double along = q.col(j).dot(v);
+        r(j, k) += along;
+        v -= along * q.col(j);
+      }
+    r(k, k) = v.norm();
+    if (!(r(k, k) > 1e-12 * whole)) return false;
+    q.col(k) = v / r(k, k);
+  }
+  Eigen::VectorXd x = -q.transpose() * corners.col(0);
+  for (int k = count - 2; k >= 0; --k) {
+    for (int j = k + 1; j < count - 1; ++j) x[k] -= r(k, j) * x[j];
+    x[k] /= r(k, k);
+  }
+  shares.resize(count);
+  shares[0] = 1 - x.sum();
+  shares.tail(count - 1) = x;
+  return true;
+}
+
+void keep_only(const std::vector<int>& kept, Eigen::MatrixXd& corners, Eigen::VectorXd& shares) {
+  corners = corners(Eigen::all, kept).eval();
+  shares = shares(kept).eval();
+  shares /= shares.sum();
+}
+
+}  // namespace
+
+NearestPoint nearest_point(const SupportSet& set, const Eigen::VectorXd& place, double noise) {
+  const int d = set.dimension();
+  const auto reach = [&](const Eigen::VectorXd& direction) {
+    Eigen::VectorXd point(d);
+    set.support(direction.data(), point.data());
+    return Eigen::VectorXd(point - place);
+  };
+  Eigen::MatrixXd corners = reach(Eigen::VectorXd::Ones(d));
+  Eigen::VectorXd shares = Eigen::VectorXd::Ones(1), point = corners.col(0);
+  int idle = 0;
+  for (int step = 0; step < most_steps; ++step) {
+    const double distance = point.norm();
+    if (distance <= noise) break;
+    const Eigen::VectorXd next = reach(-point / distance);
+    // no point of the set is nearer than this along the way
+    if (point.dot(point - next) <= noise * distance) break;
+    corners.conservativeResize(Eigen::NoChange, corners.cols() + 1);
+    corners.rightCols(1) = next;
+    shares.conservativeResize(shares.size() + 1);
+    shares[shares.size() - 1] = 0;
+
+    Eigen::VectorXd wanted;
+    bool stuck = false;
+    while (true) {
+      if (!nearest_shares(corners, wanted)) {
+        // rounding: the new point adds nothing
+        stuck = true;
+        break;
+      }
+      if (wanted.minCoeff() > 0) break;
+      // as far towards it as all shares stay
+      double part = 2;  // all are at most 1
+      int blocking = 0;
+      for (int i = 0; i < wanted.size(); ++i) {
+        if (wanted[i] > 0) continue;
+        const double ratio = std::max(0.0, shares[i] / (shares[i] - wanted[i]));
+        if (ratio < part) part = ratio, blocking = i;
+      }
+      shares += part * (wanted - shares);
+      std::vector<int> kept;
+      for (int i = 0; i < shares.size(); ++i)
+        if (i != blocking) kept.push_back(i);
+      keep_only(kept, corners, shares);
+    }
+    if (stuck) {
+      std::vector<int> kept;
+      for (int i = 0; i < shares.size(); ++i)
+        if (shares[i] > 0) kept.push_back(i);
+      keep_only(kept, corners, shares);
+      break;
+    }
+    shares = wanted;
+    const Eigen::VectorXd now = corners * shares;
+    const bool nearer = now.norm() < distance;
+    point = now;
+    // the new point was all that could be gained
+    if (!nearer && ++idle > 3) break;
+  }
+  NearestPoint out;
+  out.distance = point.norm();
+  out.point = point + place;
+  out.corners = corners.colwise() + place;
+  out.shares.assign(shares.data(), shares.data() + shares.size());
+  return out;
+}
+
+}  // namespace clench

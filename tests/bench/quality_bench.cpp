@@ -1,0 +1,311 @@
+// Our wrench spaces beside qhull: the same sets in one process, turn by turn, every answer compared; and
+// very many sets that are hard on hulls, none of which may fail. Prints medians and ratios, writes
+// them as CSV.
+//   bench_quality [--brief] [--csv FILE] [--check]
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "bench/peer_qhull.h"
+#include "bench/report.h"
+#include "geometry/hull.h"
+#include "grasp/grasp.h"
+#include "grasp/wrench_sets.h"
+#include "io/read.h"
+#include "model/build.h"
+#include "motion/drive.h"
+
+using namespace clench;
+using namespace clench::bench;
+using namespace clench::test;
+
+namespace {
+
+using Set = std::vector<Wrenches>;
+
+// answers of size one are to agree to this
+constexpr double agreement = 1e-9;
+
+struct Named {
+  std::string name;
+  std::vector<Set> sets;
+};
+
+std::vector<PointContact> random_contacts(Random& random, int count) {
+  std::vector<PointContact> out(count);
+  for (PointContact& c : out) c = random_contact(random, 0.8);
+  return out;
+}
+
+// random grasps, those that hold or those that do not
+Named random_sets(int contacts, int count, bool closed) {
+  Named out{fmt::format("{} contacts", contacts), {}};
+  Random random(1, contacts);
+  while (static_cast<int>(out.sets.size()) < count) {
+    // points all on one side do not hold: half a ball of directions
+    auto all = random_contacts(random, contacts);
+    if (!closed)
+      for (PointContact& c : all)
+        if (c.n_O.z() < 0.3) c.n_O.z() = std::abs(c.n_O.z()) + 0.8, c.n_O.normalize();
+    Set set = wrenches_of(all, 8);
+    if (WrenchSpace(set).is_force_closure() == closed) out.sets.push_back(std::move(set));
+  }
+  return out;
+}
+
+std::vector<Named> symmetric_sets() {
+  std::vector<Named> out;
+  for (const int count : {4, 6, 8})
+    out.push_back({fmt::format("solid of {}", count),
+                   {wrenches_of(ball_contacts(solid_directions(count), 0.8), 8)}});
+  for (const int count : {3, 5, 8, 16})
+    out.push_back({fmt::format("ring of {}", count),
+                   {wrenches_of(ball_contacts(ring_directions(count), 0.8), 8)}});
+  for (const int faces : {2, 4, 6})
+    out.push_back(
+        {fmt::format("box, {} faces", faces), {wrenches_of(box_contacts(faces, 0.5, 0.8), 8)}});
+  return out;
+}
+
+// of hands that have closed on something
+std::vector<Named> real_sets() {
+  std::vector<Named> out;
+  ReadOptions options;
+  options.root = ".";
+  World world = build_world(read_world("worlds/dlr_flask.wld", options));
+  const auto hand = world.robots()[0];
+  autograsp(world, hand);
+  const Grasp grasp = measure_grasp(world, hand, world.bodies()[0]);
+  Set ours;
+  for (const PointContact& point : grasp.points)
+    ours.push_back(cone_wrenches(point, {.rho = grasp.rho, .p_OM = grasp.com}));
+  out.push_back({"our hand and flask", {ours}});
+
+  const char* given = std::getenv("CLENCH_SHARED");
+  const std::filesystem::path reference =
+      std::filesystem::path(given ? given : "../shared") / "reference";
+  for (const char* name : {"dlr_flask", "barrett_flask_bestSA", "plannerMug"}) {
+    std::ifstream file(reference / (std::string("autograsp_") + name + ".json"));
+    if (!file) continue;
+    const auto measured = nlohmann::json::parse(file);
+    Set set;
+    for (const auto& contact : measured["grasp_contact_list"]) {
+      const auto& list = contact["wrenches_fx_fy_fz_tx_ty_tz"];
+      Wrenches w(6, static_cast<int>(list.size()));
+      for (int k = 0; k < w.cols(); ++k)
+        for (int row = 0; row < 6; ++row) w(row, k) = list[k][row].get<double>();
+      set.push_back(w);
+    }
+    if (WrenchSpace(set).is_force_closure()) out.push_back({name, {set}});
+  }
+  return out;
+}
+
+double size_of(const Wrenches& all) { return all.colwise().norm().maxCoeff(); }
+
+// qhull's ways; the fastest counts. Joggled answers are off by some 1e-9 and are not compared
+struct Way {
+  const char *name, *options;
+  bool exact;
+};
+constexpr Way ways[] = {{"qhull Qx", "qhull Pp Qx", true},
+                        {"qhull Qt", "qhull Pp Qt", true},
+                        {"qhull QJ", "qhull Pp QJ", false},
+                        {"original's", "qhull Pp n Qx QJ C-0.0001", false}};
+
+void fastest(Times& times) {
+  for (const Way& way : ways) {
+    if (std::string(way.name) == "original's" || !times.contains(way.name)) continue;
+    if (!times.contains("qhull")) times["qhull"] = times[way.name];
+    double sum = 0, best = 0;
+    for (const double t : times[way.name]) sum += t;
+    for (const double t : times["qhull"]) best += t;
+    if (sum / static_cast<double>(times[way.name].size()) <
+        best / static_cast<double>(times["qhull"].size()))
+      times["qhull"] = times[way.name];
+  }
+}
+
+void measure_epsilon(const std::string& query, const Named& named, int rounds, Report& report) {
+  Times times;
+  for (int round = 0; round < rounds; ++round)
+    for (const Set& set : named.sets) {
+      const Wrenches all = side_by_side(set);
+      double epsilon = 0;
+      for (int again = 0; again < 3; ++again)
+        epsilon = timed(times["ours"], [&] { return WrenchSpace(set).epsilon(); });
+      for (const Way& way : ways) {
+        const auto answer = timed(times[way.name], [&] { return ask_qhull(all, way.options); });
+        if (!answer || !way.exact) continue;
+        const double theirs = std::max(0.0, answer->least_offset);
+        const bool agrees = std::abs(theirs - epsilon) <= agreement * size_of(all);
+        // Qx on symmetric sets merges facets and may be off; hulls of triangles are exact
+        if (std::string(way.name) == "qhull Qt")
+          report.check(
+              agrees, fmt::format("{}, {}: qhull {}, ours {}", query, named.name, theirs, epsilon));
+        else
+          report.count(way.name, agrees);
+      }
+    }
+  fastest(times);
+  report.add(query, named.name, times);
+}
+
+void measure_volume(const Named& named, int rounds, Report& report) {
+  Times times;
+  for (int round = 0; round < rounds; ++round)
+    for (const Set& set : named.sets) {
+      const Wrenches all = side_by_side(set);
+      const double volume = timed(times["ours"], [&] {
+        const WrenchSpace space(set);
+        return space.epsilon() > 0 ? space.volume() : 0;
+      });
+      for (const Way& way : ways) {
+        if (std::string(way.name) == "original's") continue;
+        const auto answer = timed(times[way.name],
+                                  [&] { return ask_qhull(all, std::string(way.options) + " FA"); });
+        if (answer && std::string(way.name) == "qhull Qt")
+          report.check(
+              std::abs(answer->volume - volume) <= agreement * volume,
+              fmt::format("volume, {}: qhull {}, ours {}", named.name, answer->volume, volume));
+      }
+    }
+  fastest(times);
+  report.add("epsilon and volume", named.name, times);
+}
+
+void measure_ours(const std::string& query, const Named& named, WrenchNorm norm, Report& report) {
+  Times times;
+  for (const Set& set : named.sets)
+    for (int again = 0; again < 3; ++again)
+      timed(times["ours"], [&] { return WrenchSpace(set, {.norm = norm}).epsilon(); });
+  report.add(query, named.name, times);
+}
+
+void measure_round(int contacts, int count, WrenchNorm norm, Report& report) {
+  Times times;
+  Random random(2, contacts);
+  for (int i = 0; i < count; ++i) {
+    std::vector<UnitWrenches> cones;
+    for (const PointContact& c : random_contacts(random, contacts))
+      cones.push_back(unit_wrenches(c, {.edges = round_edges}));
+    timed(times["ours"], [&] { return WrenchSpace(cones, {.norm = norm}).epsilon(); });
+  }
+  report.add(
+      norm == WrenchNorm::l1 ? "epsilon of round cones" : "epsilon of round cones, L-infinity",
+      fmt::format("{} contacts", contacts), times);
+}
+
+// returns  how many sets failed
+int measure_robustness(int count, Report& report) {
+  int failures = 0;
+  Times times, times_linf;
+  for (int i = 0; i < count; ++i) {
+    const int kind = i % wrench_set_kinds;
+    const uint64_t number = static_cast<uint64_t>(i / wrench_set_kinds);
+    const Set set = wrench_set(kind, number);
+    const auto fails = [&](const std::string& why) {
+      ++failures;
+      fmt::print("FAILS: {} {}: {}\n", wrench_set_kind(kind), number, why);
+    };
+    try {
+      const WrenchSpace space(set);
+      const double size = size_of(side_by_side(set));
+      const double epsilon = timed(times["ours"], [&] { return space.epsilon(); });
+      const EpsilonBounds bounds = space.epsilon_bounds({.tolerance = agreement * size});
+      if (!bounds.converged) fails("no bracket");
+      if (space.is_force_closure() != (epsilon > 0)) fails("closure and epsilon differ");
+      if (epsilon < bounds.lower - agreement * size || epsilon > bounds.upper + agreement * size)
+        fails("epsilon outside of its bracket");
+      // the larger sets of L-infinity take milliseconds
+      if (i / wrench_set_kinds % 10 == 0 && set.size() <= 6) {
+        const WrenchSpace sums(set, {.norm = WrenchNorm::linf});
+        const double more = timed(times_linf["ours"], [&] { return sums.epsilon(); });
+        if (!sums.epsilon_bounds({.tolerance = agreement * size * 8}).converged)
+          fails("no bracket in L-infinity");
+        if (more < epsilon - agreement * size) fails("L-infinity below L1");
+      }
+      // as long as the hull by qhull takes
+      if (i / wrench_set_kinds % 100 == 0) {
+        const Hull hull = space.hull();
+        const double exact = hull.full() ? std::max(0.0, hull.offsets.minCoeff()) : 0;
+        report.check(
+            std::abs(exact - epsilon) <= agreement * size,
+            fmt::format("{} {}: qhull {}, ours {}", wrench_set_kind(kind), number, exact, epsilon));
+      }
+    } catch (const Error& error) {
+      fails(error.what());
+    }
+  }
+  report.add("epsilon of hard sets", fmt::format("{} sets", count), times);
+  report.add("epsilon of hard sets, L-infinity", "every tenth", times_linf);
+  return failures;
+}
+
+struct QualityAim {
+  const char* what;
+  double value, must;
+  bool at_most = false;
+  bool met() const { return at_most ? value <= must : value >= must; }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool check = false, brief = false;
+  std::string csv;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--check")
+      check = true;
+    else if (word == "--brief")
+      brief = true;
+    else if (word == "--csv" && i + 1 < argc)
+      csv = argv[++i];
+    else
+      return fmt::print(stderr, "usage: bench_quality [--brief] [--csv FILE] [--check]\n"), 2;
+  }
+  Report report;
+  const int sets = brief ? 1 : 12;
+  for (const int contacts : brief ? std::vector{3, 5} : std::vector{3, 5, 8, 16, 32}) {
+    const Named closed = random_sets(contacts, sets, true);
+    measure_epsilon("epsilon", closed, 1, report);
+    measure_volume(closed, 1, report);
+    measure_epsilon("not force closure", random_sets(contacts, sets, false), 1, report);
+    measure_ours("epsilon, L-infinity", closed, WrenchNorm::linf, report);
+    for (const WrenchNorm norm : {WrenchNorm::l1, WrenchNorm::linf})
+      measure_round(contacts, sets, norm, report);
+  }
+  for (const Named& named : symmetric_sets())
+    if (!brief || named.name == "solid of 4")
+      measure_epsilon("epsilon, symmetric", named, brief ? 1 : 3, report);
+  for (const Named& named : real_sets())
+    measure_epsilon("epsilon, real", named, brief ? 1 : 5, report);
+  const int failures = measure_robustness(brief ? 160 : 100'000, report);
+
+  report.sort();
+  report.print({"ours", "qhull", "original's", "qhull Qx", "qhull Qt", "qhull QJ"});
+  bool good = report.disagreed() == 0;
+  std::vector<QualityAim> aims = {
+      {"epsilon, qhull / ours", report.ratio("epsilon", "qhull"), 100},
+      {"epsilon of symmetric sets, qhull / ours", report.ratio("epsilon, symmetric", "qhull"), 100},
+      {"epsilon of real sets, qhull / ours", report.ratio("epsilon, real", "qhull"), 100},
+      {"not force closure, qhull / ours", report.ratio("not force closure", "qhull"), 200},
+      {"epsilon and volume, qhull / ours", report.ratio("epsilon and volume", "qhull"), 2.5},
+      {"failures", double(failures), 0, true}};
+  if (!brief)
+    aims.push_back({"epsilon, L-infinity, 8 contacts [us]",
+                    report.median("epsilon, L-infinity", "8 contacts"), 5000, true});
+  for (const QualityAim& aim : aims) {
+    fmt::print("{:48} {:8.2f}   must be {} {}{}\n", aim.what, aim.value,
+               aim.at_most ? "<=" : ">=", aim.must, aim.met() ? "" : "   MISSED");
+    good = good && aim.met();
+  }
+  if (!csv.empty()) report.write_csv(csv);
+  return check && !good ? 1 : 0;
+}

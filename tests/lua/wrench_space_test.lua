@@ -1,0 +1,80 @@
+local test, clench = require "test", require "clench"
+
+local function pinch(options)
+  options = options or {}
+  options.contacts = {
+    {point = {-0.02, 0, 0}, normal = {1, 0, 0}, mu = 0.5, torsion_radius = options.torsion_radius},
+    {point = {0.02, 0, 0}, normal = {-1, 0, 0}, mu = 0.5, torsion_radius = options.torsion_radius},
+  }
+  options.torsion_radius = nil
+  options.rho = options.rho or 0.02
+  return options
+end
+
+test("a soft pinch holds, a hard one turns", function(t)
+  t.ok(not clench.wrench_space(pinch()):is_force_closure())
+  for _, edges in ipairs {3, 8, 20, "exact"} do
+    t.ok(clench.wrench_space(pinch {torsion_radius = 0.002, edges = edges}):is_force_closure())
+  end
+end)
+
+test("brackets hold epsilon, and say whether they reach", function(t)
+  local exact = pinch {torsion_radius = 0.005, edges = "exact", norm = "Linf"}
+  local epsilon = clench.wrench_space(exact):epsilon()
+  local wide = clench.wrench_space(exact):epsilon_bounds {tolerance = 0.01}
+  t.ok(wide.lower <= epsilon and epsilon <= wide.upper and wide.upper - wide.lower <= 0.01)
+  t.equal(wide.reached, nil)
+  t.equal(clench.wrench_space(exact):epsilon_bounds {at_least = epsilon / 2}.reached, true)
+  t.equal(clench.wrench_space(exact):epsilon_bounds {at_least = epsilon * 2}.reached, false)
+end)
+
+test("a space tells its norm and coordinates, a projection what became of them", function(t)
+  local space = clench.wrench_space(pinch {norm = "Linf", coordinates = {"fx", "fy", "fz", "tx"}})
+  t.equal(tostring(space), "Linf wrench space of 2 contacts, rank 3, epsilon 0")
+  t.equal(space.norm, "Linf")
+  t.equal(#space.coordinates, 4)
+  local shadow = space:project {projected = {"tx"}}
+  t.equal(table.concat(shadow.free, " "), "fx fy fz")
+  t.equal(shadow.projected[1], "tx")
+  t.close(shadow.volume, shadow.mesh.volume, 1e-12)
+  t.equal(space:project {fixed = {fz = 0}}.mesh, nil)  -- no torque about the line: flat
+  t.equal(space:project {fixed = {fz = 0}}.fixed.fz, 0)
+end)
+
+test("what makes no sense is refused by name", function(t)
+  local function fails(options, text)
+    t.fails(function() clench.wrench_space(pinch(options)) end, text)
+  end
+  fails({edges = 2}, "clench.wrench_space: edges must be 3 to 1000 or 'exact', got 2")
+  fails({edges = 0}, "edges must be 3 to 1000 or 'exact', got 0")
+  fails({edges = "round"}, "edges must be 3 to 1000 or 'exact', got 'round'")
+  fails({edges = true}, "edges: wanted")
+  fails({norm = "L2"}, "L2")
+  fails({torsion_radius = -1}, "torsion_radius must be >= 0, got -1")
+  fails({coordinates = {"fx", "fu"}}, "coordinates: unknown coordinate 'fu', wanted fx, fy, fz, tx, ty or tz")
+  fails({coordinates = "fx"}, "coordinates: wanted a list of coordinates, got 'fx'")
+  fails({coordinates = {"fx"}}, "wanted 2 to 6 coordinates, got 1")
+  local space = clench.wrench_space(pinch {torsion_radius = 0.01, edges = "exact"})
+  t.fails(function() space:volume() end, "volume of round cones is not known, give edges")
+  t.fails(function() space:wrenches() end, "round cones have no edges to list, give a number")
+  t.fails(function() space:epsilon_bounds {tolerance = -1} end, "tolerance must be >= 0, got -1")
+  t.fails(function() space:project {fixed = {fu = 1}} end, "unknown key 'fu'")
+  t.fails(function() space:project {fixed = 1} end, "fixed: wanted a table of coordinates and values, got 1")
+  t.fails(function() space:project {fixed = {fx = 9, fy = 0, fz = 0}} end, "no wrench of it has fx = 9, fy = 0, fz = 0")
+end)
+
+test("a grasp keeps its spaces, one for each set of options", function(t)
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local hand, flask = world.robots[1], world.objects[1]
+  hand:autograsp()
+  local grasp = clench.grasp(hand, flask, {rho = "gyration"})
+  t.ok(grasp.rho < clench.grasp(hand, flask).rho)
+  t.equal(grasp:wrench_space {rho = grasp.rho}:epsilon(), grasp:quality "epsilon")
+  t.equal(clench.grasp(hand, flask):wrench_space {rho = "gyration"}:epsilon(), grasp:quality "epsilon")
+  t.equal(clench.grasp(hand, flask, {edges = "exact"}).edges, "exact")
+  t.fails(function() clench.grasp(hand, flask, {rho = "radius"}) end, "rho must be a number or 'gyration', got 'radius'")
+  t.fails(function() grasp:wrench_space {rho = -1} end, "rho")
+  -- some way to each of the first contacts
+  local worst = grasp:wrench_space():weakest()
+  for _, i in ipairs(worst.contacts) do t.ok(grasp.contacts[i]) end
+end)
