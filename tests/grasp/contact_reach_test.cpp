@@ -15,7 +15,7 @@ std::vector<ContactPart> parts_of(const std::vector<Wrenches>& contacts) {
   return out;
 }
 
-Vector6d random_direction(Random& random) {
+Vector6d reach_direction(Random& random) {
   Vector6d u;
   for (double& x : u) x = random.normal();
   return u.normalized();
@@ -45,7 +45,7 @@ TEST_CASE("L1 reaches as far as the farthest wrench, L-infinity as far as the fa
       sums = next;
     }
     for (int i = 0; i < 20; ++i) {
-      const Vector6d u = random_direction(random);
+      const Vector6d u = reach_direction(random);
       Vector6d p;
       CHECK(std::abs(l1.support(u.data(), p.data()) - (u.transpose() * all).maxCoeff()) < rounding);
       CHECK(std::abs(u.dot(p) - (u.transpose() * all).maxCoeff()) < rounding);
@@ -70,7 +70,7 @@ TEST_CASE("a round part reaches as far as very many points on it") {
                            .width = static_cast<int>(cone.spread.cols())};
     const ContactReach reach(6, WrenchNorm::l1, std::span(&part, 1));
     for (int i = 0; i < 20; ++i) {
-      const Vector6d u = random_direction(random);
+      const Vector6d u = reach_direction(random);
       Vector6d p;
       const double most = reach.support(u.data(), p.data());
       CHECK(std::abs(u.dot(p) - most) < rounding);
