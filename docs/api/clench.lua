@@ -104,7 +104,7 @@ function world:robot(name) end
 
 ---Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options give overrides the file.
 ---@param body string|table # file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
----@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, color?: number[], transparency?: number, root?: string, unit?: string, mesh_scale?: number} # density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
+---@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, color?: number[], transparency?: number, root?: string, unit?: string, mesh_scale?: number} # density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
 ---@return body
 function world:add_object(body, options) end
 
@@ -198,6 +198,8 @@ local snapshot = {}
 ---@field mesh mesh? # Its surface; nil when it has none.
 ---@field mesh_report table? # What was done to the triangles of its file: lines of text, and the same as fields `format`, `unit` [m], `unit_from` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `turned` (was it inside out?). Nil when it has no mesh, or none from a file.
 ---@field elastic_modulus number? # Young's modulus; nil when it is rigid. [Pa]
+---@field soft_layer number # Height of the soft layer of an elastic body. [m]
+---@field poisson_ratio number # Poisson's ratio of an elastic body, in [0, 0.5): its layer gives way by modulus / (1 - ratio^2).
 ---@field contacts contact[] # Where others touch it now.
 ---@field color number[] # Colour in pictures: red, green and blue in 0..1.
 ---@field transparency number # From 0, opaque, to 1, invisible.
@@ -394,8 +396,14 @@ local virtual_contact = {}
 ---@field gap number # Distance of the two surfaces there, at most the world's contact threshold. [m]
 ---@field mu number # Static Coulomb coefficient of the two materials.
 ---@field mu_kinetic number # Kinetic Coulomb coefficient of the two materials.
----@field kind string # "point" (with friction) or "frictionless".
+---@field kind string # "point" (with friction), "soft" (with friction, of bodies one of which at least is elastic) or "frictionless".
+---@field patch patch? # The surfaces around a soft contact, and the turn that it resists; nil of others. Contacts of two bodies whose neighbourhoods overlap have one patch. A corner or an edge is logged as a warning.
 local contact = {}
+
+---The patch of a soft contact by options of one's own; nil of others.
+---@param options? {radius?: number, flat_radius?: number, fit?: string} # radius: how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm [m]; flat_radius: stands for a relative radius that is none, 0.02 [m]; fit: "quadric", our own, or "jet", CGAL's
+---@return patch?
+function contact:fit_patch(options) end
 
 ---What every grasp can say of contact forces and joint torques.
 ---@class forces
@@ -423,6 +431,30 @@ function forces:grasp_map() end
 ---How fast each DOF moves the contacts: a row for each column of the grasp map, a column for each DOF, by the ratios of its joints. Its transpose takes contact forces to the motors' torques. Joints that have broken away do not count.
 ---@return number[][]
 function forces:hand_jacobian() end
+
+---The surfaces of two bodies around a soft contact, and the turn about the normal that it resists.
+---@class patch
+---@field relative_radii number[] # Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures. Where the surfaces part slower than a ball of 1 m from a plane, or not at all, the `flat_radius` of 20 mm stands for them, or the first radius when that is larger. [m]
+---@field flat boolean[] # Is a relative radius the one that stands for a flat direction?
+---@field curvatures {body: number[], other: number[]} # Principal curvatures of the surfaces of both bodies, descending: positive where a surface falls away from the other body, as a ball's, negative where it rises, as a socket's. [1/m]
+---@field radii {body: number[], other: number[]} # The principal radii of both, 1 over the curvatures: negative where a surface is hollow; as large as you like where it is flat. [m]
+---@field directions vec3[] # Of the relative radii: unit, orthogonal to each other and to the contact's normal, in the world frame.
+---@field point vec3 # The middle of the patch, in the world frame: the contact's point, or the mean of those whose neighbourhoods overlap. [m]
+---@field points {body: vec3[], other: vec3[]} # What was fitted: points of both surfaces, in the world frame. [m]
+---@field radius number # How far around the contact the surfaces were looked at. [m]
+---@field residual number # How far the points lie from the fit, root of the mean square; of the worse surface. [m]
+---@field sharp boolean # Is there a corner or an edge, where curvature means little? The fit then is off by more than 15 % of the surface's relief.
+local patch = {}
+
+---Where the bodies press on each other, after the mattress model: its semi-axes along `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean.
+---@param options? {force?: number, modulus?: string} # normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
+---@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number} # [m], [m], [Pa], [m]
+function patch:ellipse(options) end
+
+---The largest torque about the normal that the contact resists, at rest: mu F times the torsion radius.
+---@param options? {force?: number, modulus?: string} # as of `ellipse`
+---@return number # [N m]
+function patch:torsion_limit(options) end
 
 ---A hand, an object and the contacts between them, as they were when the grasp was measured.
 ---@class grasp: forces
@@ -583,7 +615,7 @@ function clench.load(path, options) end
 ---The grasp of a hand on an object as it is now. No contact is no error: such a grasp resists nothing.
 ---@param hand robot
 ---@param object body
----@param options? {edges?: integer|string, rho?: number|string} # edges of the friction pyramids, 8, or "exact" for round cones; torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration
+---@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number, modulus?: string} # edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N]; modulus: as of `patch:ellipse`
 ---@return grasp
 function clench.grasp(hand, object, options) end
 
@@ -597,9 +629,9 @@ function clench.wrench_space(options) end
 ---@return eigengrasps
 function clench.eigengrasps(options) end
 
----Draws a world: robots, objects, obstacles, and friction cones where robots touch objects. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
+---Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of all soft contacts. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
 ---@param world world
----@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number} # size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
+---@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number} # size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
 ---@return picture
 function clench.render(world, options) end
 
