@@ -54,6 +54,9 @@ void check(const Scene& scene) {
     if (!(a.radius > 0 && std::isfinite(a.radius)))
       fail("picture: arrow {}: radius must be > 0, got {} [m]", i + 1, a.radius);
   }
+  for (size_t i = 0; i < scene.labels.size(); ++i)
+    if (!scene.labels[i].p_W.allFinite() || !scene.labels[i].color.allFinite())
+      fail("picture: label {}: place and colour must be finite numbers", i + 1);
   if (scene.ground && !std::isfinite(*scene.ground))
     fail("picture: height of the ground must be a finite number");
 }

@@ -16,7 +16,7 @@ struct Piece {
   bool background = false;  ///< throws no shadow, counts for no frame
 };
 
-/// throws Error naming the mesh, cone or arrow and the number that is out of range
+/// throws Error naming the mesh, cone, arrow or label and the number that is out of range
 void check(const Scene& scene);
 
 /// `number` names the mesh in an error: when its pose moves it beyond all numbers

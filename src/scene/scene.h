@@ -36,6 +36,13 @@ struct DrawArrow {
   Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
 };
 
+/// Words written beside a place, over everything else.
+struct DrawLabel {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< [m]
+  std::string text = {};                          ///< ASCII
+  Eigen::Vector3f color = Eigen::Vector3f::Zero();
+};
+
 struct Eye {
   /// world [m]
   Eigen::Vector3d eye = Eigen::Vector3d::UnitX(), target = Eigen::Vector3d::Zero(),
@@ -47,6 +54,7 @@ struct Scene {
   std::vector<DrawMesh> meshes;
   std::vector<DrawCone> cones;
   std::vector<DrawArrow> arrows = {};
+  std::vector<DrawLabel> labels = {};
   std::optional<double> ground = {};  ///< height of a floor plane that takes the shadow [m]
   std::optional<Eye> eye = {};        ///< empty: frame everything
 };

@@ -158,6 +158,7 @@ TEST_CASE("what a scene may not hold is refused by name") {
     Scene scene = one_box();
     scene.cones.resize(1);
     scene.arrows.resize(1);
+    scene.labels.resize(1);
     change(scene);
     make_draw_list(scene);
   };
@@ -196,6 +197,8 @@ TEST_CASE("what a scene may not hold is refused by name") {
                        "picture: arrow 1: tail, tip and colour must be finite numbers", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.arrows[0].radius = 0; }),
                        "picture: arrow 1: radius must be > 0, got 0 [m]", Error);
+  CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.labels[0].p_W.x() = nan; }),
+                       "picture: label 1: place and colour must be finite numbers", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.ground = nan; }),
                        "picture: height of the ground must be a finite number", Error);
 }
