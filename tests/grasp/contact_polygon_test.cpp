@@ -64,7 +64,8 @@ TEST_CASE("one point, two, and points in a line span nothing") {
 }
 
 TEST_CASE(
-    "moved, turned and shuffled, the polygon is the same, and its area goes by the square of size") {
+    "moved, turned and shuffled, the polygon is the same, and its area goes by the square of "
+    "size") {
   Random random(3);
   for (int round = 0; round < 50; ++round) {
     std::vector<Vector3d> points;

@@ -1,0 +1,233 @@
+#include "grasp/robustness.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "math/cone_program.h"
+#include "math/decompositions.h"
+
+namespace clench {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+namespace {
+
+// singular values below this part of the largest are rounding: contact frames and levers are good to 1e-14
+constexpr double rank_part = 1e-10;
+
+void check_robustness_problem(const RobustnessProblem& p) {
+  const Index n = p.mu.size();
+  if (p.G.rows() != 6 || p.G.cols() != 3 * n || p.J.rows() != 3 * n || p.compliance.size() != 3 * n)
+    fail(
+        "robustness of {} contacts: wanted G of 6 x {}, J of {} rows and as many compliances, got "
+        "{} x {}, {} and {}",
+        n, 3 * n, 3 * n, p.G.rows(), p.G.cols(), p.J.rows(), p.compliance.size());
+  if (!p.G.allFinite() || !p.J.allFinite() || !p.load.allFinite())
+    fail("robustness: G, J and the load must be finite");
+  for (const double mu : p.mu)
+    if (!(mu >= 0) || !std::isfinite(mu)) fail("robustness: mu must be >= 0, got {}", mu);
+  for (const double c : p.compliance)
+    if (!(c > 0) || !std::isfinite(c)) fail("robustness: compliance must be > 0, got {} [m/N]", c);
+  if (!(p.max_force > 0) || !std::isfinite(p.max_force))
+    fail("robustness: max_force must be > 0, got {} [N]", p.max_force);
+}
+
+// the rows of f that are counted on
+std::vector<Index> held_rows(const std::vector<ContactHold>& states) {
+  std::vector<Index> rows;
+  for (size_t i = 0; i < states.size(); ++i) {
+    const Index first = 3 * static_cast<Index>(i);
+    if (states[i] == ContactHold::sticks) rows.insert(rows.end(), {first, first + 1});
+    if (states[i] != ContactHold::detached) rows.push_back(first + 2);
+  }
+  return rows;
+}
+
+double least_singular_value(const MatrixXd& G) {
+  if (G.cols() < 6) return 0;
+  const VectorXd values = singular_value_decomposition(G).values;
+  return values[5] > rank_part * values[0] ? values[5] : 0;
+}
+
+// Rows of G x + s = h, s in cones of sizes 1 (half lines) and 3, for the bounds of contact forces
+// f = start + span x with the margin d = x[0] between each and its bounds.
+class MarginProgram {
+ public:
+  MarginProgram(const RobustnessProblem& problem, VectorXd start, MatrixXd span)
+      : problem_(problem), start_(std::move(start)), span_(std::move(span)) {}
+
+  /// contact i keeps the margin, or only its bounds
+  void bound(size_t i, ContactHold state, bool with_margin) {
+    const Index first = 3 * static_cast<Index>(i), normal = first + 2;
+    const double d = with_margin ? 1 : 0, mu = problem_.mu[static_cast<Index>(i)];
+    add_half_line(span_.row(normal), start_[normal], -d);
+    add_half_line(-span_.row(normal), problem_.max_force - start_[normal], -d);
+    if (state != ContactHold::sticks) return;
+    // mu f_n - |f_t| is sqrt(1 + mu^2) times the distance from the cone
+    MatrixXd rows(3, span_.cols() + 1);
+    rows.row(0) << -d * std::sqrt(1 + mu * mu), mu * span_.row(normal);
+    rows.row(1) << 0, span_.row(first);
+    rows.row(2) << 0, span_.row(first + 1);
+    cones_.push_back(rows);
+    cone_starts_.push_back({mu * start_[normal], start_[first], start_[first + 1]});
+  }
+
+  /// with the largest margin, among the x of A x = b
+  ConeSolution solve(const MatrixXd& A, const VectorXd& b) const {
+    const Index unknowns = span_.cols() + 1;
+    const Index lines = static_cast<Index>(lines_.size());
+    const Index rows = lines + 3 * static_cast<Index>(cones_.size());
+    ConeProgram program;
+    program.c = -VectorXd::Unit(unknowns, 0);
+    program.A = A;
+    program.b = b;
+    program.G.resize(rows, unknowns);
+    program.h.resize(rows);
+    program.nonnegative = static_cast<int>(lines);
+    for (Index i = 0; i < lines; ++i) {
+      program.G.row(i) = -lines_[i];
+      program.h[i] = line_starts_[i];
+    }
+    for (size_t k = 0; k < cones_.size(); ++k) {
+      program.G.middleRows(lines + 3 * static_cast<Index>(k), 3) = -cones_[k];
+      program.h.segment(lines + 3 * static_cast<Index>(k), 3) = cone_starts_[k];
+      program.cones.push_back(3);
+    }
+    return clench::solve(program);
+  }
+
+ private:
+  void add_half_line(const Eigen::RowVectorXd& row, double start, double margin) {
+    Eigen::RowVectorXd with_margin(row.size() + 1);
+    with_margin << margin, row;
+    lines_.push_back(with_margin);
+    line_starts_.push_back(start);
+  }
+
+  const RobustnessProblem& problem_;
+  VectorXd start_;
+  MatrixXd span_;
+  std::vector<Eigen::RowVectorXd> lines_;
+  std::vector<double> line_starts_;
+  std::vector<MatrixXd> cones_;
+  std::vector<Eigen::Vector3d> cone_starts_;
+};
+
+// orthonormal columns that span those of m
+MatrixXd range_of(const MatrixXd& m, double zero) {
+  if (m.cols() == 0) return m;
+  const Svd svd = singular_value_decomposition(m);
+  const Index rank = (svd.values.array() > zero).count();
+  return svd.u.leftCols(rank);
+}
+
+Robustness robustness_of(const RobustnessProblem& p, const std::vector<ContactHold>& states) {
+  Robustness out;
+  out.states = states;
+  const std::vector<Index> rows = held_rows(states);
+  const MatrixXd G = p.G(Eigen::all, rows), J = p.J(rows, Eigen::all);
+  if (least_singular_value(G) == 0) return out;
+
+  // springs in series: how the contacts share a wrench, and which internal forces the joints can make
+  const VectorXd stiffness = p.compliance(rows).cwiseInverse();
+  const MatrixXd KGt = stiffness.asDiagonal() * G.transpose();
+  const MatrixXd right = solve_symmetric(G * KGt, KGt.transpose()).transpose();
+  const MatrixXd KJ = stiffness.asDiagonal() * J;
+  const MatrixXd internal =
+      range_of(KJ - right * (G * KJ), rank_part * (KJ.size() > 0 ? KJ.norm() : 0));
+
+  VectorXd start = VectorXd::Zero(p.G.cols());
+  start(rows) = -right * p.load;
+  MatrixXd span = MatrixXd::Zero(p.G.cols(), internal.cols());
+  for (size_t k = 0; k < rows.size(); ++k) span.row(rows[k]) = internal.row(static_cast<Index>(k));
+  MarginProgram program(p, start, span);
+  for (size_t i = 0; i < states.size(); ++i)
+    if (states[i] != ContactHold::detached) program.bound(i, states[i], true);
+  const VectorXd x = program.solve(MatrixXd(0, span.cols() + 1), VectorXd(0)).x;
+  if (!(x[0] > 0)) return out;
+  out.margin = x[0];
+  out.radius = out.margin / singular_value_decomposition(right).values[0];
+  out.forces = start + span * x.tail(span.cols());
+  return out;
+}
+
+// Depth first over the states of the contacts, the undecided ones counted on for all they could do.
+class RobustnessSearch {
+ public:
+  explicit RobustnessSearch(const RobustnessProblem& problem)
+      : problem_(problem), states_(static_cast<size_t>(problem.mu.size()), ContactHold::sticks) {
+    best_.states = states_;
+    search(0);
+  }
+  const Robustness& best() const { return best_; }
+
+ private:
+  void search(size_t decided) {
+    if (decided == states_.size()) {
+      const Robustness found = robustness_of(problem_, states_);
+      if (found.radius > best_.radius) best_ = found;
+      return;
+    }
+    for (const ContactHold state :
+         {ContactHold::sticks, ContactHold::slips, ContactHold::detached}) {
+      states_[decided] = state;
+      // a bound is as good as the solver's answer, which is good to 1e-9
+      if (bound(decided + 1) > best_.radius * (1 + 1e-8)) search(decided + 1);
+    }
+    states_[decided] = ContactHold::sticks;
+  }
+
+  // No right inverse of G stretches less than the one of least norm, 1 over its least singular value,
+  // which grows with every row; and no margin is larger than with free forces that balance the load.
+  double bound(size_t decided) const {
+    const std::vector<Index> rows = held_rows(states_);
+    const double least = least_singular_value(problem_.G(Eigen::all, rows));
+    if (least == 0) return 0;
+    const auto held = static_cast<Index>(rows.size());
+    MatrixXd span = MatrixXd::Zero(problem_.G.cols(), held);
+    for (Index k = 0; k < held; ++k) span(rows[k], k) = 1;
+    MarginProgram program(problem_, VectorXd::Zero(problem_.G.cols()), span);
+    bool margin = false;
+    for (size_t i = 0; i < states_.size(); ++i) {
+      if (states_[i] == ContactHold::detached) continue;
+      program.bound(i, states_[i], i < decided);
+      margin = margin || i < decided;
+    }
+    const double most = problem_.max_force / 2;
+    MatrixXd balance = MatrixXd::Zero(6, held + 1);
+    balance.rightCols(held) = problem_.G * span;
+    if (!margin) return most * least;
+    const ConeSolution solution = program.solve(balance, -problem_.load);
+    if (solution.status == ConeStatus::infeasible) return 0;
+    // what is not sure bounds nothing
+    if (solution.status != ConeStatus::optimal) return most * least;
+    return std::min(solution.x[0], most) * least;
+  }
+
+  const RobustnessProblem& problem_;
+  std::vector<ContactHold> states_;
+  Robustness best_;
+};
+
+}  // namespace
+
+Robustness contact_robustness(const RobustnessProblem& problem,
+                              const std::vector<ContactHold>& states) {
+  check_robustness_problem(problem);
+  if (static_cast<Index>(states.size()) != problem.mu.size())
+    fail("robustness: wanted {} states, one a contact, got {}", problem.mu.size(), states.size());
+  return robustness_of(problem, states);
+}
+
+Robustness contact_robustness(const RobustnessProblem& problem) {
+  return contact_robustness(
+      problem,
+      std::vector<ContactHold>(static_cast<size_t>(problem.mu.size()), ContactHold::sticks));
+}
+
+Robustness grasp_robustness(const RobustnessProblem& problem) {
+  check_robustness_problem(problem);
+  return RobustnessSearch(problem).best();
+}
+
+}  // namespace clench

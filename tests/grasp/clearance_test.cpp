@@ -1,0 +1,57 @@
+#include "grasp/clearance.h"
+
+#include <doctest/doctest.h>
+
+#include "support/robots.h"
+#include "support/shapes.h"
+
+using namespace clench;
+using namespace clench::test;
+
+namespace {
+
+struct Place {
+  World world;
+  Id<Robot> hand;
+  Id<Body> object;
+};
+
+// a two-fingered hand at the origin and a cube far above it
+Place hand_and_cube() {
+  Place place;
+  place.hand = place.world.add_robot(two_finger(), {});
+  place.object = place.world.add_body(body_spec("cube", box(0.1, 0.1, 0.1)), BodyKind::object,
+                                      Pose::translation({0, 0, 5}));
+  return place;
+}
+
+}  // namespace
+
+TEST_CASE("clearance is the distance to the nearest thing that is not grasped") {
+  Place p = hand_and_cube();
+  CHECK(clearance(p.world, p.hand, p.object) == std::numeric_limits<double>::infinity());
+  const auto wall = p.world.add_body(body_spec("wall", box(1, 1, 1)), BodyKind::obstacle,
+                                     Pose::translation({0, 0, -3}));
+  const double alone = clearance(p.world, p.hand, p.object);
+  const auto parts = p.world.bodies_of(p.hand);
+  CHECK(alone == distance(p.world, parts, std::span(&wall, 1)).distance);
+  // another object counts, nearer or not
+  const auto other = p.world.add_body(body_spec("other", box(1, 1, 1)), BodyKind::object,
+                                      Pose::translation({0, 0, -2}));
+  CHECK(clearance(p.world, p.hand, p.object) == doctest::Approx(alone - 1));
+  CHECK(clearance(p.world, p.hand, other) == alone);
+  p.world.set_pose(wall, {});
+  CHECK(clearance(p.world, p.hand, p.object) == 0);
+}
+
+TEST_CASE("penetration is how deep the deepest corner lies") {
+  Place p = hand_and_cube();
+  CHECK(penetration(p.world, p.hand, p.object) == 0);
+  // from below into the hand's base, whose corners lie within the cube's outline
+  const Body& base = p.world.body(p.world.robot(p.hand).base);
+  const double low = base.shape->bounds().low.y();
+  for (const double depth : {0.001, 0.004, 0.009}) {
+    p.world.set_pose(p.object, Pose::translation({0, low - 0.05 + depth, 0}));
+    CHECK(penetration(p.world, p.hand, p.object) == doctest::Approx(depth).epsilon(1e-9));
+  }
+}
