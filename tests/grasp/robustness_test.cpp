@@ -87,7 +87,7 @@ TEST_CASE("six fingers on the faces of a cube are as robust as their formula say
 TEST_CASE("disturbances within the radius leave every contact force inside its bounds") {
   Random random(5);
   int robust = 0;
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < 200; ++round) {
     const RobustnessProblem problem = at_random(random, 5);
     const Robustness found = contact_robustness(problem);
     if (found.radius == 0) continue;
