@@ -1,5 +1,7 @@
 #include "grasp/robustness.h"
 
+#include <fmt/ranges.h>
+
 #include <cmath>
 
 #include "base/error.h"
@@ -16,12 +18,20 @@ namespace {
 constexpr double rank_part = 1e-10;
 
 void check_robustness_problem(const RobustnessProblem& p) {
-  const Index n = p.mu.size();
-  if (p.G.rows() != 6 || p.G.cols() != 3 * n || p.J.rows() != 3 * n || p.compliance.size() != 3 * n)
+  const Index contacts = p.mu.size(), forces = p.starts.empty() ? -1 : p.starts.back();
+  bool rising = static_cast<Index>(p.starts.size()) == contacts + 1 && p.starts[0] == 0;
+  for (size_t i = 1; rising && i < p.starts.size(); ++i) rising = p.starts[i] > p.starts[i - 1];
+  if (!rising)
     fail(
-        "robustness of {} contacts: wanted G of 6 x {}, J of {} rows and as many compliances, got "
-        "{} x {}, {} and {}",
-        n, 3 * n, 3 * n, p.G.rows(), p.G.cols(), p.J.rows(), p.compliance.size());
+        "robustness of {} contacts: wanted the starts of their forces and the end, rising from 0, "
+        "got {}",
+        contacts, fmt::join(p.starts, ", "));
+  if (p.G.rows() != 6 || p.G.cols() != forces || p.J.rows() != forces ||
+      p.compliance.size() != forces)
+    fail(
+        "robustness: wanted G of 6 x {}, J of {} rows and as many compliances, got {} x {}, {} and "
+        "{}",
+        forces, forces, p.G.rows(), p.G.cols(), p.J.rows(), p.compliance.size());
   if (!p.G.allFinite() || !p.J.allFinite() || !p.load.allFinite())
     fail("robustness: G, J and the load must be finite");
   for (const double mu : p.mu)
@@ -33,12 +43,13 @@ void check_robustness_problem(const RobustnessProblem& p) {
 }
 
 // the rows of f that are counted on
-std::vector<Index> held_rows(const std::vector<ContactHold>& states) {
+std::vector<Index> held_rows(const RobustnessProblem& p, const std::vector<ContactHold>& states) {
   std::vector<Index> rows;
   for (size_t i = 0; i < states.size(); ++i) {
-    const Index first = 3 * static_cast<Index>(i);
-    if (states[i] == ContactHold::sticks) rows.insert(rows.end(), {first, first + 1});
-    if (states[i] != ContactHold::detached) rows.push_back(first + 2);
+    const int end = states[i] == ContactHold::sticks  ? p.starts[i + 1]
+                    : states[i] == ContactHold::slips ? p.starts[i] + 1
+                                                      : p.starts[i];
+    for (int row = p.starts[i]; row < end; ++row) rows.push_back(row);
   }
   return rows;
 }
@@ -49,8 +60,8 @@ double least_singular_value(const MatrixXd& G) {
   return values[5] > rank_part * values[0] ? values[5] : 0;
 }
 
-// Rows of G x + s = h, s in cones of sizes 1 (half lines) and 3, for the bounds of contact forces
-// f = start + span x with the margin d = x[0] between each and its bounds.
+// The bounds of contact forces f = start + span x, with the margin d between each and its bounds; the
+// unknowns are (d, x).
 class MarginProgram {
  public:
   MarginProgram(const RobustnessProblem& problem, VectorXd start, MatrixXd span)
@@ -58,45 +69,53 @@ class MarginProgram {
 
   /// contact i keeps the margin, or only its bounds
   void bound(size_t i, ContactHold state, bool with_margin) {
-    const Index first = 3 * static_cast<Index>(i), normal = first + 2;
+    const int normal = problem_.starts[i], across = problem_.starts[i + 1] - normal - 1;
     const double d = with_margin ? 1 : 0, mu = problem_.mu[static_cast<Index>(i)];
     add_half_line(span_.row(normal), start_[normal], -d);
     add_half_line(-span_.row(normal), problem_.max_force - start_[normal], -d);
-    if (state != ContactHold::sticks) return;
+    if (state != ContactHold::sticks || across == 0) return;
     // mu f_n - |f_t| is sqrt(1 + mu^2) times the distance from the cone
-    MatrixXd rows(3, span_.cols() + 1);
-    rows.row(0) << -d * std::sqrt(1 + mu * mu), mu * span_.row(normal);
-    rows.row(1) << 0, span_.row(first);
-    rows.row(2) << 0, span_.row(first + 1);
-    cones_.push_back(rows);
-    cone_starts_.push_back({mu * start_[normal], start_[first], start_[first + 1]});
+    Cone cone{MatrixXd::Zero(1 + across, span_.cols() + 1), VectorXd(1 + across)};
+    cone.rows(0, 0) = -d * std::sqrt(1 + mu * mu);
+    cone.rows.rightCols(span_.cols()) = span_.middleRows(normal, 1 + across);
+    cone.rows.row(0).tail(span_.cols()) *= mu;
+    cone.start = start_.segment(normal, 1 + across);
+    cone.start[0] *= mu;
+    cones_.push_back(std::move(cone));
   }
 
-  /// with the largest margin, among the x of A x = b
+  /// with the largest margin, among the unknowns of A (d, x) = b
   ConeSolution solve(const MatrixXd& A, const VectorXd& b) const {
-    const Index unknowns = span_.cols() + 1;
-    const Index lines = static_cast<Index>(lines_.size());
-    const Index rows = lines + 3 * static_cast<Index>(cones_.size());
+    const auto lines = static_cast<Index>(lines_.size());
+    Index rows = lines;
+    for (const Cone& cone : cones_) rows += cone.rows.rows();
     ConeProgram program;
-    program.c = -VectorXd::Unit(unknowns, 0);
+    program.c = -VectorXd::Unit(span_.cols() + 1, 0);
     program.A = A;
     program.b = b;
-    program.G.resize(rows, unknowns);
+    program.G.resize(rows, span_.cols() + 1);
     program.h.resize(rows);
     program.nonnegative = static_cast<int>(lines);
     for (Index i = 0; i < lines; ++i) {
       program.G.row(i) = -lines_[i];
       program.h[i] = line_starts_[i];
     }
-    for (size_t k = 0; k < cones_.size(); ++k) {
-      program.G.middleRows(lines + 3 * static_cast<Index>(k), 3) = -cones_[k];
-      program.h.segment(lines + 3 * static_cast<Index>(k), 3) = cone_starts_[k];
-      program.cones.push_back(3);
+    Index row = lines;
+    for (const Cone& cone : cones_) {
+      program.G.middleRows(row, cone.rows.rows()) = -cone.rows;
+      program.h.segment(row, cone.rows.rows()) = cone.start;
+      program.cones.push_back(static_cast<int>(cone.rows.rows()));
+      row += cone.rows.rows();
     }
     return clench::solve(program);
   }
 
  private:
+  // (t, u) = start + rows (d, x), |u| <= t
+  struct Cone {
+    MatrixXd rows;
+    VectorXd start;
+  };
   void add_half_line(const Eigen::RowVectorXd& row, double start, double margin) {
     Eigen::RowVectorXd with_margin(row.size() + 1);
     with_margin << margin, row;
@@ -109,8 +128,7 @@ class MarginProgram {
   MatrixXd span_;
   std::vector<Eigen::RowVectorXd> lines_;
   std::vector<double> line_starts_;
-  std::vector<MatrixXd> cones_;
-  std::vector<Eigen::Vector3d> cone_starts_;
+  std::vector<Cone> cones_;
 };
 
 // orthonormal columns that span those of m
@@ -124,7 +142,7 @@ MatrixXd range_of(const MatrixXd& m, double zero) {
 Robustness robustness_of(const RobustnessProblem& p, const std::vector<ContactHold>& states) {
   Robustness out;
   out.states = states;
-  const std::vector<Index> rows = held_rows(states);
+  const std::vector<Index> rows = held_rows(p, states);
   const MatrixXd G = p.G(Eigen::all, rows), J = p.J(rows, Eigen::all);
   if (least_singular_value(G) == 0) return out;
 
@@ -180,7 +198,7 @@ class RobustnessSearch {
   // No right inverse of G stretches less than the one of least norm, 1 over its least singular value,
   // which grows with every row; and no margin is larger than with free forces that balance the load.
   double bound(size_t decided) const {
-    const std::vector<Index> rows = held_rows(states_);
+    const std::vector<Index> rows = held_rows(problem_, states_);
     const double least = least_singular_value(problem_.G(Eigen::all, rows));
     if (least == 0) return 0;
     const auto held = static_cast<Index>(rows.size());

@@ -8,13 +8,14 @@
 
 namespace clench {
 
-/// Forces of contact i are rows 3 i .. 3 i + 2 of f: along its x and y, then along its normal into the
-/// object [N].
+/// Contact i has the rows starts[i] .. starts[i + 1] - 1 of f: its normal force into the object, then with
+/// friction those across it, the torsion of a soft contact over its radius among them [N].
 struct RobustnessProblem {
-  Eigen::MatrixXd G;   ///< 6 x 3 contacts: wrenches on the object of unit forces; torque over rho
-  Eigen::MatrixXd J;   ///< 3 contacts x DOFs: how the hand's points move
-  Eigen::VectorXd mu;  ///< one a contact, >= 0
-  Eigen::VectorXd compliance;  ///< 3 a contact, > 0: how far a contact yields to a force [m/N]
+  Eigen::MatrixXd G;        ///< 6 x forces: wrenches on the object of unit forces; torque over rho
+  Eigen::MatrixXd J;        ///< forces x DOFs: how the hand's points move along them
+  std::vector<int> starts;  ///< one a contact, and at the end the number of forces
+  Eigen::VectorXd mu;       ///< one a contact, >= 0
+  Eigen::VectorXd compliance;  ///< one a force, > 0: how far the contact yields to it [m/N]
   Vector6d load =
       Vector6d::Zero();   ///< wrench on the object that the contacts hold; torque over rho [N]
   double max_force = 10;  ///< of each contact along its normal, > 0 [N]

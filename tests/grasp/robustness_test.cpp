@@ -20,9 +20,13 @@ RobustnessProblem towards_origin(const std::vector<Vector3d>& points, double mu)
   problem.G.resize(6, 3 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Matrix3d frame = contact_frame(-points[i].normalized());
-    for (int k = 0; k < 3; ++k)
-      problem.G.col(3 * i + k) << frame.col(k), points[i].cross(frame.col(k));
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d axis = frame.col((k + 2) % 3);  // the normal first
+      problem.G.col(3 * i + k) << axis, points[i].cross(axis);
+    }
+    problem.starts.push_back(static_cast<int>(3 * i));
   }
+  problem.starts.push_back(static_cast<int>(3 * n));
   problem.J = MatrixXd::Identity(3 * n, 3 * n);
   problem.mu = VectorXd::Constant(n, mu);
   problem.compliance = VectorXd::Ones(3 * n);
@@ -49,10 +53,10 @@ double excess(const RobustnessProblem& p, const VectorXd& f,
   double worst = -1e300;
   for (Eigen::Index i = 0; i < p.mu.size(); ++i) {
     if (states[i] == ContactHold::detached) continue;
-    const double normal = f[3 * i + 2];
+    const double normal = f[3 * i];
     worst = std::max({worst, -normal, normal - p.max_force});
     if (states[i] == ContactHold::sticks)
-      worst = std::max(worst, f.segment(3 * i, 2).norm() - p.mu[i] * normal);
+      worst = std::max(worst, f.segment(3 * i + 1, 2).norm() - p.mu[i] * normal);
   }
   return worst;
 }
@@ -169,8 +173,13 @@ TEST_CASE("what is out of range is refused by name") {
   refused([](RobustnessProblem& p) { p.load[3] = NAN; },
           "robustness: G, J and the load must be finite");
   refused([](RobustnessProblem& p) { p.G.resize(6, 6); },
-          "robustness of 3 contacts: wanted G of 6 x 9, J of 9 rows and as many compliances, got "
-          "6 x 6, 9 and 9");
+          "robustness: wanted G of 6 x 9, J of 9 rows and as many compliances, got 6 x 6, 9 and 9");
+  refused(
+      [](RobustnessProblem& p) {
+        p.starts = {0, 3, 9};
+      },
+      "robustness of 3 contacts: wanted the starts of their forces and the end, rising from 0, "
+      "got 0, 3, 9");
   CHECK_THROWS_WITH_AS(contact_robustness(towards_origin({{1, 0, 0}}, 1), {}),
                        "robustness: wanted 1 states, one a contact, got 0", Error);
 }
