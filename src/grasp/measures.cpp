@@ -40,9 +40,19 @@ double ratio(double least, double largest) { return largest > 0 ? least / larges
 
 }  // namespace
 
-const WrenchSpace& MeasuredGrasp::space() {
-  if (!space_) space_ = wrench_space(grasp_);
-  return *space_;
+MeasuredGrasp::MeasuredGrasp(const World& world, const Grasp& grasp, SpaceSource spaces)
+    : world_(world), grasp_(grasp), spaces_(std::move(spaces)) {
+  if (!spaces_)
+    spaces_ = [this](const GraspSpaceOptions& options) -> const WrenchSpace& {
+      return own_space(options);
+    };
+}
+
+const WrenchSpace& MeasuredGrasp::own_space(const GraspSpaceOptions& options) {
+  for (const auto& [known, space] : own_spaces_)
+    if (known == options) return space;
+  own_spaces_.emplace_back(options, wrench_space(grasp_, options));
+  return own_spaces_.back().second;
 }
 
 const ContactPolygon& MeasuredGrasp::polygon() {
@@ -160,14 +170,32 @@ double joint_deviation(MeasuredGrasp& g) {
   return count > 0 ? sum / count : infinite;
 }
 
+// round cones have no volume in closed form: that of the usual pyramids stands for it
+double volume(MeasuredGrasp& g) {
+  const bool round = g.grasp().edges == round_edges;
+  return g.space({.edges = round ? std::optional(8) : std::nullopt}).volume();
+}
+
 const Measure all_measures[] = {
     {"epsilon",
      "radius of the largest ball of wrenches that contact forces resist whose normal parts sum to "
      "one; 0 unless force closure",
      "0 to 1", "1", true, "Ferrari and Canny (1992)",
      [](MeasuredGrasp& g) { return g.space().epsilon(); }},
+    {"epsilon_linf", "the same with each normal part at most one", ">= 0", "1", true,
+     "Ferrari and Canny (1992)",
+     [](MeasuredGrasp& g) { return g.space({.space = {.norm = WrenchNorm::linf}}).epsilon(); }},
+    {"epsilon_exact", "epsilon with round friction cones, within 1e-6", "0 to 1", "1", true,
+     "Ferrari and Canny (1992)",
+     [](MeasuredGrasp& g) { return g.space({.edges = round_edges}).epsilon_bounds({}).lower; }},
+    {"epsilon_force",
+     "radius of the largest ball of forces that such contact forces reach, whatever their torque",
+     "0 to 1", "1", true, "Mirtich and Canny (1994)",
+     [](MeasuredGrasp& g) {
+       return g.space({.space = {.coordinates = {0, 1, 2}}}).epsilon();
+     }},
     {"volume", "of the hull of all unit wrenches in its six dimensions; 0 where it is flat", ">= 0",
-     "1", true, "Miller and Allen (1999)", [](MeasuredGrasp& g) { return g.space().volume(); }},
+     "1", true, "Miller and Allen (1999)", volume},
     {"least_singular_value",
      "of the grasp map, torques over rho: how far the grasp is from losing a direction of wrenches",
      ">= 0", "1", true, "Li and Sastry (1988)",

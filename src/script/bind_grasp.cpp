@@ -1,9 +1,8 @@
 #include "script/bind_grasp.h"
 
-#include "base/suggest.h"
 #include "script/bind_contact.h"
-#include "script/bind_forces.h"
 #include "script/bind_log.h"
+#include "script/bind_measures.h"
 #include "script/bind_patch.h"
 #include "script/guard.h"
 #include "script/push.h"
@@ -86,16 +85,6 @@ static int is_force_closure(lua_State* L) {
   return push(L, space_of(self<GraspHandle>(L))->is_force_closure());
 }
 
-static int quality(lua_State* L) {
-  check_count(L, 1);
-  auto& g = self<GraspHandle>(L);
-  const std::string name = check_string(L, 2, "measure");
-  if (name == "epsilon") return push(L, space_of(g)->epsilon());
-  if (name == "volume") return push(L, space_of(g)->volume());
-  fail("{}: unknown measure '{}', wanted 'epsilon' or 'volume'{}", subject(L), name,
-       did_you_mean(name, {"epsilon", "volume"}));
-}
-
 static int grasp_text(lua_State* L) {
   auto& g = self<GraspHandle>(L);
   std::string text = fmt::format("grasp of {} contacts, epsilon {:.6g}", g.grasp.contacts.size(),
@@ -138,13 +127,6 @@ Edges of each friction pyramid, or "exact".
 };
 
 static const Entry grasp_methods[] = {
-    {"quality", guarded<quality>, R"(
-A measure of the grasp: "epsilon", the radius of the largest ball of wrenches that it resists (0 unless force closure;
-Ferrari and Canny 1992), or "volume" of its wrench space.
-@param measure string
-@return number
-> grasp:quality "epsilon" > 0  --> true
-> grasp:quality "epsilom"  --> error: did you mean 'epsilon'?)"},
     {"is_force_closure", guarded<is_force_closure>, R"(
 Can it resist every wrench?
 @return boolean
@@ -175,6 +157,6 @@ const Class grasp_class{.name = "grasp",
                         .fields = grasp_fields,
                         .methods = grasp_methods,
                         .operators = grasp_operators,
-                        .parent = &forces_class};
+                        .parent = &measures_class};
 
 }  // namespace clench

@@ -13,6 +13,7 @@
 #include "script/bind_hand.h"
 #include "script/bind_json.h"
 #include "script/bind_log.h"
+#include "script/bind_measures.h"
 #include "script/bind_mesh.h"
 #include "script/bind_patch.h"
 #include "script/bind_pose.h"
@@ -41,6 +42,7 @@ std::span<const Library* const> all_libraries() {
       &log_library,
       &world_library,
       &grasp_library,
+      &measures_library,
       &wrench_space_library,
       &eigengrasps_library,
       &files_library,
@@ -66,6 +68,7 @@ std::span<const Class* const> all_classes() {
       &virtual_contact_class,
       &contact_class,
       &forces_class,
+      &measures_class,
       &patch_class,
       &grasp_class,
       &wrench_space_class,

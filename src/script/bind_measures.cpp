@@ -1,0 +1,126 @@
+#include "script/bind_measures.h"
+
+#include <cmath>
+
+#include "grasp/measures.h"
+#include "grasp/resistance.h"
+#include "script/bind_forces.h"
+#include "script/bind_grasp.h"
+#include "script/guard.h"
+#include "script/push.h"
+#include "script/table.h"
+
+namespace clench {
+
+// wrench spaces are those that the grasp keeps
+static MeasuredGrasp::SpaceSource spaces_of(GraspHandle& g) {
+  return [&g](const GraspSpaceOptions& options) -> const WrenchSpace& {
+    return *space_of(g, options);
+  };
+}
+
+static int quality(lua_State* L) {
+  check_count(L, 1);
+  auto& g = self<GraspHandle>(L);
+  const std::string name = check_string(L, 2, "measure");
+  const Measure& measure = find_measure(name);
+  MeasuredGrasp measured(*g.world, g.grasp, spaces_of(g));
+  return push(L, measure.of(measured));
+}
+
+static int quality_all(lua_State* L) {
+  check_count(L, 0);
+  auto& g = self<GraspHandle>(L);
+  MeasuredGrasp measured(*g.world, g.grasp, spaces_of(g));
+  push_list(L, 0, static_cast<int>(measures().size()));
+  for (const Measure& measure : measures())
+    if (const double value = measure.of(measured); std::isfinite(value))
+      set_field(L, std::string(measure.name).c_str(), value);
+  return 1;
+}
+
+static Vector6d vector6(const std::vector<double>& numbers) {
+  return Eigen::Map<const Vector6d>(numbers.data());
+}
+
+static int resist(lua_State* L) {
+  check_count(L, 1);
+  auto& g = self<GraspHandle>(L);
+  Table options(L, 2);
+  ResistanceOptions resisting;
+  if (options.choice("norm", {"L1", "Linf"}, "L1") == "Linf") resisting.norm = WrenchNorm::linf;
+  const bool one = options.has("wrench"), many = options.has("wrenches"),
+             ellipsoid = options.has("ellipsoid");
+  if (one + many + ellipsoid != 1)
+    fail("{}: wanted one of wrench, wrenches and ellipsoid, got {} of them", subject(L),
+         one + many + ellipsoid);
+  double least = INFINITY;
+  if (one) least = resistance(*g.world, g.grasp, vector6(options.numbers("wrench", 6)), resisting);
+  if (many)
+    for (const auto& row : options.rows("wrenches", 6))
+      least = std::min(least, resistance(*g.world, g.grasp, vector6(row), resisting));
+  if (ellipsoid)
+    least = ellipsoid_resistance(*g.world, g.grasp, vector6(options.numbers("ellipsoid", 6)),
+                                 resisting);
+  options.done();
+  return push(L, least);
+}
+
+static int list_measures(lua_State* L) {
+  check_count(L, 0);
+  return push_list_of(L, measures(), [&](const Measure& m) {
+    push_list(L, 0, 6);
+    set_field(L, "name", m.name);
+    set_field(L, "what", m.what);
+    set_field(L, "range", m.range);
+    set_field(L, "unit", m.unit);
+    set_field(L, "larger_is_better", m.larger_is_better);
+    set_field(L, "source", m.source);
+  });
+}
+
+static const Entry functions[] = {
+    {"measures", guarded<list_measures>, R"(
+The measures that grasp:quality knows, in the order of the guide.
+@return {name: string, what: string, range: string, unit: string, larger_is_better: boolean, source: string}[]
+> clench.measures()[1].name, clench.measures()[1].source  --> epsilon, Ferrari and Canny (1992))"},
+};
+
+static const Entry methods[] = {
+    {"quality", guarded<quality>, R"(
+A measure of the grasp by name: "epsilon", "volume" and all that clench.measures() lists with definition, range, unit and
+source. Infinite where there is nothing to measure, as the clearance of a hand alone. The world must stand as it did when
+the grasp was measured.
+@param measure string
+@return number
+> grasp:quality "epsilon" > 0  --> true
+> grasp:quality "epsilon_linf" >= grasp:quality "epsilon"  --> true
+> grasp:quality "epsilom"  --> error: did you mean 'epsilon'?)"},
+    {"quality_all", guarded<quality_all>, R"(
+All measures at once, by name; those that are infinite are left out.
+@return table<string, number>
+> q = grasp:quality_all()
+> q.epsilon == grasp:quality "epsilon", q.isotropy > 0  --> true, true)"},
+    {"resistance", guarded<resist>, R"(
+The largest multiple of a wrench on the object that contact forces in round cones balance, their normal parts summing to
+at most one newton (norm "L1") or each at most one ("Linf"); of several wrenches the least multiple; of an ellipsoid the
+largest that is resisted whole, by the friction cones of the grasp. World axes, torques about the centre of mass.
+@param options {wrench?: number[], wrenches?: number[][], ellipsoid?: number[], norm?: string}  one of the first three; {fx, fy, fz, tx, ty, tz} [N, N m]; ellipsoid: its half axes
+@return number
+> weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
+> grasp:resistance{wrench = weight} > 0  --> true
+> grasp:resistance{wrenches = {weight, {1, 0, 0, 0, 0, 0}}} <= grasp:resistance{wrench = weight}  --> true
+> grasp:resistance{ellipsoid = {1, 1, 1, 0.1, 0.1, 0.1}} > 0  --> true
+> grasp:resistance{}  --> error: wanted one of wrench, wrenches and ellipsoid, got 0 of them)"},
+};
+
+const Library measures_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class measures_class{.name = "measures",
+                           .variable = "grasp",
+                           .doc = "What a grasp can say of its worth.",
+                           .fields = {},
+                           .methods = methods,
+                           .parent = &forces_class};
+
+}  // namespace clench
