@@ -43,27 +43,16 @@ static std::vector<DrawArrow> read_forces(lua_State* L, Table& options) {
   return force_arrows(forces, options.positive("force_scale", automatic));
 }
 
-static int draw(lua_State* L) {
-  check_count(L, 2);
-  const auto& world = *check_object<WorldHandle>(L, 1, "world").world;
-  Table options(L, 2);
+Picture draw_scene(Table& options, Scene scene) {
   RenderOptions rendering;
   const auto size =
       options.has("size") ? options.numbers("size", 2) : std::vector<double>{1280, 960};
   for (const double n : size)
     if (n != std::floor(n) || std::abs(n) > 1e6)
-      fail("{}: size: wanted whole numbers of pixels, got {}", subject(L), n);
+      fail("{}: size: wanted whole numbers of pixels, got {}", options.subject(), n);
   rendering.width = static_cast<int>(size[0]);
   rendering.height = static_cast<int>(size[1]);
   rendering.samples = options.integer("samples", rendering.samples);
-  SceneOptions showing;
-  showing.contacts = options.boolean("contacts", showing.contacts);
-  showing.patches = options.boolean("patches", showing.patches);
-  showing.ground = options.boolean("ground", showing.ground);
-  showing.transparent_objects = options.boolean("transparent_objects", showing.transparent_objects);
-  showing.file_colors = options.boolean("file_colors", showing.file_colors);
-  Scene scene = make_scene(world, showing);
-  scene.arrows = read_forces(L, options);
   // a camera that is given in part begins from the one that frames everything
   const int parts =
       options.has("eye") + options.has("target") + options.has("up") + options.has("field_of_view");
@@ -72,7 +61,22 @@ static int draw(lua_State* L) {
   const Eye eye = read_eye(options, framed);
   if (parts > 0) scene.eye = eye;
   options.done();
-  return push_object(L, render(scene, rendering));
+  return render(scene, rendering);
+}
+
+static int draw(lua_State* L) {
+  check_count(L, 2);
+  const auto& world = *check_object<WorldHandle>(L, 1, "world").world;
+  Table options(L, 2);
+  SceneOptions showing;
+  showing.contacts = options.boolean("contacts", showing.contacts);
+  showing.patches = options.boolean("patches", showing.patches);
+  showing.ground = options.boolean("ground", showing.ground);
+  showing.transparent_objects = options.boolean("transparent_objects", showing.transparent_objects);
+  showing.file_colors = options.boolean("file_colors", showing.file_colors);
+  Scene scene = make_scene(world, showing);
+  scene.arrows = read_forces(L, options);
+  return push_object(L, draw_scene(options, std::move(scene)));
 }
 
 static int save(lua_State* L) {

@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "base/suggest.h"
+#include "render/canvas.h"
+#include "scene/wrench_scene.h"
+#include "script/bind_render.h"
 #include "script/guard.h"
 #include "script/handles.h"
 #include "script/push.h"
@@ -208,7 +211,8 @@ static int project_space(lua_State* L) {
   if (auto projected = read_coordinates(table, "projected"))
     options.projected = std::move(*projected);
   table.done();
-  ProjectionHandle handle{std::make_shared<Projection>(project(s, options)), nullptr};
+  ProjectionHandle handle{std::make_shared<Projection>(project(s, options)), nullptr,
+                          self<WrenchSpacePtr>(L)};
   if (!handle.projection->mesh.triangles.empty())
     handle.shape = Shape::make(handle.projection->mesh, "projection");
   return push_object(L, handle);
@@ -245,6 +249,51 @@ static int get_fixed(lua_State* L) {
   push_list(L, 0, static_cast<int>(p.fixed.size()));
   for (const auto& [coordinate, value] : p.fixed) set_field(L, coordinate_names[coordinate], value);
   return 1;
+}
+
+// "L1 wrench space: fx fy fz at tx = 0, any ty tz"
+static std::string title_of(const ProjectionHandle& handle) {
+  const Projection& p = *handle.projection;
+  std::string title = fmt::format("{} wrench space: {} {} {}", norm_name(*handle.space),
+                                  coordinate_names[p.free[0]], coordinate_names[p.free[1]],
+                                  coordinate_names[p.free[2]]);
+  const char* between = " at ";
+  for (const auto& [coordinate, value] : p.fixed) {
+    title += fmt::format("{}{} = {:.4g}", between, coordinate_names[coordinate], value);
+    between = ", ";
+  }
+  if (!p.projected.empty()) title += p.fixed.empty() ? " any" : ", any";
+  for (const int coordinate : p.projected)
+    title += fmt::format(" {}", coordinate_names[coordinate]);
+  return title;
+}
+
+// radius of what a cut leaves of the ball of epsilon
+static double ball_of(const ProjectionHandle& handle) {
+  double square = handle.space->epsilon() * handle.space->epsilon();
+  for (const auto& [coordinate, value] : handle.projection->fixed) square -= value * value;
+  return std::sqrt(std::max(0.0, square));
+}
+
+static int draw_projection(lua_State* L) {
+  check_count(L, 1);
+  const auto& handle = self<ProjectionHandle>(L);
+  if (!handle.shape) fail("{}: it is flat, with volume 0: there is nothing to draw", subject(L));
+  const Projection& p = *handle.projection;
+  Table options(L, 2);
+  WrenchPicture showing{.solid = handle.shape};
+  // contacts answer the weakest wrench by its opposite, which the space reaches least
+  Eigen::Vector3d least;
+  for (int k = 0; k < 3; ++k) {
+    showing.axes[k] = coordinate_names[p.free[k]];
+    least[k] = -handle.space->weakest().direction[p.free[k]];
+  }
+  if (options.boolean("ball", true)) showing.ball = ball_of(handle);
+  if (options.boolean("weakest", true)) showing.weakest = least;
+  Picture picture = draw_scene(options, make_wrench_scene(showing));
+  const float letters = std::max(9.0f, 0.022f * static_cast<float>(picture.height));
+  Canvas(picture).text(title_of(handle), {letters, 2 * letters}, letters, {0.1f, 0.1f, 0.1f});
+  return push_object(L, std::move(picture));
 }
 
 static int projection_text(lua_State* L) {
@@ -355,6 +404,16 @@ The coordinates that may be anything.
 > #grasp:wrench_space():project{projected = {"tx", "ty", "tz"}}.projected  --> 3)"},
 };
 
+static const Entry projection_methods[] = {
+    {"render", guarded<draw_projection>, R"(
+Draws it, seen through, with its axes, the ball of epsilon as far as it lies in it, and the direction that the space
+reaches least; size, samples and camera as in clench.render.
+@param options? {ball?: boolean, weakest?: boolean, size?: integer[], samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number}
+@return picture
+> forces = grasp:wrench_space():project{fixed = {tx = 0, ty = 0, tz = 0}}
+> forces:render{size = {64, 48}}  --> picture of 64 x 48 pixels)"},
+};
+
 static const Entry projection_operators[] = {
     {"__tostring", guarded<projection_text>, ""},
 };
@@ -372,7 +431,7 @@ const Class projection_class{.name = "projection",
                              .variable = "projection",
                              .doc = "A wrench space in three coordinates.",
                              .fields = projection_fields,
-                             .methods = {},
+                             .methods = projection_methods,
                              .operators = projection_operators};
 
 }  // namespace clench

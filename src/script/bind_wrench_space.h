@@ -15,6 +15,7 @@ using WrenchSpacePtr = std::shared_ptr<const WrenchSpace>;
 struct ProjectionHandle {
   std::shared_ptr<const Projection> projection;
   ShapePtr shape;  ///< null when it is flat
+  WrenchSpacePtr space;
 };
 
 /// `edges`: an integer or "exact"; empty when absent.
