@@ -432,6 +432,24 @@ function forces:grasp_map() end
 ---@return number[][]
 function forces:hand_jacobian() end
 
+---What a grasp can say of its worth.
+---@class measures: forces
+local measures = {}
+
+---A measure of the grasp by name: "epsilon", "volume" and all that clench.measures() lists with definition, range, unit and source. Infinite where there is nothing to measure, as the clearance of a hand alone. The world must stand as it did when the grasp was measured.
+---@param measure string
+---@return number
+function measures:quality(measure) end
+
+---All measures at once, by name; those that are infinite are left out.
+---@return table<string, number>
+function measures:quality_all() end
+
+---The largest multiple of a wrench on the object that contact forces in round cones balance, their normal parts summing to at most one newton (norm "L1") or each at most one ("Linf"); of several wrenches the least multiple; of an ellipsoid the largest that is resisted whole, by the friction cones of the grasp. World axes, torques about the centre of mass.
+---@param options {wrench?: number[], wrenches?: number[][], ellipsoid?: number[], norm?: string} # one of the first three; {fx, fy, fz, tx, ty, tz} [N, N m]; ellipsoid: its half axes
+---@return number
+function measures:resistance(options) end
+
 ---The surfaces of two bodies around a soft contact, and the turn about the normal that it resists.
 ---@class patch
 ---@field relative_radii number[] # Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures. Where the surfaces part slower than a ball of 1 m from a plane, or not at all, the `flat_radius` of 20 mm stands for them, or the first radius when that is larger. [m]
@@ -457,18 +475,13 @@ function patch:ellipse(options) end
 function patch:torsion_limit(options) end
 
 ---A hand, an object and the contacts between them, as they were when the grasp was measured.
----@class grasp: forces
+---@class grasp: measures
 ---@field hand robot # The robot that grasps.
 ---@field object body # The body that is grasped.
 ---@field contacts contact[] # The contacts on the object when the grasp was measured.
 ---@field rho number # Length that torques are divided by. [m]
 ---@field edges integer|string # Edges of each friction pyramid, or "exact".
 local grasp = {}
-
----A measure of the grasp: "epsilon", the radius of the largest ball of wrenches that it resists (0 unless force closure; Ferrari and Canny 1992), or "volume" of its wrench space.
----@param measure string
----@return number
-function grasp:quality(measure) end
 
 ---Can it resist every wrench?
 ---@return boolean
@@ -524,6 +537,11 @@ function wrench_space:project(options) end
 ---@field fixed table<string, number> # The values of the coordinates that were fixed.
 ---@field projected string[] # The coordinates that may be anything.
 local projection = {}
+
+---Draws it, seen through, with its axes, the ball of epsilon as far as it lies in it, and the direction that the space reaches least; size, samples and camera as in clench.render.
+---@param options? {ball?: boolean, weakest?: boolean, size?: integer[], samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number}
+---@return picture
+function projection:render(options) end
 
 ---A picture: red, green and blue, 8 bits each. `==` compares every pixel.
 ---@class picture
@@ -618,6 +636,10 @@ function clench.load(path, options) end
 ---@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number, modulus?: string} # edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N]; modulus: as of `patch:ellipse`
 ---@return grasp
 function clench.grasp(hand, object, options) end
+
+---The measures that grasp:quality knows, in the order of the guide.
+---@return {name: string, what: string, range: string, unit: string, larger_is_better: boolean, source: string}[]
+function clench.measures() end
 
 ---All wrenches that contacts resist when their normal forces sum to at most one (norm "L1") or are each at most one ("Linf"). A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in the object frame; torsion_radius, 0 for a hard finger, says how far a soft one resists a turn about its normal [m]. Nothing is calculated before it is asked for.
 ---@param options {contacts: table[], norm?: string, edges?: integer|string, rho?: number, com?: vec3, coordinates?: string[]} # edges: of the friction pyramids, 8, or "exact" for round cones; coordinates: those that count, of "fx" to "tz"

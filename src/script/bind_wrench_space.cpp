@@ -292,7 +292,8 @@ static int draw_projection(lua_State* L) {
   if (options.boolean("weakest", true)) showing.weakest = least;
   Picture picture = draw_scene(options, make_wrench_scene(showing));
   const float letters = std::max(9.0f, 0.022f * static_cast<float>(picture.height));
-  Canvas(picture).text(title_of(handle), {letters, 2 * letters}, letters, {0.1f, 0.1f, 0.1f});
+  const Eigen::Vector2f corner(letters, static_cast<float>(picture.height) - letters);
+  Canvas(picture).text(title_of(handle), corner, letters, {0.1f, 0.1f, 0.1f});
   return push_object(L, std::move(picture));
 }
 
