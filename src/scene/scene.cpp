@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -52,6 +53,20 @@ bool is_floor(const Bounds& floor, const std::vector<Bounds>& all) {
   });
 }
 
+// cones whose contacts lie close are lowered until each stays on its own side of the middle, so that
+// they can be counted; below a fifth of their height they could not be seen
+void lower_crowded(std::vector<DrawCone>& cones) {
+  constexpr double share = 0.45, lowest = 0.2;
+  for (DrawCone& cone : cones) {
+    if (cone.height <= 0) continue;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const DrawCone& other : cones)
+      if (&other != &cone) nearest = std::min(nearest, (other.apex - cone.apex).norm());
+    const double reach = std::max(1.0, std::tan(cone.half_angle));  // of a cone 1 m high
+    cone.height *= std::clamp(share * nearest / (reach * cone.height), lowest, 1.0);
+  }
+}
+
 std::vector<DrawCone> draw_contacts(const World& world) {
   std::vector<Id<Body>> parts, objects;
   for (const Id<Body> id : world.bodies()) {
@@ -70,6 +85,7 @@ std::vector<DrawCone> draw_contacts(const World& world) {
                      .height = cone_size * world.body(contact.body).max_radius(),
                      .color = rubs ? palette::cone : palette::needle});
   }
+  lower_crowded(cones);
   return cones;
 }
 

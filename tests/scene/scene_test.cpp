@@ -86,6 +86,27 @@ TEST_CASE("a cone stands at each contact of a robot with an object, opening into
   CHECK(make_scene(world, {.contacts = false}).cones.empty());
 }
 
+TEST_CASE("cones of contacts that lie close do not reach each other, and stay in sight") {
+  for (const double side : {0.1, 0.01, 0.002}) {
+    World world;
+    world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
+    world.add_robot(block(box(side, side, 0.05)), Pose::translation({0, 0, -0.075 - 1e-5}));
+    const std::vector<DrawCone> cones = make_scene(world).cones;
+    REQUIRE(cones.size() >= 4);
+    // without a neighbour: 0.15 of the object's largest radius
+    const double usual = 0.15 * std::sqrt(3) * 0.05;
+    for (const DrawCone& a : cones) {
+      CHECK(a.height >= 0.199 * usual);
+      CHECK(a.height <= 1.001 * usual);
+      for (const DrawCone& b : cones) {
+        const double reach = (a.height + b.height) * std::max(1.0, std::tan(a.half_angle));
+        if (&a != &b && side > 0.005) CHECK(reach < (a.apex - b.apex).norm());
+      }
+    }
+    if (side > 0.05) CHECK(cones[0].height == doctest::Approx(usual));
+  }
+}
+
 TEST_CASE("a contact without friction is a needle") {
   World world;
   BodySpec slippery = body("tin", box(0.1, 0.1, 0.1));
