@@ -39,11 +39,15 @@ static CommandLine split(int argc, char** argv) {
 }
 
 static void add_reading(CLI::App& verb, ReadingOptions& reading) {
-  verb.add_option("--root", reading.root, "where names in the files count from")->type_name("DIR");
+  verb.add_option("--root", reading.root, "where names in the files count from")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
   verb.add_option("--folder", reading.folder, "where names in a robot's file are looked up, too")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
   verb.add_option("--package", reading.package, "folder of the packages that a URDF names")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
   verb.add_option("--unit", reading.unit, "of meshes: mm cm m inch foot")->type_name("UNIT");
 }
 

@@ -13,20 +13,22 @@
 
 namespace clench {
 
-static State::Line run_chunk(State& state, const std::string& chunk) {
+static State::Line run_chunk(State& state, const std::string& chunk, int line = 1) {
   const Interruptible running(state);
-  const auto line = state.evaluate(chunk);
+  const auto outcome = state.evaluate(chunk, line);
   std::fflush(stdout);
-  return line;
+  return outcome;
 }
 
 // chunks from anything that is no terminal
 static int run_piped(State& state) {
   std::string chunk, line;
   bool open = false;
-  while (std::getline(std::cin, line)) {
+  int begin = 1;  // the chunk's first line in the input
+  for (int number = 1; std::getline(std::cin, line); ++number) {
+    if (!open) begin = number;
     chunk = open ? chunk + "\n" + line : line;
-    open = run_chunk(state, chunk) == State::Line::incomplete;
+    open = run_chunk(state, chunk, begin) == State::Line::incomplete;
   }
   if (!open) return 0;
   std::fputs("clench repl: the input ended inside a chunk\n", stderr);

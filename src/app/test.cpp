@@ -41,6 +41,11 @@ static Count run_test_file(const fs::path& file, bool quiet) {
 }
 
 int run_tests(const std::string& path, bool quiet) {
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    std::fprintf(stderr, "clench test: no such file or folder: '%s'\n", path.c_str());
+    return 1;
+  }
   const auto files = test_files(path);
   if (files.empty()) {
     std::fprintf(stderr, "clench test: no *_test.lua in '%s'\n", path.c_str());

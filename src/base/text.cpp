@@ -32,7 +32,13 @@ std::string read_bytes(const std::filesystem::path& path) {
   return raw;
 }
 
-std::string with_plain_line_ends(std::string raw) {
+std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  return text;
+}
+
+std::string plain_text(std::string raw) {
+  raw.erase(0, raw.size() - without_mark(raw).size());
   if (raw.find('\r') == std::string::npos) return raw;
   std::string text;
   text.reserve(raw.size());
@@ -51,7 +57,7 @@ std::string read_text(const std::filesystem::path& path) {
   const auto size = std::filesystem::file_size(path, code);
   if (!code && size > most)
     fail("{}: wanted a text file of at most 256 MB, got {} bytes", path.generic_string(), size);
-  return with_plain_line_ends(read_bytes(path));
+  return plain_text(read_bytes(path));
 }
 
 std::optional<double> parse_number(std::string_view text) {
@@ -81,6 +87,20 @@ std::optional<int> parse_integer(std::string_view text) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (code != std::errc() || end != text.data() + text.size()) return {};
   return value;
+}
+
+std::string integer_fault(std::string_view word, int low, int high) {
+  const size_t sign = !word.empty() && (word[0] == '+' || word[0] == '-');
+  const bool whole =
+      word.size() > sign && word.find_first_not_of("0123456789", sign) == std::string_view::npos;
+  if (!whole) return "wanted a whole number, got " + in_quotes(word);
+  const auto value = parse_integer(word);
+  if (value && *value >= low && *value <= high) return "";
+  const std::string got = value ? fmt::format("{}", *value) : in_quotes(word);
+  const bool below = value ? *value < low : word[0] == '-';
+  if (below && high == std::numeric_limits<int>::max() && low > std::numeric_limits<int>::min())
+    return fmt::format("wanted a whole number from {} on, got {}", low, got);
+  return fmt::format("wanted a whole number from {} to {}, got {}", low, high, got);
 }
 
 std::string_view trim(std::string_view text) {
@@ -147,13 +167,9 @@ double Line::number(int i, std::string_view what) const {
 }
 
 int Line::integer(int i, std::string_view what, int low, int high) const {
-  const auto value = parse_integer(word(i));
-  if (!value) fail("{}: wanted a whole number, got {}", what, in_quotes(word(i)));
-  if (*value < low && high == std::numeric_limits<int>::max())
-    fail("{}: wanted a whole number from {} on, got {}", what, low, *value);
-  if (*value < low || *value > high)
-    fail("{}: wanted a whole number from {} to {}, got {}", what, low, high, *value);
-  return *value;
+  if (const auto fault = integer_fault(word(i), low, high); !fault.empty())
+    fail("{}: {}", what, fault);
+  return *parse_integer(word(i));
 }
 
 LineReader::LineReader(std::string file, std::string text)

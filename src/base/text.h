@@ -16,14 +16,19 @@ namespace clench {
 /// A whole file as it stands.
 /// throws Error when it does not exist, is a folder, cannot be read or is larger than 1 GB
 std::string read_bytes(const std::filesystem::path& path);
-/// Line ends of every kind become '\n'.
-std::string with_plain_line_ends(std::string text);
-/// A whole file with plain line ends.   throws as read_bytes
+/// Without the mark that some editors put before UTF-8.
+std::string_view without_mark(std::string_view text);
+/// Without such a mark; line ends of every kind become '\n'.
+std::string plain_text(std::string raw);
+/// A whole file as plain text.   throws as read_bytes
 std::string read_text(const std::filesystem::path& path);
 
 /// A finite decimal number, an explicit '+' allowed, nothing before or after it; else empty.
 std::optional<double> parse_number(std::string_view text);
 std::optional<int> parse_integer(std::string_view text);
+/// Why a word is no whole number from `low` to `high`: "wanted a whole number from 1 to 9, got 12";
+/// empty when it is one.
+std::string integer_fault(std::string_view word, int low, int high);
 
 std::string_view trim(std::string_view text);
 std::string lower_case(std::string_view text);

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/suggest.h"
+#include "spec/body_spec.h"
 #include "spec/material_names.h"
 
 namespace clench {
@@ -33,8 +34,9 @@ int MaterialTable::index(std::string_view name) const {
 
 void MaterialTable::set_friction(std::string_view a, std::string_view b, Friction friction) {
   const auto check = [&](const char* which, double mu) {
-    if (!std::isfinite(mu) || mu < 0)
-      fail("friction of {} and {}: {} must be >= 0, got {}", a, b, which, mu);
+    if (!(mu >= 0)) fail("friction of {} and {}: {} must be >= 0, got {}", a, b, which, mu);
+    if (mu > largest_number)
+      fail("friction of {} and {}: {} must be at most {}, got {}", a, b, which, largest_number, mu);
   };
   if (a.empty() || b.empty()) fail("friction of '{}' and '{}': a material needs a name", a, b);
   check("static", friction.statics);

@@ -10,8 +10,8 @@ namespace clench {
 
 using Triangle = std::array<int, 3>;  ///< vertex indices, counter-clockwise from outside
 
-/// Beyond this, products of lengths leave the range of doubles [m].
-inline constexpr double largest_coordinate = 1e30;
+/// Of a vertex, as of where things stand in a world; a thousand times beyond it queries lose digits [m].
+inline constexpr double largest_coordinate = 1e9;
 
 /// Axis-aligned bounds; empty when low > high.
 struct Bounds {

@@ -36,10 +36,12 @@ Placement::Placement(const Shape& a, const Shape& b, const Pose& X_AB)
   if (!(std::abs(q.norm() - 1) < 0.1))
     fail("geometry query: pose wants a unit quaternion, got ({}, {}, {}, {})", q.w(), q.x(), q.y(),
          q.z());
+  // beyond this, products of lengths leave the range of doubles [m]
+  constexpr double largest_offset = 1e30;
   const Vector3d& p = position_;
-  if (!p.allFinite() || p.cwiseAbs().maxCoeff() > largest_coordinate)
+  if (!p.allFinite() || p.cwiseAbs().maxCoeff() > largest_offset)
     fail("geometry query: position of the pose must be finite and within {} [m], got ({}, {}, {})",
-         largest_coordinate, p.x(), p.y(), p.z());
+         largest_offset, p.x(), p.y(), p.z());
   Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(trees_.rotation) = rotation_;
   Vector3d::Map(trees_.offset) =
       to_a(Vector3d::Map(b.tree().centre())) - Vector3d::Map(a.tree().centre());

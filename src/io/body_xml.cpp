@@ -22,6 +22,9 @@ const XmlKnown known = {.once = {"material", "youngs", "normalCompliance", "shea
 double positive(const XmlElement& element, const char* unit) {
   const double value = element.number();
   if (value <= 0) element.fail("{}: wanted a number > 0{}, got {}", element.name(), unit, value);
+  if (value > largest_number)
+    element.fail("{}: wanted a number of at most {}{}, got {}", element.name(), largest_number,
+                 unit, value);
   return value;
 }
 

@@ -204,7 +204,7 @@ bool ColladaReader::read() {
 }  // namespace
 
 bool read_collada(const MeshInput& input, GeometryBuilder& builder) {
-  const std::string file = input.file(), text = with_plain_line_ends(input.bytes);
+  const std::string file = input.file(), text = plain_text(input.bytes);
   const auto tags = std::count(text.begin(), text.end(), '<');
   if (tags > most_tags) fail("{}: wanted at most {} tags, got {}", file, most_tags, tags);
   return run_reader(input, [&] { return ColladaReader(file, text, builder); });

@@ -17,6 +17,14 @@ void warn(const ReadOptions& options, const std::string& sentence) {
   if (options.warn && !sentence.empty()) options.warn(sentence);
 }
 
+void doubt_eigenvalues(const EigengraspSet& set, const EigengraspPlaces& places,
+                       const ReadOptions& options) {
+  for (size_t i = 0; i < set.grasps.size(); ++i)
+    if (const double x = set.grasps[i].eigenvalue; x < 0)
+      options.doubted(fmt::format("{}: eigengrasp {}: its eigenvalue is {}, and variances are >= 0",
+                                  places.grasps[i], i + 1, x));
+}
+
 // --- text ---
 
 class EgrReader {
@@ -58,6 +66,7 @@ EigengraspSet EgrReader::read() {
     warn(options_,
          fmt::format("{} and {} more belong to no block and are not used", junk_, junk_lines_ - 1));
   check_eigengrasps(set_, lines_.file(), places_);
+  doubt_eigenvalues(set_, places_, options_);
   return std::move(set_);
 }
 
@@ -146,6 +155,7 @@ EigengraspSet EigengraspXml::read() {
       (target == &set_.norm ? places_.norm : places_.origin) = block.place();
     }
   check_eigengrasps(set_, file_.file(), places_);
+  doubt_eigenvalues(set_, places_, options_);
   return std::move(set_);
 }
 

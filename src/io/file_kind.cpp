@@ -124,7 +124,7 @@ std::string start_of(const std::filesystem::path& path) {
   std::string text(size_t{4} << 20, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<size_t>(file.gcount()));
-  return with_plain_line_ends(std::move(text));
+  return plain_text(std::move(text));
 }
 
 }  // namespace

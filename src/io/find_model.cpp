@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "base/text.h"
 #include "io/file_kind.h"
 
 namespace clench {
@@ -30,19 +30,31 @@ static fs::path try_endings(const std::string& name, const fs::path& referrer, M
   return {};
 }
 
-// below the folders beside `root`, in the order of their names
-static fs::path try_neighbours(const std::string& name, const fs::path& root, ModelKind kind) {
-  const fs::path home = fs::absolute(root).lexically_normal() / "";
-  const fs::path above = home.parent_path().parent_path();
+// "graspit" of "GraspIt-4.0"
+static std::string first_word(const fs::path& folder) {
+  const std::string name = lower_case(folder.filename().string());
+  return name.substr(0, name.find_first_not_of("abcdefghijklmnopqrstuvwxyz"));
+}
+
+// below the folders beside `root` that are called like it, in the order of their names
+static fs::path try_generations(const std::string& name, const fs::path& root, ModelKind kind) {
+  const fs::path home = (fs::absolute(root).lexically_normal() / "").parent_path();
+  const fs::path above = home.parent_path();
+  const std::string library = first_word(home);
+  if (library.empty()) return {};
   std::vector<fs::path> folders;
   std::error_code code;
   for (fs::directory_iterator it(above, code), end; !code && it != end; it.increment(code)) {
     std::error_code none;
-    if (fs::is_directory(it->path() / *fs::path(name).begin(), none)) folders.push_back(it->path());
+    if (first_word(it->path()) == library && it->path() != home &&
+        fs::is_directory(it->path() / *fs::path(name).begin(), none))
+      folders.push_back(it->path());
   }
   std::sort(folders.begin(), folders.end());
   for (const auto& folder : folders)
-    if (const fs::path found = try_endings(name, folder / "x", kind, {}); !found.empty())
+    // find_file looks in the folder above, too
+    if (const fs::path found = try_endings(name, folder / "x", kind, {});
+        !found.empty() && *found.lexically_relative(folder).begin() != "..")
       return found;
   return {};
 }
@@ -71,7 +83,7 @@ fs::path find_model(const std::string& name, const fs::path& referrer, ModelKind
     const bool rooted = relative.is_relative() && relative.has_parent_path() &&
                         name.find("..") == std::string::npos && !referrer.empty();
     const fs::path root = options.root.empty() ? referrer.parent_path() / ".." : options.root;
-    const fs::path found = rooted ? try_neighbours(name, root, kind) : fs::path();
+    const fs::path found = rooted ? try_generations(name, root, kind) : fs::path();
     if (found.empty()) throw missing;
     options.mended(fmt::format("{}: {} is not below the root; {} is taken", place, name,
                                found.generic_string()));

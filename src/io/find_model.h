@@ -14,8 +14,9 @@ std::filesystem::path find_converted(const std::string& name, const std::filesys
                                      const ReadOptions& options);
 
 /// As find_converted, for names that count from the root; where that fails, below the folders beside
-/// the root (without one, beside the folder above the referrer's), which is warned of: the two
-/// generations of a model library often lie side by side.
+/// the root (without one, beside the folder above the referrer's) whose names begin with the same
+/// word, as graspit beside graspit-xml: the generations of a model library often lie side by side.
+/// That is told as mended. No other folder outside the root is looked through.
 std::filesystem::path find_model(const std::string& name, const std::filesystem::path& referrer,
                                  ModelKind kind, const std::string& place,
                                  const ReadOptions& options);

@@ -152,20 +152,43 @@ void drop_doubled_triangles(Surface& s) {
 }  // namespace
 
 void GeometryBuilder::add(const std::array<Vector3d, 3>& corners, const Eigen::Vector3f& color,
-                          float transparency) {
+                          float transparency, int line) {
   ++report.triangles_read;
   report.vertices_read += 3;
   if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
   const int first = static_cast<int>(mesh_.vertices.size());
-  mesh_.vertices.insert(mesh_.vertices.end(), corners.begin(), corners.end());
+  for (int k = 0; k < 3; ++k) {
+    mesh_.vertices.push_back(corners[k]);
+    note_far(corners[k], line);
+  }
   loose_ = true;
   add_triangle({first, first + 1, first + 2}, color, transparency);
 }
 
-int GeometryBuilder::add_vertex(const Vector3d& p) {
+// few vertices ever are so far out that their lines are worth keeping
+void GeometryBuilder::note_far(const Vector3d& p, int line) {
+  if (line > 0 && p.cwiseAbs().maxCoeff() > largest_coordinate)
+    far_lines_[static_cast<int>(mesh_.vertices.size()) - 1] = line;
+}
+
+void GeometryBuilder::check_reach(const std::string& subject) const {
+  for (const Triangle& t : mesh_.triangles)
+    for (const int v : t) {
+      const Vector3d& p = mesh_.vertices[v];
+      if (p.cwiseAbs().maxCoeff() <= largest_coordinate) continue;
+      const auto line = far_lines_.find(v);
+      const std::string place =
+          line == far_lines_.end() ? subject : fmt::format("{}:{}", subject, line->second);
+      fail("{}: vertex {}: wanted coordinates within {} m, got ({}, {}, {})", place, v,
+           largest_coordinate, p.x(), p.y(), p.z());
+    }
+}
+
+int GeometryBuilder::add_vertex(const Vector3d& p, int line) {
   if (mesh_.vertices.size() >= most_mesh_vertices)
     fail("wanted at most {} vertices", most_mesh_vertices);
   mesh_.vertices.push_back(p);
+  note_far(p, line);
   return static_cast<int>(mesh_.vertices.size()) - 1;
 }
 
@@ -238,6 +261,7 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
   Geometry out;
   out.report = report;
   if (mesh_.triangles.empty()) return out;
+  check_reach(subject);
 
   Surface s;
   s.kept.resize(mesh_.triangles.size());

@@ -1,6 +1,7 @@
 // Triangles from any mesh reader, gathered into a surface whose parts hang together, and its
 // colours.
 #pragma once
+#include <map>
 #include <span>
 
 #include "io/read.h"
@@ -20,11 +21,12 @@ struct Geometry {
 class GeometryBuilder {
  public:
   /// A triangle that shares no vertex with others by number. With two equal corners it is dropped.
+  /// `line`: where it ends, in a file that has lines
   void add(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3f& color,
-           float transparency);
+           float transparency, int line = 0);
 
   /// A vertex that faces share by its number.   returns  the number, from 0 on
-  int add_vertex(const Eigen::Vector3d& p);
+  int add_vertex(const Eigen::Vector3d& p, int line = 0);
   /// A face over shared vertices, cut into triangles; those with a vertex twice are dropped.
   /// throws  Error when it has too many corners, or the file too many triangles
   void add_face(std::span<const int> corners, const Eigen::Vector3f& color, float transparency);
@@ -43,6 +45,7 @@ class GeometryBuilder {
   /// A closed mesh that is inside out is turned, with a warning. A closed one stays as its file
   /// connects it. Colours are kept one a triangle when they differ.
   /// `colors_given`: do the colours come from the file?
+  /// throws  Error naming line and vertex that lie too far out, "huge.off:4: vertex 2: ..."
   Geometry finish(bool colors_given, const std::string& subject, const ReadOptions& options);
 
   MeshReport report;  ///< format, unit and axes are the reader's to say
@@ -52,10 +55,13 @@ class GeometryBuilder {
  private:
   void add_triangle(const Triangle& t, const Eigen::Vector3f& color, float transparency);
   Appearance mean_appearance(const std::vector<int>& kept) const;
+  void note_far(const Eigen::Vector3d& p, int line);
+  void check_reach(const std::string& subject) const;
 
   Mesh mesh_;
   size_t faces_ = 0;
-  bool loose_ = false;  // are there triangles that share no vertex by number?
+  bool loose_ = false;            // are there triangles that share no vertex by number?
+  std::map<int, int> far_lines_;  // of vertices that may lie too far out
   std::vector<Eigen::Vector3f> colors_;
   Eigen::Vector3d weighted_color_ = Eigen::Vector3d::Zero();
   double weighted_transparency_ = 0, weight_ = 0;

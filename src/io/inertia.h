@@ -15,4 +15,11 @@ std::optional<Eigen::Matrix3d> checked_inertia(const Eigen::Matrix3d& rows,
                                                const std::string& place,
                                                const Listeners& listeners);
 
+/// Does one moment exceed the sum of the others, as no body's does? Files round: 1 % is passed over.
+bool breaks_triangle(const Eigen::Matrix3d& inertia);
+
+/// Tells of such an inertia, which is used as it stands; the sentence begins with `place`.
+void doubt_inertia(const Eigen::Matrix3d& inertia, const std::string& place,
+                   const Listeners& listeners);
+
 }  // namespace clench

@@ -26,6 +26,8 @@ std::vector<bool> marked_lines(std::string_view text) {
 double positive(const Line& line, const char* what, const char* unit) {
   const double value = line.number(1, what);
   if (value <= 0) line.fail("{}: wanted a number > 0 [{}], got {}", what, unit, value);
+  if (value > largest_number)
+    line.fail("{}: wanted a number of at most {} [{}], got {}", what, largest_number, unit, value);
   return value;
 }
 

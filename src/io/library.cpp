@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "io/body_xml.h"
 #include "io/closing_choice.h"
+#include "io/doubts.h"
 #include "io/inventor.h"
 #include "io/inventor_params.h"
 #include "io/mesh_files.h"
@@ -74,6 +75,7 @@ static RobotSpec load_robot(const fs::path& path, Library& library) {
          in_quotes(extension));
   robot.file = absolute_name(path);
   const ReadOptions& options = library.options();
+  doubt_robot(robot, path.filename().string(), options.listeners());
   if (!is_robot_tree(path)) choose_closing(robot, path.filename().string(), options);
   if (!options.folder.empty()) robot.files.folder = absolute_name(options.folder);
   for (const auto& [name, folder] : options.packages)

@@ -187,6 +187,11 @@ void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
   if (!second) return;
   const int leader = *second;
   if (leader == follower) values.fail("joint2", "wanted another joint than joint1");
+  if (c[1] == 0)
+    library_.doubted(
+        fmt::format("{}: joint '{}': polycoef has no linear part: it stands still when "
+                    "'{}' moves",
+                    element.place(), tied.name, tree_.joints[leader].name));
   // both count from where the model stands at first
   follow(element, follower, leader, c[1], tied.zero + c[0] - c[1] * tree_.joints[leader].zero);
 }

@@ -89,10 +89,6 @@ std::shared_ptr<const Geometry> MjcfGeoms::read_mesh(Asset& asset) {
       values.has("vertex")
           ? inline_mesh(asset)
           : geometry_.file(document_.mesh_file(values.text("file"), library_.options()));
-  if (const double size = size_of(geometry->mesh); size >= large_mesh && !values.has("scale"))
-    library_.doubted(fmt::format("{}: mesh {}: it is {:.4g} m large: is a scale of 0.001 missing?",
-                                 asset.element.place(),
-                                 in_quotes(values.text("name", values.text("file", ""))), size));
   const Eigen::Vector3d scale = values.vec3("scale", {1, 1, 1}),
                         origin = values.vec3("refpos", {0, 0, 0});
   if (scale.cwiseAbs().minCoeff() == 0) values.fail("scale", "wanted factors other than 0");

@@ -67,7 +67,7 @@ void ObjReader::read_point() {
     }
     numbers[count++] = *value;
   }
-  builder_.add_vertex({numbers[0], numbers[1], numbers[2]});
+  builder_.add_vertex({numbers[0], numbers[1], numbers[2]}, words_.line());
   // x y z [w] [r g b]
   if (count < 6) return;
   const double* c = numbers + count - 3;
@@ -215,7 +215,7 @@ bool ObjReader::read() {
 }  // namespace
 
 bool read_obj(const MeshInput& input, GeometryBuilder& builder) {
-  const std::string text = with_plain_line_ends(input.bytes);
+  const std::string text = plain_text(input.bytes);
   builder.report.format = "OBJ";
   return ObjReader(input, text, builder).read();
 }

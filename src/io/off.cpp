@@ -66,10 +66,9 @@ void OffReader::read_header() {
 }
 
 int OffReader::read_count(std::string_view word, const char* what) {
-  const auto count = parse_integer(word);
-  if (!count || *count < 0)
-    words_.fail("{}: wanted a whole number from 0 on, got {}", what, in_quotes(word));
-  return *count;
+  if (const auto fault = integer_fault(word, 0, std::numeric_limits<int>::max()); !fault.empty())
+    words_.fail("{}: {}", what, fault);
+  return *parse_integer(word);
 }
 
 void OffReader::to_line(const char* what, int i, int count) {
@@ -103,7 +102,7 @@ void OffReader::read_vertices() {
   for (int i = 0; i < vertices_; ++i) {
     to_line("vertex", i, vertices_);
     const double x = words_.number("x"), y = words_.number("y"), z = words_.number("z");
-    builder_.add_vertex({x, y, z});
+    builder_.add_vertex({x, y, z}, words_.line());
     for (int k = 0; normals_ && k < 3; ++k) words_.number("normal");
     if (vertex_colors_)
       colors_.push_back(read_color(3));  // what may follow is opacity
@@ -159,7 +158,7 @@ bool OffReader::read() {
 }  // namespace
 
 bool read_off(const MeshInput& input, GeometryBuilder& builder) {
-  const std::string text = with_plain_line_ends(input.bytes);
+  const std::string text = plain_text(input.bytes);
   builder.report.format = "OFF";
   return OffReader(input, text, builder).read();
 }

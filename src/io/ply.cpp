@@ -31,6 +31,7 @@ class Values {
   /// what is wrong with the end of the file, or ""
   std::string surplus();
   std::string place() const;
+  int line() const { return ascii_ ? words_.line() : 0; }
 
  private:
   void need(size_t bytes) const {
@@ -193,7 +194,7 @@ void PlyReader::read_vertices(const PlyElement& element) {
       }
     }
     values_.end();
-    builder_.add_vertex(p);
+    builder_.add_vertex(p, values_.line());
     if (channels == 3) colors_.push_back(color);
   }
 }
@@ -276,7 +277,7 @@ void PlyReader::step_over(const PlyElement& element) {
 /// Where the values begin: behind the line "end_header".
 size_t header_size(std::string_view bytes) {
   size_t at = 0;
-  const bool two = bytes.substr(0, 5) == "ply\r\n";
+  const bool two = without_mark(bytes).starts_with("ply\r\n");
   while (at < bytes.size()) {
     const size_t end = std::min(bytes.find_first_of("\r\n", at), bytes.size());
     const bool last = trim(bytes.substr(at, end - at)) == "end_header";
@@ -292,7 +293,7 @@ bool read_ply(const MeshInput& input, GeometryBuilder& builder) {
   const std::string& bytes = input.bytes;
   const std::string file = input.file();
   const size_t body = header_size(bytes);
-  std::string text = with_plain_line_ends(bytes.substr(0, body));
+  std::string text = plain_text(bytes.substr(0, body));
   WordReader words(file, text);
   const PlyHeader header = read_ply_header(words);
   const bool ascii = header.format == PlyHeader::Format::ascii;
@@ -300,7 +301,7 @@ bool read_ply(const MeshInput& input, GeometryBuilder& builder) {
   if (ascii) {
     // the same place in the whole text
     const int line = words.line();
-    text = with_plain_line_ends(bytes);
+    text = plain_text(bytes);
     words = WordReader(file, text);
     while (words.line() < line && words.next_line()) {
     }

@@ -1,6 +1,12 @@
 #include "io/read.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
 #include "base/text.h"
+#include "io/doubts.h"
 #include "io/library.h"
 #include "io/robot_files.h"
 #include "io/tree_files.h"
@@ -48,6 +54,12 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
   else
     fail("{}: wanted a world from .wld or .xml, got {}", found.filename().string(),
          in_quotes(extension));
+  std::set<std::string> told;  // of what stands there more than once, one
+  for (const PlacedBody& placed : world.bodies)
+    if (placed.role == Role::object && told.insert(placed.body.file).second)
+      doubt_object(placed.body,
+                   fmt::format("{}: '{}'", found.filename().string(), placed.body.name),
+                   options.listeners());
   world.source = path.generic_string();
   return world;
 }

@@ -97,6 +97,12 @@ RobotSpec CfgReader::read() {
   return std::move(robot_);
 }
 
+/// Numbers whose squares and products overflow are none.
+static void check_size(const Line& line, double x, const std::string& what) {
+  if (!(std::abs(x) <= largest_number))
+    line.fail("{}: wanted a number of at most {}, got {}", what, largest_number, x);
+}
+
 void CfgReader::read_dofs() {
   const int dofs = count("number of DOFs", 0);
   for (int i = 0; i < dofs; ++i) {
@@ -112,7 +118,10 @@ void CfgReader::read_dofs() {
     else
       d.line.fail("DOF {}: wanted type r, b or c, got {}", i, in_quotes(kind));
     const auto number = [&](int k, const char* what) {
-      return d.line.number(k, fmt::format("DOF {}: {}", i, what));
+      const std::string subject = fmt::format("DOF {}: {}", i, what);
+      const double x = d.line.number(k, subject);
+      check_size(d.line, x, subject);
+      return x;
     };
     d.velocity = number(1, "default velocity");
     d.effort = number(2, "max effort");
@@ -139,18 +148,11 @@ void CfgReader::read_chain(int number) {
   robot_.chains.push_back(std::move(chain));
 }
 
-/// Lengths whose squares and products overflow are no lengths.
-static void check_size(const Line& line, double x, int joint, const char* what) {
-  constexpr double largest = 1e30;
-  if (!(std::abs(x) <= largest))
-    line.fail("joint {}: {}: wanted a number of at most {}, got {}", joint, what, largest, x);
-}
-
 void CfgReader::read_joint(ChainSpec& chain, int number) {
   const Line line = wanted(fmt::format("the line of joint {}", number));
   const auto value = [&](int i, const char* what) {
     const double x = line.number(i, fmt::format("joint {}: {}", number, what));
-    check_size(line, x, number, what);
+    check_size(line, x, fmt::format("joint {}: {}", number, what));
     return x;
   };
   JointSpec joint;
@@ -171,8 +173,8 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
   if (expression->ratio == 0)
     line.fail("joint {}: wanted a ratio other than 0, got {}", number, in_quotes(text));
 
-  check_size(line, expression->offset, number, "offset");
-  check_size(line, expression->ratio, number, "ratio");
+  check_size(line, expression->offset, fmt::format("joint {}: offset", number));
+  check_size(line, expression->ratio, fmt::format("joint {}: ratio", number));
 
   // degrees and millimetres to radians and metres
   const double unit = revolute ? units::degree : units::millimetre;
@@ -232,10 +234,13 @@ void CfgReader::read_link(ChainSpec& chain, int number, const std::string& name)
   used_up(line, 2);
   const int before = chain.links.empty() ? -1 : chain.links.back().last_joint;
   const int joints = static_cast<int>(chain.joints.size());
-  if (line.size() > 1)
+  if (line.size() > 1) {
     link.last_joint = line.integer(1, fmt::format("link {}: last joint", number), -1, joints - 1);
-  else
+  } else {
     link.last_joint = before + 1;
+    library_.note(fmt::format("{}: link {}: its last joint is not given; joint {} moves it",
+                              line.place(), number, link.last_joint));
+  }
   if (link.last_joint >= joints)
     line.fail("link {}: wanted a joint to move it, got {} joints for {} links", number, joints,
               chain.links.size() + 1);

@@ -115,6 +115,15 @@ void XmlRobotReader::check_part(const XmlElement& element, const RobotPart& part
 
 // --- DOFs; their units depend on the kind of their joints ---
 
+/// A number whose squares and products do not overflow.
+static double bounded(const XmlElement& element, const std::string& subject) {
+  const double x = element.number();
+  if (!(std::abs(x) <= largest_number))
+    element.fail("{}: {}: wanted a number of at most {}, got {}", subject, element.name(),
+                 largest_number, x);
+  return x;
+}
+
 void XmlRobotReader::read_dof(const XmlElement& element) {
   element.check({.once = {"defaultVelocity", "defaultValue", "maxEffort", "Kp", "Kd",
                           "draggerScale", "breakAwayTorque"},
@@ -132,13 +141,14 @@ void XmlRobotReader::read_dof(const XmlElement& element) {
     dof.kind = DofKind::compliant;
   else if (kind != "r")
     element.fail("DOF {}: wanted type r, b or c, got {}", i, in_quotes(kind));
+  const std::string subject = fmt::format("DOF {}", i);
   const auto number = [&](const char* name, double unit) {
     const XmlElement child = element.child(name);
-    return child ? child.number() * unit : 0.0;
+    return child ? bounded(child, subject) * unit : 0.0;
   };
   const double force = slides ? units::gram_millimetre : units::gram_square_millimetre;
   dof.default_velocity =
-      element.wanted("defaultVelocity").number() * (slides ? units::millimetre : 1.0);
+      bounded(element.wanted("defaultVelocity"), subject) * (slides ? units::millimetre : 1.0);
   dof.default_value = number("defaultValue", slides ? units::millimetre : units::degree);
   dof.max_effort = number("maxEffort", force);
   dof.kp = number("Kp", slides ? units::gram_per_square_second : units::gram_square_millimetre);
@@ -176,8 +186,8 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
   ChainSpec chain;
   const auto joints = element.children("joint"), links = element.children("link");
   if (joints.size() > most_parts || links.size() > most_parts)
-    element.fail("chain: wanted at most {} joints and links, got {} and {}", most_parts, joints.size(),
-                 links.size());
+    element.fail("chain: wanted at most {} joints and links, got {} and {}", most_parts,
+                 joints.size(), links.size());
   chain.X_BC = read_transform_of(element, library_.options().listeners());
   for (const XmlElement& e : joints) read_joint(e, chain);
   for (const XmlElement& e : links) read_link(e, chain);
@@ -185,16 +195,6 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
   read_tactile(
       element, static_cast<int>(robot_.chains.size()) - 1,
       [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), robot_);
-}
-
-/// A number whose squares and products do not overflow.
-static double bounded(const XmlElement& element, const std::string& joint) {
-  constexpr double largest = 1e30;
-  const double x = element.number();
-  if (!(std::abs(x) <= largest))
-    element.fail("{}: {}: wanted a number of at most {}, got {}", joint, element.name(), largest,
-                 x);
-  return x;
 }
 
 void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {

@@ -20,17 +20,18 @@ size_t facet_count(std::string_view bytes) {
 
 /// Binary files may begin with "solid", too; then their size or what follows tells.
 bool is_ascii(std::string_view bytes) {
-  if (lower_case(trim(bytes.substr(0, 200)).substr(0, 5)) != "solid") return false;
+  if (lower_case(trim(without_mark(bytes.substr(0, 200))).substr(0, 5)) != "solid") return false;
   if (bytes.size() >= header_bytes &&
       bytes.size() == header_bytes + facet_bytes * facet_count(bytes))
     return false;
   return bytes.substr(0, 1000).find('\0') == std::string_view::npos;
 }
 
-void add_facet(GeometryBuilder& builder, const std::array<Eigen::Vector3d, 3>& corners) {
+void add_facet(GeometryBuilder& builder, const std::array<Eigen::Vector3d, 3>& corners,
+               int line = 0) {
   if (builder.triangle_count() >= most_mesh_triangles)
     fail("wanted at most {} facets", most_mesh_triangles);
-  builder.add(corners, Appearance().color, 0);
+  builder.add(corners, Appearance().color, 0, line);
 }
 
 /// A word, wherever the next one stands.
@@ -60,7 +61,7 @@ void read_loop(WordReader& words, GeometryBuilder& builder) {
       x = *value;
     }
   }
-  add_facet(builder, corners);
+  add_facet(builder, corners, words.line());
 }
 
 void read_ascii(WordReader& words, GeometryBuilder& builder) {
@@ -123,7 +124,7 @@ void read_binary(const MeshInput& input, GeometryBuilder& builder) {
 void read_stl(const MeshInput& input, GeometryBuilder& builder) {
   if (is_ascii(input.bytes)) {
     builder.report.format = "ascii STL";
-    const std::string text = with_plain_line_ends(input.bytes);
+    const std::string text = plain_text(input.bytes);
     WordReader words(input.file(), text);
     read_ascii(words, builder);
   } else {

@@ -66,10 +66,10 @@ static Pose read_matrix(const Line& head, LineReader& lines, const Listeners& li
   }
   warn_of_surplus(line, next, listeners);
   const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error < 1e-2) || !(R.determinant() > 0))
-    head.fail(
-        "rotation matrix: wanted unit axes at right angles, right-handed; they are off by {:.2g}",
-        error);
+  if (!(error < 1e-2))
+    head.fail("rotation matrix: wanted unit axes at right angles; they are off by {:.2g}", error);
+  if (!(R.determinant() > 0))
+    head.fail("rotation matrix: wanted right-handed axes, got left-handed ones");
   return Pose::turn(Eigen::Quaterniond(R).normalized());
 }
 

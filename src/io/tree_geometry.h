@@ -30,12 +30,6 @@ struct GeometryPiece {
 /// Mass properties of what a piece shows, without its scale.
 MassProperties solid_of(const GeometryPiece& piece);
 
-/// Longest edge of the box around a mesh [m].
-double size_of(const Mesh& mesh);
-
-/// Meshes as large are likely to be in millimetres [m].
-inline constexpr double large_mesh = 10;
-
 /// Meshes already read and shapes already made for one robot: five fingers share theirs.
 class TreeGeometry {
  public:

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "io/doubts.h"
+#include "io/inertia.h"
 #include "math/decompositions.h"
 
 namespace clench {
@@ -19,18 +21,7 @@ Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
   const Eigen::Vector3d moments = eigenvalues(inertia);
   if (!inertia.allFinite() || !(moments[0] > 0)) return Inertial::not_definite;
   body.inertia_per_mass = inertia;
-  // no body has a moment above the sum of the others; files round
-  return moments[2] > 1.01 * (moments[0] + moments[1]) ? Inertial::no_body : Inertial::sound;
-}
-
-/// "'a', 'b' and 7 more"
-static std::string some_names(const std::vector<std::string>& names) {
-  constexpr size_t most = 6;
-  std::string out;
-  for (size_t i = 0; i < names.size() && i < most; ++i)
-    out += fmt::format("{}'{}'", i ? ", " : "", names[i].substr(0, 60));
-  if (names.size() > most) out += fmt::format(" and {} more", names.size() - most);
-  return out;
+  return breaks_triangle(inertia) ? Inertial::no_body : Inertial::sound;
 }
 
 void InertialFaults::add(Inertial fault, const std::string& place, const std::string& link) {

@@ -8,7 +8,7 @@
 namespace clench {
 
 // lengths and angles whose squares and products overflow are none
-static constexpr double largest_number = 1e15;
+static constexpr double largest_attribute = 1e15;
 
 XmlValues::XmlValues(XmlElement own, const std::vector<XmlElement>& behind) : layers_{own} {
   layers_.insert(layers_.end(), behind.begin(), behind.end());
@@ -58,9 +58,9 @@ double XmlValues::not_negative(const char* name, double fallback) const {
 int XmlValues::integer(const char* name, int fallback) const {
   const auto text = find(name);
   if (!text) return fallback;
-  const auto value = parse_integer(*text);
-  if (!value) fail(name, "wanted a whole number, got {}", in_quotes(*text));
-  return *value;
+  constexpr int least = std::numeric_limits<int>::min(), most = std::numeric_limits<int>::max();
+  if (const auto fault = integer_fault(*text, least, most); !fault.empty()) fail(name, "{}", fault);
+  return *parse_integer(*text);
 }
 
 bool XmlValues::boolean(const char* name, bool fallback) const {
@@ -73,8 +73,8 @@ std::vector<double> XmlValues::numbers(const char* name, int least, int most) co
   for (const auto word : split_words(text)) {
     const auto value = parse_number(word);
     if (!value) fail(name, "wanted a number, got {}", in_quotes(word));
-    if (std::abs(*value) > largest_number)
-      fail(name, "wanted a number of at most {:g}, got {}", largest_number, in_quotes(word));
+    if (std::abs(*value) > largest_attribute)
+      fail(name, "wanted a number of at most {:g}, got {}", largest_attribute, in_quotes(word));
     out.push_back(*value);
   }
   const int count = static_cast<int>(out.size());
@@ -110,7 +110,7 @@ void XmlValues::tell_unused(UnusedXml& unused, std::initializer_list<std::string
 UnusedXml::Kind& UnusedXml::kind_of(std::vector<Kind>& kinds, const XmlElement& element) {
   for (Kind& kind : kinds)
     if (kind.name == element.name()) return kind;
-  kinds.push_back({std::string(element.name()), element.place(), 0, {}});
+  kinds.push_back({std::string(element.name()), element.place(), 0, {}, {}});
   return kinds.back();
 }
 
@@ -121,6 +121,8 @@ void UnusedXml::attributes(const XmlElement& element,
   for (const auto& name : element.attributes())
     if (std::find(used.begin(), used.end(), name) == used.end())
       ++kind_of(attributes_, element).attributes[name];
+  if (std::string text = element ? element.loose_text() : ""; !text.empty())
+    if (Kind& kind = kind_of(texts_, element); kind.text.empty()) kind.text = std::move(text);
 }
 
 std::vector<std::string> UnusedXml::sentences() const {
@@ -140,6 +142,9 @@ std::vector<std::string> UnusedXml::sentences() const {
     out.push_back(fmt::format("{}: of <{}>, here and further on, not used: {}", kind.place,
                               shown(kind.name), list));
   }
+  for (const Kind& kind : texts_)
+    out.push_back(fmt::format("{}: text in <{}> is not used: {}", kind.place, shown(kind.name),
+                              in_quotes(kind.text)));
   return out;
 }
 

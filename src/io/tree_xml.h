@@ -57,7 +57,7 @@ class XmlValues {
 class UnusedXml {
  public:
   void element(const XmlElement& element);
-  /// all attributes but these
+  /// all attributes but these, and text that stands in it
   void attributes(const XmlElement& element, std::initializer_list<std::string_view> used);
   /// "hand.urdf:31: <gazebo> is not used, nor are 11 more"
   std::vector<std::string> sentences() const;
@@ -68,9 +68,10 @@ class UnusedXml {
     std::string place;  // of the first
     int count = 0;
     std::map<std::string, int> attributes;
+    std::string text;
   };
   static Kind& kind_of(std::vector<Kind>& kinds, const XmlElement& element);
-  std::vector<Kind> elements_, attributes_;
+  std::vector<Kind> elements_, attributes_, texts_;
 };
 
 }  // namespace clench

@@ -49,7 +49,6 @@ class UrdfReader {
   std::optional<GeometryPiece> read_piece(const XmlElement& element, const std::string& link,
                                           bool visual);
   std::optional<GeometryPiece> read_geometry_of(const XmlElement& shape, bool visual);
-  void warn_if_large(const XmlElement& shape, const GeometryPiece& piece, const std::string& link);
   std::optional<PieceColor> read_color(const XmlElement& material);
   Pose read_origin(const XmlElement& element);
   void read_joint_names(const XmlElement& element);
@@ -73,7 +72,6 @@ class UrdfReader {
   std::map<std::string, int> link_numbers_;
   std::vector<FileJoint> joints_;
   size_t piece_count_ = 0;
-  std::set<std::string> large_;  // meshes that were told of
   TreeModel tree_;
   std::map<std::string, int> joint_numbers_;  // in the tree
 };
@@ -196,18 +194,6 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
   return piece;
 }
 
-/// A mesh in millimetres that lacks its scale looks like one of many metres.
-void UrdfReader::warn_if_large(const XmlElement& shape, const GeometryPiece& piece,
-                               const std::string& link) {
-  if (shape.name() != "mesh" || shape.attribute("scale")) return;
-  const double size = size_of(piece.geometry->mesh);
-  if (size < large_mesh || !large_.insert(shape.attribute("filename").value_or("")).second) return;
-  library_.doubted(
-      fmt::format("{}: link '{}': its mesh is {:.4g} m large: is a scale of 0.001 "
-                  "missing?",
-                  shape.place(), link, size));
-}
-
 std::optional<GeometryPiece> UrdfReader::read_piece(const XmlElement& element,
                                                     const std::string& link, bool visual) {
   if (++piece_count_ > most_pieces)
@@ -234,7 +220,6 @@ std::optional<GeometryPiece> UrdfReader::read_piece(const XmlElement& element,
   unused_.attributes(shape, {"size", "radius", "length", "filename", "scale"});
   auto piece = read_geometry_of(shape, visual);
   if (!piece) return {};
-  warn_if_large(shape, *piece, link);
   piece->X_LG = read_origin(element);
   if (const XmlElement material = element.child("material"); material && visual)
     piece->color = read_color(material);

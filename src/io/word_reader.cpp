@@ -80,11 +80,9 @@ double WordReader::number(std::string_view what) {
 
 int WordReader::integer(std::string_view what, int low, int high) {
   const auto text = word();
-  const auto value = parse_integer(text);
-  if (!value) fail("{}: wanted a whole number, got {}", what, in_quotes(text));
-  if (*value < low || *value > high)
-    fail("{}: wanted a whole number from {} to {}, got {}", what, low, high, *value);
-  return *value;
+  if (const auto fault = integer_fault(text, low, high); !fault.empty())
+    fail("{}: {}", what, fault);
+  return *parse_integer(text);
 }
 
 }  // namespace clench

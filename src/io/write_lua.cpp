@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/error.h"
@@ -25,13 +26,16 @@ std::string as_lua(std::string_view text) {
   return out + "\"";
 }
 
-/// A decimal that Lua reads back to the bit.
-std::string number(double x) { return fmt::format("{}", x); }
+/// A decimal that Lua reads back to the bit: "-0" would be an integer, which has no such zero.
+template <class Number>
+std::string number(Number x) {
+  return x == 0 && std::signbit(x) ? "-0.0" : fmt::format("{}", x);
+}
 
 template <class Vector>
 std::string list(const Vector& v) {
   std::string out;
-  for (const double x : v) out += (out.empty() ? "" : ", ") + number(x);
+  for (const auto x : v) out += (out.empty() ? "" : ", ") + number(x);
   return "{" + out + "}";
 }
 
@@ -57,6 +61,19 @@ std::string inertia(const BodySpec& body) {
   return "{" + out + "}";
 }
 
+/// Equal to the bit, and so in the signs of zeros, too.
+template <class Matrix>
+bool same_bits(const Matrix& a, const Matrix& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() &&
+         std::equal(a.data(), a.data() + a.size(), b.data(), [](double x, double y) {
+           return std::bit_cast<uint64_t>(x) == std::bit_cast<uint64_t>(y);
+         });
+}
+
+bool same_bits(const Pose& a, const Pose& b) {
+  return same_bits(a.position, b.position) && same_bits(a.rotation.coeffs(), b.rotation.coeffs());
+}
+
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
 /// Properties of a body that its file, or its bare surface, does not give it: key and value in Lua.
@@ -66,11 +83,11 @@ Pairs changes(const BodySpec& now, const BodySpec& was, bool together) {
   if (now.material != was.material) out.emplace_back("material", as_lua(now.material));
   if (now.mass != was.mass) out.emplace_back("mass", number(now.mass));
   BodySpec then = was;
-  if (com_of(now) != com_of(was)) {
+  if (!same_bits(com_of(now), com_of(was))) {
     out.emplace_back("com", list(com_of(now)));
     if (together) then.com = com_of(now);
   }
-  if (inertia_of(now) != inertia_of(then)) out.emplace_back("inertia", inertia(now));
+  if (!same_bits(inertia_of(now), inertia_of(then))) out.emplace_back("inertia", inertia(now));
   if (now.elastic_modulus != was.elastic_modulus)
     out.emplace_back("elastic_modulus", now.elastic_modulus ? number(*now.elastic_modulus) : "nil");
   if (now.soft_layer != was.soft_layer) out.emplace_back("soft_layer", number(now.soft_layer));
@@ -78,10 +95,9 @@ Pairs changes(const BodySpec& now, const BodySpec& was, bool together) {
     out.emplace_back("poisson_ratio", number(now.poisson_ratio));
   const Appearance &look = now.appearance, &old = was.appearance;
   if (look.color != old.color || (look.triangle_colors.empty() && !old.triangle_colors.empty()))
-    out.emplace_back("color",
-                     fmt::format("{{{}, {}, {}}}", look.color.x(), look.color.y(), look.color.z()));
+    out.emplace_back("color", list(look.color));
   if (look.transparency != old.transparency)
-    out.emplace_back("transparency", fmt::format("{}", look.transparency));
+    out.emplace_back("transparency", number(look.transparency));
   return out;
 }
 
@@ -232,14 +248,14 @@ void LuaWriter::set_dofs(const PlacedRobot& placed, int index) {
 
 static bool same_vectors(const std::optional<Eigen::VectorXd>& a,
                          const std::optional<Eigen::VectorXd>& b) {
-  return a.has_value() == b.has_value() && (!a || (a->size() == b->size() && *a == *b));
+  return a.has_value() == b.has_value() && (!a || same_bits(*a, *b));
 }
 
 static bool same(const std::optional<EigengraspSet>& a, const std::optional<EigengraspSet>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return same_vectors(a->origin, b->origin) && same_vectors(a->norm, b->norm) &&
          std::ranges::equal(a->grasps, b->grasps, [](const auto& x, const auto& y) {
-           return x.vector == y.vector && x.eigenvalue == y.eigenvalue && x.limits == y.limits;
+           return same_bits(x.vector, y.vector) && x.eigenvalue == y.eigenvalue && x.limits == y.limits;
          });
 }
 
@@ -247,8 +263,8 @@ static bool same(const std::optional<VirtualContactSet>& a,
                  const std::optional<VirtualContactSet>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return std::ranges::equal(a->contacts, b->contacts, [](const auto& x, const auto& y) {
-    return x.chain == y.chain && x.link == y.link && x.X_LC == y.X_LC && x.mu == y.mu &&
-           x.edges.cols() == y.edges.cols() && x.edges == y.edges;
+    return x.chain == y.chain && x.link == y.link && same_bits(x.X_LC, y.X_LC) && x.mu == y.mu &&
+           same_bits(x.edges, y.edges);
   });
 }
 
@@ -286,7 +302,7 @@ std::string LuaWriter::choices_of(const RobotSpec& now, const RobotSpec& was) {
       list += fmt::format("[{}] = {}, ", i + 1, v > 0 ? 1 : v < 0 ? -1 : 0);
   }
   if (!list.empty()) out += fmt::format(", close = {{{}}}", list);
-  const bool same_approach = now.X_BA.value_or(Pose{}) == was.X_BA.value_or(Pose{});
+  const bool same_approach = same_bits(now.X_BA.value_or(Pose{}), was.X_BA.value_or(Pose{}));
   if (!same_approach && now.X_BA)
     out += fmt::format(", approach = {{frame = {}}}", pose(*now.X_BA));
   return out;
@@ -299,6 +315,10 @@ void LuaWriter::add_robot(int index) {
   line(fmt::format("robots[{}] = world:add_robot({}, {{name = {}, pose = {}{}{}}})", index + 1,
                    file(robot.file), as_lua(robot.name), pose(placed.X_WB), root_option(),
                    choices_of(robot, read) + sets_of(robot, read)));
+  if (!robot.eigengrasps && read.eigengrasps)
+    line(fmt::format("robots[{}].eigengrasps = nil", index + 1));
+  if (!robot.virtual_contacts && read.virtual_contacts)
+    line(fmt::format("robots[{}].virtual_contacts = nil", index + 1));
   rename_parts(robot, read, index);
   change_parts(robot, read, index);
   set_dofs(placed, index);

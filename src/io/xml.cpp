@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/suggest.h"
+#include "io/xml_scan.h"
 
 namespace clench {
 
@@ -13,47 +14,6 @@ namespace {
 
 constexpr int deepest_nesting = 64;    // the parser calls itself for each
 constexpr int most_attributes = 1000;  // the parser compares each with all
-
-int line_at(std::string_view text, size_t at) {
-  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + at, '\n'));
-}
-
-/// Past the end of what begins at `at` and is no element's tag: comment, CDATA, declaration; else 0.
-size_t skip_other(std::string_view text, size_t at) {
-  constexpr std::pair<std::string_view, std::string_view> others[] = {
-      {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}};
-  for (const auto& [begin, end] : others) {
-    if (!text.substr(at).starts_with(begin)) continue;
-    const size_t found = text.find(end, at + begin.size());
-    return found == std::string_view::npos ? text.size() : found + end.size();
-  }
-  return 0;
-}
-
-struct Tag {
-  size_t end = 0;  // of its '>', or of the text
-  int attributes = 0;
-  bool closed = false;
-};
-
-Tag scan_tag(std::string_view text, size_t at) {
-  Tag tag;
-  char quote = 0;
-  for (tag.end = at + 1; tag.end < text.size(); ++tag.end) {
-    const char c = text[tag.end];
-    if (quote) {
-      if (c == quote) quote = 0;
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '=') {
-      ++tag.attributes;
-    } else if (c == '>') {
-      break;
-    }
-  }
-  tag.closed = tag.end < text.size() && text[tag.end - 1] == '/';
-  return tag;
-}
 
 /// What would make the parser recurse without end or take the square of the file's length.
 void check_limits(const std::string& file, std::string_view text, size_t most_bytes) {
@@ -102,21 +62,14 @@ const char* broken_part(tinyxml2::XMLError error) {
   }
 }
 
-[[noreturn]] void fail_parse(const std::string& file, const tinyxml2::XMLDocument& document) {
+[[noreturn]] void fail_parse(const std::string& file, const std::string& text,
+                             const tinyxml2::XMLDocument& document) {
   const int line = std::max(document.ErrorLineNum(), 1);
   const auto error = document.ErrorID();
   if (error == tinyxml2::XML_ERROR_EMPTY_DOCUMENT)
     fail("{}:{}: wanted an XML element, got nothing", file, line);
-  if (error == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT) {
-    // the library's text ends in the element's name
-    const std::string_view text = document.ErrorStr();
-    const size_t at = text.rfind("name=");
-    const std::string name(at == std::string_view::npos ? "" : text.substr(at + 5));
-    fail("{}:{}: wanted a closing tag for <{}>, got another one or the end of the file", file, line,
-         name.substr(0, 40));
-  }
-  if (error == tinyxml2::XML_ERROR_PARSING)
-    fail("{}:{}: wanted an end of the element that begins here, got that of the file", file, line);
+  if (const auto fault = find_xml_fault(text))
+    fail("{}:{}: {}", file, fault->line, fault->sentence);
   if (error == tinyxml2::XML_ERROR_PARSING_ELEMENT)
     fail("{}:{}: wanted an XML element, got something else", file, line);
   fail("{}:{}: wanted well-formed XML, got {}", file, line, broken_part(error));
@@ -159,6 +112,8 @@ std::vector<XmlElement> XmlElement::children(std::string_view name) const {
     if (name.empty() || e->Name() == name) out.push_back({e, file_});
   return out;
 }
+
+std::string XmlElement::loose_text() const { return own_text(*element_); }
 
 std::string XmlElement::text() const {
   if (auto* inner = element_->FirstChildElement())
@@ -272,7 +227,7 @@ XmlFile::XmlFile(std::string file, const std::string& text, size_t most_bytes)
     : file_(std::move(file)), document_(std::make_unique<tinyxml2::XMLDocument>()) {
   check_limits(file_, text, most_bytes);
   document_->Parse(text.data(), text.size());
-  if (document_->Error()) fail_parse(file_, *document_);
+  if (document_->Error()) fail_parse(file_, text, *document_);
   const auto* root = document_->RootElement();
   if (!root) fail("{}: wanted an XML element, got none", file_);
   if (const auto* second = root->NextSiblingElement())

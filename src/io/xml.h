@@ -60,6 +60,9 @@ class XmlElement {
   std::vector<double> numbers(int count) const;
   Eigen::Vector3d vector() const;  ///< three numbers
 
+  /// The text that stands in it beside its elements; empty when there is none.
+  std::string loose_text() const;
+
   std::optional<std::string> attribute(std::string_view name) const;
   /// throws Error  "Barrett.xml:3: dof: wanted an attribute 'type', got none"
   std::string wanted_attribute(std::string_view name) const;

@@ -93,6 +93,7 @@ Id<Body> World::insert(Body body, const std::string& name) {
 Id<Body> World::add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB,
                          const std::string& name) {
   check_pose(X_WB, "body", spec.name);
+  check_mass(spec.mass, fmt::format("body '{}'", spec.name));
   Body body = make_body(spec, kind, X_WB);
   body.material = state_.materials.index(spec.material);
   return insert(std::move(body), name);
@@ -376,8 +377,7 @@ void World::set_material(Id<Body> id, std::string_view material) {
 }
 
 void World::set_mass(Id<Body> id, double mass) {
-  if (!(mass > 0) || !std::isfinite(mass))
-    fail("body '{}': its mass must be > 0 [kg], got {}", body(id).name, mass);
+  check_mass(mass, fmt::format("body '{}'", body(id).name));
   edit(id).mass = mass;
 }
 

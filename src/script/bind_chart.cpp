@@ -11,8 +11,7 @@ namespace clench {
 // calls read(index, what) with each item of the list on top of the stack
 template <class Read>
 static void each_item(lua_State* L, const What& what, Read read) {
-  if (!lua_istable(L, -1)) fail_wanted(what, "a list", -1);
-  const int list = lua_gettop(L), count = static_cast<int>(lua_rawlen(L, list));
+  const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list");
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, list, i);
     read(lua_gettop(L), what.item(i));

@@ -110,9 +110,12 @@ static int fit_patch(lua_State* L) {
 static int text(lua_State* L) {
   const auto& c = self<ContactHandle>(L);
   const Eigen::Vector3d& p = c.contact.p_W;
+  const auto name = [&](Id<Body> id) {
+    return c.world->alive(id) ? c.world->body(id).name : "a removed body";
+  };
   return push(L, fmt::format("{} contact of {} on {} at ({:.6g}, {:.6g}, {:.6g})",
-                             kind_name(c.contact.kind), c.world->body(c.contact.other).name,
-                             c.world->body(c.contact.body).name, p.x(), p.y(), p.z()));
+                             kind_name(c.contact.kind), name(c.contact.other), name(c.contact.body),
+                             p.x(), p.y(), p.z()));
 }
 
 static const Entry fields[] = {

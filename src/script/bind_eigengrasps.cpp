@@ -63,6 +63,8 @@ static int make(lua_State* L) {
   check_count(L, 1);
   Table options(L, 1);
   EigengraspSet set;
+  if (options.has("postures") && options.has("vectors"))
+    fail("{}: wanted postures or vectors, got both", subject(L));
   if (options.has("postures")) {
     std::vector<VectorXd> postures;
     for (const auto& row : options.rows("postures")) postures.push_back(vector_of(row));

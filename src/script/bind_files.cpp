@@ -68,8 +68,7 @@ static int object_contacts(lua_State* L) {
 template <class Visit>
 static void each_table(lua_State* L, Visit visit) {
   const What what{L, {}, "list"};
-  if (!lua_istable(L, 2)) fail_wanted(what, "a list of tables", 2);
-  const int count = static_cast<int>(lua_rawlen(L, 2));
+  const int count = read_list_size(L, 2, what, "a list of tables");
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, 2, i);
     Table item(L, lua_gettop(L), what.item(i).text());

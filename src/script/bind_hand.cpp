@@ -137,13 +137,12 @@ static int set_virtual_contacts(lua_State* L) {
     return 0;
   }
   const What what{L, {}, "virtual_contacts"};
-  if (!lua_istable(L, 2)) fail_wanted(what, "a list of virtual contacts", 2);
+  const int count = read_list_size(L, 2, what, "a list of virtual contacts", "robot");
   Contacts contacts;
   lua_pushstring(L, "robot");
   std::string made_for;  // as lists from files say it
   if (lua_rawget(L, 2) == LUA_TSTRING) made_for = lua_tostring(L, -1);
   lua_pop(L, 1);
-  const int count = static_cast<int>(lua_rawlen(L, 2));
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, 2, i);
     contacts.push_back(read_virtual_contact(L, -1, what.item(i), robot));

@@ -101,10 +101,18 @@ static int get_rpy(lua_State* L) {
   return push(L, Vector3d(std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))));
 }
 
-static int inverse(lua_State* L) { return push(L, self<Pose>(L).inverse()); }
-static int angle(lua_State* L) { return push(L, self<Pose>(L).angle()); }
+static int inverse(lua_State* L) {
+  check_count(L, 0);
+  return push(L, self<Pose>(L).inverse());
+}
+
+static int angle(lua_State* L) {
+  check_count(L, 0);
+  return push(L, self<Pose>(L).angle());
+}
 
 static int matrix(lua_State* L) {
+  check_count(L, 0);
   const Pose& pose = self<Pose>(L);
   Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
   M.topLeftCorner<3, 3>() = pose.matrix();
@@ -113,10 +121,12 @@ static int matrix(lua_State* L) {
 }
 
 static int rotate(lua_State* L) {
+  check_count(L, 1);
   return push(L, Vector3d(self<Pose>(L).rotation * check_vec3(L, 2, "direction")));
 }
 
 static int interpolate_to(lua_State* L) {
+  check_count(L, 2);
   const double t = check_number(L, 3, "t");
   if (t < 0 || t > 1) fail("{}: t: wanted a number from 0 to 1, got {}", subject(L), t);
   return push(L, interpolate(self<Pose>(L), check_pose(L, 2, "other"), t));

@@ -14,6 +14,7 @@ static int make_random(lua_State* L) {
 }
 
 static int uniform(lua_State* L) {
+  check_count(L, 2);
   Random& random = self<Random>(L);
   const double low = given(L, 2) ? check_number(L, 2, "low") : 0;
   const double high = given(L, 3) ? check_number(L, 3, "high") : 1;
@@ -21,10 +22,14 @@ static int uniform(lua_State* L) {
   return push(L, random.uniform(low, high));
 }
 
-static int normal(lua_State* L) { return push(L, self<Random>(L).normal()); }
+static int normal(lua_State* L) {
+  check_count(L, 0);
+  return push(L, self<Random>(L).normal());
+}
 
 // no bias: what lies beyond the last whole multiple of the range is drawn again
 static int integer(lua_State* L) {
+  check_count(L, 2);
   Random& random = self<Random>(L);
   const int64_t low = check_integer(L, 2, "low"), high = check_integer(L, 3, "high");
   if (low > high) fail("{}: wanted low <= high, got {} and {}", subject(L), low, high);
@@ -39,6 +44,7 @@ static int integer(lua_State* L) {
 }
 
 static int direction(lua_State* L) {
+  check_count(L, 0);
   Random& random = self<Random>(L);
   for (;;) {
     const double x = random.normal(), y = random.normal(), z = random.normal();

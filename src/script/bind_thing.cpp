@@ -2,7 +2,9 @@
 
 #include <array>
 
+#include "io/inertia.h"
 #include "script/bind_contact.h"
+#include "script/bind_log.h"
 #include "script/bind_mesh.h"
 #include "script/guard.h"
 #include "script/push.h"
@@ -51,6 +53,9 @@ static int set_inertia(lua_State* L) {
   Eigen::Matrix3d inertia;
   for (int r = 0; r < 3; ++r) inertia.row(r) = Eigen::Vector3d(rows[r][0], rows[r][1], rows[r][2]);
   body.world->set_inertia(body.id, inertia);
+  doubt_inertia(inertia, subject(L), {.doubt = [L](const std::string& sentence) {
+                  log(L, LogLevel::warning, sentence, "doubtful");
+                }});
   return 0;
 }
 

@@ -27,15 +27,23 @@ static int get_x(lua_State* L) { return push(L, self<Vector3d>(L).x()); }
 static int get_y(lua_State* L) { return push(L, self<Vector3d>(L).y()); }
 static int get_z(lua_State* L) { return push(L, self<Vector3d>(L).z()); }
 
-static int dot(lua_State* L) { return push(L, self<Vector3d>(L).dot(check_vec3(L, 2, "other"))); }
+static int dot(lua_State* L) {
+  check_count(L, 1);
+  return push(L, self<Vector3d>(L).dot(check_vec3(L, 2, "other")));
+}
 
 static int cross(lua_State* L) {
+  check_count(L, 1);
   return push(L, Vector3d(self<Vector3d>(L).cross(check_vec3(L, 2, "other"))));
 }
 
-static int norm(lua_State* L) { return push(L, self<Vector3d>(L).stableNorm()); }
+static int norm(lua_State* L) {
+  check_count(L, 0);
+  return push(L, self<Vector3d>(L).stableNorm());
+}
 
 static int unit(lua_State* L) {
+  check_count(L, 0);
   const Vector3d& v = self<Vector3d>(L);
   const double length = v.stableNorm();
   if (!(length > 0)) fail("{}: a vector of length 0 has no direction", subject(L));

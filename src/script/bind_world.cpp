@@ -1,6 +1,8 @@
 #include <algorithm>
 
 #include "base/suggest.h"
+#include "io/doubts.h"
+#include "io/inertia.h"
 #include "model/build.h"
 #include "script/bind_contact.h"
 #include "script/camera.h"
@@ -33,6 +35,10 @@ static int add_body(lua_State* L, BodyKind kind) {
   Table options(L, 3);
   const ReadOptions reading = read_options(L, options);
   const BodySpec spec = check_body_spec(L, 2, options, reading);
+  if (kind == BodyKind::object) {
+    const std::string file = std::filesystem::path(spec.file).filename().string();
+    doubt_object(spec, file.empty() ? subject(L) + ": mesh" : file, reading.listeners());
+  }
   const Pose pose = options.pose("pose", Pose{});
   const bool named = options.has("name");
   std::optional<Eigen::Matrix3d> inertia;
@@ -47,6 +53,7 @@ static int add_body(lua_State* L, BodyKind kind) {
   const auto id = handle.world->add_body(spec, kind, pose, named ? spec.name : "");
   try {
     if (inertia) handle.world->set_inertia(id, *inertia);
+    if (inertia) doubt_inertia(*inertia, subject(L), reading.listeners());
   } catch (const Error&) {
     handle.world->remove(id);
     throw;

@@ -40,7 +40,7 @@ inline std::vector<double> check_numbers(lua_State* L, int i, const char* name =
 template <class T>
 T& check_object(lua_State* L, int i, const char* name = "") {
   if (T* object = to<T>(L, i)) return *object;
-  fail_wanted({L, {}, name}, std::string("a ") + class_of<T>().name, i);
+  fail_wanted({L, {}, name}, with_article(class_of<T>().name), i);
 }
 
 /// throws  Error "...: wanted at most 2 arguments, got 3"; self does not count

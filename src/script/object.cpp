@@ -18,8 +18,8 @@ void fail_self(lua_State* L, const Class& kind) {
   const bool closed = has_class(L, 1, kind);
   if (closed) fail("{}: the {} was closed", name, kind.name);
   const bool method = name.find(':') != std::string::npos;
-  fail("{}: wanted a {}{}, got {}{}", name, kind.name, method ? " before the colon" : "",
-       described(L, 1), method ? "; use " + name + "(...)" : "");
+  fail("{}: wanted {}{}, got {}{}", name, with_article(kind.name),
+       method ? " before the colon" : "", described(L, 1), method ? "; use " + name + "(...)" : "");
 }
 
 void check_count(lua_State* L, int most) {

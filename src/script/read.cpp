@@ -2,6 +2,7 @@
 
 #include <climits>
 #include <cmath>
+#include <cstring>
 
 #include "base/error.h"
 #include "script/bind_pose.h"
@@ -31,6 +32,12 @@ static std::string class_name(lua_State* L, int index) {
   return name;
 }
 
+std::string with_article(std::string_view noun) {
+  if (noun.ends_with('s')) return std::string(noun);
+  const bool vowel = std::string_view("aeiou").find(noun.substr(0, 1)) != std::string_view::npos;
+  return fmt::format("{} {}", vowel ? "an" : "a", noun);
+}
+
 std::string described(lua_State* L, int index) {
   switch (lua_type(L, index)) {
     case LUA_TNONE:
@@ -49,7 +56,7 @@ std::string described(lua_State* L, int index) {
       return size ? fmt::format("a table of {}", size) : "a table";
     }
     case LUA_TUSERDATA:
-      return "a " + class_name(L, index);
+      return with_article(class_name(L, index));
     default:
       return std::string("a ") + luaL_typename(L, index);
   }
@@ -99,10 +106,33 @@ static void push_item(lua_State* L, int list, int item) {
   lua_rawgeti(L, list, item);
 }
 
-static int list_size(lua_State* L, int i, const What& what, std::string_view wanted) {
+// the key of a table that is none of its list: of names the least, so that no message hangs on the
+// order of a hash table; "" when there is none
+static std::string foreign_key(lua_State* L, int table, lua_Integer size, const char* extra) {
+  std::string name, other;
+  for (lua_pushnil(L); lua_next(L, table); lua_pop(L, 1)) {
+    if (lua_isinteger(L, -2)) {
+      const lua_Integer k = lua_tointeger(L, -2);
+      if (k < 1 || k > size) other = fmt::format("[{}]", k);
+    } else if (lua_type(L, -2) != LUA_TSTRING) {
+      other = "[" + described(L, -2) + "]";
+    } else if (const char* key = lua_tostring(L, -2); !extra || std::strcmp(key, extra) != 0) {
+      const std::string here = quoted(L, -2);
+      if (name.empty() || here < name) name = here;
+    }
+  }
+  return name.empty() ? other : name;
+}
+
+int read_list_size(lua_State* L, int i, const What& what, std::string_view wanted,
+                   const char* extra) {
   if (lua_type(L, i) != LUA_TTABLE) fail_wanted(what, wanted, i);
+  i = lua_absindex(L, i);
   const auto size = lua_rawlen(L, i);
   if (size > INT_MAX) fail_wanted(what, wanted, i);
+  if (!lua_checkstack(L, 4)) fail("too many values on the stack");
+  const std::string key = foreign_key(L, i, static_cast<lua_Integer>(size), extra);
+  if (!key.empty()) fail("{}: wanted {}, got a table with the key {}", what.text(), wanted, key);
   return static_cast<int>(size);
 }
 
@@ -111,7 +141,7 @@ std::vector<double> read_numbers(lua_State* L, int i, const What& what, int coun
   if (const auto* v = to<Eigen::Vector3d>(L, i); v && (count < 0 || count == 3))
     return {v->x(), v->y(), v->z()};
   const std::string wanted = count < 0 ? "a list of numbers" : fmt::format("{} numbers", count);
-  const int size = list_size(L, i, what, wanted);
+  const int size = read_list_size(L, i, what, wanted);
   if (count >= 0 && size != count) fail("{}: wanted {}, got {}", what.text(), wanted, size);
   std::vector<double> numbers(static_cast<size_t>(size));
   for (int k = 1; k <= size; ++k) {
@@ -127,7 +157,7 @@ std::vector<double> read_numbers(lua_State* L, int i, const What& what, int coun
 
 std::vector<std::vector<double>> read_rows(lua_State* L, int i, const What& what, int columns) {
   i = lua_absindex(L, i);
-  const int size = list_size(L, i, what, "a list of lists of numbers");
+  const int size = read_list_size(L, i, what, "a list of lists of numbers");
   std::vector<std::vector<double>> rows;
   for (int k = 1; k <= size; ++k) {
     push_item(L, i, k);

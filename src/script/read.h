@@ -22,6 +22,9 @@ struct What {
   What item(int i) const { return {L, subject, key + '[' + std::to_string(i) + ']'}; }
 };
 
+/// "a robot", "an object", "eigengrasps"
+std::string with_article(std::string_view noun);
+
 /// A value in a message: "3", "'abc'", "a table of 2", "a robot", "nothing".
 std::string described(lua_State* L, int index);
 
@@ -37,6 +40,10 @@ std::string read_string(lua_State* L, int i, const What& what);    ///< without 
 Eigen::Vector3d read_vec3(lua_State* L, int i, const What& what);  ///< a vec3 or {x, y, z}
 /// a pose, or the table that clench.pose takes
 Pose read_pose(lua_State* L, int i, const What& what);
+/// How many items a list has: a table of the keys 1, 2, ... and none else but `extra`.
+/// throws  Error "...: wanted a list of contacts, got a table with the key 'link'"
+int read_list_size(lua_State* L, int i, const What& what, std::string_view wanted,
+                   const char* extra = nullptr);
 /// finite numbers; count < 0: any number of them
 /// throws  Error "...: wanted 12 numbers, got 3"
 std::vector<double> read_numbers(lua_State* L, int i, const What& what, int count = -1);

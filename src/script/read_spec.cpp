@@ -34,7 +34,7 @@ ReadOptions read_options(lua_State* L, Table& options) {
 }
 
 // a table of vertices and triangles, as the shapes of the standard library are
-static Mesh read_mesh(lua_State* L, int i) {
+static Mesh read_mesh(lua_State* L, int i, const ReadOptions& reading) {
   Table table(L, i, subject(L) + ": mesh");
   Mesh mesh;
   int number = 0;
@@ -42,8 +42,8 @@ static Mesh read_mesh(lua_State* L, int i) {
     ++number;
     mesh.vertices.emplace_back(row[0], row[1], row[2]);
     if (mesh.vertices.back().cwiseAbs().maxCoeff() > largest_coordinate)
-      fail("{}: vertex {}: wanted coordinates within {} m", table.subject(), number,
-           largest_coordinate);
+      fail("{}: vertex {}: wanted coordinates within {} m, got ({}, {}, {})", table.subject(),
+           number, largest_coordinate, row[0], row[1], row[2]);
   }
   const int count = number;
   number = 0;
@@ -56,10 +56,16 @@ static Mesh read_mesh(lua_State* L, int i) {
              count, row[k]);
       t[k] = static_cast<int>(row[k]) - 1;
     }
-    mesh.triangles.push_back(t);
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
   }
   table.done();
-  if (mesh.triangles.empty()) fail("{}: wanted at least one triangle, got none", table.subject());
+  if (number == 0) fail("{}: wanted at least one triangle, got none", table.subject());
+  const size_t left_out = static_cast<size_t>(number) - mesh.triangles.size();
+  if (mesh.triangles.empty())
+    fail("{}: wanted a triangle of three different vertices, got none", table.subject());
+  if (left_out > 0)
+    reading.mended(fmt::format("{}: {} of {} triangles name a vertex twice and are left out",
+                               table.subject(), left_out, number));
   return mesh;
 }
 
@@ -106,7 +112,7 @@ BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions&
   } else if (lua_istable(L, i)) {
     const std::string name = options.string("name", "body");
     spec.name = name;
-    Mesh mesh = read_mesh(L, i);
+    Mesh mesh = read_mesh(L, i, reading);
     if (reading.mesh_scale)
       for (auto& vertex : mesh.vertices) vertex *= *reading.mesh_scale;
     spec.shape = Shape::make(std::move(mesh), name);

@@ -251,10 +251,12 @@ static bool is_cut_short(lua_State* L, int status) {
   return message.ends_with("<eof>");
 }
 
-State::Line State::evaluate(const std::string& text) {
+State::Line State::evaluate(const std::string& input, int line) {
   const int base = lua_gettop(L_);
-  const bool marked = text.starts_with('=');
-  const std::string expression = "return " + text.substr(marked ? 1 : 0);
+  const bool marked = input.starts_with('=');
+  // empty lines before it make Lua count from there
+  const std::string before(static_cast<size_t>(line - 1), '\n'), text = before + input;
+  const std::string expression = before + "return " + input.substr(marked ? 1 : 0);
   int status = luaL_loadbufferx(L_, expression.data(), expression.size(), "=input", "t");
   if (status != LUA_OK && !marked) {
     lua_settop(L_, base);

@@ -29,7 +29,8 @@ class State {
   Result run_code(const std::string& code, const std::string& name);
   /// Runs a console's input: an expression, "=expression" or statements; prints the results to
   /// stdout and errors to stderr. incomplete: it is the beginning of something.
-  Line evaluate(const std::string& text);
+  /// line: what messages call the first of its lines
+  Line evaluate(const std::string& text, int line = 1);
   /// Calls a function of the packed standard library, in its module's table, with strings.
   Result call(const std::string& module, const std::string& function,
               const std::vector<std::string>& arguments);

@@ -21,11 +21,57 @@ static bool is_script(const fs::path& path) {
   return lower_case(path.extension().string()) == ".lua";
 }
 
+namespace {
+
+// its address names the table of the scripts that are being run
+const char running_key = 0;
+
+/// A script that is run, marked as such as long as this lives.
+class Running {
+ public:
+  Running(lua_State* L, const fs::path& path)
+      : L_(L), name_(fs::absolute(path).lexically_normal().generic_string()) {
+    push_table();
+    lua_getfield(L_, -1, name_.c_str());
+    const bool runs = !lua_isnil(L_, -1);
+    lua_pop(L_, 2);
+    if (runs) fail("{}: it loads itself", path.filename().string());
+    mark(true);
+  }
+  ~Running() { mark(false); }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+ private:
+  void push_table() const {
+    if (lua_rawgetp(L_, LUA_REGISTRYINDEX, &running_key) == LUA_TTABLE) return;
+    lua_pop(L_, 1);
+    lua_newtable(L_);
+    lua_pushvalue(L_, -1);
+    lua_rawsetp(L_, LUA_REGISTRYINDEX, &running_key);
+  }
+  void mark(bool runs) const {
+    push_table();
+    if (runs)
+      lua_pushboolean(L_, 1);
+    else
+      lua_pushnil(L_);
+    lua_setfield(L_, -2, name_.c_str());
+    lua_pop(L_, 1);
+  }
+
+  lua_State* L_;
+  std::string name_;
+};
+
+}  // namespace
+
 // Leaves the world that a script returns on the stack. It is given a table with the root, and the
 // folder that it lies in.
 static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& root) {
   const std::string file = path.filename().string();
-  luaL_checkstack(L, 8, nullptr);
+  if (!lua_checkstack(L, 12)) fail("too many values on the stack");
+  const Running running(L, path);
   if (luaL_loadfilex(L, path.string().c_str(), "t") != LUA_OK)
     fail("{}", lua_tostring(L, -1) ? lua_tostring(L, -1) : "no reason given");
   lua_createtable(L, 0, 1);

@@ -2,10 +2,17 @@
 
 #include <algorithm>
 
+#include "base/error.h"
+
 namespace clench {
 
 // radius of gyration of things without extent, squared: a millimetre
 static constexpr double point_inertia = 1e-6;
+
+void check_mass(double mass, const std::string& subject) {
+  if (!(mass > 0) || mass > largest_number)
+    fail("{}: its mass must be > 0 and at most {} [kg], got {}", subject, largest_number, mass);
+}
 
 Eigen::Vector3d com_of(const BodySpec& spec) {
   if (spec.com) return *spec.com;

@@ -10,6 +10,9 @@
 
 namespace clench {
 
+/// Beyond this, products of masses, lengths and forces are no numbers any more.
+inline constexpr double largest_number = 1e30;
+
 /// How a body looks; physics does not read it.
 struct Appearance {
   Eigen::Vector3f color =
@@ -37,6 +40,9 @@ struct BodySpec {
   double poisson_ratio = 0;    ///< likewise, in [0, 0.5)
   std::optional<int> tracker;  ///< number of the position sensor that drives it
 };
+
+/// throws  Error "cup: its mass must be > 0 and at most 1e+30 [kg], got 0"
+void check_mass(double mass, const std::string& subject);
 
 /// Centre of mass as the spec gives it, else the solid's; of an open surface, the surface's [m].
 Eigen::Vector3d com_of(const BodySpec& spec);

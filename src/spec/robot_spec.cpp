@@ -42,8 +42,11 @@ std::string no_range(const std::array<double, 2>& range) {
 
 static void check_dof(const DofSpec& dof, const std::string& subject) {
   for (const double x :
-       {dof.default_velocity, dof.kp, dof.kd, dof.dragger_scale, dof.default_value})
+       {dof.default_velocity, dof.kp, dof.kd, dof.dragger_scale, dof.default_value}) {
     if (!std::isfinite(x)) fail("{}: wanted finite numbers, got {}", subject, x);
+    if (std::abs(x) > largest_number)
+      fail("{}: wanted numbers of at most {}, got {}", subject, largest_number, x);
+  }
   if (!(dof.max_effort >= 0)) fail("{}: max effort must be >= 0, got {}", subject, dof.max_effort);
   if (!(dof.max_velocity >= 0))
     fail("{}: max velocity must be >= 0, got {}", subject, dof.max_velocity);
@@ -62,7 +65,8 @@ static void check_joint(const JointSpec& joint, const RobotSpec& robot,
   // lengths whose squares and products overflow are no lengths
   for (const double x :
        {joint.theta, joint.d, joint.a, joint.alpha, joint.min, joint.max, joint.rest})
-    if (std::abs(x) > 1e30) fail("{}: wanted numbers of at most 1e30, got {}", subject, x);
+    if (std::abs(x) > largest_number)
+      fail("{}: wanted numbers of at most {}, got {}", subject, largest_number, x);
   if (!joint.X_before.is_finite() || !joint.X_after.is_finite())
     fail("{}: wanted finite poses before and after it", subject);
   if (joint.ratio == 0 || !std::isfinite(joint.ratio))
@@ -90,7 +94,8 @@ static void check_part(const RobotSpec& robot, const RobotPart& part, const char
 }
 
 static void check_parts(const RobotSpec& robot) {
-  for (const auto& part : robot.collision_rules.parts_off) check_part(robot, part, "collision rule");
+  for (const auto& part : robot.collision_rules.parts_off)
+    check_part(robot, part, "collision rule");
   for (const auto& pair : robot.collision_rules.pairs_off)
     for (const auto& part : pair) check_part(robot, part, "collision rule");
   for (const auto& sensor : robot.tactile) check_part(robot, sensor.part, "tactile sensor");
@@ -138,8 +143,17 @@ static void check_sets(const RobotSpec& robot) {
   if (robot.glove) check_fit(robot, *robot.glove);
 }
 
+static void check_part_mass(const RobotSpec& robot, const BodySpec& part) {
+  if (!(part.mass >= 0) || part.mass > largest_number)
+    fail("{}: '{}': its mass must lie in [0, {}] [kg], got {}", robot.name, part.name,
+         largest_number, part.mass);
+}
+
 void check_robot(const RobotSpec& robot) {
   check_sets(robot);
+  check_part_mass(robot, robot.base);
+  for (const ChainSpec& chain : robot.chains)
+    for (const LinkSpec& link : chain.links) check_part_mass(robot, link.body);
   for (size_t i = 0; i < robot.dofs.size(); ++i)
     check_dof(robot.dofs[i], fmt::format("{}: DOF {}", robot.name, i));
   for (size_t c = 0; c < robot.chains.size(); ++c) {

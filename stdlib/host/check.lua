@@ -158,6 +158,25 @@ local function print_report(r)
   if r.wrong then print("  wrong: " .. r.wrong) end
 end
 
+-- JSON is UTF-8: bytes of names and messages that are none stand as \xE9
+local function escape_bytes(text)
+  local parts, at = {}, 1
+  while true do
+    local ok, bad = utf8.len(text, at)
+    parts[#parts + 1] = text:sub(at, ok and #text or bad - 1)
+    if ok then return table.concat(parts) end
+    parts[#parts + 1] = ("\\x%02X"):format(text:byte(bad))
+    at = bad + 1
+  end
+end
+
+local function in_utf8(value)
+  if type(value) == "string" then return escape_bytes(value) end
+  if type(value) ~= "table" then return value end
+  for key, item in pairs(value) do value[key] = in_utf8(item) end
+  return value
+end
+
 --- Prints what each file was understood to be.
 ---@param root string  this and the next three: what is said of reading, "" when nothing is
 ---@param form "text"|"json"
@@ -170,7 +189,7 @@ function check.main(root, folder, package, unit, form, ...)
     if all[i].wrong then code = 1 end
     if form == "text" then print_report(all[i]) end
   end
-  if form == "json" then print(clench.json.encode(all)) end
+  if form == "json" then print(clench.json.encode(in_utf8(all))) end
   return code
 end
 

@@ -60,7 +60,8 @@ TEST_CASE("-e runs code in order and stops at an error") {
 TEST_CASE("wrong usage is code 2, and help is code 0 with examples") {
   CHECK(run("frob").code == 2);
   CHECK(has(run("rnu a.lua").out, "there is no verb 'rnu'; did you mean 'run'?"));
-  CHECK(has(run("examples/01_first_grasp.lua").out, "to run a script: clench run examples/01_first_grasp.lua"));
+  CHECK(has(run("examples/01_first_grasp.lua").out,
+            "to run a script: clench run examples/01_first_grasp.lua"));
   CHECK(run("run").code == 2);
   CHECK(run("test").code == 2);
   CHECK(run("--frob").code == 2);
@@ -117,7 +118,29 @@ TEST_CASE("test runs every file, sorted, each for itself, and counts") {
   CHECK(run("test " + (folder / "b_test.lua")).code == 0);
   const auto none = run("test " + (folder / "nowhere"));
   CHECK(none.code == 1);
-  CHECK(has(none.out, "no *_test.lua in"));
+  CHECK(has(none.out, "clench test: no such file or folder: "));
+  folder.file("empty/readme.txt", "");
+  const auto empty = run("test " + (folder / "empty"));
+  CHECK(empty.code == 1);
+  CHECK(has(empty.out, "no *_test.lua in"));
+}
+
+TEST_CASE("a file of tests that would end the run, or holds none, has failed") {
+  const Folder folder;
+  folder.file("a_test.lua",
+              "local test = require 'test' test('ends', function() os.exit(0) end)\n"
+              "test('goes on', function(t) t.ok(true) end)");
+  folder.file("b_test.lua", "require 'test'\nos.exit(0)");
+  folder.file("c_test.lua", "local test = require 'test'");
+  folder.file("d_test.lua", "local test = require 'test' test('d', function(t) t.ok(true) end)");
+  const auto result = run("test " + (folder / "."));
+  CHECK(result.code == 1);
+  CHECK(has(result.out, "FAILED   ends"));
+  CHECK(has(result.out, "a_test.lua:1: os.exit: a file of tests cannot end the run"));
+  CHECK(has(result.out, "b_test.lua: the file itself"));
+  CHECK(has(result.out, "b_test.lua:2: os.exit: "));
+  CHECK(has(result.out, "c_test.lua: the file itself\n           wanted a test in it, got none"));
+  CHECK(has(result.out, "2 passed, 3 failed"));
 }
 
 TEST_CASE("doc writes pages, and --check finds one that is not what the bindings say") {
@@ -148,6 +171,16 @@ TEST_CASE("check says what a file is, and fails with 1 when one cannot be read")
   const auto json = run("check --json models/objects/flask.iv");
   CHECK(json.code == 0);
   CHECK(json.out.front() == '[');
+  // names that are no UTF-8 stand escaped, and the other files' reports stay
+  const Folder folder;
+  folder.file("n\xE9\xFF.wld", "x");
+  const auto odd = run("check --json " + (folder / "n\xE9\xFF.wld") + " models/objects/flask.iv");
+  CHECK(odd.code == 1);
+  CHECK(has(odd.out, "n\\\\xE9\\\\xFF.wld"));
+  CHECK(has(odd.out, "\"kind\":\"body\""));
+  const auto none = run("check --root /no/such/folder models/objects/flask.iv");
+  CHECK(none.code == 2);
+  CHECK(has(none.out, "--root: Directory does not exist: /no/such/folder"));
   CHECK(run("check no_such.iv").code == 1);
   CHECK(has(run("check tests/data/urdf/gripper.urdf").out, "package"));
   CHECK(run("check --package tests/data/urdf tests/data/urdf/gripper.urdf").code == 0);
@@ -174,5 +207,6 @@ TEST_CASE("convert writes another format, says what is lost, and fails with 1") 
   CHECK(same.code == 1);
   CHECK(has(same.out, "wanted another file to write, got the same"));
   CHECK(run("convert models/objects/flask.iv").code == 2);
-  CHECK(has(run("convert --unit mile " + out + " " + (folder / "a.obj")).out, "unknown unit 'mile', wanted one of mm, cm, m, inch, foot"));
+  CHECK(has(run("convert --unit mile " + out + " " + (folder / "a.obj")).out,
+            "unknown unit 'mile', wanted one of mm, cm, m, inch, foot"));
 }

@@ -12,10 +12,18 @@ TEST_CASE("piped lines are run one chunk at a time, an error leaves the session 
                           "nil\nprint()\nx = = 1\n\"last\"");
   CHECK(result.code == 0);
   CHECK(result.out.find("3\n4\n(1, 2, 3)\t{a = 1}\n") == 0);
-  CHECK(result.out.find("input:1: no\nstack traceback:") != std::string::npos);
+  CHECK(result.out.find("input:8: no\nstack traceback:") != std::string::npos);
   CHECK(result.out.find("unexpected symbol near '='") != std::string::npos);
   CHECK(result.out.find("nil\n\n") != std::string::npos);
   CHECK(result.out.ends_with("last\n"));
+}
+
+TEST_CASE("an error in piped input is told with its line of the input") {
+  const auto out =
+      run("repl", "\nx = = 1\nfor i = 1, 2 do\n\nerror 'here'\nend\n=error 'there'\n").out;
+  CHECK(out.find("input:2: unexpected symbol near '='") != std::string::npos);
+  CHECK(out.find("input:5: here") != std::string::npos);
+  CHECK(out.find("input:7: there") != std::string::npos);
 }
 
 TEST_CASE("an input that ends inside a chunk says so") {

@@ -74,8 +74,33 @@ TEST_CASE("a wrong number is told with place, subject, wanted and got") {
                        "a.cfg:1: n: wanted a whole number from 4 to 9, got 3", Error);
   CHECK_THROWS_WITH_AS(line.integer(1, "n", 4),
                        "a.cfg:1: n: wanted a whole number from 4 on, got 3", Error);
+  CHECK_THROWS_WITH_AS(line.integer(0, "n", 0, 9), "a.cfg:1: n: wanted a whole number, got 'x'",
+                       Error);
   CHECK_THROWS_WITH_AS(line.fail("min {} exceeds max {}", 2, 1), "a.cfg:1: min 2 exceeds max 1",
                        Error);
+}
+
+TEST_CASE("a whole number too large for its place is told with the range") {
+  constexpr int most = std::numeric_limits<int>::max(), least = std::numeric_limits<int>::min();
+  CHECK(integer_fault("3000000000", least, most) ==
+        "wanted a whole number from -2147483648 to 2147483647, got '3000000000'");
+  CHECK(integer_fault("+99999999999999999999", 0, most) ==
+        "wanted a whole number from 0 to 2147483647, got '+99999999999999999999'");
+  CHECK(integer_fault("-3000000000", 0, most) ==
+        "wanted a whole number from 0 on, got '-3000000000'");
+  CHECK(integer_fault("3000000000", 1, 9) == "wanted a whole number from 1 to 9, got '3000000000'");
+  for (const char* bad : {"", "-", "+", "1.0", "0x1", "1e3", "+-1", "--1"})
+    CHECK_MESSAGE(integer_fault(bad, least, most).starts_with("wanted a whole number, got "), bad);
+  for (const char* good : {"0", "-0", "+7", "-2147483648", "2147483647"})
+    CHECK_MESSAGE(integer_fault(good, least, most).empty(), good);
+}
+
+TEST_CASE("the mark that some editors put before UTF-8 goes, at the beginning alone") {
+  CHECK(plain_text("\xEF\xBB\xBF"
+                   "a\r\n") == "a\n");
+  CHECK(plain_text("a\xEF\xBB\xBF") == "a\xEF\xBB\xBF");
+  CHECK(plain_text("\xEF\xBB") == "\xEF\xBB");
+  CHECK(plain_text("\xEF\xBB\xBF").empty());
 }
 
 TEST_CASE("every kind of line end reads as one") {

@@ -80,6 +80,15 @@ TEST_CASE("an inertia that no body has is left to the shape, with a warning") {
   }
 }
 
+TEST_CASE("an inertia of which one moment exceeds the others' sum is used, and doubtful") {
+  Warnings warnings;
+  const BodySpec b = body_with("#inertia_matrix\n#1 0 0\n#0 1 0\n#0 0 3", warnings.options());
+  CHECK((*b.inertia_per_mass)(2, 2) == doctest::Approx(3e-6));
+  CHECK(warnings.list == std::vector<std::string>{
+                             "box.iv:2: inertia that no body has, as one moment exceeds the sum "
+                             "of the others; it is used as it stands"});
+}
+
 TEST_CASE("a row of an inertia has three numbers") {
   CHECK_THROWS_WITH_AS(body_with("#inertia_matrix\n#5 0 0\n#0 5 0 7\n#0 0 5"),
                        "box.iv:4: inertia_matrix: wanted 3 numbers in a row, got 4", Error);

@@ -79,6 +79,16 @@ TEST_CASE("line ends of every system are read alike") {
   }
 }
 
+TEST_CASE("a mark of UTF-8 before a text changes nothing") {
+  const TemporaryFolder folder;
+  const Mesh mesh = stretched_box();
+  for (const MeshFile& file : in_every_format(mesh)) {
+    if (file.name == "binary.stl" || file.name == "solid.stl" || file.name == "a.glb") continue;
+    INFO(file.name);
+    check_same_surface(read_file_of(folder, {file.name, "\xEF\xBB\xBF" + file.content}).mesh, mesh);
+  }
+}
+
 TEST_CASE("vertices that faces do not share are welded, and counted") {
   const TemporaryFolder folder;
   const Mesh loose = box_of_loose_faces();

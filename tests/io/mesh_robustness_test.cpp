@@ -74,8 +74,9 @@ TEST_CASE("noise is an Error in every mesh format, behind a sound beginning too"
 }
 
 TEST_CASE("numbers beyond the range of lengths are an Error, small ones and far ones are not") {
-  for (const double size : {1e-300, 1e-30, 1e-6, 1e6, 1e20})
+  for (const double size : {1e-300, 1e-30, 1e-6, 1e6, 1e11})
     CHECK_FALSE(refused_mesh({"a.obj", obj_text(box(size, size, size))}));
+  CHECK(refused_mesh({"a.obj", obj_text(box(1e13, 1, 1))}));
   CHECK(refused_mesh({"a.obj", obj_text(box(1e200, 1, 1))}));
   CHECK(refused_mesh({"a.off", off_text(box(1e308, 1e308, 1e308))}));
 }

@@ -304,6 +304,15 @@ TEST_CASE("an outermost class by another name is the global one, which is told")
             .shape);
 }
 
+TEST_CASE("a joint that is tied by nothing stands still, and is doubtful") {
+  const ToldRobot told(
+      model("<joint name='p' range='-9 9'/><joint name='q' range='-9 9'/>",
+            radian + "<equality><joint joint1='q' joint2='p' polycoef='0 0 0 0 0'/></equality>"));
+  CHECK(
+      told.warned("m.xml:1: joint 'q': polycoef has no linear part: it stands still when 'p' "
+                  "moves"));
+}
+
 TEST_CASE("a tendon may be held longer than it is at first") {
   const ToldRobot told =
       model("<joint name='p' range='-1 1' ref='0.5'/><joint name='q' range='-9 9'/>",
@@ -344,12 +353,14 @@ TEST_CASE("bodies and geoms that are lost are told as lost") {
             .warned("m.xml:1: 2 geoms of the world itself, on no body, are no part of the robot"));
 }
 
-TEST_CASE("a mesh of many metres without a scale is told") {
+TEST_CASE("a mesh of many metres is told") {
   const std::string corners = "vertex='0 0 0 20 0 0 0 20 0 0 0 20'";
   const std::string geom = "<geom type='mesh' mesh='c'/>";
-  CHECK(model(geom, "<asset><mesh name='c' " + corners + "/></asset>")
-            .warned("m.xml:1: mesh 'c': it is 20 m large: is a scale of 0.001 missing?"));
-  CHECK_FALSE(model(geom, "<asset><mesh name='c' scale='1 1 1' " + corners + "/></asset>")
+  CHECK(
+      model(geom, "<asset><mesh name='c' " + corners + "/></asset>")
+          .warned("m.xml: parts larger than 3 m: 'm_b': is the unit of their geometry right, or a "
+                  "scale of 0.001 missing?"));
+  CHECK_FALSE(model(geom, "<asset><mesh name='c' scale='.001 .001 .001' " + corners + "/></asset>")
                   .warned("a scale"));
 }
 

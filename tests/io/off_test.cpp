@@ -55,8 +55,8 @@ TEST_CASE("what is wrong in an OFF file is told by line") {
   refused("OFT\n", "1: wanted 'OFF', got 'OFT'");
   refused("4OFF\n", "1: wanted OFF of three dimensions, got '4OFF'");
   refused("OFF BINARY\n", "1: wanted OFF as text, got binary OFF");
-  refused("OFF\n-4 4 6\n", "2: number of vertices: wanted a whole number from 0 on, got '-4'");
-  refused("OFF\n4 x 6\n", "2: number of faces: wanted a whole number from 0 on, got 'x'");
+  refused("OFF\n-4 4 6\n", "2: number of vertices: wanted a whole number from 0 on, got -4");
+  refused("OFF\n4 x 6\n", "2: number of faces: wanted a whole number, got 'x'");
   refused("OFF\n4 4 6\n0 0 0\n1 0\n", "4: z: wanted a number, got nothing");
   refused("OFF\n4 4 6\n0 0 0\n1 0 inf\n", "4: z: wanted a number, got 'inf'");
   refused("OFF\n4 4 6\n0 0 0\n", "3: wanted vertex 2 of 4, got the end of the file");

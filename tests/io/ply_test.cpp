@@ -65,7 +65,7 @@ TEST_CASE("what is wrong in the header of a PLY file is told by line") {
   refused("ply\nelement vertex many\n",
           ":2: number of elements 'vertex': wanted a whole number, got 'many'");
   refused("ply\nelement vertex -1\n",
-          ":2: number of elements 'vertex': wanted a whole number from 0 to 2147483647, got -1");
+          ":2: number of elements 'vertex': wanted a whole number from 0 on, got -1");
   refused("ply\nproperty float x\n", ":2: wanted an element before its properties");
   refused("ply\nelement vertex 1\nproperty real x\n",
           ":3: wanted a type of PLY such as float or uchar, got 'real'");

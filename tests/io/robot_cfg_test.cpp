@@ -166,15 +166,29 @@ TEST_CASE("a class that is none and words behind it are told, and change nothing
             "hand.cfg:2: 2 surplus words are not used"});
 }
 
-TEST_CASE("links without a last joint take the next one") {
+TEST_CASE("links without a last joint take the next one, which a note says") {
   Cfg cfg;
   cfg.joints = "3\n2\n";
   cfg.joint_lines = "d0 0 10 0 -10 90\nd0 0 10 0 -10 90\nd0 0 10 0 -10 90\n";
   cfg.links = "Universal\nbox.iv 1\nRevolute\nbox.iv\n";
-  const auto links = cfg.read().chains[0].links;
+  std::vector<std::string> notes;
+  ReadOptions options;
+  options.note = [&](const std::string& s) { notes.push_back(s); };
+  const auto links = cfg.read(options).chains[0].links;
+  CHECK(notes.at(0) == "hand.cfg:16: link 1: its last joint is not given; joint 2 moves it");
   CHECK(links[0].joint == LinkJoint::universal);
   CHECK(links[0].last_joint == 1);
   CHECK(links[1].last_joint == 2);
+}
+
+TEST_CASE("limits of more than four turns are doubtful") {
+  Cfg cfg;
+  cfg.joint_lines = "d0 0 10 0 -10 1e30\n";
+  Warnings warnings;
+  cfg.read(warnings.options());
+  CHECK(warnings.list ==
+        std::vector<std::string>{"hand.cfg: joints that turn more than four times: '0 of chain 0': "
+                                 "is the unit of their limits right?"});
 }
 
 TEST_CASE("every kind of link joint is known") {

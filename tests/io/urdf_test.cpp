@@ -298,7 +298,7 @@ TEST_CASE("limits of zero width make a DOF that stays") {
   CHECK(told.robot.dofs[0].default_velocity == 0);
 }
 
-TEST_CASE("a mesh of many metres without a scale is told") {
+TEST_CASE("a mesh of many metres is told") {
   TemporaryFolder folder;
   folder.write("a.obj",
                "v 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
@@ -308,10 +308,14 @@ TEST_CASE("a mesh of many metres without a scale is told") {
         "a.urdf", two_links("<visual>" + mesh + "</visual><collision>" + mesh + "</collision>")));
   };
   const ToldRobot large = read("");
-  CHECK(large.warned("a.urdf:1: link 'a': its mesh is 20 m large: is a scale of 0.001 missing?"));
-  CHECK(large.warnings.size() == 1);
+  CHECK(
+      large.warned("a.urdf: parts larger than 3 m: 'r_a': is the unit of their geometry right, or "
+                   "a scale of 0.001 missing?"));
+  CHECK(
+      large.warned("a.urdf: parts heavier than a tonne: 'r_a': is the unit of their mass or "
+                   "geometry right?"));
+  CHECK(large.warnings.size() == 2);
   CHECK(read(" scale='0.001 0.001 0.001'").warnings.empty());
-  CHECK(read(" scale='1 1 1'").warnings.empty());
 }
 
 TEST_CASE("an open surface without a mass weighs a gram, which is told") {

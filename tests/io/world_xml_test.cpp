@@ -12,7 +12,7 @@ static void write_library(const TemporaryFolder& folder) {
   folder.write("models/robots/iv/box.iv", "#Inventor V2.1 ascii\nCube { }\n");
   folder.write("models/robots/hand.cfg",
                "Hand\nbox.iv\n1\nb 1 1e9 1e9 1e7 20 0.5\n1\n1\n1\nt 0 0 0\nd0 0 10 0 -10 "
-               "90\nRevolute\nbox.iv\n");
+               "90\nRevolute\nbox.iv 0\n");
 }
 
 static WorldSpec xml_world_of(const std::string& inside, const ReadOptions& options = {}) {
@@ -111,22 +111,39 @@ TEST_CASE("a name of another generation finds the file of this one, and a note s
   CHECK(read_world(text).robots[0].robot.base.shape);
 }
 
-TEST_CASE("what the root does not hold is taken from the library beside it, with a warning") {
+TEST_CASE("what the root does not hold is taken from its other generation, with a warning") {
   const TemporaryFolder folder;
-  folder.write("old/models/box.iv", "#Inventor V2.1 ascii\nCube { }\n");
-  folder.write("new/models/none", "");
+  folder.write("Lib-old/models/box.iv", "#Inventor V2.1 ascii\nCube { }\n");
+  folder.write("lib2/models/none", "");
   const auto file =
-      folder.write("new/worlds/w.xml", "<world>\n<obstacle><filename>models/box.xml</filename>" +
-                                           unmoved + "</obstacle></world>");
+      folder.write("lib2/worlds/w.xml", "<world>\n<obstacle><filename>models/box.xml</filename>" +
+                                            unmoved + "</obstacle></world>");
   for (const bool rooted : {true, false}) {
     Warnings warnings;
     ReadOptions options = warnings.options();
-    if (rooted) options.root = folder.path() / "new";
+    if (rooted) options.root = folder.path() / "lib2";
     CHECK(read_world(file, options).bodies[0].body.name == "box");
     CHECK(warnings.list ==
           std::vector<std::string>{"w.xml:2: models/box.xml is not below the root; " +
-                                   (folder.path() / "old/models/box.iv").generic_string() +
+                                   (folder.path() / "Lib-old/models/box.iv").generic_string() +
                                    " is taken"});
+  }
+}
+
+TEST_CASE("what only a stranger beside the root holds is not found") {
+  const TemporaryFolder folder;
+  folder.write("other/models/box.iv", "#Inventor V2.1 ascii\nCube { }\n");
+  folder.write("library/models/box.iv", "#Inventor V2.1 ascii\nCube { }\n");
+  folder.write("models/box.iv", "#Inventor V2.1 ascii\nCube { }\n");
+  folder.write("lib/models/none", "");
+  folder.write("lib-old/models/none", "");
+  const auto file =
+      folder.write("lib/worlds/w.xml", "<world>\n<obstacle><filename>models/box.xml</filename>" +
+                                           unmoved + "</obstacle></world>");
+  for (const bool rooted : {true, false}) {
+    ReadOptions options;
+    if (rooted) options.root = folder.path() / "lib";
+    CHECK_THROWS_WITH_AS(read_world(file, options), "w.xml:2: no such file: models/box.xml", Error);
   }
 }
 

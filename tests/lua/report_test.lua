@@ -104,7 +104,7 @@ test("what is guessed, mended, ignored and doubtful stands apart", function(t)
 #youngs 3
 Units { units FEET }
 Whirl { }
-Coordinate3 { point [0 0 0, 1 0 0, 0 1 0, 0 0 1] }
+Coordinate3 { point [0 0 0, 9 0 0, 0 9 0, 0 0 9] }
 IndexedFaceSet { coordIndex [0 1 2 -1 0 3 1 -1 0 2 3 -1 1 3 2 -1] }]])
   t.equal(r.wrong, nil)
   t.ok(#r.guessed == 1 and r.guessed[1]:find "Units FEET")

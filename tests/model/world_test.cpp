@@ -262,7 +262,7 @@ TEST_CASE("properties refuse what is no mass, inertia, modulus, threshold, mater
   World world;
   const auto a = add_box(world, "a", {0, 0, 0});
   add_box(world, "b", {1, 0, 0});
-  CHECK_THROWS_WITH_AS(world.set_mass(a, -1), "body 'a': its mass must be > 0 [kg], got -1", Error);
+  CHECK_THROWS_WITH_AS(world.set_mass(a, -1), "body 'a': its mass must be > 0 and at most 1e+30 [kg], got -1", Error);
   CHECK_THROWS_WITH_AS(world.set_com(a, {NAN, 0, 0}), "body 'a': its centre of mass must be finite",
                        Error);
   CHECK_THROWS_WITH_AS(world.set_inertia(a, Eigen::Vector3d(1, 1, -1).asDiagonal()),

@@ -66,9 +66,9 @@ TEST_CASE("what is out of order in a robot is told by place") {
   refused([](RobotSpec& r) { r.chains[0].joints[0].ratio = 1e-309; },
           "arm: chain 0 joint 0: wanted a ratio that leaves DOF 0 a finite range, got 1e-309");
   refused([](RobotSpec& r) { r.chains[0].joints[0].d = -1e31; },
-          "arm: chain 0 joint 0: wanted numbers of at most 1e30, got -1e+31");
+          "arm: chain 0 joint 0: wanted numbers of at most 1e+30, got -1e+31");
   refused([](RobotSpec& r) { r.chains[0].joints[1].theta = 1e300; },
-          "arm: chain 0 joint 1: wanted numbers of at most 1e30, got 1e+300");
+          "arm: chain 0 joint 1: wanted numbers of at most 1e+30, got 1e+300");
   refused([](RobotSpec& r) { r.chains[0].joints[1].max = INFINITY; },
           "arm: chain 0 joint 1: wanted finite numbers, got inf");
   refused([](RobotSpec& r) { r.chains[0].joints[0].a = NAN; },
@@ -87,6 +87,10 @@ TEST_CASE("what is out of order in a robot is told by place") {
   refused([](RobotSpec& r) { r.chains[0].X_BC.position.x() = INFINITY; },
           "arm: chain 0: wanted a finite pose of its base");
   refused([](RobotSpec& r) { r.dofs[0].kp = NAN; }, "arm: DOF 0: wanted finite numbers, got nan");
+  refused([](RobotSpec& r) { r.dofs[0].default_velocity = -1e31; },
+          "arm: DOF 0: wanted numbers of at most 1e+30, got -1e+31");
+  refused([](RobotSpec& r) { r.base.mass = 1e31; },
+          "arm: '': its mass must lie in [0, 1e+30] [kg], got 1e+31");
   refused([](RobotSpec& r) { r.dofs[0].max_effort = -1; },
           "arm: DOF 0: max effort must be >= 0, got -1");
   refused([](RobotSpec& r) { r.dofs[0].breakaway_torque = -1; },
