@@ -641,7 +641,7 @@ function clench.grasp(hand, object, options) end
 ---@return {name: string, what: string, range: string, unit: string, larger_is_better: boolean, source: string}[]
 function clench.measures() end
 
----All wrenches that contacts resist when their normal forces sum to at most one (norm "L1") or are each at most one ("Linf"). A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in the object frame; torsion_radius, 0 for a hard finger, says how far a soft one resists a turn about its normal [m]. Nothing is calculated before it is asked for.
+---All wrenches that contacts resist when their normal forces sum to one (norm "L1") or are each at most one ("Linf"). A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in the object frame; torsion_radius, 0 for a hard finger, says how far a soft one resists a turn about its normal [m]. Nothing is calculated before it is asked for.
 ---@param options {contacts: table[], norm?: string, edges?: integer|string, rho?: number, com?: vec3, coordinates?: string[]} # edges: of the friction pyramids, 8, or "exact" for round cones; coordinates: those that count, of "fx" to "tz"
 ---@return wrench_space
 function clench.wrench_space(options) end

@@ -51,8 +51,8 @@ struct EpsilonBounds {
   bool converged = true;  ///< upper - lower is within the tolerance; else at_least was known before
 };
 
-/// All wrenches that contacts resist when their normal forces are bounded. L1: they sum to at most
-/// one; the convex hull of the unit wrenches of all contacts. L-infinity: each is at most one; the
+/// All wrenches that contacts resist with bounded normal forces. L1: they sum to one; the convex hull
+/// of the unit wrenches of all contacts. L-infinity: each is at most one; the
 /// sum of the hulls of zero and each contact's unit wrenches.
 ///
 /// Known by its support function: nothing is calculated before it is asked for, and then kept. One

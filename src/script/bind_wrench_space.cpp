@@ -305,7 +305,7 @@ static int projection_text(lua_State* L) {
 
 static const Entry functions[] = {
     {"wrench_space", guarded<new_wrench_space>, R"(
-All wrenches that contacts resist when their normal forces sum to at most one (norm "L1") or are each at most one ("Linf").
+All wrenches that contacts resist when their normal forces sum to one (norm "L1") or are each at most one ("Linf").
 A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in
 the object frame; torsion_radius, 0 for a hard finger, says how far a soft one resists a turn about its normal [m]. Nothing
 is calculated before it is asked for.
