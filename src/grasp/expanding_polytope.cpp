@@ -30,7 +30,7 @@ constexpr double near = 1e-3;
 
 // What all points are shifted by at most in one coordinate, attempt after attempt: the first with the
 // points as they are. Brackets grow by it.
-constexpr double shifts[] = {0, 0, 1e-11, 3e-11, 1e-10, 3e-10};
+constexpr double shifts[] = {0, 0, 0, 1e-11, 1e-11, 1e-11, 3e-11, 3e-11, 1e-10, 3e-10};
 
 // a surface that rounding broke
 struct Broken {};
@@ -86,7 +86,8 @@ struct Facet {
 // one side of a ridge that waits for the other
 struct Ridge {
   uint64_t key;
-  int stamp, facet, side;  // facet -1: both sides met
+  int stamp;
+  int place;  // 8 facet + side; -1: both sides met
 };
 
 struct Waiting {
@@ -155,8 +156,9 @@ class Growing {
   double true_plane(Facet<D>& facet);
   template <class Made>
   void expand(int first, const double* point, Made&& made);
-  void join(int facet, int side, uint64_t key, int& open);
-  double slack() const { return shift_ * 2 * std::sqrt(double(D)); }
+  void join(int facet, int side, uint64_t key, size_t mask, int& open);
+  // no shifted point is farther from where it was
+  double slack() const { return shift_ * std::sqrt(double(D)); }
   int add_point(const double* point) {
     const int index = static_cast<int>(points_.size());
     std::array<double, D> p;
@@ -361,20 +363,19 @@ bool Growing<D>::start(double zero) {
 }
 
 template <int D>
-void Growing<D>::join(int facet, int side, uint64_t key, int& open) {
-  const size_t mask = ridges_.size() - 1;
+void Growing<D>::join(int facet, int side, uint64_t key, size_t mask, int& open) {
   for (size_t at = key & mask;; at = (at + 1) & mask) {
     Ridge& ridge = ridges_[at];
     if (ridge.stamp != ridge_stamp_) {
-      ridge = {key, ridge_stamp_, facet, side};
+      ridge = {key, ridge_stamp_, 8 * facet + side};
       ++open;
       return;
     }
     if (ridge.key != key) continue;
-    if (ridge.facet < 0) throw Broken();  // three facets at a ridge
-    facets_[facet].neighbour[side] = ridge.facet;
-    facets_[ridge.facet].neighbour[ridge.side] = facet;
-    ridge.facet = -1;
+    if (ridge.place < 0) throw Broken();  // three facets at a ridge
+    facets_[facet].neighbour[side] = ridge.place / 8;
+    facets_[ridge.place / 8].neighbour[ridge.place % 8] = facet;
+    ridge.place = -1;
     --open;
     return;
   }
@@ -411,7 +412,7 @@ void Growing<D>::expand(int first, const double* point, Made&& made) {
   const int corner = add_point(point);
   size_t room = 64;
   while (room < 4 * D * rim_.size()) room *= 2;
-  if (ridges_.size() < room) ridges_.assign(room, {0, 0, 0, 0}), ridge_stamp_ = 0;
+  if (ridges_.size() < room) ridges_.assign(room, {0, 0, 0}), ridge_stamp_ = 0;
   ++ridge_stamp_;
   int open = 0;
   made_.clear();
@@ -450,7 +451,7 @@ void Growing<D>::expand(int first, const double* point, Made&& made) {
     uint64_t all = 0;
     for (int k = 0; k < D; ++k) all += k == rim.side ? 0 : keys_[facet.corner[k]];
     for (int k = 0; k < D; ++k)
-      if (k != rim.side) join(index, k, all - keys_[facet.corner[k]], open);
+      if (k != rim.side) join(index, k, all - keys_[facet.corner[k]], room - 1, open);
   }
   if (open != 0) throw Broken();
   for (const int gone : seen_) free_.push_back(gone);
@@ -479,7 +480,7 @@ Ball Growing<D>::ball(const BallOptions& options) {
   };
   for (int k = 0; k <= D; ++k) wait(k);
 
-  const double enough = std::max(options.tolerance, 4 * slack());
+  const double enough = std::max(options.tolerance, 2.5 * slack());
   double p[D];
   while (true) {
     // facets farther than the least support have left the heap, so that is the bound when it is empty
@@ -524,7 +525,7 @@ Facets Growing<D>::hull(const FacetsOptions& options) {
   std::vector<Waiting>& queue = waiting_;
   const auto wait = [&](int index) { queue.push_back({0, index, facets_[index].birth}); };
   for (int k = 0; k <= D; ++k) wait(k);
-  const double enough = std::max(options.tolerance, 4 * slack());
+  const double enough = std::max(options.tolerance, 2.5 * slack());
   double p[D];
   for (size_t next = 0; next < queue.size(); ++next) {
     if (next > 100000 && 2 * next > queue.size()) {

@@ -29,6 +29,9 @@ constexpr double on_boundary = 1e-12;
 // worth its time, some twenty points a digit.
 constexpr double flat_tolerance = 1e-12, round_tolerance = 1e-9;
 
+// A bracket wider than this is not good enough for a polytope: only the larger shifts of points leave one.
+constexpr double poor = 3e-10;
+
 // How near to the most a contact's answer must come to count as it.
 constexpr double carries = 1e-9;
 
@@ -239,7 +242,7 @@ const WrenchSpace::Bracket& WrenchSpace::final_bracket() const {
   if (bracket_ && bracket_->tolerance <= tolerance) return *bracket_;
   bracket_ = bracket_of(prepared().reach, tolerance, 0);
   const double width = bracket_->upper - bracket_->lower;
-  if (width > 1e-9 && !is_round() && options_.norm == WrenchNorm::l1) {
+  if (width > poor && !is_round() && options_.norm == WrenchNorm::l1) {
     // rounding broke every surface that was tried: the hull whole, by qhull
     const Hull all = hull();
     if (all.full()) {
