@@ -59,6 +59,16 @@ static int get_contacts(lua_State* L) {
   return push_contacts(L, g.world, g.grasp.contacts);
 }
 
+static int get_points(lua_State* L) {
+  return push_list_of(L, self<GraspHandle>(L).grasp.points, [&](const PointContact& point) {
+    push_list(L, 0, 4);
+    set_field(L, "point", point.p_O);
+    set_field(L, "normal", point.n_O);
+    set_field(L, "mu", point.mu);
+    set_field(L, "torsion_radius", point.torsion_radius);
+  });
+}
+
 static int get_rho(lua_State* L) { return push(L, self<GraspHandle>(L).grasp.rho); }
 static int get_edges(lua_State* L) {
   const int edges = self<GraspHandle>(L).grasp.edges;
@@ -116,6 +126,11 @@ The body that is grasped.
 The contacts on the object when the grasp was measured.
 @type contact[]
 > grasp.contacts[1].body == flask  --> true)"},
+    {"points", guarded<get_points>, R"(
+The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers.
+@type {point: vec3, normal: vec3, mu: number, torsion_radius: number}[]  [m]
+> again = clench.wrench_space{contacts = grasp.points, com = flask.com, rho = grasp.rho}
+> again:epsilon() == grasp:quality "epsilon"  --> true)"},
     {"rho", guarded<get_rho>, R"(
 Length that torques are divided by.
 @type number  [m]

@@ -22,15 +22,6 @@ local function tilted(random, normal, angle)
   return (math.cos(angle) * normal + math.sin(angle) * side:unit()):unit()
 end
 
--- the contacts of a grasp in the object's frame, as clench.wrench_space takes them
-local function contacts_of(grasp)
-  local list, to_object = {}, grasp.object.pose:inverse()
-  for i, c in ipairs(grasp.contacts) do
-    list[i] = {point = to_object * c.point, normal = to_object:rotate(c.normal):unit(), mu = c.mu}
-  end
-  return list
-end
-
 local function close_again(hand) hand:autograsp() end
 
 --- What a grasp is worth when things are not where and what they were thought to be. Each sample draws errors of the
@@ -38,7 +29,7 @@ local function close_again(hand) hand:autograsp() end
 --- it again, all in a copy of the world. Friction is off by one factor for all contacts, normals each by their own.
 --- The same seed gives the same numbers, and sample i the same in longer runs.
 ---@param grasp grasp
----@param given {samples?: integer, seed?: integer, position?: number, angle?: number, friction?: number, normal?: number, close?: function, edges?: integer}  standard deviations, 0 unless given: of the object's position along each axis [m], its turn about any axis [rad], the factor on mu, the tilt of normals [rad]; samples: 100; close(hand, object) instead of autograsp
+---@param given {samples?: integer, seed?: integer, position?: number, angle?: number, friction?: number, normal?: number, close?: function, edges?: integer|string}  standard deviations, 0 unless given: of the object's position along each axis [m], its turn about any axis [rad], the factor on mu, the tilt of normals [rad]; samples: 100; close(hand, object) instead of autograsp
 ---@return {samples: number[], probability: number, interval: table, taken: integer, mean: number, deviation: number, least: number, low: number, median: number, high: number, largest: number} # epsilon of each sample; probability of force closure, with the interval that holds it at 95 %; taken: how often the object's place was taken by the opened hand or something else, which counts as no grasp; low and high: 5 and 95 % of the samples
 -- > r = clench.study.robustness(grasp, {samples = 20, friction = 0.2, normal = 0.05})
 -- > #r.samples, r.low <= r.median, r.interval.low <= r.probability  --> 20, true, true
@@ -49,7 +40,7 @@ return function(grasp, given)
   local seed = read:count("seed", 1, math.mininteger, math.maxinteger)
   local position, angle = read:not_negative("position", 0), read:not_negative("angle", 0)
   local friction, normal = read:not_negative("friction", 0), read:not_negative("normal", 0)
-  local edges = read:count("edges", grasp.edges, 3, 1000)
+  local edges = read:raw "edges" or grasp.edges  -- as clench.wrench_space takes them
   local close = read:raw "close" or close_again
   if type(close) ~= "function" then read:wanted("close", "a function", close) end
   read:done()
@@ -78,7 +69,7 @@ return function(grasp, given)
     if not now then
       taken = taken + 1
     else
-      local contacts = contacts_of(now)
+      local contacts = now.points
       local factor = math.max(0, 1 + friction * stream(seed, sample, "friction"):normal())
       local tilts = stream(seed, sample, "normal")
       for _, contact in ipairs(contacts) do
