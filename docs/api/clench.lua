@@ -479,6 +479,7 @@ function patch:torsion_limit(options) end
 ---@field hand robot # The robot that grasps.
 ---@field object body # The body that is grasped.
 ---@field contacts contact[] # The contacts on the object when the grasp was measured.
+---@field points {point: vec3, normal: vec3, mu: number, torsion_radius: number}[] # The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers. [m]
 ---@field rho number # Length that torques are divided by. [m]
 ---@field edges integer|string # Edges of each friction pyramid, or "exact".
 local grasp = {}
