@@ -39,9 +39,10 @@ end)
 
 test("soft fingers stay soft in every sample", function(t)
   local grasp = closed_on_flask()
-  grasp.object.elastic_modulus = 1.5e6
+  -- so soft that torsion counts in the weakest direction
+  grasp.object.elastic_modulus = 1e5
   local soft = clench.grasp(grasp.hand, grasp.object)
-  t.ok(soft.points[1].torsion_radius > 0 and soft:quality "epsilon" > grasp:quality "epsilon")
+  t.ok(soft.points[1].torsion_radius > 0 and soft:quality "epsilon" > grasp:quality "epsilon" + 1e-4)
   t.ok(clench.study.robustness(soft, {samples = 2}).samples[2] == soft:quality "epsilon")
 end)
 

@@ -1,0 +1,95 @@
+// Orthonormal directions, and planes through points by elimination. Includes no Eigen.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace clench {
+
+template <int D>
+double dot(const double* a, const double* b) {
+  double sum = a[0] * b[0];
+  for (int i = 1; i < D; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// Orthonormal directions, one by one.
+template <int D>
+struct Basis {
+  double q[D][D] = {};
+  int count = 0;
+
+  /// what of v is normal to all of them
+  void reduce(double* v) const {
+    for (int pass = 0; pass < 2; ++pass)
+      for (int k = 0; k < count; ++k) {
+        const double along = dot<D>(q[k], v);
+        for (int i = 0; i < D; ++i) v[i] -= along * q[k][i];
+      }
+  }
+  /// returns  how much of v is new
+  double add(const double* v) {
+    double* next = q[count];
+    std::copy_n(v, D, next);
+    reduce(next);
+    const double length = std::sqrt(dot<D>(next, next));
+    if (length > 0) {
+      for (int i = 0; i < D; ++i) next[i] /= length;
+      ++count;
+    }
+    return length;
+  }
+};
+
+/// How far points lie along a direction.
+struct Spread {
+  double low, high;
+  double width() const { return high - low; }
+};
+
+template <int D>
+Spread spread_along(const double* direction, const double (&points)[D][D]) {
+  Spread out{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const double* point : points) {
+    const double x = dot<D>(direction, point);
+    out.low = std::min(out.low, x), out.high = std::max(out.high, x);
+  }
+  return out;
+}
+
+/// Turns a unit normal into that of the plane that D points span, as far as they do: the longest edges
+/// first, and what the shortest leave open stays as it was.
+/// returns  how far the points lie along it
+template <int D>
+Spread true_normal(double* normal, const double (&points)[D][D]) {
+  const Spread before = spread_along<D>(normal, points);
+  double edges[D - 1][D];
+  for (int k = 1; k < D; ++k)
+    for (int i = 0; i < D; ++i) edges[k - 1][i] = points[k][i] - points[0][i];
+  Basis<D> basis;
+  for (int k = 0; k < D - 1; ++k) {
+    int longest = k;
+    double most = -1;
+    for (int j = k; j < D - 1; ++j) {
+      basis.reduce(edges[j]);
+      const double square = dot<D>(edges[j], edges[j]);
+      if (square > most) most = square, longest = j;
+    }
+    if (most < 1e-24) break;
+    std::swap_ranges(edges[k], edges[k] + D, edges[longest]);
+    basis.add(edges[k]);
+  }
+  double n[D];
+  std::copy_n(normal, D, n);
+  basis.reduce(n);
+  const double length = std::sqrt(dot<D>(n, n));
+  if (!(length > 0.5)) return before;
+  for (int i = 0; i < D; ++i) n[i] /= length;
+  const Spread after = spread_along<D>(n, points);
+  if (after.width() >= before.width()) return before;
+  std::copy_n(n, D, normal);
+  return after;
+}
+
+}  // namespace clench
