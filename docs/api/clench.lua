@@ -292,7 +292,7 @@ function hand:save_virtual_contacts(path) end
 ---@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m].
 ---@field dof_names string[] # Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
 ---@field links body[] # Its links, chain by chain, without the base.
----@field chains table[] # Its chains: `parent`, the base or the link that it begins on; `pose` in the parent, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away).
+---@field chains table[] # Its chains: `parent`, the base or the link that it begins on; `pose` in the parent, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, wound: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, of joints that have one).
 ---@field base body # Its base: palm or stand.
 ---@field bodies body[] # Base, links, and mount if it has one.
 ---@field approach {point: vec3, direction: vec3, frame: pose} # How it approaches what it grasps, in the world frame: `point` on the palm, `direction`, `frame` with +z along it.
@@ -307,9 +307,9 @@ local robot = {}
 ---@return body
 function robot:link(name) end
 
----Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
+---Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away, or were held against their springs, follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
 ---@param values number[] # within the limits [rad or m]
----@param options? {broken_away?: number[][]} # rows {chain, joint, value}
+---@param options? {apart?: number[][]} # rows {chain, joint, value}
 function robot:set_dofs(values, options) end
 
 ---Drives all DOFs in proportion towards values, until contact stops them.
@@ -318,7 +318,7 @@ function robot:set_dofs(values, options) end
 ---@return table result # as of autograsp
 function robot:move_dofs(values, options) end
 
----Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. Negative speed opens.
+---Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they give way and slide, until contacts take up whatever more it pulls. Negative speed opens.
 ---@param options? {speed?: number, stop_at_contact?: boolean}
 ---@return table result # `moved`, `stops` (a DOF each: "contact", "limit", "reached", "still", "gave up"), `stopped_by` (pairs), `queries`, `events`
 function robot:autograsp(options) end

@@ -110,8 +110,8 @@ local function adaptive()
       about = k == 1 and "finger at +x" or "finger at -x",
       base = {robot.frame({side * 29, 0, 0}, {side, 0, 0}, {0, -side, 0})},
       -- friction [g mm^2/s], Coulomb friction, spring [N mm/rad], rest [rad]
-      joints = {{"d0+75", 0, lengths[1], 0, 0, 75, 5e6, 0, 25, 0},
-                {"d0*0.5+15", 0, lengths[2], 0, 0, 75, 5e6, 0, 75, 0}},
+      joints = {{"d0+75", 0, lengths[1], 0, 0, 75, 5e6, 0, 60, 0},
+                {"d0*0.5+15", 0, lengths[2], 0, 0, 75, 5e6, 0, 40, 0}},
       links = {{"Revolute", "proximal.iv", 0}, {"Revolute", "distal.iv", 1}},
     }
     for _, at in ipairs {{proximal, -42}, {proximal, -22}, {distal, -28}, {distal, -10}} do

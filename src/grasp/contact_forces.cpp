@@ -140,7 +140,10 @@ void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
     const double sense = closing_sense(world, grasp, ref.dof);
     if (demand.closing_only && sense > 0) p.low[k] = 0;
     if (demand.closing_only && sense < 0) p.high[k] = 0;
-    if (demand.springs_only && dofs[ref.dof].kind == DofKind::compliant) p.low[k] = p.high[k] = 0;
+    // a tendon pulls and cannot push
+    if (demand.springs_only && dofs[ref.dof].kind == DofKind::compliant)
+      p.low[k] = p.high[k] =
+          sense < 0 ? std::min(0.0, p.joints.tendons[k]) : std::max(0.0, p.joints.tendons[k]);
     if (demand.efforts) p.low[k] = p.high[k] = (*demand.efforts)[ref.dof];
   }
 }

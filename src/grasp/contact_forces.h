@@ -20,7 +20,7 @@ struct JointDemand {
       limits;              ///< of the hand's DOFs either way, >= 0, instead of theirs [N m or N]
   bool unlimited = false;  ///< motors give whatever it takes
   std::optional<Eigen::VectorXd> efforts = {};  ///< what the hand's motors give [N m or N]
-  /// motors of compliant DOFs give nothing, and clutches of joints that have broken away all they can
+  /// tendons of compliant DOFs are held where they stand, and clutches of joints that have broken away give all they can
   bool springs_only = false;
   bool closing_only = false;  ///< efforts that open the hand are not allowed
   std::optional<double>

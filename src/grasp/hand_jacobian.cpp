@@ -75,7 +75,7 @@ Eigen::MatrixXd dof_jacobian(const World& world, const Grasp& grasp, const HandJ
       Eigen::MatrixXd::Zero(jacobian.of_joints.rows(), static_cast<int>(hand.dofs.size()));
   for (size_t k = 0; k < jacobian.joints.size(); ++k) {
     const JointRef& ref = jacobian.joints[k];
-    if (ref.robot != grasp.hand || hand.chains[ref.chain].breakaway[ref.joint]) continue;
+    if (ref.robot != grasp.hand || hand.chains[ref.chain].apart[ref.joint]) continue;
     const JointSpec& joint = hand.chains[ref.chain].joints[ref.joint];
     out.col(joint.dof) += joint.ratio * jacobian.of_joints.col(static_cast<int>(k));
   }

@@ -12,13 +12,17 @@ struct EffortRef {
   std::optional<JointRef> clutch = {};
 };
 
-/// forces f = efforts u + springs, low <= u <= high: one row a rigid or breakaway DOF, by its coupling; one a joint of
-/// a compliant DOF, which springs alone hold in its ratio; one a joint that has broken away.
+/// forces f = efforts u + springs, low <= u <= high: one row a rigid or breakaway DOF, by its coupling; one a joint that
+/// has broken away; one a joint of a compliant DOF, k ratio u / sum of k ratio^2 over its joints: in free air u holds
+/// all springs of stiffness k at once. Where a joint has none, all k count as alike.
 struct JointBalance {
   Eigen::MatrixXd forces, efforts;
   Eigen::VectorXd springs;      ///< what springs give in each row [N m or N]
   std::vector<EffortRef> refs;  ///< the hand's DOFs first, one each; then carriers', then clutches
   Eigen::VectorXd low, high;    ///< [N m or N], infinite: none
+  /// of a compliant DOF, what its tendon gives where it stands: the effort that holds its springs there in free air; of
+  /// all others 0
+  Eigen::VectorXd tendons;
 };
 
 /// Motors give at most max_effort either way, without limit where a model says 0. The clutch of a joint that has broken

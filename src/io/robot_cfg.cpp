@@ -7,6 +7,7 @@
 #include "io/robot_classes.h"
 #include "io/robot_files.h"
 #include "io/transform_list.h"
+#include "spec/compliant_coupling.h"
 
 namespace clench {
 
@@ -86,6 +87,7 @@ RobotSpec CfgReader::read() {
   const int chains = count("number of chains", 0);
   for (int c = 0; c < chains; ++c) read_chain(c);
   set_dof_units();
+  couple_by_springs(robot_);
   check_ranges();
   read_optional_blocks();
   try {

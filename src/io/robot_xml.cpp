@@ -10,6 +10,7 @@
 #include "io/tendons_xml.h"
 #include "io/transform_xml.h"
 #include "io/xml.h"
+#include "spec/compliant_coupling.h"
 
 namespace clench {
 
@@ -75,6 +76,7 @@ RobotSpec XmlRobotReader::read() {
   dof_kinds_.resize(dofs_.size());
   for (const XmlElement& e : chains) read_chain(e);
   for (const XmlElement& e : dofs_) read_dof(e);
+  couple_by_springs(robot_);
   set_dof_units();
   for (const XmlElement& e : root_.children("disableCollision")) read_disabled_pair(e);
   for (const auto& [element, part] : named_parts_) check_part(element, part);

@@ -59,7 +59,7 @@ void read_dof_values(const Line& line, PlacedRobot& placed) {
   if (!plain && line.size() < least)
     line.fail("wanted {} numbers for the {} DOFs of {}, got {}", least, dofs, robot.name,
               line.size());
-  for (const auto& chain : robot.chains) placed.breakaway.emplace_back(chain.joints.size());
+  for (const auto& chain : robot.chains) placed.apart.emplace_back(chain.joints.size());
   int next = 0;
   for (int d = 0; d < dofs; ++d) {
     const auto joints = joints_of(robot, d);
@@ -70,7 +70,7 @@ void read_dof_values(const Line& line, PlacedRobot& placed) {
       const std::string what = fmt::format("DOF {}: joint {} of chain {}", d, at.joint, at.chain);
       if (line.integer(next++, what + ": broken away (0 or 1)", 0, 1) == 0) continue;
       // written as the value of the DOF at which the joint stopped
-      placed.breakaway[at.chain][at.joint] =
+      placed.apart[at.chain][at.joint] =
           line.number(next++, what) * unit * joint_at(robot, at).ratio;
     }
   }
@@ -90,8 +90,7 @@ std::string dof_values(const PlacedRobot& placed) {
     add(number_in(value, unit));
     if (robot.dofs[d].kind != DofKind::breakaway) continue;
     for (const JointPlace& at : joints) {
-      const Breakaway broken =
-          placed.breakaway.empty() ? Breakaway() : placed.breakaway[at.chain][at.joint];
+      const Apart broken = placed.apart.empty() ? Apart() : placed.apart[at.chain][at.joint];
       add(broken ? "1 " + number_in(*broken, unit, joint_at(robot, at).ratio) : "0");
     }
   }

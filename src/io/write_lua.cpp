@@ -236,14 +236,14 @@ void LuaWriter::change_parts(const RobotSpec& now, const RobotSpec& was, int ind
 
 void LuaWriter::set_dofs(const PlacedRobot& placed, int index) {
   if (placed.dofs.empty()) return;
-  std::string broken;
-  for (size_t c = 0; c < placed.breakaway.size(); ++c)
-    for (size_t j = 0; j < placed.breakaway[c].size(); ++j)
-      if (const Breakaway& q = placed.breakaway[c][j])
-        broken +=
-            fmt::format("{}{{{}, {}, {}}}", broken.empty() ? "" : ", ", c + 1, j + 1, number(*q));
+  std::string apart;
+  for (size_t c = 0; c < placed.apart.size(); ++c)
+    for (size_t j = 0; j < placed.apart[c].size(); ++j)
+      if (const Apart& q = placed.apart[c][j])
+        apart +=
+            fmt::format("{}{{{}, {}, {}}}", apart.empty() ? "" : ", ", c + 1, j + 1, number(*q));
   line(fmt::format("robots[{}]:set_dofs({}{})", index + 1, list(placed.dofs),
-                   broken.empty() ? "" : ", {broken_away = {" + broken + "}}"));
+                   apart.empty() ? "" : ", {apart = {" + apart + "}}"));
 }
 
 static bool same_vectors(const std::optional<Eigen::VectorXd>& a,
@@ -255,7 +255,8 @@ static bool same(const std::optional<EigengraspSet>& a, const std::optional<Eige
   if (!a || !b) return a.has_value() == b.has_value();
   return same_vectors(a->origin, b->origin) && same_vectors(a->norm, b->norm) &&
          std::ranges::equal(a->grasps, b->grasps, [](const auto& x, const auto& y) {
-           return same_bits(x.vector, y.vector) && x.eigenvalue == y.eigenvalue && x.limits == y.limits;
+           return same_bits(x.vector, y.vector) && x.eigenvalue == y.eigenvalue &&
+                  x.limits == y.limits;
          });
 }
 

@@ -37,6 +37,10 @@ bool is_positive_definite(const Matrix3d& m) {
 
 MatrixXd solve_symmetric(const MatrixXd& m, const MatrixXd& right) { return m.ldlt().solve(right); }
 
+Eigen::VectorXd least_squares(const MatrixXd& m, const Eigen::VectorXd& right) {
+  return m.colPivHouseholderQr().solve(right);
+}
+
 struct DenseLu::Parts {
   Eigen::PartialPivLU<MatrixXd> lu;
 };

@@ -35,6 +35,9 @@ bool is_positive_definite(const Eigen::Matrix3d& m);
 /// x of m x = right.   m  symmetric and positive definite
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& m, const Eigen::MatrixXd& right);
 
+/// x of least |m x - right|, where m's columns are independent; dependent ones share as the pivots fall.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& m, const Eigen::VectorXd& right);
+
 /// x of m x = right, for many right sides.
 class DenseLu {
  public:

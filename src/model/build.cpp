@@ -9,29 +9,31 @@ namespace clench {
 // six digits of a metre and of a radian
 static constexpr double digits = 1e-5;
 
-// broken away is a joint whose DOF has gone on beyond it, inside the joint's limits; any other follows its DOF
-static std::vector<std::vector<Breakaway>> checked_breakaway(
-    const Robot& robot, const Eigen::VectorXd& q, const std::vector<std::vector<Breakaway>>& given,
-    const Listeners& listeners) {
+// inside its limits a joint of a compliant DOF may stand anywhere, and has broken away where its breakaway DOF has gone
+// on beyond it; any other follows its DOF
+static std::vector<std::vector<Apart>> checked_apart(const Robot& robot, const Eigen::VectorXd& q,
+                                                     const std::vector<std::vector<Apart>>& given,
+                                                     const Listeners& listeners) {
   auto out = given;
   if (out.size() != robot.chains.size())
-    fail("robot '{}': wanted breakaway states of {} chains, got {}", robot.name,
-         robot.chains.size(), out.size());
+    fail("robot '{}': wanted joint states of {} chains, got {}", robot.name, robot.chains.size(),
+         out.size());
   for (size_t c = 0; c < out.size(); ++c) {
     const auto& joints = robot.chains[c].joints;
     if (out[c].size() != joints.size())
-      fail("robot '{}': wanted breakaway states of {} joints, got {}", robot.name, joints.size(),
+      fail("robot '{}': wanted joint states of {} joints, got {}", robot.name, joints.size(),
            out[c].size());
     for (size_t j = 0; j < out[c].size(); ++j) {
       if (!out[c][j]) continue;
       const JointSpec& joint = joints[j];
-      const bool beyond = (joint.ratio * q[joint.dof] - *out[c][j]) * joint.ratio > 0;
+      const bool sprung = robot.dofs[joint.dof].kind == DofKind::compliant;
+      const bool beyond = sprung || (joint.ratio * q[joint.dof] - *out[c][j]) * joint.ratio > 0;
       if (beyond && *out[c][j] >= joint.min - digits && *out[c][j] <= joint.max + digits) continue;
       if (listeners.warn && beyond)
-        listeners.warn(
-            fmt::format("robot '{}': joint {} of chain {} broke away at {}, outside [{}, {}]; it "
-                        "follows its DOF",
-                        robot.name, j + 1, c + 1, *out[c][j], joint.min, joint.max));
+        listeners.warn(fmt::format(
+            "robot '{}': joint {} of chain {} {} at {}, outside [{}, {}]; it follows its DOF",
+            robot.name, j + 1, c + 1, sprung ? "stands" : "broke away", *out[c][j], joint.min,
+            joint.max));
       out[c][j].reset();
     }
   }
@@ -55,8 +57,8 @@ static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed
                        robot.name, i + 1, placed.dofs[i], low, high));
   }
   world.set_dofs(id, q);
-  if (!placed.breakaway.empty())
-    world.set_dofs_unchecked(id, q, checked_breakaway(robot, q, placed.breakaway, listeners));
+  if (!placed.apart.empty())
+    world.set_dofs_unchecked(id, q, checked_apart(robot, q, placed.apart, listeners));
 }
 
 static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robot> child,

@@ -83,7 +83,7 @@ PlacedRobot Describer::placed(const Robot& r) const {
   out.robot = robot(r);
   out.X_WB = world_.body(r.base).X_WB;
   out.dofs.assign(r.q.begin(), r.q.end());
-  for (const Chain& chain : r.chains) out.breakaway.push_back(chain.breakaway);
+  for (const Chain& chain : r.chains) out.apart.push_back(chain.apart);
   return out;
 }
 

@@ -4,7 +4,7 @@ namespace clench {
 
 double joint_value(const Robot& robot, int chain, int joint) {
   const Chain& c = robot.chains[chain];
-  if (c.breakaway[joint]) return *c.breakaway[joint];
+  if (c.apart[joint]) return *c.apart[joint];
   return c.joints[joint].ratio * robot.q[c.joints[joint].dof];
 }
 

@@ -16,8 +16,8 @@ struct Chain {
   int parent_link = -1;
   Pose X_BC;  ///< chain frame in the base, or in the parent link
   std::vector<JointSpec> joints;
-  std::vector<Breakaway> breakaway;       ///< one a joint: q where it broke away, else empty
-  std::vector<int> last_joints;           ///< one a link
+  std::vector<Apart> apart;      ///< one a joint: its own q, where it does not follow its DOF
+  std::vector<int> last_joints;  ///< one a link
   std::vector<std::optional<Pose>> X_JL;  ///< one a link: in the frame after its last joint
   std::vector<LinkJoint> link_joints;
   std::vector<Id<Body>> links;
@@ -53,7 +53,7 @@ struct Robot {
   std::shared_ptr<const PassiveParts> passive;  ///< null: none; nothing acts on them yet
 };
 
-/// q of a joint: ratio * dof, or where it broke away.
+/// q of a joint: ratio * dof, or its own.
 double joint_value(const Robot& robot, int chain, int joint);
 
 /// Frame of a joint after it has turned or slid by q, in the frame before.

@@ -155,12 +155,12 @@ Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::s
                 .parent_link = from.parent_link,
                 .X_BC = from.X_BC,
                 .joints = from.joints,
-                .breakaway = {},
+                .apart = {},
                 .last_joints = {},
                 .X_JL = {},
                 .link_joints = {},
                 .links = {}};
-    chain.breakaway.resize(from.joints.size());
+    chain.apart.resize(from.joints.size());
     for (size_t l = 0; l < from.links.size(); ++l) {
       chain.last_joints.push_back(from.links[l].last_joint);
       chain.X_JL.push_back(from.links[l].X_JL);
@@ -329,16 +329,16 @@ void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
     inside[i] = std::clamp(q[i], low, high);
   }
   // a value set by hand re-engages every joint
-  std::vector<std::vector<Breakaway>> engaged;
+  std::vector<std::vector<Apart>> engaged;
   for (const auto& chain : r.chains) engaged.emplace_back(chain.joints.size());
   set_dofs_unchecked(id, inside, engaged);
 }
 
 void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
-                               const std::vector<std::vector<Breakaway>>& breakaway) {
+                               const std::vector<std::vector<Apart>>& apart) {
   Robot& r = edit(id);
   r.q = q;
-  for (size_t c = 0; c < r.chains.size(); ++c) r.chains[c].breakaway = breakaway[c];
+  for (size_t c = 0; c < r.chains.size(); ++c) r.chains[c].apart = apart[c];
   place_links(id);
 }
 

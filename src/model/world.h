@@ -84,9 +84,9 @@ class World {
   /// throws  Error on a wrong count or a number that is not finite; values outside the limits are
   ///         refused by name
   void set_dofs(Id<Robot> robot, const Eigen::VectorXd& q);
-  /// the same with breakaway states, by chain and joint; used by motion, which has its own checks
+  /// the same, with joints that do not follow, by chain and joint; used by motion, which has its own checks
   void set_dofs_unchecked(Id<Robot> robot, const Eigen::VectorXd& q,
-                          const std::vector<std::vector<Breakaway>>& breakaway);
+                          const std::vector<std::vector<Apart>>& apart);
   /// null: each DOF is its own
   /// throws  Error when check_eigengrasps does, or the set is for another number of DOFs
   void set_eigengrasps(Id<Robot> robot, std::shared_ptr<const EigengraspSet> set);

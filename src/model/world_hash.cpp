@@ -68,8 +68,7 @@ uint64_t World::hash() const {
       add(h, r.mounting->X_LB);
     }
     for (const auto& chain : r.chains)
-      for (const auto& broken : chain.breakaway)
-        flag(broken.has_value()), h.add(broken.value_or(0));
+      for (const auto& broken : chain.apart) flag(broken.has_value()), h.add(broken.value_or(0));
   }
   for (const auto& name : state_.materials.names()) h.add(name);
   const int count = static_cast<int>(state_.materials.names().size());

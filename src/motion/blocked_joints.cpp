@@ -44,6 +44,17 @@ static Eigen::Vector3d point_velocity(const JointSpec& joint, const Pose& frame,
                                            : axis;
 }
 
+Eigen::Vector3d contact_velocity(const World& world, Id<Robot> id,
+                                 const std::vector<ChainFrames>& frames, JointPlace joint,
+                                 const Contact& contact) {
+  const bool moves_body = joint_moves(world, id, joint, contact.body);
+  if (moves_body == joint_moves(world, id, joint, contact.other)) return Eigen::Vector3d::Zero();
+  const Robot& robot = world.robot(id);
+  const auto [c, j] = joint;
+  const Pose frame = world.body(robot.base).X_WB * frames[c].axes[j];
+  return (moves_body ? 1 : -1) * point_velocity(robot.chains[c].joints[j], frame, contact.p_W);
+}
+
 namespace {
 
 /// What one joint does to a contact.
@@ -59,29 +70,23 @@ struct Share {
 // of joints that move one side of the contact, not both
 static std::vector<Share> shares_of(const World& world, Id<Robot> id,
                                     const std::vector<ChainFrames>& frames,
-                                    const std::vector<std::vector<double>>& speeds,
-                                    const Contact& contact) {
-  const Robot& robot = world.robot(id);
-  const Pose& X_WB = world.body(robot.base).X_WB;
+                                    const JointSpeeds& speeds, const Contact& contact) {
   std::vector<Share> shares;
-  for (int c = 0; c < static_cast<int>(robot.chains.size()); ++c)
-    for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j) {
+  for (int c = 0; c < static_cast<int>(speeds.size()); ++c)
+    for (int j = 0; j < static_cast<int>(speeds[c].size()); ++j) {
       if (speeds[c][j] == 0) continue;
       const bool moves_body = joint_moves(world, id, {c, j}, contact.body);
       if (moves_body == joint_moves(world, id, {c, j}, contact.other)) continue;
-      const Eigen::Vector3d v =
-          speeds[c][j] *
-          point_velocity(robot.chains[c].joints[j], X_WB * frames[c].axes[j], contact.p_W);
+      const Eigen::Vector3d v = speeds[c][j] * contact_velocity(world, id, frames, {c, j}, contact);
       shares.push_back({{c, j},
                         moves_body,
-                        (moves_body ? 1 : -1) * v.dot(contact.n_W),
+                        v.dot(contact.n_W),
                         std::max(grazing * v.norm(), no_lever * std::abs(speeds[c][j]))});
     }
   return shares;
 }
 
-BlockedJoints blocked_joints(const World& world, Id<Robot> id,
-                             const std::vector<std::vector<double>>& speeds,
+BlockedJoints blocked_joints(const World& world, Id<Robot> id, const JointSpeeds& speeds,
                              std::span<const Contact> touching, double closed) {
   const auto frames = chain_frames(world.robot(id));
   BlockedJoints out;

@@ -12,19 +12,26 @@ namespace clench {
 constexpr double grazing = 1e-6;
 
 using JointPlace = std::pair<int, int>;  ///< chain, joint
+using JointSpeeds =
+    std::vector<std::vector<double>>;  ///< by chain, by joint [rad or m per unit of path]
 
 struct BlockedJoints {
   std::set<JointPlace> joints;
   std::vector<BodyPair> pairs;  ///< whose contacts block; link first
 };
 
-/// speeds  of each joint, by chain [rad or m per unit of path]; a joint at 0 is never blocked
+/// speeds  a joint at 0 is never blocked
 /// touching  contacts of the robot's bodies, and of those of all robots that it carries
 /// A contact that all joints together lead apart blocks none. Of the others, each blocks the joints that alone would
 /// move one body into the other. A gap below `closed` [m] blocks also what would merely slide.
-BlockedJoints blocked_joints(const World& world, Id<Robot> robot,
-                             const std::vector<std::vector<double>>& speeds,
+BlockedJoints blocked_joints(const World& world, Id<Robot> robot, const JointSpeeds& speeds,
                              std::span<const Contact> touching, double closed);
+
+/// How fast the contact's body moves against the other at their point, one joint at unit speed: 0 when the joint moves
+/// neither or both.   frames  of the robot's chains;   returns  world axes [m per unit of the joint]
+Eigen::Vector3d contact_velocity(const World& world, Id<Robot> robot,
+                                 const std::vector<ChainFrames>& frames, JointPlace joint,
+                                 const Contact& contact);
 
 /// The link of the robot that the body is, or that carries it, as {chain, link}; chain -1: the base, or none.
 std::pair<int, int> carrying_link(const World& world, Id<Robot> robot, Id<Body> body);

@@ -1,4 +1,4 @@
-// Driving the DOFs of a robot until contact stops them: rigid and breakaway couplings. Continuous, never tunnelling.
+// Driving the DOFs of a robot until contact stops them: rigid, breakaway and compliant couplings. Continuous, never tunnelling.
 #pragma once
 #include <vector>
 
@@ -19,7 +19,7 @@ struct DriveOptions {
 };
 
 struct DriveResult {
-  bool moved = false;                ///< did any DOF change by more than 1e-5 [rad or m]?
+  bool moved = false;                ///< did any DOF or joint change by more than 1e-5 [rad or m]?
   std::vector<DofStop> stops;        ///< one a DOF: why it stopped
   std::vector<BodyPair> stopped_by;  ///< pairs whose contacts block a joint at the end; link first
   int queries = 0;                   ///< distance queries it took
@@ -33,8 +33,10 @@ struct DofMotion {
 };
 
 /// A contact stops the joints between it and the base that would push it in. A rigid DOF stops with any of its
-/// joints; a breakaway DOF leaves a stopped joint behind, closing, and picks it up there again, opening. A DOF whose
-/// joints come free goes on. The gaps that remain are in (0, threshold].
+/// joints; a breakaway DOF leaves a stopped joint behind, closing, and picks it up there again, opening. The joints of a
+/// compliant DOF follow their springs, see SpringBalance: it pulls on, and they give way and slide, until contacts and
+/// friction take up whatever more it pulls. A DOF whose joints come free goes on. The gaps that remain are in
+/// (0, threshold].
 /// throws Error naming the pairs when the robot starts in collision, or when a number is out of order
 DriveResult drive(World& world, Id<Robot> robot, const DofMotion& motion,
                   const DriveOptions& options = {});

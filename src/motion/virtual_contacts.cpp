@@ -40,7 +40,7 @@ Robot opened(Robot robot) {
     robot.q[i] = v > 0 ? low : v < 0 ? high : std::clamp(0.0, low, high);
   }
   for (Chain& chain : robot.chains)
-    for (Breakaway& broken : chain.breakaway) broken.reset();
+    for (Apart& broken : chain.apart) broken.reset();
   return robot;
 }
 

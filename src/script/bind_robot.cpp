@@ -50,7 +50,7 @@ static int get_links(lua_State* L) {
 
 static void push_joint(lua_State* L, const Robot& robot, int chain, int joint) {
   const JointSpec& spec = robot.chains[chain].joints[joint];
-  push_list(L, 0, 8);
+  push_list(L, 0, 11);
   if (!spec.name.empty()) set_field(L, "name", std::string_view(spec.name));
   set_field(L, "kind", spec.kind == JointKind::revolute ? "revolute" : "prismatic");
   set_field(L, "dof", spec.dof + 1);
@@ -58,7 +58,11 @@ static void push_joint(lua_State* L, const Robot& robot, int chain, int joint) {
   set_field(L, "min", spec.min);
   set_field(L, "max", spec.max);
   set_field(L, "value", joint_value(robot, chain, joint));
-  set_field(L, "broken_away", robot.chains[chain].breakaway[joint].has_value());
+  const bool apart = robot.chains[chain].apart[joint].has_value();
+  const DofKind kind = robot.dofs[spec.dof].kind;
+  set_field(L, "broken_away", apart && kind == DofKind::breakaway);
+  set_field(L, "wound", spec.ratio * robot.q[spec.dof] - joint_value(robot, chain, joint));
+  if (spec.spring > 0) set_field(L, "spring", spec.spring), set_field(L, "rest", spec.rest);
 }
 
 static int get_chains(lua_State* L) {
@@ -97,23 +101,22 @@ static Eigen::VectorXd check_dofs(lua_State* L, int i, const Robot& robot) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<int>(values.size()));
 }
 
-// rows {chain, joint, value} of joints that have broken away
-static std::vector<std::vector<Breakaway>> check_broken(Table& options, const Robot& robot) {
-  std::vector<std::vector<Breakaway>> out;
+// rows {chain, joint, value} of joints that do not follow their DOFs
+static std::vector<std::vector<Apart>> check_apart(Table& options, const Robot& robot) {
+  std::vector<std::vector<Apart>> out;
   for (const Chain& chain : robot.chains) out.emplace_back(chain.joints.size());
-  for (const auto& row : options.rows("broken_away", 3)) {
+  for (const auto& row : options.rows("apart", 3)) {
     const auto number = [&](double x, size_t count, const char* what) {
       if (!(x >= 1 && x <= static_cast<double>(count) && x == std::floor(x)))
-        fail("{}: broken_away: wanted a {} from 1 to {}, got {}", options.subject(), what, count,
-             x);
+        fail("{}: apart: wanted a {} from 1 to {}, got {}", options.subject(), what, count, x);
       return static_cast<size_t>(x) - 1;
     };
     const size_t c = number(row[0], out.size(), "chain");
     const size_t j = number(row[1], out[c].size(), "joint");
     const JointSpec& joint = robot.chains[c].joints[j];
     if (!(row[2] >= joint.min - 1e-9 && row[2] <= joint.max + 1e-9))
-      fail("{}: broken_away: joint {} of chain {}: wanted a value in [{}, {}], got {}",
-           options.subject(), j + 1, c + 1, joint.min, joint.max, row[2]);
+      fail("{}: apart: joint {} of chain {}: wanted a value in [{}, {}], got {}", options.subject(),
+           j + 1, c + 1, joint.min, joint.max, row[2]);
     out[c][j] = row[2];
   }
   return out;
@@ -124,13 +127,13 @@ static int set_dofs(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const Eigen::VectorXd values = check_dofs(L, 2, *robot);
   Table options(L, 3);
-  std::vector<std::vector<Breakaway>> broken;
-  if (options.has("broken_away")) broken = check_broken(options, *robot);
+  std::vector<std::vector<Apart>> apart;
+  if (options.has("apart")) apart = check_apart(options, *robot);
   options.done();
   robot.world->set_dofs(robot.id, values);
-  if (!broken.empty()) {
+  if (!apart.empty()) {
     const Eigen::VectorXd q = robot->q;
-    robot.world->set_dofs_unchecked(robot.id, q, broken);
+    robot.world->set_dofs_unchecked(robot.id, q, apart);
   }
   return 0;
 }
@@ -342,7 +345,7 @@ Its links, chain by chain, without the base.
 @type body[]
 > #hand.links  --> 12)"},
     {"chains", guarded<get_chains>, R"(
-Its chains: `parent`, the base or the link that it begins on; `pose` in the parent, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away).
+Its chains: `parent`, the base or the link that it begins on; `pose` in the parent, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, wound: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, of joints that have one).
 @type table[]
 > #hand.chains  --> 4
 > hand.chains[1].joints[1].kind  --> revolute)"},
@@ -384,10 +387,10 @@ A link, or the base, by its name, whole or without the robot's.
 > hand:link "chain0_link2" == hand.chains[1].links[3]  --> true
 > hand:link "chain9_link0"  --> error: has no link)"},
     {"set_dofs", guarded<set_dofs>, R"(
-Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away follow again, but
-for those that the options name by chain, joint and the value at which they stand [rad or m].
+Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away, or were
+held against their springs, follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
 @param values number[]  within the limits [rad or m]
-@param options? {broken_away?: number[][]}  rows {chain, joint, value}
+@param options? {apart?: number[][]}  rows {chain, joint, value}
 > hand:set_dofs{1, 2, 3}  --> error: wanted 12 DOF values, got 3)"},
     {"move_dofs", guarded<move_dofs>, R"(
 Drives all DOFs in proportion towards values, until contact stops them.
@@ -397,7 +400,7 @@ Drives all DOFs in proportion towards values, until contact stops them.
 > hand:move_dofs(hand.dofs).moved  --> false)"},
     {"autograsp", guarded<autograsp>, R"(
 Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway
-fingers go on beyond the joint that is stopped. Negative speed opens.
+fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they give way and slide, until contacts take up whatever more it pulls. Negative speed opens.
 @param options? {speed?: number, stop_at_contact?: boolean}
 @return table result  `moved`, `stops` (a DOF each: "contact", "limit", "reached", "still", "gave up"), `stopped_by` (pairs), `queries`, `events`
 > hand:autograsp().moved  --> false

@@ -38,6 +38,8 @@ struct JointSpec {
   JointKind kind = JointKind::revolute;
   int dof = 0;
   double ratio = 1;
+  double pull =
+      0;  ///< of a compliant DOF: what the ratio was made of, see couple_by_springs; 0: not made
   double theta = 0, d = 0, a = 0, alpha = 0;  ///< constant parts [rad, m, m, rad]
   bool placed_freely = false;                 ///< has it fixed poses of its own?
   Pose X_before = {}, X_after = {};           ///< then; z after X_before is the axis

@@ -18,14 +18,15 @@ struct PlacedBody {
   Pose X_WB;
 };
 
-/// Breakaway state of one joint: empty while the joint follows its DOF, else q where it stopped [rad or m].
-using Breakaway = std::optional<double>;
+/// Of one joint: empty while it stands where its DOF has it, else its own q: it has broken away from a breakaway
+/// DOF, or is held against its spring by what a compliant finger touches [rad or m].
+using Apart = std::optional<double>;
 
 struct PlacedRobot {
   RobotSpec robot;
   Pose X_WB;
-  std::vector<double> dofs;                       ///< one a DOF [rad or m]
-  std::vector<std::vector<Breakaway>> breakaway;  ///< by chain, by joint; empty: none broken away
+  std::vector<double> dofs;               ///< one a DOF [rad or m]
+  std::vector<std::vector<Apart>> apart;  ///< by chain, by joint; empty: all follow their DOFs
 };
 
 /// The child's base is fixed to the last link of the parent's chain.

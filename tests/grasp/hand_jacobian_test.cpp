@@ -64,8 +64,8 @@ Arranged arrange(const std::string& hand, bool on_arm, Random& random) {
 VectorXd measured_column(const Arranged& a, Id<Robot> robot, int dof) {
   const double h = 1e-6;
   World plus = a.world, minus = a.world;
-  std::vector<std::vector<Breakaway>> broken;
-  for (const auto& chain : a.world.robot(robot).chains) broken.push_back(chain.breakaway);
+  std::vector<std::vector<Apart>> broken;
+  for (const auto& chain : a.world.robot(robot).chains) broken.push_back(chain.apart);
   VectorXd q = a.world.robot(robot).q;
   q[dof] += h;
   plus.set_dofs_unchecked(robot, q, broken);
@@ -120,8 +120,8 @@ TEST_CASE("a joint that has broken away is moved by no DOF, and held by its clut
   Random random(2);
   Arranged a = arrange("barrett/barrett.cfg", false, random);
   const Robot& robot = a.world.robot(a.grasp.hand);
-  std::vector<std::vector<Breakaway>> broken;
-  for (const auto& chain : robot.chains) broken.push_back(chain.breakaway);
+  std::vector<std::vector<Apart>> broken;
+  for (const auto& chain : robot.chains) broken.push_back(chain.apart);
   int chain = -1, joint = -1;
   for (int c = 0; c < static_cast<int>(robot.chains.size()) && chain < 0; ++c)
     for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j)
@@ -166,4 +166,21 @@ TEST_CASE("a rigid DOF is one balance, a compliant one as many as it has joints"
       CHECK(balance.springs[1] == doctest::Approx(-0.1 * 0.35));
     CHECK(balance.high[0] == std::numeric_limits<double>::infinity());
   }
+}
+
+TEST_CASE(
+    "the tendon of a compliant DOF holds all of its springs in free air, and does the DOF's work") {
+  RobotSpec spec = test::two_finger(DofKind::compliant);
+  for (auto& chain : spec.chains) chain.joints[0].spring = 0.1, chain.joints[1].spring = 0.3;
+  World world;
+  Grasp grasp;
+  grasp.hand = world.add_robot(spec, Pose());
+  grasp.object = world.add_body(test::body_spec("thing", test::box(0.1, 0.1, 0.1)),
+                                BodyKind::object, Pose::translation({1, 0, 0}));
+  world.set_dofs(grasp.hand, Eigen::Vector2d(0.3, 0.5));
+  const JointBalance balance = joint_balance(world, grasp);
+  CHECK(balance.tendons[0] == doctest::Approx((0.1 + 0.25 * 0.3) * 0.3));
+  CHECK((balance.efforts * balance.tendons + balance.springs).norm() < 1e-15);
+  const Eigen::Vector4d ratios(1, 0.5, 1, 0.5);
+  CHECK(balance.efforts.col(0).dot(ratios) == doctest::Approx(1));
 }

@@ -59,11 +59,11 @@ TEST_CASE("DOF values are written by kind: breakaway ones with the state of each
   CHECK(r.dofs[0] == doctest::Approx(0.005));  // it slides: mm
   CHECK(r.dofs[1] == 0.9);
   CHECK(r.dofs[2] == -0.5);
-  REQUIRE(r.breakaway.size() == 1);
-  REQUIRE(r.breakaway[0].size() == 5);
-  CHECK_FALSE(r.breakaway[0][1]);
-  CHECK(r.breakaway[0][2] == 0.125);  // 0.25 of the DOF, ratio 0.5
-  CHECK_FALSE(r.breakaway[0][3]);
+  REQUIRE(r.apart.size() == 1);
+  REQUIRE(r.apart[0].size() == 5);
+  CHECK_FALSE(r.apart[0][1]);
+  CHECK(r.apart[0][2] == 0.125);  // 0.25 of the DOF, ratio 0.5
+  CHECK_FALSE(r.apart[0][3]);
 }
 
 TEST_CASE("a broken-away joint is written as the value of its DOF, and kept as its own") {
@@ -78,10 +78,10 @@ TEST_CASE("a broken-away joint is written as the value of its DOF, and kept as i
       folder.write("w.wld", head + "Robot\nhand.cfg\n+0.9 0 1 0.9 5 0 1 6 # broken away\n" + stay);
   const PlacedRobot r = read_world(file).robots[0];
   CHECK(r.dofs[0] == 0.9);
-  CHECK_FALSE(r.breakaway[0][0]);
-  CHECK(*r.breakaway[0][1] == doctest::Approx(0.3));
-  CHECK_FALSE(r.breakaway[0][2]);
-  CHECK(*r.breakaway[0][3] == doctest::Approx(0.012));  // 6 mm of the DOF are 12 of the joint
+  CHECK_FALSE(r.apart[0][0]);
+  CHECK(*r.apart[0][1] == doctest::Approx(0.3));
+  CHECK_FALSE(r.apart[0][2]);
+  CHECK(*r.apart[0][3] == doctest::Approx(0.012));  // 6 mm of the DOF are 12 of the joint
 }
 
 TEST_CASE("surplus words in a world are not used, with a warning") {
@@ -153,7 +153,7 @@ TEST_CASE("an empty world is a world") { CHECK(wld_world_of(head).order.empty())
 
 TEST_CASE("the test worlds of two fingers are read") {
   const WorldSpec w = read_world("tests/data/two_finger/claw.wld");
-  CHECK(w.robots[0].breakaway[0][1] == 0.01);  // 0.02 of the DOF, ratio 0.5
+  CHECK(w.robots[0].apart[0][1] == 0.01);  // 0.02 of the DOF, ratio 0.5
   CHECK(w.bodies[0].role == Role::obstacle);
   CHECK(read_world("tests/data/two_finger/pinch.wld").camera);
 }

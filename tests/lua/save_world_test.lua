@@ -33,7 +33,7 @@ local function rich_world()
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   local hand, flask = world.robots[1], world.objects[1]
   local claw = world:add_robot("tests/data/two_finger/claw.cfg", {name = "the claw", pose = {xyz = {0.5, 0, 0.1}, rpy = {0.1, 0.2, 0.3}}})
-  claw:set_dofs({claw.dof_limits[1][2] / 2, 0}, {broken_away = {{1, 1, 0.001}}})
+  claw:set_dofs({claw.dof_limits[1][2] / 2, 0}, {apart = {{1, 1, 0.001}}})
   world:set_friction("cork", "wood", {static = 0.9, kinetic = 0.1})
   world:set_friction("felt", "cork", {static = 0.7})
   world:set_friction("glass", "metal", {static = 0.3, kinetic = 0.3})
@@ -224,14 +224,14 @@ end)
 test("joints that broke away are set by chain, joint and value", function(t)
   local claw = clench.world():add_robot "tests/data/two_finger/claw.cfg"
   local high = claw.dof_limits[1][2]
-  claw:set_dofs({high, high}, {broken_away = {{2, 1, 0}}})
+  claw:set_dofs({high, high}, {apart = {{2, 1, 0}}})
   t.equal(claw.chains[2].joints[1].broken_away, true)
   t.equal(claw.chains[2].joints[1].value, 0)
   t.equal(claw.chains[1].joints[1].broken_away, false)
   claw:set_dofs {high, high}
   t.equal(claw.chains[2].joints[1].broken_away, false)
   for bad, text in pairs {[{3, 1, 0}] = "wanted a chain from 1 to 2, got 3", [{1, 7, 0}] = "wanted a joint from 1 to", [{1, 1, 99}] = "wanted a value in"} do
-    t.fails(function() claw:set_dofs({0, 0}, {broken_away = {bad}}) end, text)
+    t.fails(function() claw:set_dofs({0, 0}, {apart = {bad}}) end, text)
   end
 end)
 

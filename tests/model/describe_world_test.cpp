@@ -36,11 +36,11 @@ static World any_world(uint64_t seed) {
     } else {
       const auto id = world.add_robot(two_finger(DofKind::breakaway), any_pose(random));
       world.set_dofs(id, Eigen::Vector2d(random.uniform(0, 1), random.uniform(0, 1)));
-      auto broken = world.robot(id).chains[0].breakaway;
+      auto broken = world.robot(id).chains[0].apart;
       // behind where its DOF has gone
       broken[0] = 0.5 * world.robot(id).q[0];
       world.set_dofs_unchecked(id, world.robot(id).q,
-                               {broken, world.robot(id).chains[1].breakaway});
+                               {broken, world.robot(id).chains[1].apart});
       if (!robots.empty() && chance(0.7)) {
         const BodySpec ring = body_spec("ring", box(0.01, 0.01, 0.01));
         world.mount(id, robots.back(), chance(0.5) ? 1 : 0, any_pose(random),
@@ -134,10 +134,10 @@ TEST_CASE("each difference of two worlds has its phrase") {
   CHECK(only([&](World& w) { w.set_collision(false, cup); }) == phrase("which bodies may collide"));
   CHECK(only([&](World& w) { w.set_collision(false); }) == phrase("which bodies may collide"));
   CHECK(only([&](World& w) {
-          auto broken = w.robot(hand).chains[0].breakaway;
+          auto broken = w.robot(hand).chains[0].apart;
           broken[0] = 0.5;
-          w.set_dofs_unchecked(hand, w.robot(hand).q, {broken, w.robot(hand).chains[1].breakaway});
-        }) == phrase("the joints of 'gripper' that have broken away"));
+          w.set_dofs_unchecked(hand, w.robot(hand).q, {broken, w.robot(hand).chains[1].apart});
+        }) == phrase("the joints of 'gripper' that do not follow their DOFs"));
   CHECK(only([&](World& w) { w.remove(cup); }) == phrase("its number of bodies"));
 }
 

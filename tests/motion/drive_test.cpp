@@ -89,15 +89,15 @@ TEST_CASE("a breakaway finger goes on closing beyond the joint that contact stop
   autograsp(rigid.world, rigid.hand);
   autograsp(breakaway.world, breakaway.hand);
   const auto& chain = breakaway.robot().chains[0];
-  REQUIRE(chain.breakaway[0]);
-  CHECK(*chain.breakaway[0] == doctest::Approx(rigid.robot().q[0]).epsilon(0.02));
+  REQUIRE(chain.apart[0]);
+  CHECK(*chain.apart[0] == doctest::Approx(rigid.robot().q[0]).epsilon(0.02));
   CHECK(breakaway.robot().q[0] > rigid.robot().q[0] + 0.1);
   CHECK(joint_value(breakaway.robot(), 0, 1) > joint_value(rigid.robot(), 0, 1) + 0.05);
   CHECK(colliding_pairs(breakaway.world).empty());
 
   // opening picks the joint up where it was left
   open_hand(breakaway.world, breakaway.hand);
-  CHECK_FALSE(breakaway.robot().chains[0].breakaway[0]);
+  CHECK_FALSE(breakaway.robot().chains[0].apart[0]);
   CHECK(breakaway.robot().q == Eigen::Vector2d(0, 0));
 }
 

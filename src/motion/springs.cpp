@@ -1,0 +1,146 @@
+#include "motion/springs.h"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "contact/cone.h"
+#include "math/nonnegative_least_squares.h"
+
+namespace clench {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// a joint this near its limit is there [rad or m]
+static constexpr double at_limit = 1e-9;
+// rounding of a way [rad or m]
+static constexpr double nowhere = 1e-12;
+static constexpr int pyramid_edges = 8;
+// of the contact threshold: where closing stops anyhow
+static constexpr double least_gap = 0.2;
+
+namespace {
+
+// has every joint of the DOF a spring?
+bool all_sprung(const Robot& robot, int dof) {
+  for (const Chain& chain : robot.chains)
+    for (const JointSpec& joint : chain.joints)
+      if (joint.dof == dof && !(joint.spring > 0)) return false;
+  return true;
+}
+
+// forces on the contact's body at the edges of its friction cone
+std::vector<Vector3d> edges_of(const Contact& contact, bool sliding) {
+  const double mu = sliding ? contact.friction.kinetic : contact.friction.statics;
+  if (mu == 0) return {contact.n_W};
+  const Eigen::Matrix3d frame = contact_frame(contact.n_W);
+  std::vector<Vector3d> edges;
+  for (int i = 0; i < pyramid_edges; ++i) {
+    const double angle = 2 * std::numbers::pi * i / pyramid_edges;
+    edges.push_back(contact.n_W +
+                    mu * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1)));
+  }
+  return edges;
+}
+
+// The y nearest to `to` with sides^T y >= least, a column a side; empty: there is none.
+// source  Lawson & Hanson (1974), Solving least squares problems, ch. 23: least distance programming
+std::optional<VectorXd> nearest_allowed(const Eigen::MatrixXd& sides, const VectorXd& least,
+                                        const VectorXd& to) {
+  const int n = static_cast<int>(to.size());
+  // lengths of about 1 keep the digits
+  const double size = to.norm() > 0 ? to.norm() : 1;
+  Eigen::MatrixXd both(n + 1, sides.cols());
+  both.topRows(n) = sides;
+  both.row(n) = ((least - sides.transpose() * to) / size).transpose();
+  const VectorXd unit = VectorXd::Unit(n + 1, n);
+  const VectorXd rest = both * nonnegative_least_squares(both, unit) - unit;
+  if (rest[n] > -1e-12) return {};
+  return to - size * rest.head(n) / rest[n];
+}
+
+}  // namespace
+
+SpringBalance::SpringBalance(const World& world, Id<Robot> id, std::span<const Contact> touching,
+                             bool sliding) {
+  const Robot& robot = world.robot(id);
+  for (int c = 0; c < static_cast<int>(robot.chains.size()); ++c) {
+    const auto& joints = robot.chains[c].joints;
+    none_.emplace_back(joints.size(), 0.0);
+    for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
+      const JointSpec& joint = joints[j];
+      if (robot.dofs[joint.dof].kind != DofKind::compliant) continue;
+      joints_.push_back({{c, j},
+                         joint.dof,
+                         joint.ratio,
+                         all_sprung(robot, joint.dof) ? joint.spring : 1,
+                         joint.ratio * robot.q[joint.dof] - joint_value(robot, c, j)});
+    }
+  }
+
+  add_reactions(world, id, touching, sliding);
+}
+
+void SpringBalance::add_reactions(const World& world, Id<Robot> id,
+                                  std::span<const Contact> touching, bool sliding) {
+  const Robot& robot = world.robot(id);
+  const int count = static_cast<int>(joints_.size());
+  std::vector<VectorXd> columns;
+  std::vector<double> opens;
+  const auto add = [&](const VectorXd& torques, double open) {
+    columns.push_back(torques);
+    opens.push_back(open);
+  };
+  const auto frames = chain_frames(robot);
+  for (const Contact& contact : touching) {
+    Eigen::Matrix3Xd velocities(3, count);
+    for (int i = 0; i < count; ++i)
+      velocities.col(i) = contact_velocity(world, id, frames, joints_[i].place, contact);
+    if (velocities.isZero(0)) continue;
+    const double open = std::max(0.0, least_gap * world.contact_threshold() - contact.gap);
+    for (const Vector3d& edge : edges_of(contact, sliding))
+      add(velocities.transpose() * edge, open);
+  }
+  for (int i = 0; i < count; ++i) {
+    const auto [c, j] = joints_[i].place;
+    const JointSpec& joint = robot.chains[c].joints[j];
+    const double q = joint_value(robot, c, j);
+    if (q <= joint.min + at_limit) add(VectorXd::Unit(count, i), 0);
+    if (q >= joint.max - at_limit) add(-VectorXd::Unit(count, i), 0);
+  }
+  reactions_.resize(count, static_cast<int>(columns.size()));
+  opens_.resize(static_cast<int>(columns.size()));
+  for (int k = 0; k < reactions_.cols(); ++k) {
+    opens_[k] = opens[k];
+    for (int i = 0; i < count; ++i)
+      reactions_(i, k) = columns[k][i] / std::sqrt(joints_[i].stiffness);
+  }
+}
+
+JointSpeeds SpringBalance::way() const {
+  VectorXd drawn(static_cast<int>(joints_.size()));
+  for (int i = 0; i < drawn.size(); ++i)
+    drawn[i] = std::sqrt(joints_[i].stiffness) * joints_[i].wound;
+  auto way = nearest_allowed(reactions_, opens_, drawn);
+  // contacts on both sides that cannot all open
+  if (!way) way = nearest_allowed(reactions_, VectorXd::Zero(opens_.size()), drawn);
+  JointSpeeds out = none_;
+  for (int i = 0; way && i < drawn.size(); ++i) {
+    const double far = (*way)[i] / std::sqrt(joints_[i].stiffness);
+    if (std::abs(far) > nowhere) out[joints_[i].place.first][joints_[i].place.second] = far;
+  }
+  return out;
+}
+
+bool SpringBalance::takes_up(int dof, double sense) const {
+  constexpr double rounding = 1e-9;  // of the torque
+  VectorXd torques = VectorXd::Zero(static_cast<int>(joints_.size()));
+  for (int i = 0; i < torques.size(); ++i)
+    if (joints_[i].dof == dof)
+      torques[i] = sense * std::sqrt(joints_[i].stiffness) * joints_[i].ratio;
+  const VectorXd left = torques + reactions_ * nonnegative_least_squares(-reactions_, torques);
+  return left.norm() <= rounding * torques.norm();
+}
+
+}  // namespace clench

@@ -1,0 +1,160 @@
+#include "motion/springs.h"
+
+#include <array>
+#include <random>
+
+#include "motion/drive.h"
+#include "support/robots.h"
+
+using namespace clench;
+using namespace clench::test;
+
+namespace {
+
+using std::numbers::pi;
+
+// two fingers whose joints are held by springs alone, and something between them that may be without friction
+struct SpringBench {
+  World world;
+  Id<Robot> hand;
+  Id<Body> object;
+
+  SpringBench(std::array<double, 2> springs, const std::string& material, Eigen::Vector3d at,
+              Mesh mesh = ball(0.015)) {
+    RobotSpec spec = two_finger(DofKind::compliant, 0.5);
+    for (ChainSpec& chain : spec.chains)
+      for (int j = 0; j < 2; ++j) chain.joints[j].spring = springs[j];
+    hand = world.add_robot(spec, {});
+    BodySpec body = body_spec("object", std::move(mesh));
+    body.material = material;
+    object = world.add_body(body, BodyKind::object, Pose::translation(at));
+  }
+  const Robot& robot() const { return world.robot(hand); }
+  double q(int chain, int joint) const { return joint_value(robot(), chain, joint); }
+  std::vector<Contact> touching() const {
+    return contacts(world, world.bodies(), world.bodies_of(hand));
+  }
+  double unrest() const {
+    double most = 0;
+    for (const auto& chain : SpringBalance(world, hand, touching()).way())
+      for (const double x : chain) most = std::max(most, std::abs(x));
+    return most;
+  }
+};
+
+// what the springs of a finger hold, its tendon at q
+double energy(const Robot& robot, int chain, double q, double first, double second) {
+  const auto& joints = robot.chains[chain].joints;
+  const double a = joints[0].ratio * q - first, b = joints[1].ratio * q - second;
+  return 0.5 * (joints[0].spring * a * a + joints[1].spring * b * b);
+}
+
+// The least energy of a finger over postures near its own that do not collide: slow and obvious.
+double least_energy_nearby(const SpringBench& bench, int chain, double q, double reach) {
+  World world = bench.world;
+  const int cells = 100;
+  double best = std::numeric_limits<double>::infinity();
+  std::vector<std::vector<Apart>> apart;
+  for (const int c : {0, 1}) apart.push_back({bench.q(c, 0), bench.q(c, 1)});
+  for (int i = 0; i <= cells; ++i)
+    for (int j = 0; j <= cells; ++j) {
+      const double first =
+          std::clamp(bench.q(chain, 0) + reach * (2.0 * i / cells - 1), 0.0, pi / 2);
+      const double second =
+          std::clamp(bench.q(chain, 1) + reach * (2.0 * j / cells - 1), 0.0, pi / 2);
+      const double e = energy(bench.robot(), chain, q, first, second);
+      if (e >= best) continue;
+      apart[chain] = {first, second};
+      world.set_dofs_unchecked(bench.hand, world.robot(bench.hand).q, apart);
+      if (colliding_pairs(world, world.robot(bench.hand).chains[chain].links, world.bodies())
+              .empty())
+        best = e;
+    }
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("without friction a finger comes to rest where its springs hold least") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> x(-0.01, 0.01), y(0.03, 0.09), k(0.2, 5);
+  for (int run = 0; run < 30; ++run) {
+    SpringBench bench({k(random), k(random)}, "frictionless", {x(random), y(random), 0});
+    const auto result = autograsp(bench.world, bench.hand);
+    CHECK(result.moved);
+    REQUIRE(colliding_pairs(bench.world).empty());
+    CHECK(bench.unrest() <= 1e-5);  // where a drive takes springs for at rest
+    for (const int c : {0, 1}) {
+      const double q = bench.robot().q[c];
+      const double here = energy(bench.robot(), c, q, bench.q(c, 0), bench.q(c, 1));
+      // torques of up to 8 N m on levers of 30 mm and more press with at most 260 N through a gap of 0.1 mm
+      CHECK(here <= least_energy_nearby(bench, c, q, 0.02) + 0.026);
+    }
+  }
+}
+
+TEST_CASE("with friction the springs' torques are what contacts within their cones can give") {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> x(-0.01, 0.01), y(0.03, 0.09), k(0.2, 5);
+  for (int run = 0; run < 30; ++run) {
+    SpringBench bench({k(random), k(random)}, run % 2 ? "rubber" : "plastic",
+                      {x(random), y(random), 0}, run % 3 ? ball(0.015) : box(0.02, 0.02, 0.02));
+    autograsp(bench.world, bench.hand);
+    REQUIRE(colliding_pairs(bench.world).empty());
+    CHECK(bench.unrest() <= 1e-5);
+  }
+}
+
+TEST_CASE("a finger that is opened again follows its tendon back") {
+  for (const char* material : {"frictionless", "plastic", "rubber"}) {
+    SpringBench bench({1, 2}, material, {0.004, 0.06, 0});
+    autograsp(bench.world, bench.hand);
+    CHECK(bench.robot().chains[0].apart[0]);
+    const auto result = autograsp(bench.world, bench.hand, -1);
+    CHECK(bench.robot().q.isZero(0));
+    for (const int c : {0, 1})
+      for (const int j : {0, 1}) {
+        CHECK(bench.q(c, j) == 0);
+        CHECK_FALSE(bench.robot().chains[c].apart[j]);
+        CHECK(result.stops[c] == DofStop::limit);
+      }
+  }
+}
+
+TEST_CASE("the weaker of two joints gives way more") {
+  // a tip that meets a wall without friction: the joints' torques are as their levers, so deviations as levers over
+  // stiffness
+  const auto deviations = [](double first, double second) {
+    SpringBench bench({first, second}, "frictionless", {0.005, 0.09, 0}, box(0.03, 0.01, 0.05));
+    const auto result = autograsp(bench.world, bench.hand);
+    CHECK(result.moved);
+    const auto& joints = bench.robot().chains[0].joints;
+    const double q = bench.robot().q[0];
+    return Eigen::Vector2d(joints[0].ratio * q - bench.q(0, 0),
+                           joints[1].ratio * q - bench.q(0, 1));
+  };
+  const Eigen::Vector2d weak_root = deviations(1, 10), weak_tip = deviations(10, 1);
+  CHECK(weak_root[0] > 0.1);
+  CHECK(weak_root[0] / weak_root[1] > 3 * weak_tip[0] / weak_tip[1]);
+}
+
+TEST_CASE("closing a hand on springs is the same wherever its world stands, and each time") {
+  SpringBench bench({1, 2}, "plastic", {0.004, 0.06, 0}), again = bench, moved = bench;
+  const Pose X(Eigen::Quaterniond(Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized())),
+               {0.3, -0.2, 0.1});
+  moved.world.set_pose(moved.hand, X);
+  moved.world.set_pose(moved.object, X * moved.world.body(moved.object).X_WB);
+  for (SpringBench* b : {&bench, &again, &moved}) autograsp(b->world, b->hand);
+  CHECK(bench.world.hash() == again.world.hash());
+  // the threshold lets gaps differ by 0.1 mm, on fingers of 50 mm
+  for (const int c : {0, 1})
+    for (const int j : {0, 1}) CHECK(std::abs(bench.q(c, j) - moved.q(c, j)) < 0.005);
+}
+
+TEST_CASE("a drive that is to stop at a touch stops where springs would go on") {
+  SpringBench bench({1, 2}, "frictionless", {0.004, 0.06, 0});
+  const auto result = autograsp(bench.world, bench.hand, 1, {.stop_at_contact = true});
+  CHECK(result.stops[0] == DofStop::contact);
+  CHECK(bench.touching().size() > 0);
+  CHECK(std::abs(bench.q(0, 0) - bench.robot().q[0]) < 1e-12);
+}
