@@ -203,7 +203,8 @@ ForceProgram make_program(const World& world, const Grasp& grasp, const ForceOpt
   add_cones(p, grasp, options, chosen);
   add_totals(p, options);
   if (chosen) add_objective(p, grasp, options.objective);
-  p.joints = joint_balance(world, grasp, options.joints && options.joints->arms);
+  p.joints = joint_balance(world, grasp, options.joints && options.joints->arms,
+                           options.joints && options.joints->link_weights);
   if (options.joints) add_joints(p, world, grasp, *options.joints);
   p.program = p.builder.program();
   p.solution = solve(p.program);
@@ -392,11 +393,13 @@ ForceResult answer(const World& world, const Grasp& grasp, const ForceOptions& o
 }  // namespace
 
 ForceResult contact_forces(const World& world, const Grasp& grasp, const ForceOptions& options) {
+  check_unmoved(world, grasp);
   check_options(world, grasp, options);
   return answer(world, grasp, options, options.nearest ? Question::nearest : Question::forces);
 }
 
 ForceResult largest_load(const World& world, const Grasp& grasp, const ForceOptions& options) {
+  check_unmoved(world, grasp);
   check_options(world, grasp, options);
   if (options.load.isZero(0)) fail("largest load: the direction must not be 0");
   return answer(world, grasp, options, Question::largest);

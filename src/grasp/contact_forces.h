@@ -24,8 +24,9 @@ struct JointDemand {
   bool springs_only = false;
   bool closing_only = false;  ///< efforts that open the hand are not allowed
   std::optional<double>
-      total_torque;   ///< sum of the hand's efforts, along which it closes [N m or N]
-  bool arms = false;  ///< limits of the robots that carry the hand, too
+      total_torque;           ///< sum of the hand's efforts, along which it closes [N m or N]
+  bool arms = false;          ///< limits of the robots that carry the hand, too
+  bool link_weights = false;  ///< motors hold the links up as well, and what robots they carry
 };
 
 struct ForceOptions {
@@ -84,8 +85,8 @@ struct ForceResult {
   std::optional<ForceCertificate> certificate = {};
 };
 
-/// Contacts must be as the grasp was measured. None is no error: nothing holds only what is no load.
-/// throws  Error when an option is out of order
+/// No contacts are no error: nothing holds only what is no load.
+/// throws  Error when an option is out of order, or as check_unmoved does
 ForceResult contact_forces(const World& world, const Grasp& grasp, const ForceOptions& options);
 
 /// The largest multiple of the load's direction, options.load, that forces balance, as load_factor; the objective does

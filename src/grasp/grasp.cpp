@@ -24,6 +24,31 @@ static void add_torsion(Grasp& grasp, const GraspOptions& options) {
   }
 }
 
+static GraspPosture posture_of(const World& world, Id<Robot> hand, Id<Body> object) {
+  const Robot& robot = world.robot(hand);
+  GraspPosture out{world.body(robot.base).X_WB.inverse() * world.body(object).X_WB, {}};
+  for (int c = 0; c < static_cast<int>(robot.chains.size()); ++c)
+    for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j)
+      out.joints.push_back(joint_value(robot, c, j));
+  return out;
+}
+
+void check_unmoved(const World& world, const Grasp& grasp) {
+  // of metres and radians: a hundredth of the usual contact threshold, far above rounding
+  constexpr double moved = 1e-6;
+  if (!grasp.posture) return;
+  const GraspPosture now = posture_of(world, grasp.hand, grasp.object);
+  const Pose off = grasp.posture->X_BO.inverse() * now.X_BO;
+  const bool object = off.position.norm() > moved || off.angle() > moved;
+  const bool joints =
+      !std::ranges::equal(grasp.posture->joints, now.joints,
+                          [](double a, double b) { return std::abs(a - b) <= moved; });
+  if (object || joints)
+    fail("grasp of {} by {}: {} since it was measured; measure it anew",
+         world.body(grasp.object).name, world.robot(grasp.hand).name,
+         joints ? "joints of the hand have moved" : "hand and object have moved apart");
+}
+
 Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
                     const GraspOptions& options) {
   const Body& held = world.body(object);
@@ -43,6 +68,7 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   Grasp grasp;
   grasp.hand = hand;
   grasp.object = object;
+  grasp.posture = posture_of(world, hand, object);
   grasp.com = held.com;
   grasp.edges = options.edges;
   // a body without extent has no contacts either: any length will do

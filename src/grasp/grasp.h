@@ -20,6 +20,12 @@ struct GraspOptions {
   ModulusRule modulus = ModulusRule::series;
 };
 
+/// How a hand stands about an object.
+struct GraspPosture {
+  Pose X_BO;                   ///< the object in the hand's base
+  std::vector<double> joints;  ///< q of all, chain by chain [rad or m]
+};
+
 struct Grasp {
   Id<Robot> hand;
   Id<Body> object;
@@ -29,6 +35,7 @@ struct Grasp {
   double rho = 1;                                  ///< [m]
   double largest_radius = 1, gyration_radius = 1;  ///< of the object; 1 when it has no extent [m]
   int edges = 8;
+  std::optional<GraspPosture> posture = {};  ///< as measured; empty: put together by hand
   int sharp_contacts = 0;  ///< soft ones on corners or edges, where their patch is but a guess
 
   double length(TorqueLength which) const {
@@ -41,6 +48,11 @@ struct Grasp {
 ///        not > 0 or the object is a part of a robot
 Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
                     const GraspOptions& options = {});
+
+/// What is asked of the world about a grasp wants hand and object to stand as they did when it was measured, wherever
+/// both have been moved.
+/// throws  Error when they do not
+void check_unmoved(const World& world, const Grasp& grasp);
 
 /// Of the unit wrenches about the centre of mass. Edges and torque length are those of the grasp
 /// unless the options say otherwise.

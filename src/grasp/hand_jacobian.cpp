@@ -40,6 +40,7 @@ void fill_column(Eigen::Ref<Eigen::VectorXd> column, const Grasp& grasp, const G
 }  // namespace
 
 HandJacobian hand_jacobian(const World& world, const Grasp& grasp, const JacobianOptions& options) {
+  check_unmoved(world, grasp);
   const GraspMap map = grasp_map(grasp.points, grasp.com);
   const Pose& X_WO = world.body(grasp.object).X_WB;
   std::vector<Eigen::VectorXd> columns;

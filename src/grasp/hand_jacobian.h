@@ -24,7 +24,7 @@ struct JacobianOptions {
   bool arms = false;  ///< the joints of the robots that carry the hand, too
 };
 
-/// Contacts must be as the grasp was measured: the hand has not moved since.
+/// throws  Error as check_unmoved does
 /// source  Murray, Li & Sastry (1994), ch. 5: hand Jacobian
 HandJacobian hand_jacobian(const World& world, const Grasp& grasp,
                            const JacobianOptions& options = {});

@@ -3,6 +3,8 @@
 #include <limits>
 #include <map>
 
+#include "grasp/link_weight.h"
+
 namespace clench {
 
 namespace {
@@ -60,7 +62,7 @@ struct Row {
 
 }  // namespace
 
-JointBalance joint_balance(const World& world, const Grasp& grasp, bool arms) {
+JointBalance joint_balance(const World& world, const Grasp& grasp, bool arms, bool link_weights) {
   const HandJacobian jacobian = hand_jacobian(world, grasp, {.arms = arms});
   JointBalance out;
   std::vector<double> low, high;
@@ -91,6 +93,7 @@ JointBalance joint_balance(const World& world, const Grasp& grasp, bool arms) {
     const DofSpec& dof = robot.dofs[joint.dof];
     const int motor = motors.at({ref.robot, joint.dof});
     Row row{jacobian.of_joints.col(k), motor, joint.ratio, spring_of(robot, ref)};
+    if (link_weights) row.spring += link_weight(world, ref);
     if (dof.kind == DofKind::compliant) {
       row.factor = TendonShares(robot, joint.dof).of(joint);
     } else if (chain.apart[ref.joint]) {

@@ -17,7 +17,7 @@ struct EffortRef {
 /// all springs of stiffness k at once. Where a joint has none, all k count as alike.
 struct JointBalance {
   Eigen::MatrixXd forces, efforts;
-  Eigen::VectorXd springs;      ///< what springs give in each row [N m or N]
+  Eigen::VectorXd springs;      ///< what springs, and weights, give in each row [N m or N]
   std::vector<EffortRef> refs;  ///< the hand's DOFs first, one each; then carriers', then clutches
   Eigen::VectorXd low, high;    ///< [N m or N], infinite: none
   /// of a compliant DOF, what its tendon gives where it stands: the effort that holds its springs there in free air; of
@@ -27,6 +27,9 @@ struct JointBalance {
 
 /// Motors give at most max_effort either way, without limit where a model says 0. The clutch of a joint that has broken
 /// away presses the way it closed, with at most its DOF's breakaway torque, without limit where that is 0.
-JointBalance joint_balance(const World& world, const Grasp& grasp, bool arms = false);
+/// arms          the joints of robots that carry the hand, too
+/// link_weights  springs also hold what gravity gives to each joint
+JointBalance joint_balance(const World& world, const Grasp& grasp, bool arms = false,
+                           bool link_weights = false);
 
 }  // namespace clench

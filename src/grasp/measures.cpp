@@ -8,6 +8,7 @@
 #include "grasp/clearance.h"
 #include "grasp/contact_forces.h"
 #include "grasp/hand_jacobian.h"
+#include "grasp/link_weight.h"
 #include "math/decompositions.h"
 
 namespace clench {
@@ -15,8 +16,6 @@ namespace clench {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 namespace {
-
-constexpr double standard_gravity = 9.80665;  // [m/s^2]
 
 Vector6d weight_of(const Body& body) {
   Vector6d weight = Vector6d::Zero();
@@ -39,6 +38,11 @@ Vector6d six_singular_values(const MatrixXd& m) {
 double ratio(double least, double largest) { return largest > 0 ? least / largest : 0; }
 
 }  // namespace
+
+const World& MeasuredGrasp::world() const {
+  check_unmoved(world_, grasp_);
+  return world_;
+}
 
 MeasuredGrasp::MeasuredGrasp(const World& world, const Grasp& grasp, SpaceSource spaces)
     : world_(world), grasp_(grasp), spaces_(std::move(spaces)) {

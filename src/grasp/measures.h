@@ -23,7 +23,8 @@ class MeasuredGrasp {
   /// spaces  default: made for this alone
   MeasuredGrasp(const World& world, const Grasp& grasp, SpaceSource spaces = {});
 
-  const World& world() const { return world_; }
+  /// throws  Error as check_unmoved does
+  const World& world() const;
   const Grasp& grasp() const { return grasp_; }
   const WrenchSpace& space(const GraspSpaceOptions& options = {}) { return spaces_(options); }
   const ContactPolygon& polygon();  ///< of the contact points, object frame; at least one contact

@@ -1,9 +1,9 @@
 // Which joints of a robot would push a contact in.
 #pragma once
 #include <set>
-#include <utility>
 #include <vector>
 
+#include "model/carrying.h"
 #include "model/find.h"
 
 namespace clench {
@@ -11,7 +11,6 @@ namespace clench {
 /// A contact blocks a motion that leans into it by more than this sine.
 constexpr double grazing = 1e-6;
 
-using JointPlace = std::pair<int, int>;  ///< chain, joint
 using JointSpeeds =
     std::vector<std::vector<double>>;  ///< by chain, by joint [rad or m per unit of path]
 
@@ -32,14 +31,5 @@ BlockedJoints blocked_joints(const World& world, Id<Robot> robot, const JointSpe
 Eigen::Vector3d contact_velocity(const World& world, Id<Robot> robot,
                                  const std::vector<ChainFrames>& frames, JointPlace joint,
                                  const Contact& contact);
-
-/// The link of the robot that the body is, or that carries it, as {chain, link}; chain -1: the base, or none.
-std::pair<int, int> carrying_link(const World& world, Id<Robot> robot, Id<Body> body);
-
-/// Does the joint move the body? A body of a carried robot moves with the last link of the chain that carries it.
-bool joint_moves(const World& world, Id<Robot> robot, JointPlace joint, Id<Body> body);
-
-/// The robot's bodies that its joints can move, and those of all robots that it carries.
-std::vector<Id<Body>> movable_bodies(const World& world, Id<Robot> robot);
 
 }  // namespace clench

@@ -53,7 +53,8 @@ static void read_joints(Table& options, ForceOptions& forces) {
   joints.total_torque = positive_if(options, "total_torque");
   joints.closing_only = options.boolean("closing_only", false);
   joints.arms = options.boolean("arms", false);
-  asked = asked || joints.total_torque || joints.closing_only || joints.arms;
+  joints.link_weights = options.boolean("link_weights", false);
+  asked = asked || joints.total_torque || joints.closing_only || joints.arms || joints.link_weights;
   if (asked) forces.joints = joints;
 }
 
@@ -197,6 +198,7 @@ static int balance(lua_State* L) {
   asked.max_force = positive_if(options, "max_force");
   asked.joints.unlimited = !read_limits(options, true, asked.joints);
   asked.joints.arms = options.boolean("arms", false);
+  asked.joints.link_weights = options.boolean("link_weights", false);
   const int type = options.push("torques");
   lua_pop(L, 1);
   if (type == LUA_TSTRING)
@@ -243,7 +245,7 @@ as all can be; "interior_sum", the largest sum of the distances from the edges.
 world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho.
 `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of
 caps and motors; `opens` and `slides` of each contact along it; `cap_shares`, `effort_shares` of the capacity; `contact` or `dof`, whichever gives way.
-@param options? {load?: number[], objective?: string, max_force?: number, max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, balance?: string}  max_force of each contact, limit and value of their sum [N]; torque_limits: the motors' own, or one a DOF; total_torque: of all motors, closing [N m or N]; closing_only: motors do not open; arms: limits of arms that carry the hand, too; balance "nearest": the least unbalanced wrench instead
+@param options? {load?: number[], objective?: string, max_force?: number, max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, limit and value of their sum [N]; torque_limits: the motors' own, or one a DOF; total_torque: of all motors, closing [N m or N]; closing_only: motors do not open; arms: limits of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
 @return table result  `status`, `forces`, `objective`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
 > held = grasp:contact_forces{load = weight}
@@ -254,7 +256,7 @@ caps and motors; `opens` and `slides` of each contact along it; `cap_shares`, `e
     {"largest_load", guarded<largest>, R"(
 The largest multiple `load` of a wrench on the object that forces at the contacts balance, its axes as in contact_forces.
 `status` "unlimited" when no cap and no torque ends it. The `certificate` says what gives way beyond it.
-@param options {direction: number[], max_force?: number, max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean}  as in contact_forces
+@param options {direction: number[], max_force?: number, max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean}  as in contact_forces
 @return table result  `status`, `load`, `forces`, `joint_torques`, `certificate`
 > grasp:largest_load{direction = {0, 0, -1, 0, 0, 0}, max_force = 10}.load > 1  --> true
 > grasp:largest_load{direction = {0, 0, -1, 0, 0, 0}}.status  --> unlimited)"},
@@ -263,7 +265,7 @@ Can the hand as it stands hold the load (as in contact_forces)? Its joints must 
 their limits (max_effort of each DOF; none where that is 0), by springs, and by the clutches of joints that have broken away. The palm takes what it must.
 `status`: "stable"; "unstable", then `unbalanced` is the least wrench that is left and `certificate` says what gives way; "moving" when no contact
 forces balance the joints, so that a finger moves; "inaccurate".
-@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number, arms?: boolean}  torque_limits: one a DOF, or false for none; torques: what the motors give, one a DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact [N]
+@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number, arms?: boolean, link_weights?: boolean}  torque_limits: one a DOF, or false for none; torques: what the motors give, one a DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact [N]
 @return table result  `status`, `forces`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > grasp:equilibrium{load = {0, 0, -0.1, 0, 0, 0}}.status  --> stable
 > grasp:equilibrium{load = {0, 0, -1e4, 0, 0, 0}}.status  --> unstable

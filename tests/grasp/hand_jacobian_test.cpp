@@ -1,7 +1,8 @@
 #include "grasp/hand_jacobian.h"
 
 #include "base/random.h"
-#include "grasp/joint_balance.h"
+#include "grasp/contact_forces.h"
+#include "grasp/link_weight.h"
 #include "io/read.h"
 #include "support/robots.h"
 
@@ -183,4 +184,76 @@ TEST_CASE(
   CHECK((balance.efforts * balance.tendons + balance.springs).norm() < 1e-15);
   const Eigen::Vector4d ratios(1, 0.5, 1, 0.5);
   CHECK(balance.efforts.col(0).dot(ratios) == doctest::Approx(1));
+}
+
+namespace {
+
+// potential energy of all robots, gravity along -z [J]
+double height_energy(const World& world) {
+  double sum = 0;
+  for (const Id<Body> id : world.bodies()) {
+    const Body& body = world.body(id);
+    if (body.robot) sum += standard_gravity * body.mass * (body.X_WB * body.com).z();
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("what links weigh in a joint is how their height changes with it") {
+  Random random(3);
+  for (const char* hand : {"barrett/barrett.cfg", "parallel_jaw/parallel_jaw.cfg"}) {
+    CAPTURE(hand);
+    const Arranged a = arrange(hand, true, random);
+    const HandJacobian jacobian = hand_jacobian(a.world, a.grasp, {.arms = true});
+    double heaviest = 0;
+    for (const JointRef& ref : jacobian.joints) {
+      const double h = 1e-6;
+      const Robot& robot = a.world.robot(ref.robot);
+      double energy[2];
+      for (const int side : {0, 1}) {
+        World moved = a.world;
+        std::vector<std::vector<Apart>> apart;
+        for (const auto& chain : robot.chains) apart.push_back(chain.apart);
+        apart[ref.chain][ref.joint] = joint_value(robot, ref.chain, ref.joint) + (side ? h : -h);
+        moved.set_dofs_unchecked(ref.robot, robot.q, apart);
+        energy[side] = height_energy(moved);
+      }
+      // some 20 kg at a metre: 200 J, rounding of 1e-13 over 1e-6
+      const double weight = link_weight(a.world, ref);
+      CHECK(std::abs(weight + (energy[1] - energy[0]) / (2 * h)) < 1e-6);
+      heaviest = std::max(heaviest, std::abs(weight));
+    }
+    CHECK(heaviest > 1);
+    const JointBalance light = joint_balance(a.world, a.grasp, true),
+                       heavy = joint_balance(a.world, a.grasp, true, true);
+    CHECK(heavy.forces == light.forces);
+    CHECK((heavy.springs - light.springs).norm() > 1);
+  }
+}
+
+TEST_CASE("a grasp that no longer stands as it was measured is told") {
+  World world;
+  const auto hand = world.add_robot(test::two_finger(), Pose());
+  const auto object = world.add_body(test::body_spec("thing", test::box(0.01, 0.01, 0.01)),
+                                     BodyKind::object, Pose::translation({0, 0.06, 0}));
+  const Grasp grasp = measure_grasp(world, hand, object);
+  CHECK_NOTHROW(hand_jacobian(world, grasp));
+  // both together may move
+  const Pose X =
+      Pose::translation({3, 2, 1}) * Pose::turn(1, Eigen::Vector3d(1, 2, 3).normalized());
+  world.set_pose(hand, X);
+  world.set_pose(object, X * world.body(object).X_WB);
+  CHECK_NOTHROW(hand_jacobian(world, grasp));
+  world.set_dofs(hand, Eigen::Vector2d(0.1, 0));
+  CHECK_THROWS_WITH_AS(hand_jacobian(world, grasp),
+                       "grasp of thing by gripper: joints of the hand have moved since it was "
+                       "measured; measure it anew",
+                       Error);
+  world.set_dofs(hand, Eigen::Vector2d(0, 0));
+  world.set_pose(object, Pose());
+  CHECK_THROWS_WITH_AS(contact_forces(world, grasp, {}),
+                       "grasp of thing by gripper: hand and object have moved apart since it was "
+                       "measured; measure it anew",
+                       Error);
 }
