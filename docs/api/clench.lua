@@ -452,7 +452,7 @@ function measures:resistance(options) end
 
 ---The surfaces of two bodies around a soft contact, and the turn about the normal that it resists.
 ---@class patch
----@field relative_radii number[] # Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures. Where the surfaces part slower than a ball of 1 m from a plane, or not at all, the `flat_radius` of 20 mm stands for them, or the first radius when that is larger. [m]
+---@field relative_radii number[] # Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures. Where the surfaces part slower than a ball of 2 m from a plane, or not at all, the `flat_radius` of 20 mm stands for them, or the first radius when that is larger; between 1 m and 2 m the one goes over into the other. [m]
 ---@field flat boolean[] # Is a relative radius the one that stands for a flat direction?
 ---@field curvatures {body: number[], other: number[]} # Principal curvatures of the surfaces of both bodies, descending: positive where a surface falls away from the other body, as a ball's, negative where it rises, as a socket's. [1/m]
 ---@field radii {body: number[], other: number[]} # The principal radii of both, 1 over the curvatures: negative where a surface is hollow; as large as you like where it is flat. [m]
@@ -461,10 +461,10 @@ function measures:resistance(options) end
 ---@field points {body: vec3[], other: vec3[]} # What was fitted: points of both surfaces, in the world frame. [m]
 ---@field radius number # How far around the contact the surfaces were looked at. [m]
 ---@field residual number # How far the points lie from the fit, root of the mean square; of the worse surface. [m]
----@field sharp boolean # Is there a corner or an edge, where curvature means little? The fit then is off by more than 15 % of the surface's relief.
+---@field sharp boolean # Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that is sure to touch.
 local patch = {}
 
----Where the bodies press on each other, after the mattress model: its semi-axes along `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean.
+---Where the bodies press on each other, after the mattress model: its semi-axes along `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. At a corner, an edge or a rim the semi-axes are those of what is sure to touch: where the gap is no wider than the indentation of flat surfaces.
 ---@param options? {force?: number, modulus?: string} # normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
 ---@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number} # [m], [m], [Pa], [m]
 function patch:ellipse(options) end

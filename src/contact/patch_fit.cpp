@@ -50,17 +50,20 @@ double rounding_up(const Principal& k, const Vector3d& p, double most) {
   return 0.5 * m * p.z() * p.z();
 }
 
-Coefficients solve_quadric(const std::vector<Vector3d>& points, const Principal& before) {
+Coefficients solve_quadric(const std::vector<Vector3d>& points, std::span<const double> weights,
+                           const Principal& before) {
   double highest = 0;
   for (const Vector3d& p : points) highest = std::max(highest, std::abs(p.z()));
   const double most = most_bend / std::max(highest, 1e-9);
   Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
   Coefficients right = Coefficients::Zero();
-  for (const Vector3d& p : points) {
+  for (size_t i = 0; i < points.size(); ++i) {
+    const Vector3d& p = points[i];
+    const double w = weights.empty() ? 1 : weights[i];
     Coefficients row;
     row << 1, p.x(), p.y(), 0.5 * p.x() * p.x(), p.x() * p.y(), 0.5 * p.y() * p.y();
-    normal += row * row.transpose();
-    right += row * (p.z() - rounding_up(before, p, most));
+    normal += w * row * row.transpose();
+    right += w * (p.z() - rounding_up(before, p, most)) * row;
   }
   normal.diagonal().array() += ridge * static_cast<double>(points.size());
   return solve_symmetric(normal, right);
@@ -68,31 +71,35 @@ Coefficients solve_quadric(const std::vector<Vector3d>& points, const Principal&
 
 }  // namespace
 
-void measure_fit(SurfacePoints points, const Vector3d& origin, SurfaceFit& fit) {
+void measure_fit(SurfacePoints points, const Vector3d& origin, SurfaceFit& fit,
+                 std::span<const double> weights) {
   Matrix3d axes;
   axes << fit.directions, fit.normal;
-  const double count = static_cast<double>(points.size());
+  const auto weight = [&](size_t i) { return weights.empty() ? 1 : weights[i]; };
+  double count = 0;
+  for (size_t i = 0; i < points.size(); ++i) count += weight(i);
   const Principal k = {fit.curvatures, Eigen::Matrix2d::Identity()};
   std::vector<Vector3d> local;
   double mean = 0, highest = 0;
-  for (const Vector3d& p : points) {
-    local.push_back(axes.transpose() * (p - origin));
-    mean += local.back().z() / count;
+  for (size_t i = 0; i < points.size(); ++i) {
+    local.push_back(axes.transpose() * (points[i] - origin));
+    mean += weight(i) * local.back().z() / count;
     highest = std::max(highest, std::abs(local.back().z()));
   }
   double off = 0, relief = 0;
-  for (const Vector3d& q : local) {
+  for (size_t i = 0; i < points.size(); ++i) {
+    const Vector3d& q = local[i];
     const double most = highest > 0 ? most_bend / highest : 0;
     const double height =
         0.5 * fit.curvatures.dot(q.head<2>().cwiseAbs2()) + rounding_up(k, q, most);
-    off += (q.z() - height) * (q.z() - height);
-    relief += (q.z() - mean) * (q.z() - mean);
+    off += weight(i) * (q.z() - height) * (q.z() - height);
+    relief += weight(i) * (q.z() - mean) * (q.z() - mean);
   }
   fit.residual = std::sqrt(off / count);
   fit.relief = std::sqrt(relief / count);
 }
 
-SurfaceFit fit_quadric(SurfacePoints points, double scale) {
+SurfaceFit fit_quadric(SurfacePoints points, double scale, std::span<const double> weights) {
   if (points.size() < 3)
     fail("contact patch: a surface needs 3 points at least, got {}", points.size());
   Matrix3d axes = Matrix3d::Identity();  // columns: the tangent frame
@@ -102,7 +109,7 @@ SurfaceFit fit_quadric(SurfacePoints points, double scale) {
   for (int round = 0; round < most_fit_rounds; ++round) {
     for (size_t i = 0; i < points.size(); ++i)
       local[i] = axes.transpose() * (points[i] - origin) / scale;
-    const Coefficients c = solve_quadric(local, now);
+    const Coefficients c = solve_quadric(local, weights, now);
     const Vector2d before = now.values;
     now = principal(c[3], c[4], c[5]);
     const double moved = c.head<3>().cwiseAbs().sum() + (now.values - before).norm();
@@ -116,7 +123,7 @@ SurfaceFit fit_quadric(SurfacePoints points, double scale) {
   fit.curvatures = now.values / scale;
   fit.directions = axes.leftCols<2>() * now.vectors;
   fit.normal = axes.col(2);
-  measure_fit(points, origin, fit);
+  measure_fit(points, origin, fit, weights);
   return fit;
 }
 

@@ -28,10 +28,12 @@ enum class PatchFit {
 /// turned until D and E vanish, so that a tilt is no curvature. m is the curvature found in the
 /// point's direction: profiles are circles, so balls and cylinders of any size are exact.
 ///
-/// points  surface points around (0, 0), at least 3, +z into the body [m]
-/// scale   of their distances, > 0 [m]
-/// throws  Error for less than 3 points
-SurfaceFit fit_quadric(std::span<const Eigen::Vector3d> points, double scale);
+/// points   surface points around (0, 0), at least 3, +z into the body [m]
+/// scale    of their distances, > 0 [m]
+/// weights  of the squares, one a point, >= 0; none: all 1
+/// throws   Error for less than 3 points
+SurfaceFit fit_quadric(std::span<const Eigen::Vector3d> points, double scale,
+                       std::span<const double> weights = {});
 
 /// The same by a polynomial of degree 4 and the Monge form.
 ///
@@ -45,6 +47,6 @@ bool has_fit_jet();
 
 /// residual and relief of points in the frame of a fit's directions and normal, about `origin`
 void measure_fit(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& origin,
-                 SurfaceFit& fit);
+                 SurfaceFit& fit, std::span<const double> weights = {});
 
 }  // namespace clench

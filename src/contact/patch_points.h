@@ -1,11 +1,6 @@
 // Points of a body's surface around a contact, spread evenly whatever its triangles are.
 #pragma once
-#include <optional>
-#include <span>
-#include <vector>
-
-#include "geometry/shape.h"
-#include "math/pose.h"
+#include "contact/patch_sheet.h"
 
 namespace clench {
 
@@ -19,21 +14,28 @@ struct PatchLattice {
 
 PatchLattice patch_lattice(std::span<const Eigen::Vector2d> sites, double radius);
 
-/// The surface over each place, straight down along z; empty where there is none. Only the sheet
-/// that holds the contacts: the triangles that hang together with those nearest to the sites and
-/// face the contact, leaning less than 73 degrees. So a thin plate has no far side, and a fine mesh
-/// no more points than a coarse one.
-///
-/// Between the vertices a surface is taken for round where neighbouring triangles lean from each
-/// other by less than 40 degrees, flat at sharper edges: there points lie on the curved surface
-/// whose normals the triangles around the vertices tell, not on its chords.
-///
-/// X_PB   body in the frame of the patch, whose +z goes into the body
-/// sites  about where the contacts are, frame P [m]
-/// source Boubekeur & Alexa (2008), Phong tessellation (with half a step, which makes it exact to
-///        second order); Max (1999), Weights for computing vertex normals from facet normals
-std::vector<std::optional<Eigen::Vector3d>> patch_points(const Shape& shape, const Pose& X_PB,
-                                                         std::span<const Eigen::Vector3d> sites,
-                                                         const PatchLattice& lattice);
+/// With weights for a fit: 1 where the surface leans less than 45 degrees, 0 where the sheet ends, so
+/// that a flank comes in by and by as it turns towards the contact.
+struct PatchPoints {
+  std::vector<Eigen::Vector3d> points;  ///< [m]
+  std::vector<double> weights;
+};
+
+/// The surface over the places, straight along z. A fine mesh has no more points than a coarse one.
+PatchPoints patch_points(PatchSheet& sheet, const PatchLattice& lattice);
+
+/// Barycentric weights of the point of a triangle over a place; false where there is none. Edges belong
+/// to both sides.
+bool weights_over(const Corners& corners, const Eigen::Vector2d& place, Eigen::Vector3d& weights);
+
+/// A place on a triangle of a sheet.
+struct PatchHit {
+  int triangle = -1;  ///< -1: on none
+  Eigen::Vector3d weights = Eigen::Vector3d::Zero();
+  double z = 0;
+
+  /// takes a triangle where that lies nearer to the tangent plane: a sheet may lie over itself
+  void offer(const PatchSheet& sheet, int candidate, const Eigen::Vector3d& at);
+};
 
 }  // namespace clench

@@ -19,9 +19,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 static const double one_side = std::cos(40 * std::numbers::pi / 180);  // normals of one site
-static constexpr double sharp_part = 0.15;    // of the relief: the fit does not follow
 static constexpr double least_relief = 1e-4;  // of the radius: flat, whatever noise there is
-static constexpr double whole_extent = 0.85;  // of the neighbourhood's: the surface goes on
 static constexpr size_t least_points = 15;    // of the 197 of a disc; also what a jet needs
 
 double neighbourhood_radius(double modulus) {
@@ -95,16 +93,29 @@ static void check(const PatchOptions& options) {
 
 namespace {
 
-// points of one body over the lattice, and the fit; in the patch frame of that body
+// one body, in the frame of the patch as it sees it
 struct Side {
   Pose X_AP;  // +z into the body
-  std::vector<std::optional<Vector3d>> over;
+  PatchSheet sheet;
   std::vector<Vector3d> points;
   SurfaceFit fit;
-  bool sharp = false;
+  double crease = 0;
 };
 
 }  // namespace
+
+// 0 to 1 between two values, either of which may be the larger
+static double ramp(double x, double zero, double one) {
+  return std::clamp((x - zero) / (one - zero), 0.0, 1.0);
+}
+
+static double crease_of(const Side& side, double radius) {
+  const SurfaceFit& fit = side.fit;
+  if (side.points.size() < least_points) return 1;
+  if (fit.relief <= least_relief * radius) return 0;
+  return std::min(ramp(fit.residual / fit.relief, 0.1, 0.2),
+                  ramp(side.sheet.crease_distance() / radius, 1, 0.5));
+}
 
 static Side make_side(const Shape& shape, const Pose& X_PB, const Pose& X_AP, const SoftSite& site,
                       const PatchLattice& lattice, PatchFit kind) {
@@ -112,19 +123,13 @@ static Side make_side(const Shape& shape, const Pose& X_PB, const Pose& X_AP, co
   std::vector<Vector3d> sites;
   for (const Vector3d& p : site.points_A) sites.push_back(X_PA * p);
   const double radius = lattice.radius;
-  Side side;
-  side.X_AP = X_AP;
-  side.over = patch_points(shape, X_PB, sites, lattice);
-  for (const auto& p : side.over)
-    if (p) side.points.push_back(*p);
-  if (side.points.size() < least_points) {
-    side.sharp = true;
-    return side;
-  }
-  side.fit =
-      kind == PatchFit::jet ? fit_jet(side.points, radius) : fit_quadric(side.points, radius);
-  side.sharp =
-      side.fit.residual > sharp_part * side.fit.relief && side.fit.relief > least_relief * radius;
+  Side side{X_AP, PatchSheet(shape, X_PB, sites, radius), {}, {}};
+  PatchPoints over = patch_points(side.sheet, lattice);
+  side.points = std::move(over.points);
+  if (side.points.size() >= least_points)
+    side.fit = kind == PatchFit::jet ? fit_jet(side.points, radius)
+                                     : fit_quadric(side.points, radius, over.weights);
+  side.crease = crease_of(side, radius);
   return side;
 }
 
@@ -142,18 +147,44 @@ static SurfaceFit turned(SurfaceFit fit, const Pose& X) {
   return fit;
 }
 
-// how far both surfaces go along a direction from the middle, to the farther side; infinite where
-// they go on
-static double extent(const Side& a, const Side& b, const SoftSite& site, const Vector3d& direction,
-                     double radius) {
-  double far = 0, far_site = 0;
-  for (size_t i = 0; i < a.over.size(); ++i)
-    if (a.over[i] && b.over[i])
-      far = std::max(far, std::abs(direction.dot(b.X_AP * *b.over[i] - site.centre_A)));
-  for (const Vector3d& p : site.points_A)
-    far_site = std::max(far_site, std::abs(direction.dot(p - site.centre_A)));
-  const bool goes_on = far >= whole_extent * (far_site + radius);
-  return goes_on ? std::numeric_limits<double>::infinity() : far;
+// beyond flattest_radius none is left by and by: that of flat surfaces stands for it
+static double relative_radius(double curvature, double flat_radius) {
+  const double flatness = ramp(curvature * flattest_radius, 1, 0.5);
+  if (flatness == 0) return 1 / curvature;
+  return std::pow(flat_radius, flatness) * std::pow(flattest_radius, 1 - flatness);
+}
+
+namespace {
+
+// what meets at a depth
+struct Meeting {
+  Matrix2d moments;   // along the patch's directions [m^2]
+  double unlike = 0;  // 0: an ellipse as the radii have it, 1: not at all
+};
+
+}  // namespace
+
+// mean semi-axis of one region as a part of another's
+static double part_of(const Matrix2d& moments, const Matrix2d& whole) {
+  if (!(whole.determinant() > 0)) return 1;
+  return std::pow(std::max(0.0, moments.determinant()) / whole.determinant(), 0.25);
+}
+
+static Meeting meeting(const SoftPatch& patch, double depth) {
+  const auto& R = patch.relative_radii;
+  const GapProfile fit = gap_profile(patch.gap->rays, Vector2d(1 / R[0], 1 / R[1]));
+  const Matrix2d fitted = overlap(fit, depth), there = overlap(cut(fit, *patch.gap), depth);
+  Meeting out{overlap(*patch.gap, depth), patch.crease};
+  const double ends = ramp(part_of(there, fitted), 0.78, 0.5);
+  const double widens = ramp(part_of(out.moments, there), 0.85, 0.5);
+  out.unlike = std::max({out.unlike, ends, widens});
+  return out;
+}
+
+// Less deep the facets of a mesh would tell: from there on the shape stays. A flat ellipse then is
+// some 0.7 of the radius wide.
+static double shallowest(const SoftPatch& patch) {
+  return patch.radius * patch.radius / (4 * patch.flat_radius);
 }
 
 SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
@@ -172,7 +203,7 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
   PatchLattice lattice_a = lattice_b;
   for (auto& p : lattice_a.places) p.y() = -p.y();
   for (auto& c : lattice_a.cells) c.y() = -c.y();
-  const std::array<Side, 2> sides = {
+  std::array<Side, 2> sides = {
       make_side(*site.a, X_AP_a.inverse(), X_AP_a, site, lattice_a, options.fit),
       make_side(*site.b, X_AP_b.inverse() * site.X_AB, X_AP_b, site, lattice_b, options.fit)};
 
@@ -186,7 +217,7 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
     patch.surfaces[i] = turned(sides[i].fit, sides[i].X_AP);
     for (const Vector3d& p : sides[i].points) patch.points[i].push_back(sides[i].X_AP * p);
     patch.residual = std::max(patch.residual, sides[i].fit.residual);
-    patch.sharp = patch.sharp || sides[i].sharp;
+    patch.crease = std::max(patch.crease, sides[i].crease);
   }
 
   // the gap between the surfaces bends by the sum of both
@@ -199,13 +230,19 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
   patch.directions.col(0) = plane * Vector2d(std::cos(angle), std::sin(angle));
   patch.directions.col(1) = plane * Vector2d(-std::sin(angle), std::cos(angle));
   const std::array<double, 2> curvatures = {mean + spread, mean - spread};
+  patch.flat_radius = options.flat_radius;
   for (int i = 0; i < 2; ++i) {
     patch.flat[i] = !(curvatures[i] > 1 / flattest_radius);
-    patch.relative_radii[i] = patch.flat[i] ? options.flat_radius : 1 / curvatures[i];
-    patch.extent[i] = extent(sides[0], sides[1], site, patch.directions.col(i), radius);
+    patch.relative_radii[i] = relative_radius(curvatures[i], options.flat_radius);
   }
-  if (patch.flat[1])
-    patch.relative_radii[1] = std::max(patch.relative_radii[0], patch.relative_radii[1]);
+  patch.relative_radii[1] = std::max(patch.relative_radii[0], patch.relative_radii[1]);
+
+  PatchRays rays = patch_rays(plane.transpose() * patch.directions.col(0), sites, radius);
+  const RayHeights heights_b = ray_heights(sides[1].sheet, rays);
+  for (auto& d : rays.directions) d.y() = -d.y();
+  const RayHeights heights_a = ray_heights(sides[0].sheet, rays);
+  patch.gap = gap_profile(rays, heights_a, heights_b);
+  patch.sharp = meeting(patch, shallowest(patch)).unlike > 0.5;
   return patch;
 }
 
@@ -232,8 +269,23 @@ ContactEllipse contact_ellipse(const SoftPatch& patch, double force, ModulusRule
   ContactEllipse out;
   out.indentation = std::sqrt(force * c / (std::numbers::pi * std::sqrt(R[0] * R[1])));
   out.pressure = out.indentation / c;
-  for (int i = 0; i < 2; ++i)
-    out.semi_axes[i] = std::min(std::sqrt(2 * out.indentation * R[i]), patch.extent[i]);
+  for (int i = 0; i < 2; ++i) out.semi_axes[i] = std::sqrt(2 * out.indentation * R[i]);
+  if (!patch.gap) return out;
+
+  // what is sure to touch
+  const double flat = std::sqrt(force * c / (std::numbers::pi * patch.flat_radius));
+  const double depth = std::max(flat, shallowest(patch));
+  const auto [moments, unlike] = meeting(patch, depth);
+  const Vector2d axes = std::sqrt(flat / depth) * 2 * moments.diagonal().cwiseSqrt();
+  // one that lies across the directions is not as wide as it is long along both
+  const double product = moments(0, 0) * moments(1, 1);
+  const double narrow =
+      product > 0 ? std::pow(std::max(0.0, moments.determinant()) / product, 0.25) : 0;
+  for (int i = 0; i < 2; ++i) {
+    double& a = out.semi_axes[i];
+    const double sure = std::min(a, narrow * axes[i]);
+    a = std::pow(a, 1 - unlike) * std::pow(sure, unlike);
+  }
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include "contact/contact_set.h"
 #include "contact/patch_fit.h"
+#include "contact/patch_gap.h"
 
 namespace clench {
 
@@ -61,18 +62,21 @@ struct SoftPatch {
   std::array<SurfaceFit, 2> surfaces;
   std::array<std::vector<Eigen::Vector3d>, 2> points;  ///< that the fits are of
   /// Of the gap between the surfaces along `directions`, the more curved one first [m]. Where they
-  /// part slower than a ball of flattest_radius from a plane, or not at all: flat_radius, but no less
-  /// than the first.
+  /// part slower than a ball of twice flattest_radius from a plane, or not at all: flat_radius, but no
+  /// less than the first. From flattest_radius on the one goes over into the other.
   std::array<double, 2> relative_radii = {};
   std::array<bool, 2> flat = {};
   Eigen::Matrix<double, 3, 2> directions;  ///< unit, orthogonal to each other and to the normal
-  /// how far the surfaces go along them from the middle, to the farther side, where they end within
-  /// the neighbourhood, as a plate's edge does; else infinite [m]
-  std::array<double, 2> extent = {};
+  double flat_radius = 0.02;               ///< as it was asked for [m]
+  /// As it is, its first ray along directions.col(0); none: as the radii have it.
+  std::optional<GapProfile> gap = {};
+  /// 0 to 1: is there a crease that the fit does not follow? 0 where the fit is off by 10 % of the
+  /// surface's relief or the crease is a radius away, 1 from 20 % on and up to half a radius.
+  double crease = 0;
   /// root of the mean square that points lie from their fit, of the worse surface [m]
   double residual = 0;
-  /// Is there a corner or an edge? The fit is off by more than 15 % of the surface's relief, or a
-  /// surface has hardly any points.
+  /// Is there a corner or an edge? The weight w of contact_ellipse is above 0.5 where the indentation
+  /// is small.
   bool sharp = false;
   Elasticity elastic_a, elastic_b;
 };
@@ -94,7 +98,16 @@ struct ContactEllipse {
 };
 
 /// Mattress of springs: indentation = sqrt(F c / (pi sqrt(R1 R2))) with the compliance c, layer over
-/// modulus; semi-axis = sqrt(2 indentation R), no longer than the surfaces go.
+/// modulus; semi-axis = sqrt(2 indentation R).
+///
+/// Where the surfaces do not meet over such an ellipse, as at a corner, an edge or the rim of a plate,
+/// only what is sure to touch counts: where the gap is no wider than the indentation of flat surfaces
+/// under that force, that is, of R1 = R2 = flat_radius. What is sharper goes deeper. The semi-axes
+/// are those of an ellipse with the same second moments about the contact. From the one rule to the other
+/// it goes by the weight w, as a^(1 - w) b^w, the largest of three: the patch's crease; how far surfaces
+/// miss under the ellipse, 0 where its mean semi-axis is 78 % of the whole one's, as on the corner of
+/// a face, 1 at 50 %; how much sooner the gap widens, 0 where the mean semi-axis of what meets is 85 %
+/// of that, 1 at 50 %.
 ///
 /// force   normal, >= 0 [N]
 /// throws  Error when it is negative or not finite

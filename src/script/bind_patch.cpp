@@ -108,8 +108,8 @@ static int patch_text(lua_State* L) {
 static const Entry fields[] = {
     {"relative_radii", guarded<get_relative_radii>, R"(
 Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures.
-Where the surfaces part slower than a ball of 1 m from a plane, or not at all, the `flat_radius` of 20 mm stands for them,
-or the first radius when that is larger.
+Where the surfaces part slower than a ball of 2 m from a plane, or not at all, the `flat_radius` of 20 mm stands for them,
+or the first radius when that is larger; between 1 m and 2 m the one goes over into the other.
 @type number[]  [m]
 > patch.relative_radii[1] <= patch.relative_radii[2]  --> true)"},
     {"flat", guarded<get_flat>, R"(
@@ -146,7 +146,7 @@ How far the points lie from the fit, root of the mean square; of the worse surfa
 @type number  [m]
 > patch.residual < patch.radius  --> true)"},
     {"sharp", guarded<get_sharp>, R"(
-Is there a corner or an edge, where curvature means little? The fit then is off by more than 15 % of the surface's relief.
+Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that is sure to touch.
 @type boolean
 > patch.sharp  --> false)"},
 };
@@ -154,7 +154,8 @@ Is there a corner or an edge, where curvature means little? The fit then is off 
 static const Entry methods[] = {
     {"ellipse", guarded<ellipse>, R"(
 Where the bodies press on each other, after the mattress model: its semi-axes along `directions`, the indentation and
-the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean.
+the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. At a corner, an edge or a rim the
+semi-axes are those of what is sure to touch: where the gap is no wider than the indentation of flat surfaces.
 @param options? {force?: number, modulus?: string}  normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
 @return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number}  [m], [m], [Pa], [m]
 > e = patch:ellipse{force = 5}

@@ -81,6 +81,24 @@ test("corners and edges are warned of once a contact, and once a grasp", functio
   t.ok(heard[1]:find "^grasp of mug by barrett: %d of %d contacts are soft ones on corners or edges", heard[1])
 end)
 
+test("coarse round links are no edges, box-shaped ones are", function(t)
+  local function sharp(file)
+    local scene = clench.load(file)
+    local hand, object = scene.robots[1], scene.objects[1]
+    hand:autograsp()
+    object.elastic_modulus = 1.5e6
+    local count, list = 0, scene:contacts(hand, object)
+    for _, contact in ipairs(list) do count = count + (contact.patch.sharp and 1 or 0) end
+    return count, #list
+  end
+  t.equal(sharp "worlds/dlr_flask.wld", 0)
+  t.equal(sharp "worlds/human_flask.wld", 0)
+  clench.log.sink(function() end)
+  local edges, all = sharp "worlds/barrett_mug.wld"  -- the rims of its fingertips
+  clench.log.sink(nil)
+  t.equal(edges, all)
+end)
+
 test("options are read strictly", function(t)
   local world, top, ball = pressed()
   local contact = world:contacts(top, ball)[1]

@@ -1,0 +1,65 @@
+// The part of a body's surface that a contact sees, and how it bends between its vertices.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "contact/near_surface.h"
+#include "geometry/shape.h"
+#include "math/pose.h"
+
+namespace clench {
+
+/// The sheet of triangles that holds the contacts: those that hang together with the nearest to the
+/// sites and face the contact, leaning less than 73 degrees. So a thin plate has no far side.
+///
+/// Between the vertices a surface is taken for round where neighbouring triangles lean from each
+/// other by less than 40 degrees, flat at sharper edges: there points lie on the curved surface
+/// whose normals the triangles around the vertices tell, not on its chords.
+///
+/// source Boubekeur & Alexa (2008), Phong tessellation (with half a step, which makes it exact to
+///        second order); Max (1999), Weights for computing vertex normals from facet normals
+class PatchSheet {
+ public:
+  static constexpr double least_facing = 0.3;  ///< cosine: what leans more belongs to the flank
+
+  /// X_PB    body in the frame of the patch, whose +z goes into the body
+  /// sites   about where the contacts are, frame P [m]
+  /// radius  how far around them the surface counts, > 0 [m]
+  PatchSheet(const Shape& shape, const Pose& X_PB, std::span<const Eigen::Vector3d> sites,
+             double radius);
+
+  /// triangles of the sheet, by numbers for what follows
+  const std::vector<int>& triangles() const { return triangles_; }
+  const Corners& corners(int triangle) const { return near_.corners(triangle); }  ///< frame P [m]
+  /// cosine between its outside and -z; open surfaces have two outsides
+  double facing(int triangle) const;
+  double highest() const {
+    return highest_;
+  }  ///< what is farther from the tangent plane does not count [m]
+
+  /// on the round surface, by barycentric weights [m]
+  Eigen::Vector3d round_point(int triangle, const Eigen::Vector3d& weights);
+
+  /// Across the tangent plane from the nearest site to the nearest crease: an edge where neighbours
+  /// lean from each other by more than 40 degrees, or none follows. Infinite without one [m].
+  double crease_distance() const;
+
+ private:
+  const Eigen::Vector3d& corner_normal(int triangle, int k);
+  Eigen::Vector3d make_corner_normal(int triangle, int k) const;
+  std::vector<int> fan(int triangle, int k) const;
+  double touching() const;
+
+  const Shape& shape_;
+  Pose X_PB_, X_BP_;
+  std::vector<Eigen::Vector3d> sites_;
+  double highest_;
+  std::vector<double> reaches_;  // about each site, to where all triangles are known
+  std::vector<int> known_;       // triangles of the mesh, ascending
+  NearSurface near_;             // of them
+  std::vector<Eigen::Vector3d> normals_;
+  std::vector<int> triangles_;
+  std::vector<Eigen::Vector3d> corner_normals_;  // by slot; 0 until asked for
+};
+
+}  // namespace clench
