@@ -509,9 +509,14 @@ function wrench_space:epsilon() end
 ---@return {lower: number, upper: number, converged: boolean, reached?: boolean} # converged: within the tolerance; reached: lower >= at_least
 function wrench_space:epsilon_bounds(options) end
 
----Volume in the coordinates that count; 0 when the space is flat. Round cones have none, and in "Linf" the hull of more than three or four contacts has too many facets: both are errors that say so.
+---Volume in the coordinates that count; 0 when the space is flat. With round cones the middle of volume_bounds. In "Linf" the hull of more than three or four contacts has too many facets: an error that says so.
 ---@return number
 function wrench_space:volume() end
+
+---A certified bracket around the volume: with round cones, that of pyramids within them and of the same ones grown until they are around. Both are the volume without round cones.
+---@param options? {edges?: integer} # of the pyramids, 4 to 1000 (32)
+---@return {lower: number, upper: number}
+function wrench_space:volume_bounds(options) end
 
 ---Is every wrench resisted?
 ---@return boolean

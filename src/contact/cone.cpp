@@ -46,7 +46,8 @@ Wrenches cone_wrenches(const PointContact& contact, const ConeOptions& options) 
   const Eigen::Matrix3d frame = contact_frame(contact.n_O);
   const Eigen::Vector3d lever = (contact.p_O - options.p_OM) / options.rho;
   if (contact.mu > 0 && contact.torsion_radius > 0) {
-    const FrictionEdges edges = friction_edges(contact.torsion_radius, options.edges);
+    const FrictionEdges edges =
+        friction_edges(contact.torsion_radius, options.edges, contact.torsion_radius);
     Wrenches wrenches(6, edges.cols());
     for (int j = 0; j < edges.cols(); ++j) {
       const Eigen::Vector3d force =

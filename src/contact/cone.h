@@ -34,7 +34,7 @@ Eigen::Matrix3d contact_frame(const Eigen::Vector3d& normal);
 
 /// Generators of a linearised friction cone. Column i is (f; tau/rho) with f = n + mu t_i: unit
 /// normal force. Without friction the cone is its normal: one column. A soft contact has more edges,
-/// those of friction_edges: 20 for 8.
+/// those of friction_edges, even in units of its torsion radius: 20 for 8.
 ///
 /// returns  6 x count; of a point contact counter-clockwise about n from the frame's x
 /// throws   Error when mu < 0, torsion_radius < 0, edges out of range, rho <= 0, n is not unit or a number

@@ -10,11 +10,11 @@
 
 namespace clench {
 
-FrictionEdges friction_edges(double torsion_radius, int directions) {
+FrictionEdges friction_edges(double torsion_radius, int directions, double even_in) {
   if (!(torsion_radius >= 0) || !std::isfinite(torsion_radius))
     fail("friction edges: wanted a torsion radius >= 0 [m], got {}", torsion_radius);
   if (directions < 3) fail("friction edges: wanted 3 directions or more, got {}", directions);
-  constexpr double pi = std::numbers::pi, millimetre = 1e-3;
+  constexpr double pi = std::numbers::pi;
   const bool soft = torsion_radius > 0;
   const int rings = soft ? std::clamp((directions + 2) / 4, 1, 16) : 0;
   std::vector<std::pair<double, int>> all;
@@ -33,12 +33,12 @@ FrictionEdges friction_edges(double torsion_radius, int directions) {
     // from the unit sphere out to the ellipsoid, in the same direction
     const bool pole = soft && std::abs(latitude) == pi / 2;
     const double across = pole ? 0 : std::cos(latitude), along = std::sin(latitude);
-    const double length = soft ? std::hypot(across, along * millimetre / torsion_radius) : 1;
+    const double length = soft ? std::hypot(across, along * (even_in / torsion_radius)) : 1;
     for (int i = 0; i < around; ++i, ++next) {
       const double turn = 2 * pi * i / around;
       edges(0, next) = across * std::cos(turn) / length;
       edges(1, next) = across * std::sin(turn) / length;
-      edges(5, next) = along * millimetre / length;
+      edges(5, next) = along * even_in / length;
     }
   }
   return edges;

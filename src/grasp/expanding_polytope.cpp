@@ -164,7 +164,6 @@ Ball Growing<D>::ball(const BallOptions& options) {
     const double believed = facet.offset();
     if (settle_plane(nearest) > plane_noise) throw BrokenSurface();
     if (facet.offset() > believed + plane_noise) {
-      waiting_.drop(nearest);
       wait(nearest);
       continue;
     }

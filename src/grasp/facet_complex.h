@@ -6,6 +6,7 @@
 // branches that depend on which facets see the point.
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -82,7 +83,12 @@ class FacetComplex {
   void reserve();
   void raise(int corner);
   void join();
-  void join_one_by_one();
+  // of a new ridge; the same side when it is not to be seen
+  uint32_t other_side(uint32_t own, int shift) {
+    const uint32_t other = place(own, shift) ^ own;
+    return other < ridges_.size() && ridges_[other] == ridges_[own] ? other : own;
+  }
+  uint32_t& place(uint32_t side, int shift) { return table_[(ridges_[side] >> shift) & mask_]; }
 
   std::vector<Eight> points_;
   std::vector<uint64_t> keys_;  // of points; those of a ridge add up to its own
@@ -100,7 +106,7 @@ class FacetComplex {
 template <int D>
 void FacetComplex<D>::clear() {
   // what few sets need is given back
-  if (facets_.size() > 60000) *this = FacetComplex();
+  if (facets_.size() > 100000) *this = FacetComplex();
   points_.clear(), keys_.clear(), free_.clear();
   used_ = growth_ = 0;
 }
@@ -176,7 +182,7 @@ void FacetComplex<D>::reserve() {
   for (int i = 0; i < old; ++i) made_[i] = free_[free_.size() - 1 - i];
   free_.resize(free_.size() - old);
   for (int i = old; i < rim_count_; ++i) made_[i] = used_++;
-  if (static_cast<int>(facets_.size()) < used_) facets_.resize(2 * used_);
+  if (static_cast<int>(facets_.size()) < used_) facets_.resize(used_ + used_ / 2);
   ridges_.resize(8 * static_cast<size_t>(rim_count_));
   size_t size = 256;
   while (size < 32 * static_cast<size_t>(rim_count_)) size *= 2;
@@ -223,47 +229,39 @@ void FacetComplex<D>::raise(int corner) {
     uint64_t* ridge = &ridges_[8 * static_cast<size_t>(i)];
     for (int k = 0; k < D - 1; ++k) {
       ridge[k] = all - own[k];
-      table_[ridge[k] & mask_] ^= static_cast<uint32_t>(8 * i + k);
+      place(static_cast<uint32_t>(8 * i + k), 0) ^= static_cast<uint32_t>(8 * i + k);
     }
     for (int k = D - 1; k < 8; ++k) ridge[k] = 0;
   }
   if (!(shortest > 1e-3 * seen) || backs != rim_count_) throw BrokenSurface();
 }
 
-// neighbours along the new ridges
+// Neighbours along the new ridges: both sides have left their numbers at one place of the table, by
+// exclusive or, so that each finds the other unless a second ridge was there. Those that do not find
+// each other try again at other places.
 template <int D>
 void FacetComplex<D>::join() {
   unmatched_.clear();
-  const uint32_t end = 8 * static_cast<uint32_t>(rim_count_);
-  for (int i = 0; i < rim_count_; ++i) {
+  for (uint32_t i = 0; i < static_cast<uint32_t>(rim_count_); ++i) {
     Facet& facet = facets_[made_[i]];
-    for (int k = 0; k < D - 1; ++k) {
-      const uint32_t own = static_cast<uint32_t>(8 * i + k);
-      const uint64_t ridge = ridges_[own];
-      // the other number, unless more than two have met there
-      const uint32_t other = table_[ridge & mask_] ^ own;
-      if (other < end && other != own && ridges_[other] == ridge)
+    for (uint32_t k = 0; k < D - 1; ++k) {
+      const uint32_t own = 8 * i + k, other = other_side(own, 0);
+      if (other != own)
         facet.neighbour[k] = made_[other / 8];
       else
         unmatched_.push_back(own);
     }
   }
-  if (!unmatched_.empty()) join_one_by_one();
-}
-
-template <int D>
-void FacetComplex<D>::join_one_by_one() {
-  std::sort(unmatched_.begin(), unmatched_.end(), [&](uint32_t i, uint32_t j) {
-    return std::pair(ridges_[i], i) < std::pair(ridges_[j], j);
-  });
-  if (unmatched_.size() % 2) throw BrokenSurface();
-  for (size_t n = 0; n < unmatched_.size(); n += 2) {
-    const uint32_t i = unmatched_[n], j = unmatched_[n + 1];
-    // one or three facets at a ridge
-    if (ridges_[i] != ridges_[j] || (n > 0 && ridges_[unmatched_[n - 1]] == ridges_[i]))
-      throw BrokenSurface();
-    facets_[made_[i / 8]].neighbour[i % 8] = made_[j / 8];
-    facets_[made_[j / 8]].neighbour[j % 8] = made_[i / 8];
+  for (int shift = 16; !unmatched_.empty(); shift += 16) {
+    // the only one at a ridge, or the third
+    if (shift > 48) throw BrokenSurface();
+    for (const uint32_t own : unmatched_) place(own, shift) = 0;
+    for (const uint32_t own : unmatched_) place(own, shift) ^= own;
+    std::erase_if(unmatched_, [&](uint32_t own) {
+      const uint32_t other = other_side(own, shift);
+      facets_[made_[own / 8]].neighbour[own % 8] = made_[other / 8];
+      return other != own;
+    });
   }
 }
 

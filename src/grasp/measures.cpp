@@ -174,11 +174,7 @@ double joint_deviation(MeasuredGrasp& g) {
   return count > 0 ? sum / count : infinite;
 }
 
-// round cones have no volume in closed form: that of the usual pyramids stands for it
-double volume(MeasuredGrasp& g) {
-  const bool round = g.grasp().edges == round_edges;
-  return g.space({.edges = round ? std::optional(8) : std::nullopt}).volume();
-}
+double volume(MeasuredGrasp& g) { return g.space({}).volume(); }
 
 const Measure all_measures[] = {
     {"epsilon",

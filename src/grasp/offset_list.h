@@ -15,8 +15,9 @@ class OffsetList {
       offsets_.resize(offsets_.size() + block, none);
       blocks_.push_back({none, false});
     }
-    offsets_[index] = offset;
     Block& of = blocks_[index / block];
+    of.stale |= offsets_[index] == of.least && offset > of.least;
+    offsets_[index] = offset;
     of.least = offset < of.least ? offset : of.least;
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "contact/friction_edges.h"
 #include "grasp/expanding_polytope.h"
 #include "grasp/nearest_point.h"
 #include "grasp/wrench_hull.h"
@@ -82,6 +83,33 @@ bool surely_full_rank(Eigen::MatrixXd m) {
     m -= q * (q.transpose() * m).eval();
   }
   return true;
+}
+
+// Points of the unit sphere in two or three dimensions, and the radius of the ball within their hull.
+struct SpherePoints {
+  Eigen::MatrixXd points;
+  double within;
+};
+
+SpherePoints sphere_points(Eigen::Index dimension, int edges) {
+  // the circle, or half as many on the equator and rings beside it
+  const FrictionEdges on =
+      dimension == 2 ? friction_edges(0, edges) : friction_edges(1, std::max(3, edges / 2), 1);
+  SpherePoints out{Eigen::MatrixXd(dimension, on.cols()), 0};
+  out.points.topRows(2) = on.topRows(2);
+  if (dimension == 3) out.points.row(2) = on.row(5);
+  const ContactPart part{.points = out.points.data(), .count = static_cast<int>(on.cols())};
+  const ContactReach reach(static_cast<int>(dimension), WrenchNorm::l1, std::span(&part, 1));
+  out.within = largest_ball(reach).lower;
+  return out;
+}
+
+// a pyramid within a round cone, or around it
+Wrenches pyramid_of(const RoundCone& cone, int edges, bool around) {
+  if (cone.spread.cols() == 0) return cone.axis;
+  const SpherePoints sphere = sphere_points(cone.spread.cols(), edges);
+  return (cone.spread * (around ? sphere.points / sphere.within : sphere.points)).colwise() +
+         cone.axis;
 }
 
 }  // namespace
@@ -377,7 +405,10 @@ Hull WrenchSpace::hull() const {
 
 double WrenchSpace::volume() const {
   if (volume_) return *volume_;
-  if (is_round()) fail("wrench space: volume of round cones is not known, give edges");
+  if (is_round()) {
+    const VolumeBounds bounds = volume_bounds();
+    return volume_.emplace((bounds.lower + bounds.upper) / 2);
+  }
   const bool l1 = options_.norm == WrenchNorm::l1;
   if (rank() < dimension()) return volume_.emplace(0);
   if (l1 && affine_rank(spanning(), rank_tolerance) < dimension()) return volume_.emplace(0);
@@ -390,6 +421,20 @@ double WrenchSpace::volume() const {
   if (facets.end == FacetsEnd::flat) return volume_.emplace(0);
   if (!l1) fail("wrench space: volume: rounding broke the hull in L-infinity");
   return volume_.emplace(hull().volume);
+}
+
+VolumeBounds WrenchSpace::volume_bounds(int edges) const {
+  if (edges < 4 || edges > most_edges)
+    fail("wrench space: edges must be 4 to {}, got {}", most_edges, edges);
+  if (!is_round()) return {volume(), volume()};
+  if (volume_bounds_ && volume_bounds_->first == edges) return volume_bounds_->second;
+  const auto replaced = [&](bool around) {
+    std::vector<UnitWrenches> contacts = contacts_;
+    for (UnitWrenches& contact : contacts)
+      if (contact.round) contact = {pyramid_of(*contact.round, edges, around), {}};
+    return WrenchSpace(std::move(contacts), options_).volume();
+  };
+  return volume_bounds_.emplace(edges, VolumeBounds{replaced(false), replaced(true)}).second;
 }
 
 }  // namespace clench

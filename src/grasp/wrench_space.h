@@ -51,6 +51,12 @@ struct EpsilonBounds {
   bool converged = true;  ///< upper - lower is within the tolerance; else at_least was known before
 };
 
+/// lower <= volume <= upper: of the space with round cones replaced by pyramids within, and by the same
+/// ones grown until they are around.
+struct VolumeBounds {
+  double lower = 0, upper = 0;
+};
+
 /// All wrenches that contacts resist with bounded normal forces. L1: they sum to one; the convex hull
 /// of the unit wrenches of all contacts. L-infinity: each is at most one; the
 /// sum of the hulls of zero and each contact's unit wrenches.
@@ -69,10 +75,14 @@ class WrenchSpace {
   double epsilon() const;
   /// An epsilon that is less certain, and found sooner.   throws Error when tolerance < 0 or not finite
   EpsilonBounds epsilon_bounds(const EpsilonOptions& options) const;
-  /// Of the space in its coordinates; 0 when it is flat.
-  /// throws  Error when a contact has a round cone, or the hull more than a million facets, as in
-  ///         L-infinity with more than three or four contacts
+  /// Of the space in its coordinates; 0 when it is flat. With round cones the middle of its bounds.
+  /// throws  Error when the hull has more than a million facets, as in L-infinity with more than three
+  ///         or four contacts
   double volume() const;
+  /// edges   of the pyramids for round cones, 4 to most_edges; a soft contact's are those of
+  ///         friction_edges with half as many directions. Without round cones both bounds are the volume
+  /// throws  Error as volume, or when edges are out of range
+  VolumeBounds volume_bounds(int edges = 32) const;
   bool is_force_closure() const;
   int rank() const;  ///< dimension that the wrenches span, 0 to that of the space
   const Weakest& weakest() const;
@@ -118,6 +128,7 @@ class WrenchSpace {
   mutable std::optional<bool> closure_;
   mutable std::optional<Bracket> bracket_;
   mutable std::optional<double> volume_;
+  mutable std::optional<std::pair<int, VolumeBounds>> volume_bounds_;  // and their edges
   mutable std::optional<Weakest> weakest_;
 };
 

@@ -159,6 +159,18 @@ static int volume(lua_State* L) {
   return push(L, space(L).volume());
 }
 
+static int volume_bounds(lua_State* L) {
+  check_count(L, 1);
+  Table table(L, 2);
+  const int edges = table.integer("edges", 32);
+  table.done();
+  const VolumeBounds bounds = space(L).volume_bounds(edges);
+  push_list(L, 0, 2);
+  set_field(L, "lower", bounds.lower);
+  set_field(L, "upper", bounds.upper);
+  return 1;
+}
+
 static int closes_force(lua_State* L) {
   check_count(L, 0);
   return push(L, space(L).is_force_closure());
@@ -348,11 +360,20 @@ is known whether epsilon reaches at_least.
 > bounds.lower <= bounds.upper and bounds.upper <= bounds.lower + 1e-3  --> true
 > grasp:wrench_space():epsilon_bounds{at_least = 1}.reached  --> false)"},
     {"volume", guarded<volume>, R"(
-Volume in the coordinates that count; 0 when the space is flat. Round cones have none, and in "Linf" the hull of more than
-three or four contacts has too many facets: both are errors that say so.
+Volume in the coordinates that count; 0 when the space is flat. With round cones the middle of volume_bounds. In "Linf" the hull
+of more than three or four contacts has too many facets: an error that says so.
 @return number
-> grasp:wrench_space():volume() == grasp:quality "volume"  --> true
-> grasp:wrench_space{edges = "exact"}:volume()  --> error: round cones)"},
+> grasp:wrench_space():volume() == grasp:quality "volume"  --> true)"},
+    {"volume_bounds", guarded<volume_bounds>, R"(
+A certified bracket around the volume: with round cones, that of pyramids within them and of the same ones grown until they are
+around. Both are the volume without round cones.
+@param options? {edges?: integer}  of the pyramids, 4 to 1000 (32)
+@return {lower: number, upper: number}
+> exact = grasp:wrench_space{edges = "exact"}
+> bounds = exact:volume_bounds()
+> bounds.lower < exact:volume() and exact:volume() < bounds.upper and bounds.upper < 1.05 * bounds.lower  --> true
+> bounds.lower > grasp:quality "volume"  --> true
+> exact:volume_bounds{edges = 64}.lower > bounds.lower  --> true)"},
     {"is_force_closure", guarded<closes_force>, R"(
 Is every wrench resisted?
 @return boolean

@@ -136,6 +136,24 @@ TEST_CASE("a soft contact's edges lie on its ellipsoid, 20 for 8, and turn about
   CHECK(cone_wrenches({.mu = 0, .torsion_radius = 0.1}).cols() == 1);
 }
 
+TEST_CASE("a contact twice the size, torques over twice the length, has the same wrenches") {
+  Random random(4);
+  for (const double torsion : {0.0, 0.004})
+    for (const double size : {1e-3, 0.5, 2.0, 37.0}) {
+      PointContact contact{.p_O = random_unit(random), .n_O = random_unit(random), .mu = 0.6};
+      contact.torsion_radius = torsion;
+      const ConeOptions options{.rho = 0.5, .p_OM = random_unit(random)};
+      PointContact large = contact;
+      large.p_O *= size, large.torsion_radius *= size;
+      const ConeOptions wide{.rho = size * options.rho, .p_OM = size * options.p_OM};
+      // rounding of levers of length four
+      CHECK((cone_wrenches(large, wide) - cone_wrenches(contact, options)).norm() < 1e-13);
+      const RoundCone round = round_cone(large, wide), small = round_cone(contact, options);
+      CHECK((round.axis - small.axis).norm() < 1e-14);
+      CHECK((round.spread - small.spread).norm() < 1e-14);
+    }
+}
+
 TEST_CASE("a round cone holds its pyramid's edges on its rim") {
   Random random(3);
   for (const double torsion : {0.0, 0.02}) {

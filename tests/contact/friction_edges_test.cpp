@@ -60,3 +60,17 @@ TEST_CASE("any number of directions: rings either side of the middle one, down t
   CHECK_THROWS_WITH_AS(friction_edges(0, 2), "friction edges: wanted 3 directions or more, got 2",
                        Error);
 }
+
+TEST_CASE("latitudes that are even in units of the radius are the same at every size") {
+  const auto one = friction_edges(1, 8, 1);
+  REQUIRE(one.cols() == 20);
+  for (const double radius : {1e-6, 0.003, 0.05, 700.0}) {
+    auto edges = friction_edges(radius, 8, radius);
+    edges.row(5) /= radius;
+    CHECK((edges - one).cwiseAbs().maxCoeff() < 1e-15);
+  }
+  // 45 degrees up
+  CHECK(one(5, 1) == doctest::Approx(std::sqrt(0.5)));
+  // the other way round when torques are in units far from the radius
+  CHECK(friction_edges(1, 8, 1e-3)(5, 1) < 2e-3);
+}

@@ -1,5 +1,7 @@
 #include "grasp/expanding_polytope.h"
 
+#include <numbers>
+
 #include "base/random.h"
 #include "grasp/contact_reach.h"
 #include "grasp/wrench_hull.h"
@@ -75,6 +77,28 @@ TEST_CASE("the volume of a cross polytope and a cube, in two to six dimensions")
     const Facets all = all_facets(reach_of(cube(d)));
     REQUIRE(all.end == FacetsEnd::complete);
     CHECK(all.volume == doctest::Approx(1 << d).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("cyclic polytopes have as many facets as any, and as the closed formula says") {
+  // points on the curve (cos t, sin t, cos 2t, sin 2t, ...)   source  Gale (1963)
+  const auto cyclic = [](int d, int count) {
+    Eigen::MatrixXd points(d, count);
+    for (int i = 0; i < count; ++i)
+      for (int k = 0; k < d; ++k) {
+        const double angle = (k / 2 + 1) * 2 * std::numbers::pi * i / count;
+        points(k, i) = k % 2 ? std::sin(angle) : std::cos(angle);
+      }
+    return points;
+  };
+  for (const int count : {7, 8, 12, 30}) {
+    const int four = count * (count - 3) / 2;
+    const int six = count * (count - 4) * (count - 5) / 6;
+    for (const auto& [d, wanted] : {std::pair(2, count), {4, four}, {6, six}}) {
+      const Facets facets = all_facets(reach_of(cyclic(d, count)));
+      REQUIRE(facets.end == FacetsEnd::complete);
+      CHECK(static_cast<int>(facets.corners.size()) == wanted * d);
+    }
   }
 }
 
