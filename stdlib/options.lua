@@ -1,6 +1,7 @@
 -- stdlib/options.lua
 --- Reads the one table that a function is called with: each value by name, with its bounds; what nobody
 --- read is an error. Names in `places` may also be given by position: {0.02} is {radius = 0.02}.
+local raise = require "clench.raise"
 local Options = {}
 Options.__index = Options
 
@@ -23,7 +24,7 @@ local function is_point(value, least, most)
   return true
 end
 
-function Options:fail(format, ...) error(("%s: " .. format):format(self.subject, ...), 0) end
+function Options:fail(format, ...) raise(("%s: " .. format):format(self.subject, ...)) end
 
 --- the raw value of a name, wherever it stands; nil when it was not given
 function Options:raw(name)

@@ -410,7 +410,7 @@ function contact:fit_patch(options) end
 local forces = {}
 
 ---Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx, fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's centre of mass; its weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "least" sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); least sum of "squares" of the forces, the only one that always has a single answer; least largest normal force ("peak"); "interior", as far from the edges of the cones and from max_force as all can be; "interior_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible", with a `certificate`; "unbounded" when more force is always better; "inaccurate". `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in the world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `opens` and `slides` of each contact along it; `cap_shares`, `effort_shares` of the capacity; `contact` or `dof`, whichever gives way.
----@param options? {load?: number[], objective?: string, max_force?: number, max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean, balance?: string} # max_force of each contact, limit and value of their sum [N]; torque_limits: the motors' own, or one a DOF; total_torque: of all motors, closing [N m or N]; closing_only: motors do not open; arms: limits of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
+---@param options? {load?: number[], objective?: string, max_force?: number, max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean, balance?: string} # max_force of each contact, limit and value of their sum [N]; torque_limits: the motors' own, or one a DOF; without it motors give what they must; total_torque: of all motors, closing [N m or N]; closing_only: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
 ---@return table result # `status`, `forces`, `objective`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 function forces:contact_forces(options) end
 
@@ -441,7 +441,7 @@ local measures = {}
 ---@return number
 function measures:quality(measure) end
 
----All measures at once, by name; those that are infinite are left out.
+---All measures at once, by name; those that are infinite are left out, and those that cannot be had, such as the volume of too many contacts with too many edges.
 ---@return table<string, number>
 function measures:quality_all() end
 
@@ -482,6 +482,7 @@ function patch:torsion_limit(options) end
 ---@field points {point: vec3, normal: vec3, mu: number, torsion_radius: number}[] # The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers. [m]
 ---@field rho number # Length that torques are divided by. [m]
 ---@field edges integer|string # Edges of each friction pyramid, or "exact".
+---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number, modulus: string} # What clench.grasp takes to measure another grasp alike. rho [m], normal_force [N]
 local grasp = {}
 
 ---Can it resist every wrench?
@@ -648,7 +649,7 @@ function clench.grasp(hand, object, options) end
 function clench.measures() end
 
 ---All wrenches that contacts resist when their normal forces sum to one (norm "L1") or are each at most one ("Linf"). A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in the object frame; torsion_radius, 0 for a hard finger, says how far a soft one resists a turn about its normal [m]. Nothing is calculated before it is asked for.
----@param options {contacts: table[], norm?: string, edges?: integer|string, rho?: number, com?: vec3, coordinates?: string[]} # edges: of the friction pyramids, 8, or "exact" for round cones; coordinates: those that count, of "fx" to "tz"
+---@param options {contacts: table[], norm?: string, edges?: integer|string, rho?: number, com?: vec3, coordinates?: string[]} # edges: of the friction pyramids, 8, or "exact" for round cones; rho: length that torques are divided by, 1 m unless given; com: the point of torques, the frame's origin unless given [m]; coordinates: those that count, of "fx" to "tz"
 ---@return wrench_space
 function clench.wrench_space(options) end
 

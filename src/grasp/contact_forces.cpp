@@ -134,8 +134,8 @@ void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
       if (demand.springs_only && std::isfinite(p.high[k])) p.low[k] = p.high[k];
       continue;
     }
-    if (ref.robot != grasp.hand) continue;
     if (demand.unlimited) p.high[k] = no_end, p.low[k] = -no_end;
+    if (ref.robot != grasp.hand) continue;
     if (demand.limits) p.high[k] = (*demand.limits)[ref.dof], p.low[k] = -p.high[k];
     const double sense = closing_sense(world, grasp, ref.dof);
     if (demand.closing_only && sense > 0) p.low[k] = 0;
@@ -148,12 +148,27 @@ void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
   }
 }
 
+// each joint is in balance, or nearly
+void balance_joints(ForceProgram& p, const JointDemand& demand) {
+  std::vector<int> tight, loose;
+  for (int i = 0; i < p.joints.slack.size(); ++i)
+    (demand.nearly_at_rest && p.joints.slack[i] > 0 ? loose : tight).push_back(i);
+  const auto blocks = [&](const std::vector<int>& rows, double sign) {
+    return std::vector<ConeBlock>{{p.f, sign * p.joints.forces(rows, Eigen::all)},
+                                  {p.u, -sign * p.joints.efforts(rows, Eigen::all)}};
+  };
+  if (!tight.empty()) p.builder.equal(blocks(tight, 1), p.joints.springs(tight));
+  if (loose.empty()) return;
+  for (const double sign : {1.0, -1.0})
+    p.builder.at_most(blocks(loose, sign), sign * p.joints.springs(loose) + p.joints.slack(loose));
+}
+
 void add_joints(ForceProgram& p, const World& world, const Grasp& grasp,
                 const JointDemand& demand) {
   const int efforts = static_cast<int>(p.joints.refs.size());
   p.u = p.builder.unknowns(efforts);
   bound_efforts(p, world, grasp, demand);
-  p.builder.equal({{p.f, p.joints.forces}, {p.u, -p.joints.efforts}}, p.joints.springs);
+  balance_joints(p, demand);
   p.lows.resize(efforts), p.highs.resize(efforts);
   for (int k = 0; k < efforts; ++k) {
     if (p.low[k] == p.high[k]) {
@@ -323,14 +338,23 @@ ForceCertificate read_certificate(const ForceProgram& p, const World& world, con
   return out;
 }
 
+// of a load, torque over rho: a power of two, so that no digit changes
+double size_of(const Vector6d& load, const Grasp& grasp) {
+  return std::exp2(
+      std::round(std::log2(std::hypot(load.head<3>().stableNorm(), load.tail<3>().stableNorm() / grasp.rho))));
+}
+
 // What stands in the way of the largest part of the load that is held is the tightest of all proofs. Where no part is,
 // since motors or springs press too much, the solver's own.
 ForceCertificate best_certificate(const ForceProgram& p, const World& world, const Grasp& grasp,
                                   const ForceOptions& options) {
   if (!options.load.isZero(0)) {
-    const ForceProgram part = make_program(world, grasp, options, Question::largest);
-    if (part.solution.status == ConeStatus::optimal && part.solution.x[part.extra] < 1)
-      return read_certificate(part, world, grasp, 1);
+    ForceOptions unit = options;
+    const double size = size_of(options.load, grasp);
+    unit.load /= size;
+    const ForceProgram part = make_program(world, grasp, unit, Question::largest);
+    if (part.solution.status == ConeStatus::optimal && part.solution.x[part.extra] < size)
+      return read_certificate(part, world, grasp, size);
   }
   return read_certificate(p, world, grasp, {});
 }
@@ -402,7 +426,13 @@ ForceResult largest_load(const World& world, const Grasp& grasp, const ForceOpti
   check_unmoved(world, grasp);
   check_options(world, grasp, options);
   if (options.load.isZero(0)) fail("largest load: the direction must not be 0");
-  return answer(world, grasp, options, Question::largest);
+  // the length of a direction counts for nothing
+  ForceOptions unit = options;
+  const double size = size_of(options.load, grasp);
+  unit.load /= size;
+  ForceResult out = answer(world, grasp, unit, Question::largest);
+  out.load_factor /= size;
+  return out;
 }
 
 }  // namespace clench

@@ -22,6 +22,8 @@ struct JointDemand {
   std::optional<Eigen::VectorXd> efforts = {};  ///< what the hand's motors give [N m or N]
   /// tendons of compliant DOFs are held where they stand, and clutches of joints that have broken away give all they can
   bool springs_only = false;
+  /// springs of compliant DOFs may be off their rest by springs_at_rest
+  bool nearly_at_rest = false;
   bool closing_only = false;  ///< efforts that open the hand are not allowed
   std::optional<double>
       total_torque;           ///< sum of the hand's efforts, along which it closes [N m or N]

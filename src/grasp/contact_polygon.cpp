@@ -59,7 +59,17 @@ double irregularity_of(const std::vector<Vector2d>& corners) {
 
 }  // namespace
 
-ContactPolygon contact_polygon(const std::vector<Vector3d>& points) {
+// of points nearer than a micrometre, one
+static std::vector<Vector3d> distinct(const std::vector<Vector3d>& points) {
+  std::vector<Vector3d> out;
+  for (const Vector3d& p : points)
+    if (std::ranges::none_of(out, [&](const Vector3d& q) { return (p - q).norm() < 1e-6; }))
+      out.push_back(p);
+  return out;
+}
+
+ContactPolygon contact_polygon(const std::vector<Vector3d>& all) {
+  const std::vector<Vector3d> points = distinct(all);
   ContactPolygon polygon;
   for (const Vector3d& p : points) polygon.centroid += p / static_cast<double>(points.size());
 

@@ -2,11 +2,7 @@
 
 namespace clench {
 
-Equilibrium equilibrium(const World& world, const Grasp& grasp, const EquilibriumOptions& options) {
-  ForceOptions asked;
-  asked.load = options.load;
-  asked.max_force = options.max_force;
-  asked.joints = options.joints;
+static Equilibrium asked_once(const World& world, const Grasp& grasp, ForceOptions asked) {
   Equilibrium out;
   out.result = contact_forces(world, grasp, asked);
   if (out.result.status == ForceStatus::optimal) {
@@ -21,6 +17,18 @@ Equilibrium equilibrium(const World& world, const Grasp& grasp, const Equilibriu
   if (out.result.status == ForceStatus::optimal) out.status = EquilibriumStatus::unstable;
   if (out.result.status == ForceStatus::infeasible) out.status = EquilibriumStatus::moving;
   return out;
+}
+
+Equilibrium equilibrium(const World& world, const Grasp& grasp, const EquilibriumOptions& options) {
+  ForceOptions asked;
+  asked.load = options.load;
+  asked.max_force = options.max_force;
+  asked.joints = options.joints;
+  const Equilibrium out = asked_once(world, grasp, asked);
+  if (!options.joints.springs_only || out.status != EquilibriumStatus::moving) return out;
+  // springs that closing has brought to rest balance but nearly
+  asked.joints->nearly_at_rest = true;
+  return asked_once(world, grasp, asked);
 }
 
 }  // namespace clench

@@ -43,6 +43,14 @@ void check_unmoved(const World& world, const Grasp& grasp) {
   const bool joints =
       !std::ranges::equal(grasp.posture->joints, now.joints,
                           [](double a, double b) { return std::abs(a - b) <= moved; });
+  const bool friction = std::ranges::any_of(grasp.contacts, [&](const Contact& c) {
+    const Friction f =
+        world.materials().friction(world.body(c.body).material, world.body(c.other).material);
+    return f.statics != c.friction.statics;
+  });
+  if (friction)
+    fail("grasp of {} by {}: friction has changed since it was measured; measure it anew",
+         world.body(grasp.object).name, world.robot(grasp.hand).name);
   if (object || joints)
     fail("grasp of {} by {}: {} since it was measured; measure it anew",
          world.body(grasp.object).name, world.robot(grasp.hand).name,
@@ -71,6 +79,7 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   grasp.posture = posture_of(world, hand, object);
   grasp.com = held.com;
   grasp.edges = options.edges;
+  grasp.options = options;
   // a body without extent has no contacts either: any length will do
   const double radius = held.max_radius();
   const double gyration = std::sqrt(std::max(0.0, held.inertia_per_mass.trace() / 2));

@@ -35,6 +35,7 @@ struct Grasp {
   double rho = 1;                                  ///< [m]
   double largest_radius = 1, gyration_radius = 1;  ///< of the object; 1 when it has no extent [m]
   int edges = 8;
+  GraspOptions options = {};                 ///< that it was measured with
   std::optional<GraspPosture> posture = {};  ///< as measured; empty: put together by hand
   int sharp_contacts = 0;  ///< soft ones on corners or edges, where their patch is but a guess
 

@@ -58,6 +58,7 @@ struct Row {
   int effort = 0;     // whose
   double factor = 1;  // of the effort
   double spring = 0;
+  double slack = 0;
 };
 
 }  // namespace
@@ -96,6 +97,7 @@ JointBalance joint_balance(const World& world, const Grasp& grasp, bool arms, bo
     if (link_weights) row.spring += link_weight(world, ref);
     if (dof.kind == DofKind::compliant) {
       row.factor = TendonShares(robot, joint.dof).of(joint);
+      row.slack = springs_at_rest * joint.spring;
     } else if (chain.apart[ref.joint]) {
       row.effort = effort({ref.robot, joint.dof, ref}, 0, limit_or_none(dof.breakaway_torque));
       row.factor = joint.ratio < 0 ? -1 : 1;
@@ -117,10 +119,12 @@ JointBalance joint_balance(const World& world, const Grasp& grasp, bool arms, bo
   out.forces.resize(count, jacobian.of_joints.rows());
   out.efforts = Eigen::MatrixXd::Zero(count, static_cast<int>(out.refs.size()));
   out.springs.resize(count);
+  out.slack.resize(count);
   for (int i = 0; i < count; ++i) {
     out.forces.row(i) = rows[i].forces;
     out.efforts(i, rows[i].effort) = rows[i].factor;
     out.springs[i] = rows[i].spring;
+    out.slack[i] = rows[i].slack;
   }
   tendons.resize(out.refs.size(), 0);
   out.tendons = Eigen::Map<const Eigen::VectorXd>(tendons.data(), static_cast<int>(tendons.size()));

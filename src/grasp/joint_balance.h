@@ -12,6 +12,10 @@ struct EffortRef {
   std::optional<JointRef> clutch = {};
 };
 
+/// A hand on springs has come to rest when no joint would move farther than this [rad or m]: ten times what closing
+/// leaves.
+inline constexpr double springs_at_rest = 1e-4;
+
 /// forces f = efforts u + springs, low <= u <= high: one row a rigid or breakaway DOF, by its coupling; one a joint that
 /// has broken away; one a joint of a compliant DOF, k ratio u / sum of k ratio^2 over its joints: in free air u holds
 /// all springs of stiffness k at once. Where a joint has none, all k count as alike.
@@ -20,6 +24,8 @@ struct JointBalance {
   Eigen::VectorXd springs;      ///< what springs, and weights, give in each row [N m or N]
   std::vector<EffortRef> refs;  ///< the hand's DOFs first, one each; then carriers', then clutches
   Eigen::VectorXd low, high;    ///< [N m or N], infinite: none
+  Eigen::VectorXd
+      slack;  ///< a row: by how much springs may be off their rest, see springs_at_rest [N m or N]
   /// of a compliant DOF, what its tendon gives where it stands: the effort that holds its springs there in free air; of
   /// all others 0
   Eigen::VectorXd tendons;

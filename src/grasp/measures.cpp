@@ -76,11 +76,11 @@ const MeasuredGrasp::Maps& MeasuredGrasp::maps() {
   maps_->J = dof_jacobian(world_, grasp_, hand_jacobian(world_, grasp_));
   maps_->starts = map.starts;
   maps_->G.bottomRows(3) /= grasp_.rho;
-  // torsions as forces at rho
+  // torsions as the friction that makes them, at the contact's own radius: within the cone the two share one bound
   for (int i = 0; i < map.contacts(); ++i)
     if (map.starts[i + 1] - map.starts[i] == 4) {
-      maps_->G.col(map.starts[i] + 3) *= grasp_.rho;
-      maps_->J.row(map.starts[i] + 3) *= grasp_.rho;
+      maps_->G.col(map.starts[i] + 3) *= grasp_.points[i].torsion_radius;
+      maps_->J.row(map.starts[i] + 3) *= grasp_.points[i].torsion_radius;
     }
   return *maps_;
 }
@@ -106,15 +106,8 @@ RobustnessProblem MeasuredGrasp::robustness_problem() {
   problem.J = maps().J;
   problem.starts = maps().starts;
   problem.mu.resize(static_cast<Index>(grasp_.points.size()));
-  for (size_t i = 0; i < grasp_.points.size(); ++i) {
-    const PointContact& point = grasp_.points[i];
-    problem.mu[static_cast<Index>(i)] = point.mu;
-    // within the cone a torsion counts over its own radius
-    if (problem.starts[i + 1] - problem.starts[i] == 4) {
-      problem.G.col(problem.starts[i] + 3) *= point.torsion_radius / grasp_.rho;
-      problem.J.row(problem.starts[i] + 3) *= point.torsion_radius / grasp_.rho;
-    }
-  }
+  for (size_t i = 0; i < grasp_.points.size(); ++i)
+    problem.mu[static_cast<Index>(i)] = grasp_.points[i].mu;
   problem.compliance = VectorXd::Ones(problem.G.cols());
   const Body& object = world_.body(grasp_.object);
   const Vector6d weight = weight_of(object);
@@ -180,19 +173,26 @@ const Measure all_measures[] = {
     {"epsilon",
      "radius of the largest ball of wrenches that contact forces resist whose normal parts sum to "
      "one; 0 unless force closure",
-     "0 to 1", "1", true, "Ferrari and Canny (1992)",
+     "0 to sqrt(1 + mu^2)", "1", true, "Ferrari and Canny (1992)",
      [](MeasuredGrasp& g) { return g.space().epsilon(); }},
     {"epsilon_linf", "the same with each normal part at most one", ">= 0", "1", true,
      "Ferrari and Canny (1992)",
      [](MeasuredGrasp& g) { return g.space({.space = {.norm = WrenchNorm::linf}}).epsilon(); }},
-    {"epsilon_exact", "epsilon with round friction cones, within 1e-6", "0 to 1", "1", true,
-     "Ferrari and Canny (1992)",
+    {"epsilon_exact", "epsilon with round friction cones, within 1e-6", "0 to sqrt(1 + mu^2)", "1",
+     true, "Ferrari and Canny (1992)",
      [](MeasuredGrasp& g) { return g.space({.edges = round_edges}).epsilon_bounds({}).lower; }},
     {"epsilon_force",
      "radius of the largest ball of forces that such contact forces reach, whatever their torque",
-     "0 to 1", "1", true, "Mirtich and Canny (1994)",
+     "0 to sqrt(1 + mu^2)", "1", true, "Mirtich and Canny (1994)",
      [](MeasuredGrasp& g) {
        return g.space({.space = {.coordinates = {0, 1, 2}}}).epsilon();
+     }},
+    {"epsilon_torque",
+     "radius of the largest ball of torques, over rho, that such contact forces reach, whatever "
+     "their force",
+     ">= 0", "1", true, "Mirtich and Canny (1994)",
+     [](MeasuredGrasp& g) {
+       return g.space({.space = {.coordinates = {3, 4, 5}}}).epsilon();
      }},
     {"volume", "of the hull of all unit wrenches in its six dimensions; 0 where it is flat", ">= 0",
      "1", true, "Miller and Allen (1999)", volume},
@@ -251,9 +251,11 @@ const Measure all_measures[] = {
      "below 10 N, while they hold the weight; contacts yield 1 m/N, joints do not",
      ">= 0", "N", true, "Bicchi (1995); Pozzi, Malvezzi and Prattichizzo (2017)",
      [](MeasuredGrasp& g) { return g.robustness().radius; }},
-    {"grasp_robustness", "the same, the largest over all choices of contacts that slip or let go",
+    {"grasp_robustness",
+     "the same, the largest over all choices of contacts that slip or let go; of many contacts the "
+     "largest that 400 steps of the search find",
      ">= 0", "N", true, "Pozzi, Malvezzi and Prattichizzo (2017)",
-     [](MeasuredGrasp& g) { return grasp_robustness(g.robustness_problem()).radius; }},
+     [](MeasuredGrasp& g) { return grasp_robustness(g.robustness_problem(), 400).radius; }},
 };
 
 }  // namespace
@@ -266,7 +268,8 @@ const Measure& find_measure(std::string_view name) {
     if (measure.name == name) return measure;
     names.emplace_back(measure.name);
   }
-  fail("unknown measure '{}'{}", name, did_you_mean(std::string(name), names));
+  const std::string meant = did_you_mean(std::string(name), names);
+  fail("unknown measure '{}'{}", name, meant.empty() ? "; clench.measures() lists them" : meant);
 }
 
 }  // namespace clench

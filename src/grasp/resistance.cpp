@@ -13,7 +13,14 @@ double resistance(const World& world, const Grasp& grasp, const Vector6d& wrench
   if (wrench_W.isZero(0)) return std::numeric_limits<double>::infinity();
   ForceOptions forces{.load = wrench_W};
   (options.norm == WrenchNorm::l1 ? forces.max_total_force : forces.max_force) = 1;
-  return std::max(0.0, largest_load(world, grasp, forces).load_factor);
+  const ForceResult most = largest_load(world, grasp, forces);
+  if (most.status == ForceStatus::infeasible) return 0;
+  if (most.status != ForceStatus::optimal)
+    fail("resistance: the solver stopped short of an answer for this wrench");
+  // forces of one newton that balance a billionth of one balance nothing: what the solver leaves
+  const double balanced = most.load_factor * std::hypot(wrench_W.head<3>().norm(),
+                                                        wrench_W.tail<3>().norm() / grasp.rho);
+  return balanced > 1e-9 ? most.load_factor : 0;
 }
 
 double ellipsoid_resistance(const World& world, const Grasp& grasp, const Vector6d& axes_W,
@@ -21,13 +28,15 @@ double ellipsoid_resistance(const World& world, const Grasp& grasp, const Vector
   for (const double axis : axes_W)
     if (!(axis > 0) || !std::isfinite(axis))
       fail("resistance: half axes of an ellipsoid must be > 0, got {} [N or N m]", axis);
+  // a flat ellipsoid needs no more than one that is a billionth thick, and the stretch to a ball keeps its digits
+  const Vector6d axes = axes_W.cwiseMax(1e-8 * axes_W.maxCoeff());
 
   // where the ellipsoid is a ball: along the world's axes, each over its half axis
   const Eigen::Matrix3d R_WO = world.body(grasp.object).X_WB.matrix();
   Eigen::Matrix<double, 6, 6> to_ball = Eigen::Matrix<double, 6, 6>::Zero();
   to_ball.topLeftCorner<3, 3>() = R_WO;
   to_ball.bottomRightCorner<3, 3>() = R_WO;
-  to_ball = axes_W.cwiseInverse().asDiagonal() * to_ball;
+  to_ball = axes.cwiseInverse().asDiagonal() * to_ball;
 
   const ConeOptions cone{.edges = grasp.edges, .rho = 1, .p_OM = grasp.com};
   std::vector<UnitWrenches> contacts;

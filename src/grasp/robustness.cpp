@@ -169,28 +169,62 @@ Robustness robustness_of(const RobustnessProblem& p, const std::vector<ContactHo
   return out;
 }
 
+constexpr ContactHold all_holds[] = {ContactHold::sticks, ContactHold::slips,
+                                     ContactHold::detached};
+
 // Depth first over the states of the contacts, the undecided ones counted on for all they could do.
 class RobustnessSearch {
  public:
-  explicit RobustnessSearch(const RobustnessProblem& problem)
-      : problem_(problem), states_(static_cast<size_t>(problem.mu.size()), ContactHold::sticks) {
-    best_.states = states_;
+  RobustnessSearch(const RobustnessProblem& problem, int most_steps)
+      : problem_(problem),
+        steps_(most_steps),
+        states_(static_cast<size_t>(problem.mu.size()), ContactHold::sticks) {
+    best_ = robustness_of(problem_, states_);
+    climb();
     search(0);
+    best_.most = std::max(best_.radius, left_);
   }
   const Robustness& best() const { return best_; }
 
  private:
+  // from state to state, each another contact's, while that gains
+  void climb() {
+    std::vector<ContactHold> at = states_;
+    for (bool gained = true; gained;) {
+      gained = false;
+      for (size_t i = 0; i < at.size(); ++i)
+        for (const ContactHold state : all_holds) {
+          if (state == at[i]) continue;
+          if (steps_-- <= 0) return;
+          auto tried = at;
+          tried[i] = state;
+          const Robustness found = robustness_of(problem_, tried);
+          if (!(found.radius > best_.radius)) continue;
+          best_ = found;
+          at = std::move(tried);
+          gained = true;
+        }
+    }
+  }
+
   void search(size_t decided) {
     if (decided == states_.size()) {
       const Robustness found = robustness_of(problem_, states_);
       if (found.radius > best_.radius) best_ = found;
       return;
     }
-    for (const ContactHold state :
-         {ContactHold::sticks, ContactHold::slips, ContactHold::detached}) {
+    for (const ContactHold state : all_holds) {
       states_[decided] = state;
+      const double most = steps_-- > 0 ? bound(decided + 1) : bounds_[decided];
       // a bound is as good as the solver's answer, which is good to 1e-9
-      if (bound(decided + 1) > best_.radius * (1 + 1e-8)) search(decided + 1);
+      if (!(most > best_.radius * (1 + 1e-8))) continue;
+      if (steps_ <= 0) {
+        left_ = std::max(left_, most);
+        continue;
+      }
+      bounds_.resize(decided + 2, most);
+      bounds_[decided + 1] = most;
+      search(decided + 1);
     }
     states_[decided] = ContactHold::sticks;
   }
@@ -223,7 +257,10 @@ class RobustnessSearch {
   }
 
   const RobustnessProblem& problem_;
+  int steps_;  // that are left
   std::vector<ContactHold> states_;
+  std::vector<double> bounds_ = {std::numeric_limits<double>::infinity()};  // of the way here
+  double left_ = 0;  // the largest bound of what was not searched
   Robustness best_;
 };
 
@@ -243,9 +280,9 @@ Robustness contact_robustness(const RobustnessProblem& problem) {
       std::vector<ContactHold>(static_cast<size_t>(problem.mu.size()), ContactHold::sticks));
 }
 
-Robustness grasp_robustness(const RobustnessProblem& problem) {
+Robustness grasp_robustness(const RobustnessProblem& problem, int most_steps) {
   check_robustness_problem(problem);
-  return RobustnessSearch(problem).best();
+  return RobustnessSearch(problem, most_steps).best();
 }
 
 }  // namespace clench

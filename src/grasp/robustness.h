@@ -35,6 +35,8 @@ struct Robustness {
   double margin = 0;       ///< of the contact force nearest to its bounds [N]
   Eigen::VectorXd forces;  ///< those that hold the load with that margin; empty at radius 0
   std::vector<ContactHold> states;  ///< one a contact
+  /// of grasp_robustness: what no choice of states exceeds; the radius itself once the search has ended [N]
+  double most = 0;
 };
 
 /// Robustness with every contact counted on as told. The forces hold the load by the springs, and add
@@ -47,9 +49,9 @@ Robustness contact_robustness(const RobustnessProblem& problem,
 /// the same with all contacts sticking
 Robustness contact_robustness(const RobustnessProblem& problem);
 
-/// The largest contact robustness over all states of the contacts, by branch and bound: exact, and the
-/// first in order of states among equals.
+/// The largest contact robustness over all states of the contacts, by branch and bound from the best that single changes
+/// of state lead to. Exact when the search ends within its steps, each a cone program; else the best found, and `most`.
 /// throws  Error as contact_robustness
-Robustness grasp_robustness(const RobustnessProblem& problem);
+Robustness grasp_robustness(const RobustnessProblem& problem, int most_steps = 100000);
 
 }  // namespace clench

@@ -1,10 +1,10 @@
 #include "motion/springs.h"
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "contact/cone.h"
+#include "contact/friction_edges.h"
 #include "math/nonnegative_least_squares.h"
 
 namespace clench {
@@ -16,7 +16,6 @@ using Eigen::VectorXd;
 static constexpr double at_limit = 1e-9;
 // rounding of a way [rad or m]
 static constexpr double nowhere = 1e-12;
-static constexpr int pyramid_edges = 8;
 // of the contact threshold: where closing stops anyhow
 static constexpr double least_gap = 0.2;
 
@@ -36,11 +35,9 @@ std::vector<Vector3d> edges_of(const Contact& contact, bool sliding) {
   if (mu == 0) return {contact.n_W};
   const Eigen::Matrix3d frame = contact_frame(contact.n_W);
   std::vector<Vector3d> edges;
-  for (int i = 0; i < pyramid_edges; ++i) {
-    const double angle = 2 * std::numbers::pi * i / pyramid_edges;
-    edges.push_back(contact.n_W +
-                    mu * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1)));
-  }
+  static const FrictionEdges pyramid = friction_edges();
+  for (const auto& edge : pyramid.colwise())
+    edges.push_back(contact.n_W + mu * (frame * edge.head<3>()));
   return edges;
 }
 

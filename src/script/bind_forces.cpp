@@ -50,6 +50,7 @@ static void read_caps(Table& options, ForceOptions& forces) {
 static void read_joints(Table& options, ForceOptions& forces) {
   JointDemand joints;
   bool asked = read_limits(options, false, joints);
+  joints.unlimited = !asked;
   joints.total_torque = positive_if(options, "total_torque");
   joints.closing_only = options.boolean("closing_only", false);
   joints.arms = options.boolean("arms", false);
@@ -245,7 +246,7 @@ as all can be; "interior_sum", the largest sum of the distances from the edges.
 world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho.
 `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of
 caps and motors; `opens` and `slides` of each contact along it; `cap_shares`, `effort_shares` of the capacity; `contact` or `dof`, whichever gives way.
-@param options? {load?: number[], objective?: string, max_force?: number, max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, limit and value of their sum [N]; torque_limits: the motors' own, or one a DOF; total_torque: of all motors, closing [N m or N]; closing_only: motors do not open; arms: limits of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
+@param options? {load?: number[], objective?: string, max_force?: number, max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, limit and value of their sum [N]; torque_limits: the motors' own, or one a DOF; without it motors give what they must; total_torque: of all motors, closing [N m or N]; closing_only: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
 @return table result  `status`, `forces`, `objective`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
 > held = grasp:contact_forces{load = weight}

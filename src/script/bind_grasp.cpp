@@ -75,6 +75,20 @@ static int get_edges(lua_State* L) {
   return edges == round_edges ? push(L, "exact") : push(L, edges);
 }
 
+static int get_options(lua_State* L) {
+  const Grasp& g = self<GraspHandle>(L).grasp;
+  push_list(L, 0, 5);
+  if (g.edges == round_edges)
+    set_field(L, "edges", "exact");
+  else
+    set_field(L, "edges", g.edges);
+  set_field(L, "rho", g.rho);
+  set_field(L, "soft", g.options.soft);
+  set_field(L, "normal_force", g.options.normal_force);
+  set_field(L, "modulus", modulus_name(g.options.modulus));
+  return 1;
+}
+
 static int grasp_space(lua_State* L) {
   check_count(L, 1);
   auto& g = self<GraspHandle>(L);
@@ -97,9 +111,8 @@ static int is_force_closure(lua_State* L) {
 
 static int grasp_text(lua_State* L) {
   auto& g = self<GraspHandle>(L);
-  std::string text = fmt::format("grasp of {} contacts, epsilon {:.6g}", g.grasp.contacts.size(),
-                                 space_of(g)->epsilon());
-  if (!space_of(g)->is_round()) text += fmt::format(", volume {:.6g}", space_of(g)->volume());
+  const std::string text = fmt::format("grasp of {} contacts, epsilon {:.6g}",
+                                       g.grasp.contacts.size(), space_of(g)->epsilon());
   return push(L, text);
 }
 
@@ -139,6 +152,10 @@ Length that torques are divided by.
 Edges of each friction pyramid, or "exact".
 @type integer|string
 > grasp.edges  --> 8)"},
+    {"options", guarded<get_options>, R"(
+What clench.grasp takes to measure another grasp alike.
+@type {edges: integer|string, rho: number, soft: boolean, normal_force: number, modulus: string}  rho [m], normal_force [N]
+> clench.grasp(hand, flask, grasp.options):quality "epsilon" == grasp:quality "epsilon"  --> true)"},
 };
 
 static const Entry grasp_methods[] = {

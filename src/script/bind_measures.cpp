@@ -28,14 +28,26 @@ static int quality(lua_State* L) {
   return push(L, measure.of(measured));
 }
 
+// empty: infinite, or beyond what can be had, as the volume of a hull of millions of facets
+static std::optional<double> value_if(const Measure& measure, MeasuredGrasp& grasp) {
+  try {
+    const double value = measure.of(grasp);
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 static int quality_all(lua_State* L) {
   check_count(L, 0);
   auto& g = self<GraspHandle>(L);
+  check_unmoved(*g.world, g.grasp);
   MeasuredGrasp measured(*g.world, g.grasp, spaces_of(g));
   push_list(L, 0, static_cast<int>(measures().size()));
-  for (const Measure& measure : measures())
-    if (const double value = measure.of(measured); std::isfinite(value))
-      set_field(L, std::string(measure.name).c_str(), value);
+  for (const Measure& measure : measures()) {
+    const auto value = value_if(measure, measured);
+    if (value) set_field(L, std::string(measure.name).c_str(), *value);
+  }
   return 1;
 }
 
@@ -56,8 +68,10 @@ static int resist(lua_State* L) {
          one + many + ellipsoid);
   double least = INFINITY;
   if (one) least = resistance(*g.world, g.grasp, vector6(options.numbers("wrench", 6)), resisting);
+  const auto rows = many ? options.rows("wrenches", 6) : std::vector<std::vector<double>>();
+  if (many && rows.empty()) fail("{}: wrenches: wanted at least one, got none", subject(L));
   if (many)
-    for (const auto& row : options.rows("wrenches", 6))
+    for (const auto& row : rows)
       least = std::min(least, resistance(*g.world, g.grasp, vector6(row), resisting));
   if (ellipsoid)
     least = ellipsoid_resistance(*g.world, g.grasp, vector6(options.numbers("ellipsoid", 6)),
@@ -97,7 +111,7 @@ the grasp was measured.
 > grasp:quality "epsilon_linf" >= grasp:quality "epsilon"  --> true
 > grasp:quality "epsilom"  --> error: did you mean 'epsilon'?)"},
     {"quality_all", guarded<quality_all>, R"(
-All measures at once, by name; those that are infinite are left out.
+All measures at once, by name; those that are infinite are left out, and those that cannot be had, such as the volume of too many contacts with too many edges.
 @return table<string, number>
 > q = grasp:quality_all()
 > q.epsilon == grasp:quality "epsilon", q.isotropy > 0  --> true, true)"},

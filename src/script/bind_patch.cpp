@@ -11,6 +11,10 @@ ModulusRule read_modulus_rule(Table& options) {
              : ModulusRule::series;
 }
 
+const char* modulus_name(ModulusRule rule) {
+  return rule == ModulusRule::larger ? "larger" : "series";
+}
+
 static const SoftPatch& patch_of(lua_State* L) { return *self<PatchHandle>(L).patch; }
 
 // {body = ..., other = ...}: what push_one(side) leaves of each

@@ -23,5 +23,7 @@ inline const Class& class_of<PatchHandle>() {
 
 /// "series" or "larger" of an option `modulus`
 ModulusRule read_modulus_rule(Table& options);
+/// as that takes it
+const char* modulus_name(ModulusRule rule);
 
 }  // namespace clench

@@ -55,11 +55,14 @@ static std::optional<std::vector<int>> read_coordinates(Table& options, const ch
   lua_State* L = what.L;
   std::optional<std::vector<int>> out;
   if (const int type = options.push(key); type == LUA_TTABLE) {
-    const int list = lua_gettop(L), count = static_cast<int>(lua_rawlen(L, list));
+    const int list = lua_gettop(L),
+              count = read_list_size(L, list, what, "a list of coordinates");
     out.emplace();
     for (int i = 1; i <= count; ++i) {
       lua_rawgeti(L, list, i);
-      out->push_back(coordinate_of(read_string(L, lua_gettop(L), what.item(i)), what));
+      const int c = coordinate_of(read_string(L, lua_gettop(L), what.item(i)), what);
+      if (std::ranges::count(*out, c)) fail("{}: {} is there twice", what.text(), coordinate_names[c]);
+      out->push_back(c);
       lua_pop(L, 1);
     }
   } else if (type != LUA_TNIL) {
@@ -79,10 +82,13 @@ WrenchSpaceOptions read_space_options(Table& options) {
 // a contact of the list: {point, normal, mu, torsion_radius}, or a list of wrenches
 static UnitWrenches read_contact(lua_State* L, int i, const What& what, const ConeOptions& cone) {
   if (!lua_istable(L, i)) fail_wanted(what, "a list of wrenches or {point, normal, mu}", i);
-  lua_pushliteral(L, "normal");
-  lua_rawget(L, i);
-  const bool is_point = !lua_isnil(L, -1);
-  lua_pop(L, 1);
+  // names, not numbers: a point and its cone
+  bool is_point = false;
+  for (const char* name : {"point", "normal", "mu", "torsion_radius"}) {
+    const int type = lua_getfield(L, i, name);
+    is_point = is_point || type != LUA_TNIL;
+    lua_pop(L, 1);
+  }
   if (is_point) {
     Table contact(L, i, what.text());
     const PointContact point{.p_O = contact.vec3("point"),
@@ -90,7 +96,11 @@ static UnitWrenches read_contact(lua_State* L, int i, const What& what, const Co
                              .mu = contact.number("mu"),
                              .torsion_radius = contact.number("torsion_radius", 0)};
     contact.done();
-    return unit_wrenches(point, cone);
+    try {
+      return unit_wrenches(point, cone);
+    } catch (const Error& error) {
+      fail("{}: {}", what.text(), error.what());
+    }
   }
   const auto rows = read_rows(L, i, what, 6);
   Wrenches wrenches(6, static_cast<int>(rows.size()));
@@ -108,10 +118,9 @@ static int new_wrench_space(lua_State* L) {
   cone.p_OM = options.vec3("com", Eigen::Vector3d::Zero());
   const WrenchSpaceOptions space_options = read_space_options(options);
   std::vector<UnitWrenches> contacts;
-  if (options.push("contacts") != LUA_TTABLE)
-    fail_wanted(options.what("contacts"), "a list of contacts", -1);
+  options.push("contacts");
   const int list = lua_gettop(L);
-  const int count = static_cast<int>(lua_rawlen(L, list));
+  const int count = read_list_size(L, list, options.what("contacts"), "a list of contacts");
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, list, i);
     contacts.push_back(read_contact(L, lua_gettop(L), options.what("contacts").item(i), cone));
@@ -321,7 +330,7 @@ All wrenches that contacts resist when their normal forces sum to one (norm "L1"
 A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in
 the object frame; torsion_radius, 0 for a hard finger, says how far a soft one resists a turn about its normal [m]. Nothing
 is calculated before it is asked for.
-@param options {contacts: table[], norm?: string, edges?: integer|string, rho?: number, com?: vec3, coordinates?: string[]}  edges: of the friction pyramids, 8, or "exact" for round cones; coordinates: those that count, of "fx" to "tz"
+@param options {contacts: table[], norm?: string, edges?: integer|string, rho?: number, com?: vec3, coordinates?: string[]}  edges: of the friction pyramids, 8, or "exact" for round cones; rho: length that torques are divided by, 1 m unless given; com: the point of torques, the frame's origin unless given [m]; coordinates: those that count, of "fx" to "tz"
 @return wrench_space
 > cross = {}
 > for i = 1, 6 do for s = -1, 1, 2 do w = {0, 0, 0, 0, 0, 0} w[i] = s cross[#cross + 1] = w end end

@@ -1,5 +1,6 @@
 -- stdlib/shapes/measure.lua
 --- What a shape measures: bounds, volume, mass properties, and whether it is closed.
+local raise = require "clench.raise"
 local mesh = require "clench.shapes.mesh"
 local vector = require "clench.shapes.vector"
 local measure = {}
@@ -75,7 +76,7 @@ function measure.mass(shape)
       end
     end
   end
-  if volume == 0 then error("shapes.mass: wanted a solid, got a shape without volume", 0) end
+  if volume == 0 then raise("shapes.mass: wanted a solid, got a shape without volume") end
   local centre, spread, inertia = vector.scale(first, 1 / volume), {}, {}
   for i = 1, 3 do
     spread[i] = {}

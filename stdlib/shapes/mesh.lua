@@ -1,10 +1,11 @@
 -- stdlib/shapes/mesh.lua
 --- A shape is a plain table {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}: indices from 1,
 --- metres, counter-clockwise from outside. This unit checks, welds and orients such tables.
+local raise = require "clench.raise"
 local vector = require "clench.shapes.vector"
 local mesh = {}
 
-local function fail(subject, format, ...) error(subject .. ": " .. format:format(...), 0) end
+local function fail(subject, format, ...) raise(subject .. ": " .. format:format(...)) end
 
 local function check_vertex(subject, i, p)
   for k = 1, 3 do

@@ -1,5 +1,6 @@
 -- stdlib/shapes/polygon.lua
 --- Simple polygons in the plane: orientation, crossings, inset, ear clipping.
+local raise = require "clench.raise"
 local polygon = {}
 
 local function cross(o, a, b) return (a[1] - o[1]) * (b[2] - o[2]) - (a[2] - o[2]) * (b[1] - o[1]) end
@@ -43,7 +44,7 @@ function polygon.simple(points, subject)
   local i, j = polygon.crossing(points)
   if i then
     local what = i == j and ("edge %d has no length"):format(i) or ("edges %d and %d meet"):format(i, j)
-    error(subject .. " must not cross or touch itself, got a polygon whose " .. what, 0)
+    raise(subject .. " must not cross or touch itself, got a polygon whose " .. what)
   end
   local ordered = {}
   local turned = polygon.area(points) < 0
@@ -102,7 +103,7 @@ function polygon.triangulate(points, subject)
         quality[i] = ear(points, ring, i) or -1
         if quality[i] > quality[best] then best = i end
       end
-      if quality[best] < 0 then error(subject .. " must be a simple polygon, got one that folds onto itself", 0) end
+      if quality[best] < 0 then raise(subject .. " must be a simple polygon, got one that folds onto itself") end
     end
     local n = #ring
     triangles[#triangles + 1] = {ring[(best - 2) % n + 1], ring[best], ring[best % n + 1]}

@@ -1,6 +1,7 @@
 -- stdlib/shapes/skin.lua
 --- The closed surface over a stack of rings: bands between neighbours, caps over the ends. A ring is a list of
 --- points; a ring of one point is an apex. All other rings have the same number of points, in step.
+local raise = require "clench.raise"
 local vector = require "clench.shapes.vector"
 local mesh = require "clench.shapes.mesh"
 local polygon = require "clench.shapes.polygon"
@@ -58,7 +59,7 @@ local function cap(triangles, ring, first, outward, subject)
   end
   if #distinct < 3 then return end
   local flat = flatten(distinct)
-  if not flat then error(subject .. ": wanted end rings that bound an area, got one without", 0) end
+  if not flat then raise(subject .. ": wanted end rings that bound an area, got one without") end
   for _, t in ipairs(polygon.triangulate(flat, subject .. ": an end ring")) do
     local i, j, k = index[t[1]], index[t[2]], index[t[3]]
     triangles[#triangles + 1] = outward and {i, j, k} or {i, k, j}

@@ -1,4 +1,5 @@
 -- stdlib/shapes/union.lua
+local raise = require "clench.raise"
 local mesh = require "clench.shapes.mesh"
 
 --- Several closed shapes as one: their vertices and triangles side by side, nothing cut away. Parts may overlap;
@@ -8,7 +9,7 @@ local mesh = require "clench.shapes.mesh"
 return function(parts)
   if type(parts) ~= "table" or #parts == 0 then
     local got = type(parts) == "table" and "none" or "a " .. type(parts)
-    error("shapes.union: wanted a list of shapes, got " .. got, 0)
+    raise("shapes.union: wanted a list of shapes, got " .. got)
   end
   local vertices, triangles = {}, {}
   for i = 1, #parts do

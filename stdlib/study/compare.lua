@@ -1,33 +1,36 @@
 -- stdlib/study/compare.lua
+local raise = require "clench.raise"
 local options = require "clench.options"
-
--- "grasp" of a grasp, else Lua's own word
-local function kind_of(value)
-  local meta = debug.getmetatable(value)
-  return type(value) == "userdata" and meta and meta.__name or type(value)
-end
-
-local function described(value)
-  if type(value) == "number" then return ("%.10g"):format(value) end
-  return value == nil and "nothing" or "a " .. kind_of(value):gsub("^clench%.", "")
-end
+local kind_of = require "clench.study.kind"
 
 local function check_grasps(grasps)
-  local function fail(format, ...) error(("study.compare: " .. format):format(...), 0) end
-  if type(grasps) ~= "table" then fail("wanted a list of grasps, got %s", described(grasps)) end
-  if #grasps == 0 then fail "wanted at least one grasp, got none" end
+  local function fail(format, ...) raise(("study.compare: " .. format):format(...)) end
+  if type(grasps) ~= "table" then fail("wanted a list of grasps, got %s", kind_of.described(grasps)) end
+  local count = 0
+  for _ in pairs(grasps) do count = count + 1 end
+  if count == 0 then fail "wanted at least one grasp, got none" end
+  for i = 1, count do
+    if grasps[i] == nil then fail("grasps: wanted a list without holes or names, got none as number %d", i) end
+  end
   for i, grasp in ipairs(grasps) do
-    if not kind_of(grasp):find "grasp$" then fail("grasps[%d]: wanted a grasp, got %s", i, described(grasp)) end
+    if not kind_of(grasp):find "grasp$" then fail("grasps[%d]: wanted a grasp, got %s", i, kind_of.described(grasp)) end
   end
 end
 
--- the number of the largest; of equal ones the first
-local function largest(values)
+-- the number of the best, by what counts as better; of equal ones the first
+local function best_of(values, larger_is_better)
   local best = 1
   for i, value in ipairs(values) do
-    if value > values[best] then best = i end
+    if larger_is_better and value > values[best] or not larger_is_better and value < values[best] then best = i end
   end
   return best
+end
+
+-- which measures are better when larger, by name
+local function larger_is_better()
+  local by_name = {}
+  for _, measure in ipairs(clench.measures()) do by_name[measure.name] = measure.larger_is_better end
+  return by_name
 end
 
 local Comparison = {}
@@ -36,10 +39,15 @@ Comparison.__index = Comparison
 --- one panel a measure, one column a grasp
 function Comparison:chart(given)
   local series = {}
-  for i, name in ipairs(self.measures) do series[i] = {name = name, values = self.values[name]} end
+  for i, name in ipairs(self.measures) do
+    local values = {}
+    -- what is infinite has no height
+    for k, value in ipairs(self.values[name]) do values[k] = math.abs(value) < math.huge and value end
+    series[i] = {name = name, values = values}
+  end
   local drawing = {series = series, labels = self.labels}
   for key, value in pairs(given or {}) do
-    if key == "series" or key == "labels" then error("study.compare: chart: unknown key '" .. key .. "'", 0) end
+    if key == "series" or key == "labels" then raise("study.compare: chart: unknown key '" .. key .. "'") end
     drawing[key] = value
   end
   return clench.chart(drawing)
@@ -49,25 +57,33 @@ end
 --- width and height of clench.chart.
 ---@param grasps grasp[]
 ---@param given? {measures?: string[], labels?: string[]}  names as grasp:quality takes them, "epsilon" and "volume" by default; one label a grasp
----@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: the number of the grasp with the largest value
--- > c = clench.study.compare({grasp, grasp}, {labels = {"one", "two"}})
--- > c.values.epsilon[2] == grasp:quality "epsilon", c.best.epsilon  --> true, 1
--- > c:chart {width = 300, height = 200}  --> picture of 300 x 200 pixels
+---@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: the number of the best grasp, that with the largest value, or with the least of measures like weight_effort
+--- > c = clench.study.compare({grasp, grasp}, {labels = {"one", "two"}})
+--- > c.values.epsilon[2] == grasp:quality "epsilon", c.best.epsilon  --> true, 1
+--- > c:chart {width = 300, height = 200}  --> picture of 300 x 200 pixels
 return function(grasps, given)
   check_grasps(grasps)
   local read = options("study.compare", given or {})
   local measures = read:raw "measures" or {"epsilon", "volume"}
   if type(measures) ~= "table" or #measures == 0 then read:wanted("measures", "a list of names", measures) end
   local labels = read:raw "labels"
+  if labels and type(labels) ~= "table" then read:wanted("labels", "a list of strings", labels) end
   if labels and #labels ~= #grasps then
     read:fail("wanted %d label%s, one a grasp, got %d", #grasps, #grasps == 1 and "" or "s", #labels)
   end
   read:done()
+  local larger = larger_is_better()
+  for i, name in ipairs(measures) do
+    if larger[name] == nil then
+      local _, message = pcall(grasps[1].quality, grasps[1], name)
+      read:fail("measures[%d]: %s", i, (message:gsub("^stdlib/[^:]*:%d+: ", "")))
+    end
+  end
   local result = {measures = measures, labels = labels, values = {}, best = {}}
   for _, name in ipairs(measures) do
     local values = {}
     for i, grasp in ipairs(grasps) do values[i] = grasp:quality(name) end
-    result.values[name], result.best[name] = values, largest(values)
+    result.values[name], result.best[name] = values, best_of(values, larger[name])
   end
   return setmetatable(result, Comparison)
 end

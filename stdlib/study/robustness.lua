@@ -1,5 +1,7 @@
 -- stdlib/study/robustness.lua
+local raise = require "clench.raise"
 local options = require "clench.options"
+local kind_of = require "clench.study.kind"
 local spread = require "clench.study.spread"
 
 -- each of these is one stream of random numbers a sample, so that an error switched off changes no other
@@ -24,17 +26,39 @@ end
 
 local function close_again(hand) hand:autograsp() end
 
+-- Opens the hand from DOF values by a twentieth of its way, each DOF at its own pace, until it is free.   returns nil when it never is
+local function back_off(hand, from)
+  local paces, limits, most = {}, hand.dof_limits, 0
+  for i, info in ipairs(hand.dof_info) do
+    paces[i] = info.default_velocity
+    if paces[i] ~= 0 then most = math.max(most, (limits[i][2] - limits[i][1]) / math.abs(paces[i])) end
+  end
+  for step = 1, 20 do
+    local at = {}
+    for i, value in ipairs(from) do
+      at[i] = math.min(math.max(value - paces[i] * most * step / 20, limits[i][1]), limits[i][2])
+    end
+    hand:set_dofs(at)
+    if #hand.world:colliding(hand) == 0 then return true end
+  end
+end
+
+local function check_grasp(grasp)
+  if not kind_of(grasp):find "grasp$" then raise("study.robustness: wanted a grasp, got " .. kind_of.described(grasp)) end
+end
+
 --- What a grasp is worth when things are not where and what they were thought to be. Each sample draws errors of the
---- normal distribution; where the object is out of place, the hand is opened, the object moved, and the hand closed on
---- it again, all in a copy of the world. Friction is off by one factor for all contacts, normals each by their own.
+--- normal distribution; where the object is out of place, the hand is opened as far as it takes to be free of it, a
+--- twentieth of its way and more, and closed on it again, all in a copy of the world. Friction is off by one factor for all contacts, normals each by their own.
 --- The same seed gives the same numbers, and sample i the same in longer runs.
 ---@param grasp grasp
 ---@param given {samples?: integer, seed?: integer, position?: number, angle?: number, friction?: number, normal?: number, close?: function, edges?: integer|string}  standard deviations, 0 unless given: of the object's position along each axis [m], its turn about any axis [rad], the factor on mu, the tilt of normals [rad]; samples: 100; close(hand, object) instead of autograsp
 ---@return {samples: number[], probability: number, interval: table, taken: integer, mean: number, deviation: number, least: number, low: number, median: number, high: number, largest: number} # epsilon of each sample; probability of force closure, with the interval that holds it at 95 %; taken: how often the object's place was taken by the opened hand or something else, which counts as no grasp; low and high: 5 and 95 % of the samples
--- > r = clench.study.robustness(grasp, {samples = 20, friction = 0.2, normal = 0.05})
--- > #r.samples, r.low <= r.median, r.interval.low <= r.probability  --> 20, true, true
--- > clench.study.robustness(grasp, {frictoin = 0.2})  --> error: unknown key 'frictoin'
+--- > r = clench.study.robustness(grasp, {samples = 20, friction = 0.2, normal = 0.05})
+--- > #r.samples, r.low <= r.median, r.interval.low <= r.probability  --> 20, true, true
+--- > clench.study.robustness(grasp, {frictoin = 0.2})  --> error: unknown key 'frictoin'
 return function(grasp, given)
+  check_grasp(grasp)
   local read = options("study.robustness", given or {})
   local count = read:count("samples", 100, 1, 1e6)
   local seed = read:count("seed", 1, math.mininteger, math.maxinteger)
@@ -48,19 +72,17 @@ return function(grasp, given)
   local moves = position > 0 or angle > 0
   local world = grasp.object.world:clone()
   local hand, object = world:robot(grasp.hand.name), world:body(grasp.object.name)
-  local start, place = nil, object.pose
-  if moves then
-    hand:open()
-    start = world:snapshot()
-  end
+  local start, place, from = world:snapshot(), object.pose, hand.dofs
+  local alike = grasp.options
+  alike.edges = edges
 
   local function regrasped(sample)
     if not moves then return grasp end
     world:restore(start)
     object.pose = erred_pose(stream(seed, sample, "place"), place, position, angle)
-    if #world:colliding(object) > 0 then return nil end
+    if not back_off(hand, from) or #world:colliding(object) > 0 then return nil end
     close(hand, object)
-    return clench.grasp(hand, object, {rho = grasp.rho, edges = edges})
+    return clench.grasp(hand, object, alike)
   end
 
   local epsilons, closed, taken = {}, 0, 0

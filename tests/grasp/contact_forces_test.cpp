@@ -144,6 +144,25 @@ TEST_CASE("caps bound what is carried, and the proof names the finger that gives
   CHECK(std::abs(r.certificate->slides[0] - 1) < 1e-6);
 }
 
+TEST_CASE("the length of a direction counts for nothing") {
+  Held h = held(test::pinch(0.5));
+  for (const double size : {1e-200, 1e-12, 1e-9, 1e-6, 1.0, 1e6, 1e12, 1e200}) {
+    CAPTURE(size);
+    const ForceOptions options{.load = wrench(0, 0, -size, 0, 0, 0), .max_force = 4};
+    const ForceResult r = largest_load(h.world, h.grasp, options);
+    REQUIRE(r.status == ForceStatus::optimal);
+    CHECK(r.load_factor * size == doctest::Approx(4).epsilon(1e-9));
+    if (size < 1e-12 || size > 1e12) continue;
+    // the proof is as tight for tiny loads and caps as for others
+    const ForceOptions small{.load = wrench(0, 0, -5 * size, 0, 0, 0), .max_force = 4 * size};
+    const ForceResult falls = contact_forces(h.world, h.grasp, small);
+    REQUIRE(falls.status == ForceStatus::infeasible);
+    REQUIRE(falls.certificate.has_value());
+    CHECK(falls.certificate->power / falls.certificate->capacity ==
+          doctest::Approx(1.25).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("a torque about the line of two fingers needs soft ones") {
   const ForceOptions options{.load = wrench(0, 0, 0, 0.03, 0, 0)};
   Held hard = held(test::pinch(0.5));

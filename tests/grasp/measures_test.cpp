@@ -1,5 +1,7 @@
 #include "grasp/measures.h"
 
+#include "grasp/contact_polygon.h"
+
 #include <set>
 
 #include "base/error.h"
@@ -123,4 +125,13 @@ TEST_CASE("measures have different names, a range, a unit and a source each") {
   }
   CHECK_THROWS_WITH_AS(find_measure("epsilom"),
                        "unknown measure 'epsilom'; did you mean 'epsilon'?", Error);
+}
+
+TEST_CASE("contacts that are there twice change neither the polygon nor its middle") {
+  const std::vector<Vector3d> once = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  std::vector<Vector3d> twice = once;
+  twice.push_back(once[1]), twice.push_back(once[1]);
+  const ContactPolygon a = contact_polygon(once), b = contact_polygon(twice);
+  CHECK(a.centroid == b.centroid);
+  CHECK(a.area == b.area);
 }

@@ -77,3 +77,19 @@ test("the original's compliant hand moves in free air as its ratios say, and wra
   -- contacts balance every joint, but press the ball, which closing took for fixed, out of the hand
   t.equal(clench.grasp(hand, ball):equilibrium({torques = "springs"}).status, "unstable")
 end)
+
+test("springs that have come to rest without friction balance their joints", function(t)
+  local world, hand, cylinder = closed_on_cylinder()
+  for i, height in ipairs {0, 0.004, -0.003} do
+    hand:open()
+    for _, material in ipairs {"frictionless", "plastic"} do
+      cylinder.material = material
+      cylinder.pose = {xyz = {0.002 * i, height, 0}}
+      hand:open()
+      hand:autograsp()
+      local status = clench.grasp(hand, cylinder):equilibrium({torques = "springs"}).status
+      t.ok(status == "stable" or status == "unstable", ("%s at %g: %s"):format(material, height, status))
+    end
+  end
+  t.equal(#world:colliding(), 0)
+end)

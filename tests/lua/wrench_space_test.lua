@@ -80,3 +80,13 @@ test("a grasp keeps its spaces, one for each set of options", function(t)
   local worst = grasp:wrench_space():weakest()
   for _, i in ipairs(worst.contacts) do t.ok(grasp.contacts[i]) end
 end)
+
+test("contacts that are wrong are told by their number", function(t)
+  local good = {point = {1, 0, 0}, normal = {-1, 0, 0}, mu = 0.5}
+  local function refused(given, sentence) t.fails(function() clench.wrench_space(given) end, sentence) end
+  refused({contacts = {good, {point = {0, 1, 0}, normal = {0, -1, 0}, mu = -1}}}, "contacts[2]: contact cone: mu must be >= 0, got -1")
+  refused({contacts = {good, {point = {0, 1, 0}, mu = 1}}}, "contacts[2]: normal: wanted a vec3 or {x, y, z}, got nil")
+  refused({contacts = {a = good}}, "contacts: wanted a list of contacts, got a table with the key 'a'")
+  refused({contacts = {good}, coordinates = {"fx", "fx"}}, "coordinates: fx is there twice")
+  refused({contacts = {good}, coordinates = {1, k = 2}}, "coordinates: wanted a list of coordinates")
+end)

@@ -22,7 +22,8 @@ double least_residual_by_enumeration(const MatrixXd& a, const VectorXd& b) {
     const MatrixXd part = a(Eigen::all, columns);
     const Svd svd = singular_value_decomposition(part);
     if (svd.values.minCoeff() < 1e-9 || part.cols() > part.rows()) continue;
-    const VectorXd x = svd.v * (svd.u.transpose() * b).cwiseQuotient(svd.values);
+    const VectorXd x =
+        svd.v * (svd.u.leftCols(svd.values.size()).transpose() * b).cwiseQuotient(svd.values);
     if (x.minCoeff() >= 0) best = std::min(best, (part * x - b).norm());
   }
   return best;
