@@ -57,7 +57,7 @@ class Growing {
   void wait(int index) {
     const double offset = complex_.facet(index).offset();
     // a facet beyond the upper bound will not decide
-    waiting_.set(index, offset < limit_ ? offset : infinite);
+    if (offset < limit_) waiting_.set(index, offset);
   }
   // no shifted point is farther from where it was
   double slack() const { return shift_ * std::sqrt(double(D)); }
@@ -164,6 +164,7 @@ Ball Growing<D>::ball(const BallOptions& options) {
     const double believed = facet.offset();
     if (settle_plane(nearest) > plane_noise) throw BrokenSurface();
     if (facet.offset() > believed + plane_noise) {
+      waiting_.drop(nearest);
       wait(nearest);
       continue;
     }

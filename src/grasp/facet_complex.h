@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,11 @@ struct alignas(64) Eight {
   double x[lane_count] = {};
 
   CLENCH_INLINE DoubleLanes lanes() const { return DoubleLanes::stored(x); }
+  CLENCH_INLINE void set(const DoubleLanes& from) {
+    // vector by vector: as one block it would go through the stack
+    for (int i = 0; i < DoubleLanes::chunks; ++i)
+      std::memcpy(x + i * DoubleLanes::width, &from.chunk[i], sizeof from.chunk[i]);
+  }
 };
 
 inline constexpr int behind = most_dimensions;
@@ -207,7 +213,7 @@ void FacetComplex<D>::raise(int corner) {
     const DoubleLanes plane = b.plane.lanes() * a.height - a.plane.lanes() * b.height;
     const double length = std::sqrt(dot(plane, plane * normal_only));
     shortest = length < shortest ? length : shortest;
-    (plane * (1 / length)).store(facet.plane.x);
+    facet.plane.set(plane * (1 / length));
 
     // the point is the last corner
     for (int k = 0; k < D; ++k) facet.corner[k] = a.corner[k];

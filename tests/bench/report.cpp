@@ -68,11 +68,11 @@ double Report::ratio(const std::string& query, const std::string& other,
 }
 
 void Report::print(const std::vector<std::string>& libraries) const {
-  fmt::print("{:40} {:18}", "median microseconds", "");
+  fmt::print("{:40} {:27}", "median microseconds", "");
   for (const auto& library : libraries) fmt::print(" {:>10}", library);
   fmt::print("\n");
   for (const Row& row : rows_) {
-    fmt::print("{:40} {:18}", row.query, row.pair);
+    fmt::print("{:40} {:27}", row.query, row.pair);
     for (const auto& library : libraries)
       if (row.medians.contains(library))
         fmt::print(" {:10.2f}", row.medians.at(library));

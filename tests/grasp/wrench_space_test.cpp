@@ -393,6 +393,49 @@ TEST_CASE("the weakest wrench is one from outside: a finger below cannot hold wh
   check_sound(weak);
 }
 
+// the point of a hull nearest to the origin, step by step towards the wrench that leads back most
+double slow_distance(const Wrenches& points) {
+  Vector6d at = points.col(0);
+  for (int step = 0; step < 200000; ++step) {
+    int next = 0;
+    (at.transpose() * points).minCoeff(&next);
+    const Vector6d way = points.col(next) - at;
+    const double square = way.squaredNorm(), part = -way.dot(at) / square;
+    if (square == 0 || part <= 0) break;
+    at += std::min(part, 1.0) * way;
+  }
+  return at.norm();
+}
+
+TEST_CASE(
+    "without force closure the weakest wrench leads away from the nearest point of the hull") {
+  Random random(21);
+  int outside = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    std::vector<PointContact> contacts(3 + trial % 3);
+    for (PointContact& c : contacts) {
+      c = random_contact(random, 0.5);
+      c.n_O = Vector3d(c.n_O.x(), c.n_O.y(), std::abs(c.n_O.z()) + 0.6).normalized();
+      if (trial % 2) c.torsion_radius = 0.1;
+    }
+    const WrenchSpace space(wrenches_of(contacts, 8));
+    REQUIRE(!space.is_force_closure());
+    const double distance = slow_distance(all_of(space));
+    if (distance < 1e-3) continue;
+    ++outside;
+    // steps come near like their inverse
+    CHECK(space.weakest().resistance == doctest::Approx(-distance).epsilon(1e-3));
+    CHECK(space.weakest().resistance >= -distance - 1e-9);
+    check_sound_cheaply(space);
+    // where each contact may rest, nothing need push along
+    const WrenchSpace each(wrenches_of(contacts, 8), {.norm = WrenchNorm::linf});
+    CHECK((each.weakest().direction - space.weakest().direction).norm() < 1e-6);
+    CHECK(each.weakest().resistance == 0);
+    CHECK(each.weakest().contacts.empty());
+  }
+  CHECK(outside >= 10);
+}
+
 TEST_CASE("an origin on the boundary is not inside: epsilon is exactly 0") {
   // half a cross polytope, with the origin among its points or on its face
   Random random(5);
