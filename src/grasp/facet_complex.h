@@ -30,9 +30,14 @@ inline constexpr double seen = 1e-13;
 struct alignas(64) Eight {
   double x[lane_count] = {};
 
-  CLENCH_INLINE DoubleLanes lanes() const { return DoubleLanes::stored(x); }
+  // vector by vector: as one block they would go through the stack, in pieces
+  CLENCH_INLINE DoubleLanes lanes() const {
+    DoubleLanes out;
+    for (int i = 0; i < DoubleLanes::chunks; ++i)
+      std::memcpy(&out.chunk[i], x + i * DoubleLanes::width, sizeof out.chunk[i]);
+    return out;
+  }
   CLENCH_INLINE void set(const DoubleLanes& from) {
-    // vector by vector: as one block it would go through the stack
     for (int i = 0; i < DoubleLanes::chunks; ++i)
       std::memcpy(x + i * DoubleLanes::width, &from.chunk[i], sizeof from.chunk[i]);
   }
