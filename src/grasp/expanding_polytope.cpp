@@ -175,7 +175,9 @@ Ball Growing<D>::ball(const BallOptions& options) {
     if (upper_ - lower <= enough(options.tolerance)) return ended(BallEnd::inside, lower);
     if (options.at_least > 0 && (lower - slack() >= options.at_least || upper_ < options.at_least))
       return ended(BallEnd::decided, lower);
-    if (complex_.point_count() >= options.most_points) return ended(BallEnd::stopped, lower);
+    if (complex_.point_count() >= options.most_points ||
+        complex_.alive_count() >= options.most_facets)
+      return ended(BallEnd::stopped, lower);
     // a shifted point may lie below what the set reaches
     if (!(std::min(reach, dot<D>(facet.plane.x, p)) - facet.offset() > 10 * seen))
       throw BrokenSurface();

@@ -23,8 +23,9 @@ struct BallOptions {
   double tolerance = 1e-12;  ///< upper - lower that is enough, >= 1e-12
   double zero =
       1e-12;  ///< a set that reaches no farther in some direction leaves the origin outside
-  double at_least = 0;       ///< > 0: enough to know whether the radius is below this
-  int most_points = 100000;  ///< of the polytope
+  double at_least = 0;          ///< > 0: enough to know whether the radius is below this
+  int most_points = 100000;     ///< of the polytope
+  int most_facets = 2'000'000;  ///< at once
 };
 
 enum class BallEnd {
@@ -32,7 +33,7 @@ enum class BallEnd {
   outside,  ///< the set reaches at most `zero` along the direction: no ball
   flat,     ///< the set lies in a hyperplane normal to the direction
   decided,  ///< at_least is below lower or above upper
-  stopped   ///< the bracket holds, and is wider than asked: most_points, or rounding
+  stopped   ///< the bracket holds, and is wider than asked: most_points or most_facets, or rounding
 };
 
 struct Ball {

@@ -38,6 +38,10 @@ constexpr double carries = 1e-9;
 
 constexpr int most_facets = 1'000'000;
 
+// Around a curved set whose nearest points to the origin are many, brackets close slowly: so many facets take a
+// third of a second and 160 MB, and what they certify is what there is.
+constexpr int most_round_facets = 500'000;
+
 // of the two unit vectors along a line the one whose largest component is positive
 Eigen::VectorXd upright(const Eigen::VectorXd& direction) {
   int largest = 0;
@@ -255,9 +259,11 @@ int WrenchSpace::rank() const {
 
 WrenchSpace::Bracket WrenchSpace::bracket_of(const ContactReach& reach, double tolerance,
                                              double at_least) const {
-  const Ball ball = largest_ball(reach, {.tolerance = std::max(tolerance, flat_tolerance),
-                                         .zero = prepared().zero,
-                                         .at_least = at_least});
+  const Ball ball = largest_ball(
+      reach, {.tolerance = std::max(tolerance, flat_tolerance),
+              .zero = prepared().zero,
+              .at_least = at_least,
+              .most_facets = is_round() ? most_round_facets : BallOptions().most_facets});
   Bracket out{ball.lower, ball.upper, tolerance,
               Eigen::Map<const Eigen::VectorXd>(ball.direction, dimension()),
               ball.end == BallEnd::outside || ball.end == BallEnd::flat};
@@ -266,22 +272,26 @@ WrenchSpace::Bracket WrenchSpace::bracket_of(const ContactReach& reach, double t
 }
 
 const WrenchSpace::Bracket& WrenchSpace::final_bracket() const {
-  const double tolerance = is_round() ? round_tolerance : flat_tolerance;
-  if (bracket_ && bracket_->tolerance <= tolerance) return *bracket_;
-  bracket_ = bracket_of(prepared().reach, tolerance, 0);
-  const double width = bracket_->upper - bracket_->lower;
+  // whatever was asked before, the same answer to the bit
+  if (final_) return *final_;
+  if (bracket_ && bracket_->outside) return *bracket_;
+  const double round = std::min(round_tolerance, std::ldexp(round_tolerance, -prepared().exponent));
+  final_ = bracket_of(prepared().reach, is_round() ? round : flat_tolerance, 0);
+  const double width = final_->upper - final_->lower;
   if (width > poor && !is_round() && options_.norm == WrenchNorm::l1) {
     // rounding broke every surface that was tried: the hull whole, by qhull
     const Hull all = hull();
     if (all.full()) {
       int facet = 0;
       const double offset = std::ldexp(all.offsets.minCoeff(&facet), -prepared().exponent);
-      bracket_->lower = bracket_->upper = std::max(0.0, offset);
-      bracket_->direction = all.normals.col(facet);
-      bracket_->outside = offset <= prepared().zero;
+      final_->lower = final_->upper = std::max(0.0, offset);
+      final_->direction = all.normals.col(facet);
+      final_->outside = offset <= prepared().zero;
     }
   }
-  return *bracket_;
+  if (!bracket_ || bracket_->upper - bracket_->lower > final_->upper - final_->lower)
+    bracket_ = final_;
+  return *final_;
 }
 
 bool WrenchSpace::is_force_closure() const {

@@ -48,7 +48,9 @@ struct EpsilonOptions {
 /// in which the space reaches no farther.
 struct EpsilonBounds {
   double lower = 0, upper = 0;
-  bool converged = true;  ///< upper - lower is within the tolerance; else at_least was known before
+  bool converged =
+      true;  ///< upper - lower is within the tolerance; else at_least was known before, or it is as near as it
+      ///< came
 };
 
 /// lower <= volume <= upper: of the space with round cones replaced by pyramids within, and by the same
@@ -70,8 +72,9 @@ class WrenchSpace {
   explicit WrenchSpace(std::vector<UnitWrenches> contacts, WrenchSpaceOptions options = {});
   explicit WrenchSpace(std::vector<Wrenches> contacts, WrenchSpaceOptions options = {});
 
-  /// Radius of the largest ball about the origin inside the space; 0 unless force closure. In [0, 1]
-  /// for forces in L1. Within 1e-12 of the space's size; 1e-9 with round cones.
+  /// Radius of the largest ball about the origin inside the space; 0 unless force closure. In
+  /// [0, sqrt(1 + mu^2)] in L1. Within 1e-12 of the space's size; with round cones within 1e-9,
+  /// or, where 500,000 facets do not show that much (rings of alike contacts, huge friction), a certain lower bound.
   double epsilon() const;
   /// An epsilon that is less certain, and found sooner.   throws Error when tolerance < 0 or not finite
   EpsilonBounds epsilon_bounds(const EpsilonOptions& options) const;
@@ -126,7 +129,7 @@ class WrenchSpace {
   mutable std::optional<Prepared> prepared_;
   mutable std::optional<int> rank_;
   mutable std::optional<bool> closure_;
-  mutable std::optional<Bracket> bracket_;
+  mutable std::optional<Bracket> bracket_, final_;  // the nearest so far; that of epsilon
   mutable std::optional<double> volume_;
   mutable std::optional<std::pair<int, VolumeBounds>> volume_bounds_;  // and their edges
   mutable std::optional<Weakest> weakest_;

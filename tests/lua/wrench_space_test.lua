@@ -90,3 +90,26 @@ test("contacts that are wrong are told by their number", function(t)
   refused({contacts = {good}, coordinates = {"fx", "fx"}}, "coordinates: fx is there twice")
   refused({contacts = {good}, coordinates = {1, k = 2}}, "coordinates: wanted a list of coordinates")
 end)
+
+test("rings of alike round cones end in time, and their brackets hold", function(t)
+  local function ring(count, mu, edges)
+    local contacts = {}
+    for i = 1, count do
+      local a = 2 * math.pi * i / count
+      contacts[i] = {point = {math.cos(a), math.sin(a), 0}, normal = {-math.cos(a), -math.sin(a), 0}, mu = mu}
+    end
+    return clench.wrench_space {contacts = contacts, edges = edges}
+  end
+  for _, case in ipairs {{12, 0.5}, {3, 1e6}} do
+    local space = ring(case[1], case[2], "exact")
+    local bounds = space:epsilon_bounds {}
+    t.ok(bounds.lower > 0 and bounds.lower <= bounds.upper)
+    -- a pyramid of 64 edges lies within, and reaches the more than cos(pi / 64) of what the cone does
+    local inner = ring(case[1], case[2], 64):epsilon()
+    t.ok(bounds.upper >= inner * (1 - 1e-9))
+    local epsilon = space:epsilon()
+    t.ok(epsilon >= bounds.lower * (1 - 1e-9) and epsilon <= bounds.upper * (1 + 1e-9))
+    -- whatever was asked before
+    t.equal(ring(case[1], case[2], "exact"):epsilon(), epsilon)
+  end
+end)
