@@ -10,38 +10,70 @@ using Eigen::Vector3d;
 static constexpr double most_slope = 1.0 / 30;  // forgiven by is_summit
 static constexpr double on_boundary = 1e-9;     // of a triangle's size: nearer is on its edge
 
-// equal slots, those of which neither is less, get one number
-template <class Less>
-NearSurface::Groups NearSurface::group(int count, Less less) {
+// members of the groups 0 to count - 1, in the order of the slots
+NearSurface::Groups NearSurface::group(std::vector<int> of, int count) {
   Groups groups;
-  groups.of.resize(count);
-  groups.order.resize(count);
-  std::iota(groups.order.begin(), groups.order.end(), 0);
-  std::sort(groups.order.begin(), groups.order.end(),
-            [&](int i, int j) { return less(i, j) || (!less(j, i) && i < j); });
-  for (int k = 0; k < count; ++k) {
-    if (k == 0 || less(groups.order[k - 1], groups.order[k])) groups.start.push_back(k);
-    groups.of[groups.order[k]] = static_cast<int>(groups.start.size()) - 1;
-  }
-  groups.start.push_back(count);
+  groups.start.assign(count + 1, 0);
+  for (const int number : of) ++groups.start[number + 1];
+  std::partial_sum(groups.start.begin(), groups.start.end(), groups.start.begin());
+  groups.order.resize(of.size());
+  std::vector<int> next(groups.start.begin(), groups.start.end() - 1);
+  for (int slot = 0; slot < static_cast<int>(of.size()); ++slot)
+    groups.order[next[of[slot]]++] = slot;
+  groups.of = std::move(of);
   return groups;
+}
+
+// Vertices by slot -> numbers of their positions, as these stand in order. Few vertices are compared by
+// place, those that differ by index.
+static int number_positions(const std::vector<Vector3d>& vertices, std::vector<int>& slots) {
+  std::vector<int> distinct = slots;
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  std::vector<int> order(distinct.size()), number(distinct.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto less = [&](int i, int j) {
+    const Vector3d &p = vertices[distinct[i]], &q = vertices[distinct[j]];
+    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+  };
+  std::sort(order.begin(), order.end(), less);
+  int count = 0;
+  for (size_t k = 0; k < order.size(); ++k) {
+    count += k == 0 || less(order[k - 1], order[k]);
+    number[order[k]] = count - 1;
+  }
+  for (int& slot : slots)
+    slot = number[std::lower_bound(distinct.begin(), distinct.end(), slot) - distinct.begin()];
+  return count;
 }
 
 NearSurface::NearSurface(const Mesh& mesh, std::vector<int> triangles, const Pose& X)
     : triangles_(std::move(triangles)) {
   const int slots = 3 * static_cast<int>(triangles_.size());
+  std::vector<int> corners(slots);
+  for (int slot = 0; slot < slots; ++slot)
+    corners[slot] = mesh.triangles[triangles_[slot / 3]][slot % 3];
   const auto position = [&](int slot) -> const Vector3d& {
     return mesh.vertices[mesh.triangles[triangles_[slot / 3]][slot % 3]];
   };
-  by_corner_ = group(slots, [&](int i, int j) {
-    const Vector3d &p = position(i), &q = position(j);
-    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
-  });
-  const auto ends = [&](int slot) {
+  const int corner_count = number_positions(mesh.vertices, corners);
+  by_corner_ = group(std::move(corners), corner_count);
+
+  // edges in the order of both ends
+  std::vector<std::pair<int64_t, int>> ends(slots);
+  for (int slot = 0; slot < slots; ++slot) {
     const int next = slot - slot % 3 + (slot + 1) % 3;
-    return std::minmax({by_corner_.of[slot], by_corner_.of[next]});
-  };
-  by_edge_ = group(slots, [&](int i, int j) { return ends(i) < ends(j); });
+    const auto [low, high] = std::minmax({by_corner_.of[slot], by_corner_.of[next]});
+    ends[slot] = {(static_cast<int64_t>(low) << 32) | high, slot};
+  }
+  std::sort(ends.begin(), ends.end());
+  std::vector<int> edges(slots);
+  int edge_count = 0;
+  for (int k = 0; k < slots; ++k) {
+    edge_count += k == 0 || ends[k - 1].first != ends[k].first;
+    edges[ends[k].second] = edge_count - 1;
+  }
+  by_edge_ = group(std::move(edges), edge_count);
 
   const Eigen::Matrix3d turn = X.matrix();
   corners_.resize(triangles_.size());

@@ -22,6 +22,7 @@ class NearSurface {
   int corner(int triangle, int k) const { return by_corner_.of[3 * triangle + k]; }
   int edge(int triangle, int k) const { return by_edge_.of[3 * triangle + k]; }
   int corner_count() const { return static_cast<int>(by_corner_.start.size()) - 1; }
+  int edge_count() const { return static_cast<int>(by_edge_.start.size()) - 1; }
   /// slots at a corner or an edge, ascending
   std::span<const int> at_corner(int corner) const { return by_corner_.members(corner); }
   std::span<const int> at_edge(int edge) const { return by_edge_.members(edge); }
@@ -47,8 +48,7 @@ class NearSurface {
       return {order.data() + start[number], order.data() + start[number + 1]};
     }
   };
-  template <class Less>
-  static Groups group(int count, Less less);
+  static Groups group(std::vector<int> of, int count);
 
   std::vector<int> triangles_;
   std::vector<Corners> corners_;

@@ -22,6 +22,7 @@ constexpr double settled = 1e-12;  // change of curvatures times the scale
 constexpr double ridge = 1e-12;
 // z - m/2 z^2 must rise with z
 constexpr double most_bend = 0.9;
+constexpr double tiny = 1e-300;
 
 // of z - m/2 z^2 = c0 + c1 x + c2 y + (k11 x^2 + 2 k12 xy + k22 y^2) / 2
 using Coefficients = Eigen::Matrix<double, 6, 1>;
@@ -40,32 +41,68 @@ Principal principal(double k11, double k12, double k22) {
   return out;
 }
 
-// What circles add to parabolas at p: m/2 z^2, where m is the mean of the principal curvatures,
-// weighted by what each adds to the height.
-double rounding_up(const Principal& k, const Vector3d& p, double most) {
-  const Vector2d part =
-      k.values.cwiseAbs().cwiseProduct((k.vectors.transpose() * p.head<2>()).cwiseAbs2());
-  if (part.sum() == 0) return 0;
-  const double m = std::clamp(part.dot(k.values) / part.sum(), -most, most);
-  return 0.5 * m * p.z() * p.z();
+using Column = Eigen::ArrayXd;
+
+// points by coordinates, which the sums are quicker over
+struct Columns {
+  explicit Columns(size_t count) : x(count), y(count), z(count) {}
+  Column x, y, z;
+};
+
+// weights, 1 where there are none
+Column weight_column(std::span<const double> weights, size_t count) {
+  if (weights.empty()) return Column::Ones(static_cast<Eigen::Index>(count));
+  return Eigen::Map<const Column>(weights.data(), static_cast<Eigen::Index>(count));
 }
 
-Coefficients solve_quadric(const std::vector<Vector3d>& points, std::span<const double> weights,
-                           const Principal& before) {
-  double highest = 0;
-  for (const Vector3d& p : points) highest = std::max(highest, std::abs(p.z()));
-  const double most = most_bend / std::max(highest, 1e-9);
-  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-  Coefficients right = Coefficients::Zero();
-  for (size_t i = 0; i < points.size(); ++i) {
-    const Vector3d& p = points[i];
-    const double w = weights.empty() ? 1 : weights[i];
-    Coefficients row;
-    row << 1, p.x(), p.y(), 0.5 * p.x() * p.x(), p.x() * p.y(), 0.5 * p.y() * p.y();
-    normal += w * row * row.transpose();
-    right += w * (p.z() - rounding_up(before, p, most)) * row;
-  }
-  normal.diagonal().array() += ridge * static_cast<double>(points.size());
+void move_into(const Matrix3d& axes, const Vector3d& origin, double scale, SurfacePoints points,
+               Columns& out) {
+  const Eigen::Map<const Eigen::Matrix3Xd> all(points[0].data(), 3,
+                                               static_cast<Eigen::Index>(points.size()));
+  const auto along = [&](int k) {
+    const Vector3d axis = axes.col(k) / scale;
+    return (axis[0] * all.row(0).array() + axis[1] * all.row(1).array() +
+            axis[2] * all.row(2).array() - axis.dot(origin))
+        .transpose();
+  };
+  out.x = along(0), out.y = along(1), out.z = along(2);
+}
+
+// What circles add to parabolas: m/2 z^2, where m is the mean of the principal curvatures, weighted by
+// what each adds to the height.
+Column rounding_up(const Principal& k, const Columns& at) {
+  const double highest = at.z.abs().maxCoeff();
+  const double most = highest > 0 ? most_bend / highest : 0;
+  const Column first =
+      std::abs(k.values[0]) * (k.vectors(0, 0) * at.x + k.vectors(1, 0) * at.y).square();
+  const Column second =
+      std::abs(k.values[1]) * (k.vectors(0, 1) * at.x + k.vectors(1, 1) * at.y).square();
+  // 0 / 0 where neither adds
+  const Column m = (first * k.values[0] + second * k.values[1]) / (first + second).max(tiny);
+  return 0.5 * m.max(-most).min(most) * at.z.square();
+}
+
+Coefficients solve_quadric(const Columns& at, const Column& weights, const Principal& before) {
+  const Column &x = at.x, &y = at.y, f = at.z - rounding_up(before, at);
+  const Column wx = weights * x, wy = weights * y, wxx = wx * x, wxy = wx * y, wyy = wy * y;
+  // sums of x^i y^j
+  const double s00 = weights.sum(), s10 = wx.sum(), s01 = wy.sum();
+  const double s20 = wxx.sum(), s11 = wxy.sum(), s02 = wyy.sum();
+  const double s30 = (wxx * x).sum(), s21 = (wxx * y).sum(), s12 = (wyy * x).sum(),
+               s03 = (wyy * y).sum();
+  const double s40 = (wxx * x * x).sum(), s31 = (wxx * x * y).sum(), s22 = (wxx * y * y).sum(),
+               s13 = (wyy * y * x).sum(), s04 = (wyy * y * y).sum();
+  Eigen::Matrix<double, 6, 6> normal;
+  normal << s00, s10, s01, s20 / 2, s11, s02 / 2,            //
+      s10, s20, s11, s30 / 2, s21, s12 / 2,                  //
+      s01, s11, s02, s21 / 2, s12, s03 / 2,                  //
+      s20 / 2, s30 / 2, s21 / 2, s40 / 4, s31 / 2, s22 / 4,  //
+      s11, s21, s12, s31 / 2, s22, s13 / 2,                  //
+      s02 / 2, s12 / 2, s03 / 2, s22 / 4, s13 / 2, s04 / 4;
+  Coefficients right;
+  right << (weights * f).sum(), (wx * f).sum(), (wy * f).sum(), (wxx * f).sum() / 2,
+      (wxy * f).sum(), (wyy * f).sum() / 2;
+  normal.diagonal().array() += ridge * static_cast<double>(x.size());
   return solve_symmetric(normal, right);
 }
 
@@ -75,28 +112,17 @@ void measure_fit(SurfacePoints points, const Vector3d& origin, SurfaceFit& fit,
                  std::span<const double> weights) {
   Matrix3d axes;
   axes << fit.directions, fit.normal;
-  const auto weight = [&](size_t i) { return weights.empty() ? 1 : weights[i]; };
-  double count = 0;
-  for (size_t i = 0; i < points.size(); ++i) count += weight(i);
+  const Column w = weight_column(weights, points.size());
+  const double total = w.sum();
+  Columns at(points.size());
+  move_into(axes, origin, 1, points, at);
   const Principal k = {fit.curvatures, Eigen::Matrix2d::Identity()};
-  std::vector<Vector3d> local;
-  double mean = 0, highest = 0;
-  for (size_t i = 0; i < points.size(); ++i) {
-    local.push_back(axes.transpose() * (points[i] - origin));
-    mean += weight(i) * local.back().z() / count;
-    highest = std::max(highest, std::abs(local.back().z()));
-  }
-  double off = 0, relief = 0;
-  for (size_t i = 0; i < points.size(); ++i) {
-    const Vector3d& q = local[i];
-    const double most = highest > 0 ? most_bend / highest : 0;
-    const double height =
-        0.5 * fit.curvatures.dot(q.head<2>().cwiseAbs2()) + rounding_up(k, q, most);
-    off += weight(i) * (q.z() - height) * (q.z() - height);
-    relief += weight(i) * (q.z() - mean) * (q.z() - mean);
-  }
-  fit.residual = std::sqrt(off / count);
-  fit.relief = std::sqrt(relief / count);
+  const Column height =
+      0.5 * (fit.curvatures[0] * at.x.square() + fit.curvatures[1] * at.y.square()) +
+      rounding_up(k, at);
+  const double mean = (w * at.z).sum() / total;
+  fit.residual = std::sqrt((w * (at.z - height).square()).sum() / total);
+  fit.relief = std::sqrt((w * (at.z - mean).square()).sum() / total);
 }
 
 SurfaceFit fit_quadric(SurfacePoints points, double scale, std::span<const double> weights) {
@@ -105,11 +131,11 @@ SurfaceFit fit_quadric(SurfacePoints points, double scale, std::span<const doubl
   Matrix3d axes = Matrix3d::Identity();  // columns: the tangent frame
   Vector3d origin = Vector3d::Zero();
   Principal now = principal(0, 0, 0);
-  std::vector<Vector3d> local(points.size());
+  const Column w = weight_column(weights, points.size());
+  Columns local(points.size());
   for (int round = 0; round < most_fit_rounds; ++round) {
-    for (size_t i = 0; i < points.size(); ++i)
-      local[i] = axes.transpose() * (points[i] - origin) / scale;
-    const Coefficients c = solve_quadric(local, weights, now);
+    move_into(axes, origin, scale, points, local);
+    const Coefficients c = solve_quadric(local, w, now);
     const Vector2d before = now.values;
     now = principal(c[3], c[4], c[5]);
     const double moved = c.head<3>().cwiseAbs().sum() + (now.values - before).norm();

@@ -25,9 +25,16 @@ double PatchRays::part(int place) {
 }
 
 // unit, in the plane whose x is the first ray
-static Vector2d ray_direction(int ray) {
-  const double angle = 2 * std::numbers::pi * ray / PatchRays::count;
-  return {std::cos(angle), std::sin(angle)};
+static const Vector2d& ray_direction(int ray) {
+  static const auto directions = [] {
+    std::array<Vector2d, PatchRays::count> out;
+    for (int k = 0; k < PatchRays::count; ++k) {
+      const double angle = 2 * std::numbers::pi * k / PatchRays::count;
+      out[k] = Vector2d(std::cos(angle), std::sin(angle));
+    }
+    return out;
+  }();
+  return directions[ray];
 }
 
 PatchRays patch_rays(const Vector2d& first, std::span<const Vector2d> sites, double radius) {
@@ -48,17 +55,19 @@ PatchRays patch_rays(const Vector2d& first, std::span<const Vector2d> sites, dou
 
 // --- heights ---
 
+static double flat_cross(const Vector2d& u, const Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); }
+
 // From where to where a ray from the origin runs over a triangle; false where it does not.
-static bool clip_ray(const Corners& c, const Vector2d& direction, double& from, double& to) {
-  const auto cross = [](const Vector2d& u, const Vector2d& v) {
-    return u.x() * v.y() - u.y() * v.x();
-  };
-  const std::array<Vector2d, 3> p = {c[0].head<2>(), c[1].head<2>(), c[2].head<2>()};
-  const double turn = cross(p[1] - p[0], p[2] - p[0]) < 0 ? -1 : 1;
+static bool clip_ray(const std::array<Vector2d, 3>& p, const Vector2d& direction, double& from,
+                     double& to) {
+  // all on one side: most triangles of a fine mesh
+  const double a = flat_cross(direction, p[0]), b = flat_cross(direction, p[1]), c = flat_cross(direction, p[2]);
+  if ((a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0)) return false;
+  const double turn = flat_cross(p[1] - p[0], p[2] - p[0]) < 0 ? -1 : 1;
   for (int k = 0; k < 3; ++k) {
     const Vector2d edge = turn * (p[(k + 1) % 3] - p[k]);
     // inside from where `rise` times the distance reaches `level`
-    const double rise = cross(edge, direction), level = cross(edge, p[k]);
+    const double rise = flat_cross(edge, direction), level = flat_cross(edge, p[k]);
     if (rise > 0) from = std::max(from, level / rise);
     if (rise < 0) to = std::min(to, level / rise);
     if (rise == 0 && level > 0) return false;
@@ -71,10 +80,11 @@ RayHeights ray_heights(PatchSheet& sheet, const PatchRays& rays) {
   RayHeights out;
   for (const int t : sheet.triangles()) {
     const Corners& c = sheet.corners(t);
+    const std::array<Vector2d, 3> flat = {c[0].head<2>(), c[1].head<2>(), c[2].head<2>()};
     for (int k = 0; k < PatchRays::count; ++k) {
       const double length = rays.lengths[k], margin = 1e-9 * length;
       double from = 0, to = length;
-      if (!clip_ray(c, rays.directions[k], from, to)) continue;
+      if (!clip_ray(flat, rays.directions[k], from, to)) continue;
       out.end[k] = std::max(out.end[k], to);
       for (int i = 0; i < PatchRays::places; ++i) {
         const double r = length * PatchRays::part(i);

@@ -9,7 +9,7 @@ namespace clench {
 
 /// Rays in the tangent plane from the middle of a patch.
 struct PatchRays {
-  static constexpr int count = 16;                ///< evenly about the middle
+  static constexpr int count = 24;                ///< evenly about the middle
   static constexpr int places = 10;               ///< on each; the first is the middle
   std::array<Eigen::Vector2d, count> directions;  ///< unit
   std::array<double, count> lengths = {};         ///< to where the neighbourhood ends [m]

@@ -63,6 +63,7 @@ PatchSheet::PatchSheet(const Shape& shape, const Pose& X_PB, std::span<const Vec
       X_PB_(X_PB),
       X_BP_(X_PB.inverse()),
       sites_(sites.begin(), sites.end()),
+      radius_(radius),
       highest_(patch_reach * radius),
       near_(shape.mesh(), {}, X_PB) {
   Neighbourhood all = find_neighbourhood(shape, X_BP_, sites, radius);
@@ -71,6 +72,8 @@ PatchSheet::PatchSheet(const Shape& shape, const Pose& X_PB, std::span<const Vec
   const int count = static_cast<int>(known_.size());
   for (int t = 0; t < count; ++t) normals_.push_back(face_normal(near_.corners(t)));
   corner_normals_.assign(3 * known_.size(), Vector3d::Zero());
+  fans_.resize(near_.corner_count());
+  touching_ = 1e-9 * (shape.radius() + shape.centre().norm());
 
   // from the seeds on, across corners
   std::vector<char> inside(count, 0);
@@ -91,66 +94,79 @@ double PatchSheet::facing(int triangle) const {
   return shape_.solid().volume < 0 ? -outward : outward;
 }
 
-double PatchSheet::touching() const { return 1e-9 * (shape_.radius() + shape_.centre().norm()); }
-
 // triangles of the mesh with that corner
-std::vector<int> PatchSheet::fan(int triangle, int k) const {
+std::vector<int> PatchSheet::triangles_at(int triangle, int k) const {
   const Vector3d& p = corners(triangle)[k];
+  std::vector<int> out;
   for (size_t i = 0; i < sites_.size(); ++i)
     if ((p - sites_[i]).norm() < (1 - 1e-6) * reaches_[i]) {
-      std::vector<int> out;
       for (const int slot : near_.at_corner(near_.corner(triangle, k)))
         out.push_back(known_[slot / 3]);
       return out;
     }
-  return region(shape_, shape_.mesh().corners(known_[triangle])[k], touching());
+  return region(shape_, shape_.mesh().corners(known_[triangle])[k], touching_);
 }
 
-// Weighted over the triangles that one comes to from this one around the corner, across edges that
-// are none.
-Vector3d PatchSheet::make_corner_normal(int triangle, int k) const {
-  const Corners own = shape_.mesh().corners(known_[triangle]);
-  const Vector3d normal = face_normal(own), &centre = own[k];
-  const double touch = touching();
-  struct Blade {
-    Vector3d one, two, normal;  // its two sides from the corner
-    double twice_area;
-    bool reached;
-  };
-  std::vector<Blade> blades;
-  for (const int u : fan(triangle, k)) {
+PatchSheet::Fan PatchSheet::make_fan(int triangle, int k) const {
+  Fan fan;
+  const Vector3d centre = shape_.mesh().corners(known_[triangle])[k];
+  for (const int u : triangles_at(triangle, k)) {
     const Corners c = shape_.mesh().corners(u);
-    Vector3d n = face_normal(c);
-    if (!shape_.closed() && n.dot(normal) < 0) n = -n;
     for (int l = 0; l < 3; ++l) {
-      if ((c[l] - centre).norm() > touch) continue;
-      const Vector3d one = c[(l + 1) % 3] - c[l], two = c[(l + 2) % 3] - c[l];
-      blades.push_back({one, two, n, one.cross(two).norm(), u == known_[triangle]});
+      if ((c[l] - centre).norm() > touching_) continue;
+      const Vector3d one = X_PB_.rotation * (c[(l + 1) % 3] - c[l]);
+      const Vector3d two = X_PB_.rotation * (c[(l + 2) % 3] - c[l]), across = one.cross(two);
+      fan.blades.push_back({one, two, across.stableNormalized(), across.norm(), u});
       break;
     }
   }
   // beside triangles of one edge the areas are as the heights over it
-  const auto smooth = [&](const Blade& from, const Blade& to) {
-    if (to.normal.dot(from.normal) <= least_smooth || to.normal.dot(normal) <= least_round ||
-        most_height_ratio * to.twice_area <= from.twice_area ||
-        most_height_ratio * from.twice_area <= to.twice_area)
+  const auto linked = [&](const Blade& a, const Blade& b) {
+    const double cosine = a.normal.dot(b.normal);
+    if ((shape_.closed() ? cosine : std::abs(cosine)) <= least_smooth ||
+        most_height_ratio * a.twice_area <= b.twice_area ||
+        most_height_ratio * b.twice_area <= a.twice_area)
       return false;
-    for (const Vector3d& p : {from.one, from.two})
-      for (const Vector3d& q : {to.one, to.two})
-        if ((p - q).norm() <= touch) return true;
+    for (const Vector3d& p : {a.one, a.two})
+      for (const Vector3d& q : {b.one, b.two})
+        if ((p - q).norm() <= touching_) return true;
     return false;
   };
+  const int count = static_cast<int>(fan.blades.size());
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < i; ++j)
+      if (linked(fan.blades[i], fan.blades[j])) fan.links.emplace_back(i, j);
+  return fan;
+}
+
+// Weighted over the triangles that one comes to from this one around the corner, across edges that
+// are none.
+Vector3d PatchSheet::make_corner_normal(int triangle, int k) {
+  Fan& fan = fans_[near_.corner(triangle, k)];
+  if (fan.blades.empty()) fan = make_fan(triangle, k);
+  const Vector3d& normal = normals_[triangle];
+  const size_t count = fan.blades.size();
+  std::vector<char> round(count), reached(count);
+  Vector3d sum = Vector3d::Zero();
+  for (size_t i = 0; i < count; ++i) {
+    const double cosine = fan.blades[i].normal.dot(normal);
+    round[i] = (shape_.closed() ? cosine : std::abs(cosine)) > least_round;
+    reached[i] = fan.blades[i].triangle == known_[triangle];
+  }
   for (bool changed = true; changed;) {
     changed = false;
-    for (const Blade& from : blades)
-      for (Blade& to : blades)
-        if (from.reached && !to.reached && smooth(from, to)) to.reached = changed = true;
+    for (const auto& [i, j] : fan.links)
+      if (reached[i] != reached[j] && round[reached[i] ? j : i])
+        reached[i] = reached[j] = changed = true;
   }
-  Vector3d sum = Vector3d::Zero();
-  for (const Blade& b : blades)
-    if (b.reached) sum += b.normal * (b.twice_area / (b.one.squaredNorm() * b.two.squaredNorm()));
-  if (sum.isZero()) sum = normal;
-  return X_PB_.rotation * sum.normalized();
+  for (size_t i = 0; i < count; ++i) {
+    if (!reached[i]) continue;
+    const Blade& b = fan.blades[i];
+    // open surfaces have two outsides
+    const double sense = !shape_.closed() && b.normal.dot(normal) < 0 ? -1 : 1;
+    sum += sense * b.twice_area / (b.one.squaredNorm() * b.two.squaredNorm()) * b.normal;
+  }
+  return sum.isZero() ? normal : sum.normalized();
 }
 
 // of the smooth surface at a corner, in either sense
@@ -172,8 +188,28 @@ Vector3d PatchSheet::round_point(int triangle, const Vector3d& weights) {
   return q + lift;
 }
 
-double PatchSheet::crease_distance() const {
-  double least = std::numeric_limits<double>::infinity();
+// of a segment near the origin, as crease_length counts
+static double length_near(const Vector2d& from, const Vector2d& to, double radius) {
+  constexpr int samples = 16;
+  const Vector2d along = to - from;
+  const double length = along.norm();
+  if (length == 0) return 0;
+  // the chord within the radius
+  const double foot = -from.dot(along) / length;
+  const double room = radius * radius - from.squaredNorm() + foot * foot;
+  if (room <= 0) return 0;
+  const double low = std::max(0.0, foot - std::sqrt(room));
+  const double high = std::min(length, foot + std::sqrt(room));
+  if (low >= high) return 0;
+  double sum = 0;
+  for (int i = 0; i < samples; ++i) {
+    const double s = low + (high - low) * (i + 0.5) / samples;
+    sum += std::clamp(2 - 2 * (from + s / length * along).norm() / radius, 0.0, 1.0);
+  }
+  return sum * (high - low) / samples;
+}
+
+double PatchSheet::crease_length() const {
   const auto goes_on = [&](int t, int k) {
     for (const int slot : near_.at_edge(near_.edge(t, k))) {
       const double cosine = normals_[t].dot(normals_[slot / 3]);
@@ -182,19 +218,16 @@ double PatchSheet::crease_distance() const {
     }
     return false;
   };
+  std::vector<double> lengths(sites_.size(), 0);
+  std::vector<char> seen(near_.edge_count(), 0);
   for (const int t : triangles_)
     for (int k = 0; k < 3; ++k) {
-      if (goes_on(t, k)) continue;
-      const Vector3d &p = corners(t)[k], &q = corners(t)[(k + 1) % 3];
-      const Vector2d edge = (q - p).head<2>();
-      for (const Vector3d& site : sites_) {
-        const Vector2d from = (site - p).head<2>();
-        const double length_2 = edge.squaredNorm();
-        const double part = length_2 > 0 ? std::clamp(from.dot(edge) / length_2, 0.0, 1.0) : 0;
-        least = std::min(least, (from - part * edge).norm());
-      }
+      if (seen[near_.edge(t, k)]++ || goes_on(t, k)) continue;
+      for (size_t i = 0; i < sites_.size(); ++i)
+        lengths[i] += length_near((corners(t)[k] - sites_[i]).head<2>(),
+                                  (corners(t)[(k + 1) % 3] - sites_[i]).head<2>(), radius_);
     }
-  return least;
+  return *std::max_element(lengths.begin(), lengths.end());
 }
 
 }  // namespace clench

@@ -40,26 +40,40 @@ class PatchSheet {
   /// on the round surface, by barycentric weights [m]
   Eigen::Vector3d round_point(int triangle, const Eigen::Vector3d& weights);
 
-  /// Across the tangent plane from the nearest site to the nearest crease: an edge where neighbours
-  /// lean from each other by more than 40 degrees, or none follows. Infinite without one [m].
-  double crease_distance() const;
+  /// How long creases are around a site, of the site that has most: edges where neighbours lean from
+  /// each other by more than 40 degrees, or none follows. Counted whole where they lie within half the
+  /// radius across the tangent plane, less from there to none at the radius [m].
+  double crease_length() const;
 
  private:
+  // a triangle at a corner; in frame P
+  struct Blade {
+    Eigen::Vector3d one, two, normal;  // its sides from the corner
+    double twice_area = 0;
+    int triangle = -1;  // of the mesh
+  };
+  // the triangles around a corner, and which go on smoothly in each other
+  struct Fan {
+    std::vector<Blade> blades;
+    std::vector<std::pair<int, int>> links;
+  };
   const Eigen::Vector3d& corner_normal(int triangle, int k);
-  Eigen::Vector3d make_corner_normal(int triangle, int k) const;
-  std::vector<int> fan(int triangle, int k) const;
-  double touching() const;
+  Eigen::Vector3d make_corner_normal(int triangle, int k);
+  Fan make_fan(int triangle, int k) const;
+  std::vector<int> triangles_at(int triangle, int k) const;
 
   const Shape& shape_;
   Pose X_PB_, X_BP_;
   std::vector<Eigen::Vector3d> sites_;
-  double highest_;
+  double radius_, highest_;
   std::vector<double> reaches_;  // about each site, to where all triangles are known
   std::vector<int> known_;       // triangles of the mesh, ascending
   NearSurface near_;             // of them
   std::vector<Eigen::Vector3d> normals_;
   std::vector<int> triangles_;
   std::vector<Eigen::Vector3d> corner_normals_;  // by slot; 0 until asked for
+  std::vector<Fan> fans_;                        // by corner; empty until asked for
+  double touching_;                              // nearer corners are one [m]
 };
 
 }  // namespace clench

@@ -114,7 +114,7 @@ static double crease_of(const Side& side, double radius) {
   if (side.points.size() < least_points) return 1;
   if (fit.relief <= least_relief * radius) return 0;
   return std::min(ramp(fit.residual / fit.relief, 0.1, 0.2),
-                  ramp(side.sheet.crease_distance() / radius, 1, 0.5));
+                  ramp(side.sheet.crease_length() / radius, 0.2, 0.6));
 }
 
 static Side make_side(const Shape& shape, const Pose& X_PB, const Pose& X_AP, const SoftSite& site,
@@ -175,7 +175,7 @@ static Meeting meeting(const SoftPatch& patch, double depth) {
   const GapProfile fit = gap_profile(patch.gap->rays, Vector2d(1 / R[0], 1 / R[1]));
   const Matrix2d fitted = overlap(fit, depth), there = overlap(cut(fit, *patch.gap), depth);
   Meeting out{overlap(*patch.gap, depth), patch.crease};
-  const double ends = ramp(part_of(there, fitted), 0.78, 0.5);
+  const double ends = ramp(part_of(there, fitted), 0.8, 0.6);
   const double widens = ramp(part_of(out.moments, there), 0.85, 0.5);
   out.unlike = std::max({out.unlike, ends, widens});
   return out;
@@ -226,7 +226,8 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
                         curvature_form(patch.surfaces[1], site.normal_A, plane);
   const double mean = 0.5 * form.trace(), half = 0.5 * (form(0, 0) - form(1, 1));
   const double spread = std::hypot(half, form(0, 1));
-  const double angle = 0.5 * std::atan2(form(0, 1), half);
+  // of what bends alike any will do
+  const double angle = spread * radius > 1e-6 ? 0.5 * std::atan2(form(0, 1), half) : 0;
   patch.directions.col(0) = plane * Vector2d(std::cos(angle), std::sin(angle));
   patch.directions.col(1) = plane * Vector2d(-std::sin(angle), std::cos(angle));
   const std::array<double, 2> curvatures = {mean + spread, mean - spread};

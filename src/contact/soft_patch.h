@@ -71,7 +71,8 @@ struct SoftPatch {
   /// As it is, its first ray along directions.col(0); none: as the radii have it.
   std::optional<GapProfile> gap = {};
   /// 0 to 1: is there a crease that the fit does not follow? 0 where the fit is off by 10 % of the
-  /// surface's relief or the crease is a radius away, 1 from 20 % on and up to half a radius.
+  /// surface's relief, or creases around a contact are as long as 0.2 of the radius, 1 from 20 % and 0.6
+  /// on. A triangle that is folded over is none.
   double crease = 0;
   /// root of the mean square that points lie from their fit, of the worse surface [m]
   double residual = 0;
@@ -105,8 +106,8 @@ struct ContactEllipse {
 /// under that force, that is, of R1 = R2 = flat_radius. What is sharper goes deeper. The semi-axes
 /// are those of an ellipse with the same second moments about the contact. From the one rule to the other
 /// it goes by the weight w, as a^(1 - w) b^w, the largest of three: the patch's crease; how far surfaces
-/// miss under the ellipse, 0 where its mean semi-axis is 78 % of the whole one's, as on the corner of
-/// a face, 1 at 50 %; how much sooner the gap widens, 0 where the mean semi-axis of what meets is 85 %
+/// miss under the ellipse, 0 where its mean semi-axis is 80 % of the whole one's, as on the corner of
+/// a face, 1 at 60 %; how much sooner the gap widens, 0 where the mean semi-axis of what meets is 85 %
 /// of that, 1 at 50 %.
 ///
 /// force   normal, >= 0 [N]

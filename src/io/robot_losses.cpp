@@ -90,6 +90,14 @@ void tell_sensors(const RobotSpec& robot, const RobotFolder& folder) {
     folder.lost("the name in a database of grasps, '" + robot.database_name + "'");
 }
 
+void tell_softness(const RobotSpec& robot, const RobotFolder& folder) {
+  const BodySpec plain;
+  const auto soft = std::ranges::count_if(bodies_of(robot), [&](const BodySpec* body) {
+    return body->soft_layer != plain.soft_layer || body->poisson_ratio != plain.poisson_ratio;
+  });
+  if (soft) folder.lost(fmt::format("the soft layers and Poisson's ratios of {} parts", soft));
+}
+
 void tell_matter(const RobotSpec& robot, const RobotFolder& folder) {
   std::vector<std::string> materials;
   for (const BodySpec* body : bodies_of(robot))
@@ -124,6 +132,7 @@ void tell_lost_in_both(const RobotSpec& robot, const RobotFolder& folder) {
     folder.lost("the largest velocities of DOFs");
   if (robot.chain_links_collide) folder.lost("that links of one chain can collide with each other");
   tell_matter(robot, folder);
+  tell_softness(robot, folder);
   if (!robot.X_BA) return;
   const Pose made =
       approach_frame(robot.X_BA->position, robot.X_BA->rotation * Eigen::Vector3d::UnitZ());
@@ -176,6 +185,7 @@ void tell_lost_in_urdf(const RobotSpec& robot, const RobotFolder& folder) {
   body_has([](const BodySpec* b) { return b->material != "plastic"; },
            "materials; every link counts as plastic when it is read");
   body_has([](const BodySpec* b) { return b->elastic_modulus.has_value(); }, "elastic moduli");
+  tell_softness(robot, folder);
   body_has([](const BodySpec* b) { return b->tracker.has_value(); }, "the trackers of links");
   body_has([](const BodySpec* b) { return !(b->mass > 0); }, "a mass of 0");
   if (robot.X_BA)

@@ -38,6 +38,15 @@ std::vector<std::string> matter_of(const BodySpec& body) {
   return out;
 }
 
+// of an elastic body, which only worlds in Lua hold
+void add_softness(const BodySpec& body, std::vector<std::string>& out) {
+  const BodySpec plain;
+  if (body.soft_layer != plain.soft_layer)
+    out.push_back(fmt::format("soft layer {} m", body.soft_layer));
+  if (body.poisson_ratio != plain.poisson_ratio)
+    out.push_back(fmt::format("Poisson's ratio {}", body.poisson_ratio));
+}
+
 // --- Inventor ---
 
 std::string parameter_lines(const BodySpec& body) {
@@ -88,6 +97,7 @@ std::vector<std::string> lost(const BodySpec& body, const std::string& ending) {
     out = matter_of(body);
   else if (!is_common(body.material))
     out.push_back(fmt::format("material {}", body.material));
+  add_softness(body, out);
   const Appearance& look = body.appearance;
   if (ending != ".iv" && look.given) out.push_back("colour");
   if (ending == ".iv" && !look.triangle_colors.empty()) out.push_back("colours of triangles");

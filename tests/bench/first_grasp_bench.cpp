@@ -3,6 +3,7 @@
 // The original took, on the machine of ../shared/reference: 96 ms to load, 23 ms to close, 26 ms for the space.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -61,6 +62,24 @@ void measure(benchmark::State& state, const Scene& scene) {
   state.counters["epsilon"] = wrench_space(grasp).epsilon();
 }
 
+// the patches of all contacts of a rubber object, each site once
+void fit_patches(benchmark::State& state, const Scene& scene) {
+  World world = load(scene);
+  const auto hand = world.robots()[0];
+  autograsp(world, hand);
+  world.set_elastic_modulus(world.bodies()[0], 1.5e6);
+  std::vector<SoftSitePtr> sites;
+  for (const Contact& contact : measure_grasp(world, hand, world.bodies()[0]).contacts)
+    if (std::find(sites.begin(), sites.end(), contact.site) == sites.end())
+      sites.push_back(contact.site);
+  for (auto _ : state)
+    for (const SoftSitePtr& site : sites) benchmark::DoNotOptimize(soft_patch(*site));
+  state.counters["patches"] = static_cast<double>(sites.size());
+  state.counters["each"] = benchmark::Counter(
+      static_cast<double>(sites.size()),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -69,6 +88,7 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark((name + "/load").c_str(), load_world, scene)->Unit(unit);
     benchmark::RegisterBenchmark((name + "/autograsp").c_str(), close_hand, scene)->Unit(unit);
     benchmark::RegisterBenchmark((name + "/wrench_space").c_str(), measure, scene)->Unit(unit);
+    benchmark::RegisterBenchmark((name + "/patches").c_str(), fit_patches, scene)->Unit(unit);
   };
   add("ours", ours());
   if (std::filesystem::exists(original().file)) add("original", original());

@@ -9,7 +9,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double eighth_turn = std::numbers::pi / 4;
+constexpr double between_rays = 2 * std::numbers::pi / PatchRays::count;
 
 PatchRays rays_of(double radius) {
   const Vector2d site(0, 0);
@@ -43,13 +43,13 @@ Matrix2d moments_of(double radius, const std::function<bool(Vector2d)>& inside) 
 
 }  // namespace
 
-TEST_CASE("a cone meets over a circle: a polygon of 16 rays, exactly") {
+TEST_CASE("a cone meets over a circle: a polygon of the rays, exactly") {
   const PatchRays rays = rays_of(2);
   for (const double depth : {0.01, 0.1, 0.7, 1.1}) {
     const double r = depth / 0.6;
     const Matrix2d found =
         overlap(profile_of(rays, [](Vector2d p) { return 0.6 * p.norm(); }), depth);
-    const Matrix2d wanted = r * r * (2 + std::cos(eighth_turn / 2)) / 12 * Matrix2d::Identity();
+    const Matrix2d wanted = r * r * (2 + std::cos(between_rays)) / 12 * Matrix2d::Identity();
     CHECK((found - wanted).norm() < 1e-12);
   }
 }
@@ -62,7 +62,7 @@ TEST_CASE("paraboloids meet over ellipses, up to the end of the neighbourhood") 
       const auto gap = [&](Vector2d p) { return 0.5 * bend.dot(p.cwiseAbs2()); };
       const Matrix2d found = overlap(profile_of(rays, gap), depth);
       const Matrix2d wanted = moments_of(2, [&](Vector2d p) { return gap(p) <= depth; });
-      // 16 rays cut off 2.5 % of the moments of a circle, more of long ellipses, and the corners of a
+      // the rays cut off 1 % of the moments of a circle, more of long ellipses, and the corners of a
       // strip that the neighbourhood ends; chords of a parabola between the places 4 %
       const bool strip = bend.minCoeff() == 0;
       CHECK((found - wanted).norm() < (strip ? 0.5 : 0.2) * wanted.norm());
@@ -85,7 +85,7 @@ TEST_CASE("edges, tilted half planes and corners are seen as they lie") {
          {std::function<double(Vector2d)>(edge), std::function<double(Vector2d)>(half)}) {
       const Matrix2d found = overlap(profile_of(rays, gap), 0.15);
       const Matrix2d wanted = moments_of(1, [&](Vector2d p) { return gap(p) <= 0.15; });
-      // of a narrow strip 16 rays see a rhomb, half of the moments, or a sector
+      // of a narrow strip the rays see a rhomb, half of the moments, or a sector
       CHECK(found.determinant() < 2.5 * wanted.determinant());
       CHECK(found.determinant() > 0.2 * wanted.determinant());
       CHECK(along.dot(found * along) > across.dot(found * across));
@@ -97,8 +97,8 @@ TEST_CASE("the ends of rays are those of the neighbourhoods of all sites") {
   const std::vector<Vector2d> sites = {{-1, 0}, {1, 0}};
   const PatchRays rays = patch_rays({1, 0}, sites, 1.5);
   CHECK(rays.lengths[0] == doctest::Approx(2.5));
-  CHECK(rays.lengths[4] == doctest::Approx(std::sqrt(1.25)));
-  CHECK(rays.directions[4].y() == doctest::Approx(1));
+  CHECK(rays.lengths[PatchRays::count / 4] == doctest::Approx(std::sqrt(1.25)));
+  CHECK(rays.directions[PatchRays::count / 4].y() == doctest::Approx(1));
   CHECK(PatchRays::part(0) == 0);
   CHECK(PatchRays::part(1) == doctest::Approx(1.0 / 16));
   CHECK(PatchRays::part(PatchRays::places - 1) == 1);

@@ -270,12 +270,12 @@ TEST_CASE("a corner touches as wide as it is deep, an edge over a strip as wide"
   CHECK(edge.sharp);
   CHECK(corner.sharp);
   // cut at a depth d, the corner of a cube is a triangle of sides sqrt(6) d, whose ellipse has the
-  // semi-axes d; with 16 rays its three tips are cut off
+  // semi-axes d; the rays cut its three tips off
   const ContactEllipse at_corner = contact_ellipse(corner, 5), at_edge = contact_ellipse(edge, 5);
   for (const double a : at_corner.semi_axes)
     CHECK(a == doctest::Approx(flat_indentation).epsilon(0.12));
   // the strip |y| < d to the end of the neighbourhood is one of 2 d / sqrt(3) by 2 radius / sqrt(3), the
-  // rhomb in it one of sqrt(2/3) d by sqrt(2/3) radius; 16 rays see something between
+  // rhomb in it one of sqrt(2/3) d by sqrt(2/3) radius; the rays see something between
   const std::array<double, 2> size = {flat_indentation, edge.radius};
   for (int i = 0; i < 2; ++i) {
     CHECK(at_edge.semi_axes[i] > std::sqrt(2.0 / 3) * size[i]);

@@ -129,6 +129,18 @@ TEST_CASE("a body as .iv keeps its matter to the bit, its colour, and 32 bits of
   CHECK(told.list == std::vector<std::string>{"a.iv: coordinates keep 32 bits, as .iv holds them"});
 }
 
+TEST_CASE("that no file of a body holds its soft layer and Poisson's ratio is told") {
+  const TemporaryFolder folder;
+  BodySpec body = plain_body("box", Shape::make(box(1, 1, 1), "box"));
+  body.elastic_modulus = 1.5e6, body.soft_layer = 0.004, body.poisson_ratio = 0.25;
+  for (const char* file : {"a.xml", "a.iv"}) {
+    Told told;
+    write_body(body, folder.path() / file, told.options());
+    CHECK(told.list.front() ==
+          std::string(file) + " does not hold soft layer 0.004 m, Poisson's ratio 0.25");
+  }
+}
+
 TEST_CASE("what a bare mesh does not hold is told") {
   const TemporaryFolder folder;
   Told told;

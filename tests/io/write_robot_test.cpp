@@ -174,6 +174,17 @@ TEST_CASE("a robot with all that an .xml holds comes back from one, and by way o
             "hand.cfg does not hold the name in a database of grasps, 'TOY & co'"});
 }
 
+TEST_CASE("that no file of a robot holds soft layers and Poisson's ratios is told") {
+  const TemporaryFolder folder, out;
+  RobotSpec robot = read_robot(full_robot(folder));
+  robot.base.soft_layer = 0.004;
+  robot.chains[0].links[0].body.poisson_ratio = 0.3;
+  for (const char* file : {"hand.cfg", "hand.xml", "hand.urdf"})
+    CHECK(written(robot, out.path() / file)
+              .told(std::string(file) +
+                    " does not hold the soft layers and Poisson's ratios of 2 parts"));
+}
+
 TEST_CASE("what a .urdf does not hold is told, a sentence each") {
   const TemporaryFolder folder, out;
   const RobotSpec robot = read_robot(full_robot(folder));

@@ -161,6 +161,16 @@ test("what .wld and .xml cannot hold is told in one warning that names it", func
     "plain.wld does not hold the mass of 'mug', the friction of cork on wood")
 end)
 
+test("that a soft layer and Poisson's ratio are kept by .lua alone is told", function(t)
+  local world = clench.world()
+  world:add_object(clench.shapes.sphere {0.03}, {name = "ball", elastic_modulus = 1e6, soft_layer = 0.004, poisson_ratio = 0.25})
+  for _, ending in ipairs {".wld", ".xml"} do
+    t.equal(warnings(function() world:save(folder .. "/soft" .. ending) end),
+      "soft" .. ending .. " does not hold the soft layer of 'ball', Poisson's ratio of 'ball'")
+  end
+  t.equal(warnings(function() world:save(folder .. "/soft.lua") end), "")
+end)
+
 test("bodies made in a script are written beside worlds for GraspIt!, and come back", function(t)
   local world = clench.world()
   local ball = world:add_object(clench.shapes.sphere {0.03}, {name = "ball", mass = 0.2, material = "rubber"})
