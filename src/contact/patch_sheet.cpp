@@ -94,77 +94,99 @@ double PatchSheet::facing(int triangle) const {
   return shape_.solid().volume < 0 ? -outward : outward;
 }
 
-// triangles of the mesh with that corner
-std::vector<int> PatchSheet::triangles_at(int triangle, int k) const {
-  const Vector3d& p = corners(triangle)[k];
-  std::vector<int> out;
-  for (size_t i = 0; i < sites_.size(); ++i)
-    if ((p - sites_[i]).norm() < (1 - 1e-6) * reaches_[i]) {
-      for (const int slot : near_.at_corner(near_.corner(triangle, k)))
-        out.push_back(known_[slot / 3]);
-      return out;
-    }
-  return region(shape_, shape_.mesh().corners(known_[triangle])[k], touching_);
+static double corner_weight(double twice_area, const Vector3d& one, const Vector3d& two) {
+  return twice_area / (one.squaredNorm() * two.squaredNorm());
 }
 
-PatchSheet::Fan PatchSheet::make_fan(int triangle, int k) const {
-  Fan fan;
+std::vector<PatchSheet::Blade> PatchSheet::blades_at(int triangle, int k) const {
+  // are all triangles at the corner known?
+  const Vector3d& p = corners(triangle)[k];
+  bool known = false;
+  for (size_t i = 0; i < sites_.size(); ++i)
+    known = known || (p - sites_[i]).norm() < (1 - 1e-6) * reaches_[i];
+  if (!known) return far_blades_at(triangle, k);
+  std::vector<Blade> out;
+  for (const int slot : near_.at_corner(near_.corner(triangle, k))) {
+    const int t = slot / 3, l = slot % 3;
+    const Corners& c = corners(t);
+    const Vector3d one = c[(l + 1) % 3] - c[l], two = c[(l + 2) % 3] - c[l];
+    const double twice_area = one.cross(two).norm();
+    out.push_back({.triangle = known_[t],
+                   .normal = normals_[t],
+                   .twice_area = twice_area,
+                   .weight = corner_weight(twice_area, one, two),
+                   .ends = {near_.corner(t, (l + 1) % 3), near_.corner(t, (l + 2) % 3)}});
+  }
+  return out;
+}
+
+// the same where the mesh is to be asked
+std::vector<PatchSheet::Blade> PatchSheet::far_blades_at(int triangle, int k) const {
   const Vector3d centre = shape_.mesh().corners(known_[triangle])[k];
-  for (const int u : triangles_at(triangle, k)) {
+  std::vector<Blade> out;
+  std::vector<Vector3d> ends;
+  const auto number = [&](const Vector3d& p) {
+    for (size_t i = 0; i < ends.size(); ++i)
+      if ((p - ends[i]).norm() <= touching_) return static_cast<int>(i);
+    ends.push_back(p);
+    return static_cast<int>(ends.size()) - 1;
+  };
+  for (const int u : region(shape_, centre, touching_)) {
     const Corners c = shape_.mesh().corners(u);
     for (int l = 0; l < 3; ++l) {
       if ((c[l] - centre).norm() > touching_) continue;
-      const Vector3d one = X_PB_.rotation * (c[(l + 1) % 3] - c[l]);
-      const Vector3d two = X_PB_.rotation * (c[(l + 2) % 3] - c[l]), across = one.cross(two);
-      fan.blades.push_back({one, two, across.stableNormalized(), across.norm(), u});
+      const Vector3d one = c[(l + 1) % 3] - c[l], two = c[(l + 2) % 3] - c[l];
+      const double twice_area = one.cross(two).norm();
+      out.push_back({.triangle = u,
+                     .normal = X_PB_.rotation * face_normal(c),
+                     .twice_area = twice_area,
+                     .weight = corner_weight(twice_area, one, two),
+                     .ends = {number(c[(l + 1) % 3]), number(c[(l + 2) % 3])}});
       break;
     }
   }
-  // beside triangles of one edge the areas are as the heights over it
-  const auto linked = [&](const Blade& a, const Blade& b) {
-    const double cosine = a.normal.dot(b.normal);
-    if ((shape_.closed() ? cosine : std::abs(cosine)) <= least_smooth ||
-        most_height_ratio * a.twice_area <= b.twice_area ||
-        most_height_ratio * b.twice_area <= a.twice_area)
-      return false;
-    for (const Vector3d& p : {a.one, a.two})
-      for (const Vector3d& q : {b.one, b.two})
-        if ((p - q).norm() <= touching_) return true;
-    return false;
-  };
-  const int count = static_cast<int>(fan.blades.size());
-  for (int i = 0; i < count; ++i)
-    for (int j = 0; j < i; ++j)
-      if (linked(fan.blades[i], fan.blades[j])) fan.links.emplace_back(i, j);
-  return fan;
+  return out;
+}
+
+// beside triangles of one edge the areas are as the heights over it
+bool PatchSheet::linked(const Blade& a, const Blade& b) const {
+  const double cosine = a.normal.dot(b.normal);
+  const bool beside = a.ends[0] == b.ends[0] || a.ends[0] == b.ends[1] || a.ends[1] == b.ends[0] ||
+                      a.ends[1] == b.ends[1];
+  return beside && (shape_.closed() ? cosine : std::abs(cosine)) > least_smooth &&
+         most_height_ratio * a.twice_area > b.twice_area &&
+         most_height_ratio * b.twice_area > a.twice_area;
 }
 
 // Weighted over the triangles that one comes to from this one around the corner, across edges that
 // are none.
 Vector3d PatchSheet::make_corner_normal(int triangle, int k) {
-  Fan& fan = fans_[near_.corner(triangle, k)];
-  if (fan.blades.empty()) fan = make_fan(triangle, k);
+  auto& [blades, links] = fans_[near_.corner(triangle, k)];
+  if (blades.empty()) {
+    blades = blades_at(triangle, k);
+    for (int i = 0; i < static_cast<int>(blades.size()); ++i)
+      for (int j = 0; j < i; ++j)
+        if (linked(blades[i], blades[j])) links.emplace_back(i, j);
+  }
   const Vector3d& normal = normals_[triangle];
-  const size_t count = fan.blades.size();
-  std::vector<char> round(count), reached(count);
-  Vector3d sum = Vector3d::Zero();
-  for (size_t i = 0; i < count; ++i) {
-    const double cosine = fan.blades[i].normal.dot(normal);
-    round[i] = (shape_.closed() ? cosine : std::abs(cosine)) > least_round;
-    reached[i] = fan.blades[i].triangle == known_[triangle];
+  for (Blade& blade : blades) {
+    const double cosine = blade.normal.dot(normal);
+    blade.round = (shape_.closed() ? cosine : std::abs(cosine)) > least_round;
+    blade.reached = blade.triangle == known_[triangle];
   }
   for (bool changed = true; changed;) {
     changed = false;
-    for (const auto& [i, j] : fan.links)
-      if (reached[i] != reached[j] && round[reached[i] ? j : i])
-        reached[i] = reached[j] = changed = true;
+    for (const auto& [i, j] : links) {
+      Blade &a = blades[i], &b = blades[j];
+      if (a.reached != b.reached && (a.reached ? b : a).round)
+        a.reached = b.reached = changed = true;
+    }
   }
-  for (size_t i = 0; i < count; ++i) {
-    if (!reached[i]) continue;
-    const Blade& b = fan.blades[i];
+  Vector3d sum = Vector3d::Zero();
+  for (const Blade& blade : blades) {
     // open surfaces have two outsides
-    const double sense = !shape_.closed() && b.normal.dot(normal) < 0 ? -1 : 1;
-    sum += sense * b.twice_area / (b.one.squaredNorm() * b.two.squaredNorm()) * b.normal;
+    const double sense = !shape_.closed() && blade.normal.dot(normal) < 0 ? -1 : 1;
+    if (blade.reached) sum += sense * blade.weight * blade.normal;
   }
   return sum.isZero() ? normal : sum.normalized();
 }

@@ -1,5 +1,6 @@
 // The part of a body's surface that a contact sees, and how it bends between its vertices.
 #pragma once
+#include <array>
 #include <span>
 #include <vector>
 
@@ -46,11 +47,14 @@ class PatchSheet {
   double crease_length() const;
 
  private:
-  // a triangle at a corner; in frame P
+  // a triangle at a corner
   struct Blade {
-    Eigen::Vector3d one, two, normal;  // its sides from the corner
-    double twice_area = 0;
-    int triangle = -1;  // of the mesh
+    int triangle = -1;                    // of the mesh
+    Eigen::Vector3d normal;               // frame P
+    double twice_area = 0;                // [m^2]
+    double weight = 0;                    // in the corner's normal
+    std::array<int, 2> ends = {};         // its other corners: equal numbers are one place
+    bool round = false, reached = false;  // for the triangle that asks
   };
   // the triangles around a corner, and which go on smoothly in each other
   struct Fan {
@@ -59,8 +63,9 @@ class PatchSheet {
   };
   const Eigen::Vector3d& corner_normal(int triangle, int k);
   Eigen::Vector3d make_corner_normal(int triangle, int k);
-  Fan make_fan(int triangle, int k) const;
-  std::vector<int> triangles_at(int triangle, int k) const;
+  std::vector<Blade> blades_at(int triangle, int k) const;
+  std::vector<Blade> far_blades_at(int triangle, int k) const;
+  bool linked(const Blade& a, const Blade& b) const;
 
   const Shape& shape_;
   Pose X_PB_, X_BP_;
