@@ -175,9 +175,9 @@ constexpr ContactHold all_holds[] = {ContactHold::sticks, ContactHold::slips,
 // Depth first over the states of the contacts, the undecided ones counted on for all they could do.
 class RobustnessSearch {
  public:
-  RobustnessSearch(const RobustnessProblem& problem, int most_steps)
+  RobustnessSearch(const RobustnessProblem& problem, int steps)
       : problem_(problem),
-        steps_(most_steps),
+        steps_(steps),
         states_(static_cast<size_t>(problem.mu.size()), ContactHold::sticks) {
     best_ = robustness_of(problem_, states_);
     climb();
