@@ -80,7 +80,7 @@ void add_cones(ForceProgram& p, const Grasp& grasp, const ForceOptions& options,
     for (int i = 0; i < contacts; ++i) {
       std::vector<ConeBlock> blocks = {{p.normal(i), number(1)}};
       if (interior) blocks.push_back({depth, number(1)});
-      p.caps.push_back(p.builder.at_most(blocks, numbers(*options.max_force)));
+      p.caps.push_back(p.builder.at_most(blocks, numbers(options.max_force.of(i))));
     }
 }
 
@@ -340,8 +340,8 @@ ForceCertificate read_certificate(const ForceProgram& p, const World& world, con
 
 // of a load, torque over rho: a power of two, so that no digit changes
 double size_of(const Vector6d& load, const Grasp& grasp) {
-  return std::exp2(
-      std::round(std::log2(std::hypot(load.head<3>().stableNorm(), load.tail<3>().stableNorm() / grasp.rho))));
+  return std::exp2(std::round(
+      std::log2(std::hypot(load.head<3>().stableNorm(), load.tail<3>().stableNorm() / grasp.rho))));
 }
 
 // What stands in the way of the largest part of the load that is held is the tightest of all proofs. Where no part is,
@@ -381,7 +381,11 @@ void check_options(const World& world, const Grasp& grasp, const ForceOptions& o
     if (x && !(std::isfinite(*x) && *x > 0))
       refuse(fmt::format("{} must be > 0 [{}], got {}", name, unit, *x));
   };
-  positive("max_force", options.max_force, "N");
+  const auto& caps = options.max_force.values;
+  if (caps.size() > 1 && caps.size() != grasp.points.size())
+    refuse(fmt::format("max_force: wanted one number or {}, one a contact, got {}",
+                       grasp.points.size(), caps.size()));
+  for (const double cap : caps) positive("max_force", cap, "N");
   positive("max_total_force", options.max_total_force, "N");
   positive("total_force", options.total_force, "N");
   if (!options.joints) return;

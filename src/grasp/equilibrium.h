@@ -12,9 +12,9 @@ enum class EquilibriumStatus {
 };
 
 struct EquilibriumOptions {
-  Vector6d load = Vector6d::Zero();      ///< as in ForceOptions
-  JointDemand joints = {};               ///< by default the motors' own limits
-  std::optional<double> max_force = {};  ///< of each normal force, > 0 [N]
+  Vector6d load = Vector6d::Zero();  ///< as in ForceOptions
+  JointDemand joints = {};           ///< by default the motors' own limits
+  ForceCaps max_force = {};          ///< of each normal force
 };
 
 struct Equilibrium {

@@ -12,7 +12,10 @@ double resistance(const World& world, const Grasp& grasp, const Vector6d& wrench
   if (!wrench_W.allFinite()) fail("resistance: the wrench must be finite");
   if (wrench_W.isZero(0)) return std::numeric_limits<double>::infinity();
   ForceOptions forces{.load = wrench_W};
-  (options.norm == WrenchNorm::l1 ? forces.max_total_force : forces.max_force) = 1;
+  if (options.norm == WrenchNorm::l1)
+    forces.max_total_force = 1;
+  else
+    forces.max_force = 1;
   const ForceResult most = largest_load(world, grasp, forces);
   if (most.status == ForceStatus::infeasible) return 0;
   if (most.status != ForceStatus::optimal)

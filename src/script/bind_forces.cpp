@@ -31,6 +31,20 @@ static std::optional<Eigen::VectorXd> vector_if(Table& options, const char* key)
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<int>(numbers.size()));
 }
 
+// a number for all contacts, or a list of one a contact
+static ForceCaps read_max_force(Table& options) {
+  const int type = options.push("max_force");
+  lua_pop(options.what("max_force").L, 1);
+  if (type != LUA_TTABLE) {
+    const auto all = positive_if(options, "max_force");
+    return all ? ForceCaps(*all) : ForceCaps();
+  }
+  const auto each = options.numbers("max_force");
+  if (each.empty())
+    fail("{}: max_force: wanted a number for each contact, got none", options.subject());
+  return ForceCaps(each);
+}
+
 // torque_limits: true, false, or a number for each DOF
 static bool read_limits(Table& options, bool fallback, JointDemand& joints) {
   const int type = options.push("torque_limits");
@@ -41,7 +55,7 @@ static bool read_limits(Table& options, bool fallback, JointDemand& joints) {
 }
 
 static void read_caps(Table& options, ForceOptions& forces) {
-  forces.max_force = positive_if(options, "max_force");
+  forces.max_force = read_max_force(options);
   forces.max_total_force = positive_if(options, "max_total_force");
   forces.total_force = positive_if(options, "total_force");
 }
@@ -196,7 +210,7 @@ static int balance(lua_State* L) {
   Table options(L, 2);
   EquilibriumOptions asked;
   if (options.has("load")) asked.load = read_wrench(options, "load");
-  asked.max_force = positive_if(options, "max_force");
+  asked.max_force = read_max_force(options);
   asked.joints.unlimited = !read_limits(options, true, asked.joints);
   asked.joints.arms = options.boolean("arms", false);
   asked.joints.link_weights = options.boolean("link_weights", false);
@@ -246,7 +260,7 @@ as all can be; "interior_sum", the largest sum of the distances from the edges.
 world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho.
 `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of
 caps and motors; `opens` and `slides` of each contact along it; `cap_shares`, `effort_shares` of the capacity; `contact` or `dof`, whichever gives way.
-@param options? {load?: number[], objective?: string, max_force?: number, max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, limit and value of their sum [N]; torque_limits: the motors' own, or one a DOF; without it motors give what they must; total_torque: of all motors, closing [N m or N]; closing_only: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
+@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, or a list of one a contact, limit and value of their sum [N]; torque_limits: the motors' own, or one a DOF; without it motors give what they must; total_torque: of all motors, closing [N m or N]; closing_only: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
 @return table result  `status`, `forces`, `objective`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
 > held = grasp:contact_forces{load = weight}
@@ -257,7 +271,7 @@ caps and motors; `opens` and `slides` of each contact along it; `cap_shares`, `e
     {"largest_load", guarded<largest>, R"(
 The largest multiple `load` of a wrench on the object that forces at the contacts balance, its axes as in contact_forces.
 `status` "unlimited" when no cap and no torque ends it. The `certificate` says what gives way beyond it.
-@param options {direction: number[], max_force?: number, max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean}  as in contact_forces
+@param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean}  as in contact_forces
 @return table result  `status`, `load`, `forces`, `joint_torques`, `certificate`
 > grasp:largest_load{direction = {0, 0, -1, 0, 0, 0}, max_force = 10}.load > 1  --> true
 > grasp:largest_load{direction = {0, 0, -1, 0, 0, 0}}.status  --> unlimited)"},
@@ -266,7 +280,7 @@ Can the hand as it stands hold the load (as in contact_forces)? Its joints must 
 their limits (max_effort of each DOF; none where that is 0), by springs, and by the clutches of joints that have broken away. The palm takes what it must.
 `status`: "stable"; "unstable", then `unbalanced` is the least wrench that is left and `certificate` says what gives way; "moving" when no contact
 forces balance the joints, so that a finger moves; "inaccurate".
-@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number, arms?: boolean, link_weights?: boolean}  torque_limits: one a DOF, or false for none; torques: what the motors give, one a DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact [N]
+@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one a DOF, or false for none; torques: what the motors give, one a DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact, or one a contact [N]
 @return table result  `status`, `forces`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > grasp:equilibrium{load = {0, 0, -0.1, 0, 0, 0}}.status  --> stable
 > grasp:equilibrium{load = {0, 0, -1e4, 0, 0, 0}}.status  --> unstable

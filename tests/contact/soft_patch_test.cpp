@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "math/decompositions.h"
+#include "support/cases.h"
 #include "support/curved.h"
 
 using namespace clench;
@@ -62,7 +63,7 @@ TEST_CASE("a ball on a plane has its own radius, whatever its mesh and its turn"
   // four with each halving
   const double tolerance[] = {0.2, 0.03, 0.004, 5e-4, 1e-4};
   for (int subdivisions = 1; subdivisions <= 5; ++subdivisions)
-    for (int trial = 0; trial < 10; ++trial) {
+    for (int trial = 0; trial < test::cases(10); ++trial) {
       const SoftPatch patch = drop(test::icosphere(0.02, subdivisions), test::random_turn(random));
       check_radii(patch, 0.02, 0.02, tolerance[subdivisions - 1]);
       CHECK(!patch.sharp);

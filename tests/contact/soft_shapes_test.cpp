@@ -3,6 +3,7 @@
 
 #include "contact/soft_patch.h"
 #include "math/decompositions.h"
+#include "support/cases.h"
 #include "support/curved.h"
 
 using namespace clench;
@@ -122,7 +123,7 @@ Matrix3d turned_form(const Pose& turn, const Matrix3d& form) {
 TEST_CASE("ellipsoids of uneven meshes bend as the formula says, wherever they touch") {
   Random random(11);
   Errors coarse, fine;
-  for (int trial = 0; trial < 40; ++trial) {
+  for (int trial = 0; trial < test::cases(40); ++trial) {
     const Vector3d semi_axes(random.uniform(0.015, 0.03), random.uniform(0.015, 0.03),
                              random.uniform(0.015, 0.03));
     const Pose turn = Pose::turn(test::random_turn(random));
@@ -143,7 +144,7 @@ TEST_CASE("ellipsoids of uneven meshes bend as the formula says, wherever they t
 TEST_CASE("a tilted torus of an uneven mesh has the radii of its tube and of where it touches") {
   Random random(12);
   Errors all;
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < test::cases(20); ++trial) {
     const double ring = 0.03, tube = random.uniform(0.008, 0.015), v = random.uniform(0, 1.2);
     const Mesh mesh = uneven_torus(random, ring, tube, 72, 36);
     // its axis leans until it touches at the height v on the tube
@@ -160,7 +161,7 @@ TEST_CASE("a tilted torus of an uneven mesh has the radii of its tube and of whe
 TEST_CASE("a ball on the flank of a cone adds its curvature to that across the flank") {
   Random random(13);
   Errors all;
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < test::cases(20); ++trial) {
     const double half_angle = random.uniform(0.1, 0.6), middle = random.uniform(0.015, 0.03);
     // a frustum about z, of rings as uneven as their segments
     Mesh cone;
@@ -200,7 +201,7 @@ TEST_CASE("a ball on the flank of a cone adds its curvature to that across the f
 TEST_CASE("a box rounded by 12 mm touches with balls at its corners and cylinders at its edges") {
   Random random(14);
   Errors corners, edges;
-  for (int trial = 0; trial < 40; ++trial) {
+  for (int trial = 0; trial < test::cases(40); ++trial) {
     const double round = 0.012;
     const Vector3d half(random.uniform(0.008, 0.03), random.uniform(0.005, 0.03),
                         random.uniform(0.005, 0.03));

@@ -45,7 +45,8 @@ static void check_forces(const Held& h, const ForceOptions& options, const Force
     CHECK(across <= c.mu * f.normal + 1e-9 * largest);  // what the solver promises
     CHECK(std::abs(f.margin - (c.mu > 0 ? (c.mu * f.normal - across) / std::hypot(1, c.mu)
                                         : f.normal)) < 1e-12 * largest);
-    if (options.max_force) CHECK(f.normal <= *options.max_force * (1 + 1e-9));
+    if (options.max_force)
+      CHECK(f.normal <= options.max_force.of(static_cast<int>(i)) * (1 + 1e-9));
   }
   CHECK(sum.norm() <= 1e-9 * largest);
   CHECK((sum - r.unbalanced).norm() <= 1e-12 * largest);
@@ -60,14 +61,16 @@ static void check_certificate(const Held& h, const ForceOptions& options, const 
   CHECK(std::abs(c.power - options.load.dot(c.twist)) < 1e-9 * options.load.norm());
   const Pose& X_WO = h.world.body(h.grasp.object).X_WB;
   double resisted = 0;
-  for (const PointContact& point : h.grasp.points) {
+  for (size_t i = 0; i < h.grasp.points.size(); ++i) {
+    const PointContact& point = h.grasp.points[i];
     const Vector3d arm = X_WO.rotation * (point.p_O - h.grasp.com);
     const Vector3d v = c.twist.head<3>() + c.twist.tail<3>().cross(arm);
     const Vector3d n = X_WO.rotation * point.n_O;
     const double along = v.dot(n), spin = c.twist.tail<3>().dot(n) * point.torsion_radius;
     // the most that a unit of normal force takes out: against the slip as hard as friction allows
     const double most = point.mu * std::hypot((v - along * n).norm(), spin) - along;
-    if (most > 0) resisted += most * options.max_force.value_or(1e7);
+    const double cap = options.max_force ? options.max_force.of(static_cast<int>(i)) : 1e7;
+    if (most > 0) resisted += most * cap;
   }
   CHECK(resisted < c.power);
 }
@@ -144,6 +147,25 @@ TEST_CASE("caps bound what is carried, and the proof names the finger that gives
   CHECK(std::abs(r.certificate->slides[0] - 1) < 1e-6);
 }
 
+TEST_CASE("each contact may have a cap of its own") {
+  Held h = held(test::pinch(0.5));
+  // two fingers press alike, so the weaker one bounds both
+  const auto most = [&](std::vector<double> caps) {
+    const ForceOptions options{.load = wrench(0, 0, -1, 0, 0, 0), .max_force = std::move(caps)};
+    return largest_load(h.world, h.grasp, options);
+  };
+  CHECK(most({4, 4}).load_factor == doctest::Approx(4));
+  const ForceResult weak = most({4, 3});
+  CHECK(weak.load_factor == doctest::Approx(3));
+  REQUIRE(weak.certificate.has_value());
+  CHECK(weak.certificate->contact == 1);
+  CHECK(weak.certificate->cap_shares[0] < 1e-6);
+  CHECK_THROWS_WITH_AS(most({1, 2, 3}),
+                       "contact forces: max_force: wanted one number or 2, one a contact, got 3",
+                       Error);
+  CHECK_THROWS_WITH_AS(most({1, -2}), "contact forces: max_force must be > 0 [N], got -2", Error);
+}
+
 TEST_CASE("the length of a direction counts for nothing") {
   Held h = held(test::pinch(0.5));
   for (const double size : {1e-200, 1e-12, 1e-9, 1e-6, 1.0, 1e6, 1e12, 1e200}) {
@@ -186,7 +208,7 @@ TEST_CASE("the largest load is where caps and friction end") {
   REQUIRE(r.certificate.has_value());
   CHECK(std::abs(r.certificate->power - r.certificate->capacity) < 1e-6);
   // no cap, no end
-  options.max_force.reset();
+  options.max_force = {};
   CHECK(largest_load(h.world, h.grasp, options).status == ForceStatus::unbounded);
   // what is not held at all
   options.load = wrench(0, 0, 0, 1, 0, 0);
@@ -209,7 +231,7 @@ TEST_CASE("the interior is as far from edges and caps as can be") {
   const ForceResult sum = hold(h, options);
   check_forces(h, options, sum);
   CHECK(std::abs(sum.objective - 2 * (0.5 * 10 - 1) / root) < 1e-6);
-  options.max_force.reset();
+  options.max_force = {};
   CHECK(hold(h, options).status == ForceStatus::unbounded);
   options.total_force = 12;
   const ForceResult fixed = hold(h, options);

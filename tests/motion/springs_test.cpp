@@ -4,6 +4,7 @@
 #include <random>
 
 #include "motion/drive.h"
+#include "support/cases.h"
 #include "support/robots.h"
 
 using namespace clench;
@@ -78,7 +79,7 @@ double least_energy_nearby(const SpringBench& bench, int chain, double q, double
 TEST_CASE("without friction a finger comes to rest where its springs hold least") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> x(-0.01, 0.01), y(0.03, 0.09), k(0.2, 5);
-  for (int run = 0; run < 30; ++run) {
+  for (int run = 0; run < cases(30); ++run) {
     SpringBench bench({k(random), k(random)}, "frictionless", {x(random), y(random), 0});
     const auto result = autograsp(bench.world, bench.hand);
     CHECK(result.moved);
@@ -96,7 +97,7 @@ TEST_CASE("without friction a finger comes to rest where its springs hold least"
 TEST_CASE("with friction the springs' torques are what contacts within their cones can give") {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> x(-0.01, 0.01), y(0.03, 0.09), k(0.2, 5);
-  for (int run = 0; run < 30; ++run) {
+  for (int run = 0; run < cases(30); ++run) {
     SpringBench bench({k(random), k(random)}, run % 2 ? "rubber" : "plastic",
                       {x(random), y(random), 0}, run % 3 ? ball(0.015) : box(0.02, 0.02, 0.02));
     autograsp(bench.world, bench.hand);
