@@ -147,17 +147,27 @@ TEST_CASE("a joint that has broken away is moved by no DOF, and held by its clut
   CHECK(balance.high[dof] == doctest::Approx(robot.dofs[dof].max_effort));
 }
 
+namespace {
+
+// a hand of two fingers that has begun to close, far from a box that it is to grasp
+Grasp begun_grasp(World& world, const RobotSpec& spec) {
+  Grasp grasp;
+  grasp.hand = world.add_robot(spec, Pose());
+  grasp.object = world.add_body(test::body_spec("thing", test::box(0.1, 0.1, 0.1)),
+                                BodyKind::object, Pose::translation({1, 0, 0}));
+  world.set_dofs(grasp.hand, Eigen::Vector2d(0.3, 0.5));
+  return grasp;
+}
+
+}  // namespace
+
 TEST_CASE("a rigid DOF is one balance, a compliant one as many as it has joints") {
   for (const auto kind : {DofKind::rigid, DofKind::compliant}) {
     RobotSpec spec = test::two_finger(kind);
     for (auto& chain : spec.chains)
       for (auto& joint : chain.joints) joint.spring = 0.1, joint.rest = -0.2;
     World world;
-    Grasp grasp;
-    grasp.hand = world.add_robot(spec, Pose());
-    grasp.object = world.add_body(test::body_spec("thing", test::box(0.1, 0.1, 0.1)),
-                                  BodyKind::object, Pose::translation({1, 0, 0}));
-    world.set_dofs(grasp.hand, Eigen::Vector2d(0.3, 0.5));
+    const Grasp grasp = begun_grasp(world, spec);
     const JointBalance balance = joint_balance(world, grasp);
     CHECK(balance.springs.size() == (kind == DofKind::rigid ? 2 : 4));
     // ratios 1 and 0.5: torque -k (q - rest) of each joint, its work along the DOF
@@ -174,11 +184,7 @@ TEST_CASE(
   RobotSpec spec = test::two_finger(DofKind::compliant);
   for (auto& chain : spec.chains) chain.joints[0].spring = 0.1, chain.joints[1].spring = 0.3;
   World world;
-  Grasp grasp;
-  grasp.hand = world.add_robot(spec, Pose());
-  grasp.object = world.add_body(test::body_spec("thing", test::box(0.1, 0.1, 0.1)),
-                                BodyKind::object, Pose::translation({1, 0, 0}));
-  world.set_dofs(grasp.hand, Eigen::Vector2d(0.3, 0.5));
+  const Grasp grasp = begun_grasp(world, spec);
   const JointBalance balance = joint_balance(world, grasp);
   CHECK(balance.tendons[0] == doctest::Approx((0.1 + 0.25 * 0.3) * 0.3));
   CHECK((balance.efforts * balance.tendons + balance.springs).norm() < 1e-15);
