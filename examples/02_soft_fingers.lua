@@ -43,6 +43,6 @@ print(("torsion from %.1f to %.1f N mm: it grows with the fourth root of the rad
 
 -- the patch lies in the transparent body, with the rim of the ellipse that presses
 local _, world = press(0.02, places[2][2])
-clench.render(world, {size = {640, 480}, patches = true, contacts = false, eye = {0.02, -0.06, -0.05}, target = {0, 0, 0}}):save(picture)
+clench.render(world, {size = {640, 480}, patches = true, eye = {0.02, -0.06, -0.05}, target = {0, 0, 0}}):save(picture)
 print("picture " .. picture)
 assert(worst < 0.02 and most / least < 2.5, "closed formulas")

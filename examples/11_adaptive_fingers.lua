@@ -32,7 +32,7 @@ for _, force in ipairs(held.forces) do pressed = pressed + force.normal end
 print(("%s: the fingers press with %.2f N in all"):format(held.status, pressed))
 
 clench.render(world, {
-  size = {960, 720}, samples = 4, eye = {0.05, -0.34, 0.26}, target = {-0.01, 0, 0.06}, field_of_view = 0.6, forces = held.forces,
+  size = {960, 720}, samples = 4, eye = {0.05, -0.2, 0.34}, target = {-0.02, 0, 0.06}, field_of_view = 0.55, forces = held.forces, contacts = false,
 }):save(picture)
 print("picture " .. picture)
 assert(held.status == "stable" and pressed > 0.1)

@@ -545,7 +545,7 @@ function wrench_space:project(options) end
 ---@field projected string[] # The coordinates that may be anything.
 local projection = {}
 
----Draws it, seen through, with its axes, the ball of epsilon as far as it lies in it, and the direction that the space reaches least; size, samples and camera as in clench.render.
+---Draws it, seen through, with its axes and their numbers [N], the ball of epsilon as far as it lies in it, and the direction that the space reaches least; size, samples and camera as in clench.render.
 ---@param options? {ball?: boolean, weakest?: boolean, size?: integer[], samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number}
 ---@return picture
 function projection:render(options) end
@@ -658,14 +658,14 @@ function clench.wrench_space(options) end
 ---@return eigengrasps
 function clench.eigengrasps(options) end
 
----Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of all soft contacts. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
+---Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of all soft contacts, without the cones, which would cover them. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
 ---@param world world
----@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number} # size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
+---@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number} # size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press, with their newtons, through links that one sees through; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
 ---@return picture
 function clench.render(world, options) end
 
----Draws numbers as columns, one panel a series, each to its own scale, all over the same items; the largest of a panel is the darkest. `false` is a value that is missing, and marked. It needs no graphics hardware.
----@param options {series: {name: string, values: (number|false)[]}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one an item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
+---Draws numbers as columns, one panel a series, each to its own scale, all over the same items, with its value where there is room; the best of a panel, the largest or with least_is_best the least, is the darkest. `false` is a value that is missing, and marked. Texts are UTF-8; letters that are neither Latin nor Greek are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
+---@param options {series: {name: string, values: (number|false)[], least_is_best?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one an item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
 ---@return picture
 function clench.chart(options) end
 

@@ -76,7 +76,23 @@ void Canvas::line(const Vector2f& from, const Vector2f& to, float width, const C
 
 float Canvas::text_width(std::string_view words, float height) {
   const float scale = height / (letter_top - letter_baseline);
-  return static_cast<float>(words.size()) * letter_advance * scale;
+  return static_cast<float>(letters_of(words).size()) * letter_advance * scale;
+}
+
+std::string Canvas::shortened(std::string_view words, float height, float width) {
+  const auto fits = [&](std::string_view text) { return text_width(text, height) <= width; };
+  if (fits(words)) return std::string(words);
+  // where letters begin
+  std::vector<size_t> starts;
+  for (size_t i = 0; i < words.size(); ++i)
+    if ((words[i] & 0xC0) != 0x80) starts.push_back(i);
+  starts.push_back(words.size());
+  for (size_t kept = starts.size() - 1; kept-- > 0;) {
+    const size_t front = starts[(kept + 1) / 2], back = starts[starts.size() - 1 - kept / 2];
+    std::string text = std::string(words.substr(0, front)) + "…" + std::string(words.substr(back));
+    if (fits(text)) return text;
+  }
+  return "";
 }
 
 void Canvas::text(std::string_view words, const Vector2f& at, float height, const Color& color,
@@ -88,14 +104,21 @@ void Canvas::text(std::string_view words, const Vector2f& at, float height, cons
   const auto place = [&](const Vector2f& p) {
     return Vector2f(origin + scale * (p.x() * along + (letter_baseline - p.y()) * down));
   };
-  for (const char character : words) {
-    for (const auto& stroke : strokes_of(character)) {
+  for (const char32_t letter : letters_of(words)) {
+    for (const auto& stroke : strokes_of(letter)) {
       if (stroke.size() == 1) line(place(stroke[0]), place(stroke[0]), 1.5f * width, color);
       for (size_t i = 1; i < stroke.size(); ++i)
         line(place(stroke[i - 1]), place(stroke[i]), width, color);
     }
     origin += letter_advance * scale * along;
   }
+}
+
+void Canvas::bright_text(std::string_view words, const Vector2f& at, float height,
+                         const Color& color) {
+  for (const float dx : {-1.0f, 1.0f})
+    for (const float dy : {-1.0f, 1.0f}) text(words, at + Vector2f(dx, dy), height, Color(1, 1, 1));
+  text(words, at, height, color);
 }
 
 }  // namespace clench

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
+#include "math/round_step.h"
 #include "render/canvas.h"
 
 namespace clench {
@@ -15,7 +17,11 @@ using Eigen::Vector2f;
 namespace {
 
 constexpr float letter_height = 9, title_height = 13, margin = 16, axis_room = 72;
-constexpr float panel_height = 120, panel_gap = 30;
+constexpr float panel_height = 170, panel_gap = 56;  // with the gap above, which holds the name
+constexpr float panel_name = 24;                     // its baseline above the panel [pixels]
+constexpr float least_column = 2;                    // height of what is not 0 [pixels]
+constexpr float turned_label = 150;  // length that an upright label may have [pixels]
+constexpr float level_label = 110;   // columns as wide keep their labels level [pixels]
 constexpr int least_size = 64, largest_size = 8192;
 
 const Canvas::Color ink(0.13f, 0.16f, 0.20f), quiet(0.86f, 0.87f, 0.89f);
@@ -58,58 +64,138 @@ struct ChartPanel {
   float top, bottom, left, right;
 };
 
-void draw_columns(Canvas& canvas, const ChartPanel& panel, const ChartSeries& series,
-                  const ChartColumns& columns) {
-  const ChartAxis axis = chart_axis(series.values);
-  const auto height = [&](double value) {
+// a panel's scale
+struct ChartScale {
+  ChartAxis axis;
+  float top, bottom;
+  float height(double value) const {
     const double part = (value - axis.low) / (axis.high - axis.low);
-    return panel.bottom - static_cast<float>(part) * (panel.bottom - panel.top);
-  };
-  canvas.text(series.name, {panel.left, panel.top - 8}, letter_height, ink);
+    return bottom - static_cast<float>(part) * (bottom - top);
+  }
+};
 
-  // lines of the axis with their values
+bool nothing_to_show(const std::vector<double>& values) {
+  return std::ranges::none_of(values, [](double v) { return std::isfinite(v) && v != 0; });
+}
+
+// the line of 0, and unless there is nothing but zeros, the others
+void draw_axis(Canvas& canvas, const ChartPanel& panel, const ChartScale& scale, bool zeros) {
+  const ChartAxis& axis = scale.axis;
   const auto steps = std::lround((axis.high - axis.low) / axis.step);
   for (long i = 0; i <= steps; ++i) {
     const double value = axis.low + static_cast<double>(i) * axis.step;
-    const float y = height(value);
+    const bool zero = std::abs(value) < axis.step / 2;
+    if (zeros && !zero) continue;
+    const float y = scale.height(value);
     canvas.rectangle({panel.left, y - 0.5f}, {panel.right, y + 0.5f}, quiet);
-    const std::string number = fmt::format("{:.4g}", std::abs(value) < axis.step / 2 ? 0.0 : value);
+    const std::string number = fmt::format("{:.4g}", zero ? 0.0 : value);
     canvas.text(number,
                 {panel.left - 8 - Canvas::text_width(number, letter_height), y + letter_height / 2},
                 letter_height, ink);
   }
+}
 
+// infinite when there is none
+double best_of(const ChartSeries& series) {
+  const double sign = series.least_is_best ? -1 : 1;
   double best = -std::numeric_limits<double>::infinity();
   for (const double value : series.values)
-    if (std::isfinite(value)) best = std::max(best, value);
-  const float half = std::max(0.5f, 0.36f * columns.width), zero = height(0);
+    if (std::isfinite(value)) best = std::max(best, sign * value);
+  return sign * best;
+}
+
+void draw_cross(Canvas& canvas, float x, float zero) {
+  canvas.line({x - 3, zero - 10}, {x + 3, zero - 4}, 1.5f, cross_color);
+  canvas.line({x - 3, zero - 4}, {x + 3, zero - 10}, 1.5f, cross_color);
+}
+
+// a value's end of its column; what is not 0 can be told from it
+float end_of(const ChartScale& scale, double value) {
+  const float zero = scale.height(0), y = scale.height(value);
+  if (value > 0) return std::min(y, zero - least_column);
+  if (value < 0) return std::max(y, zero + least_column);
+  return zero;
+}
+
+// above the columns, unless one is too wide
+void write_values(Canvas& canvas, const ChartScale& scale, const std::vector<double>& values,
+                  const ChartColumns& columns) {
+  const auto width = [](const std::string& text) {
+    return Canvas::text_width(text, letter_height);
+  };
+  std::vector<std::string> numbers;
+  for (const double value : values)
+    numbers.push_back(std::isfinite(value) ? fmt::format("{:.3g}", value) : "");
+  if (std::ranges::any_of(numbers, [&](const auto& n) { return width(n) > columns.width; })) return;
+  for (size_t i = 0; i < values.size(); ++i)
+    if (std::isfinite(values[i]))
+      canvas.bright_text(numbers[i],
+                         {columns.centre(i) - width(numbers[i]) / 2,
+                          std::min(end_of(scale, values[i]), scale.height(0)) - 4},
+                         letter_height, ink);
+}
+
+void draw_columns(Canvas& canvas, const ChartPanel& panel, const ChartSeries& series,
+                  const ChartColumns& columns) {
+  const ChartScale scale{chart_axis(series.values), panel.top, panel.bottom};
+  canvas.text(Canvas::shortened(series.name, letter_height, panel.right - panel.left),
+              {panel.left, panel.top - panel_name}, letter_height, ink);
+  draw_axis(canvas, panel, scale, nothing_to_show(series.values));
+
+  const double best = best_of(series);
+  const float half = std::max(0.5f, 0.36f * columns.width), zero = scale.height(0);
   for (size_t i = 0; i < series.values.size(); ++i) {
     const float x = columns.centre(i);
     const double value = series.values[i];
-    if (std::isfinite(value)) {
-      const float y = height(value);
-      canvas.rectangle({x - half, std::min(y, zero)}, {x + half, std::max(y, zero)},
-                       value == best ? best_color : column_color);
-    } else {
-      canvas.line({x - 3, zero - 8}, {x + 3, zero - 2}, 1.5f, cross_color);
-      canvas.line({x - 3, zero - 2}, {x + 3, zero - 8}, 1.5f, cross_color);
+    if (!std::isfinite(value)) {
+      draw_cross(canvas, x, zero);
+      continue;
     }
+    const float y = end_of(scale, value);
+    canvas.rectangle({x - half, std::min(y, zero)}, {x + half, std::max(y, zero)},
+                     value == best ? best_color : column_color);
   }
   canvas.rectangle({panel.left, zero - 0.5f}, {panel.right, zero + 0.5f}, ink);
+  write_values(canvas, scale, series.values, columns);
 }
 
-// under the last panel: level where they fit, upright where not, some left out where even those would overlap
-void draw_labels(Canvas& canvas, const std::vector<std::string>& labels, float top,
-                 const ChartColumns& columns, bool upright) {
-  const float least = upright ? letter_height + 4 : 0;
-  const size_t every = upright ? static_cast<size_t>(std::ceil(least / columns.width)) : 1;
-  for (size_t i = 0; i < labels.size(); i += std::max<size_t>(1, every)) {
-    const float width = Canvas::text_width(labels[i], letter_height), x = columns.centre(i);
-    if (upright)
-      canvas.text(labels[i], {x + letter_height / 2, top + width}, letter_height, ink,
+// how the labels under the last panel stand: level where they fit, perhaps shortened, upright where not
+struct ChartLabels {
+  std::vector<std::string> texts;
+  bool upright = false;
+  float height = letter_height;  // of all
+};
+
+ChartLabels fit_labels(const Chart& chart, const ChartColumns& columns) {
+  ChartLabels labels{labels_of(chart)};
+  const auto width = [](const std::string& text) {
+    return Canvas::text_width(text, letter_height);
+  };
+  const auto widest = [&] {
+    float most = 0;
+    for (const std::string& text : labels.texts) most = std::max(most, width(text));
+    return most;
+  };
+  labels.upright = widest() + 4 > columns.width && columns.width < level_label;
+  const float room = labels.upright ? turned_label : columns.width - 4;
+  for (std::string& text : labels.texts) text = Canvas::shortened(text, letter_height, room);
+  if (labels.upright) labels.height = widest();
+  return labels;
+}
+
+// some are left out where even upright ones would overlap
+void draw_labels(Canvas& canvas, const ChartLabels& labels, float top,
+                 const ChartColumns& columns) {
+  const float least = labels.upright ? letter_height + 4 : 0;
+  const auto every = static_cast<size_t>(std::ceil(least / columns.width));
+  for (size_t i = 0; i < labels.texts.size(); i += std::max<size_t>(1, every)) {
+    const std::string& text = labels.texts[i];
+    const float width = Canvas::text_width(text, letter_height), x = columns.centre(i);
+    if (labels.upright)
+      canvas.text(text, {x + letter_height / 2, top + width}, letter_height, ink,
                   -Vector2f::UnitY());
     else
-      canvas.text(labels[i], {x - width / 2, top + letter_height}, letter_height, ink);
+      canvas.text(text, {x - width / 2, top + letter_height}, letter_height, ink);
   }
 }
 
@@ -120,45 +206,37 @@ ChartAxis chart_axis(const std::vector<double>& values) {
   for (const double value : values)
     if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
   // halves first, so that the range of the largest numbers is one
-  double range = high / 2 - low / 2;
+  const double range = high / 2 - low / 2;
   // beside numbers that small a step would be none
   if (range < 1e-300) return {};
-  const double rough = range / 2;
-  const double power = std::pow(10, std::floor(std::log10(rough)));
-  double step = 10 * power;
-  for (const double digit : {5.0, 2.0, 1.0})
-    if (digit * power >= rough) step = digit * power;
+  const double step = round_step(range / 2);
   return {std::floor(low / step) * step, std::ceil(high / step) * step, step};
 }
 
 Picture draw_chart(const Chart& chart, const ChartOptions& options) {
   check_chart(chart, options);
-  const std::vector<std::string> labels = labels_of(chart);
-  float widest = 0;
-  for (const std::string& label : labels)
-    widest = std::max(widest, Canvas::text_width(label, letter_height));
-
   const float left = margin + axis_room, right = static_cast<float>(options.width) - margin;
-  const ChartColumns columns{left, (right - left) / static_cast<float>(labels.size())};
-  const bool upright = widest + 4 > columns.width;
+  const auto items = static_cast<float>(chart.series[0].values.size());
+  const ChartColumns columns{left, (right - left) / items};
+  const ChartLabels labels = fit_labels(chart, columns);
   const float above = chart.title.empty() ? 0 : title_height + margin;
-  const float below = 8 + (upright ? widest : letter_height) + margin;
+  const float below = 8 + labels.height + margin;
   const auto panels = static_cast<float>(chart.series.size());
-  const int needed = static_cast<int>(margin + above + panels * (panel_height + panel_gap) + below);
+  const int needed = static_cast<int>(margin + above + panels * panel_height + below);
   const int height =
       options.height > 0 ? options.height : std::clamp(needed, least_size, largest_size);
 
   Picture picture = blank_picture(options.width, height);
   Canvas canvas(picture);
-  if (!chart.title.empty())
-    canvas.text(chart.title, {margin, margin + title_height}, title_height, ink);
+  canvas.text(Canvas::shortened(chart.title, title_height, right - margin),
+              {margin, margin + title_height}, title_height, ink);
   const float room = (static_cast<float>(height) - margin - above - below) / panels;
   for (size_t i = 0; i < chart.series.size(); ++i) {
     const float top = margin + above + static_cast<float>(i) * room;
     draw_columns(canvas, {top + panel_gap, std::max(top + panel_gap + 1, top + room), left, right},
                  chart.series[i], columns);
   }
-  draw_labels(canvas, labels, static_cast<float>(height) - below + 8, columns, upright);
+  draw_labels(canvas, labels, static_cast<float>(height) - below + 8, columns);
   return picture;
 }
 

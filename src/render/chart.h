@@ -10,6 +10,7 @@ namespace clench {
 struct ChartSeries {
   std::string name;            ///< with its unit
   std::vector<double> values;  ///< one an item; what is not finite is marked by a cross
+  bool least_is_best = false;
 };
 
 struct Chart {
@@ -22,8 +23,9 @@ struct ChartOptions {
   int width = 960, height = 0;  ///< pixels, 64..8192; a height of 0 is what the panels need
 };
 
-/// Each panel has its own scale, which begins at 0, or below where values are negative; the largest
-/// value of a panel is the darkest column. It needs no graphics hardware.
+/// Each panel has its own scale, which begins at 0, or below where values are negative; its best
+/// value is the darkest column, and values stand at the columns where they fit. Texts are UTF-8; long
+/// ones lose their middle. It needs no graphics hardware.
 /// throws  Error without series or items, where counts differ, and on a size out of range
 Picture draw_chart(const Chart& chart, const ChartOptions& options = {});
 

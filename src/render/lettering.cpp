@@ -1,6 +1,12 @@
 #include "render/lettering.h"
 
+#include <algorithm>
+
+#include "render/more_letters.h"
+
 namespace clench {
+
+static constexpr float small_top = 6;
 
 // two digits a point, a bar between lines; in the order of ASCII, from the space on
 static constexpr std::string_view letters[] = {
@@ -101,17 +107,82 @@ static constexpr std::string_view letters[] = {
     "05 16 25 34 45",                                   // ~
 };
 static constexpr std::string_view unknown = "02 08 48 42 02";
+static constexpr char32_t no_letter = 0xFFFD;  // of bytes that are none
 
-Strokes strokes_of(char character) {
-  const size_t at = static_cast<unsigned char>(character) - size_t{32};
-  const std::string_view text = at < std::size(letters) ? letters[at] : unknown;
-  Strokes strokes;
+static void add_strokes(std::string_view text, Strokes& strokes) {
   for (size_t i = 0; i + 1 < text.size(); i += 3) {
     if (i == 0 || text[i - 1] == '|') strokes.emplace_back();
     strokes.back().emplace_back(static_cast<float>(text[i] - '0'),
                                 static_cast<float>(text[i + 1] - '0'));
   }
+}
+
+// null when there are none
+static const std::string_view* plain_strokes(char32_t letter) {
+  const size_t at = letter - size_t{32};
+  return at < std::size(letters) ? &letters[at] : more_strokes(letter);
+}
+
+// an accent above a capital takes its room from it
+static Strokes accented_strokes(const AccentedLetter& letter) {
+  Strokes strokes, accent;
+  add_strokes(*plain_strokes(letter.base), strokes);
+  add_strokes(*accent_strokes(letter.accent), accent);
+  const auto top = [](const Strokes& of) {
+    float highest = 0;
+    for (const auto& stroke : of)
+      for (const auto& p : stroke) highest = std::max(highest, p.y());
+    return highest;
+  };
+  if (top(accent) > letter_baseline && top(strokes) > small_top) {
+    for (auto& stroke : strokes)
+      for (auto& p : stroke) p.y() = letter_baseline + (p.y() - letter_baseline) * 5 / 6;
+    for (auto& stroke : accent)
+      for (auto& p : stroke) p.y() += 1;
+  }
+  strokes.insert(strokes.end(), accent.begin(), accent.end());
   return strokes;
+}
+
+Strokes strokes_of(char32_t letter) {
+  if (const AccentedLetter* accented = accented_letter(letter)) return accented_strokes(*accented);
+  const std::string_view* text = plain_strokes(letter);
+  Strokes strokes;
+  add_strokes(text ? *text : unknown, strokes);
+  return strokes;
+}
+
+// how many bytes a letter has that begins so; 0 when none does
+static size_t letter_size(unsigned char first) {
+  if (first < 0x80) return 1;
+  if (first < 0xC2 || first > 0xF4) return 0;
+  return first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+}
+
+std::u32string letters_of(std::string_view text) {
+  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // of so many bytes
+  std::u32string out;
+  for (size_t i = 0; i < text.size();) {
+    const auto first = static_cast<unsigned char>(text[i]);
+    const size_t size = letter_size(first);
+    char32_t letter = size > 1 ? first & (0x7F >> size) : first;
+    size_t read = 1;
+    for (; read < size && i + read < text.size() && (text[i + read] & 0xC0) == 0x80; ++read)
+      letter = letter << 6 | (text[i + read] & 0x3F);
+    const bool whole = size > 0 && read == size && letter >= least[size] && letter <= 0x10FFFF &&
+                       (letter < 0xD800 || letter > 0xDFFF);
+    out += whole ? letter : no_letter;
+    i += whole ? size : 1;
+  }
+  return out;
+}
+
+std::u32string unknown_letters(std::string_view text) {
+  std::u32string out;
+  for (const char32_t letter : letters_of(text))
+    if (!accented_letter(letter) && !plain_strokes(letter) && out.find(letter) == out.npos)
+      out += letter;
+  return out;
 }
 
 }  // namespace clench

@@ -1,32 +1,13 @@
 #include "render/render.h"
 
-#include <cmath>
-
 #include "base/error.h"
 #include "render/canvas.h"
 #include "render/frame.h"
 #include "render/gl_context.h"
+#include "render/label_layout.h"
 #include "render/painter.h"
 
 namespace clench {
-
-namespace {
-
-constexpr float label_part = 0.018f;  // height of letters, part of the picture's
-
-// centred where its place is seen; what lies behind the eye is not
-void write_label(const DrawLabel& label, const Eye& eye, Picture& picture) {
-  const Eigen::Vector3d p = view_axes(eye).transpose() * (label.p_W - eye.eye);
-  if (!(p.z() < 0)) return;
-  const double pixels = 0.5 * picture.height / std::tan(eye.field_of_view / 2) / -p.z();
-  const float height = std::max(9.0f, label_part * static_cast<float>(picture.height));
-  const float x = static_cast<float>(0.5 * picture.width + pixels * p.x());
-  const float y = static_cast<float>(0.5 * picture.height - pixels * p.y());
-  Canvas(picture).text(label.text, {x - Canvas::text_width(label.text, height) / 2, y + height / 2},
-                       height, label.color);
-}
-
-}  // namespace
 
 Picture render(const Scene& scene, const RenderOptions& options) {
   for (const auto& [name, value] :
@@ -42,7 +23,10 @@ Picture render(const Scene& scene, const RenderOptions& options) {
   const Eye eye = scene.eye ? list.to_scene(*scene.eye) : frame(list, aspect);
   const GlContext context;
   Picture picture = paint(list, eye, options);
-  for (const DrawLabel& label : scene.labels) write_label(label, list.to_world(eye), picture);
+  Canvas canvas(picture);
+  const Eigen::Vector2f size(options.width, options.height);
+  for (const PlacedText& text : place_texts(scene, list.to_world(eye), size))
+    canvas.bright_text(text.text, {text.box.low.x(), text.box.high.y()}, text.height, text.color);
   return picture;
 }
 

@@ -1,5 +1,7 @@
 #include "scene/force_arrows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scene/palette.h"
@@ -7,6 +9,8 @@
 namespace clench {
 
 static constexpr double invisible = 1e-3;  // of the largest force
+static constexpr double beyond = 1.15;     // where its newtons stand, in lengths of an arrow
+static constexpr size_t most_labels = 8;   // more would hide what they tell about
 static constexpr double slender = 0.035;   // radius of the longest arrow, part of its length
 
 static double largest_force(std::span<const PlacedForce> forces) {
@@ -15,17 +19,35 @@ static double largest_force(std::span<const PlacedForce> forces) {
   return largest;
 }
 
+static std::vector<PlacedForce> visible_forces(std::span<const PlacedForce> forces) {
+  const double largest = largest_force(forces);
+  std::vector<PlacedForce> visible;
+  for (const PlacedForce& force : forces)
+    if (force.f_W.norm() > invisible * largest) visible.push_back(force);
+  return visible;
+}
+
 std::vector<DrawArrow> force_arrows(std::span<const PlacedForce> forces, double metres_per_newton) {
   const double largest = largest_force(forces);
   std::vector<DrawArrow> arrows;
-  for (const PlacedForce& force : forces) {
-    if (force.f_W.norm() <= invisible * largest) continue;
+  for (const PlacedForce& force : visible_forces(forces))
     arrows.push_back({.tail = force.p_W - metres_per_newton * force.f_W,
                       .tip = force.p_W,
                       .radius = slender * metres_per_newton * largest,
                       .color = palette::force});
-  }
   return arrows;
+}
+
+std::vector<DrawLabel> force_labels(std::span<const PlacedForce> forces, double metres_per_newton) {
+  std::vector<PlacedForce> visible = visible_forces(forces);
+  std::ranges::stable_sort(visible, std::greater(), [](const auto& f) { return f.f_W.norm(); });
+  visible.resize(std::min(visible.size(), most_labels));
+  std::vector<DrawLabel> labels;
+  for (const PlacedForce& force : visible)
+    labels.push_back({.p_W = force.p_W - beyond * metres_per_newton * force.f_W,
+                      .text = fmt::format("{:.3g} N", force.f_W.norm()),
+                      .color = palette::force});
+  return labels;
 }
 
 double force_scale(std::span<const PlacedForce> forces, double longest) {

@@ -16,6 +16,9 @@ struct PlacedForce {
 /// thousandth of the largest are left out.
 std::vector<DrawArrow> force_arrows(std::span<const PlacedForce> forces, double metres_per_newton);
 
+/// Forces of the eight longest such arrows in newtons, beyond their tails; the largest first.
+std::vector<DrawLabel> force_labels(std::span<const PlacedForce> forces, double metres_per_newton);
+
 /// The scale at which the largest force is as long as this [m]; 1 without forces.
 double force_scale(std::span<const PlacedForce> forces, double longest);
 

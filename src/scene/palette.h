@@ -39,7 +39,7 @@ inline const Eigen::Vector3f force(0.55f, 0.10f, 0.60f);
 
 /// Wrench spaces: the solid, the ball inside it, the direction that it reaches least.
 inline const Eigen::Vector3f wrenches(0.25f, 0.60f, 0.85f), ball(1.0f, 0.55f, 0.10f),
-    weakest(0.80f, 0.0f, 0.80f);
+    ball_label(0.60f, 0.28f, 0.0f), weakest(0.80f, 0.0f, 0.80f);
 /// The axes x, y, z of a space.
 inline const Eigen::Vector3f axes[3] = {
     {0.75f, 0.15f, 0.12f}, {0.10f, 0.52f, 0.18f}, {0.12f, 0.25f, 0.70f}};

@@ -13,6 +13,7 @@
 namespace clench {
 namespace {
 
+constexpr float see_through_opacity = 0.2f;
 constexpr double cone_size = 0.15;  // height of a cone, part of the object's largest radius
 
 // what is drawn of a body; null when there is nothing to draw
@@ -30,6 +31,9 @@ DrawMesh draw_body(const Body& body, const SceneOptions& options) {
     mesh.triangle_colors = looks.triangle_colors;
     mesh.opacity = 1 - looks.transparency;
   }
+  if (body.kind == BodyKind::link &&
+      std::ranges::find(options.see_through, body.robot) != options.see_through.end())
+    mesh.opacity = std::min(mesh.opacity, see_through_opacity);
   if (options.transparent_objects) mesh.opacity = std::min(mesh.opacity, entry.opacity);
   return mesh;
 }

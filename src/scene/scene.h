@@ -36,10 +36,11 @@ struct DrawArrow {
   Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
 };
 
-/// Words written beside a place, over everything else.
+/// Words written at a place or beside it, over everything else, none over another: the first ones
+/// move least, and some may find no room.
 struct DrawLabel {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< [m]
-  std::string text = {};                          ///< ASCII
+  std::string text = {};                          ///< UTF-8
   Eigen::Vector3f color = Eigen::Vector3f::Zero();
 };
 
@@ -55,8 +56,9 @@ struct Scene {
   std::vector<DrawCone> cones;
   std::vector<DrawArrow> arrows = {};
   std::vector<DrawLabel> labels = {};
-  std::optional<double> ground = {};  ///< height of a floor plane that takes the shadow [m]
-  std::optional<Eye> eye = {};        ///< empty: frame everything
+  std::vector<std::string> caption = {};  ///< lines in the lower left corner, UTF-8
+  std::optional<double> ground = {};      ///< height of a floor plane that takes the shadow [m]
+  std::optional<Eye> eye = {};            ///< empty: frame everything
 };
 
 struct SceneOptions {
@@ -65,6 +67,7 @@ struct SceneOptions {
   bool ground = true;    ///< a floor under the lowest point, unless an obstacle is the floor
   bool transparent_objects = true;  ///< so that contacts show
   bool file_colors = true;  ///< colours of the files, where they give any; else by kind of body
+  std::vector<Id<Robot>> see_through = {};  ///< what is in and behind their links shows
   std::optional<Eye> eye = {};
 };
 

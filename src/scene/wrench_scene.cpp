@@ -1,16 +1,21 @@
 #include "scene/wrench_scene.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
+#include "math/round_step.h"
 #include "scene/palette.h"
 
 namespace clench {
 
 namespace {
 
-constexpr double axis_reach = 1.15;    // beyond the solid, part of its size
-constexpr double arrow_width = 0.006;  // part of the solid's size
+constexpr double axis_reach = 1.15;                     // beyond the solid, part of its size
+constexpr double arrow_width = 0.006;                   // part of the solid's size
+constexpr double steps = 3;                             // about so many numbers along half an axis
+constexpr double tick_length = 0.025, tick_end = 0.08;  // parts of the solid's size
 constexpr int ball_rings = 24;
 
 ShapePtr ball_of(double radius) {
@@ -39,6 +44,40 @@ ShapePtr ball_of(double radius) {
   return Shape::make(std::move(mesh), "ball");
 }
 
+// of a picture
+struct AxisRange {
+  double low, high;
+};
+
+// an axis reaches beyond the solid, and beyond the origin where the solid does not
+AxisRange reach_of(const Bounds& bounds, int k, double size) {
+  const double more = (axis_reach - 1) * size;
+  return {std::min(0.0, bounds.low[k]) - more, std::max(0.0, bounds.high[k]) + more};
+}
+
+// a pin across the axis at each multiple of the step but 0, with its number
+void add_ticks(int k, const AxisRange& range, double step, double size, Scene& out) {
+  const Eigen::Vector3d along = Eigen::Vector3d::Unit(k),
+                        across = Eigen::Vector3d::Unit((k + 2) % 3);
+  const auto first = std::lround(std::ceil(range.low / step));
+  for (long i = first; static_cast<double>(i) * step < range.high - tick_end * size; ++i) {
+    if (i == 0) continue;
+    const double value = static_cast<double>(i) * step;
+    out.cones.push_back({.apex = value * along,
+                         .axis = -across,
+                         .height = tick_length * size,
+                         .color = palette::axes[k]});
+    out.labels.push_back({value * along - 2 * tick_length * size * across,
+                          fmt::format("{:.4g}", value), palette::axes[k]});
+  }
+}
+
+void add_caption(const WrenchPicture& picture, Scene& out) {
+  if (!picture.title.empty()) out.caption.push_back(picture.title);
+  out.caption.push_back(
+      fmt::format("epsilon {:.4g} N; numbers in N, torques over rho", picture.epsilon));
+}
+
 }  // namespace
 
 Scene make_wrench_scene(const WrenchPicture& picture) {
@@ -53,8 +92,7 @@ Scene make_wrench_scene(const WrenchPicture& picture) {
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
     const Eigen::Vector3f& color = palette::axes[k];
-    const double low = std::min(0.0, bounds.low[k]) - (axis_reach - 1) * size;
-    const double high = std::max(0.0, bounds.high[k]) + (axis_reach - 1) * size;
+    const auto [low, high] = reach_of(bounds, k, size);
     out.arrows.push_back(
         {.tail = low * axis, .tip = high * axis, .radius = arrow_width * size, .color = color});
     out.labels.push_back({(high + 0.05 * size) * axis, picture.axes[k], color});
@@ -68,6 +106,12 @@ Scene make_wrench_scene(const WrenchPicture& picture) {
                           .color = palette::weakest});
     out.labels.push_back({tip + 0.05 * size * direction, "weakest", palette::weakest});
   }
+  if (picture.ball > 0)
+    out.labels.push_back({-1.3 * picture.ball * Eigen::Vector3d::UnitZ(),
+                          fmt::format("radius {:.3g}", picture.ball), palette::ball_label});
+  const double step = round_step(size / steps);
+  for (int k = 0; k < 3; ++k) add_ticks(k, reach_of(bounds, k, size), step, size, out);
+  add_caption(picture, out);
   return out;
 }
 

@@ -1,6 +1,8 @@
 #include "script/bind_chart.h"
 
 #include "render/chart.h"
+#include "render/lettering.h"
+#include "script/bind_log.h"
 #include "script/bind_render.h"
 #include "script/guard.h"
 #include "script/push.h"
@@ -24,6 +26,7 @@ static ChartSeries read_series(lua_State* L, int index, const What& what) {
   Table one(L, index, what.text());
   ChartSeries series;
   series.name = one.string("name");
+  series.least_is_best = one.boolean("least_is_best", false);
   one.push("values");
   each_item(L, one.what("values"), [&](int i, const What& value) {
     const bool none = lua_isboolean(L, i) && !lua_toboolean(L, i);
@@ -32,6 +35,17 @@ static ChartSeries read_series(lua_State* L, int index, const What& what) {
   lua_pop(L, 1);
   one.done();
   return series;
+}
+
+// once a chart, by the letter and its number
+static void warn_of_boxes(lua_State* L, const Chart& chart) {
+  std::string all = chart.title;
+  for (const std::string& label : chart.labels) all += ' ' + label;
+  for (const ChartSeries& series : chart.series) all += ' ' + series.name;
+  std::string names;
+  for (const char32_t letter : unknown_letters(all))
+    names += fmt::format("{}U+{:04X}", names.empty() ? "" : ", ", static_cast<uint32_t>(letter));
+  if (!names.empty()) log(L, LogLevel::warning, "chart: drawn as boxes are the letters " + names);
 }
 
 static int draw(lua_State* L) {
@@ -51,14 +65,16 @@ static int draw(lua_State* L) {
   drawing.width = options.integer("width", drawing.width);
   drawing.height = options.integer("height", drawing.height);
   options.done();
+  warn_of_boxes(L, chart);
   return push_object(L, draw_chart(chart, drawing));
 }
 
 static const Entry functions[] = {
     {"chart", guarded<draw>, R"(
-Draws numbers as columns, one panel a series, each to its own scale, all over the same items; the largest of a panel is
-the darkest. `false` is a value that is missing, and marked. It needs no graphics hardware.
-@param options {series: {name: string, values: (number|false)[]}[], labels?: string[], title?: string, width?: integer, height?: integer}  labels: one an item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
+Draws numbers as columns, one panel a series, each to its own scale, all over the same items, with its value where there is
+room; the best of a panel, the largest or with least_is_best the least, is the darkest. `false` is a value that is missing, and marked.
+Texts are UTF-8; letters that are neither Latin nor Greek are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
+@param options {series: {name: string, values: (number|false)[], least_is_best?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer}  labels: one an item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
 @return picture
 > clench.chart{series = {{name = "epsilon", values = {0.1, 0.3, 0.2}}}, height = 200}  --> picture of 960 x 200 pixels
 > clench.chart{series = {}}  --> error: wanted at least one series)"},

@@ -22,9 +22,14 @@ static Eye read_eye(Table& options, const Eye& from) {
 static constexpr double longest_arrow = 0.6;  // part of the object's largest radius
 
 // the list `forces` of a result of grasp:contact_forces
-static std::vector<DrawArrow> read_forces(lua_State* L, Table& options) {
+struct GivenForces {
   std::vector<PlacedForce> forces;
-  double longest = 0;
+  std::vector<Id<Robot>> robots;  // that press
+  double longest = 0;             // length of an arrow that suits the objects [m]
+};
+
+static GivenForces read_forces(lua_State* L, Table& options) {
+  GivenForces given;
   if (options.push("forces") != LUA_TNIL) {
     if (!lua_istable(L, -1)) fail_wanted(options.what("forces"), "a list of forces", -1);
     const int list = lua_gettop(L), count = static_cast<int>(lua_rawlen(L, list));
@@ -33,14 +38,24 @@ static std::vector<DrawArrow> read_forces(lua_State* L, Table& options) {
       Table item(L, lua_gettop(L), options.what("forces").item(i).text());
       const auto* contact = item.object<ContactHandle>("contact");
       if (!contact) fail_wanted(item.what("contact"), "a contact", lua_gettop(L) + 1);
-      forces.push_back({contact->contact.p_W, item.vec3("force")});
-      longest = std::max(longest, contact->world->body(contact->contact.body).max_radius());
+      given.forces.push_back({contact->contact.p_W, item.vec3("force")});
+      given.robots.push_back(contact->world->body(contact->contact.other).robot);
+      const double radius = contact->world->body(contact->contact.body).max_radius();
+      given.longest = std::max(given.longest, longest_arrow * radius);
       lua_pop(L, 1);
     }
   }
   lua_pop(L, 1);
-  const double automatic = force_scale(forces, longest > 0 ? longest_arrow * longest : 1);
-  return force_arrows(forces, options.positive("force_scale", automatic));
+  return given;
+}
+
+static void add_forces(Table& options, const GivenForces& given, Scene& scene) {
+  const double longest = given.longest > 0 ? given.longest : 1;
+  const double scale = options.positive("force_scale", force_scale(given.forces, longest));
+  scene.arrows = force_arrows(given.forces, scale);
+  scene.labels = force_labels(given.forces, scale);
+  if (!scene.labels.empty())
+    scene.caption = {fmt::format("forces on the object, the largest {}", scene.labels[0].text)};
 }
 
 Picture draw_scene(Table& options, Scene scene) {
@@ -69,13 +84,15 @@ static int draw(lua_State* L) {
   const auto& world = *check_object<WorldHandle>(L, 1, "world").world;
   Table options(L, 2);
   SceneOptions showing;
-  showing.contacts = options.boolean("contacts", showing.contacts);
   showing.patches = options.boolean("patches", showing.patches);
+  showing.contacts = options.boolean("contacts", !showing.patches);
   showing.ground = options.boolean("ground", showing.ground);
   showing.transparent_objects = options.boolean("transparent_objects", showing.transparent_objects);
   showing.file_colors = options.boolean("file_colors", showing.file_colors);
+  GivenForces given = read_forces(L, options);
+  showing.see_through = std::move(given.robots);
   Scene scene = make_scene(world, showing);
-  scene.arrows = read_forces(L, options);
+  add_forces(options, given, scene);
   return push_object(L, draw_scene(options, std::move(scene)));
 }
 
@@ -116,13 +133,15 @@ static int equal(lua_State* L) {
 static const Entry functions[] = {
     {"render", guarded<draw>, R"(
 Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches
-of all soft contacts. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
+of all soft contacts, without the cones, which would cover them. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
 @param world world
-@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number}  size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
+@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number}  size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press, with their newtons, through links that one sees through; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
 @return picture
 > clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels
 > held = grasp:contact_forces{load = {0, 0, -3, 0, 0, 0}}
 > clench.render(world, {size = {64, 48}, forces = held.forces}) == clench.render(world, {size = {64, 48}})  --> false
+> bare = clench.render(world, {size = {64, 48}, patches = true, contacts = false})
+> clench.render(world, {size = {64, 48}, patches = true}) == bare  --> true
 > clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: wanted a contact, got nothing)"},
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/suggest.h"
-#include "render/canvas.h"
 #include "scene/wrench_scene.h"
 #include "script/bind_render.h"
 #include "script/guard.h"
@@ -55,13 +54,13 @@ static std::optional<std::vector<int>> read_coordinates(Table& options, const ch
   lua_State* L = what.L;
   std::optional<std::vector<int>> out;
   if (const int type = options.push(key); type == LUA_TTABLE) {
-    const int list = lua_gettop(L),
-              count = read_list_size(L, list, what, "a list of coordinates");
+    const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list of coordinates");
     out.emplace();
     for (int i = 1; i <= count; ++i) {
       lua_rawgeti(L, list, i);
       const int c = coordinate_of(read_string(L, lua_gettop(L), what.item(i)), what);
-      if (std::ranges::count(*out, c)) fail("{}: {} is there twice", what.text(), coordinate_names[c]);
+      if (std::ranges::count(*out, c))
+        fail("{}: {} is there twice", what.text(), coordinate_names[c]);
       out->push_back(c);
       lua_pop(L, 1);
     }
@@ -311,11 +310,9 @@ static int draw_projection(lua_State* L) {
   }
   if (options.boolean("ball", true)) showing.ball = ball_of(handle);
   if (options.boolean("weakest", true)) showing.weakest = least;
-  Picture picture = draw_scene(options, make_wrench_scene(showing));
-  const float letters = std::max(9.0f, 0.022f * static_cast<float>(picture.height));
-  const Eigen::Vector2f corner(letters, static_cast<float>(picture.height) - letters);
-  Canvas(picture).text(title_of(handle), corner, letters, {0.1f, 0.1f, 0.1f});
-  return push_object(L, std::move(picture));
+  showing.title = title_of(handle);
+  showing.epsilon = handle.space->epsilon();
+  return push_object(L, draw_scene(options, make_wrench_scene(showing)));
 }
 
 static int projection_text(lua_State* L) {
@@ -437,7 +434,7 @@ The coordinates that may be anything.
 
 static const Entry projection_methods[] = {
     {"render", guarded<draw_projection>, R"(
-Draws it, seen through, with its axes, the ball of epsilon as far as it lies in it, and the direction that the space
+Draws it, seen through, with its axes and their numbers [N], the ball of epsilon as far as it lies in it, and the direction that the space
 reaches least; size, samples and camera as in clench.render.
 @param options? {ball?: boolean, weakest?: boolean, size?: integer[], samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number}
 @return picture

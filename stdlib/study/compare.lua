@@ -38,12 +38,12 @@ Comparison.__index = Comparison
 
 --- one panel a measure, one column a grasp
 function Comparison:chart(given)
-  local series = {}
+  local series, larger = {}, larger_is_better()
   for i, name in ipairs(self.measures) do
     local values = {}
     -- what is infinite has no height
     for k, value in ipairs(self.values[name]) do values[k] = math.abs(value) < math.huge and value end
-    series[i] = {name = name, values = values}
+    series[i] = {name = name, values = values, least_is_best = not larger[name]}
   end
   local drawing = {series = series, labels = self.labels}
   for key, value in pairs(given or {}) do

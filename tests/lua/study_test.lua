@@ -118,6 +118,32 @@ test("grasps are compared measure by measure, and drawn", function(t)
   t.ok(picture.width == 400 and picture == c:chart {title = "friction", width = 400})
 end)
 
+test("letters that a chart cannot draw are named once a chart", function(t)
+  local heard = {}
+  clench.log.sink(function(level, message) heard[#heard + 1] = level .. ": " .. message end)
+  local function draw(title) clench.chart {title = title, labels = {title}, series = {{name = title, values = {1}}}, width = 200} end
+  draw "Größe µ, ε, τ"
+  t.equal(#heard, 0)
+  draw "Ж и 力"
+  clench.log.sink(nil)
+  t.equal(#heard, 1)
+  t.equal(heard[1], "warning: chart: drawn as boxes are the letters U+0416, U+0438, U+529B")
+end)
+
+test("the best of a panel is the least where the measure says so", function(t)
+  local grasp = closed_on_flask()
+  local hand, flask = grasp.hand, grasp.object
+  hand.world:set_friction(flask.material, "rubber", {static = 0.8, kinetic = 0.8})
+  local first = clench.grasp(hand, flask)
+  local c = clench.study.compare({first}, {measures = {"weight_effort"}, labels = {"1"}})
+  c.values.weight_effort = {3, 1}
+  c.labels = {"1", "2"}
+  local function by_hand(least)
+    return clench.chart {series = {{name = "weight_effort", values = {3, 1}, least_is_best = least}}, labels = {"1", "2"}}
+  end
+  t.ok(c:chart() == by_hand(true) and c:chart() ~= by_hand(false))
+end)
+
 test("a comparison without grasps or with strange ones is refused", function(t)
   t.fails(function() clench.study.compare {} end, "study.compare: wanted at least one grasp, got none")
   t.fails(function() clench.study.compare {3} end, "study.compare: grasps[1]: wanted a grasp, got 3")

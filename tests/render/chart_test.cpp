@@ -125,6 +125,39 @@ TEST_CASE("the higher column has more ink, the best is the darkest") {
   CHECK(ink({1, 0.5}) > ink({1, 0}));
 }
 
+TEST_CASE("nothing, next to nothing and a panel of zeros look different") {
+  const auto drawn = [](std::vector<double> values) {
+    return draw_chart({.series = {{"x", std::move(values)}}}, {.width = 400, .height = 200}).pixels;
+  };
+  CHECK(drawn({1, 0}) != drawn({1, 1e-9}));
+  CHECK(drawn({1, 1e-9}) != drawn({1, -1e-9}));
+  CHECK(drawn({0, 0}) != drawn({1, 1}));
+  // only the line of zero: less ink than with the lines of other values
+  CHECK(ink_of(draw_chart({.series = {{"x", {0, 0}}}}, {.width = 400, .height = 200})) <
+        ink_of(draw_chart({.series = {{"x", {1e-300, 0}}}}, {.width = 400, .height = 200})));
+}
+
+TEST_CASE("the least column is the darkest where least is best") {
+  Chart chart{.series = {{"effort", {3, 1}}}};
+  const Picture largest = draw_chart(chart, {.width = 400, .height = 200});
+  chart.series[0].least_is_best = true;
+  // the darker column is the smaller one now
+  CHECK(ink_of(draw_chart(chart, {.width = 400, .height = 200})) < ink_of(largest));
+}
+
+TEST_CASE("a long label costs a chart no more height than a short one in wide columns") {
+  const auto height = [](std::string label, size_t items) {
+    Chart chart{.labels = std::vector<std::string>(items, "a"),
+                .series = {{"x", std::vector<double>(items, 1)}}};
+    chart.labels[0] = std::move(label);
+    return draw_chart(chart).height;
+  };
+  CHECK(height(std::string(300, 'y'), 4) == height("a", 4));
+  // upright ones of narrow columns are as long as 16 letters at most
+  CHECK(height(std::string(300, 'y'), 40) <= height("a", 40) + 150);
+  CHECK(height(std::string(300, 'y'), 40) > height("a", 40));
+}
+
 TEST_CASE("a chart whose counts do not fit is refused in a sentence") {
   const auto refused = [](const Chart& chart, const char* sentence, ChartOptions options = {}) {
     CHECK_THROWS_WITH_AS(draw_chart(chart, options), sentence, Error);

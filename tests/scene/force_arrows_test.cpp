@@ -18,3 +18,22 @@ TEST_CASE("a force's arrow ends where it presses, as long as it is strong") {
   CHECK(force_arrows({}, 1).empty());
   CHECK(force_scale({}, 0.05) == 1);
 }
+
+TEST_CASE("the longest arrows tell their newtons beyond their tails, the largest first") {
+  std::vector<PlacedForce> forces;
+  for (int i = 1; i <= 12; ++i) forces.push_back({{0, 0, 0.1 * i}, {0.25 * i, 0, 0}});
+  forces.push_back({{0, 0, 0}, {1e-4, 0, 0}});
+  const double scale = 0.1;
+  const auto labels = force_labels(forces, scale);
+  REQUIRE(labels.size() == 8);
+  CHECK(labels[0].text == "3 N");
+  CHECK(labels[1].text == "2.75 N");
+  for (int i = 0; i < 8; ++i) {
+    const PlacedForce& force = forces[11 - i];
+    const Vector3d tail = force.p_W - scale * force.f_W;
+    CHECK(labels[i].p_W.x() < tail.x());
+    CHECK(labels[i].p_W.x() > 1.2 * tail.x());
+    CHECK(labels[i].p_W.z() == force.p_W.z());
+  }
+  CHECK(force_labels({}, 1).empty());
+}

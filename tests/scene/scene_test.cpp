@@ -4,6 +4,7 @@
 
 #include "model/find.h"
 #include "scene/palette.h"
+#include "support/robots.h"
 #include "support/shapes.h"
 
 using namespace clench;
@@ -104,6 +105,18 @@ TEST_CASE("cones of contacts that lie close do not reach each other, and stay in
       }
     }
     if (side > 0.05) CHECK(cones[0].height == doctest::Approx(usual));
+  }
+}
+
+TEST_CASE("links of a robot that is seen through are clear, its base and other robots are not") {
+  World world;
+  const Id<Robot> first = world.add_robot(two_finger(), {});
+  world.add_robot(two_finger(), Pose::translation({1, 0, 0}));
+  const Scene scene = make_scene(world, {.see_through = {first}});
+  REQUIRE(scene.meshes.size() == world.bodies().size());
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    const Body& body = world.body(world.bodies()[i]);
+    CHECK((scene.meshes[i].opacity < 0.5f) == (body.kind == BodyKind::link && body.robot == first));
   }
 }
 

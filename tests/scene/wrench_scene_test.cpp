@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <set>
+
 #include "support/shapes.h"
 
 using namespace clench;
@@ -34,4 +36,36 @@ TEST_CASE("without a ball or a weakest direction there is none") {
       {.solid = Shape::make(box(1, 1, 1)), .weakest = Eigen::Vector3d::Zero().eval()});
   CHECK(scene.meshes.size() == 1);
   CHECK(scene.arrows.size() == 3);
+}
+
+TEST_CASE("numbers stand at round steps along the axes, and the ball tells its radius") {
+  for (const double scale : {1.0, 1e-3, 40.0}) {
+    const Scene scene = make_wrench_scene({.solid = Shape::make(box(2 * scale, scale, scale)),
+                                           .axes = {"fx", "fy", "fz"},
+                                           .ball = 0.25 * scale,
+                                           .title = "a title",
+                                           .epsilon = 0.25 * scale});
+    REQUIRE(scene.labels.size() > 4);
+    CHECK(scene.labels[3].text == fmt::format("radius {:.3g}", 0.25 * scale));
+    REQUIRE(scene.caption.size() == 2);
+    CHECK(scene.caption[0] == "a title");
+    CHECK(scene.caption[1].starts_with(fmt::format("epsilon {:.4g} N", 0.25 * scale)));
+    // a tick each, on its axis, at the place that its number says
+    REQUIRE(scene.cones.size() == scene.labels.size() - 4);
+    std::set<std::pair<int, double>> seen;
+    for (size_t i = 0; i < scene.cones.size(); ++i) {
+      const double value = std::stod(scene.labels[4 + i].text);
+      int axis = 0;
+      scene.cones[i].apex.cwiseAbs().maxCoeff(&axis);
+      CHECK(scene.cones[i].apex.isApprox(value * Eigen::Vector3d::Unit(axis)));
+      CHECK(scene.labels[4 + i].color == scene.arrows[axis].color);
+      CHECK(scene.cones[i].apex[axis] < scene.arrows[axis].tip[axis]);
+      CHECK(scene.cones[i].apex[axis] > scene.arrows[axis].tail[axis]);
+      seen.insert({axis, value});
+    }
+    CHECK(seen.size() == scene.cones.size());
+    // the solid reaches from -1 to 1, -0.5 to 0.5 of the scale: steps of a half
+    for (int axis = 0; axis < 3; ++axis) CHECK(seen.count({axis, 0.5 * scale}) == 1);
+    CHECK(seen.count({0, -scale}) == 1);
+  }
 }
