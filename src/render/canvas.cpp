@@ -80,19 +80,14 @@ float Canvas::text_width(std::string_view words, float height) {
 }
 
 std::string Canvas::shortened(std::string_view words, float height, float width) {
-  const auto fits = [&](std::string_view text) { return text_width(text, height) <= width; };
-  if (fits(words)) return std::string(words);
-  // where letters begin
-  std::vector<size_t> starts;
-  for (size_t i = 0; i < words.size(); ++i)
-    if ((words[i] & 0xC0) != 0x80) starts.push_back(i);
-  starts.push_back(words.size());
-  for (size_t kept = starts.size() - 1; kept-- > 0;) {
-    const size_t front = starts[(kept + 1) / 2], back = starts[starts.size() - 1 - kept / 2];
-    std::string text = std::string(words.substr(0, front)) + "…" + std::string(words.substr(back));
-    if (fits(text)) return text;
-  }
-  return "";
+  if (text_width(words, height) <= width) return std::string(words);
+  const std::u32string letters = letters_of(words);
+  const float letter = text_width("x", height);
+  // one of those that fit is the ellipsis
+  const int kept = static_cast<int>(std::floor(width / letter)) - 1;
+  if (kept < 0) return "";
+  const auto back = static_cast<size_t>(kept / 2), front = static_cast<size_t>(kept) - back;
+  return text_of(letters.substr(0, front) + U"…" + letters.substr(letters.size() - back));
 }
 
 void Canvas::text(std::string_view words, const Vector2f& at, float height, const Color& color,

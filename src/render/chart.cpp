@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "base/error.h"
 #include "math/round_step.h"
 #include "render/canvas.h"
+#include "render/lettering.h"
 
 namespace clench {
 
@@ -18,10 +20,14 @@ namespace {
 
 constexpr float letter_height = 9, title_height = 13, margin = 16, axis_room = 72;
 constexpr float panel_height = 170, panel_gap = 56;  // with the gap above, which holds the name
-constexpr float panel_name = 24;                     // its baseline above the panel [pixels]
-constexpr float least_column = 2;                    // height of what is not 0 [pixels]
-constexpr float turned_label = 150;  // length that an upright label may have [pixels]
-constexpr float level_label = 110;   // columns as wide keep their labels level [pixels]
+constexpr float least_gap = 0.6f;                    // part of a panel that the gap may take
+constexpr float value_room = 15;      // between a column and the panel's name [pixels]
+constexpr float panel_name = 24;      // its baseline above the panel [pixels]
+constexpr float least_lines = 13;     // from line to line of an axis [pixels]
+constexpr float least_column = 2;     // height of what is not 0 [pixels]
+constexpr float turned_label = 150;   // length that an upright label may have [pixels]
+constexpr float turned_part = 0.25f;  // of the chart's height that it may have
+constexpr float level_label = 110;    // columns as wide keep their labels level [pixels]
 constexpr int least_size = 64, largest_size = 8192;
 
 const Canvas::Color ink(0.13f, 0.16f, 0.20f), quiet(0.86f, 0.87f, 0.89f);
@@ -62,6 +68,7 @@ struct ChartColumns {
 
 struct ChartPanel {
   float top, bottom, left, right;
+  float name;  // its baseline above the top
 };
 
 // a panel's scale
@@ -81,11 +88,15 @@ bool nothing_to_show(const std::vector<double>& values) {
 // the line of 0, and unless there is nothing but zeros, the others
 void draw_axis(Canvas& canvas, const ChartPanel& panel, const ChartScale& scale, bool zeros) {
   const ChartAxis& axis = scale.axis;
-  const auto steps = std::lround((axis.high - axis.low) / axis.step);
+  // halves first, so that the range of the largest numbers is one
+  const auto steps = std::lround((axis.high / 2 - axis.low / 2) / (axis.step / 2));
+  const long origin = std::lround(-axis.low / axis.step);
+  const float apart = (scale.bottom - scale.top) / static_cast<float>(steps);
+  const auto every = static_cast<long>(std::ceil(least_lines / apart));
   for (long i = 0; i <= steps; ++i) {
+    const bool zero = i == origin;
+    if ((zeros && !zero) || (i - origin) % every != 0) continue;
     const double value = axis.low + static_cast<double>(i) * axis.step;
-    const bool zero = std::abs(value) < axis.step / 2;
-    if (zeros && !zero) continue;
     const float y = scale.height(value);
     canvas.rectangle({panel.left, y - 0.5f}, {panel.right, y + 0.5f}, quiet);
     const std::string number = fmt::format("{:.4g}", zero ? 0.0 : value);
@@ -139,7 +150,7 @@ void draw_columns(Canvas& canvas, const ChartPanel& panel, const ChartSeries& se
                   const ChartColumns& columns) {
   const ChartScale scale{chart_axis(series.values), panel.top, panel.bottom};
   canvas.text(Canvas::shortened(series.name, letter_height, panel.right - panel.left),
-              {panel.left, panel.top - panel_name}, letter_height, ink);
+              {panel.left, panel.top - panel.name}, letter_height, ink);
   draw_axis(canvas, panel, scale, nothing_to_show(series.values));
 
   const double best = best_of(series);
@@ -156,7 +167,7 @@ void draw_columns(Canvas& canvas, const ChartPanel& panel, const ChartSeries& se
                      value == best ? best_color : column_color);
   }
   canvas.rectangle({panel.left, zero - 0.5f}, {panel.right, zero + 0.5f}, ink);
-  write_values(canvas, scale, series.values, columns);
+  if (panel.name >= value_room) write_values(canvas, scale, series.values, columns);
 }
 
 // how the labels under the last panel stand: level where they fit, perhaps shortened, upright where not
@@ -166,7 +177,36 @@ struct ChartLabels {
   float height = letter_height;  // of all
 };
 
-ChartLabels fit_labels(const Chart& chart, const ChartColumns& columns) {
+// how many letters all texts have in common, from their beginning, or from their end
+size_t common_letters(const std::vector<std::u32string>& texts, bool from_end) {
+  const auto letter = [&](const std::u32string& text, size_t i) {
+    return from_end ? text[text.size() - 1 - i] : text[i];
+  };
+  size_t count = texts[0].size();
+  for (const std::u32string& text : texts) {
+    size_t same = 0;
+    while (same < std::min(count, text.size()) && letter(text, same) == letter(texts[0], same))
+      ++same;
+    count = same;
+  }
+  return count;
+}
+
+// an ellipsis in place of what all begin with, and of what all end with: the rest tells them apart
+void drop_common(std::vector<std::string>& texts) {
+  if (std::ranges::adjacent_find(texts, std::not_equal_to()) == texts.end()) return;
+  std::vector<std::u32string> letters;
+  for (const std::string& text : texts) letters.push_back(letters_of(text));
+  for (const bool at_end : {false, true}) {
+    const size_t common = common_letters(letters, at_end);
+    if (common < 2) continue;
+    for (std::u32string& text : letters)
+      text.replace(at_end ? text.size() - common : 0, common, U"…");
+  }
+  std::ranges::transform(letters, texts.begin(), text_of);
+}
+
+ChartLabels fit_labels(const Chart& chart, const ChartColumns& columns, float longest) {
   ChartLabels labels{labels_of(chart)};
   const auto width = [](const std::string& text) {
     return Canvas::text_width(text, letter_height);
@@ -177,7 +217,8 @@ ChartLabels fit_labels(const Chart& chart, const ChartColumns& columns) {
     return most;
   };
   labels.upright = widest() + 4 > columns.width && columns.width < level_label;
-  const float room = labels.upright ? turned_label : columns.width - 4;
+  const float room = labels.upright ? longest : columns.width - 4;
+  if (widest() > room) drop_common(labels.texts);
   for (std::string& text : labels.texts) text = Canvas::shortened(text, letter_height, room);
   if (labels.upright) labels.height = widest();
   return labels;
@@ -218,7 +259,10 @@ Picture draw_chart(const Chart& chart, const ChartOptions& options) {
   const float left = margin + axis_room, right = static_cast<float>(options.width) - margin;
   const auto items = static_cast<float>(chart.series[0].values.size());
   const ChartColumns columns{left, (right - left) / items};
-  const ChartLabels labels = fit_labels(chart, columns);
+  const float longest =
+      options.height > 0 ? std::min(turned_label, turned_part * static_cast<float>(options.height))
+                         : turned_label;
+  const ChartLabels labels = fit_labels(chart, columns, longest);
   const float above = chart.title.empty() ? 0 : title_height + margin;
   const float below = 8 + labels.height + margin;
   const auto panels = static_cast<float>(chart.series.size());
@@ -231,9 +275,12 @@ Picture draw_chart(const Chart& chart, const ChartOptions& options) {
   canvas.text(Canvas::shortened(chart.title, title_height, right - margin),
               {margin, margin + title_height}, title_height, ink);
   const float room = (static_cast<float>(height) - margin - above - below) / panels;
+  // low panels leave less between them
+  const float gap = std::min(panel_gap, least_gap * room);
   for (size_t i = 0; i < chart.series.size(); ++i) {
-    const float top = margin + above + static_cast<float>(i) * room;
-    draw_columns(canvas, {top + panel_gap, std::max(top + panel_gap + 1, top + room), left, right},
+    const float top = margin + above + static_cast<float>(i) * room + gap;
+    const float name = panel_name * gap / panel_gap;
+    draw_columns(canvas, {top, std::max(top + 1, top + room - gap), left, right, name},
                  chart.series[i], columns);
   }
   draw_labels(canvas, labels, static_cast<float>(height) - below + 8, columns);

@@ -15,8 +15,9 @@ namespace {
 
 constexpr float label_part = 0.018f, caption_part = 0.022f;  // of the picture's height
 constexpr float least_letters = 9;                           // height [pixels]
-constexpr float arrow_air = 0.004f;  // half width of an arrow, part of the picture's height
-constexpr float air = 0.35f;         // about letters, part of their height
+constexpr float least_picture = 120;  // in smaller ones words would hide all else [pixels]
+constexpr float arrow_air = 0.004f;   // half width of an arrow, part of the picture's height
+constexpr float air = 0.35f;          // about letters, part of their height
 const Eigen::Vector3f caption_color(0.1f, 0.1f, 0.1f);
 
 // distances and directions in which a box looks for room: each ring has 16
@@ -71,11 +72,30 @@ void take_arrow(const DrawArrow& arrow, const Eye& eye, const Vector2f& picture,
   }
 }
 
+// broken between words where a line would be wider; a word alone may be
+std::vector<std::string> broken(const std::string& line, float height, float width) {
+  std::vector<std::string> lines;
+  for (size_t from = 0; from <= line.size();) {
+    const size_t end = std::min(line.find(' ', from), line.size());
+    const std::string word = line.substr(from, end - from);
+    if (!lines.empty() && Canvas::text_width(lines.back() + ' ' + word, height) <= width)
+      lines.back() += ' ' + word;
+    else
+      lines.push_back(word);
+    from = end + 1;
+  }
+  return lines;
+}
+
 void place_caption(const Scene& scene, const Vector2f& picture, std::vector<PlacedText>& out) {
   const float height = std::max(least_letters, caption_part * picture.y());
+  const float room = picture.x() - 2 * height;
+  std::vector<std::string> lines;
+  for (const std::string& line : scene.caption)
+    for (std::string& part : broken(line, height, room)) lines.push_back(std::move(part));
   Vector2f at(height, picture.y() - height);
-  for (auto line = scene.caption.rbegin(); line != scene.caption.rend(); ++line) {
-    const std::string text = Canvas::shortened(*line, height, picture.x() - 2 * height);
+  for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+    const std::string text = Canvas::shortened(*line, height, room);
     const float width = Canvas::text_width(text, height);
     out.push_back(
         {{at - Vector2f(0, height), at + Vector2f(width, 0)}, text, caption_color, height});
@@ -98,6 +118,7 @@ std::vector<std::optional<PixelBox>> spread_boxes(std::span<const PixelBox> want
 
 std::vector<PlacedText> place_texts(const Scene& scene, const Eye& eye, const Vector2f& picture) {
   std::vector<PlacedText> texts;
+  if (picture.minCoeff() < least_picture) return texts;
   place_caption(scene, picture, texts);
   std::vector<PixelBox> taken, wanted;
   for (const PlacedText& text : texts) taken.push_back(text.box);

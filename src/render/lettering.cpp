@@ -177,6 +177,17 @@ std::u32string letters_of(std::string_view text) {
   return out;
 }
 
+std::string text_of(std::u32string_view word) {
+  std::string out;
+  for (const char32_t letter : word) {
+    const int more = letter < 0x80 ? 0 : letter < 0x800 ? 1 : letter < 0x10000 ? 2 : 3;
+    constexpr unsigned first[] = {0, 0xC0, 0xE0, 0xF0};
+    out += static_cast<char>(first[more] | letter >> 6 * more);
+    for (int i = more - 1; i >= 0; --i) out += static_cast<char>(0x80 | (letter >> 6 * i & 0x3F));
+  }
+  return out;
+}
+
 std::u32string unknown_letters(std::string_view text) {
   std::u32string out;
   for (const char32_t letter : letters_of(text))

@@ -16,6 +16,9 @@ Strokes strokes_of(char32_t letter);
 /// The letters of text in UTF-8; each byte that belongs to none is U+FFFD.
 std::u32string letters_of(std::string_view text);
 
+/// Letters as UTF-8.
+std::string text_of(std::u32string_view word);
+
 /// Letters of a text that are drawn as boxes, each once.
 std::u32string unknown_letters(std::string_view text);
 

@@ -109,7 +109,7 @@ Scene make_wrench_scene(const WrenchPicture& picture) {
   if (picture.ball > 0)
     out.labels.push_back({-1.3 * picture.ball * Eigen::Vector3d::UnitZ(),
                           fmt::format("radius {:.3g}", picture.ball), palette::ball_label});
-  const double step = round_step(size / steps);
+  const double step = size > 0 ? round_step(size / steps) : 1;
   for (int k = 0; k < 3; ++k) add_ticks(k, reach_of(bounds, k, size), step, size, out);
   add_caption(picture, out);
   return out;

@@ -158,6 +158,39 @@ TEST_CASE("a long label costs a chart no more height than a short one in wide co
   CHECK(height(std::string(300, 'y'), 40) > height("a", 40));
 }
 
+TEST_CASE("labels that only their middles tell apart stay apart when they are too long") {
+  const std::string front(60, 'a'), back(60, 'b');
+  const auto drawn = [&](std::string first, std::string second, size_t items) {
+    Chart chart{.labels = std::vector<std::string>(items, front + "3" + back),
+                .series = {{"x", std::vector<double>(items, 1)}}};
+    chart.labels[0] = front + first + back;
+    chart.labels[1] = front + second + back;
+    return draw_chart(chart).pixels;
+  };
+  for (const size_t items : {3, 40}) {
+    CHECK(drawn("1", "2", items) != drawn("2", "1", items));
+    CHECK(drawn("1", "2", items) == drawn("1", "2", items));
+  }
+  // all alike, one alone, and one that is the beginning of another
+  CHECK(drawn("3", "3", 3).size() == drawn("1", "2", 3).size());
+  CHECK(draw_chart({.labels = {front + back}, .series = {{"x", {1}}}}, {.width = 200}).width ==
+        200);
+  CHECK(draw_chart({.labels = {front, front + front}, .series = {{"x", {1, 2}}}}).width == 960);
+}
+
+TEST_CASE("low panels draw within themselves") {
+  // what lies below the last of three panels is as empty as the margin
+  const Chart chart{.labels = {" ", " "}, .series = {{"x", {1, -1}}, {"y", {1, 2}}, {"z", {3, 4}}}};
+  for (const int height : {80, 120, 200}) {
+    const Picture picture = draw_chart(chart, {.width = 300, .height = height});
+    int below = 0;
+    for (int y = height - 16; y < height; ++y)
+      for (int x = 0; x < 300; ++x)
+        below += 255 - picture.pixels[3 * (300 * static_cast<size_t>(y) + x)];
+    CHECK(below == 0);
+  }
+}
+
 TEST_CASE("a chart whose counts do not fit is refused in a sentence") {
   const auto refused = [](const Chart& chart, const char* sentence, ChartOptions options = {}) {
     CHECK_THROWS_WITH_AS(draw_chart(chart, options), sentence, Error);

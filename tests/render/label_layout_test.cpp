@@ -126,6 +126,27 @@ TEST_CASE("what is behind the eye or beside the picture is not written") {
   CHECK(texts[0].text == "before");
 }
 
+TEST_CASE("a picture that is too small for words has none") {
+  Scene scene;
+  scene.labels = {{{0, 0, 0}, "a label"}};
+  scene.caption = {"a caption"};
+  CHECK(place_texts(scene, {}, {120, 120}).size() == 2);
+  CHECK(place_texts(scene, {}, {400, 119}).empty());
+}
+
+TEST_CASE("a line of a caption that is too wide goes on in the next") {
+  Scene scene;
+  scene.caption = {"some words that are too many for one line", "last"};
+  const Vector2f picture(200, 200);
+  const auto texts = place_texts(scene, {}, picture);
+  check_apart(texts, picture);
+  REQUIRE(texts.size() > 2);
+  CHECK(texts[0].text == "last");
+  std::string all = texts.back().text;
+  for (size_t i = texts.size() - 1; --i > 0;) all += ' ' + texts[i].text;
+  CHECK(all == scene.caption[0]);
+}
+
 TEST_CASE("a caption stands in the lower left corner, its lines from the top, none too wide") {
   Scene scene;
   scene.caption = {"first", std::string(200, 'x')};

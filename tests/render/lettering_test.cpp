@@ -66,6 +66,8 @@ TEST_CASE("UTF-8 is read letter by letter, and each byte that is none is one mar
   CHECK(letters_of("\xED\xA0\x80").front() == none);
   CHECK(letters_of("\xF5\x80\x80\x80").front() == none);
   CHECK(letters_of("").empty());
+  for (const char* text : {"Größe µ", "a€\U0001F600z", "", "ASCII"})
+    CHECK(text_of(letters_of(text)) == text);
 }
 
 TEST_CASE("letters that are drawn as boxes are told, each once") {

@@ -31,6 +31,12 @@ TEST_CASE("a wrench space is seen through, with its ball, its axes and where it 
   CHECK(scene.labels[3].text == "weakest");
 }
 
+TEST_CASE("a solid without size has axes without numbers") {
+  const Mesh point{.vertices = {{0, 0, 0}}, .triangles = {{0, 0, 0}}};
+  const Scene scene = make_wrench_scene({.solid = Shape::make(point)});
+  CHECK(scene.labels.size() == 3);
+}
+
 TEST_CASE("without a ball or a weakest direction there is none") {
   const Scene scene = make_wrench_scene(
       {.solid = Shape::make(box(1, 1, 1)), .weakest = Eigen::Vector3d::Zero().eval()});
