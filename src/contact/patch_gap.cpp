@@ -24,12 +24,11 @@ double PatchRays::part(int place) {
   return parts[place];
 }
 
-// unit, in the plane whose x is the first ray
-static const Vector2d& ray_direction(int ray) {
+const Vector2d& PatchRays::direction(int ray) {
   static const auto directions = [] {
-    std::array<Vector2d, PatchRays::count> out;
-    for (int k = 0; k < PatchRays::count; ++k) {
-      const double angle = 2 * std::numbers::pi * k / PatchRays::count;
+    std::array<Vector2d, count> out;
+    for (int k = 0; k < count; ++k) {
+      const double angle = 2 * std::numbers::pi * k / count;
       out[k] = Vector2d(std::cos(angle), std::sin(angle));
     }
     return out;
@@ -41,27 +40,35 @@ PatchRays patch_rays(const Vector2d& first, std::span<const Vector2d> sites, dou
   PatchRays rays;
   const Vector2d second(-first.y(), first.x());
   for (int k = 0; k < PatchRays::count; ++k) {
-    const Vector2d turned = ray_direction(k);
+    const Vector2d turned = PatchRays::direction(k);
     const Vector2d d = turned.x() * first + turned.y() * second;
     rays.directions[k] = d;
     // to where it leaves the last disc about a site
-    for (const Vector2d& site : sites) {
-      const double along = d.dot(site), room = radius * radius - site.squaredNorm() + along * along;
-      if (room > 0) rays.lengths[k] = std::max(rays.lengths[k], along + std::sqrt(room));
-    }
+    const auto leaves = [&](double r) {
+      double length = 0;
+      for (const Vector2d& site : sites) {
+        const double along = d.dot(site), room = r * r - site.squaredNorm() + along * along;
+        if (room > 0) length = std::max(length, along + std::sqrt(room));
+      }
+      return length;
+    };
+    rays.lengths[k] = leaves(radius), rays.known[k] = leaves(PatchSheet::reach * radius);
   }
   return rays;
 }
 
 // --- heights ---
 
-static double flat_cross(const Vector2d& u, const Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); }
+static double flat_cross(const Vector2d& u, const Vector2d& v) {
+  return u.x() * v.y() - u.y() * v.x();
+}
 
 // From where to where a ray from the origin runs over a triangle; false where it does not.
 static bool clip_ray(const std::array<Vector2d, 3>& p, const Vector2d& direction, double& from,
                      double& to) {
   // all on one side: most triangles of a fine mesh
-  const double a = flat_cross(direction, p[0]), b = flat_cross(direction, p[1]), c = flat_cross(direction, p[2]);
+  const double a = flat_cross(direction, p[0]), b = flat_cross(direction, p[1]),
+               c = flat_cross(direction, p[2]);
   if ((a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0)) return false;
   const double turn = flat_cross(p[1] - p[0], p[2] - p[0]) < 0 ? -1 : 1;
   for (int k = 0; k < 3; ++k) {
@@ -83,8 +90,11 @@ RayHeights ray_heights(PatchSheet& sheet, const PatchRays& rays) {
     const std::array<Vector2d, 3> flat = {c[0].head<2>(), c[1].head<2>(), c[2].head<2>()};
     for (int k = 0; k < PatchRays::count; ++k) {
       const double length = rays.lengths[k], margin = 1e-9 * length;
-      double from = 0, to = length;
+      double from = 0, to = rays.known[k];
       if (!clip_ray(flat, rays.directions[k], from, to)) continue;
+      out.rim[k] = std::max(out.rim[k], to);
+      if (from > length) continue;
+      to = std::min(to, length);
       out.end[k] = std::max(out.end[k], to);
       for (int i = 0; i < PatchRays::places; ++i) {
         const double r = length * PatchRays::part(i);
@@ -101,6 +111,19 @@ RayHeights ray_heights(PatchSheet& sheet, const PatchRays& rays) {
       out.height[k][i] =
           hit.triangle < 0 ? no_height : sheet.round_point(hit.triangle, hit.weights).z();
     }
+  return out;
+}
+
+RayLengths ray_rim(const PatchSheet& sheet, const PatchRays& rays) {
+  RayLengths out = {};
+  for (const int t : sheet.triangles()) {
+    const Corners& c = sheet.corners(t);
+    const std::array<Vector2d, 3> flat = {c[0].head<2>(), c[1].head<2>(), c[2].head<2>()};
+    for (int k = 0; k < PatchRays::count; ++k) {
+      double from = 0, to = rays.known[k];
+      if (clip_ray(flat, rays.directions[k], from, to)) out[k] = std::max(out[k], to);
+    }
+  }
   return out;
 }
 
@@ -127,7 +150,7 @@ GapProfile gap_profile(const PatchRays& rays, const Vector2d& curvatures) {
       std::sqrt(1 - PatchSheet::least_facing * PatchSheet::least_facing);  // sine, where sheets end
   GapProfile out{rays, {}};
   for (int k = 0; k < PatchRays::count; ++k) {
-    const double curvature = curvatures.cwiseMax(0).dot(ray_direction(k).cwiseAbs2());
+    const double curvature = curvatures.cwiseMax(0).dot(PatchRays::direction(k).cwiseAbs2());
     const double length = rays.lengths[k];
     out.gap.end[k] = curvature * length > steepest ? steepest / curvature : length;
     for (int i = 0; i < PatchRays::places; ++i) {
@@ -168,21 +191,83 @@ static double ray_reach(const GapProfile& profile, int ray, double depth) {
   return std::clamp(std::min(reach, profile.gap.end[ray]), from, to);
 }
 
-Matrix2d overlap(const GapProfile& profile, double depth) {
-  std::array<Vector2d, PatchRays::count> rim;
-  for (int k = 0; k < PatchRays::count; ++k)
-    rim[k] = ray_reach(profile, k, depth) * ray_direction(k);
-  // the polygon's, by the triangles between the middle and its sides
+Matrix2d star_moments(const RayLengths& corners) {
+  // by the triangles between the middle and the sides
   double area = 0;
   Matrix2d moments = Matrix2d::Zero();
   for (int k = 0; k < PatchRays::count; ++k) {
-    const Vector2d &p = rim[k], &q = rim[(k + 1) % PatchRays::count], sum = p + q;
+    const int next = (k + 1) % PatchRays::count;
+    const Vector2d p = corners[k] * PatchRays::direction(k),
+                   q = corners[next] * PatchRays::direction(next), sum = p + q;
     const double part = 0.5 * (p.x() * q.y() - p.y() * q.x());
     area += part;
     moments += part / 12 * (p * p.transpose() + q * q.transpose() + sum * sum.transpose());
   }
   if (!(area > 0)) return Matrix2d::Zero();
   return moments / area;
+}
+
+Matrix2d overlap(const GapProfile& profile, double depth) {
+  RayLengths rim;
+  for (int k = 0; k < PatchRays::count; ++k) rim[k] = ray_reach(profile, k, depth);
+  return star_moments(rim);
+}
+
+// --- pressing ---
+
+// of depths below a straight line of gaps from one place of a ray to the next, in its sector
+static double slice_volume(double from, double to, double gap_from, double gap_to, double depth) {
+  constexpr double sector = 2 * std::numbers::pi / PatchRays::count;
+  if (gap_from > gap_to) {
+    // the deep end is the far one
+    if (depth <= gap_to) return 0;
+    if (depth < gap_from)
+      from = to - (to - from) * (depth - gap_to) / (gap_from - gap_to), gap_from = depth;
+  } else {
+    if (depth <= gap_from) return 0;
+    if (depth < gap_to)
+      to = from + (to - from) * (depth - gap_from) / (gap_to - gap_from), gap_to = depth;
+  }
+  // linear times r: exact
+  const double one = depth - gap_from, two = depth - gap_to, width = to - from;
+  return sector * width * (one * (2 * from + to) + two * (from + 2 * to)) / 6;
+}
+
+// of depths over where two surfaces meet [m^3]
+static double meeting_volume(const GapProfile& profile, double depth) {
+  double sum = 0;
+  for (int k = 0; k < PatchRays::count; ++k) {
+    const auto& gap = profile.gap.height[k];
+    const double length = profile.rays.lengths[k];
+    for (int i = 0; i + 1 < PatchRays::places; ++i) {
+      if (gap[i] == no_height) continue;
+      const double from = length * PatchRays::part(i);
+      double to = length * PatchRays::part(i + 1), gap_to = gap[i + 1];
+      // the surface ends before the next place, which it reaches level
+      if (gap_to == no_height) to = std::clamp(profile.gap.end[k], from, to), gap_to = gap[i];
+      sum += slice_volume(from, to, gap[i], gap_to, depth);
+    }
+  }
+  return sum;
+}
+
+std::optional<double> depth_of(const GapProfile& profile, double volume) {
+  if (!(volume > 0)) return 0;
+  double highest = 0;
+  for (const auto& row : profile.gap.height)
+    for (const double gap : row)
+      if (gap < no_height) highest = std::max(highest, gap);
+  // below all gaps the volume grows by the area
+  const double full = meeting_volume(profile, highest);
+  const double area = (meeting_volume(profile, 2 * highest + 1) - full) / (highest + 1);
+  if (!(area > 0)) return std::nullopt;
+  if (volume >= full) return highest + (volume - full) / area;
+  double low = 0, high = highest;
+  for (int round = 0; round < 100 && low < high; ++round) {
+    const double middle = 0.5 * (low + high);
+    (meeting_volume(profile, middle) < volume ? low : high) = middle;
+  }
+  return high;
 }
 
 }  // namespace clench

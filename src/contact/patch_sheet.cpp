@@ -20,8 +20,6 @@ static const double least_round =
 // not a chord of a curve.
 static constexpr double most_height_ratio = 3;
 static constexpr double seed_distance = 1e-3;  // of the radius: triangles as near as the nearest
-// a sphere around a site holds what lies over its disc, slopes of 45 degrees on the whole
-static const double patch_reach = std::sqrt(2.0);
 
 namespace {
 
@@ -47,7 +45,7 @@ Neighbourhood find_neighbourhood(const Shape& shape, const Pose& X_BP,
     const Vector3d p_B = X_BP * site;
     const ClosestPoint closest = closest_point(shape, p_B, nearest);
     nearest = closest.triangle;
-    out.reaches.push_back(patch_reach * radius + closest.distance);
+    out.reaches.push_back(PatchSheet::reach * radius + closest.distance);
     add(out.triangles, region(shape, p_B, out.reaches.back()));
     add(out.seeds, region(shape, p_B, closest.distance + seed_distance * radius));
   }
@@ -64,7 +62,7 @@ PatchSheet::PatchSheet(const Shape& shape, const Pose& X_PB, std::span<const Vec
       X_BP_(X_PB.inverse()),
       sites_(sites.begin(), sites.end()),
       radius_(radius),
-      highest_(patch_reach * radius),
+      highest_(reach * radius),
       near_(shape.mesh(), {}, X_PB) {
   Neighbourhood all = find_neighbourhood(shape, X_BP_, sites, radius);
   known_ = std::move(all.triangles), reaches_ = std::move(all.reaches);

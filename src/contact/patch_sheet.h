@@ -1,6 +1,7 @@
 // The part of a body's surface that a contact sees, and how it bends between its vertices.
 #pragma once
 #include <array>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,9 @@ namespace clench {
 class PatchSheet {
  public:
   static constexpr double least_facing = 0.3;  ///< cosine: what leans more belongs to the flank
+  /// of the radius: a sphere around a site holds what lies over its disc, slopes of 45 degrees on the
+  /// whole. So far around the sites all is known.
+  static constexpr double reach = std::numbers::sqrt2;
 
   /// X_PB    body in the frame of the patch, whose +z goes into the body
   /// sites   about where the contacts are, frame P [m]

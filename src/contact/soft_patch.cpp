@@ -20,7 +20,8 @@ using Eigen::Vector3d;
 
 static const double one_side = std::cos(40 * std::numbers::pi / 180);  // normals of one site
 static constexpr double least_relief = 1e-4;  // of the radius: flat, whatever noise there is
-static constexpr size_t least_points = 15;    // of the 197 of a disc; also what a jet needs
+static constexpr double alike = 0.05;  // difference of curvatures over their mean: as of a ball
+static constexpr size_t least_points = 15;  // of the 197 of a disc; also what a jet needs
 
 double neighbourhood_radius(double modulus) {
   const double radius = 0.4 / std::cbrt(modulus);
@@ -187,17 +188,34 @@ static double shallowest(const SoftPatch& patch) {
   return patch.radius * patch.radius / (4 * patch.flat_radius);
 }
 
+namespace {
+
+// the tangent plane as each of the bodies sees it
+struct PatchFrames {
+  explicit PatchFrames(const SoftSite& site) : axes(contact_frame(site.normal_A)) {
+    // the plane's axes come from the frame of a, so that where the bodies are together does not matter
+    Matrix3d axes_a = axes;
+    axes_a.rightCols<2>() *= -1;
+    X_AP_a = {Eigen::Quaterniond(axes_a), site.centre_A};
+    X_AP_b = {Eigen::Quaterniond(axes), site.centre_A};
+    for (const Vector3d& p : site.points_A) sites.push_back((X_AP_b.inverse() * p).head<2>());
+  }
+  Matrix3d axes;  // as b sees it
+  Pose X_AP_a, X_AP_b;
+  std::vector<Vector2d> sites;  // as b sees them
+};
+
+PatchRays as_a_sees(PatchRays rays) {
+  for (auto& d : rays.directions) d.y() = -d.y();
+  return rays;
+}
+
+}  // namespace
+
 SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
   check(options);
   const double radius = options.radius.value_or(site.radius);
-  // the plane's axes come from the frame of a, so that where the bodies are together does not matter
-  const Matrix3d axes_b = contact_frame(site.normal_A);
-  Matrix3d axes_a = axes_b;
-  axes_a.rightCols<2>() *= -1;
-  const Pose X_AP_a = {Eigen::Quaterniond(axes_a), site.centre_A};
-  const Pose X_AP_b = {Eigen::Quaterniond(axes_b), site.centre_A};
-  std::vector<Vector2d> sites;
-  for (const Vector3d& p : site.points_A) sites.push_back((X_AP_b.inverse() * p).head<2>());
+  const auto [axes_b, X_AP_a, X_AP_b, sites] = PatchFrames(site);
   const PatchLattice lattice_b = patch_lattice(sites, radius);
   // the same places, numbered alike, as a sees them
   PatchLattice lattice_a = lattice_b;
@@ -220,6 +238,15 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
     patch.crease = std::max(patch.crease, sides[i].crease);
   }
 
+  patch.site = site;
+  const size_t fewest = std::min(patch.points[0].size(), patch.points[1].size());
+  if (options.radius && fewest < least_points)
+    fail(
+        "contact patch: a fit needs {} points of each surface, and within radius {} [m] one has "
+        "{}; "
+        "wanted more than the gap, and no more than the bodies",
+        least_points, radius, fewest);
+
   // the gap between the surfaces bends by the sum of both
   const Eigen::Matrix<double, 3, 2> plane = axes_b.leftCols<2>();
   const Matrix2d form = curvature_form(patch.surfaces[0], -site.normal_A, plane) +
@@ -228,8 +255,20 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
   const double spread = std::hypot(half, form(0, 1));
   // of what bends alike any will do
   const double angle = spread * radius > 1e-6 ? 0.5 * std::atan2(form(0, 1), half) : 0;
-  patch.directions.col(0) = plane * Vector2d(std::cos(angle), std::sin(angle));
-  patch.directions.col(1) = plane * Vector2d(-std::sin(angle), std::cos(angle));
+  const auto look_along = [&](double first) {
+    patch.directions.col(0) = plane * Vector2d(std::cos(first), std::sin(first));
+    patch.directions.col(1) = plane * Vector2d(-std::sin(first), std::cos(first));
+    PatchRays rays = patch_rays(plane.transpose() * patch.directions.col(0), sites, radius);
+    const RayHeights heights_b = ray_heights(sides[1].sheet, rays);
+    const PatchRays rays_a = as_a_sees(rays);
+    const RayHeights heights_a = ray_heights(sides[0].sheet, rays_a);
+    patch.gap = gap_profile(rays_a, heights_a, heights_b);
+    patch.rim = patch_rim(heights_a.rim, heights_b.rim, rays.known);
+  };
+  look_along(angle);
+  // so the rim tells them, where there is one
+  if (spread <= alike * std::max(mean, 1 / flattest_radius) && patch.rim.any_ended())
+    look_along(angle + rim_angle(patch.rim));
   const std::array<double, 2> curvatures = {mean + spread, mean - spread};
   patch.flat_radius = options.flat_radius;
   for (int i = 0; i < 2; ++i) {
@@ -238,16 +277,39 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
   }
   patch.relative_radii[1] = std::max(patch.relative_radii[0], patch.relative_radii[1]);
 
-  PatchRays rays = patch_rays(plane.transpose() * patch.directions.col(0), sites, radius);
-  const RayHeights heights_b = ray_heights(sides[1].sheet, rays);
-  for (auto& d : rays.directions) d.y() = -d.y();
-  const RayHeights heights_a = ray_heights(sides[0].sheet, rays);
-  patch.gap = gap_profile(rays, heights_a, heights_b);
   patch.sharp = meeting(patch, shallowest(patch)).unlike > 0.5;
   return patch;
 }
 
 // --- pressing ---
+
+// as far around the sites as an ellipse with these semi-axes may want
+static PatchRim farther_rim(const SoftPatch& patch, const std::array<double, 2>& semi_axes) {
+  const SoftSite& site = patch.site;
+  const auto [axes, X_AP_a, X_AP_b, sites] = PatchFrames(site);
+  // across to its other side, and rays are not everywhere; no body is wider than its sphere
+  const double widest = 2.2 * std::max(semi_axes[0], semi_axes[1]);
+  const double body = 2.1 * std::min(site.a->radius(), site.b->radius());
+  const double radius = std::max(patch.radius, std::min(widest, body));
+  const PatchRays rays =
+      patch_rays(axes.leftCols<2>().transpose() * patch.directions.col(0), sites, radius);
+  const auto ends = [&](const Shape& shape, const Pose& X_PB, const Pose& X_PA,
+                        const PatchRays& seen) {
+    std::vector<Vector3d> there;
+    for (const Vector3d& p : site.points_A) there.push_back(X_PA * p);
+    return ray_rim(PatchSheet(shape, X_PB, there, radius), seen);
+  };
+  const Pose X_PA_a = X_AP_a.inverse(), X_PA_b = X_AP_b.inverse();
+  return patch_rim(ends(*site.a, X_PA_a, X_PA_a, as_a_sees(rays)),
+                   ends(*site.b, X_PA_b * site.X_AB, X_PA_b, rays), rays.known);
+}
+
+static std::array<double, 2> within_rim(const SoftPatch& patch,
+                                        const std::array<double, 2>& semi_axes) {
+  const RimEllipse near = make_room(patch.rim, semi_axes);
+  if (near.sure) return near.semi_axes;
+  return make_room(farther_rim(patch, semi_axes), semi_axes).semi_axes;
+}
 
 // indentation by a pressure [m/Pa]
 static double compliance(const SoftPatch& patch, ModulusRule rule) {
@@ -262,21 +324,27 @@ static double compliance(const SoftPatch& patch, ModulusRule rule) {
   return sum;
 }
 
-ContactEllipse contact_ellipse(const SoftPatch& patch, double force, ModulusRule rule) {
-  if (!(std::isfinite(force) && force >= 0))
-    fail("contact patch: the normal force must be >= 0 [N], got {}", force);
-  const double c = compliance(patch, rule);
-  const auto& R = patch.relative_radii;
-  ContactEllipse out;
-  out.indentation = std::sqrt(force * c / (std::numbers::pi * std::sqrt(R[0] * R[1])));
-  out.pressure = out.indentation / c;
-  for (int i = 0; i < 2; ++i) out.semi_axes[i] = std::sqrt(2 * out.indentation * R[i]);
-  if (!patch.gap) return out;
+// of what gives way [m]
+static double soft_height(const SoftPatch& patch, ModulusRule rule) {
+  const Elasticity &a = patch.elastic_a, &b = patch.elastic_b;
+  if (rule == ModulusRule::larger)
+    return (a.modulus.value_or(0) >= b.modulus.value_or(0) ? a : b).layer;
+  return (a.modulus ? a.layer : 0) + (b.modulus ? b.layer : 0);
+}
 
+// what the surfaces make of the ellipse that the radii tell
+static void press_sharp(const SoftPatch& patch, double force, double c, ContactEllipse& out) {
+  const auto room = within_rim(patch, out.semi_axes);
+  if (room != out.semi_axes) {
+    out.semi_axes = room;
+    const double area = std::numbers::pi * room[0] * room[1];
+    if (area > 0) out.indentation = 2 * force * c / area;
+  }
   // what is sure to touch
   const double flat = std::sqrt(force * c / (std::numbers::pi * patch.flat_radius));
   const double depth = std::max(flat, shallowest(patch));
   const auto [moments, unlike] = meeting(patch, depth);
+  if (unlike == 0) return;
   const Vector2d axes = std::sqrt(flat / depth) * 2 * moments.diagonal().cwiseSqrt();
   // one that lies across the directions is not as wide as it is long along both
   const double product = moments(0, 0) * moments(1, 1);
@@ -287,6 +355,22 @@ ContactEllipse contact_ellipse(const SoftPatch& patch, double force, ModulusRule
     const double sure = std::min(a, narrow * axes[i]);
     a = std::pow(a, 1 - unlike) * std::pow(sure, unlike);
   }
+  // where the springs under the gap as it is make up the force
+  if (const auto deep = depth_of(*patch.gap, force * c))
+    out.indentation = std::pow(out.indentation, 1 - unlike) * std::pow(*deep, unlike);
+}
+
+ContactEllipse contact_ellipse(const SoftPatch& patch, double force, ModulusRule rule) {
+  if (!(std::isfinite(force) && force >= 0))
+    fail("contact patch: the normal force must be >= 0 [N], got {}", force);
+  const double c = compliance(patch, rule);
+  const auto& R = patch.relative_radii;
+  ContactEllipse out;
+  out.indentation = std::sqrt(force * c / (std::numbers::pi * std::sqrt(R[0] * R[1])));
+  for (int i = 0; i < 2; ++i) out.semi_axes[i] = std::sqrt(2 * out.indentation * R[i]);
+  if (patch.gap) press_sharp(patch, force, c, out);
+  out.pressure = out.indentation / c;
+  out.beyond_layer = out.indentation > soft_height(patch, rule);
   return out;
 }
 

@@ -8,7 +8,7 @@
 
 #include "contact/contact_set.h"
 #include "contact/patch_fit.h"
-#include "contact/patch_gap.h"
+#include "contact/patch_rim.h"
 
 namespace clench {
 
@@ -45,7 +45,7 @@ std::vector<SoftSitePtr> soft_sites(const ShapePtr& a, const ShapePtr& b, const 
                                     const std::vector<Touch>& touches);
 
 struct PatchOptions {
-  std::optional<double> radius = {};  ///< instead of the site's, > 0 [m]
+  std::optional<double> radius = {};  ///< instead of the site's, of the bodies' size, > 0 [m]
   /// stands for the relative radius of a direction along which the surfaces do not part, > 0 [m]
   double flat_radius = 0.02;
   PatchFit fit = PatchFit::quadric;
@@ -70,6 +70,8 @@ struct SoftPatch {
   double flat_radius = 0.02;               ///< as it was asked for [m]
   /// As it is, its first ray along directions.col(0); none: as the radii have it.
   std::optional<GapProfile> gap = {};
+  PatchRim rim;   ///< on the rays of the gap
+  SoftSite site;  ///< what it is of: larger patches look farther for the rim
   /// 0 to 1: is there a crease that the fit does not follow? 0 where the fit is off by 10 % of the
   /// surface's relief, or creases around a contact are as long as 0.2 of the radius, 1 from 20 % and 0.6
   /// on. A triangle that is folded over is none.
@@ -82,7 +84,8 @@ struct SoftPatch {
   Elasticity elastic_a, elastic_b;
 };
 
-/// throws  Error when an option is out of range, or the fit is not in this build
+/// throws  Error when an option is out of range, the fit is not in this build, or there is not enough
+///         within a radius that was asked for
 SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options = {});
 
 /// How two elastic bodies act together.
@@ -95,11 +98,17 @@ enum class ModulusRule {
 struct ContactEllipse {
   std::array<double, 2> semi_axes = {};  ///< [m]
   double indentation = 0;                ///< in the middle [m]
-  double pressure = 0;                   ///< in the middle; falls as a paraboloid to the rim [Pa]
+  double pressure = 0;                   ///< in the middle, indentation / c [Pa]
+  /// Is the indentation larger than the soft layers together are high? Then a thin layer is no model.
+  bool beyond_layer = false;
 };
 
 /// Mattress of springs: indentation = sqrt(F c / (pi sqrt(R1 R2))) with the compliance c, layer over
-/// modulus; semi-axis = sqrt(2 indentation R).
+/// modulus; semi-axis = sqrt(2 indentation R). The pressure falls as a paraboloid to the rim:
+/// F = pi / 2 pressure a b.
+///
+/// In no direction is the ellipse wider than the surfaces: those of a pad end at its rim, those of a
+/// round body where they lean by 73 degrees. What is cut off makes it deeper, by the same F.
 ///
 /// Where the surfaces do not meet over such an ellipse, as at a corner, an edge or the rim of a plate,
 /// only what is sure to touch counts: where the gap is no wider than the indentation of flat surfaces
@@ -108,7 +117,9 @@ struct ContactEllipse {
 /// it goes by the weight w, as a^(1 - w) b^w, the largest of three: the patch's crease; how far surfaces
 /// miss under the ellipse, 0 where its mean semi-axis is 80 % of the whole one's, as on the corner of
 /// a face, 1 at 60 %; how much sooner the gap widens, 0 where the mean semi-axis of what meets is 85 %
-/// of that, 1 at 50 %.
+/// of that, 1 at 50 %. The indentation goes by the same weight from that of the ellipse to that of the
+/// gap as it is within the neighbourhood: where the springs under it make up the force. It is more than
+/// what is sure to touch tells of the width, and the pressure is of no paraboloid there.
 ///
 /// force   normal, >= 0 [N]
 /// throws  Error when it is negative or not finite

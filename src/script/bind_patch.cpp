@@ -87,12 +87,14 @@ static int ellipse(lua_State* L) {
   const SoftPatch& patch = patch_of(L);
   const auto [force, rule] = read_pressing(L);
   const ContactEllipse e = contact_ellipse(patch, force, rule);
-  push_list(L, 0, 4);
+  push_list(L, 0, 5);
   push_numbers(L, e.semi_axes);
   lua_setfield(L, -2, "semi_axes");
   set_field(L, "indentation", e.indentation);
   set_field(L, "pressure", e.pressure);
   set_field(L, "torsion_radius", torsion_radius(patch, force, rule));
+  push(L, e.beyond_layer);
+  lua_setfield(L, -2, "beyond_layer");
   return 1;
 }
 
@@ -158,12 +160,15 @@ Is there a corner or an edge, where curvature means little? Then only the part o
 static const Entry methods[] = {
     {"ellipse", guarded<ellipse>, R"(
 Where the bodies press on each other, after the mattress model: its semi-axes along `directions`, the indentation and
-the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. At a corner, an edge or a rim the
-semi-axes are those of what is sure to touch: where the gap is no wider than the indentation of flat surfaces.
+the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. It is nowhere wider than the bodies.
+At a corner, an edge or a rim the semi-axes are those of what is sure to touch, where the gap is no wider than the indentation of
+flat surfaces; the indentation is where the springs under the gap as it is make up the force, as far as the neighbourhood goes.
+`beyond_layer` says that it is more than the soft layers are high, and the model holds no longer.
 @param options? {force?: number, modulus?: string}  normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
-@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number}  [m], [m], [Pa], [m]
+@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, beyond_layer: boolean}  [m], [m], [Pa], [m]
 > e = patch:ellipse{force = 5}
 > math.abs(e.pressure - 1.5e6 * e.indentation / 0.003) < 1e-3  --> true
+> e.beyond_layer, patch:ellipse{force = 1000}.beyond_layer  --> false, true
 > patch:ellipse{force = -1}  --> error: >= 0)"},
     {"torsion_limit", guarded<torsion_limit>, R"(
 The largest torque about the normal that the contact resists, at rest: mu F times the torsion radius.

@@ -107,3 +107,34 @@ TEST_CASE("the ends of rays are those of the neighbourhoods of all sites") {
   for (auto& row : empty.height) row.fill(std::numeric_limits<double>::infinity());
   CHECK(overlap(gap_profile(rays, empty, empty), 0.1).isZero());
 }
+
+TEST_CASE(
+    "depths sum to the volume under cones, bowls and wedges, and to none where nothing meets") {
+  const PatchRays rays = rays_of(2);
+  const double pi = std::numbers::pi;
+  for (const double depth : {0.02, 0.3, 1.1, 3.0}) {
+    // of a cone of slope 0.6, cut off at the end of the rays
+    const auto cone = profile_of(rays, [](Vector2d p) { return 0.6 * p.norm(); });
+    const double reach = std::min(2.0, depth / 0.6);
+    const double volume = pi * reach * reach * (depth - 0.4 * reach);
+    CHECK(*depth_of(cone, volume) == doctest::Approx(depth));
+    // of a bowl: straight between the places, which lie on it
+    const auto bowl = profile_of(rays, [](Vector2d p) { return 0.25 * p.squaredNorm(); });
+    const double rim = std::min(4.0, 4 * depth);  // squared
+    const double below = pi * rim * (depth - 0.125 * rim);
+    CHECK(*depth_of(bowl, below) == doctest::Approx(depth).epsilon(0.03));
+    CHECK(*depth_of(bowl, 0) == 0);
+  }
+  RayHeights empty;
+  for (auto& row : empty.height) row.fill(std::numeric_limits<double>::infinity());
+  CHECK(!depth_of(gap_profile(rays, empty, empty), 1e-9));
+}
+
+TEST_CASE("the moments of a star are those of the polygon of its ends") {
+  RayLengths ends;
+  ends.fill(1.5);
+  const Matrix2d circle = star_moments(ends);
+  CHECK((circle - 2.25 * (2 + std::cos(between_rays)) / 12 * Matrix2d::Identity()).norm() < 1e-12);
+  ends.fill(0);
+  CHECK(star_moments(ends).isZero());
+}

@@ -1,0 +1,324 @@
+// Soft patches of pads: no wider than the pads are.
+#include <algorithm>
+
+#include "contact/soft_patch.h"
+#include "math/decompositions.h"
+#include "support/cases.h"
+#include "support/curved.h"
+
+using namespace clench;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double pad_gap = 5e-5;  // within the contact threshold [m]
+constexpr double pad_modulus = 1.5e6;
+constexpr double springs = 0.003 / pad_modulus;  // compliance [m/Pa]
+const double pi = std::numbers::pi;
+
+/// Of an outline counter-clockwise about the origin, seen from above: a flat sole of rings of
+/// triangles at z = 0, walls and a lid above.
+Mesh pad_of(const std::vector<Vector2d>& outline, double height, int rings) {
+  Mesh mesh;
+  const int n = static_cast<int>(outline.size());
+  mesh.vertices.push_back(Vector3d::Zero());
+  for (int r = 1; r <= rings; ++r)
+    for (const Vector2d& p : outline)
+      mesh.vertices.push_back({p.x() * r / rings, p.y() * r / rings, 0});
+  const int lid = static_cast<int>(mesh.vertices.size());
+  for (const Vector2d& p : outline) mesh.vertices.push_back({p.x(), p.y(), height});
+  mesh.vertices.push_back({0, 0, height});
+  const auto at = [&](int r, int i) { return 1 + (r - 1) * n + i % n; };
+  for (int i = 0; i < n; ++i) {
+    mesh.triangles.push_back({0, at(1, i + 1), at(1, i)});
+    for (int r = 1; r < rings; ++r) {
+      mesh.triangles.push_back({at(r, i), at(r + 1, i + 1), at(r + 1, i)});
+      mesh.triangles.push_back({at(r, i), at(r, i + 1), at(r + 1, i + 1)});
+    }
+    const int a = at(rings, i), b = at(rings, i + 1), c = lid + i, d = lid + (i + 1) % n;
+    mesh.triangles.push_back({a, b, d});
+    mesh.triangles.push_back({a, d, c});
+    mesh.triangles.push_back({c, d, lid + n});
+  }
+  REQUIRE(Shape::make(mesh)->closed());
+  REQUIRE(Shape::make(mesh)->solid().volume > 0);
+  return mesh;
+}
+
+std::vector<Vector2d> rectangle(double half_x, double half_y, int a_side = 1) {
+  const std::vector<Vector2d> corners = {
+      {half_x, -half_y}, {half_x, half_y}, {-half_x, half_y}, {-half_x, -half_y}};
+  std::vector<Vector2d> out;
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < a_side; ++i)
+      out.push_back(corners[k] + (corners[(k + 1) % 4] - corners[k]) * i / a_side);
+  return out;
+}
+
+std::vector<Vector2d> circle(double radius, int segments) {
+  std::vector<Vector2d> out;
+  for (int i = 0; i < segments; ++i) {
+    const double a = 2 * pi * i / segments;
+    out.push_back({radius * std::cos(a), radius * std::sin(a)});
+  }
+  return out;
+}
+
+Mesh wide_floor() {
+  return test::moved(test::box(0.2, 0.2, 0.02), Pose::translation({0, 0, -0.01}));
+}
+
+/// The patch of a contact at a place of the pad, in the frame of the floor; the pad is soft, and
+/// turned about z.
+SoftPatch patch_at(const Mesh& floor, const Mesh& pad, double turn, const Vector2d& place) {
+  const Pose X_AB{Pose::turn(turn, Vector3d::UnitZ()).rotation, {0, 0, pad_gap}};
+  const Vector3d p = X_AB.rotation * Vector3d(place.x(), place.y(), 0);
+  const Touch touch{.p_a = p, .p_b = p + Vector3d(0, 0, pad_gap), .normal_b = Vector3d::UnitZ()};
+  const Elasticity soft{.modulus = pad_modulus};
+  return soft_patch(*soft_sites(Shape::make(floor), Shape::make(pad), X_AB, {}, soft, {touch})[0]);
+}
+
+/// of the contacts as they are found, all patches
+std::vector<SoftPatch> patches_of(const Mesh& floor, const Mesh& pad, double turn) {
+  const auto a = Shape::make(floor), b = Shape::make(pad);
+  const Pose X_AB{Pose::turn(turn, Vector3d::UnitZ()).rotation, {0, 0, pad_gap}};
+  const auto sites =
+      soft_sites(a, b, X_AB, {}, {.modulus = pad_modulus}, contact_set(*a, *b, X_AB));
+  std::vector<SoftPatch> out;
+  std::vector<const SoftSite*> known;
+  for (const auto& site : sites)
+    if (std::find(known.begin(), known.end(), site.get()) == known.end())
+      known.push_back(site.get()), out.push_back(soft_patch(*site));
+  return out;
+}
+
+/// semi-axis of flat on flat, or of a cylinder of a radius on it along its axis
+double blunt_axis(double force, double radius = 0.02) {
+  return std::sqrt(2 * std::sqrt(force * springs / (pi * radius)) * radius);
+}
+
+/// semi-axes, the shorter first
+Vector2d axes_of(const SoftPatch& patch, double force) {
+  const auto [a, b] = contact_ellipse(patch, force).semi_axes;
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// how far an ellipse reaches along a direction of the frame of the floor
+double reach_of(const SoftPatch& patch, double force, const Vector3d& direction) {
+  const auto axes = contact_ellipse(patch, force).semi_axes;
+  return std::hypot(axes[0] * patch.directions.col(0).dot(direction),
+                    axes[1] * patch.directions.col(1).dot(direction));
+}
+
+}  // namespace
+
+TEST_CASE("a square pad on a plane has a circle no wider than itself, however it lies") {
+  for (const double half : {0.002, 0.003, 0.0037, 0.005, 0.008, 0.015})
+    for (const double turn : {0.0, 0.13, 0.4, pi / 4})
+      for (const int rings : {1, 6})
+        for (const double force : {0.1, 5.0, 60.0}) {
+          const Mesh pad = pad_of(rectangle(half, half, rings), 0.004, rings);
+          const Vector2d axes = axes_of(patch_at(wide_floor(), pad, turn, {0, 0}), force);
+          const double wanted = std::min(half, blunt_axis(force));
+          CHECK(axes[1] <= 1.0001 * wanted);
+          // a pad much smaller than the patch counts by its moments, which are larger
+          CHECK(axes[0] >= 0.985 * wanted);
+        }
+}
+
+TEST_CASE("the patch of a pad of 6 mm stays within 3 mm, wherever it is touched") {
+  Random random(1);
+  const Mesh pad = pad_of(rectangle(0.003, 0.003), 0.004, 1);
+  for (const SoftPatch& patch : patches_of(wide_floor(), pad, 0.3)) {
+    CHECK(axes_of(patch, 5)[1] < 0.0030003);
+    CHECK(axes_of(patch, 5)[0] > 0.0029);
+  }
+  for (int trial = 0; trial < test::cases(40); ++trial) {
+    const Vector2d place(random.uniform(-0.003, 0.003), random.uniform(-0.003, 0.003));
+    const double turn = random.uniform(0, 6);
+    const SoftPatch patch = patch_at(wide_floor(), pad, turn, place);
+    const Vector3d x(std::cos(turn), std::sin(turn), 0), y(-x.y(), x.x(), 0);
+    CHECK(reach_of(patch, 5, x) <= 1.0001 * 0.003);
+    CHECK(reach_of(patch, 5, y) <= 1.0001 * 0.003);
+    // a corner is as narrow as the region that is near it, and the rays cut the others off
+    CHECK(axes_of(patch, 5)[0] > 0.0022);
+  }
+}
+
+TEST_CASE(
+    "a rectangle bounds each semi-axis by itself, and the torsion is less than all of it has") {
+  for (const double half_x : {0.0015, 0.002, 0.003})
+    for (const double half_y : {0.003, 0.006, 0.02})
+      for (const double turn : {0.0, 0.2, 0.9})
+        for (const int rings : {1, 5})
+          for (const double force : {0.1, 5.0, 20.0}) {
+            const Mesh pad = pad_of(rectangle(half_x, half_y, rings), 0.004, rings);
+            const SoftPatch patch = patch_at(wide_floor(), pad, turn, {0, 0});
+            const Vector3d x(std::cos(turn), std::sin(turn), 0), y(-x.y(), x.x(), 0);
+            const double blunt = blunt_axis(force);
+            CHECK(reach_of(patch, force, x) <= 1.0001 * std::min(half_x, blunt));
+            CHECK(reach_of(patch, force, y) <= 1.0001 * std::min(half_y, blunt));
+            CHECK(reach_of(patch, force, x) >= 0.98 * std::min(half_x, blunt));
+            // what is beyond the neighbourhood of 3.5 mm is not sure to touch where a pad is narrow
+            CHECK(reach_of(patch, force, y) >= 0.75 * std::min({half_y, blunt, patch.radius}));
+            // even pressure over the pad: mean distance from its middle, by sums
+            double sum = 0;
+            constexpr int steps = 40;
+            for (int i = 0; i < steps; ++i)
+              for (int j = 0; j < steps; ++j)
+                sum += std::hypot(half_x * (i + 0.5) / steps, half_y * (j + 0.5) / steps);
+            CHECK(torsion_radius(patch, force) < sum / (steps * steps));
+          }
+}
+
+TEST_CASE("a disc bounds its circle by its radius, in the middle and at its rim") {
+  for (const double radius : {0.0025, 0.003, 0.004, 0.006, 0.01})
+    for (const int segments : {24, 90})
+      for (const double off : {0.0, 0.5, 0.95})
+        for (const double force : {0.5, 5.0, 30.0}) {
+          const Mesh pad = pad_of(circle(radius, segments), 0.004, 3);
+          const SoftPatch patch = patch_at(wide_floor(), pad, 0.1, {off * radius, 0});
+          const double wanted = std::min(radius, blunt_axis(force));
+          CHECK(axes_of(patch, force)[1] <= 1.0001 * wanted);
+          CHECK(torsion_radius(patch, force) < 2 * radius / 3);
+          // seen from aside rays miss where it is widest, and near the rim half is not there
+          if (off == 0) CHECK(axes_of(patch, force)[0] >= 0.98 * wanted);
+        }
+}
+
+TEST_CASE("a pad on a large cylinder ends at its rim along the axis and across it") {
+  for (const double radius : {0.05, 0.1, 0.3})
+    for (const double half : {0.002, 0.003, 0.006})
+      for (const double turn : {0.0, 0.5}) {
+        const Mesh floor =
+            test::moved(test::rod(radius, 0.2, 720), Pose::translation({0, 0, -radius}));
+        const SoftPatch patch =
+            patch_at(floor, pad_of(rectangle(half, half, 4), 0.004, 4), turn, {0, 0});
+        // flat along the axis: the cylinder's own radius stands for it
+        const double blunt = blunt_axis(5, radius);
+        const Vector3d x(std::cos(turn), std::sin(turn), 0), y(-x.y(), x.x(), 0);
+        for (const Vector3d& d : {x, y}) {
+          CHECK(reach_of(patch, 5, d) <= 1.0001 * std::min(half, blunt));
+          CHECK(reach_of(patch, 5, d) >= 0.97 * std::min(half, blunt));
+        }
+      }
+}
+
+TEST_CASE("no ellipse is wider than a small ball, nor a wider body the worse for its rim") {
+  const Mesh small = test::moved(test::icosphere(0.002, 4), Pose::translation({0, 0, 0.002}));
+  CHECK(blunt_axis(5, 0.002) > 0.0022);
+  // leaning 73 degrees, its sheet ends
+  const double axis = axes_of(patch_at(wide_floor(), small, 0, {0, 0}), 5)[1];
+  CHECK(axis < 0.002);
+  CHECK(axis > 0.0018);
+  // on a plate whose rim is beyond the patch, or a half of it is over the rim: all of it
+  const Mesh ball = test::moved(test::icosphere(0.02, 4), Pose::translation({0, 0, 0.02}));
+  for (const double half : {0.0045, 0.006, 0.1})
+    for (const double force : {0.1, 5.0}) {
+      const Mesh plate =
+          test::moved(test::box(0.2, 2 * half, 0.02), Pose::translation({0, half, -0.01}));
+      const double wanted = std::min(half, blunt_axis(force));
+      CHECK(axes_of(patch_at(plate, ball, 0, {0, 0}), force)[0] ==
+            doctest::Approx(wanted).epsilon(0.015));
+    }
+}
+
+TEST_CASE("what the rim cuts off makes the middle deeper: the pressure makes up the force") {
+  for (const double half : {0.0028, 0.003, 0.0035, 0.0039, 0.005})
+    for (const double force : {1.0, 5.0, 12.0}) {
+      const SoftPatch patch =
+          patch_at(wide_floor(), pad_of(rectangle(half, half), 0.004, 1), 0, {0, 0});
+      const ContactEllipse e = contact_ellipse(patch, force);
+      const double paraboloid = 0.5 * pi * e.semi_axes[0] * e.semi_axes[1] * e.pressure;
+      // wider than 80 % of its ellipse; what is narrower goes over into its even pressure
+      if (1.15 * half > 0.82 * blunt_axis(force)) CHECK(paraboloid == doctest::Approx(force));
+      CHECK(e.pressure == doctest::Approx(e.indentation / springs));
+      CHECK(e.pressure >= 0.99 * force / (4 * half * half));
+    }
+}
+
+namespace {
+
+/// sum of the depths of a wedge of 45 degrees within a disc around a point of its edge
+double wedge_volume(double depth, double radius) {
+  constexpr int steps = 2000;
+  double sum = 0;
+  const double most = std::min(depth, radius);
+  for (int i = 0; i < steps; ++i) {
+    const double y = most * (i + 0.5) / steps;
+    sum += 2 * (depth - y) * 2 * std::sqrt(radius * radius - y * y) * most / steps;
+  }
+  return sum;
+}
+
+/// a cube on the floor, touched at a point of its own frame that is lowest
+SoftPatch cube_at(const Vector3d& down, const Vector3d& place) {
+  const Pose turn = Pose::turn(least_turn(down, -Vector3d::UnitZ()));
+  const Mesh cube = test::moved(test::box(0.03, 0.03, 0.03), turn);
+  const Vector3d foot = turn * place;
+  return patch_at(wide_floor(), test::moved(cube, Pose::translation(-foot)), 0, {0, 0});
+}
+
+}  // namespace
+
+TEST_CASE("at a corner and an edge springs under the gap make up the force") {
+  const SoftPatch corner = cube_at({1, 1, 1}, {0.015, 0.015, 0.015});
+  const SoftPatch edge = cube_at({0, 1, 1}, {0.004, 0.015, 0.015});
+  REQUIRE(corner.sharp);
+  REQUIRE(edge.sharp);
+  for (const double force : {0.05, 0.5, 5.0}) {
+    const ContactEllipse at_corner = contact_ellipse(corner, force);
+    // cut at a depth d, the corner of a cube is a triangle of 3 sqrt(3) / 2 d^2
+    const double deep = std::cbrt(force * springs / (0.5 * std::sqrt(3.0)));
+    CHECK(at_corner.indentation == doctest::Approx(deep).epsilon(0.04));
+    CHECK(at_corner.pressure == doctest::Approx(at_corner.indentation / springs));
+    const ContactEllipse at_edge = contact_ellipse(edge, force);
+    CHECK(wedge_volume(at_edge.indentation, edge.radius) ==
+          doctest::Approx(force * springs).epsilon(0.15));
+    // wider than what is sure to touch, as the model has it
+    CHECK(at_corner.indentation > at_corner.semi_axes[1]);
+  }
+}
+
+TEST_CASE("a pad much smaller than its patch is pressed evenly") {
+  for (const double half : {0.0005, 0.001, 0.0015})
+    for (const double turn : {0.0, 0.3}) {
+      const Mesh square = pad_of(rectangle(half, half), 0.004, 1);
+      const ContactEllipse e = contact_ellipse(patch_at(wide_floor(), square, turn, {0, 0}), 5);
+      // sectors of 15 degrees instead of the corners: up to 2.3 % of the area
+      CHECK(e.pressure == doctest::Approx(5 / (4 * half * half)).epsilon(0.025));
+      const Mesh disc = pad_of(circle(half, 48), 0.004, 2);
+      const ContactEllipse d = contact_ellipse(patch_at(wide_floor(), disc, turn, {0, 0}), 5);
+      CHECK(d.pressure == doctest::Approx(5 / (pi * half * half)).epsilon(0.01));
+    }
+}
+
+TEST_CASE("a layer that is pressed in by more than its height is told") {
+  const Mesh ball = test::moved(test::icosphere(0.02, 4), Pose::translation({0, 0, 0.02}));
+  SoftPatch patch = patch_at(wide_floor(), ball, 0, {0, 0});
+  CHECK(!contact_ellipse(patch, 280).beyond_layer);
+  CHECK(contact_ellipse(patch, 290).beyond_layer);  // sqrt(283 c / (pi 0.02)) = 3 mm
+  // two of them are as high together; the original knows that of the stiffer alone
+  patch.elastic_a = {.modulus = 0.5 * pad_modulus};
+  CHECK(!contact_ellipse(patch, 290).beyond_layer);
+  CHECK(contact_ellipse(patch, 290, ModulusRule::larger).beyond_layer);
+}
+
+TEST_CASE("a radius within which there is nothing to fit is refused") {
+  const auto a = Shape::make(wide_floor()), b = Shape::make(test::icosphere(0.01, 3));
+  const Pose X_AB = Pose::translation({0, 0, pad_gap - b->bounds().low.z()});
+  const auto site =
+      soft_sites(a, b, X_AB, {}, {.modulus = pad_modulus}, contact_set(*a, *b, X_AB))[0];
+  CHECK_THROWS_WITH_AS(soft_patch(*site, {.radius = 1e-6}),
+                       "contact patch: a fit needs 15 points of each surface, and within radius "
+                       "1e-06 [m] one has 0; "
+                       "wanted more than the gap, and no more than the bodies",
+                       Error);
+  CHECK_THROWS_WITH_AS(
+      soft_patch(*site, {.radius = 10}),
+      "contact patch: a fit needs 15 points of each surface, and within radius 10 [m] one has 1; "
+      "wanted more than the gap, and no more than the bodies",
+      Error);
+  CHECK_NOTHROW(soft_patch(*site, {.radius = 0.02}));
+}
