@@ -1,5 +1,6 @@
 #include "grasp/measures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -167,6 +168,49 @@ double joint_deviation(MeasuredGrasp& g) {
   return count > 0 ? sum / count : infinite;
 }
 
+// in the object frame; no axis where two moments differ by less than the facets of a round body make
+std::optional<Eigen::Vector3d> principal_axis(const Body& body) {
+  constexpr double alike = 1e-3;  // of the largest moment
+  const auto [moments, axes] = eigensystem(body.inertia_per_mass);
+  const double below = moments[1] - moments[0], above = moments[2] - moments[1];
+  if (!(std::max(below, above) > alike * moments[2])) return {};
+  return Eigen::Vector3d(axes.col(below >= above ? 0 : 2));
+}
+
+double orthogonality(MeasuredGrasp& g) {
+  const Body& object = g.world().body(g.grasp().object);
+  const auto axis = principal_axis(object);
+  if (!axis) return infinite;
+  const Robot& hand = g.world().robot(g.grasp().hand);
+  const Eigen::Vector3d approach =
+      g.world().body(hand.base).X_WB.rotation * hand.X_BA.rotation * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d axis_W = object.X_WB.rotation * *axis;
+  const double along = std::abs(axis_W.dot(approach)), across = axis_W.cross(approach).norm();
+  return std::atan2(std::min(along, across), std::max(along, across));
+}
+
+double coplanarity(MeasuredGrasp& g) {
+  // contacts that are there twice count once
+  std::vector<const PointContact*> distinct;
+  for (const PointContact& c : g.grasp().points)
+    if (std::ranges::none_of(distinct, [&](const PointContact* d) {
+          return (c.p_O - d->p_O).norm() < 1e-6 && (c.n_O - d->n_O).norm() < 1e-6;
+        }))
+      distinct.push_back(&c);
+  if (distinct.empty()) return infinite;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const PointContact* c : distinct) scatter += c->n_O * c->n_O.transpose();
+  return std::sqrt(std::max(0.0, eigenvalues(scatter)[0] / static_cast<double>(distinct.size())));
+}
+
+// A contact that is off by d shifts its unit wrenches by d times their force, over rho: so much less
+// than before they reach in any direction.
+double position_margin(MeasuredGrasp& g) {
+  double force = 1;
+  for (const PointContact& c : g.grasp().points) force = std::max(force, std::hypot(1, c.mu));
+  return g.space().epsilon() * g.grasp().rho / force;
+}
+
 double volume(MeasuredGrasp& g) { return g.space({}).volume(); }
 
 const Measure all_measures[] = {
@@ -218,6 +262,20 @@ const Measure all_measures[] = {
     {"centroid_distance", "of the mean of the contact points from the object's centre of mass",
      ">= 0", "m", false, "Ponce, Sullivan, Sudsang, Boissonnat and Merlet (1997)",
      centroid_distance},
+    {"orthogonality",
+     "angle of the hand's approach to the object's principal axis or to the plane across it, "
+     "whichever is less: people grasp along or across; infinite of an object without such an axis",
+     "0 to pi/4", "rad", false, "Balasubramanian, Xu, Brook, Smith and Matsuoka (2012)",
+     orthogonality},
+    {"coplanarity",
+     "of the contact normals: root mean square of the sines of their angles to the plane that fits "
+     "them best; 0 in one plane",
+     "0 to sqrt(1/3)", "1", false, "least singular value of the normals", coplanarity},
+    {"position_margin",
+     "how far all contact points may be off at once, normals as they are, and force closure is "
+     "certain: epsilon rho / sqrt(1 + mu^2), of the largest mu",
+     ">= 0", "m", true, "after Roa and Suarez (2009), independent contact regions",
+     position_margin},
     {"weight_effort",
      "least sum of normal forces that holds the object's weight, by round cones; infinite where "
      "none do",

@@ -424,8 +424,11 @@ double WrenchSpace::volume() const {
   if (l1 && affine_rank(spanning(), rank_tolerance) < dimension()) return volume_.emplace(0);
   const Facets facets = all_facets(prepared().reach, {.most_facets = most_facets});
   if (facets.end == FacetsEnd::too_many)
-    fail("wrench space: volume: the hull of {} contacts{} has more than {} facets",
-         contacts_.size(), l1 ? "" : " in L-infinity", most_facets);
+    fail(
+        "wrench space: volume: the hull of {} contact{}{} has more than {} facets; give fewer "
+        "edges",
+        contacts_.size(), contacts_.size() == 1 ? "" : "s", l1 ? "" : " in L-infinity",
+        most_facets);
   if (facets.end == FacetsEnd::complete)
     return volume_.emplace(std::ldexp(facets.volume, dimension() * prepared().exponent));
   if (facets.end == FacetsEnd::flat) return volume_.emplace(0);

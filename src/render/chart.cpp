@@ -44,7 +44,8 @@ void check_chart(const Chart& chart, const ChartOptions& options) {
       fail("chart: series '{}': wanted {} values, as the first has, got {}", series.name, items,
            series.values.size());
   if (!chart.labels.empty() && chart.labels.size() != items)
-    fail("chart: wanted {} labels, one a value, got {}", items, chart.labels.size());
+    fail("chart: wanted {} label{}, one a value, got {}", items, items == 1 ? "" : "s",
+         chart.labels.size());
   if (options.width < least_size || options.width > largest_size)
     fail("chart: wanted a width of {} to {} pixels, got {}", least_size, largest_size,
          options.width);

@@ -50,6 +50,10 @@ static bool read_limits(Table& options, bool fallback, JointDemand& joints) {
   const int type = options.push("torque_limits");
   lua_pop(options.what("torque_limits").L, 1);
   if (type == LUA_TBOOLEAN) return options.boolean("torque_limits", fallback);
+  if (type != LUA_TTABLE && type != LUA_TNIL) {
+    options.push("torque_limits");
+    fail_wanted(options.what("torque_limits"), "true or a list of numbers", -1);
+  }
   joints.limits = vector_if(options, "torque_limits");
   return fallback || joints.limits;
 }

@@ -66,13 +66,17 @@ static int resist(lua_State* L) {
   if (one + many + ellipsoid != 1)
     fail("{}: wanted one of wrench, wrenches and ellipsoid, got {} of them", subject(L),
          one + many + ellipsoid);
+  const auto times = [&](const Vector6d& wrench, const std::string& key) {
+    if (wrench.isZero(0))
+      fail("{}: {}: wanted a wrench that is not zero: there is nothing to resist", subject(L), key);
+    return resistance(*g.world, g.grasp, wrench, resisting);
+  };
   double least = INFINITY;
-  if (one) least = resistance(*g.world, g.grasp, vector6(options.numbers("wrench", 6)), resisting);
+  if (one) least = times(vector6(options.numbers("wrench", 6)), "wrench");
   const auto rows = many ? options.rows("wrenches", 6) : std::vector<std::vector<double>>();
   if (many && rows.empty()) fail("{}: wrenches: wanted at least one, got none", subject(L));
-  if (many)
-    for (const auto& row : rows)
-      least = std::min(least, resistance(*g.world, g.grasp, vector6(row), resisting));
+  for (size_t i = 0; i < rows.size(); ++i)
+    least = std::min(least, times(vector6(rows[i]), fmt::format("wrenches[{}]", i + 1)));
   if (ellipsoid)
     least = ellipsoid_resistance(*g.world, g.grasp, vector6(options.numbers("ellipsoid", 6)),
                                  resisting);
@@ -125,6 +129,7 @@ largest that is resisted whole, by the friction cones of the grasp. World axes, 
 > grasp:resistance{wrench = weight} > 0  --> true
 > grasp:resistance{wrenches = {weight, {1, 0, 0, 0, 0, 0}}} <= grasp:resistance{wrench = weight}  --> true
 > grasp:resistance{ellipsoid = {1, 1, 1, 0.1, 0.1, 0.1}} > 0  --> true
+> grasp:resistance{wrench = {0, 0, 0, 0, 0, 0}}  --> error: wanted a wrench that is not zero
 > grasp:resistance{}  --> error: wanted one of wrench, wrenches and ellipsoid, got 0 of them)"},
 };
 

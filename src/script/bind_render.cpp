@@ -16,6 +16,10 @@ static Eye read_eye(Table& options, const Eye& from) {
   eye.target = options.vec3("target", from.target);
   eye.up = options.vec3("up", from.up);
   eye.field_of_view = options.positive("field_of_view", from.field_of_view);
+  const Eigen::Vector3d back = eye.eye - eye.target;
+  // an up that one does not ask for gives way
+  if (options.has("up") && !(eye.up.cross(back).norm() > 1e-9 * back.norm() * eye.up.norm()))
+    fail("{}: wanted eye and target apart, and up not along the view", options.subject());
   return eye;
 }
 
@@ -63,8 +67,8 @@ Picture draw_scene(Table& options, Scene scene) {
   const auto size =
       options.has("size") ? options.numbers("size", 2) : std::vector<double>{1280, 960};
   for (const double n : size)
-    if (n != std::floor(n) || std::abs(n) > 1e6)
-      fail("{}: size: wanted whole numbers of pixels, got {}", options.subject(), n);
+    if (n != std::floor(n) || !(n >= 1 && n <= 1e6))
+      fail("{}: size: wanted whole numbers of pixels, at least 1, got {}", options.subject(), n);
   rendering.width = static_cast<int>(size[0]);
   rendering.height = static_cast<int>(size[1]);
   rendering.samples = options.integer("samples", rendering.samples);

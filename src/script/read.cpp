@@ -48,6 +48,8 @@ std::string described(lua_State* L, int index) {
       return lua_toboolean(L, index) ? "true" : "false";
     case LUA_TNUMBER:
       if (lua_isinteger(L, index)) return fmt::format("{}", lua_tointeger(L, index));
+      // which of the two it is depends on how it was made
+      if (std::isnan(lua_tonumber(L, index))) return "nan";
       return fmt::format("{}", lua_tonumber(L, index));
     case LUA_TSTRING:
       return quoted(L, index);
@@ -140,7 +142,10 @@ std::vector<double> read_numbers(lua_State* L, int i, const What& what, int coun
   i = lua_absindex(L, i);
   if (const auto* v = to<Eigen::Vector3d>(L, i); v && (count < 0 || count == 3))
     return {v->x(), v->y(), v->z()};
-  const std::string wanted = count < 0 ? "a list of numbers" : fmt::format("{} numbers", count);
+  const std::string wanted =
+      count < 0 ? "a list of numbers" : fmt::format("{} number{}", count, count == 1 ? "" : "s");
+  // an item that is a number is no count of numbers
+  if (lua_type(L, i) != LUA_TTABLE && count >= 0) fail_wanted(what, "a list of " + wanted, i);
   const int size = read_list_size(L, i, what, wanted);
   if (count >= 0 && size != count) fail("{}: wanted {}, got {}", what.text(), wanted, size);
   std::vector<double> numbers(static_cast<size_t>(size));

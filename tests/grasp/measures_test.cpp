@@ -135,3 +135,87 @@ TEST_CASE("contacts that are there twice change neither the polygon nor its midd
   CHECK(a.centroid == b.centroid);
   CHECK(a.area == b.area);
 }
+
+namespace {
+
+// a rod along x and a hand that comes from a direction, both turned
+Held before_rod(const Vector3d& size, const Vector3d& approach, const Pose& X_WO) {
+  Held h = six_fingers(0.5);
+  h.grasp.object =
+      h.world.add_body(body_spec("rod", box(size.x(), size.y(), size.z())), BodyKind::object, X_WO);
+  RobotSpec hand;
+  hand.name = "comer";
+  hand.base = body_spec("comer_base", box(0.01, 0.01, 0.01));
+  hand.X_BA = approach_frame(Vector3d::Zero(), approach);
+  h.grasp.hand = h.world.add_robot(hand, {X_WO.rotation, {5, 5, 5}});
+  return h;
+}
+
+}  // namespace
+
+TEST_CASE("hands that come along or across an object are orthogonal, none to a cube") {
+  const Pose poses[] = {Pose(), {Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1).normalized(), {1, 2, 3}}};
+  const double quarter = std::numbers::pi / 4;
+  for (const Pose& X : poses)
+    for (const double angle : {0.0, 0.3, quarter, 1.2, 2 * quarter, 2.8}) {
+      const Vector3d approach(std::cos(angle), 0.6 * std::sin(angle), 0.8 * std::sin(angle));
+      const double folded = std::abs(angle - 2 * quarter * std::round(angle / (2 * quarter)));
+      // a rod, whose own axis has the least moment, and a plate, whose normal has the largest
+      Held rod = before_rod({0.3, 0.02, 0.025}, approach, X);
+      CHECK(value(rod, "orthogonality") == doctest::Approx(folded).epsilon(1e-9));
+      Held plate = before_rod({0.01, 0.2, 0.21}, approach, X);
+      CHECK(value(plate, "orthogonality") == doctest::Approx(folded).epsilon(1e-9));
+      Held cube = before_rod({0.1, 0.1, 0.1}, approach, X);
+      CHECK(value(cube, "orthogonality") == std::numeric_limits<double>::infinity());
+    }
+}
+
+TEST_CASE("normals in one plane are coplanar, those of a cube's faces as little as can be") {
+  const auto fan = [](double lean, int count, bool twice) {
+    std::vector<PointContact> points;
+    for (int i = 0; i < count; ++i) {
+      const double a = 2 * std::numbers::pi * i / count;
+      const Vector3d out(std::cos(lean) * std::cos(a), std::cos(lean) * std::sin(a),
+                         std::sin(lean));
+      points.push_back(contact_at(0.05 * out, -out, 0.5));
+    }
+    if (twice) points.insert(points.end(), 3, points[0]);
+    return held(points, {Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1).normalized(), {1, 2, 3}});
+  };
+  Held flat = fan(0, 5, false), two = held(pinch(0.5)), cube = six_fingers(0.5);
+  CHECK(value(flat, "coplanarity") < 1e-8);
+  CHECK(value(two, "coplanarity") < 1e-8);
+  CHECK(value(cube, "coplanarity") == doctest::Approx(std::sqrt(1.0 / 3)));
+  // all leave the plane by one angle
+  for (const double lean : {0.05, 0.3}) {
+    Held leaning = fan(lean, 4, false), twice = fan(lean, 4, true);
+    CHECK(value(leaning, "coplanarity") == doctest::Approx(std::sin(lean)));
+    CHECK(value(twice, "coplanarity") == doctest::Approx(std::sin(lean)));
+  }
+  Held nothing = held({});
+  CHECK(value(nothing, "coplanarity") == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("contacts that are off by less than the margin keep force closure") {
+  Random random(21);
+  int closed = 0;
+  for (int round = 0; round < 20; ++round) {
+    Held h = held(around_ball(round % 2 ? 5 : 8, 0.7, 100 + round, round % 3 ? 0 : 0.01));
+    const double margin = value(h, "position_margin"), rho = h.grasp.rho;
+    CHECK(margin == doctest::Approx(value(h, "epsilon") * rho / std::hypot(1, 0.7)));
+    closed += margin > 0;
+    // the same grasp ten times as large may be off ten times as far
+    Held large = h;
+    for (PointContact& c : large.grasp.points) c.p_O *= 10, c.torsion_radius *= 10;
+    large.grasp.rho *= 10;
+    CHECK(value(large, "position_margin") == doctest::Approx(10 * margin).epsilon(1e-6));
+    for (int trial = 0; trial < 20; ++trial) {
+      Held off = h;
+      for (PointContact& c : off.grasp.points)
+        c.p_O += 0.999 * margin *
+                 Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+      CHECK((margin == 0 || value(off, "epsilon") > 0));
+    }
+  }
+  CHECK(closed > 10);
+}

@@ -828,7 +828,8 @@ TEST_CASE("hulls that do not exist or are too large are refused") {
   CHECK_THROWS_WITH_AS(sums.hull(), "wrench space: no hull of points in L-infinity", Error);
   CHECK_THROWS_WITH_AS(
       sums.volume(),
-      "wrench space: volume: the hull of 6 contacts in L-infinity has more than 1000000 facets",
+      "wrench space: volume: the hull of 6 contacts in L-infinity has more than 1000000 facets; "
+      "give fewer edges",
       Error);
   // a cyclic polytope of n corners has n (n - 4) (n - 5) / 6 facets
   Wrenches curve(6, 190);
@@ -838,7 +839,8 @@ TEST_CASE("hulls that do not exist or are too large are refused") {
       curve(k, i) = k % 2 ? std::sin(angle) : std::cos(angle);
     }
   CHECK_THROWS_WITH_AS(WrenchSpace({curve}).volume(),
-                       "wrench space: volume: the hull of 1 contacts has more than 1000000 facets",
+                       "wrench space: volume: the hull of 1 contact has more than 1000000 facets; "
+                       "give fewer edges",
                        Error);
 }
 

@@ -131,3 +131,23 @@ test("limits of torques count where they are asked for", function(t)
   for i = 1, #grasp.hand.dofs do high[i] = 1e6 end
   t.equal(status {closing_only = true}, status {closing_only = true, torque_limits = high})
 end)
+
+test("a task of no wrench resists nothing, and what is no list of numbers is told from one", function(t)
+  local grasp = closed "dlr_flask"
+  local none = {0, 0, 0, 0, 0, 0}
+  t.fails(function() grasp:resistance {wrench = none} end, "wrench: wanted a wrench that is not zero: there is nothing to resist")
+  t.fails(function() grasp:resistance {wrenches = {{1, 0, 0, 0, 0, 0}, none}} end, "wrenches[2]: wanted a wrench that is not zero")
+  t.fails(function() grasp:resistance {wrenches = {}} end, "wrenches: wanted at least one, got none")
+  t.fails(function() grasp:resistance {wrenches = none} end, "wrenches[1]: wanted a list of 6 numbers, got 0")
+  t.fails(function() grasp:resistance {wrench = {0 / 0, 0, 0, 0, 0, 0}} end, "wrench[1]: wanted a finite number, got nan")
+  t.fails(function() grasp:contact_forces {torque_limits = 1} end, "torque_limits: wanted true or a list of numbers, got 1")
+  t.fails(function() grasp:equilibrium {torque_limits = "none"} end, "torque_limits: wanted true or a list of numbers, got 'none'")
+end)
+
+test("measures of position, direction and normals are in quality_all", function(t)
+  local grasp = closed "dlr_flask"
+  local all = grasp:quality_all()
+  t.close(all.position_margin, all.epsilon * grasp.rho / math.sqrt(1 + grasp.contacts[1].mu ^ 2), 1e-12)
+  t.ok(all.orthogonality >= 0 and all.orthogonality <= math.pi / 4 + 1e-12)
+  t.ok(all.coplanarity >= 0 and all.coplanarity <= math.sqrt(1 / 3) + 1e-12)
+end)

@@ -201,6 +201,8 @@ TEST_CASE("a chart whose counts do not fit is refused in a sentence") {
           "chart: series 'b': wanted 2 values, as the first has, got 1");
   refused({.labels = {"x"}, .series = {{"a", {1, 2}}}},
           "chart: wanted 2 labels, one a value, got 1");
+  refused({.labels = {"x", "y"}, .series = {{"a", {1}}}},
+          "chart: wanted 1 label, one a value, got 2");
   refused({.series = {{"a", {1}}}}, "chart: wanted a width of 64 to 8192 pixels, got 63",
           {.width = 63});
   refused({.series = {{"a", {1}}}}, "chart: wanted a height of 64 to 8192 pixels, got 9000",

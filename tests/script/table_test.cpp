@@ -67,6 +67,8 @@ TEST_CASE("what is wrong is said with subject, wanted and got") {
   CHECK(f("{speed = 'fast'}") == "hand:autograsp: speed: wanted a number, got 'fast'");
   CHECK(f("{speed = '1'}") == "hand:autograsp: speed: wanted a number, got '1'");
   CHECK(f("{speed = 0 / 0}").starts_with("hand:autograsp: speed: wanted a finite number, got"));
+  CHECK(f("{speed = 0 / 0}").ends_with("got nan"));
+  CHECK(f("{speed = -(0 / 0)}").ends_with("got nan"));
   CHECK(f("{speed = -1 / 0}") == "hand:autograsp: speed: wanted a finite number, got -inf");
   CHECK(f("{speed = 0}") == "hand:autograsp: speed must be > 0, got 0");
   CHECK(f("{edges = 2.5}") == "hand:autograsp: edges: wanted an integer, got 2.5");
@@ -83,7 +85,7 @@ TEST_CASE("what is wrong is said with subject, wanted and got") {
   CHECK(f("{pose = {xyz = {1}}}") == "hand:autograsp: pose: xyz: wanted 3 numbers, got 1");
   CHECK(f("{dofs = {1, 2}}") == "hand:autograsp: dofs: wanted 3 numbers, got 2");
   CHECK(f("{rows = {{1, 2}, {1}}}") == "hand:autograsp: rows[2]: wanted 2 numbers, got 1");
-  CHECK(f("{rows = {1}}") == "hand:autograsp: rows[1]: wanted 2 numbers, got 1");
+  CHECK(f("{rows = {1}}") == "hand:autograsp: rows[1]: wanted a list of 2 numbers, got 1");
   CHECK(f("{name = 5}") == "hand:autograsp: name: wanted a string, got 5");
   CHECK(f("{name = 'a\\0b'}").find("without zero bytes") != std::string::npos);
   CHECK(f("{hook = 'x'}") == "hand:autograsp: hook: wanted a function, got 'x'");
