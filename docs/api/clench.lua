@@ -401,7 +401,7 @@ local virtual_contact = {}
 local contact = {}
 
 ---The patch of a soft contact by options of one's own; nil of others.
----@param options? {radius?: number, flat_radius?: number, fit?: string} # radius: how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm [m]; flat_radius: stands for a relative radius that is none, 0.02 [m]; fit: "quadric", our own, or "jet", CGAL's
+---@param options? {radius?: number, flat_radius?: number, fit?: string} # radius: how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm, an error where there is nothing to fit [m]; flat_radius: stands for a relative radius that is none, 0.02 [m]; fit: "quadric", our own, or "jet", CGAL's
 ---@return patch?
 function contact:fit_patch(options) end
 
@@ -464,9 +464,9 @@ function measures:resistance(options) end
 ---@field sharp boolean # Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that is sure to touch.
 local patch = {}
 
----Where the bodies press on each other, after the mattress model: its semi-axes along `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. At a corner, an edge or a rim the semi-axes are those of what is sure to touch: where the gap is no wider than the indentation of flat surfaces.
+---Where the bodies press on each other, after the mattress model: its semi-axes along `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the semi-axes are those of what is sure to touch, where the gap is no wider than the indentation of flat surfaces; the indentation is where the springs under the gap as it is make up the force, as far as the neighbourhood goes. `beyond_layer` says that it is more than the soft layers are high, and the model holds no longer.
 ---@param options? {force?: number, modulus?: string} # normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
----@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number} # [m], [m], [Pa], [m]
+---@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, beyond_layer: boolean} # [m], [m], [Pa], [m]
 function patch:ellipse(options) end
 
 ---The largest torque about the normal that the contact resists, at rest: mu F times the torsion radius.
