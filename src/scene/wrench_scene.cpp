@@ -14,7 +14,7 @@ namespace {
 
 constexpr double axis_reach = 1.15;                     // beyond the solid, part of its size
 constexpr double arrow_width = 0.006;                   // part of the solid's size
-constexpr double steps = 3;                             // about so many numbers along half an axis
+constexpr double steps = 4;                             // at most so many numbers along half an axis
 constexpr double tick_length = 0.025, tick_end = 0.08;  // parts of the solid's size
 constexpr int ball_rings = 24;
 
