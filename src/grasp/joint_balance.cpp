@@ -61,76 +61,102 @@ struct Row {
   double slack = 0;
 };
 
+// the rows and the efforts that they share, joint by joint
+class BalanceRows {
+ public:
+  BalanceRows(const World& world, const Grasp& grasp, const HandJacobian& jacobian)
+      : world_(world) {
+    std::vector<Id<Robot>> robots = {grasp.hand};
+    for (const JointRef& ref : jacobian.joints)
+      if (ref.robot != robots.back()) robots.push_back(ref.robot);
+    for (const Id<Robot> robot : robots) add_motors(robot);
+  }
+
+  void add(const JointRef& ref, const Eigen::VectorXd& forces, bool link_weights);
+  JointBalance finish(Eigen::Index unknown_forces) const;
+
+ private:
+  void add_motors(Id<Robot> robot) {
+    for (int i = 0; i < static_cast<int>(world_.robot(robot).dofs.size()); ++i) {
+      const double most = limit_or_none(world_.robot(robot).dofs[i].max_effort);
+      motors_[{robot, i}] = add_effort({robot, i}, -most, most);
+      tendons_.push_back(tendon_effort(world_.robot(robot), i));
+    }
+  }
+  int add_effort(const EffortRef& ref, double least, double most) {
+    refs_.push_back(ref);
+    low_.push_back(least), high_.push_back(most);
+    return static_cast<int>(refs_.size()) - 1;
+  }
+
+  const World& world_;
+  std::vector<EffortRef> refs_;
+  std::vector<double> low_, high_, tendons_;
+  std::map<std::pair<Id<Robot>, int>, int> motors_;  // of a robot's DOF: its effort
+  std::vector<Row> rows_;
+  std::map<int, int> shared_;  // the row of a DOF whose joints are coupled rigidly
+};
+
+void BalanceRows::add(const JointRef& ref, const Eigen::VectorXd& forces, bool link_weights) {
+  const Robot& robot = world_.robot(ref.robot);
+  const Chain& chain = robot.chains[ref.chain];
+  const JointSpec& joint = chain.joints[ref.joint];
+  const DofSpec& dof = robot.dofs[joint.dof];
+  const int motor = motors_.at({ref.robot, joint.dof});
+  Row row{forces, motor, joint.ratio, spring_of(robot, ref)};
+  if (link_weights) row.spring += link_weight(world_, ref);
+  if (dof.kind == DofKind::compliant) {
+    row.factor = TendonShares(robot, joint.dof).of(joint);
+    row.slack = springs_at_rest * joint.spring;
+  } else if (chain.apart[ref.joint]) {
+    row.effort = add_effort({ref.robot, joint.dof, ref}, 0, limit_or_none(dof.breakaway_torque));
+    row.factor = joint.ratio < 0 ? -1 : 1;
+  } else {
+    row.forces *= joint.ratio;
+    row.spring *= joint.ratio;
+    row.factor = 1;
+    const auto [at, fresh] = shared_.try_emplace(motor, static_cast<int>(rows_.size()));
+    if (!fresh) {
+      rows_[at->second].forces += row.forces;
+      rows_[at->second].spring += row.spring;
+      return;
+    }
+  }
+  rows_.push_back(std::move(row));
+}
+
+JointBalance BalanceRows::finish(Eigen::Index unknown_forces) const {
+  const int count = static_cast<int>(rows_.size()), efforts = static_cast<int>(refs_.size());
+  JointBalance out;
+  out.refs = refs_;
+  out.forces.resize(count, unknown_forces);
+  out.efforts = Eigen::MatrixXd::Zero(count, efforts);
+  out.springs.resize(count);
+  out.slack.resize(count);
+  for (int i = 0; i < count; ++i) {
+    out.forces.row(i) = rows_[i].forces;
+    out.efforts(i, rows_[i].effort) = rows_[i].factor;
+    out.springs[i] = rows_[i].spring;
+    out.slack[i] = rows_[i].slack;
+  }
+  const auto vector = [](const std::vector<double>& x) {
+    return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<int>(x.size()));
+  };
+  // clutches have none
+  out.tendons = Eigen::VectorXd::Zero(efforts);
+  out.tendons.head(static_cast<int>(tendons_.size())) = vector(tendons_);
+  out.low = vector(low_), out.high = vector(high_);
+  return out;
+}
+
 }  // namespace
 
 JointBalance joint_balance(const World& world, const Grasp& grasp, bool arms, bool link_weights) {
   const HandJacobian jacobian = hand_jacobian(world, grasp, {.arms = arms});
-  JointBalance out;
-  std::vector<double> low, high;
-  std::map<std::pair<Id<Robot>, int>, int> motors;  // of a robot's DOF: its effort
-  const auto effort = [&](const EffortRef& ref, double least, double most) {
-    out.refs.push_back(ref);
-    low.push_back(least), high.push_back(most);
-    return static_cast<int>(out.refs.size()) - 1;
-  };
-  std::vector<Id<Robot>> robots = {grasp.hand};
-  for (const JointRef& ref : jacobian.joints)
-    if (ref.robot != robots.back()) robots.push_back(ref.robot);
-  std::vector<double> tendons;
-  for (const Id<Robot> robot : robots)
-    for (int i = 0; i < static_cast<int>(world.robot(robot).dofs.size()); ++i) {
-      const double most = limit_or_none(world.robot(robot).dofs[i].max_effort);
-      motors[{robot, i}] = effort({robot, i}, -most, most);
-      tendons.push_back(tendon_effort(world.robot(robot), i));
-    }
-
-  std::vector<Row> rows;
-  std::map<int, int> shared;  // the row of a DOF whose joints are coupled rigidly
-  for (int k = 0; k < static_cast<int>(jacobian.joints.size()); ++k) {
-    const JointRef& ref = jacobian.joints[k];
-    const Robot& robot = world.robot(ref.robot);
-    const Chain& chain = robot.chains[ref.chain];
-    const JointSpec& joint = chain.joints[ref.joint];
-    const DofSpec& dof = robot.dofs[joint.dof];
-    const int motor = motors.at({ref.robot, joint.dof});
-    Row row{jacobian.of_joints.col(k), motor, joint.ratio, spring_of(robot, ref)};
-    if (link_weights) row.spring += link_weight(world, ref);
-    if (dof.kind == DofKind::compliant) {
-      row.factor = TendonShares(robot, joint.dof).of(joint);
-      row.slack = springs_at_rest * joint.spring;
-    } else if (chain.apart[ref.joint]) {
-      row.effort = effort({ref.robot, joint.dof, ref}, 0, limit_or_none(dof.breakaway_torque));
-      row.factor = joint.ratio < 0 ? -1 : 1;
-    } else {
-      row.forces *= joint.ratio;
-      row.spring *= joint.ratio;
-      row.factor = 1;
-      const auto [at, fresh] = shared.try_emplace(motor, static_cast<int>(rows.size()));
-      if (!fresh) {
-        rows[at->second].forces += row.forces;
-        rows[at->second].spring += row.spring;
-        continue;
-      }
-    }
-    rows.push_back(std::move(row));
-  }
-
-  const int count = static_cast<int>(rows.size());
-  out.forces.resize(count, jacobian.of_joints.rows());
-  out.efforts = Eigen::MatrixXd::Zero(count, static_cast<int>(out.refs.size()));
-  out.springs.resize(count);
-  out.slack.resize(count);
-  for (int i = 0; i < count; ++i) {
-    out.forces.row(i) = rows[i].forces;
-    out.efforts(i, rows[i].effort) = rows[i].factor;
-    out.springs[i] = rows[i].spring;
-    out.slack[i] = rows[i].slack;
-  }
-  tendons.resize(out.refs.size(), 0);
-  out.tendons = Eigen::Map<const Eigen::VectorXd>(tendons.data(), static_cast<int>(tendons.size()));
-  out.low = Eigen::Map<const Eigen::VectorXd>(low.data(), static_cast<int>(low.size()));
-  out.high = Eigen::Map<const Eigen::VectorXd>(high.data(), static_cast<int>(high.size()));
-  return out;
+  BalanceRows rows(world, grasp, jacobian);
+  for (int k = 0; k < static_cast<int>(jacobian.joints.size()); ++k)
+    rows.add(jacobian.joints[k], jacobian.of_joints.col(k), link_weights);
+  return rows.finish(jacobian.of_joints.rows());
 }
 
 }  // namespace clench

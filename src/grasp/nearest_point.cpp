@@ -42,11 +42,54 @@ bool nearest_shares(const Eigen::MatrixXd& corners, Eigen::VectorXd& shares) {
   return true;
 }
 
-void keep_only(const std::vector<int>& kept, Eigen::MatrixXd& corners, Eigen::VectorXd& shares) {
-  corners = corners(Eigen::all, kept).eval();
-  shares = shares(kept).eval();
-  shares /= shares.sum();
-}
+// points of the set, a column each, and their shares in the nearest point so far
+struct Simplex {
+  Eigen::MatrixXd corners;
+  Eigen::VectorXd shares;
+
+  Eigen::VectorXd point() const { return corners * shares; }
+
+  void add(const Eigen::VectorXd& corner) {
+    corners.conservativeResize(Eigen::NoChange, corners.cols() + 1);
+    corners.rightCols(1) = corner;
+    shares.conservativeResize(shares.size() + 1);
+    shares[shares.size() - 1] = 0;
+  }
+
+  template <class Keep>
+  void keep_where(Keep keep) {
+    std::vector<int> kept;
+    for (int i = 0; i < shares.size(); ++i)
+      if (keep(i)) kept.push_back(i);
+    corners = corners(Eigen::all, kept).eval();
+    shares = shares(kept).eval();
+    shares /= shares.sum();
+  }
+
+  // Shares of the point nearest to the origin, without the corners that are not of it.
+  // returns  false when rounding leaves no simplex: the last corner adds nothing
+  bool settle() {
+    Eigen::VectorXd wanted;
+    while (nearest_shares(corners, wanted)) {
+      if (wanted.minCoeff() > 0) {
+        shares = wanted;
+        return true;
+      }
+      // as far towards it as all shares stay
+      double part = 2;  // all are at most 1
+      int blocking = 0;
+      for (int i = 0; i < wanted.size(); ++i) {
+        if (wanted[i] > 0) continue;
+        const double ratio = std::max(0.0, shares[i] / (shares[i] - wanted[i]));
+        if (ratio < part) part = ratio, blocking = i;
+      }
+      shares += part * (wanted - shares);
+      keep_where([&](int i) { return i != blocking; });
+    }
+    keep_where([&](int i) { return shares[i] > 0; });
+    return false;
+  }
+};
 
 }  // namespace
 
@@ -57,8 +100,8 @@ NearestPoint nearest_point(const SupportSet& set, const Eigen::VectorXd& place, 
     set.support(direction.data(), point.data());
     return Eigen::VectorXd(point - place);
   };
-  Eigen::MatrixXd corners = reach(Eigen::VectorXd::Ones(d));
-  Eigen::VectorXd shares = Eigen::VectorXd::Ones(1), point = corners.col(0);
+  Simplex simplex{reach(Eigen::VectorXd::Ones(d)), Eigen::VectorXd::Ones(1)};
+  Eigen::VectorXd point = simplex.corners.col(0);
   int idle = 0;
   for (int step = 0; step < most_steps; ++step) {
     const double distance = point.norm();
@@ -66,43 +109,9 @@ NearestPoint nearest_point(const SupportSet& set, const Eigen::VectorXd& place, 
     const Eigen::VectorXd next = reach(-point / distance);
     // no point of the set is nearer than this along the way
     if (point.dot(point - next) <= noise * distance) break;
-    corners.conservativeResize(Eigen::NoChange, corners.cols() + 1);
-    corners.rightCols(1) = next;
-    shares.conservativeResize(shares.size() + 1);
-    shares[shares.size() - 1] = 0;
-
-    Eigen::VectorXd wanted;
-    bool stuck = false;
-    while (true) {
-      if (!nearest_shares(corners, wanted)) {
-        // rounding: the new point adds nothing
-        stuck = true;
-        break;
-      }
-      if (wanted.minCoeff() > 0) break;
-      // as far towards it as all shares stay
-      double part = 2;  // all are at most 1
-      int blocking = 0;
-      for (int i = 0; i < wanted.size(); ++i) {
-        if (wanted[i] > 0) continue;
-        const double ratio = std::max(0.0, shares[i] / (shares[i] - wanted[i]));
-        if (ratio < part) part = ratio, blocking = i;
-      }
-      shares += part * (wanted - shares);
-      std::vector<int> kept;
-      for (int i = 0; i < shares.size(); ++i)
-        if (i != blocking) kept.push_back(i);
-      keep_only(kept, corners, shares);
-    }
-    if (stuck) {
-      std::vector<int> kept;
-      for (int i = 0; i < shares.size(); ++i)
-        if (shares[i] > 0) kept.push_back(i);
-      keep_only(kept, corners, shares);
-      break;
-    }
-    shares = wanted;
-    const Eigen::VectorXd now = corners * shares;
+    simplex.add(next);
+    if (!simplex.settle()) break;
+    const Eigen::VectorXd now = simplex.point();
     const bool nearer = now.norm() < distance;
     point = now;
     // the new point was all that could be gained
@@ -111,8 +120,8 @@ NearestPoint nearest_point(const SupportSet& set, const Eigen::VectorXd& place, 
   NearestPoint out;
   out.distance = point.norm();
   out.point = point + place;
-  out.corners = corners.colwise() + place;
-  out.shares.assign(shares.data(), shares.data() + shares.size());
+  out.corners = simplex.corners.colwise() + place;
+  out.shares.assign(simplex.shares.data(), simplex.shares.data() + simplex.shares.size());
   return out;
 }
 

@@ -147,9 +147,58 @@ bool any_moved(const Robot& before, const Robot& now) {
   return false;
 }
 
-void give_up(DriveResult& result, const Eigen::VectorXd& rates) {
+// all that were on their way
+void stop_all(DriveResult& result, const Eigen::VectorXd& rates, DofStop why) {
   for (int i = 0; i < rates.size(); ++i)
-    if (rates[i] != 0) result.stops[i] = DofStop::gave_up;
+    if (rates[i] != 0) result.stops[i] = why;
+}
+
+// of what was asked for, what has somewhere to go
+void stop_arrived(const Drive& drive, Eigen::VectorXd& rates, DriveResult& result) {
+  for (int i = 0; i < rates.size(); ++i) {
+    const double way = drive.targets[i] - drive.q[i];
+    if (rates[i] * way > 0) continue;
+    if (rates[i] != 0) {
+      const auto [low, high] = drive.robot().limits[i];
+      result.stops[i] = drive.q[i] == low || drive.q[i] == high ? DofStop::limit : DofStop::reached;
+    }
+    rates[i] = 0;
+  }
+}
+
+// Goes from event to event until nothing moves. `rates` are of the fastest DOF.
+void drive_on(Drive& drive, const Eigen::VectorXd& all_rates, const DriveOptions& options,
+              DriveResult& result) {
+  const bool sprung = std::ranges::any_of(
+      drive.robot().dofs, [](const DofSpec& dof) { return dof.kind == DofKind::compliant; });
+  const double closed = 2 * nearly_closed * drive.world.contact_threshold();
+  int unrest = 0;
+  while (true) {
+    re_engage(drive);
+    const Springs springs = sprung ? settle(drive, options, result) : Springs::at_rest;
+    if (springs == Springs::stopped) return stop_all(result, all_rates, DofStop::contact);
+    // who has somewhere to go, and is not blocked
+    Eigen::VectorXd rates = all_rates;
+    stop_arrived(drive, rates, result);
+    result.stopped_by = stop_blocked(drive, rates, closed, result.stops);
+    if (rates.isZero(0)) {
+      if (springs == Springs::at_rest) return;
+      if (++unrest <= most_unrest) continue;
+      for (int i = 0; i < rates.size(); ++i)
+        if (drive.sprung(i)) result.stops[i] = DofStop::gave_up;
+      return;
+    }
+    if (result.events >= most_events) return stop_all(result, rates, DofStop::gave_up);
+
+    const Advance end = follow(drive, rates, result.queries);
+    if (end.gave_up) return stop_all(result, rates, DofStop::gave_up);
+    if (!end.stopped_by) continue;
+    ++result.events;
+    if (options.stop_at_contact && !end.stopped_by->touching) {
+      result.stopped_by = {{end.stopped_by->a, end.stopped_by->b}};
+      return stop_all(result, rates, DofStop::contact);
+    }
+  }
 }
 
 }  // namespace
@@ -170,55 +219,7 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
   const Robot start = robot;
   DriveResult result;
   result.stops.assign(robot.dofs.size(), DofStop::still);
-  int unrest = 0;
-  const bool sprung = std::ranges::any_of(
-      robot.dofs, [](const DofSpec& dof) { return dof.kind == DofKind::compliant; });
-  while (true) {
-    re_engage(drive);
-    const Springs springs = sprung ? settle(drive, options, result) : Springs::at_rest;
-    if (springs == Springs::stopped) {
-      for (int i = 0; i < motion.rates.size(); ++i)
-        if (motion.rates[i] != 0) result.stops[i] = DofStop::contact;
-      break;
-    }
-    // who has somewhere to go, and is not blocked
-    Eigen::VectorXd rates = motion.rates / pace;
-    for (int i = 0; i < rates.size(); ++i) {
-      const double way = drive.targets[i] - drive.q[i];
-      if (rates[i] * way > 0) continue;
-      if (rates[i] != 0) {
-        const auto [low, high] = robot.limits[i];
-        result.stops[i] =
-            drive.q[i] == low || drive.q[i] == high ? DofStop::limit : DofStop::reached;
-      }
-      rates[i] = 0;
-    }
-    const double closed = 2 * nearly_closed * world.contact_threshold();
-    result.stopped_by = stop_blocked(drive, rates, closed, result.stops);
-    if (rates.isZero(0)) {
-      if (springs == Springs::at_rest) break;
-      if (++unrest <= most_unrest) continue;
-      for (int i = 0; i < rates.size(); ++i)
-        if (drive.sprung(i)) result.stops[i] = DofStop::gave_up;
-      break;
-    }
-    if (result.events >= most_events) {
-      give_up(result, rates);
-      break;
-    }
-
-    const Advance end = follow(drive, rates, result.queries);
-    if (end.gave_up) give_up(result, rates);
-    if (end.gave_up) break;
-    if (!end.stopped_by) continue;
-    ++result.events;
-    if (options.stop_at_contact && !end.stopped_by->touching) {
-      result.stopped_by = {{end.stopped_by->a, end.stopped_by->b}};
-      for (int i = 0; i < rates.size(); ++i)
-        if (rates[i] != 0) result.stops[i] = DofStop::contact;
-      break;
-    }
-  }
+  drive_on(drive, motion.rates / pace, options, result);
   drive.place();
   result.moved = any_moved(start, drive.robot());
   return result;

@@ -1,9 +1,9 @@
-// wrench_space and its projections.
+// wrench_space: which wrenches contacts resist.
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 
-#include "grasp/projection.h"
 #include "grasp/wrench_space.h"
 #include "script/bind_mesh.h"
 #include "script/table.h"
@@ -11,12 +11,6 @@
 namespace clench {
 
 using WrenchSpacePtr = std::shared_ptr<const WrenchSpace>;
-
-struct ProjectionHandle {
-  std::shared_ptr<const Projection> projection;
-  ShapePtr shape;  ///< null when it is flat
-  WrenchSpacePtr space;
-};
 
 /// `edges`: an integer or "exact"; empty when absent.
 /// throws  Error "...: edges must be 3 to 1000 or 'exact', got 2"
@@ -26,16 +20,17 @@ bool is_gyration(Table& options);
 /// `norm` and `coordinates`
 WrenchSpaceOptions read_space_options(Table& options);
 
-extern const Class wrench_space_class, projection_class;
+/// a list of names of coordinates; empty when absent
+std::optional<std::vector<int>> read_coordinates(Table& options, const char* key);
+int push_coordinate_names(lua_State* L, std::span<const int> coordinates);
+const char* norm_name(const WrenchSpace& s);
+
+extern const Class wrench_space_class;
 extern const Library wrench_space_library;
 
 template <>
 inline const Class& class_of<WrenchSpacePtr>() {
   return wrench_space_class;
-}
-template <>
-inline const Class& class_of<ProjectionHandle>() {
-  return projection_class;
 }
 
 }  // namespace clench

@@ -17,6 +17,7 @@
 #include "script/bind_mesh.h"
 #include "script/bind_patch.h"
 #include "script/bind_pose.h"
+#include "script/bind_projection.h"
 #include "script/bind_random.h"
 #include "script/bind_render.h"
 #include "script/bind_units.h"
