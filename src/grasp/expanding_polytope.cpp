@@ -52,8 +52,9 @@ class Growing {
  private:
   double support(const double* direction, double* point);
   SimplexEnd start(double zero);
-  double settle_plane(int index);
-  void grow(int first, const double* point);
+  void raise_walls();
+  double settle_plane(int index, double unless);
+  void grow(int first, const double* point, bool at_infinity = false);
   void wait(int index) {
     const double offset = complex_.facet(index).offset();
     // a facet beyond the upper bound will not decide
@@ -72,6 +73,7 @@ class Growing {
   // the least support so far
   double upper_ = infinite, direction_[D];
   double limit_ = infinite;
+  bool walled_ = false;
 };
 
 // The set's own support, for the upper bound; the point may be shifted, always the same point alike.
@@ -114,22 +116,46 @@ SimplexEnd Growing<D>::start(double zero) {
   return simplex.end;
 }
 
+// The walls of the cone of directions that need be searched become points at infinity: no facet faces
+// along one of them then, so that all facets face into the cone.
+template <int D>
+void Growing<D>::raise_walls() {
+  const DirectionCone cone = set_.least_support_cone();
+  for (int i = 0; i < cone.walls; ++i) {
+    int first = -1;
+    double most = seen;
+    for (int index = 0; index < complex_.facet_count(); ++index) {
+      const auto& facet = complex_.facet(index);
+      const double faces = dot<D>(facet.plane.x, cone.wall[i]);
+      if (facet.alive() && faces > most) most = faces, first = index;
+    }
+    if (first < 0) continue;
+    grow(first, cone.wall[i], true);
+    walled_ = true;
+  }
+}
+
 // Turns the plane of a facet into the one that its corners span, as far as they do, and moves it in front of them.
+// unless   it is within that of them
 // returns  how far the worst corner lies from it
 template <int D>
-double Growing<D>::settle_plane(int index) {
+double Growing<D>::settle_plane(int index, double unless) {
   auto& facet = complex_.facet(index);
-  double points[D][D];
-  for (int k = 0; k < D; ++k) std::copy_n(complex_.point(facet.corner[k]).x, D, points[k]);
-  Spread spread = spread_along<D>(facet.plane.x, points);
-  if (spread.width() > seen) spread = true_normal<D>(facet.plane.x, points);
+  FacetCorners<D> corners;
+  for (int k = 0; k < D; ++k) {
+    const Eight& point = complex_.point(facet.corner[k]);
+    std::copy_n(point.x, D, corners.x[k]);
+    corners.at_infinity[k] = point.x[behind] == 0;
+  }
+  Spread spread = spread_along<D>(facet.plane.x, corners);
+  if (spread.width() > unless) spread = true_normal<D>(facet.plane.x, corners);
   facet.plane.x[behind] = -spread.low;
   return spread.width();
 }
 
 template <int D>
-void Growing<D>::grow(int first, const double* point) {
-  complex_.grow(first, point);
+void Growing<D>::grow(int first, const double* point, bool at_infinity) {
+  complex_.grow(first, point, at_infinity);
   for (const int gone : complex_.gone()) waiting_.drop(gone);
   for (const int made : complex_.made()) wait(made);
 }
@@ -154,6 +180,8 @@ Ball Growing<D>::ball(const BallOptions& options) {
     default:
       break;
   }
+  // what breaks with them may hold without
+  if (attempt_ == 0 && options.at_least <= 0) raise_walls();
   double p[D];
   while (true) {
     limit_ = upper_;
@@ -162,7 +190,7 @@ Ball Growing<D>::ball(const BallOptions& options) {
     if (nearest < 0) return ended(BallEnd::inside, upper_);
     const auto& facet = complex_.facet(nearest);
     const double believed = facet.offset();
-    if (settle_plane(nearest) > plane_noise) throw BrokenSurface();
+    if (settle_plane(nearest, seen) > plane_noise) throw BrokenSurface();
     if (facet.offset() > believed + plane_noise) {
       waiting_.drop(nearest);
       wait(nearest);
@@ -172,7 +200,11 @@ Ball Growing<D>::ball(const BallOptions& options) {
     const double reach = support(facet.plane.x, p);
     const double lower = lower_ = std::min(facet.offset(), upper_);
     if (upper_ <= options.zero) return ended(BallEnd::outside, lower);
-    if (upper_ - lower <= enough(options.tolerance)) return ended(BallEnd::inside, lower);
+    if (upper_ - lower <= enough(options.tolerance)) {
+      // walls are as good as an isometry, points to the last digit
+      if (walled_) settle_plane(nearest, 0), support(facet.plane.x, p);
+      return ended(BallEnd::inside, std::min(lower, upper_));
+    }
     if (options.at_least > 0 && (lower - slack() >= options.at_least || upper_ < options.at_least))
       return ended(BallEnd::decided, lower);
     if (complex_.point_count() >= options.most_points ||
