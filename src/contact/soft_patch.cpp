@@ -200,6 +200,8 @@ struct PatchFrames {
     X_AP_b = {Eigen::Quaterniond(axes), site.centre_A};
     for (const Vector3d& p : site.points_A) sites.push_back((X_AP_b.inverse() * p).head<2>());
   }
+  Eigen::Matrix<double, 3, 2> plane() const { return axes.leftCols<2>(); }
+
   Matrix3d axes;  // as b sees it
   Pose X_AP_a, X_AP_b;
   std::vector<Vector2d> sites;  // as b sees them
@@ -212,11 +214,47 @@ PatchRays as_a_sees(PatchRays rays) {
 
 }  // namespace
 
+static void check_points(const SoftPatch& patch) {
+  const size_t fewest = std::min(patch.points[0].size(), patch.points[1].size());
+  if (fewest >= least_points) return;
+  fail(
+      "contact patch: a fit needs {} points of each surface, and within radius {} [m] one has {}; "
+      "wanted more than the gap, and no more than the bodies",
+      least_points, patch.radius, fewest);
+}
+
+// the patch's directions, the first at an angle in the plane, and the gap and the rim on rays along them
+static void look_along(double angle, const PatchFrames& frames, std::array<Side, 2>& sides,
+                       SoftPatch& patch) {
+  const auto plane = frames.plane();
+  patch.directions.col(0) = plane * Vector2d(std::cos(angle), std::sin(angle));
+  patch.directions.col(1) = plane * Vector2d(-std::sin(angle), std::cos(angle));
+  const PatchRays rays =
+      patch_rays(plane.transpose() * patch.directions.col(0), frames.sites, patch.radius);
+  const PatchRays rays_a = as_a_sees(rays);
+  const RayHeights heights_a = ray_heights(sides[0].sheet, rays_a);
+  const RayHeights heights_b = ray_heights(sides[1].sheet, rays);
+  patch.gap = gap_profile(rays_a, heights_a, heights_b);
+  patch.rim = patch_rim(heights_a.rim, heights_b.rim, rays.known);
+}
+
+// of curvatures in descending order
+static void set_radii(const std::array<double, 2>& curvatures, double flat_radius,
+                      SoftPatch& patch) {
+  patch.flat_radius = flat_radius;
+  for (int i = 0; i < 2; ++i) {
+    patch.flat[i] = !(curvatures[i] > 1 / flattest_radius);
+    patch.relative_radii[i] = relative_radius(curvatures[i], flat_radius);
+  }
+  patch.relative_radii[1] = std::max(patch.relative_radii[0], patch.relative_radii[1]);
+}
+
 SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
   check(options);
   const double radius = options.radius.value_or(site.radius);
-  const auto [axes_b, X_AP_a, X_AP_b, sites] = PatchFrames(site);
-  const PatchLattice lattice_b = patch_lattice(sites, radius);
+  const PatchFrames frames(site);
+  const Pose &X_AP_a = frames.X_AP_a, &X_AP_b = frames.X_AP_b;
+  const PatchLattice lattice_b = patch_lattice(frames.sites, radius);
   // the same places, numbered alike, as a sees them
   PatchLattice lattice_a = lattice_b;
   for (auto& p : lattice_a.places) p.y() = -p.y();
@@ -226,6 +264,7 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
       make_side(*site.b, X_AP_b.inverse() * site.X_AB, X_AP_b, site, lattice_b, options.fit)};
 
   SoftPatch patch;
+  patch.site = site;
   patch.centre_A = site.centre_A;
   patch.normal_A = site.normal_A;
   patch.radius = radius;
@@ -238,45 +277,21 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
     patch.crease = std::max(patch.crease, sides[i].crease);
   }
 
-  patch.site = site;
-  const size_t fewest = std::min(patch.points[0].size(), patch.points[1].size());
-  if (options.radius && fewest < least_points)
-    fail(
-        "contact patch: a fit needs {} points of each surface, and within radius {} [m] one has "
-        "{}; "
-        "wanted more than the gap, and no more than the bodies",
-        least_points, radius, fewest);
+  if (options.radius) check_points(patch);
 
   // the gap between the surfaces bends by the sum of both
-  const Eigen::Matrix<double, 3, 2> plane = axes_b.leftCols<2>();
+  const Eigen::Matrix<double, 3, 2> plane = frames.plane();
   const Matrix2d form = curvature_form(patch.surfaces[0], -site.normal_A, plane) +
                         curvature_form(patch.surfaces[1], site.normal_A, plane);
   const double mean = 0.5 * form.trace(), half = 0.5 * (form(0, 0) - form(1, 1));
   const double spread = std::hypot(half, form(0, 1));
   // of what bends alike any will do
   const double angle = spread * radius > 1e-6 ? 0.5 * std::atan2(form(0, 1), half) : 0;
-  const auto look_along = [&](double first) {
-    patch.directions.col(0) = plane * Vector2d(std::cos(first), std::sin(first));
-    patch.directions.col(1) = plane * Vector2d(-std::sin(first), std::cos(first));
-    PatchRays rays = patch_rays(plane.transpose() * patch.directions.col(0), sites, radius);
-    const RayHeights heights_b = ray_heights(sides[1].sheet, rays);
-    const PatchRays rays_a = as_a_sees(rays);
-    const RayHeights heights_a = ray_heights(sides[0].sheet, rays_a);
-    patch.gap = gap_profile(rays_a, heights_a, heights_b);
-    patch.rim = patch_rim(heights_a.rim, heights_b.rim, rays.known);
-  };
-  look_along(angle);
+  look_along(angle, frames, sides, patch);
   // so the rim tells them, where there is one
   if (spread <= alike * std::max(mean, 1 / flattest_radius) && patch.rim.any_ended())
-    look_along(angle + rim_angle(patch.rim));
-  const std::array<double, 2> curvatures = {mean + spread, mean - spread};
-  patch.flat_radius = options.flat_radius;
-  for (int i = 0; i < 2; ++i) {
-    patch.flat[i] = !(curvatures[i] > 1 / flattest_radius);
-    patch.relative_radii[i] = relative_radius(curvatures[i], options.flat_radius);
-  }
-  patch.relative_radii[1] = std::max(patch.relative_radii[0], patch.relative_radii[1]);
-
+    look_along(angle + rim_angle(patch.rim), frames, sides, patch);
+  set_radii({mean + spread, mean - spread}, options.flat_radius, patch);
   patch.sharp = meeting(patch, shallowest(patch)).unlike > 0.5;
   return patch;
 }

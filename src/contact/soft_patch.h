@@ -66,8 +66,10 @@ struct SoftPatch {
   /// less than the first. From flattest_radius on the one goes over into the other.
   std::array<double, 2> relative_radii = {};
   std::array<bool, 2> flat = {};
-  Eigen::Matrix<double, 3, 2> directions;  ///< unit, orthogonal to each other and to the normal
-  double flat_radius = 0.02;               ///< as it was asked for [m]
+  /// Unit, orthogonal to each other and to the normal. Where the gap bends alike in all directions, to
+  /// 5 %, they are those of the rim, if there is one near.
+  Eigen::Matrix<double, 3, 2> directions;
+  double flat_radius = 0.02;  ///< as it was asked for [m]
   /// As it is, its first ray along directions.col(0); none: as the radii have it.
   std::optional<GapProfile> gap = {};
   PatchRim rim;   ///< on the rays of the gap

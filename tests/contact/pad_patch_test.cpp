@@ -187,6 +187,43 @@ TEST_CASE("a disc bounds its circle by its radius, in the middle and at its rim"
         }
 }
 
+TEST_CASE("in no direction is a patch wider than a pad of any outline, wherever it is touched") {
+  Random random(7);
+  double widest = 0, narrowest = 2;
+  for (int trial = 0; trial < test::cases(300); ++trial) {
+    // corners of an ellipse at uneven angles: convex, and around the origin
+    const int corners = 5 + trial % 6;
+    const double size = random.uniform(0.0015, 0.008), ratio = random.uniform(0.4, 1);
+    std::vector<Vector2d> outline;
+    for (int i = 0; i < corners; ++i) {
+      const double a = 2 * pi * (i + random.uniform(-0.35, 0.35)) / corners;
+      outline.push_back({size * std::cos(a), ratio * size * std::sin(a)});
+    }
+    const double part = random.uniform(0, 0.9);
+    const Vector2d place = part * outline[trial % corners];
+    const double turn = random.uniform(0, 6), force = std::exp(random.uniform(-2, 4));
+    const SoftPatch patch =
+        patch_at(wide_floor(), pad_of(outline, 0.004, 1 + trial % 3), turn, place);
+    const Eigen::Rotation2Dd turned(turn);
+    for (int i = 0; i < 90; ++i) {
+      const Vector2d d(std::cos(pi * i / 90), std::sin(pi * i / 90));
+      double low = 0, high = 0;
+      for (const Vector2d& p : outline) {
+        const double at = (turned * p).dot(d);
+        low = std::min(low, at), high = std::max(high, at);
+      }
+      const double reach = reach_of(patch, force, {d.x(), d.y(), 0});
+      widest = std::max(widest, reach / ((high - low) / 2));
+    }
+    // and not much smaller than it may be
+    const Vector2d axes = axes_of(patch, force);
+    narrowest = std::min(narrowest, std::sqrt(axes[0] * axes[1]) /
+                                        std::min(blunt_axis(force), std::sqrt(ratio) * size));
+  }
+  CHECK(widest < 1.01);
+  CHECK(narrowest > 0.5);
+}
+
 TEST_CASE("a pad on a large cylinder ends at its rim along the axis and across it") {
   for (const double radius : {0.05, 0.1, 0.3})
     for (const double half : {0.002, 0.003, 0.006})
