@@ -482,7 +482,7 @@ function patch:torsion_limit(options) end
 ---@field points {point: vec3, normal: vec3, mu: number, torsion_radius: number}[] # The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers. [m]
 ---@field rho number # Length that torques are divided by. [m]
 ---@field edges integer|string # Edges of each friction pyramid, or "exact".
----@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number, modulus: string} # What clench.grasp takes to measure another grasp alike. rho [m], normal_force [N]
+---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # What clench.grasp takes to measure another grasp alike. rho [m], normal_force [N]
 local grasp = {}
 
 ---Can it resist every wrench?
@@ -640,7 +640,7 @@ function clench.load(path, options) end
 ---The grasp of a hand on an object as it is now. No contact is no error: such a grasp resists nothing.
 ---@param hand robot
 ---@param object body
----@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number, modulus?: string} # edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N]; modulus: as of `patch:ellipse`
+---@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string} # edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N], or a list of one a contact; modulus: as of `patch:ellipse`
 ---@return grasp
 function clench.grasp(hand, object, options) end
 

@@ -168,7 +168,7 @@ void check_options(const World& world, const Grasp& grasp, const ForceOptions& o
       refuse(fmt::format("{} must be > 0 [{}], got {}", name, unit, *x));
   };
   const auto& caps = options.max_force.values;
-  if (caps.size() > 1 && caps.size() != grasp.points.size())
+  if (!options.max_force.fits(grasp.points.size()))
     refuse(fmt::format("max_force: wanted one number or {}, one a contact, got {}",
                        grasp.points.size(), caps.size()));
   for (const double cap : caps) positive("max_force", cap, "N");

@@ -31,22 +31,11 @@ struct JointDemand {
   bool link_weights = false;  ///< motors hold the links up as well, and what robots they carry
 };
 
-/// Caps of normal forces, > 0 [N]: none, one for all contacts, or one a contact.
-struct ForceCaps {
-  std::vector<double> values = {};
-
-  ForceCaps() = default;
-  ForceCaps(double all) : values{all} {}
-  ForceCaps(std::vector<double> each) : values(std::move(each)) {}
-  explicit operator bool() const { return !values.empty(); }
-  double of(int contact) const { return values.size() == 1 ? values[0] : values[contact]; }
-};
-
 struct ForceOptions {
   /// on the object from outside, world axes, torque about its centre of mass [N, N m]
   Vector6d load = Vector6d::Zero();
   ForceObjective objective = ForceObjective::least;
-  ForceCaps max_force = {};                    ///< of each normal force
+  PerContact max_force = {};                   ///< caps of normal forces, > 0 [N]
   std::optional<double> max_total_force = {};  ///< of their sum, > 0 [N]
   std::optional<double> total_force = {};      ///< their sum is this, > 0 [N]
   std::optional<JointDemand> joints = {};      ///< empty: forces need no motor

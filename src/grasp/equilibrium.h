@@ -14,7 +14,7 @@ enum class EquilibriumStatus {
 struct EquilibriumOptions {
   Vector6d load = Vector6d::Zero();  ///< as in ForceOptions
   JointDemand joints = {};           ///< by default the motors' own limits
-  ForceCaps max_force = {};          ///< of each normal force
+  PerContact max_force = {};         ///< caps of normal forces, > 0 [N]
 };
 
 struct Equilibrium {

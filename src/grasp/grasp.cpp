@@ -10,17 +10,16 @@ namespace clench {
 
 // contacts that share a site have one patch
 static void add_torsion(Grasp& grasp, const GraspOptions& options) {
-  std::map<const SoftSite*, std::pair<double, bool>> known;  // radius, is it sharp?
+  std::map<const SoftSite*, SoftPatch> known;
   for (size_t i = 0; i < grasp.contacts.size(); ++i) {
     const SoftSite* const site = grasp.contacts[i].site.get();
     if (!site) continue;
     const auto [found, is_new] = known.try_emplace(site);
-    if (is_new) {
-      const SoftPatch patch = soft_patch(*site);
-      found->second = {torsion_radius(patch, options.normal_force, options.modulus), patch.sharp};
-    }
-    grasp.points[i].torsion_radius = found->second.first;
-    grasp.sharp_contacts += found->second.second;
+    SoftPatch& patch = found->second;
+    if (is_new) patch = soft_patch(*site);
+    grasp.points[i].torsion_radius =
+        torsion_radius(patch, options.normal_force.of(static_cast<int>(i)), options.modulus);
+    grasp.sharp_contacts += patch.sharp;
   }
 }
 
@@ -70,8 +69,11 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
     refuse(fmt::format("edges must be 3 to {}, got {}", most_edges, options.edges));
   if (options.rho && !(std::isfinite(*options.rho) && *options.rho > 0))
     refuse(fmt::format("rho must be > 0 [m], got {}", *options.rho));
-  if (!(std::isfinite(options.normal_force) && options.normal_force > 0))
-    refuse(fmt::format("the normal force must be > 0 [N], got {}", options.normal_force));
+  // of many contacts some may carry nothing
+  const auto& forces = options.normal_force.values;
+  for (const double force : forces)
+    if (!(std::isfinite(force) && (force > 0 || (force == 0 && forces.size() > 1))))
+      refuse(fmt::format("the normal force must be > 0 [N], got {}", force));
 
   Grasp grasp;
   grasp.hand = hand;
@@ -94,6 +96,9 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
     grasp.points.push_back({.p_O = X_OW * contact.p_W,
                             .n_O = (X_OW.rotation * contact.n_W).normalized(),
                             .mu = contact.friction.statics});
+  if (forces.empty() || !options.normal_force.fits(grasp.contacts.size()))
+    refuse(fmt::format("normal_force: wanted one number or {}, one a contact, got {}",
+                       grasp.contacts.size(), forces.size()));
   if (options.soft) add_torsion(grasp, options);
   return grasp;
 }

@@ -1,5 +1,6 @@
 // A grasp: one hand, one object, the contacts between them.
 #pragma once
+#include "grasp/per_contact.h"
 #include "grasp/wrench_space.h"
 #include "model/find.h"
 
@@ -15,8 +16,8 @@ struct GraspOptions {
   int edges = 8;                   ///< of the friction pyramids; round_edges: round cones
   std::optional<double> rho = {};  ///< torque length [m]; default: that of the object
   TorqueLength length = TorqueLength::largest_radius;
-  bool soft = true;         ///< soft contacts resist turns about their normals; else all are points
-  double normal_force = 5;  ///< at which they are judged, > 0 [N]
+  bool soft = true;  ///< soft contacts resist turns about their normals; else all are points
+  PerContact normal_force = 5;  ///< at which they are judged, > 0, one a contact >= 0 [N]
   ModulusRule modulus = ModulusRule::series;
 };
 
@@ -45,8 +46,8 @@ struct Grasp {
 };
 
 /// The contacts of palm, links and mount with the object, now. None is no error: such a grasp resists nothing.
-/// throws Error when edges are neither 3 to most_edges nor round_edges, rho <= 0, the normal force is
-///        not > 0 or the object is a part of a robot
+/// throws Error when edges are neither 3 to most_edges nor round_edges, rho <= 0, normal forces are
+///        not > 0 or not as many as the contacts, or the object is a part of a robot
 Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
                     const GraspOptions& options = {});
 

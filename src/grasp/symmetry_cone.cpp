@@ -48,75 +48,117 @@ bool within(const Vector& a, const Vector& b, double distance) {
   return dot(d, d) <= distance * distance;
 }
 
-// Products of all points with all, and classes of points: only those of one class may be exchanged, since
-// isometries of the set leave any sum over a point's products alone.
+// Points by classes: isometries of the set leave any sum over a point's products with all points alone, so only
+// those of one class may be exchanged. Points have new numbers here, class after class.
 class PointClasses {
  public:
   PointClasses(const TellingPoints& points, double longest);
 
-  float product(int i, int j) const { return products_[static_cast<size_t>(i) * row_ + j]; }
-  bool alone(int i) const { return end_[i] - begin_[i] == 1; }
-  std::span<const int> of(int i) const {
-    return std::span(points_).subspan(begin_[i], end_[i] - begin_[i]);
-  }
-  /// those of the smallest classes first
-  std::vector<int> rarest_first() const;
+  struct Range {
+    int begin, end;
+    int size() const { return end - begin; }
+  };
+  Range of(int point) const { return classes_[class_of_[point]]; }
+  std::vector<Range> rarest_first() const;
+  /// the number that a point was given with
+  int given(int point) const { return given_[point]; }
+  /// Leaves those of a class whose products with some points are as those of a point with others.
+  void fitting(Range all, int point, std::span<const int> others, std::span<const int> with,
+               std::vector<int>& out);
 
  private:
   static constexpr int lanes = 16;
-  int row_;
-  std::vector<float> products_;
-  std::vector<int> points_, begin_, end_;  // by class; where each point's class is there
+  const float* products(int point);
+  void multiply(int point, float* out) const;
+
+  int count_, row_;
+  std::vector<float> x_;         // most_dimensions rows of row_
+  std::vector<float> products_;  // rows of row_, when have_ says so
+  std::vector<char> have_;
+  std::vector<int> given_, class_of_, fits_;
+  std::vector<Range> classes_;
 };
 
 PointClasses::PointClasses(const TellingPoints& points, double longest)
-    : row_((points.count + lanes - 1) / lanes * lanes),
-      points_(points.count),
-      begin_(points.count),
-      end_(points.count) {
-  const int count = points.count;
+    : count_(points.count), row_((count_ + lanes - 1) / lanes * lanes) {
   // zeros beyond the last point and the dimension
-  std::vector<float> x(static_cast<size_t>(row_) * most_dimensions);
-  for (int row = 0; row < points.dimension; ++row)
-    for (int i = 0; i < count; ++i)
-      x[row * row_ + i] = static_cast<float>(points.coordinates[row * points.stride + i] / longest);
-  products_.resize(static_cast<size_t>(count) * row_);
-  std::vector<std::pair<float, int>> marks(count);
-  for (int i = 0; i < count; ++i) {
-    float* t = &products_[static_cast<size_t>(i) * row_];
-    float own[most_dimensions], sums[lanes] = {};
-    for (int row = 0; row < most_dimensions; ++row) own[row] = x[row * row_ + i];
+  x_.resize(static_cast<size_t>(row_) * most_dimensions);
+  for (int k = 0; k < points.dimension; ++k)
+    for (int i = 0; i < count_; ++i)
+      x_[k * row_ + i] = static_cast<float>(points.coordinates[k * points.stride + i] / longest);
+
+  std::vector<std::pair<float, int>> marks(count_);
+  std::vector<float> products(row_);
+  for (int i = 0; i < count_; ++i) {
+    multiply(i, products.data());
+    float sums[lanes] = {}, mark = 0;
     for (int start = 0; start < row_; start += lanes)
       for (int lane = 0; lane < lanes; ++lane) {
-        const int j = start + lane;
-        float sum = own[0] * x[j];
-        for (int row = 1; row < most_dimensions; ++row) sum += own[row] * x[row * row_ + j];
-        t[j] = sum;
-        sums[lane] += sum * (0.37f + sum * (0.71f + sum * (0.53f + sum * 0.29f)));
+        const float t = products[start + lane];
+        sums[lane] += t * (0.37f + t * (0.71f + t * (0.53f + t * 0.29f)));
       }
-    float mark = 0;
     for (const float sum : sums) mark += sum;
-    marks[i] = {mark / static_cast<float>(count), i};
+    marks[i] = {mark / static_cast<float>(count_), i};
   }
   std::sort(marks.begin(), marks.end());
-  for (int first = 0, last = 0; first < count; first = last) {
-    while (last < count &&
-           (last == first || marks[last].first - marks[last - 1].first <= nearly_alike))
-      ++last;
-    for (int at = first; at < last; ++at) {
-      points_[at] = marks[at].second;
-      begin_[points_[at]] = first, end_[points_[at]] = last;
-    }
+
+  const std::vector<float> x = x_;
+  for (int i = 0; i < count_; ++i) {
+    given_.push_back(marks[i].second);
+    for (int k = 0; k < most_dimensions; ++k) x_[k * row_ + i] = x[k * row_ + marks[i].second];
+    if (i == 0 || marks[i].first - marks[i - 1].first > nearly_alike) classes_.push_back({i, i});
+    classes_.back().end = i + 1;
+    class_of_.push_back(static_cast<int>(classes_.size()) - 1);
   }
+  products_.resize(static_cast<size_t>(count_) * row_);
+  have_.resize(count_);
+  fits_.resize(row_);
 }
 
-std::vector<int> PointClasses::rarest_first() const {
-  std::vector<int> out = points_;
-  std::sort(out.begin(), out.end(), [&](int a, int b) {
-    const int more = (end_[a] - begin_[a]) - (end_[b] - begin_[b]);
-    return more != 0 ? more < 0 : a < b;
-  });
+void PointClasses::multiply(int point, float* out) const {
+  float own[most_dimensions];
+  for (int k = 0; k < most_dimensions; ++k) own[k] = x_[k * row_ + point];
+  for (int start = 0; start < row_; start += lanes)
+    for (int lane = 0; lane < lanes; ++lane) {
+      const int i = start + lane;
+      float sum = own[0] * x_[i];
+      for (int k = 1; k < most_dimensions; ++k) sum += own[k] * x_[k * row_ + i];
+      out[i] = sum;
+    }
+}
+
+const float* PointClasses::products(int point) {
+  float* out = &products_[static_cast<size_t>(point) * row_];
+  if (!have_[point]) multiply(point, out);
+  have_[point] = true;
   return out;
+}
+
+std::vector<PointClasses::Range> PointClasses::rarest_first() const {
+  std::vector<Range> out = classes_;
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Range& a, const Range& b) { return a.size() < b.size(); });
+  return out;
+}
+
+// without branches that depend on what fits
+void PointClasses::fitting(Range all, int point, std::span<const int> others,
+                           std::span<const int> with, std::vector<int>& out) {
+  const int size = all.size();
+  std::fill_n(fits_.begin(), size, 1);
+  for (size_t k = 0; k < with.size(); ++k) {
+    const float wanted = products(others[k])[point];
+    const float* is = products(with[k]) + all.begin;
+    int* fits = fits_.data();
+    for (int i = 0; i < size; ++i) fits[i] &= std::abs(is[i] - wanted) <= nearly_alike;
+  }
+  out.resize(size);
+  int count = 0;
+  for (int i = 0; i < size; ++i) {
+    out[count] = all.begin + i;
+    count += fits_[i];
+  }
+  out.resize(count);
 }
 
 // the points of the set that those of the frame are carried to
@@ -152,9 +194,12 @@ class Isometries {
   Image frame_, image_;
   std::array<Vector, most_dimensions>
       duals_;  // duals_[k] . point frame_[j]: one where k is j, else zero
+  std::array<std::vector<int>, most_dimensions> fitting_;
   int tries_ = 0;
   std::vector<Isometry> found_, known_;
-  std::vector<std::pair<double, int>> by_height_;  // points by their height along the centre
+  // points by their height along the centre
+  std::vector<double> heights_;
+  std::vector<int> by_height_;
 };
 
 Isometries::Isometries(const TellingPoints& points, double longest)
@@ -162,9 +207,9 @@ Isometries::Isometries(const TellingPoints& points, double longest)
       parts_(points.parts),
       classes_(points, longest),
       points_(points.count) {
-  for (int row = 0; row < dimension_; ++row)
-    for (int i = 0; i < points.count; ++i)
-      points_[i][row] = points.coordinates[row * points.stride + i];
+  for (int i = 0; i < points.count; ++i)
+    for (int k = 0; k < dimension_; ++k)
+      points_[i][k] = points.coordinates[k * points.stride + classes_.given(i)];
   std::copy_n(generic.begin(), dimension_, centre_.begin());
 }
 
@@ -175,18 +220,19 @@ bool Isometries::choose_frame(double new_part) {
   std::array<Vector, most_dimensions> basis;
   int size = 0;
   bool alone = true;
-  for (const int i : classes_.rarest_first()) {
-    Vector rest = points_[i];
-    for (int k = 0; k < size; ++k) add_times(rest, -dot(rest, basis[k]), basis[k]);
-    const double square = dot(rest, rest);
-    if (!(square > new_part * new_part * dot(points_[i], points_[i]))) continue;
-    const double length = std::sqrt(square);
-    for (double& x : rest) x /= length;
-    basis[size] = rest;
-    frame_[size++] = i;
-    alone &= classes_.alone(i);
-    if (size == dimension_) return !alone;
-  }
+  for (const auto& alike_points : classes_.rarest_first())
+    for (int i = alike_points.begin; i < alike_points.end; ++i) {
+      Vector rest = points_[i];
+      for (int k = 0; k < size; ++k) add_times(rest, -dot(rest, basis[k]), basis[k]);
+      const double square = dot(rest, rest);
+      if (!(square > new_part * new_part * dot(points_[i], points_[i]))) continue;
+      const double length = std::sqrt(square);
+      for (double& x : rest) x /= length;
+      basis[size] = rest;
+      frame_[size++] = i;
+      alone &= alike_points.size() == 1;
+      if (size == dimension_) return !alone;
+    }
   return false;
 }
 
@@ -240,12 +286,12 @@ void Isometries::match(int depth) {
     found_.push_back(isometry);
     return;
   }
-  for (const int i : classes_.of(frame_[depth])) {
-    bool fits = true;
-    for (int k = 0; fits && k < depth; ++k)
-      fits = ++tries_ && std::abs(classes_.product(image_[k], i) -
-                                  classes_.product(frame_[k], frame_[depth])) <= nearly_alike;
-    if (!fits) continue;
+  const auto range = classes_.of(frame_[depth]);
+  tries_ += range.size();
+  auto& fitting = fitting_[depth];
+  classes_.fitting(range, frame_[depth], std::span(frame_).first(depth),
+                   std::span(image_).first(depth), fitting);
+  for (const int i : fitting) {
     image_[depth] = i;
     match(depth + 1);
     if (tries_ > most_tries || static_cast<int>(found_.size()) >= most_found) return;
@@ -253,19 +299,23 @@ void Isometries::match(int depth) {
 }
 
 void Isometries::sort_by_height() {
-  by_height_.resize(points_.size());
+  std::vector<std::pair<double, int>> order(points_.size());
   for (int i = 0; i < static_cast<int>(points_.size()); ++i)
-    by_height_[i] = {dot(points_[i], centre_), i};
-  std::sort(by_height_.begin(), by_height_.end());
+    order[i] = {dot(points_[i], centre_), i};
+  std::sort(order.begin(), order.end());
+  for (const auto& [height, i] : order) heights_.push_back(height), by_height_.push_back(i);
 }
 
 // returns  -1: none
 int Isometries::point_at(const Vector& v) const {
   const double height = dot(v, centre_);
-  for (auto at =
-           std::lower_bound(by_height_.begin(), by_height_.end(), std::pair(height - alike, 0));
-       at != by_height_.end() && at->first <= height + alike; ++at)
-    if (within(v, points_[at->second], same_point)) return at->second;
+  // halving without branches
+  const double* low = heights_.data();
+  for (size_t rest = heights_.size(); rest > 1; rest -= rest / 2)
+    low += low[rest / 2 - 1] < height - alike ? rest / 2 : 0;
+  for (size_t at = low - heights_.data(); at < heights_.size() && heights_[at] <= height + alike;
+       ++at)
+    if (within(v, points_[by_height_[at]], same_point)) return by_height_[at];
   return -1;
 }
 
@@ -276,9 +326,10 @@ bool Isometries::carries_all(const Image& image) const {
     const int at = point_at(carried(points_in_frame_[i], image));
     if (at < 0) return false;
     if (parts_.empty()) continue;
-    int &to = part_to[parts_[i]], &from = part_from[parts_[at]];
-    if (to < 0 && from < 0) to = parts_[at], from = parts_[i];
-    if (to != parts_[at] || from != parts_[i]) return false;
+    const int part = parts_[classes_.given(i)], other = parts_[classes_.given(at)];
+    int &to = part_to[part], &from = part_from[other];
+    if (to < 0 && from < 0) to = other, from = part;
+    if (to != other || from != part) return false;
   }
   return true;
 }

@@ -31,20 +31,6 @@ static std::optional<Eigen::VectorXd> vector_if(Table& options, const char* key)
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<int>(numbers.size()));
 }
 
-// a number for all contacts, or a list of one a contact
-static ForceCaps read_max_force(Table& options) {
-  const int type = options.push("max_force");
-  lua_pop(options.what("max_force").L, 1);
-  if (type != LUA_TTABLE) {
-    const auto all = positive_if(options, "max_force");
-    return all ? ForceCaps(*all) : ForceCaps();
-  }
-  const auto each = options.numbers("max_force");
-  if (each.empty())
-    fail("{}: max_force: wanted a number for each contact, got none", options.subject());
-  return ForceCaps(each);
-}
-
 // torque_limits: true, false, or a number for each DOF
 static bool read_limits(Table& options, bool fallback, JointDemand& joints) {
   const int type = options.push("torque_limits");
@@ -59,7 +45,7 @@ static bool read_limits(Table& options, bool fallback, JointDemand& joints) {
 }
 
 static void read_caps(Table& options, ForceOptions& forces) {
-  forces.max_force = read_max_force(options);
+  forces.max_force = read_per_contact(options, "max_force");
   forces.max_total_force = positive_if(options, "max_total_force");
   forces.total_force = positive_if(options, "total_force");
 }
@@ -214,7 +200,7 @@ static int balance(lua_State* L) {
   Table options(L, 2);
   EquilibriumOptions asked;
   if (options.has("load")) asked.load = read_wrench(options, "load");
-  asked.max_force = read_max_force(options);
+  asked.max_force = read_per_contact(options, "max_force");
   asked.joints.unlimited = !read_limits(options, true, asked.joints);
   asked.joints.arms = options.boolean("arms", false);
   asked.joints.link_weights = options.boolean("link_weights", false);

@@ -10,6 +10,17 @@
 
 namespace clench {
 
+PerContact read_per_contact(Table& options, const char* key) {
+  const int type = options.push(key);
+  lua_pop(options.what(key).L, 1);
+  if (type == LUA_TNIL) return {};
+  if (type != LUA_TTABLE) return options.positive(key, 1);
+  const auto each = options.numbers(key);
+  if (each.empty())
+    fail("{}: {}: wanted a number for each contact, got none", options.subject(), key);
+  return each;
+}
+
 static int measure(lua_State* L) {
   check_count(L, 3);
   const auto& hand = check_object<RobotHandle>(L, 1, "hand");
@@ -24,7 +35,8 @@ static int measure(lua_State* L) {
   else if (options.has("rho"))
     grasp.rho = options.number("rho");
   grasp.soft = options.boolean("soft", grasp.soft);
-  grasp.normal_force = options.positive("normal_force", grasp.normal_force);
+  if (const PerContact forces = read_per_contact(options, "normal_force"))
+    grasp.normal_force = forces;
   grasp.modulus = read_modulus_rule(options);
   options.done();
   Grasp measured = measure_grasp(*hand.world, hand.id, object.id, grasp);
@@ -84,7 +96,12 @@ static int get_options(lua_State* L) {
     set_field(L, "edges", g.edges);
   set_field(L, "rho", g.rho);
   set_field(L, "soft", g.options.soft);
-  set_field(L, "normal_force", g.options.normal_force);
+  if (const auto& forces = g.options.normal_force.values; forces.size() == 1) {
+    set_field(L, "normal_force", forces[0]);
+  } else {
+    push_list_of(L, forces, [&](double force) { push(L, force); });
+    lua_setfield(L, -2, "normal_force");
+  }
   set_field(L, "modulus", modulus_name(g.options.modulus));
   return 1;
 }
@@ -121,7 +138,7 @@ static const Entry functions[] = {
 The grasp of a hand on an object as it is now. No contact is no error: such a grasp resists nothing.
 @param hand robot
 @param object body
-@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number, modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N]; modulus: as of `patch:ellipse`
+@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N], or a list of one a contact; modulus: as of `patch:ellipse`
 @return grasp
 > clench.grasp(hand, flask):is_force_closure()  --> true)"},
 };
@@ -154,7 +171,7 @@ Edges of each friction pyramid, or "exact".
 > grasp.edges  --> 8)"},
     {"options", guarded<get_options>, R"(
 What clench.grasp takes to measure another grasp alike.
-@type {edges: integer|string, rho: number, soft: boolean, normal_force: number, modulus: string}  rho [m], normal_force [N]
+@type {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string}  rho [m], normal_force [N]
 > clench.grasp(hand, flask, grasp.options):quality "epsilon" == grasp:quality "epsilon"  --> true)"},
 };
 

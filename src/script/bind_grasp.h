@@ -16,6 +16,9 @@ struct GraspHandle {
   std::vector<std::pair<GraspSpaceOptions, WrenchSpacePtr>> spaces;
 };
 
+/// A number > 0, or a list of one a contact, whose values whoever takes them checks; none when absent.
+PerContact read_per_contact(Table& options, const char* key);
+
 /// Made at the first call, and kept.
 const WrenchSpacePtr& space_of(GraspHandle& handle, const GraspSpaceOptions& options = {});
 

@@ -43,6 +43,12 @@ local function back_off(hand, from)
   end
 end
 
+local function mean_of(numbers)
+  local sum = 0
+  for _, x in ipairs(numbers) do sum = sum + x end
+  return sum / #numbers
+end
+
 local function check_grasp(grasp)
   if not kind_of(grasp):find "grasp$" then raise("study.robustness: wanted a grasp, got " .. kind_of.described(grasp)) end
 end
@@ -75,6 +81,8 @@ return function(grasp, given)
   local start, place, from = world:snapshot(), object.pose, hand.dofs
   local alike = grasp.options
   alike.edges = edges
+  -- another grasp has other contacts
+  if type(alike.normal_force) == "table" then alike.normal_force = mean_of(alike.normal_force) end
 
   local function regrasped(sample)
     if not moves then return grasp end

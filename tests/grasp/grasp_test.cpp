@@ -199,6 +199,14 @@ TEST_CASE("soft contacts resist turns as their patches do, hard ones none") {
   };
   CHECK(radius({.normal_force = 80}) == doctest::Approx(2 * radius({})).epsilon(0.01));
   CHECK(radius({.soft = false}) == 0);
+  // each at a force of its own; what carries nothing resists nothing
+  std::vector<double> forces(soft.points.size());
+  for (size_t i = 0; i < forces.size(); ++i) forces[i] = static_cast<double>(i);
+  const Grasp own = measure_grasp(s.world, s.hand, s.object, {.normal_force = forces});
+  for (size_t i = 0; i < forces.size(); ++i)
+    CHECK(own.points[i].torsion_radius ==
+          torsion_radius(soft_patch(*own.contacts[i].site), forces[i]));
+  CHECK(own.points[0].torsion_radius == 0);
   s.world.set_soft_layer(s.object, 0.003 / 16);
   CHECK(2 * radius({}) == doctest::Approx(soft.points[0].torsion_radius));
   for (const Id<Body> id : s.world.bodies_of(s.hand)) s.world.set_elastic_modulus(id, 1e6);
@@ -207,4 +215,12 @@ TEST_CASE("soft contacts resist turns as their patches do, hard ones none") {
   CHECK(radius({}) == 0);
   CHECK_THROWS_WITH_AS(measure_grasp(s.world, s.hand, s.object, {.normal_force = 0}),
                        "grasp of cube by gripper: the normal force must be > 0 [N], got 0", Error);
+  CHECK_THROWS_WITH_AS(measure_grasp(s.world, s.hand, s.object, {.normal_force = {{5, -1}}}),
+                       "grasp of cube by gripper: the normal force must be > 0 [N], got -1", Error);
+  const std::string count =
+      std::to_string(measure_grasp(s.world, s.hand, s.object).contacts.size());
+  const std::string wanted = "grasp of cube by gripper: normal_force: wanted one number or " +
+                             count + ", one a contact, got 2";
+  CHECK_THROWS_WITH_AS(measure_grasp(s.world, s.hand, s.object, {.normal_force = {{5, 1}}}),
+                       wanted.c_str(), Error);
 }
