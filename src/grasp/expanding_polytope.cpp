@@ -121,7 +121,9 @@ SimplexEnd Growing<D>::start(double zero) {
 template <int D>
 void Growing<D>::raise_walls() {
   const DirectionCone cone = set_.least_support_cone();
-  for (int i = 0; i < cone.walls; ++i) {
+  // one less than a facet has corners: one of them at least is not at infinity
+  const int walls = std::min(cone.walls, D - 1);
+  for (int i = 0; i < walls; ++i) {
     int first = -1;
     double most = seen;
     for (int index = 0; index < complex_.facet_count(); ++index) {

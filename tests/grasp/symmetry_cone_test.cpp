@@ -124,8 +124,13 @@ TEST_CASE("the ball inside a symmetric set is that of its whole hull") {
     const int d = pick(random, 2, 6);
     Eigen::MatrixXd points = symmetric_points(random, d);
     // symmetric but for a little, or not at all any more
-    const int kind = pick(random, 0, 3);
-    if (kind > 0)
+    const int kind = pick(random, 0, 4);
+    if (kind == 4) {
+      // still carried onto itself, but by no isometry
+      const double shear = std::pow(10, -random.uniform(5, 13));
+      points += (shear * random_rotation(random, d) * points).eval();
+      points.row(0) += shear * points.row(d - 1);
+    } else if (kind > 0)
       for (double& x : points.reshaped())
         x += std::pow(10, -random.uniform(8, 18)) * (kind == 1 ? 1 : random.uniform(-1, 1));
     if (kind == 3) points.conservativeResize(d, points.cols() - 1);
@@ -139,6 +144,63 @@ TEST_CASE("the ball inside a symmetric set is that of its whole hull") {
     CHECK(ball.upper - ball.lower <= 1e-12);
   }
   CHECK(inside > cases(1000) / 5);
+}
+
+TEST_CASE("a centre of mass beside the middle shears the wrenches, and no isometry carries them") {
+  for (const int count : {4, 8})
+    for (const double off : {1e-6, 1e-8, 1e-10}) {
+      std::vector<Wrenches> contacts;
+      for (const PointContact& contact : ball_contacts(solid_directions(count), 0.5))
+        contacts.push_back(
+            cone_wrenches(contact, {.edges = 8, .p_OM = {off, 0.3 * off, 0.5 * off}}));
+      const Wrenches all = side_by_side(contacts) / 2;
+      CHECK(cone_of(all).walls == 0);
+      const Ball ball = largest_ball(reach_of_points(all));
+      CHECK(std::abs(ball.upper - convex_hull(all).offsets.minCoeff()) < 1e-12);
+    }
+}
+
+TEST_CASE("a wall is a mirror to rounding, wherever the mirror is") {
+  // some are nearly through the centre of the cone, and make no wall
+  Random random(5);
+  int mirrors = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double angle = std::numbers::pi * i / 2000;
+    const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
+    Eigen::MatrixXd points(2, 8);
+    for (double& x : points.reshaped()) x = random.uniform(-0.5, 0.5);
+    for (int k = 0; k < 4; ++k)
+      points.col(4 + k) = points.col(k) - 2 * normal.dot(points.col(k)) * normal;
+    for (double& x : points.reshaped()) x += 1e-15 * random.uniform(-1, 1);
+    const DirectionCone cone = cone_of(points);
+    if (cone.walls == 0) continue;
+    ++mirrors;
+    const Eigen::Vector2d wall(cone.wall[0]);
+    CHECK((normal.dot(wall) * normal - wall).norm() < 1e-12);
+  }
+  CHECK(mirrors > 1900);
+}
+
+TEST_CASE("in few dimensions walls leave each facet a corner that is not at infinity") {
+  for (const int count : {32, 64, 128}) {
+    Eigen::MatrixXd ring(2, count);
+    const auto directions = ring_directions(count);
+    for (int i = 0; i < count; ++i) ring.col(i) = directions[i].head<2>();
+    CHECK(cone_of(ring).walls > 2);
+    const Ball ball = largest_ball(reach_of_points(ring));
+    CHECK(ball.end == BallEnd::inside);
+    CHECK(std::abs(ball.upper - std::cos(std::numbers::pi / count)) < 1e-14);
+    CHECK(ball.points < count * 2 / 3);
+  }
+}
+
+TEST_CASE("sets of very many points are searched as they are") {
+  for (const int count : {1000, 1100}) {
+    Eigen::MatrixXd ring(2, count);
+    const auto directions = ring_directions(count);
+    for (int i = 0; i < count; ++i) ring.col(i) = directions[i].head<2>();
+    CHECK((cone_of(ring).walls > 0) == (count == 1000));
+  }
 }
 
 TEST_CASE("of symmetric grasps the polytope grows by a part of their wrenches") {
