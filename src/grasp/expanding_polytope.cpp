@@ -41,13 +41,14 @@ class Growing {
     waiting_.clear();
   }
 
-  Ball ball(const BallOptions& options);
+  Ball ball(const BallOptions& options, bool walls);
   Facets hull(const FacetsOptions& options);
 
   /// what is known so far
   double bound() const { return std::min(lower_ - slack(), upper_); }
   double upper() const { return upper_; }
   const double* direction() const { return direction_; }
+  bool walled() const { return walled_; }
 
  private:
   double support(const double* direction, double* point);
@@ -132,8 +133,8 @@ void Growing<D>::raise_walls() {
       if (facet.alive() && faces > most) most = faces, first = index;
     }
     if (first < 0) continue;
-    grow(first, cone.wall[i], true);
     walled_ = true;
+    grow(first, cone.wall[i], true);
   }
 }
 
@@ -163,7 +164,7 @@ void Growing<D>::grow(int first, const double* point, bool at_infinity) {
 }
 
 template <int D>
-Ball Growing<D>::ball(const BallOptions& options) {
+Ball Growing<D>::ball(const BallOptions& options, bool walls) {
   const auto ended = [&](BallEnd end, double lower) {
     Ball ball;
     ball.end = end;
@@ -182,8 +183,7 @@ Ball Growing<D>::ball(const BallOptions& options) {
     default:
       break;
   }
-  // what breaks with them may hold without
-  if (attempt_ == 0 && options.at_least <= 0) raise_walls();
+  if (walls) raise_walls();
   double p[D];
   while (true) {
     limit_ = upper_;
@@ -292,16 +292,20 @@ template <int D>
 Ball ball_in(const SupportSet& set, const BallOptions& options) {
   Ball best;
   best.lower = -infinite, best.upper = infinite;
-  for (int attempt = 0; attempt < static_cast<int>(std::size(shifts)); ++attempt) {
+  bool walls = options.at_least <= 0;
+  for (int attempt = 0; attempt < static_cast<int>(std::size(shifts));) {
     Growing<D> growing(set, attempt, room<D>());
     try {
-      return growing.ball(options);
+      return growing.ball(options, walls);
     } catch (const BrokenSurface&) {
       best.lower = std::max(best.lower, growing.bound());
       if (growing.upper() < best.upper) {
         best.upper = growing.upper();
         std::copy_n(growing.direction(), D, best.direction);
       }
+      // what breaks with walls may hold without
+      attempt += !growing.walled();
+      walls = false;
     }
   }
   if (best.upper <= options.zero) best.end = BallEnd::outside;

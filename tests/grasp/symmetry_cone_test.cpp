@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "grasp/contact_reach.h"
 #include "grasp/expanding_polytope.h"
+#include "grasp/facet_complex.h"
 #include "grasp/wrench_hull.h"
 #include "grasp/wrench_sets.h"
 #include "support/cases.h"
@@ -192,6 +193,39 @@ TEST_CASE("in few dimensions walls leave each facet a corner that is not at infi
     CHECK(std::abs(ball.upper - std::cos(std::numbers::pi / count)) < 1e-14);
     CHECK(ball.points < count * 2 / 3);
   }
+}
+
+TEST_CASE("what breaks with walls is searched as if there were none") {
+  // breaks as soon as it is asked with a wall
+  class Breaking final : public SupportSet {
+   public:
+    Breaking(const ContactReach& reach, bool breaks) : reach_(reach), breaks_(breaks) {}
+    int dimension() const override { return reach_.dimension(); }
+    double support(const double* direction, double* point) const override {
+      if (std::exchange(walled_, false)) throw BrokenSurface();
+      return reach_.support(direction, point);
+    }
+    DirectionCone least_support_cone() const override {
+      walled_ = breaks_;
+      return {.walls = breaks_, .wall = {{1}}};
+    }
+
+   private:
+    const ContactReach& reach_;
+    bool breaks_;
+    mutable bool walled_ = false;
+  };
+  Random random(6);
+  Eigen::MatrixXd points(6, 60);
+  for (double& x : points.reshaped()) x = random.normal() / 4;
+  const ContactReach reach = reach_of_points(points);
+  const Ball broken = largest_ball(Breaking(reach, true)),
+             whole = largest_ball(Breaking(reach, false));
+  CHECK(whole.end == BallEnd::inside);
+  CHECK(broken.end == whole.end);
+  CHECK(broken.points == whole.points);
+  CHECK(broken.upper == whole.upper);
+  for (int i = 0; i < 6; ++i) CHECK(broken.direction[i] == whole.direction[i]);
 }
 
 TEST_CASE("sets of very many points are searched as they are") {
