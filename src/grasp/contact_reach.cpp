@@ -195,6 +195,8 @@ DirectionCone ContactReach::cone_of_parts() const {
       for (int i = 0; i < block.count; ++i) add([&](double* to) { add_point(block, i, to); });
     } else if (contacts_[c].round >= 0) {
       const Round& round = rounds_[contacts_[c].round];
+      // in fewer dimensions an ellipsoid may lie in a line, and ten points tell it no longer
+      if (round.width == 3 && dimension_ < most_dimensions) return {};
       for (const double* along : around) {
         const int last = along[2] != 0 ? 2 : along[1] != 0 ? 1 : 0;
         if (last < std::max(round.width, 1)) add([&](double* to) { add_point(round, along, to); });

@@ -228,6 +228,20 @@ TEST_CASE("what breaks with walls is searched as if there were none") {
   for (int i = 0; i < 6; ++i) CHECK(broken.direction[i] == whole.direction[i]);
 }
 
+TEST_CASE(
+    "soft contacts whose ten points are alike may reach differently far where they lie in a line") {
+  Eigen::Matrix<double, 2, 4> a, b;
+  a << 0, 1, 0, 0.5, 2, 0, 0, 0;
+  b << 0, std::sqrt(0.5), 0, 1, -2, 0, 0, 0;
+  a /= 4, b /= 4;
+  const ContactPart parts[] = {{.axis = a.data(), .spread = a.data() + 2, .width = 3},
+                               {.axis = b.data(), .spread = b.data() + 2, .width = 3}};
+  const Ball ball = largest_ball(ContactReach(2, WrenchNorm::l1, parts));
+  // the line through the ends of both
+  const double low = std::sqrt(1.25) / 4, high = std::sqrt(1.5) / 4;
+  CHECK(std::abs(ball.upper - (low + high) / 2 / std::hypot(1, high - low)) < 1e-12);
+}
+
 TEST_CASE("sets of very many points are searched as they are") {
   for (const int count : {1000, 1100}) {
     Eigen::MatrixXd ring(2, count);
