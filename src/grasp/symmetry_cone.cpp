@@ -15,7 +15,7 @@ using Vector = std::array<double, most_dimensions>;  // zeros beyond the dimensi
 // An image is a point of the set when it lies this near. A direction and the image of it in the cone are
 // some few isometries apart, each of which may move what the set reaches by as much: below the 1e-12 that
 // its ball is asked to.
-constexpr double same_point = 2e-14;
+constexpr double same_place = 2e-14;
 
 // Heights and products of points of size one that differ by less may be alike: rounding is some 1e-15.
 constexpr double alike = 1e-13;
@@ -202,7 +202,7 @@ int Isometries::point_at(const Vector& v) const {
     low += low[rest / 2 - 1] < height - alike ? rest / 2 : 0;
   for (size_t at = low - heights_.data(); at < heights_.size() && heights_[at] <= height + alike;
        ++at)
-    if (within(v, points_[by_height_[at]], same_point)) return by_height_[at];
+    if (within(v, points_[by_height_[at]], same_place)) return by_height_[at];
   return -1;
 }
 
@@ -238,10 +238,10 @@ bool Isometries::carries_all(const Image& image) const {
 bool Isometries::follows(const Isometry& isometry) const {
   for (const Isometry& a : known_) {
     const Vector before = carried(in_frame(isometry.to), a.image);
-    if (within(before, centre_, same_point)) return true;
+    if (within(before, centre_, same_place)) return true;
     for (const Isometry& b : known_)
-      if (within(before, b.to, same_point) ||
-          within(carried(in_frame(b.to), a.image), isometry.to, same_point))
+      if (within(before, b.to, same_place) ||
+          within(carried(in_frame(b.to), a.image), isometry.to, same_place))
         return true;
   }
   return false;
