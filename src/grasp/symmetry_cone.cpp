@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "grasp/facet_plane.h"
+
 namespace clench {
 
 namespace {
@@ -32,9 +34,7 @@ constexpr double least_way = 0.02;
 constexpr Vector generic = {0.61, -0.35, 0.47, 0.23, -0.41, 0.29};
 
 double dot(const Vector& a, const Vector& b) {
-  double sum = a[0] * b[0];
-  for (int i = 1; i < most_dimensions; ++i) sum += a[i] * b[i];
-  return sum;
+  return clench::dot<most_dimensions>(a.data(), b.data());
 }
 
 void add_times(Vector& to, double factor, const Vector& what) {
@@ -104,21 +104,17 @@ Isometries::Isometries(const TellingPoints& points, std::span<const double> mark
 // new_part  of a point's length that the points before do not span
 // returns   whether there are such, and any is not alone in its class
 bool Isometries::choose_frame(double new_part) {
-  std::array<Vector, most_dimensions> basis;
-  int size = 0;
+  Basis<most_dimensions> basis;
   bool alone = true;
   for (const auto& alike_points : classes_.rarest_first())
     for (int i = alike_points.begin; i < alike_points.end; ++i) {
       Vector rest = points_[i];
-      for (int k = 0; k < size; ++k) add_times(rest, -dot(rest, basis[k]), basis[k]);
-      const double square = dot(rest, rest);
-      if (!(square > new_part * new_part * dot(points_[i], points_[i]))) continue;
-      const double length = std::sqrt(square);
-      for (double& x : rest) x /= length;
-      basis[size] = rest;
-      frame_[size++] = i;
+      basis.reduce(rest.data());
+      if (!(dot(rest, rest) > new_part * new_part * dot(points_[i], points_[i]))) continue;
+      frame_[basis.count] = i;
+      basis.add(rest.data());
       alone &= alike_points.size() == 1;
-      if (size == dimension_) return !alone;
+      if (basis.count == dimension_) return !alone;
     }
   return false;
 }
