@@ -30,6 +30,7 @@ struct Count {
 static Count run_test_file(const fs::path& file, bool quiet) {
   State state;
   if (quiet) state.set_quiet();
+  state.set_script(file.string());
   const Interruptible running(state);
   const auto result = state.call("test", "run_file", {file.string()});
   std::fflush(stdout);

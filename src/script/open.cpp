@@ -2,6 +2,7 @@
 
 #include <lua.hpp>
 
+#include "script/chunks.h"
 #include "script/library.h"
 #include "script/packed.h"
 
@@ -29,6 +30,11 @@ int clench_open(lua_State* L) {
   }
   lua_pushcfunction(L, load_member);
   set_library_fallback(L, module);
-  add_packed_searcher(L, false);
+  add_packed_searcher(L, module);
   return 1;
+}
+
+int clench_refuse_bytecode(lua_State* L) {
+  clench::refuse_bytecode(L);
+  return 0;
 }

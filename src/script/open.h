@@ -8,3 +8,9 @@ struct lua_State;
 /// The state's standard libraries should be open. Lua 5.4, built as C or as C++, from the host's
 /// own library.
 extern "C" int clench_open(lua_State* L);
+
+/// From now on load, loadfile, dofile and require take Lua as text alone, for a compiled chunk can
+/// be made to crash its state. Call it as Lua calls functions, right after luaL_openlibs:
+///     lua_pushcfunction(L, clench_refuse_bytecode);
+///     lua_call(L, 0, 0);
+extern "C" int clench_refuse_bytecode(lua_State* L);

@@ -64,31 +64,80 @@ static int run_packed(lua_State* L) {
   return 1;
 }
 
-static int search_packed(lua_State* L) {
-  const char* name = luaL_checkstring(L, 1);
-  const bool prefixed = !std::strncmp(name, "clench.", 7);
-  if (!prefixed && !lua_toboolean(L, lua_upvalueindex(1))) return 0;
-  const char* module = prefixed ? name + 7 : name;
-  if (const PackedFile* file = find_packed(module)) {
-    lua_pushcfunction(L, run_packed);
-    lua_pushlstring(L, file->path.data(), file->path.size());
-    return 2;
-  }
-  lua_pushfstring(L, "no module '%s' in clench's standard library", name);
+// leaves what require wants of a searcher
+static int give_packed(lua_State* L, const PackedFile& file) {
+  lua_pushcfunction(L, run_packed);
+  lua_pushlstring(L, file.path.data(), file.path.size());
+  return 2;
+}
+
+static int give_module(lua_State* L) {
+  lua_pushvalue(L, lua_upvalueindex(1));
   return 1;
 }
 
-void add_packed_searcher(lua_State* L, bool bare_names) {
-  if (lua_getglobal(L, LUA_LOADLIBNAME) == LUA_TTABLE) {
-    lua_getfield(L, -1, "searchers");
-    if (lua_istable(L, -1)) {
-      lua_pushboolean(L, bare_names);
-      lua_pushcclosure(L, search_packed, 1);
-      lua_rawseti(L, -2, static_cast<lua_Integer>(lua_rawlen(L, -2)) + 1);
+// names of ours are ours alone: one that is not there is an error, which ends the search
+static int search_packed(lua_State* L) {
+  const char* name = luaL_checkstring(L, 1);
+  if (!std::strcmp(name, "clench")) {
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_pushcclosure(L, give_module, 1);
+    lua_pushliteral(L, "clench");
+    return 2;
+  }
+  if (std::strncmp(name, "clench.", 7)) return 0;
+  if (const PackedFile* file = find_packed(name + 7)) return give_packed(L, *file);
+  return luaL_error(L, "no module '%s' in clench's standard library", name);
+}
+
+// those that scripts use; the others' names are left to the user's own modules
+static bool has_bare_name(std::string_view module) {
+  for (const std::string_view name : {"report", "shapes", "show", "study", "test"})
+    if (module == name || (module.starts_with(name) && module[name.size()] == '.')) return true;
+  return false;
+}
+
+static int search_bare_name(lua_State* L) {
+  const char* name = luaL_checkstring(L, 1);
+  if (!has_bare_name(name)) return 0;
+  if (const PackedFile* file = find_packed(name)) return give_packed(L, *file);
+  return luaL_error(L, "no module '%s' in clench's standard library", name);
+}
+
+void insert_searcher(lua_State* L, int place) {
+  const int searcher = lua_gettop(L);
+  if (lua_getglobal(L, LUA_LOADLIBNAME) == LUA_TTABLE &&
+      lua_getfield(L, -1, "searchers") == LUA_TTABLE) {
+    for (auto i = static_cast<lua_Integer>(lua_rawlen(L, -1)); i >= place; --i) {
+      lua_rawgeti(L, -1, i);
+      lua_rawseti(L, -2, i + 1);
     }
+    lua_pushvalue(L, searcher);
+    lua_rawseti(L, -2, place);
+  }
+  lua_settop(L, searcher - 1);
+}
+
+void add_packed_searcher(lua_State* L, int module) {
+  lua_pushvalue(L, module);
+  lua_pushcclosure(L, search_packed, 1);
+  insert_searcher(L, 1);
+}
+
+void add_bare_names(lua_State* L) {
+  lua_pushcfunction(L, search_bare_name);
+  insert_searcher(L, 1);
+}
+
+int count_packed_searchers(lua_State* L, int searchers) {
+  int count = 0;
+  for (bool ours = true; ours; count += ours) {
+    lua_rawgeti(L, searchers, count + 1);
+    const lua_CFunction searcher = lua_tocfunction(L, -1);
+    ours = searcher == search_packed || searcher == search_bare_name;
     lua_pop(L, 1);
   }
-  lua_pop(L, 1);
+  return count;
 }
 
 }  // namespace clench

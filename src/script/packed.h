@@ -22,8 +22,15 @@ const PackedFile* find_packed(std::string_view module);
 /// "clench.<module>". Raises Lua errors, so no C++ object may be alive.
 void push_packed(lua_State* L, const char* module);
 
-/// Adds a last searcher to package.searchers: require "clench.<module>", and "<module>" too if bare
-/// names are wanted.
-void add_packed_searcher(lua_State* L, bool bare_names);
+/// Makes require take "clench" and "clench.<module>" from here, before it looks anywhere else and
+/// whatever files lie around.
+/// module  index of what "clench" is
+void add_packed_searcher(lua_State* L, int module);
+/// Makes require take the modules that scripts use by their bare names, as "test", from here too.
+void add_bare_names(lua_State* L);
+/// Puts the searcher on top of the stack among those of require, as number `place`; pops it.
+void insert_searcher(lua_State* L, int place);
+/// The searchers that the two have put before Lua's own.
+int count_packed_searchers(lua_State* L, int searchers);
 
 }  // namespace clench

@@ -4,12 +4,16 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <lua.hpp>
 
 #include "base/error.h"
 #include "script/bind_log.h"
+#include "script/chunks.h"
+#include "script/modules.h"
 #include "script/open.h"
 #include "script/packed.h"
+#include "script/setting.h"
 
 namespace clench {
 
@@ -52,10 +56,15 @@ int State::track(lua_State* L) {
 }
 
 static int open_all(lua_State* L) {
+  // what the environment says of modules is read by add_user_modules
+  lua_pushboolean(L, 1);
+  lua_setfield(L, LUA_REGISTRYINDEX, "LUA_NOENV");
   luaL_openlibs(L);
+  refuse_bytecode(L);
+  add_user_modules(L);
   luaL_requiref(L, "clench", clench_open, 1);
   lua_pop(L, 1);
-  add_packed_searcher(L, true);
+  add_bare_names(L);
   // the coroutines' guide gets our tracker
   push_packed(L, "host.coroutines");
   lua_pushvalue(L, 1);
@@ -84,6 +93,11 @@ State::State() {
 }
 
 State::~State() { lua_close(L_); }
+
+void State::set_script(const std::string& path) {
+  const auto folder = std::filesystem::path(path).parent_path();
+  set_setting(L_, Setting::modules, folder.empty() ? "." : folder.string());
+}
 
 void State::set_quiet() {
   memory_.quiet = true;
@@ -193,11 +207,12 @@ State::Result State::run_loaded(int status, const std::vector<std::string>& argu
 
 State::Result State::run_file(const std::string& path, const std::vector<std::string>& arguments) {
   set_arguments(path, arguments);
-  return run_loaded(luaL_loadfilex(L_, path == "-" ? nullptr : path.c_str(), "t"), arguments);
+  if (path != "-") set_script(path);
+  return run_loaded(load_text_file(L_, path == "-" ? nullptr : path.c_str()), arguments);
 }
 
 State::Result State::run_code(const std::string& code, const std::string& name) {
-  return run_loaded(luaL_loadbufferx(L_, code.data(), code.size(), name.c_str(), "t"), {});
+  return run_loaded(load_text(L_, code.data(), code.size(), name.c_str()), {});
 }
 
 // (module, function, arguments...)
@@ -257,10 +272,10 @@ State::Line State::evaluate(const std::string& input, int line) {
   // empty lines before it make Lua count from there
   const std::string before(static_cast<size_t>(line - 1), '\n'), text = before + input;
   const std::string expression = before + "return " + input.substr(marked ? 1 : 0);
-  int status = luaL_loadbufferx(L_, expression.data(), expression.size(), "=input", "t");
+  int status = load_text(L_, expression.data(), expression.size(), "=input");
   if (status != LUA_OK && !marked) {
     lua_settop(L_, base);
-    status = luaL_loadbufferx(L_, text.data(), text.size(), "=input", "t");
+    status = load_text(L_, text.data(), text.size(), "=input");
   }
   if (is_cut_short(L_, status)) {
     lua_settop(L_, base);

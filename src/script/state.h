@@ -23,7 +23,10 @@ class State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  /// Runs a file, "-" for stdin, with the global `arg` and `...` as the command's arguments.
+  /// From now on require looks for the user's modules in the folder of this file first; until then
+  /// in none.
+  void set_script(const std::string& path);
+  /// Runs a file, "-" for stdin, as the script, with the global `arg` and `...` as the command's arguments.
   Result run_file(const std::string& path, const std::vector<std::string>& arguments);
   /// Runs a chunk that messages call by its name.
   Result run_code(const std::string& code, const std::string& name);

@@ -8,9 +8,11 @@
 #include "model/compare_worlds.h"
 #include "model/describe_world.h"
 #include "script/bind_log.h"
+#include "script/chunks.h"
 #include "script/guard.h"
 #include "script/handles.h"
 #include "script/read_spec.h"
+#include "script/setting.h"
 #include "script/table.h"
 
 namespace clench {
@@ -72,11 +74,13 @@ static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& r
   const std::string file = path.filename().string();
   if (!lua_checkstack(L, 12)) fail("too many values on the stack");
   const Running running(L, path);
-  if (luaL_loadfilex(L, path.string().c_str(), "t") != LUA_OK)
+  const std::string folder = fs::absolute(path).parent_path().lexically_normal().generic_string();
+  const ScopedSetting modules(L, Setting::modules, folder);
+  if (load_text_file(L, path.string().c_str()) != LUA_OK)
     fail("{}", lua_tostring(L, -1) ? lua_tostring(L, -1) : "no reason given");
   lua_createtable(L, 0, 1);
   if (!root.empty()) set_field(L, "root", root.generic_string());
-  push(L, fs::absolute(path).parent_path().lexically_normal().generic_string());
+  push(L, folder);
   protected_call(L, 2, 1);
   const auto* handle = to<WorldHandle>(L, -1);
   if (!handle) fail("{}: wanted a script that returns a world, got {}", file, described(L, -1));

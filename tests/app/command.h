@@ -42,17 +42,24 @@ class Folder {
   fs::path path_;
 };
 
+inline bool has(const std::string& text, const std::string& part) {
+  const bool found = text.find(part) != std::string::npos;
+  if (!found) MESSAGE("wanted '", part, "' in: ", text.substr(0, 1000));
+  return found;
+}
+
 struct Outcome {
   int code = -1;
   std::string out;  ///< stdout and stderr
 };
 
-/// Runs `clench <arguments>` in a shell, with a text as its input.
-inline Outcome run(const std::string& arguments, const std::string& input = "") {
+/// Runs `<before> clench <arguments>` in a shell, with a text as its input.
+inline Outcome run(const std::string& arguments, const std::string& input = "",
+                   const std::string& before = "") {
   const Folder folder;
   const std::string in = folder.file("input", input);
   FILE* pipe =
-      popen(fmt::format("{} {} 2>&1 < {}", CLENCH_COMMAND, arguments, in).c_str(), "r");
+      popen(fmt::format("{} {} {} 2>&1 < {}", before, CLENCH_COMMAND, arguments, in).c_str(), "r");
   Outcome outcome;
   char buffer[4096];
   while (const size_t count = fread(buffer, 1, sizeof buffer, pipe))

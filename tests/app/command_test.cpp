@@ -1,13 +1,8 @@
 #include "command.h"
 
 using clench::test::Folder;
+using clench::test::has;
 using clench::test::run;
-
-static bool has(const std::string& text, const std::string& part) {
-  const bool found = text.find(part) != std::string::npos;
-  if (!found) MESSAGE("wanted '", part, "' in: ", text.substr(0, 1000));
-  return found;
-}
 
 TEST_CASE("run gives a script its arguments, whatever they look like") {
   const Folder folder;

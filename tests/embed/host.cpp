@@ -35,10 +35,13 @@ static void use_engine() {
 static void lend_lua() {
   lua_State* L = luaL_newstate();
   luaL_openlibs(L);
+  lua_pushcfunction(L, clench_refuse_bytecode);
+  lua_call(L, 0, 0);
   luaL_requiref(L, "clench", clench_open, 0);
   lua_pop(L, 1);
   const char* script = R"(
     assert(_G.clench == nil)
+    assert(not load(string.dump(function() end)))
     local clench = require "clench"
     assert((clench.pose{xyz = {1, 2, 3}} * {1, 1, 1}).z == 4)
     for _ = 1, 1000 do

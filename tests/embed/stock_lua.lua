@@ -14,6 +14,17 @@ assert(not ok and message:find("did you mean 'pose'?", 1, true))
 -- the standard library is inside the module
 assert(#clench.shapes.box {1, 2, 3}.triangles == 12)
 assert(require "clench.shapes.box" == clench.shapes.box)
+-- and comes from nowhere else, whatever lies around
+local path = os.tmpname()
+local file = assert(io.open(path, "w"))
+file:write "error 'a file in place of ours'"
+file:close()
+package.path, package.cpath = path .. ";" .. package.path, path
+assert(require "clench.shapes.sphere" == clench.shapes.sphere)
+assert(not pcall(require, "clench.nothing") and select(2, pcall(require, "clench.nothing")):find "standard library")
+package.loaded.clench = nil
+assert(require "clench" == clench)
+os.remove(path)
 assert(clench.json.encode(clench.json.decode '{"b": [1, 2.5], "a": {}}') == '{"a":{},"b":[1,2.5]}')
 assert(#clench.catalog().hands > 0, "the models are found from the module")
 print("clench " .. clench.version .. " in " .. _VERSION)

@@ -90,7 +90,7 @@ TEST_CASE("a file that is no Lua is refused, compiled chunks too") {
   const fs::path path = fs::temp_directory_path() / "clench_state_binary.lua";
   std::ofstream(path, std::ios::binary) << "\x1bLua rubbish";
   State state;
-  CHECK(says(state.run_file(path.string(), {}).error, "binary"));
+  CHECK(says(state.run_file(path.string(), {}).error, "bytecode is not run; wanted Lua text"));
   fs::remove(path);
 }
 

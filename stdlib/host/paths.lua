@@ -1,0 +1,23 @@
+--- Where require looks for modules that do not lie beside the script: where LUA_PATH and LUA_CPATH say, else where
+--- Lua's own lie. Of Lua's default the current folder is left out, for nobody has chosen it.
+local function without_current_folder(path)
+  local kept = {}
+  for template in path:gmatch "[^;]+" do
+    if not template:find "^%./" then kept[#kept + 1] = template end
+  end
+  return table.concat(kept, ";")
+end
+
+-- as Lua reads them: two semicolons stand for the default
+local function chosen(variable, default)
+  local given = os.getenv(variable .. "_5_4") or os.getenv(variable)
+  if not given then return default end
+  local before, after = given:match "^(.-);;(.*)$"
+  if not before then return given end
+  return ((before .. ";" .. default .. ";" .. after):gsub("^;", ""):gsub(";$", ""))
+end
+
+return function()
+  package.path = chosen("LUA_PATH", without_current_folder(package.path))
+  package.cpath = chosen("LUA_CPATH", without_current_folder(package.cpath))
+end
