@@ -50,6 +50,9 @@ last_line() {
 configure() {
   if [ ! -f "build/$1/build.ninja" ] || [ CMakePresets.json -nt "build/$1/build.ninja" ] ||
      ! grep -q '^CLENCH_TESTS:BOOL=ON$' "build/$1/CMakeCache.txt"; then
-    step "configure $1" "build/configure_$1.log" cmake --preset "$1" -DCLENCH_TESTS=ON
+    configure_anew "$1"
   fi
 }
+
+# configure_anew PRESET: writes them, with all libraries that are installed now
+configure_anew() { step "configure $1" "build/configure_$1.log" cmake --preset "$1" -DCLENCH_TESTS=ON; }

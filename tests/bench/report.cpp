@@ -42,13 +42,14 @@ double Report::mean(const std::string& query) const {
   double sum = 0;
   int count = 0;
   for (const Row& row : rows_)
-    if (row.query == query) sum += std::log(row.medians.at("ours")), ++count;
+    if (row.query == query) sum += std::log(median(query, row.pair)), ++count;
   return count == 0 ? std::nan("") : std::exp(sum / count);
 }
 
 double Report::median(const std::string& query, const std::string& pair) const {
   for (const Row& row : rows_)
-    if (row.query == query && row.pair == pair) return row.medians.at("ours");
+    if (row.query == query && row.pair == pair && row.medians.contains("ours"))
+      return row.medians.at("ours");
   return std::nan("");
 }
 
@@ -58,10 +59,8 @@ double Report::ratio(const std::string& query, const std::string& other,
   int count = 0;
   for (const Row& row : rows_) {
     if (row.query != query || !row.medians.contains(other)) continue;
-    const Row* base = &row;
-    for (const Row& r : rows_)
-      if (r.query == own_query && r.pair == row.pair) base = &r;
-    sum += std::log(row.medians.at(other) / base->medians.at("ours"));
+    const double own = median(own_query.empty() ? query : own_query, row.pair);
+    sum += std::log(row.medians.at(other) / own);
     ++count;
   }
   return count == 0 ? std::nan("") : std::exp(sum / count);
@@ -85,14 +84,35 @@ void Report::print(const std::vector<std::string>& libraries) const {
     fmt::print("{} answers of {}: {} wrong\n", answers.second, library, answers.first);
 }
 
-void Report::write_csv(const std::string& path) const {
+bool Aim::measured() const { return std::isfinite(value) && (value > 0 || must == 0); }
+
+bool Report::judge(const std::vector<Aim>& aims) const {
+  if (checked_ == 0) fmt::print("no answer was compared with another library's\n");
+  bool good = checked_ > 0 && disagreed_ == 0;
+  for (const Aim& aim : aims) {
+    if (aim.measured())
+      fmt::print("{:48} {:8.2f}   must be {} {}{}\n", aim.what, aim.value,
+                 aim.at_most ? "<=" : ">=", aim.must, aim.met() ? "" : "   MISSED");
+    else
+      fmt::print("{:48} NOT MEASURED: is the other library here?\n", aim.what);
+    good = good && aim.met();
+  }
+  return good;
+}
+
+bool Report::write_csv(const std::string& path) const {
   std::FILE* file = std::fopen(path.c_str(), "w");
-  if (!file) return;
+  if (!file) {
+    fmt::print(stderr, "{}: cannot be written\n", path);
+    return false;
+  }
   fmt::print(file, "query,pair,library,median\n");
   for (const Row& row : rows_)
     for (const auto& [library, value] : row.medians)
       fmt::print(file, "\"{}\",{},{},{:.4g}\n", row.query, row.pair, library, value);
-  std::fclose(file);
+  if (std::fclose(file) == 0) return true;
+  fmt::print(stderr, "{}: cannot be written\n", path);
+  return false;
 }
 
 }  // namespace clench::bench

@@ -29,6 +29,16 @@ using Times = std::map<std::string, std::vector<double>>;  ///< by library [us]
 /// Libraries take turns on blocks of so many questions: near in time, and each with its own data at hand.
 inline constexpr int block = 10;
 
+/// A figure that issue and specification ask for.
+struct Aim {
+  std::string what;
+  double value, must;
+  bool at_most = false;
+  /// nothing measured gives NaN; of no time at all the ratio is infinite or 0
+  bool measured() const;
+  bool met() const { return measured() && (at_most ? value <= must : value >= must); }
+};
+
 /// one line of the table: a question, in a situation, of a pair of meshes
 struct Row {
   std::string query, pair;
@@ -46,16 +56,19 @@ class Report {
 
   /// geometric mean over the pairs of our own figure
   double mean(const std::string& query) const;
-  /// geometric mean over the pairs of the time of `other` over that of ours, in own_query if given
+  /// geometric mean over the pairs of the time of `other` over that of ours, in own_query if given;
+  /// NaN when one of them was not measured
   double ratio(const std::string& query, const std::string& other,
                const std::string& own_query = "") const;
   /// our own figure of one pair; NaN when it was not measured
   double median(const std::string& query, const std::string& pair) const;
-  int checked() const { return checked_; }
-  int disagreed() const { return disagreed_; }
 
   void print(const std::vector<std::string>& libraries) const;
-  void write_csv(const std::string& path) const;
+  /// Prints each aim with its figure. True when answers were compared, all agree, and every aim was
+  /// measured and is met.
+  bool judge(const std::vector<Aim>& aims) const;
+  /// false, after a sentence, when it cannot be written
+  bool write_csv(const std::string& path) const;
 
  private:
   std::vector<Row> rows_;

@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# scripts/bench configures anew after it has installed the libraries that it compares with, and writes a table only
+# when told to: run in a folder of its own, with a made-up dpkg-query, cmake and bench program.
+#   bash tests/scripts/bench_test.sh       from the project's root
+set -eu
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+cp -r scripts "$root/"
+mkdir -p "$root/bin" "$root/build/release/tests"
+export CALLS="$root/calls" PATH="$root/bin:$PATH"
+
+fake() { printf '#!/usr/bin/env bash\n%s\n' "$2" >"$root/$1" && chmod +x "$root/$1"; }
+run() { : >"$CALLS"; status=0; said=$(bash "$root/scripts/bench" "$@" 2>&1 </dev/null) || status=$?; }
+wants() {
+  if [[ "$2" != $3 ]]; then printf 'FAILED %s\n  wanted: %s\n  got:    %s\n' "$1" "$3" "$2"; exit 1; fi
+  echo "ok     $1"
+}
+
+fake bin/apt-get 'exit 1'
+fake bin/dpkg-query 'shift 3; for p in "$@"; do echo "installed $p"; done'
+fake bin/cmake 'echo "cmake $*" >>"$CALLS"'
+for what in geometry quality; do
+  fake build/release/tests/bench_$what 'echo "bench $*" >>"$CALLS"; exit 3'
+done
+# a build that was configured with the tests, as scripts/test leaves it
+: >"$root/build/release/build.ninja"
+echo "CLENCH_TESTS:BOOL=ON" >"$root/build/release/CMakeCache.txt"
+
+for what in geometry quality; do
+  run $what --check
+  wants "$what configures anew, then builds" "$(cat "$CALLS")" "cmake --preset release *cmake --build * bench_$what*"
+  wants "$what --check writes no table" "$(tail -n 1 "$CALLS")" "bench --check"
+  wants "$what --check fails as its program does" "$status" 3
+  run $what --check --record
+  wants "$what --record writes one" "$(tail -n 1 "$CALLS")" "bench --check --csv docs/benchmarks/$what.csv"
+  run $what
+  wants "$what alone writes none" "$(tail -n 1 "$CALLS")" "bench "
+done
+run geometry --chekc
+wants "a misspelt option is refused" "$status $said$(cat "$CALLS")" "2 usage: scripts/bench geometry \[--check\] \[--record\]"
