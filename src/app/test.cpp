@@ -59,9 +59,7 @@ int run_tests(const std::string& path, bool quiet) {
     const Count one = run_test_file(file, quiet);
     all.passed += one.passed, all.failed += one.failed, all.skipped += one.skipped;
   }
-  std::printf("%d passed, %d failed", all.passed, all.failed);
-  if (all.skipped) std::printf(", %d skipped", all.skipped);
-  std::printf("\n");
+  std::printf("%d passed, %d failed, %d skipped\n", all.passed, all.failed, all.skipped);
   return all.failed ? 1 : 0;
 }
 

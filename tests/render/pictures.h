@@ -7,10 +7,11 @@
 #include "base/error.h"
 #include "render/render.h"
 #include "support/shapes.h"
+#include "support/skip.h"
 
 namespace clench::test {
 
-/// Does this machine, and this build, draw? Says so when not.
+/// Does this machine, and this build, draw? The test case is skipped when not.
 inline bool pictures() {
   try {
     render({}, {.width = 16, .height = 16, .samples = 1});
@@ -20,7 +21,7 @@ inline bool pictures() {
     // anything else is a fault of ours
     REQUIRE((why.find("install the packages libegl1, libgl1 and libgl1-mesa-dri") != why.npos ||
              why == "this build has no pictures: configure with -DCLENCH_GL=ON"));
-    MESSAGE("skipped: " << why);
+    skip(why);
     return false;
   }
 }
@@ -47,6 +48,6 @@ inline DrawMesh solid(const Mesh& mesh, const Eigen::Vector3f& color = {0.85f, 0
 
 }  // namespace clench::test
 
-/// Ends the test case, saying so, where there are no pictures.
+/// Ends the test case, as skipped, where there are no pictures.
 #define REQUIRE_PICTURES() \
   if (!clench::test::pictures()) return;

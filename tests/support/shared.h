@@ -1,9 +1,9 @@
 // Third-party data and measurements, read in place; absent on most machines.
 #pragma once
-#include <doctest/doctest.h>
-
 #include <cstdlib>
 #include <filesystem>
+
+#include "support/skip.h"
 
 namespace clench::test {
 
@@ -16,9 +16,9 @@ inline std::filesystem::path shared() {
 
 }  // namespace clench::test
 
-/// Ends the test case, saying so, where the third-party data is absent.
-#define REQUIRE_SHARED()                                                       \
-  if (clench::test::shared().empty()) {                                       \
-    MESSAGE("skipped: no third-party data at ../shared or CLENCH_SHARED");    \
-    return;                                                                    \
+/// Ends the test case, as skipped, where the third-party data is absent.
+#define REQUIRE_SHARED()                                                               \
+  if (clench::test::shared().empty()) {                                                \
+    clench::test::skip("no third-party data at ../shared or CLENCH_SHARED");           \
+    return;                                                                            \
   }

@@ -1,0 +1,15 @@
+// Test cases that check nothing, for tests/scripts/watched_test.sh: what the main function makes of them.
+#include <doctest/doctest.h>
+
+#include "support/skip.h"
+
+TEST_CASE("one that checks") { CHECK(true); }
+
+TEST_CASE("one without a check") {}
+
+TEST_CASE("one that cannot run here") { clench::test::skip("for an example"); }
+
+TEST_CASE("one that fails before it is skipped") {
+  CHECK(false);
+  clench::test::skip("for an example");
+}
