@@ -15,11 +15,11 @@ end
 
 local function is_number(x) return type(x) == "number" and x == x and math.abs(x) < math.huge end
 
---- is this {number, number, ...} with `least` to `most` finite numbers?
-local function is_point(value, least, most)
+--- is this {number, number, ...} with `least` to `most` finite numbers, each up to `largest`?
+local function is_point(value, least, most, largest)
   if type(value) ~= "table" or #value < least or #value > most then return false end
   for _, x in ipairs(value) do
-    if not is_number(x) then return false end
+    if not is_number(x) or math.abs(x) > largest then return false end
   end
   return true
 end
@@ -46,6 +46,7 @@ local function read_number(self, name, default, what, fits)
   local value = self:raw(name)
   if value == nil then value = default end
   if not (is_number(value) and fits(value)) then self:wanted(name, what, value) end
+  if math.abs(value) > self.largest then self:wanted(name, ("a number of at most %g"):format(self.largest), value) end
   return value
 end
 
@@ -73,7 +74,7 @@ end
 function Options:point(name, default)
   local value = self:raw(name)
   if value == nil then return default end
-  if not is_point(value, 3, 3) then self:wanted(name, "a point {x, y, z}", value) end
+  if not is_point(value, 3, 3, self.largest) then self:wanted(name, "a point {x, y, z}", value) end
   return value
 end
 
@@ -85,7 +86,7 @@ function Options:points(name, least, size)
     self:wanted(name, ("a list of at least %d points %s"):format(least, form), value)
   end
   for i, point in ipairs(value) do
-    if not is_point(point, size, size) then self:wanted(name .. "[" .. i .. "]", "a point " .. form, point) end
+    if not is_point(point, size, size, self.largest) then self:wanted(name .. "[" .. i .. "]", "a point " .. form, point) end
   end
   return value
 end
@@ -121,8 +122,10 @@ end
 ---@param subject string  the function's name, for messages
 ---@param given table  what the caller wrote
 ---@param places? string[]  names of the values that may be given by position
-return function(subject, given, places)
-  local self = setmetatable({subject = subject, given = given, read = {}, known = {}, places = {}}, Options)
+---@param largest? number  of all numbers
+return function(subject, given, places, largest)
+  local self = setmetatable({subject = subject, given = given, read = {}, known = {}, places = {},
+                             largest = largest or math.huge}, Options)
   for place, name in ipairs(places or {}) do self.places[name] = place end
   if type(given) ~= "table" then
     self:fail("wanted one table of options, as in %s {...}, got %s", subject, show(given))

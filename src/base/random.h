@@ -21,7 +21,10 @@ class Random {
   /// uniform in [0, 1)
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   /// uniform in [low, high)
-  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  double uniform(double low, double high) {
+    const double share = uniform(), range = high - low;
+    return std::isfinite(range) ? low + range * share : low * (1 - share) + high * share;
+  }
   /// standard normal (Box and Muller 1958)
   double normal() {
     const double r = std::sqrt(-2 * std::log(1 - uniform()));

@@ -34,6 +34,8 @@ std::string_view trim(std::string_view text);
 std::string lower_case(std::string_view text);
 /// Words between white space and any of `separators`.
 std::vector<std::string_view> split_words(std::string_view text, std::string_view separators = "");
+/// Bytes of the character that begins at i; 0 when it is not UTF-8.
+size_t utf8_size(std::string_view text, size_t i);
 /// A word for an error: in quotes, cut when long, unprintable characters as '?'; "nothing" when
 /// empty.
 std::string in_quotes(std::string_view text);

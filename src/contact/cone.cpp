@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "contact/friction_edges.h"
+#include "spec/valid.h"
 
 namespace clench {
 
@@ -18,8 +19,7 @@ void check_cone(const PointContact& contact, const ConeOptions& options) {
   const double length = contact.n_O.norm();
   if (!(std::abs(length - 1) <= unit_length))
     fail("contact cone: the normal must be a unit vector, got length {}", length);
-  if (!std::isfinite(contact.mu) || contact.mu < 0)
-    fail("contact cone: mu must be >= 0, got {}", contact.mu);
+  check(friction_rule.called("mu"), contact.mu, "contact cone");
   if (!std::isfinite(contact.torsion_radius) || contact.torsion_radius < 0)
     fail("contact cone: torsion_radius must be >= 0, got {}", contact.torsion_radius);
   if (!std::isfinite(options.rho) || options.rho <= 0)

@@ -1,12 +1,11 @@
 #include "contact/materials.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.h"
 #include "base/suggest.h"
-#include "spec/body_spec.h"
 #include "spec/material_names.h"
+#include "spec/valid.h"
 
 namespace clench {
 
@@ -33,14 +32,11 @@ int MaterialTable::index(std::string_view name) const {
 }
 
 void MaterialTable::set_friction(std::string_view a, std::string_view b, Friction friction) {
-  const auto check = [&](const char* which, double mu) {
-    if (!(mu >= 0)) fail("friction of {} and {}: {} must be >= 0, got {}", a, b, which, mu);
-    if (mu > largest_number)
-      fail("friction of {} and {}: {} must be at most {}, got {}", a, b, which, largest_number, mu);
-  };
   if (a.empty() || b.empty()) fail("friction of '{}' and '{}': a material needs a name", a, b);
-  check("static", friction.statics);
-  check("kinetic", friction.kinetic);
+  for (const std::string_view name : {a, b}) check_name(name, "material");
+  const std::string subject = fmt::format("friction of {} and {}", a, b);
+  check(friction_rule.called("static"), friction.statics, subject);
+  check(friction_rule.called("kinetic"), friction.kinetic, subject);
   if (friction.kinetic > friction.statics)
     fail("friction of {} and {}: kinetic {} exceeds static {}", a, b, friction.kinetic,
          friction.statics);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace clench {
 
@@ -41,6 +42,12 @@ MassProperties solid_mass(const Mesh& mesh) {
   out.centroid = apex + centre;
   out.inertia = spread.trace() * Matrix3d::Identity() - spread;
   return out;
+}
+
+bool turn_outward(Mesh& mesh) {
+  if (!(solid_mass(mesh).volume < 0) || !find_faults(mesh).closed()) return false;
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return true;
 }
 
 Vector3d surface_centroid(const Mesh& mesh) {

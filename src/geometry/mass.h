@@ -17,6 +17,11 @@ struct MassProperties {
 /// source  Mirtich (1996); Eberly (2002), polyhedral mass properties
 MassProperties solid_mass(const Mesh& mesh);
 
+/// Turns a closed mesh that is inside out: its triangles then face outward.   returns  was it?
+bool turn_outward(Mesh& mesh);
+/// What is told of one, behind its name.
+inline constexpr const char* inside_out = ": its triangles face inward; turned to face outward";
+
 /// Area-weighted centroid of the surface [m].
 Eigen::Vector3d surface_centroid(const Mesh& mesh);
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "math/cone_program.h"
 #include "math/decompositions.h"
+#include "spec/valid.h"
 
 namespace clench {
 
@@ -35,7 +36,7 @@ void check_robustness_problem(const RobustnessProblem& p) {
   if (!p.G.allFinite() || !p.J.allFinite() || !p.load.allFinite())
     fail("robustness: G, J and the load must be finite");
   for (const double mu : p.mu)
-    if (!(mu >= 0) || !std::isfinite(mu)) fail("robustness: mu must be >= 0, got {}", mu);
+    check(friction_rule.called("mu"), mu, "robustness");
   for (const double c : p.compliance)
     if (!(c > 0) || !std::isfinite(c)) fail("robustness: compliance must be > 0, got {} [m/N]", c);
   if (!(p.max_force > 0) || !std::isfinite(p.max_force))

@@ -19,12 +19,10 @@ const XmlKnown known = {.once = {"material", "youngs", "normalCompliance", "shea
                                  "geometryScalingX", "geometryScalingY", "geometryScalingZ",
                                  "geometryOffset", "mass", "cog", "inertia_matrix"}};
 
-double positive(const XmlElement& element, const char* unit) {
+double number_of(const XmlElement& element, const Quantity& quantity) {
   const double value = element.number();
-  if (value <= 0) element.fail("{}: wanted a number > 0{}, got {}", element.name(), unit, value);
-  if (value > largest_number)
-    element.fail("{}: wanted a number of at most {}{}, got {}", element.name(), largest_number,
-                 unit, value);
+  if (const auto wrong = fault(quantity, value); !wrong.empty())
+    element.fail("{}: {}", element.name(), wrong);
   return value;
 }
 
@@ -32,12 +30,12 @@ double positive(const XmlElement& element, const char* unit) {
 Eigen::Vector3d read_scaling(const XmlElement& body) {
   Eigen::Vector3d scaling = Eigen::Vector3d::Ones();
   const XmlElement all = body.child("geometryScaling");
-  if (all) scaling.setConstant(positive(all, ""));
+  if (all) scaling.setConstant(number_of(all, scale_rule));
   constexpr const char* names[] = {"geometryScalingX", "geometryScalingY", "geometryScalingZ"};
   for (int i = 0; i < 3; ++i)
     if (const XmlElement one = body.child(names[i])) {
       if (all) one.fail("{}: wanted it or geometryScaling, got both", names[i]);
-      scaling[i] = positive(one, "");
+      scaling[i] = number_of(one, scale_rule);
     }
   return scaling;
 }
@@ -87,7 +85,7 @@ void read_compliance(const XmlElement& body, const Library& library) {
   const std::array both = {body.child("normalCompliance"), body.child("shearCompliance")};
   for (int i = 0; i < 2; ++i) {
     if (!both[i]) continue;
-    positive(both[i], "");
+    number_of(both[i], positive_rule);
     if (!both[1 - i])
       both[i].fail("{}: wanted normalCompliance and shearCompliance, or neither", both[i].name());
     if (i == 0)
@@ -97,8 +95,11 @@ void read_compliance(const XmlElement& body, const Library& library) {
 }
 
 void read_mass(const XmlElement& body, const Library& library, BodySpec& out) {
-  if (const XmlElement mass = body.child("mass")) out.mass = positive(mass, " [g]") * units::gram;
-  if (const XmlElement cog = body.child("cog")) out.com = cog.vector() * units::millimetre;
+  if (const XmlElement mass = body.child("mass")) out.mass = number_of(mass, mass_rule.in("g", units::gram)) * units::gram;
+  if (const XmlElement cog = body.child("cog")) {
+    out.com = cog.vector() * units::millimetre;
+    check(coordinate_rule.called("cog"), *out.com, cog.place());
+  }
   if (const XmlElement inertia = body.child("inertia_matrix")) {
     const auto x = inertia.numbers(9);
     Eigen::Matrix3d rows;
@@ -117,7 +118,7 @@ void read_matter(const XmlElement& body, const Library& library, BodySpec& out) 
     }
   }
   if (const XmlElement youngs = body.child("youngs")) {
-    out.elastic_modulus = positive(youngs, " [Pa]");
+    out.elastic_modulus = number_of(youngs, elastic_modulus_rule);
     if (*out.elastic_modulus < 1e4)
       library.doubted(fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
                                   youngs.place(), *out.elastic_modulus));

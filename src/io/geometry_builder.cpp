@@ -210,8 +210,12 @@ void GeometryBuilder::add_face(std::span<const int> corners, const Eigen::Vector
   }
 }
 
-void GeometryBuilder::add_triangle(const Triangle& t, const Eigen::Vector3f& color,
+// files go beyond what can be shown
+static float clamped_share(float x) { return x >= 0 ? std::min(x, 1.0f) : 0.0f; }
+
+void GeometryBuilder::add_triangle(const Triangle& t, const Eigen::Vector3f& given,
                                    float transparency) {
+  const Eigen::Vector3f color = given.unaryExpr(&clamped_share);
   if (mesh_.triangles.size() >= most_mesh_triangles)
     fail("wanted at most {} triangles", most_mesh_triangles);
   mesh_.triangles.push_back(t);
@@ -222,7 +226,7 @@ void GeometryBuilder::add_triangle(const Triangle& t, const Eigen::Vector3f& col
   const double area = (mesh_.vertices[t[1]] - p).cross(mesh_.vertices[t[2]] - p).norm();
   if (!std::isfinite(area)) return;
   weighted_color_ += area * color.cast<double>();
-  weighted_transparency_ += area * transparency;
+  weighted_transparency_ += area * clamped_share(transparency);
   weight_ += area;
 }
 
@@ -289,11 +293,8 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
   out.report.dropped_triangles =
       out.report.triangles_read - static_cast<int>(s.mesh.triangles.size());
 
-  if (s.faults.closed() && solid_mass(s.mesh).volume < 0) {
-    for (auto& t : s.mesh.triangles) std::swap(t[1], t[2]);
-    out.report.turned = true;
-    options.mended(subject + ": its triangles face inward; turned to face outward");
-  }
+  out.report.turned = turn_outward(s.mesh);
+  if (out.report.turned) options.mended(subject + inside_out);
   if (colors_given) out.appearance = mean_appearance(s.kept);
   out.mesh = std::move(s.mesh);
   return out;

@@ -9,17 +9,25 @@
 
 namespace clench {
 
-/// The symmetric part of `rows` [m^2]; empty when no body has such an inertia: the shape's is to be
-/// used. They are told of both, with `place` in front.
+/// What a reader does about an inertia: see inertia_fault.
+enum class Inertial {
+  sound,
+  no_body,       ///< one moment exceeded the sum of the others, which were raised
+  not_definite,  ///< no inertia; left to the shape
+  not_given,     ///< left to the shape, too
+};
+
+/// Makes a symmetric matrix the inertia of a body where that can be [m^2].
+Inertial mend_inertia(Eigen::Matrix3d& per_mass);
+
+/// What is told of an inertia whose other moments were raised.
+inline constexpr const char* raised_moments =
+    "inertia that no body has, as one moment exceeds the sum of the others; these are raised to it";
+
+/// The symmetric part of `rows` [m^2], mended; empty when it is no inertia: the shape's is to be used.
+/// They are told of all three, with `place` in front.
 std::optional<Eigen::Matrix3d> checked_inertia(const Eigen::Matrix3d& rows,
                                                const std::string& place,
                                                const Listeners& listeners);
-
-/// Does one moment exceed the sum of the others, as no body's does? Files round: 1 % is passed over.
-bool breaks_triangle(const Eigen::Matrix3d& inertia);
-
-/// Tells of such an inertia, which is used as it stands; the sentence begins with `place`.
-void doubt_inertia(const Eigen::Matrix3d& inertia, const std::string& place,
-                   const Listeners& listeners);
 
 }  // namespace clench

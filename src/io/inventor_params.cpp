@@ -23,11 +23,9 @@ std::vector<bool> marked_lines(std::string_view text) {
   return out;
 }
 
-double positive(const Line& line, const char* what, const char* unit) {
-  const double value = line.number(1, what);
-  if (value <= 0) line.fail("{}: wanted a number > 0 [{}], got {}", what, unit, value);
-  if (value > largest_number)
-    line.fail("{}: wanted a number of at most {} [{}], got {}", what, largest_number, unit, value);
+double number_of(const Line& line, const Quantity& quantity) {
+  const double value = line.number(1, quantity.name);
+  check(quantity, value, line.place());
   return value;
 }
 
@@ -82,7 +80,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
       }
       body.material = line.word(1);
     } else if (key == "youngs") {
-      body.elastic_modulus = positive(line, "youngs", "Pa");
+      body.elastic_modulus = number_of(line, elastic_modulus_rule.called("youngs"));
       if (*body.elastic_modulus < 1e4 && options.warn)
         options.doubted(
             fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
@@ -90,11 +88,12 @@ void read_inventor_params(const std::string& text, const std::string& file,
     } else if (key == "useFlockOfBirds") {
       body.tracker = line.integer(1, "useFlockOfBirds", 0);
     } else if (key == "mass") {
-      body.mass = positive(line, "mass", "g") * units::gram;
+      body.mass = number_of(line, mass_rule.in("g", units::gram)) * units::gram;
     } else if (key == "cog") {
       body.com =
           Eigen::Vector3d(line.number(1, "cog"), line.number(2, "cog"), line.number(3, "cog")) *
           units::millimetre;
+      check(coordinate_rule.called("cog"), *body.com, line.place());
     } else if (key == "inertia_matrix") {
       body.inertia_per_mass = inertia_rows(lines, line, options);
     }

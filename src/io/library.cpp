@@ -6,6 +6,7 @@
 #include "io/doubts.h"
 #include "io/inventor.h"
 #include "io/inventor_params.h"
+#include "io/mend_names.h"
 #include "io/mesh_files.h"
 #include "io/robot_cfg.h"
 #include "io/robot_xml.h"
@@ -56,6 +57,7 @@ static BodySpec load_body(const fs::path& path, Library& library) {
       body.shape = Shape::make(std::move(geometry.mesh), file);
   }
   body.name = path.stem().string();
+  mend_names(body, file, options);
   body.source = path.generic_string();
   body.file = absolute_name(path);
   return body;

@@ -334,14 +334,13 @@ void MjcfReader::read_inertial(const XmlElement& element, int link, const Pose& 
     inertia.diagonal() = values.vec3("diaginertia", {0, 0, 0});
   }
   const double mass = values.number("mass");
-  if (!(mass > 0)) {
-    warn(element, fmt::format("body '{}': wanted a mass > 0, got {}; the geometry gives it",
-                              body.name, mass));
+  if (const auto wrong = fault(mass_rule, mass); !wrong.empty()) {
+    warn(element, fmt::format("body '{}': mass: {}; the geometry gives it", body.name, wrong));
     return;
   }
-  const Inertial fault = set_inertial(body, mass, X_frame * document_.pose(values), inertia);
+  const Inertial inertial = set_inertial(body, mass, X_frame * document_.pose(values), inertia);
   const bool given = values.has("fullinertia") || values.has("diaginertia");
-  inertial_faults_.add(given ? fault : Inertial::not_given, element.place(), body.name);
+  inertial_faults_.add(given ? inertial : Inertial::not_given, element.place(), body.name);
   pieces_[link].has_inertial = true;
 }
 
@@ -357,7 +356,7 @@ void MjcfReader::weigh_geoms(int link) {
     mass += geom.mass;
     moment += geom.mass * (geom.piece.X_LG * parts.back().second.centroid);
   }
-  if (!(mass > 0) || !std::isfinite(mass)) return;
+  if (!mass_rule.allows(mass)) return;
   const Eigen::Vector3d com = moment / mass;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (const auto& [geom, solid] : parts) {

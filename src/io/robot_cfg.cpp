@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "io/joint_expression.h"
+#include "io/mend_names.h"
 #include "io/robot_classes.h"
 #include "io/robot_files.h"
 #include "io/transform_list.h"
@@ -90,19 +91,14 @@ RobotSpec CfgReader::read() {
   couple_by_springs(robot_);
   check_ranges();
   read_optional_blocks();
-  try {
-    check_robot(robot_);
-  } catch (const Error& error) {
-    head.fail("{}", error.what());
-  }
+  check_read_robot(robot_, head.place(), library_.options());
   read_robot_files(robot_, named_, path_, library_.options());
   return std::move(robot_);
 }
 
-/// Numbers whose squares and products overflow are none.
+/// What it is for is known to check_robot; until then its products must not overflow.
 static void check_size(const Line& line, double x, const std::string& what) {
-  if (!(std::abs(x) <= largest_number))
-    line.fail("{}: wanted a number of at most {}, got {}", what, largest_number, x);
+  if (const auto wrong = fault(number_rule, x); !wrong.empty()) line.fail("{}: {}", what, wrong);
 }
 
 void CfgReader::read_dofs() {

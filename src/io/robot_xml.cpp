@@ -5,6 +5,7 @@
 #include "base/suggest.h"
 #include "base/units.h"
 #include "io/joint_expression.h"
+#include "io/mend_names.h"
 #include "io/robot_classes.h"
 #include "io/robot_files.h"
 #include "io/tendons_xml.h"
@@ -85,11 +86,7 @@ RobotSpec XmlRobotReader::read() {
       root_, [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), robot_);
   read_approach();
   read_tracker();
-  try {
-    check_robot(robot_);
-  } catch (const Error& error) {
-    root_.fail("{}", error.what());
-  }
+  check_read_robot(robot_, root_.place(), library_.options());
   read_files();
   return std::move(robot_);
 }
@@ -117,12 +114,11 @@ void XmlRobotReader::check_part(const XmlElement& element, const RobotPart& part
 
 // --- DOFs; their units depend on the kind of their joints ---
 
-/// A number whose squares and products do not overflow.
+/// What it is for is known to check_robot; until then its products must not overflow.
 static double bounded(const XmlElement& element, const std::string& subject) {
   const double x = element.number();
-  if (!(std::abs(x) <= largest_number))
-    element.fail("{}: {}: wanted a number of at most {}, got {}", subject, element.name(),
-                 largest_number, x);
+  if (const auto wrong = fault(number_rule, x); !wrong.empty())
+    element.fail("{}: {}: {}", subject, element.name(), wrong);
   return x;
 }
 

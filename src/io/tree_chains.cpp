@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "io/closing_choice.h"
 #include "io/closing_guess.h"
+#include "io/mend_names.h"
 #include "math/decompositions.h"
 
 namespace clench {
@@ -251,11 +252,7 @@ RobotSpec ChainMaker::make() {
   for (const auto& [a, b] : tree_.never_meet)
     robot_.collision_rules.pairs_off.push_back({part(a), part(b)});
   close_hand();
-  try {
-    check_robot(robot_);
-  } catch (const Error& error) {
-    fail("{}: {}", file_, error.what());
-  }
+  check_read_robot(robot_, file_, library_.options());
   return std::move(robot_);
 }
 

@@ -88,7 +88,8 @@ static Appearance looks_of(const std::vector<GeometryPiece>& pieces,
     out.transparency = &piece == &pieces.front() ? t : std::min(out.transparency, t);
   }
   if (!out.given || colors.empty()) return out;
-  out.color = differ ? Eigen::Vector3f(sum / static_cast<float>(colors.size())) : colors.front();
+  out.color = differ ? Eigen::Vector3f((sum / static_cast<float>(colors.size())).cwiseMin(1.0f))
+                     : colors.front();
   if (differ) out.triangle_colors = std::move(colors);
   return out;
 }

@@ -5,8 +5,6 @@
 
 #include "base/text.h"
 #include "io/doubts.h"
-#include "io/inertia.h"
-#include "math/decompositions.h"
 
 namespace clench {
 
@@ -17,11 +15,11 @@ Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
                       const Eigen::Matrix3d& inertia_C) {
   body.mass = mass;
   body.com = X_LC.position;
-  const Eigen::Matrix3d R = X_LC.matrix(), inertia = R * inertia_C * R.transpose() / mass;
-  const Eigen::Vector3d moments = eigenvalues(inertia);
-  if (!inertia.allFinite() || !(moments[0] > 0)) return Inertial::not_definite;
-  body.inertia_per_mass = inertia;
-  return breaks_triangle(inertia) ? Inertial::no_body : Inertial::sound;
+  const Eigen::Matrix3d R = X_LC.matrix();
+  Eigen::Matrix3d inertia = R * inertia_C * R.transpose() / mass;
+  const Inertial fault = mend_inertia(inertia);
+  if (fault != Inertial::not_definite) body.inertia_per_mass = inertia;
+  return fault;
 }
 
 void InertialFaults::add(Inertial fault, const std::string& place, const std::string& link) {
@@ -33,10 +31,7 @@ void InertialFaults::add(Inertial fault, const std::string& place, const std::st
 
 void InertialFaults::tell(const Library& library) const {
   if (!links_[0].empty())
-    library.doubted(
-        fmt::format("{}: inertia that no body has, as one moment exceeds the sum of the "
-                    "others; it is used as it stands: {}",
-                    places_[0], some_names(links_[0])));
+    library.mended(fmt::format("{}: {}: {}", places_[0], raised_moments, some_names(links_[0])));
   if (!links_[1].empty())
     library.warn(
         fmt::format("{}: inertia that is not positive definite; it is computed from the "
@@ -58,7 +53,7 @@ static bool guess_mass(BodySpec& body, const ShapePtr& shape,
   for (const GeometryPiece& piece : pieces)
     if (piece.solid) volume += piece.solid->volume - solid_mass(piece.geometry->mesh).volume;
   if (!(volume > 0 && std::isfinite(water * volume))) return false;
-  body.mass = std::max(water * volume, frame_mass);
+  body.mass = std::clamp(water * volume, frame_mass, mass_rule.max);
   return true;
 }
 

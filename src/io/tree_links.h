@@ -1,5 +1,6 @@
 // What the readers of URDF and MJCF share about links: mass properties, and which geometry collides.
 #pragma once
+#include "io/inertia.h"
 #include "io/library.h"
 #include "io/tree_geometry.h"
 #include "io/tree_model.h"
@@ -19,13 +20,6 @@ struct LinkPieces {
 /// `pieces`  one a link
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
                  const std::string& file, const Library& library);
-
-enum class Inertial {
-  sound,
-  no_body,       ///< one moment exceeds the sum of the others; used as it stands
-  not_definite,  ///< not positive definite; left to the shape
-  not_given,     ///< left to the shape, too
-};
 
 /// Mass, centre and inertia of a link from the inertia about its centre of mass [kg m^2].
 Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,

@@ -141,10 +141,10 @@ void UrdfReader::read_inertial(const XmlElement& element, BodySpec& body, LinkPi
     }
     const XmlValues values(mass);
     const double m = values.number("value");
-    if (!(m > 0)) values.fail("value", "wanted a mass > 0, got {}", m);
+    if (const auto wrong = fault(mass_rule, m); !wrong.empty()) values.fail("value", "{}", wrong);
     const Pose X_LC = read_origin(element);
-    const Inertial fault = set_inertial(body, m, X_LC, I);
-    inertial_faults_.add(inertia ? fault : Inertial::not_given, element.place(), body.name);
+    const Inertial inertial = set_inertial(body, m, X_LC, I);
+    inertial_faults_.add(inertia ? inertial : Inertial::not_given, element.place(), body.name);
     pieces.has_inertial = true;
   } catch (const Error& error) {
     library_.warn(

@@ -34,12 +34,6 @@ double unit_of(const RobotSpec& robot, int dof) {
 
 }  // namespace
 
-void check_position(const Pose& X, const std::string& place) {
-  const double far = X.position.cwiseAbs().maxCoeff();
-  if (!(far <= farthest))
-    fail("{}: wanted a position within {} m of the origin, got {}", place, farthest, far);
-}
-
 // --- DOFs ---
 
 bool dof_slides(const RobotSpec& robot, int dof) {
@@ -126,6 +120,17 @@ void check_connections(const WorldSpec& world, const std::vector<std::string>& p
 
 std::optional<Eigen::Quaterniond> camera_orientation(double x, double y, double z, double w) {
   return made_unit(Eigen::Vector4d(w, x, y, z));
+}
+
+std::optional<Camera> checked_camera(const Camera& camera, const std::string& place,
+                                     const ReadOptions& options) {
+  try {
+    check_camera(camera, place + ": camera");
+    return camera;
+  } catch (const Error& error) {
+    options.mended(fmt::format("{}; the camera is not used", error.what()));
+    return {};
+  }
 }
 
 // --- numbers as texts ---

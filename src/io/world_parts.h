@@ -4,12 +4,9 @@
 #include <string>
 
 #include "base/text.h"
-#include "spec/world_spec.h"
+#include "io/read.h"
 
 namespace clench {
-
-/// throws Error  "place: wanted a position within 1e9 m of the origin, got ..."
-void check_position(const Pose& X, const std::string& place);
 
 /// Does the DOF count in lengths, as its first joint does?
 bool dof_slides(const RobotSpec& robot, int dof);
@@ -27,6 +24,10 @@ void check_connections(const WorldSpec& world, const std::vector<std::string>& p
 
 /// Orientation of a camera, in Inventor's order x y z w; empty when they are no rotation.
 std::optional<Eigen::Quaterniond> camera_orientation(double x, double y, double z, double w);
+
+/// A camera that check_camera refuses is none, which is told.
+std::optional<Camera> checked_camera(const Camera& camera, const std::string& place,
+                                     const ReadOptions& options);
 
 /// The shortest decimal that a reader who multiplies it by `unit`, and then by `factor`, turns into
 /// the value to the bit; where there is none, the nearest.

@@ -66,7 +66,7 @@ Pose WldReader::pose() {
   lines_.skip_to_full();
   const std::string place = lines_.peek().place();
   const Pose X = any_pose();
-  check_position(X, place);
+  check_place(X, place);
   return X;
 }
 
@@ -188,7 +188,7 @@ void WldReader::read_camera(bool focal_distance) {
   Camera camera;
   camera.X_WC = {*q, Eigen::Vector3d(x[0], x[1], x[2]) * units::millimetre};
   if (focal_distance) camera.focal_distance = line.number(7, "focal distance") * units::millimetre;
-  world_.camera = camera;
+  world_.camera = checked_camera(camera, line.place(), library_.options());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "base/units.h"
 #include "io/body_xml.h"
+#include "io/mend_names.h"
 #include "io/transform_xml.h"
 #include "io/world_parts.h"
 
@@ -59,7 +60,7 @@ Pose XmlWorldReader::pose(const XmlElement& element) const {
     library_.note(fmt::format("{}: {}: no <transform>; it stands at the origin", element.place(),
                               element.name()));
   const Pose X = read_transform_of(element, library_.options().listeners());
-  check_position(X, fmt::format("{}: {}", element.place(), element.name()));
+  check_place(X, fmt::format("{}: {}", element.place(), element.name()));
   return X;
 }
 
@@ -67,6 +68,7 @@ BodySpec XmlWorldReader::inline_body(const XmlElement& element) {
   BodySpec body = read_body_element(element, path_, library_);
   const XmlElement geometry = element.child("geometryFile");
   body.name = geometry ? fs::path(geometry.text()).stem().string() : "body";
+  mend_names(body, element.place(), library_.options());
   return body;
 }
 
@@ -134,7 +136,7 @@ void XmlWorldReader::read_camera(const XmlElement& element) {
   camera.X_WC = {*q, element.wanted("position").vector() * units::millimetre};
   if (const XmlElement focus = element.child("focalDistance"))
     camera.focal_distance = focus.number() * units::millimetre;
-  world_.camera = camera;
+  world_.camera = checked_camera(camera, element.place(), library_.options());
 }
 
 }  // namespace

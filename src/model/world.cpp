@@ -1,11 +1,12 @@
 #include "model/world.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "base/suggest.h"
-#include "math/decompositions.h"
 #include "model/near_bodies.h"
+#include "spec/inertia.h"
 
 namespace clench {
 
@@ -31,15 +32,7 @@ static Id<T> insert_slot(std::vector<Slot<T>>& slots, T value, uint32_t serial) 
   return {static_cast<uint32_t>(slots.size() - 1), serial};
 }
 
-// throws Error unless every query can work at the pose
-static void check_pose(const Pose& X_WB, const char* what, const std::string& name) {
-  const double n = X_WB.rotation.norm();
-  if (!X_WB.is_finite() || std::abs(n - 1) > 1e-6)
-    fail("{} '{}': its pose must be finite, its quaternion unit", what, name);
-  const double far = X_WB.position.cwiseAbs().maxCoeff();
-  if (far > farthest)
-    fail("{} '{}': wanted a position within {} m of the origin, got {}", what, name, farthest, far);
-}
+static std::string the_body(const std::string& name) { return fmt::format("body '{}'", name); }
 
 const Body& World::body(Id<Body> id) const { return follow(state_.bodies, id, "body"); }
 const Robot& World::robot(Id<Robot> id) const { return follow(state_.robots, id, "robot"); }
@@ -73,6 +66,7 @@ std::string World::unique_name(const std::string& wanted) {
 
 void World::set_name(Id<Body> id, const std::string& name) {
   if (name.empty()) fail("body '{}': a name may not be empty", body(id).name);
+  check_name(name, the_body(body(id).name));
   const Id<Body> holder = find_body(name);
   if ((holder && holder != id) || find_robot(name))
     fail("the name '{}' is taken in this world", name);
@@ -82,6 +76,7 @@ void World::set_name(Id<Body> id, const std::string& name) {
 // --- adding and removing ---
 
 Id<Body> World::insert(Body body, const std::string& name) {
+  check_name(name, "body");
   if (!name.empty() && (find_body(name) || find_robot(name)))
     fail("the name '{}' is taken in this world", name);
   body.name = name.empty() ? unique_name(body.name) : name;
@@ -92,8 +87,8 @@ Id<Body> World::insert(Body body, const std::string& name) {
 
 Id<Body> World::add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB,
                          const std::string& name) {
-  check_pose(X_WB, "body", spec.name);
-  check_mass(spec.mass, fmt::format("body '{}'", spec.name));
+  check_body(spec, "body");
+  check_place(X_WB, the_body(spec.name));
   Body body = make_body(spec, kind, X_WB);
   body.material = state_.materials.index(spec.material);
   return insert(std::move(body), name);
@@ -107,7 +102,8 @@ static std::string part_name(const std::string& part, const std::string& was,
 
 Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::string& name) {
   check_robot(spec);
-  check_pose(X_WB, "robot", spec.name);
+  check_name(name, "robot");
+  check_place(X_WB, fmt::format("robot '{}'", spec.name));
   if (!name.empty() && (find_robot(name) || find_body(name)))
     fail("the name '{}' is taken in this world", name);
 
@@ -135,13 +131,28 @@ Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::s
     robot.q[i] = std::clamp(spec.dofs[i].default_value, range[0], range[1]);
   }
 
-  // the robot first, so that its parts know it; then base and links chain by chain
-  const std::string robot_name = robot.name;
+  // the robot first, so that its parts know it
+  const size_t bodies = state_.body_order.size();
   const auto id = insert_slot(state_.robots, std::move(robot), next_serial_++);
   state_.robot_order.push_back(id);
+  try {
+    add_parts(id, spec, X_WB);
+    place(id, X_WB);
+  } catch (const Error&) {
+    while (state_.body_order.size() > bodies) erase(state_.body_order.back());
+    state_.robots[id.index].used = false;
+    state_.robot_order.pop_back();
+    throw;
+  }
+  return id;
+}
+
+// base and links chain by chain, and what of them never meets
+void World::add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB) {
+  const std::string robot_name = robot(id).name;
   const auto add_part = [&](const BodySpec& part, BodyKind kind, int chain, int link) {
     BodySpec named = part;
-    named.name = part_name(part.name, spec.name, robot_name);
+    named.name = mended_name(part_name(part.name, spec.name, robot_name));
     const auto body = add_body(named, kind, X_WB);
     edit(body).robot = id;
     edit(body).chain = chain;
@@ -177,8 +188,6 @@ Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::s
   };
   for (const auto& off : spec.collision_rules.parts_off) set_collision(false, part(off));
   for (const auto& [a, b] : spec.collision_rules.pairs_off) set_collision(false, part(a), part(b));
-  place_links(id);
-  return id;
 }
 
 // Neighbours never meet: a link and the nearest body with a shape on the way to the base. In robots of the original
@@ -210,7 +219,7 @@ void World::mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB
          static_cast<int>(carrier.chains.size()) - 1, chain);
   if (carrier.chains[chain].links.empty())
     fail("robot '{}': chain {} of '{}' has no link to carry it", name, chain, carrier.name);
-  if (!X_LB.is_finite()) fail("robot '{}': its pose on '{}' must be finite", name, carrier.name);
+  check_place(X_LB, fmt::format("robot '{}': its pose on '{}'", name, carrier.name));
   for (auto up = parent;;) {
     if (up == child)
       fail("robot '{}' cannot be carried by '{}', which it carries itself", name, carrier.name);
@@ -221,19 +230,24 @@ void World::mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB
   // the last link, the adapter and the base are one rigid piece: they never collide
   const Id<Body> last = carrier.chains[chain].links.back();
   const Id<Body> base = robot(child).base;
+  const Pose X_WB = this->body(last).X_WB * X_LB;
+  if (piece) {
+    check_body(*piece, "mount");
+    state_.materials.index(piece->material);
+  }
+  place(child, X_WB);
   edit(child).mounting =
       Mounting{.parent = parent, .chain = chain, .X_LB = X_LB, .piece = std::nullopt};
   set_collision(false, last, base);
   if (piece) {
     BodySpec named = *piece;
-    named.name = name + "_mount";
-    const auto body = add_body(named, BodyKind::mount, this->body(base).X_WB);
+    named.name = mended_name(robot(child).name + "_mount");
+    const auto body = add_body(named, BodyKind::mount, X_WB);
     edit(body).robot = child;
     edit(child).mounting->piece = body;
     set_collision(false, last, body);
     set_collision(false, base, body);
   }
-  place_base(child, this->body(last).X_WB * X_LB);
 }
 
 void World::erase(Id<Body> id) {
@@ -281,7 +295,7 @@ void World::set_pose(Id<Body> id, const Pose& X_WB) {
   if (body(id).robot)
     fail("body '{}' is a part of robot '{}': move the robot", body(id).name,
          robot(body(id).robot).name);
-  check_pose(X_WB, "body", body(id).name);
+  check_place(X_WB, the_body(body(id).name));
   edit(id).X_WB = X_WB;
 }
 
@@ -289,28 +303,31 @@ void World::set_pose(Id<Robot> id, const Pose& X_WB) {
   if (robot(id).mounting)
     fail("robot '{}' is carried by '{}': move that one", robot(id).name,
          robot(robot(id).mounting->parent).name);
-  check_pose(X_WB, "robot", robot(id).name);
-  place_base(id, X_WB);
+  check_place(X_WB, fmt::format("robot '{}'", robot(id).name));
+  place(id, X_WB);
 }
 
-void World::place_base(Id<Robot> id, const Pose& X_WB) {
-  edit(robot(id).base).X_WB = X_WB;
-  if (robot(id).mounting && robot(id).mounting->piece) edit(*robot(id).mounting->piece).X_WB = X_WB;
-  place_links(id);
-}
-
-void World::place_links(Id<Robot> id) {
+void World::find_places(Id<Robot> id, const Pose& X_WB, Places& out) const {
   const Robot& r = robot(id);
-  const Pose& X_WB = body(r.base).X_WB;
+  out.emplace_back(r.base, X_WB);
+  if (r.mounting && r.mounting->piece) out.emplace_back(*r.mounting->piece, X_WB);
   const auto frames = chain_frames(r);
   for (size_t c = 0; c < r.chains.size(); ++c)
     for (size_t l = 0; l < r.chains[c].links.size(); ++l)
-      edit(r.chains[c].links[l]).X_WB = X_WB * frames[c].links[l];
+      out.emplace_back(r.chains[c].links[l], X_WB * frames[c].links[l]);
   for (const auto other : state_.robot_order) {
     const auto& mounting = robot(other).mounting;
     if (mounting && mounting->parent == id)
-      place_base(other, body(r.chains[mounting->chain].links.back()).X_WB * mounting->X_LB);
+      find_places(other, X_WB * frames[mounting->chain].links.back() * mounting->X_LB, out);
   }
+}
+
+void World::place(Id<Robot> id, const Pose& X_WB) {
+  Places places;
+  find_places(id, X_WB, places);
+  for (const auto& [part, X] : places)
+    if (!is_place(X)) check_place(X, the_body(body(part).name));
+  for (const auto& [part, X] : places) edit(part).X_WB = X;
 }
 
 void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
@@ -337,9 +354,17 @@ void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
 void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
                                const std::vector<std::vector<Apart>>& apart) {
   Robot& r = edit(id);
-  r.q = q;
-  for (size_t c = 0; c < r.chains.size(); ++c) r.chains[c].apart = apart[c];
-  place_links(id);
+  const Eigen::VectorXd was = std::exchange(r.q, q);
+  std::vector<std::vector<Apart>> was_apart;
+  for (size_t c = 0; c < r.chains.size(); ++c)
+    was_apart.push_back(std::exchange(r.chains[c].apart, apart[c]));
+  try {
+    place(id, body(r.base).X_WB);
+  } catch (const Error&) {
+    r.q = was;
+    for (size_t c = 0; c < r.chains.size(); ++c) r.chains[c].apart = was_apart[c];
+    throw;
+  }
 }
 
 void World::set_eigengrasps(Id<Robot> id, std::shared_ptr<const EigengraspSet> set) {
@@ -377,12 +402,12 @@ void World::set_material(Id<Body> id, std::string_view material) {
 }
 
 void World::set_mass(Id<Body> id, double mass) {
-  check_mass(mass, fmt::format("body '{}'", body(id).name));
+  check(mass_rule, mass, the_body(body(id).name));
   edit(id).mass = mass;
 }
 
 void World::set_com(Id<Body> id, const Eigen::Vector3d& com) {
-  if (!com.allFinite()) fail("body '{}': its centre of mass must be finite", body(id).name);
+  check(coordinate_rule.called("com"), com, the_body(body(id).name));
   Body& b = edit(id);
   BodySpec spec;
   spec.shape = b.shape;
@@ -395,40 +420,39 @@ void World::set_com(Id<Body> id, const Eigen::Vector3d& com) {
 
 void World::set_inertia(Id<Body> id, const Eigen::Matrix3d& inertia) {
   const Body& b = body(id);
-  const double size = inertia.cwiseAbs().maxCoeff();
-  const bool symmetric = (inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * size;
-  if (!inertia.allFinite() || !symmetric || !is_positive_definite(inertia))
-    fail("body '{}': its inertia must be symmetric and positive definite [kg m^2]", b.name);
-  edit(id).inertia_per_mass = inertia / b.mass;
+  const Eigen::Matrix3d per_mass = inertia / b.mass;
+  check_inertia(per_mass, the_body(b.name));
+  edit(id).inertia_per_mass = per_mass;
 }
 
 void World::set_elastic_modulus(Id<Body> id, std::optional<double> modulus) {
-  if (modulus && (!(*modulus > 0) || !std::isfinite(*modulus)))
-    fail("body '{}': its elastic modulus must be > 0 [Pa], got {}", body(id).name, *modulus);
+  if (modulus) check(elastic_modulus_rule, *modulus, the_body(body(id).name));
   edit(id).elastic_modulus = modulus;
 }
 
 void World::set_soft_layer(Id<Body> id, double height) {
-  if (!(height > 0) || !std::isfinite(height))
-    fail("body '{}': its soft layer must be > 0 [m], got {}", body(id).name, height);
+  check(soft_layer_rule, height, the_body(body(id).name));
   edit(id).soft_layer = height;
 }
 
 void World::set_poisson_ratio(Id<Body> id, double ratio) {
-  if (!(ratio >= 0 && ratio < 0.5))
-    fail("body '{}': Poisson's ratio must be in [0, 0.5), got {}", body(id).name, ratio);
+  check(poisson_ratio_rule, ratio, the_body(body(id).name));
   edit(id).poisson_ratio = ratio;
 }
 
 void World::set_appearance(Id<Body> id, const Appearance& appearance) {
+  check_appearance(appearance, the_body(body(id).name));
   edit(id).appearance = appearance;
 }
 
 void World::set_contact_threshold(double threshold) {
-  if (!(threshold >= least_threshold && threshold <= most_threshold))
-    fail("contact_threshold must lie in [{}, {}] m, got {}", least_threshold, most_threshold,
-         threshold);
+  check(contact_threshold_rule, threshold, "world");
   state_.contact_threshold = threshold;
+}
+
+void World::set_camera(const std::optional<Camera>& camera) {
+  if (camera) check_camera(*camera);
+  state_.camera = camera;
 }
 
 // --- what may collide ---

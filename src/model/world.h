@@ -22,10 +22,6 @@ struct Slot {
   T value;  ///< of the last occupant; its name outlives it, for errors
 };
 
-inline constexpr double least_threshold = 1e-9;  ///< of contact: above the rounding of a metre [m]
-inline constexpr double most_threshold =
-    0.01;  ///< beyond it whole fingers would be one contact [m]
-
 /// All state of a world as a value: what a snapshot keeps.
 struct WorldState {
   std::vector<Slot<Body>> bodies;
@@ -110,10 +106,10 @@ class World {
     state_.materials.set_friction(a, b, friction);
   }
   double contact_threshold() const { return state_.contact_threshold; }
-  /// throws Error outside [least_threshold, most_threshold]
+  /// throws Error when contact_threshold_rule refuses it
   void set_contact_threshold(double threshold);
   const std::optional<Camera>& camera() const { return state_.camera; }
-  void set_camera(const std::optional<Camera>& camera) { state_.camera = camera; }
+  void set_camera(const std::optional<Camera>& camera);
   const std::string& source() const { return state_.source; }
   void set_source(const std::string& source) { state_.source = source; }
 
@@ -143,9 +139,13 @@ class World {
   Id<Body> insert(Body body, const std::string& name);
   std::string unique_name(const std::string& wanted);
   void switch_off_neighbours(const Robot& robot, bool chain_links_collide);
+  void add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB);
   void erase(Id<Body> id);
-  void place_links(Id<Robot> robot);
-  void place_base(Id<Robot> robot, const Pose& X_WB);
+  using Places = std::vector<std::pair<Id<Body>, Pose>>;
+  /// Where a robot's bodies, and those of robots that it carries, are when its base is at X_WB.
+  void find_places(Id<Robot> robot, const Pose& X_WB, Places& out) const;
+  /// throws Error, and moves nothing, when one of them would be no place
+  void place(Id<Robot> robot, const Pose& X_WB);
 
   WorldState state_;
   uint32_t next_serial_ = 1;  // never goes back, so a restored world cannot revive a stale id

@@ -46,7 +46,7 @@ Eigengrasps::Eigengrasps(const EigengraspSet& set, const std::vector<Range>& lim
 static void check_size(const VectorXd& x, int wanted, const char* what) {
   if (x.size() != wanted) fail("eigengrasps: wanted {} {}, got {}", wanted, what, x.size());
   for (int i = 0; i < x.size(); ++i)
-    if (!std::isfinite(x[i])) fail("eigengrasps: wanted finite {}, got {}", what, x[i]);
+    if (!number_rule.allows(x[i])) fail("eigengrasps: {}: {}", what, fault(number_rule, x[i]));
 }
 
 VectorXd Eigengrasps::amplitudes(const VectorXd& dofs) const {
@@ -122,9 +122,7 @@ static MatrixXd rows_of(const std::vector<VectorXd>& postures) {
       fail("eigengrasps: posture {}: wanted {} DOF values, got {}", i + 1, dofs,
            postures[i].size());
     for (int d = 0; d < dofs; ++d)
-      if (!(std::abs(postures[i][d]) <= 1e30))
-        fail("eigengrasps: posture {}: wanted finite numbers of at most 1e30, got {}", i + 1,
-             postures[i][d]);
+      check(number_rule, postures[i][d], fmt::format("eigengrasps: posture {}", i + 1));
     rows.row(i) = postures[i];
   }
   return rows;

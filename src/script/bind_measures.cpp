@@ -25,7 +25,7 @@ static int quality(lua_State* L) {
   const std::string name = check_string(L, 2, "measure");
   const Measure& measure = find_measure(name);
   MeasuredGrasp measured(*g.world, g.grasp, spaces_of(g));
-  return push(L, measure.of(measured));
+  return push_unbounded(L, measure.of(measured));
 }
 
 // empty: infinite, or beyond what can be had, as the volume of a hull of millions of facets
@@ -81,7 +81,7 @@ static int resist(lua_State* L) {
     least = ellipsoid_resistance(*g.world, g.grasp, vector6(options.numbers("ellipsoid", 6)),
                                  resisting);
   options.done();
-  return push(L, least);
+  return push_unbounded(L, least);
 }
 
 static int list_measures(lua_State* L) {

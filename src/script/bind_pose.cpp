@@ -7,6 +7,7 @@
 #include "script/guard.h"
 #include "script/push.h"
 #include "script/table.h"
+#include "spec/valid.h"
 
 namespace clench {
 
@@ -74,6 +75,7 @@ Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
   if (t.has("rpy")) pose.rotation = rpy_of(t);
   pose.position = t.vec3("xyz", pose.position);
   t.done();
+  check_place(pose, t.subject());
   return pose;
 }
 
@@ -168,12 +170,13 @@ static int as_json(lua_State* L) {
 
 static const Entry functions[] = {
     {"pose", guarded<make_pose>, R"(
-A rigid transform: the pose of one frame in another. The rotation is given one way at most.
+A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given one way at most.
 @param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][]}  xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4
 @return pose
 > clench.pose{xyz = {1, 2, 3}}  --> pose{xyz = {1, 2, 3}, quat = {1, 0, 0, 0}}
 > clench.pose{rpy = {0, 0, clench.rad(90)}} * {1, 0, 0}  --> (2.22045e-16, 1, 0)
-> clench.pose{quat = {2, 0, 0, 0}}  --> error: wanted a unit quaternion)"},
+> clench.pose{quat = {2, 0, 0, 0}}  --> error: wanted a unit quaternion
+> clench.pose{xyz = {0, 0, 1e308}}  --> error: wanted a position within 1e+09 m of the origin)"},
 };
 
 static const Entry fields[] = {

@@ -45,9 +45,10 @@ static int norm(lua_State* L) {
 static int unit(lua_State* L) {
   check_count(L, 0);
   const Vector3d& v = self<Vector3d>(L);
-  const double length = v.stableNorm();
-  if (!(length > 0)) fail("{}: a vector of length 0 has no direction", subject(L));
-  return push(L, Vector3d(v / length));
+  const double largest = v.cwiseAbs().maxCoeff();
+  if (!(largest > 0)) fail("{}: a vector of length 0 has no direction", subject(L));
+  // neither the squares of large numbers overflow nor those of small ones vanish
+  return push(L, Vector3d((v / largest).normalized()));
 }
 
 static int add(lua_State* L) {
@@ -105,7 +106,8 @@ A vector of three finite numbers, from a list or one by one. Wherever a vec3 is 
 @return vec3
 > clench.vec3(1, 2, 3)  --> (1, 2, 3)
 > clench.vec3{1, 2, 3} * 2 - {1, 1, 1}  --> (1, 3, 5)
-> clench.vec3{1, 2}  --> error: wanted 3 numbers, got 2)"},
+> clench.vec3{1, 2}  --> error: wanted 3 numbers, got 2
+> clench.vec3(1e308, 0, 0) * 10  --> error: vec3: the result is not finite, got (inf, 0, 0))"},
 };
 
 static const Entry fields[] = {

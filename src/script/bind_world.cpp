@@ -2,7 +2,6 @@
 
 #include "base/suggest.h"
 #include "io/doubts.h"
-#include "io/inertia.h"
 #include "model/build.h"
 #include "script/bind_contact.h"
 #include "script/camera.h"
@@ -41,23 +40,8 @@ static int add_body(lua_State* L, BodyKind kind) {
   }
   const Pose pose = options.pose("pose", Pose{});
   const bool named = options.has("name");
-  std::optional<Eigen::Matrix3d> inertia;
-  if (options.has("inertia")) {
-    const auto rows = options.rows("inertia", 3);
-    if (rows.size() != 3) fail("{}: inertia: wanted 3 rows, got {}", subject(L), rows.size());
-    inertia.emplace();
-    for (int r = 0; r < 3; ++r)
-      inertia->row(r) = Eigen::Vector3d(rows[r][0], rows[r][1], rows[r][2]);
-  }
   options.done();
   const auto id = handle.world->add_body(spec, kind, pose, named ? spec.name : "");
-  try {
-    if (inertia) handle.world->set_inertia(id, *inertia);
-    if (inertia) doubt_inertia(*inertia, subject(L), reading.listeners());
-  } catch (const Error&) {
-    handle.world->remove(id);
-    throw;
-  }
   return push(L, BodyHandle{handle.world, id});
 }
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/error.h"
+#include "base/text.h"
 #include "script/guard.h"
 #include "script/json.h"
 #include "script/read.h"
@@ -10,25 +10,6 @@
 namespace clench {
 
 namespace {
-
-// bytes of the character that begins at i; 0 when it is not UTF-8
-size_t utf8_size(std::string_view text, size_t i) {
-  const auto byte = [&](size_t k) {
-    return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  const size_t size = first >= 0xC2 && first < 0xE0   ? 2
-                      : first >= 0xE0 && first < 0xF0 ? 3
-                      : first >= 0xF0 && first < 0xF5 ? 4
-                                                      : 0;
-  for (size_t k = 1; k < size; ++k)
-    if ((byte(k) & 0xC0) != 0x80) return 0;
-  // too long for what it says, a surrogate, or beyond the last character
-  if ((first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F)) return 0;
-  if ((first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F)) return 0;
-  return size;
-}
 
 class Writer {
  public:

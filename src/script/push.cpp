@@ -1,10 +1,20 @@
 #include "script/push.h"
 
+#include <cmath>
+
+#include "base/error.h"
 #include "script/packed.h"
+#include "spec/valid.h"
 
 namespace clench {
 
 int push(lua_State* L, double x) {
+  if (!std::isfinite(x)) fail("{}: the result is not finite, got {}", subject(L), x);
+  lua_pushnumber(L, x);
+  return 1;
+}
+
+int push_unbounded(lua_State* L, double x) {
   lua_pushnumber(L, x);
   return 1;
 }
@@ -29,9 +39,16 @@ int push(lua_State* L, const char* text) {
   return 1;
 }
 
-int push(lua_State* L, const Eigen::Vector3d& v) { return push_object(L, v); }
+int push(lua_State* L, const Eigen::Vector3d& v) {
+  if (!v.allFinite())
+    fail("{}: the result is not finite, got ({}, {}, {})", subject(L), v.x(), v.y(), v.z());
+  return push_object(L, v);
+}
 
-int push(lua_State* L, const Pose& pose) { return push_object(L, pose); }
+int push(lua_State* L, const Pose& pose) {
+  check_place(pose, subject(L));
+  return push_object(L, pose);
+}
 
 int push_numbers(lua_State* L, std::span<const double> numbers) {
   return push_list_of(L, numbers, [L](double x) { lua_pushnumber(L, x); });

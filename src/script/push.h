@@ -1,4 +1,6 @@
 // C++ values onto Lua's stack. Lists and records print their contents. Each function returns 1.
+// Numbers, vectors and poses that scripts are given can be given back: what overflowed is an error
+// "vec3: the result is not finite, got (inf, 0, 0)".
 #pragma once
 #include <Eigen/Core>
 #include <lua.hpp>
@@ -11,12 +13,13 @@
 namespace clench {
 
 int push(lua_State* L, double x);
+int push_unbounded(lua_State* L, double x);  ///< of which infinity is a value, too
 int push(lua_State* L, bool b);
 int push(lua_State* L, int n);
 int push(lua_State* L, std::string_view text);
 int push(lua_State* L, const char* text);
 int push(lua_State* L, const Eigen::Vector3d& v);  ///< a vec3
-int push(lua_State* L, const Pose& pose);
+int push(lua_State* L, const Pose& pose);          ///< one that check_place allows
 int push_numbers(lua_State* L, std::span<const double> numbers);  ///< a list
 int push_rows(lua_State* L, const Eigen::MatrixXd& rows);         ///< a list of lists
 

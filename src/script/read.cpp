@@ -172,6 +172,14 @@ std::vector<std::vector<double>> read_rows(lua_State* L, int i, const What& what
   return rows;
 }
 
+Eigen::Matrix3d read_matrix3(lua_State* L, int i, const What& what) {
+  const auto rows = read_rows(L, i, what, 3);
+  if (rows.size() != 3) fail("{}: wanted 3 rows, got {}", what.text(), rows.size());
+  Eigen::Matrix3d out;
+  for (int r = 0; r < 3; ++r) out.row(r) = Eigen::Vector3d(rows[r][0], rows[r][1], rows[r][2]);
+  return out;
+}
+
 Eigen::Vector3d read_vec3(lua_State* L, int i, const What& what) {
   if (const auto* v = to<Eigen::Vector3d>(L, i)) return *v;
   if (lua_type(L, i) != LUA_TTABLE) fail_wanted(what, "a vec3 or {x, y, z}", i);

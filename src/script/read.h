@@ -47,6 +47,8 @@ int read_list_size(lua_State* L, int i, const What& what, std::string_view wante
 /// finite numbers; count < 0: any number of them
 /// throws  Error "...: wanted 12 numbers, got 3"
 std::vector<double> read_numbers(lua_State* L, int i, const What& what, int count = -1);
+/// 3 rows of 3
+Eigen::Matrix3d read_matrix3(lua_State* L, int i, const What& what);
 /// lists of numbers; columns < 0: any length
 std::vector<std::vector<double>> read_rows(lua_State* L, int i, const What& what, int columns = -1);
 

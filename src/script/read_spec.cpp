@@ -14,7 +14,11 @@ static std::optional<double> read_unit(Table& options) {
   static constexpr double lengths[] = {1e-3, 1e-2, 1, 0.0254, 0.3048};
   const bool named = options.has("unit"), scaled = options.has("mesh_scale");
   if (named && scaled) fail("{}: wanted unit or mesh_scale, got both", options.subject());
-  if (scaled) return options.positive("mesh_scale", 1);
+  if (scaled) {
+    const double scale = options.number("mesh_scale");
+    check(scale_rule.called("mesh_scale"), scale, options.subject());
+    return scale;
+  }
   if (!named) return {};
   const std::string name = options.choice("unit", names, "");
   return lengths[std::find(names.begin(), names.end(), name) - names.begin()];
@@ -41,9 +45,8 @@ static Mesh read_mesh(lua_State* L, int i, const ReadOptions& reading) {
   for (const auto& row : table.rows("vertices", 3)) {
     ++number;
     mesh.vertices.emplace_back(row[0], row[1], row[2]);
-    if (mesh.vertices.back().cwiseAbs().maxCoeff() > largest_coordinate)
-      fail("{}: vertex {}: wanted coordinates within {} m, got ({}, {}, {})", table.subject(),
-           number, largest_coordinate, row[0], row[1], row[2]);
+    check(coordinate_rule, mesh.vertices.back(),
+          fmt::format("{}: vertex {}", table.subject(), number));
   }
   const int count = number;
   number = 0;
@@ -66,6 +69,7 @@ static Mesh read_mesh(lua_State* L, int i, const ReadOptions& reading) {
   if (left_out > 0)
     reading.mended(fmt::format("{}: {} of {} triangles name a vertex twice and are left out",
                                table.subject(), left_out, number));
+  if (turn_outward(mesh)) reading.mended(table.subject() + inside_out);
   return mesh;
 }
 
@@ -83,26 +87,26 @@ static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
   spec.material = options.string("material", spec.material);
   if (options.has("density")) {
     if (options.has("mass")) fail("{}: wanted mass or density, got both", subject(L));
-    spec.mass = mass_of(L, spec, options.positive("density", 1));
+    const double density = options.number("density");
+    check(density_rule, density, options.subject());
+    spec.mass = mass_of(L, spec, density);
   }
-  spec.mass = options.positive("mass", spec.mass);
+  spec.mass = options.number("mass", spec.mass);
   if (options.has("com")) spec.com = options.vec3("com");
-  if (options.has("elastic_modulus")) spec.elastic_modulus = options.positive("elastic_modulus", 1);
-  spec.soft_layer = options.positive("soft_layer", spec.soft_layer);
+  if (options.has("elastic_modulus")) spec.elastic_modulus = options.number("elastic_modulus");
+  spec.soft_layer = options.number("soft_layer", spec.soft_layer);
   spec.poisson_ratio = options.number("poisson_ratio", spec.poisson_ratio);
-  if (!(spec.poisson_ratio >= 0 && spec.poisson_ratio < 0.5))
-    fail("{}: poisson_ratio: wanted a number in [0, 0.5), got {}", subject(L), spec.poisson_ratio);
   if (options.has("color")) {
     spec.appearance.color = options.vec3("color").cast<float>();
     spec.appearance.triangle_colors.clear();
     spec.appearance.given = true;
-    if ((spec.appearance.color.array() < 0).any() || (spec.appearance.color.array() > 1).any())
-      fail("{}: color: wanted three numbers in 0..1", subject(L));
   }
-  const double transparency = options.number("transparency", spec.appearance.transparency);
-  if (transparency < 0 || transparency > 1)
-    fail("{}: transparency: wanted 0..1, got {}", subject(L), transparency);
-  spec.appearance.transparency = static_cast<float>(transparency);
+  spec.appearance.transparency =
+      static_cast<float>(options.number("transparency", spec.appearance.transparency));
+  if (options.push("inertia") != LUA_TNIL)
+    spec.inertia_per_mass = read_matrix3(L, -1, options.what("inertia")) / spec.mass;
+  lua_pop(L, 1);
+  check_body(spec, options.subject() + ":");
 }
 
 BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions& reading) {

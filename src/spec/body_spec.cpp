@@ -3,15 +3,28 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "spec/inertia.h"
 
 namespace clench {
 
 // radius of gyration of things without extent, squared: a millimetre
 static constexpr double point_inertia = 1e-6;
 
-void check_mass(double mass, const std::string& subject) {
-  if (!(mass > 0) || mass > largest_number)
-    fail("{}: its mass must be > 0 and at most {} [kg], got {}", subject, largest_number, mass);
+void check_body(const BodySpec& spec, std::string_view what) {
+  check_name(spec.name, what);
+  const std::string subject = fmt::format("{} '{}'", what, spec.name);
+  check(mass_rule, spec.mass, subject);
+  if (spec.com) check(coordinate_rule.called("com"), *spec.com, subject);
+  if (spec.inertia_per_mass) check_inertia(*spec.inertia_per_mass, subject);
+  if (spec.elastic_modulus) check(elastic_modulus_rule, *spec.elastic_modulus, subject);
+  check(soft_layer_rule, spec.soft_layer, subject);
+  check(poisson_ratio_rule, spec.poisson_ratio, subject);
+  check_appearance(spec.appearance, subject);
+}
+
+void check_appearance(const Appearance& appearance, std::string_view subject) {
+  check(share_rule.called("color"), appearance.color.cast<double>(), subject);
+  check(share_rule.called("transparency"), appearance.transparency, subject);
 }
 
 Eigen::Vector3d com_of(const BodySpec& spec) {
@@ -25,14 +38,16 @@ Eigen::Matrix3d inertia_of(const BodySpec& spec) {
   if (spec.inertia_per_mass) return *spec.inertia_per_mass;
   if (!spec.shape) return point_inertia * Eigen::Matrix3d::Identity();
   const Eigen::Vector3d com = com_of(spec);
-  if (!spec.shape->has_volume()) {
-    const double r = largest_radius(spec.shape->mesh(), com);
-    return std::max(0.4 * r * r, point_inertia) * Eigen::Matrix3d::Identity();
+  if (spec.shape->has_volume()) {
+    // parallel axes from the centroid to a centre that the file may have put elsewhere
+    const MassProperties& solid = spec.shape->solid();
+    const Eigen::Vector3d off = com - solid.centroid;
+    const Eigen::Matrix3d inertia =
+        solid.inertia + off.squaredNorm() * Eigen::Matrix3d::Identity() - off * off.transpose();
+    if (inertia_fault(inertia) == InertiaFault::none) return inertia;
   }
-  // parallel axes from the centroid to a centre that the file may have put elsewhere
-  const MassProperties& solid = spec.shape->solid();
-  const Eigen::Vector3d off = com - solid.centroid;
-  return solid.inertia + off.squaredNorm() * Eigen::Matrix3d::Identity() - off * off.transpose();
+  const double r = largest_radius(spec.shape->mesh(), com);
+  return std::max(0.4 * r * r, point_inertia) * Eigen::Matrix3d::Identity();
 }
 
 }  // namespace clench

@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "spec/mesh_report.h"
+#include "spec/valid.h"
 
 namespace clench {
-
-/// Beyond this, products of masses, lengths and forces are no numbers any more.
-inline constexpr double largest_number = 1e30;
 
 /// How a body looks; physics does not read it.
 struct Appearance {
@@ -41,13 +39,17 @@ struct BodySpec {
   std::optional<int> tracker;  ///< number of the position sensor that drives it
 };
 
-/// throws  Error "cup: its mass must be > 0 and at most 1e+30 [kg], got 0"
-void check_mass(double mass, const std::string& subject);
+/// what    it is, before its name
+/// throws  Error "body 'cup': mass: wanted a number from 1e-12 to 1e+12 [kg], got 0" for a name or
+///         number that its rule refuses
+void check_body(const BodySpec& spec, std::string_view what);
+void check_appearance(const Appearance& appearance, std::string_view subject);
 
 /// Centre of mass as the spec gives it, else the solid's; of an open surface, the surface's [m].
 Eigen::Vector3d com_of(const BodySpec& spec);
 /// Inertia per mass about the centre of mass as the spec gives it, else the solid's; of an open
-/// surface, that of a solid ball of the surface's radius [m^2].
+/// surface, or one that folds over so that its solid is none, that of a solid ball of the surface's
+/// radius [m^2].
 Eigen::Matrix3d inertia_of(const BodySpec& spec);
 
 }  // namespace clench

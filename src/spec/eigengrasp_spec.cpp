@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include "base/error.h"
+#include "spec/valid.h"
 
 namespace clench {
 
@@ -15,22 +15,19 @@ EigengraspSet identity_eigengrasps(int dofs) {
   return set;
 }
 
-// beyond these, products leave the range of doubles
-static constexpr double largest = 1e30, least = 1e-30;
 // share of a unit vector that its projection on the others may leave
 static constexpr double independent = 1e-9;
 
 static void check_numbers(const Eigen::VectorXd& x, int dofs, const std::string& subject) {
   if (x.size() != dofs) fail("{}: wanted {} numbers, got {}", subject, dofs, x.size());
   for (int i = 0; i < dofs; ++i)
-    if (!(std::abs(x[i]) <= largest))
-      fail("{}: number {}: wanted at most {}, got {}", subject, i + 1, largest, x[i]);
+    if (!number_rule.allows(x[i]))
+      fail("{}: number {}: {}", subject, i + 1, fault(number_rule, x[i]));
 }
 
 static void check_limits(const std::array<double, 2>& limits, const std::string& subject) {
   const auto [low, high] = limits;
-  if (!(std::abs(low) <= largest && std::abs(high) <= largest))
-    fail("{}: wanted limits of at most {}, got {} and {}", subject, largest, low, high);
+  for (const double x : limits) check(number_rule.called("limit"), x, subject);
   if (low > high) fail("{}: min {} exceeds max {}", subject, low, high);
 }
 
@@ -44,11 +41,10 @@ void check_eigengrasps(const EigengraspSet& set, const std::string& subject,
     const std::string place = fmt::format(
         "{}: eigengrasp {}", i < places.grasps.size() ? places.grasps[i] : subject, i + 1);
     check_numbers(grasp.vector, set.dofs, place);
-    if (!std::isfinite(grasp.eigenvalue))
-      fail("{}: wanted a finite eigenvalue, got {}", place, grasp.eigenvalue);
+    check(number_rule.called("eigenvalue"), grasp.eigenvalue, place);
     if (grasp.limits) check_limits(*grasp.limits, place);
     const double length = grasp.vector.stableNorm();
-    if (!(length >= least))
+    if (!(length >= positive_rule.min))
       fail("{}: wanted a vector other than zero, got one of length {}", place, length);
     Eigen::VectorXd rest = grasp.vector / length;
     const auto before = basis.leftCols(static_cast<int>(i));
@@ -62,7 +58,7 @@ void check_eigengrasps(const EigengraspSet& set, const std::string& subject,
   if (!set.norm) return;
   check_numbers(*set.norm, set.dofs, at(places.norm) + ": norm");
   for (int i = 0; i < set.dofs; ++i)
-    if (!(std::abs((*set.norm)[i]) >= least))
+    if (!(std::abs((*set.norm)[i]) >= positive_rule.min))
       fail("{}: norm: number {}: wanted a scale other than 0, got {}", at(places.norm), i + 1,
            (*set.norm)[i]);
 }

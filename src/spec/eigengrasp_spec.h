@@ -32,8 +32,8 @@ struct EigengraspPlaces {
   std::string origin = {}, norm = {};
 };
 
-/// throws Error with one sentence, begun by the subject, when a count does not match, a number is
-/// not finite, beyond 1e30 or below 1e-30 where zero is refused, limits are exchanged, there is no
+/// throws Error with one sentence, begun by the subject, when a count does not match, number_rule
+/// refuses a number, or positive_rule one where zero is refused, limits are exchanged, there is no
 /// eigengrasp, or one is a sum of those before it. `places` stand for the subject where they are
 /// known.
 void check_eigengrasps(const EigengraspSet& set, const std::string& subject,

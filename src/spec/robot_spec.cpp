@@ -41,17 +41,15 @@ std::string no_range(const std::array<double, 2>& range) {
 }
 
 static void check_dof(const DofSpec& dof, const std::string& subject) {
-  for (const double x :
-       {dof.default_velocity, dof.kp, dof.kd, dof.dragger_scale, dof.default_value}) {
-    if (!std::isfinite(x)) fail("{}: wanted finite numbers, got {}", subject, x);
-    if (std::abs(x) > largest_number)
-      fail("{}: wanted numbers of at most {}, got {}", subject, largest_number, x);
-  }
-  if (!(dof.max_effort >= 0)) fail("{}: max effort must be >= 0, got {}", subject, dof.max_effort);
-  if (!(dof.max_velocity >= 0))
-    fail("{}: max velocity must be >= 0, got {}", subject, dof.max_velocity);
-  if (!(dof.breakaway_torque >= 0))
-    fail("{}: breakaway torque must be >= 0, got {}", subject, dof.breakaway_torque);
+  check_name(dof.name, subject);
+  check(number_rule.called("default velocity"), dof.default_velocity, subject);
+  check(number_rule.called("Kp"), dof.kp, subject);
+  check(number_rule.called("Kd"), dof.kd, subject);
+  check(number_rule.called("dragger scale"), dof.dragger_scale, subject);
+  check(limit_rule.called("default value"), dof.default_value, subject);
+  check(not_negative_rule.called("max effort"), dof.max_effort, subject);
+  check(not_negative_rule.called("max velocity"), dof.max_velocity, subject);
+  check(not_negative_rule.called("breakaway torque"), dof.breakaway_torque, subject);
 }
 
 static void check_joint(const JointSpec& joint, const RobotSpec& robot,
@@ -59,27 +57,25 @@ static void check_joint(const JointSpec& joint, const RobotSpec& robot,
   const int dofs = static_cast<int>(robot.dofs.size());
   if (joint.dof < 0 || joint.dof >= dofs)
     fail("{}: wanted a DOF from 0 to {}, got {}", subject, dofs - 1, joint.dof);
-  for (const double x :
-       {joint.theta, joint.d, joint.a, joint.alpha, joint.min, joint.max, joint.rest})
-    if (!std::isfinite(x)) fail("{}: wanted finite numbers, got {}", subject, x);
-  // lengths whose squares and products overflow are no lengths
-  for (const double x :
-       {joint.theta, joint.d, joint.a, joint.alpha, joint.min, joint.max, joint.rest})
-    if (std::abs(x) > largest_number)
-      fail("{}: wanted numbers of at most {}, got {}", subject, largest_number, x);
-  if (!joint.X_before.is_finite() || !joint.X_after.is_finite())
-    fail("{}: wanted finite poses before and after it", subject);
-  if (joint.ratio == 0 || !std::isfinite(joint.ratio))
-    fail("{}: wanted a ratio other than 0, got {}", subject, joint.ratio);
+  check_name(joint.name, subject);
+  check(angle_rule.called("theta"), joint.theta, subject);
+  check(coordinate_rule.called("d"), joint.d, subject);
+  check(coordinate_rule.called("a"), joint.a, subject);
+  check(angle_rule.called("alpha"), joint.alpha, subject);
+  check(limit_rule.called("min"), joint.min, subject);
+  check(limit_rule.called("max"), joint.max, subject);
+  check(limit_rule.called("rest value"), joint.rest, subject);
+  check_place(joint.X_before, subject);
+  check_place(joint.X_after, subject);
+  if (joint.ratio == 0) fail("{}: wanted a ratio other than 0, got 0", subject);
+  check(positive_rule.called("ratio"), std::abs(joint.ratio), subject);
+  check(number_rule.called("pull"), joint.pull, subject);
   if (joint.min > joint.max)
     fail("{}: min {} exceeds max {} [{}]", subject, joint.min, joint.max,
          joint.kind == JointKind::revolute ? "rad" : "m");
-  if (!std::isfinite(joint.max / joint.ratio - joint.min / joint.ratio))
-    fail("{}: wanted a ratio that leaves DOF {} a finite range, got {}", subject, joint.dof,
-         joint.ratio);
-  for (const double x : {joint.viscous, joint.coulomb, joint.spring})
-    if (!(x >= 0) || !std::isfinite(x))
-      fail("{}: friction and spring must be >= 0, got {}", subject, x);
+  check(not_negative_rule.called("viscous friction"), joint.viscous, subject);
+  check(not_negative_rule.called("Coulomb friction"), joint.coulomb, subject);
+  check(not_negative_rule.called("spring"), joint.spring, subject);
 }
 
 static bool has_part(const RobotSpec& robot, const RobotPart& part) {
@@ -93,12 +89,39 @@ static void check_part(const RobotSpec& robot, const RobotPart& part, const char
     fail("{}: {}: no link {} of chain {}", robot.name, subject, part.link, part.chain);
 }
 
+static void check_tendons(const RobotSpec& robot) {
+  for (const TendonSpec& tendon : robot.tendons) {
+    check_name(tendon.name, robot.name + ": tendon");
+    const std::string subject = fmt::format("{}: tendon '{}'", robot.name, tendon.name);
+    check(not_negative_rule.called("stiffness"), tendon.stiffness, subject);
+    for (const auto& length : {tendon.rest_length, tendon.pre_tension_length})
+      check(not_negative_rule.called("length"), length.value_or(0), subject);
+    for (const TendonPoint& point : tendon.points) {
+      check(coordinate_rule, point.p_L, subject);
+      check(friction_rule, point.friction, subject);
+    }
+  }
+  for (size_t i = 0; i < robot.wrappers.size(); ++i) {
+    const TendonWrapper& wrapper = robot.wrappers[i];
+    const std::string subject = fmt::format("{}: tendon wrapper {}", robot.name, i);
+    check(coordinate_rule, wrapper.p_L, subject);
+    check(coordinate_rule.called("axis"), wrapper.axis_L, subject);
+    check(not_negative_rule.called("radius"), wrapper.radius, subject);
+    check(not_negative_rule.called("length"), wrapper.length, subject);
+    check(friction_rule, wrapper.friction, subject);
+  }
+}
+
 static void check_parts(const RobotSpec& robot) {
   for (const auto& part : robot.collision_rules.parts_off)
     check_part(robot, part, "collision rule");
   for (const auto& pair : robot.collision_rules.pairs_off)
     for (const auto& part : pair) check_part(robot, part, "collision rule");
-  for (const auto& sensor : robot.tactile) check_part(robot, sensor.part, "tactile sensor");
+  for (const auto& sensor : robot.tactile) {
+    check_part(robot, sensor.part, "tactile sensor");
+    check(coordinate_rule, sensor.low_L, robot.name + ": tactile sensor");
+    check(coordinate_rule, sensor.high_L, robot.name + ": tactile sensor");
+  }
   for (const auto& wrapper : robot.wrappers) check_part(robot, wrapper.part, "tendon wrapper");
   for (const auto& tendon : robot.tendons)
     for (const auto& point : tendon.points) check_part(robot, point.part, "tendon");
@@ -140,26 +163,33 @@ static void check_sets(const RobotSpec& robot) {
       check_virtual_contact(robot.virtual_contacts->contacts[i],
                             fmt::format("{}: virtual contact {}", robot.name, i + 1));
   }
-  if (robot.glove) check_fit(robot, *robot.glove);
+  if (!robot.glove) return;
+  check_fit(robot, *robot.glove);
+  const std::string glove = robot.name + ": glove";
+  for (const double x : robot.glove->slopes.reshaped()) check(number_rule.called("slope"), x, glove);
+  for (const double x : robot.glove->intercepts) check(number_rule.called("intercept"), x, glove);
 }
 
-static void check_part_mass(const RobotSpec& robot, const BodySpec& part) {
-  if (!(part.mass >= 0) || part.mass > largest_number)
-    fail("{}: '{}': its mass must lie in [0, {}] [kg], got {}", robot.name, part.name,
-         largest_number, part.mass);
+static void check_bodies(const RobotSpec& robot) {
+  for (const std::string* name : {&robot.class_name, &robot.database_name})
+    check_name(*name, robot.name);
+  check_body(robot.base, robot.name + ":");
+  for (const ChainSpec& chain : robot.chains)
+    for (const LinkSpec& link : chain.links) check_body(link.body, robot.name + ":");
+  if (robot.X_BA) check_place(*robot.X_BA, robot.name + ": approach");
+  if (robot.tracker) check_place(robot.tracker->X_BS, robot.name + ": tracker");
 }
 
 void check_robot(const RobotSpec& robot) {
+  check_name(robot.name, "robot");
   check_sets(robot);
-  check_part_mass(robot, robot.base);
-  for (const ChainSpec& chain : robot.chains)
-    for (const LinkSpec& link : chain.links) check_part_mass(robot, link.body);
+  check_bodies(robot);
   for (size_t i = 0; i < robot.dofs.size(); ++i)
     check_dof(robot.dofs[i], fmt::format("{}: DOF {}", robot.name, i));
   for (size_t c = 0; c < robot.chains.size(); ++c) {
     const ChainSpec& chain = robot.chains[c];
     const std::string place = fmt::format("{}: chain {}", robot.name, c);
-    if (!chain.X_BC.is_finite()) fail("{}: wanted a finite pose of its base", place);
+    check_place(chain.X_BC, place);
     if (chain.parent_chain < -1 || chain.parent_chain >= static_cast<int>(c))
       fail("{}: wanted to begin on the base or on a chain before it, got chain {}", place,
            chain.parent_chain);
@@ -175,14 +205,15 @@ void check_robot(const RobotSpec& robot) {
     for (size_t l = 0; l < chain.links.size(); ++l) {
       if (const int last = chain.links[l].last_joint; last < -1 || last >= joints)
         fail("{} link {}: wanted a last joint from -1 to {}, got {}", place, l, joints - 1, last);
-      if (chain.links[l].X_JL && !chain.links[l].X_JL->is_finite())
-        fail("{} link {}: wanted a finite pose after its last joint", place, l);
+      if (chain.links[l].X_JL)
+        check_place(*chain.links[l].X_JL, fmt::format("{} link {}", place, l));
     }
   }
   for (size_t i = 0; i < robot.dofs.size(); ++i)
     if (const auto range = dof_range(robot, static_cast<int>(i)); range[0] > range[1])
       fail("{}: DOF {}: {}", robot.name, i, no_range(range));
   check_parts(robot);
+  check_tendons(robot);
 }
 
 }  // namespace clench

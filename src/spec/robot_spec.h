@@ -127,8 +127,8 @@ void check_fit(const RobotSpec& robot, const EigengraspSet& set);
 void check_fit(const RobotSpec& robot, const VirtualContactSet& set);
 void check_fit(const RobotSpec& robot, const GloveCalibration& glove);
 
-/// throws Error with one sentence when a number is out of order: DOF indices, ratios, limits, last
-/// joints, lengths and angles that are not finite or beyond 1e30, DOFs without a finite range
+/// throws Error with one sentence when a number is out of order: DOF indices, limits, last joints, DOFs
+/// without a range; or when a rule of valid.h refuses a name, number or pose
 void check_robot(const RobotSpec& robot);
 
 }  // namespace clench

@@ -27,8 +27,8 @@ struct VirtualContactSet {
   std::vector<VirtualContactSpec> contacts;
 };
 
-/// throws Error with one sentence, begun by the subject, when a number is not finite, mu < 0, a
-/// quaternion is not unit, or there are more than most_friction_edges
+/// throws Error with one sentence, begun by the subject, when a rule refuses a number or the frame, or
+/// there are more than most_friction_edges
 void check_virtual_contact(const VirtualContactSpec& contact, const std::string& subject);
 
 }  // namespace clench

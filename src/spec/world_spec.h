@@ -8,8 +8,6 @@
 
 namespace clench {
 
-inline constexpr double farthest = 1e9;  ///< things stand this near the origin of a world [m]
-
 enum class Role { object, obstacle };
 
 struct PlacedBody {
@@ -42,6 +40,9 @@ struct Camera {
   Pose X_WC;                    ///< looks along -z, y up
   double focal_distance = 0.1;  ///< [m]
 };
+
+/// throws Error  "camera: focal distance: wanted a number from 1e-12 to 1e+09 [m], got -1"
+void check_camera(const Camera& camera, std::string_view subject = "camera");
 
 /// One entry of the file's order, so that bodies keep their numbering.
 struct WorldEntry {

@@ -17,7 +17,7 @@ return function(o, size)
   if length ~= nil then
     length = o:positive(size)
     return length, function(shape)
-      return mesh.map(shape, function(p) return {p[1], p[2], p[3] - length / 2} end)
+      return mesh.map(shape, function(p) return {p[1], p[2], p[3] - length / 2} end, o.subject)
     end
   end
   local along = vector.sub(to, from)
@@ -27,6 +27,6 @@ return function(o, size)
   return vector.norm(along), function(shape)
     return mesh.map(shape, function(p)
       return vector.along(vector.along(vector.along(from, p[1], x), p[2], y), p[3], z)
-    end)
+    end, o.subject)
   end
 end

@@ -84,10 +84,13 @@ function mesh.outward(shape, subject)
   return volume > 0 and shape or mesh.flip(shape)
 end
 
---- a copy with every vertex p replaced by map(p)
-function mesh.map(shape, map)
+--- a copy with every vertex p replaced by map(p); throws one sentence when that is no point any more
+function mesh.map(shape, map, subject)
   local vertices, triangles = {}, {}
-  for i, p in ipairs(shape.vertices) do vertices[i] = map(p) end
+  for i, p in ipairs(shape.vertices) do
+    vertices[i] = map(p)
+    check_vertex(subject, i, vertices[i])
+  end
   for i, t in ipairs(shape.triangles) do triangles[i] = {t[1], t[2], t[3]} end
   return {vertices = vertices, triangles = triangles}
 end

@@ -1,5 +1,6 @@
--- stdlib/shapes/options.lua
---- The options of a shape, by its name.
+--- The options of a shape, by its name. No length is beyond what a mesh may reach.
 local options = require "clench.options"
 
-return function(shape, given, places) return options("shapes." .. shape, given, places) end
+local largest_coordinate = 1e9
+
+return function(shape, given, places) return options("shapes." .. shape, given, places, largest_coordinate) end

@@ -22,7 +22,7 @@ end
 function place.move(shape, offset)
   mesh.check(shape, "shapes.move")
   check_vector("shapes.move", "the offset", offset)
-  return mesh.map(shape, function(p) return vector.add(p, offset) end)
+  return mesh.map(shape, function(p) return vector.add(p, offset) end, "shapes.move")
 end
 
 --- The shape turned about an axis through a point.
@@ -41,7 +41,7 @@ function place.turn(shape, axis, angle, about)
   local centre = about and check_vector("shapes.turn", "the point", about) or {0, 0, 0}
   return mesh.map(shape, function(p)
     return vector.add(centre, vector.turn(vector.sub(p, centre), unit, angle))
-  end)
+  end, "shapes.turn")
 end
 
 --- The shape scaled about the origin, by one factor or by one for each axis.
@@ -56,7 +56,7 @@ function place.scale(shape, factor)
       raise("shapes.scale: the factor must be > 0, got " .. tostring(k[i]))
     end
   end
-  return mesh.map(shape, function(p) return {k[1] * p[1], k[2] * p[2], k[3] * p[3]} end)
+  return mesh.map(shape, function(p) return {k[1] * p[1], k[2] * p[2], k[3] * p[3]} end, "shapes.scale")
 end
 
 --- The shape mirrored in the plane through the origin at right angles to an axis.
@@ -71,7 +71,7 @@ function place.mirror(shape, axis)
     local q = {p[1], p[2], p[3]}
     q[place_of] = -q[place_of]
     return q
-  end))
+  end, "shapes.mirror"))
 end
 
 return place

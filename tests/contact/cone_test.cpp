@@ -71,8 +71,8 @@ TEST_CASE("a bad contact or option is refused by name and value") {
   const auto refuse = [](const PointContact& contact, const ConeOptions& options, const char* why) {
     CHECK_THROWS_WITH_AS(cone_wrenches(contact, options), why, Error);
   };
-  refuse({.mu = -0.1}, {}, "contact cone: mu must be >= 0, got -0.1");
-  refuse({.mu = nan}, {}, "contact cone: mu must be >= 0, got nan");
+  refuse({.mu = -0.1}, {}, "contact cone: mu: wanted a number from 0 to 1e+06, got -0.1");
+  refuse({.mu = nan}, {}, "contact cone: mu: wanted a number from 0 to 1e+06, got nan");
   refuse({.torsion_radius = -1}, {}, "contact cone: torsion_radius must be >= 0, got -1");
   refuse({.n_O = {0, 0, 2}}, {}, "contact cone: the normal must be a unit vector, got length 2");
   refuse({.n_O = {0, 0, nan}}, {},
@@ -178,5 +178,5 @@ TEST_CASE("a round cone holds its pyramid's edges on its rim") {
     }
   }
   CHECK(round_cone({.mu = 0}).spread.cols() == 0);
-  CHECK_THROWS_WITH_AS(round_cone({.mu = -0.5}), "contact cone: mu must be >= 0, got -0.5", Error);
+  CHECK_THROWS_WITH_AS(round_cone({.mu = -0.5}), "contact cone: mu: wanted a number from 0 to 1e+06, got -0.5", Error);
 }

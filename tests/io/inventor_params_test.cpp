@@ -80,13 +80,14 @@ TEST_CASE("an inertia that no body has is left to the shape, with a warning") {
   }
 }
 
-TEST_CASE("an inertia of which one moment exceeds the others' sum is used, and doubtful") {
+TEST_CASE("an inertia of which one moment exceeds the others' sum keeps it, and the others are raised") {
   Warnings warnings;
   const BodySpec b = body_with("#inertia_matrix\n#1 0 0\n#0 1 0\n#0 0 3", warnings.options());
   CHECK((*b.inertia_per_mass)(2, 2) == doctest::Approx(3e-6));
   CHECK(warnings.list == std::vector<std::string>{
                              "box.iv:2: inertia that no body has, as one moment exceeds the sum "
-                             "of the others; it is used as it stands"});
+                             "of the others; these are raised to it"});
+  CHECK((*b.inertia_per_mass)(0, 0) == doctest::Approx(1.5e-6));
 }
 
 TEST_CASE("a row of an inertia has three numbers") {

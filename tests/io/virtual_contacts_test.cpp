@@ -138,7 +138,7 @@ TEST_CASE("writing refuses other endings, and names that would not be read as on
   VirtualContactSet set{.robot = "", .contacts = {VirtualContactSpec{}}};
   set.contacts[0].mu = -1;
   CHECK_THROWS_WITH_AS(write_virtual_contacts(set, folder.path() / "a.vgr"),
-                       "a.vgr: contact 1: mu must be >= 0, got -1", Error);
+                       "a.vgr: contact 1: mu: wanted a number from 0 to 1e+06, got -1", Error);
   for (const auto& [name, read_back] : {std::pair("", "_"), {"#1", "_#1"}, {"a\nb", "a_b"}}) {
     write_virtual_contacts({name, {}}, folder.path() / "a.vgr");
     CHECK(read_virtual_contacts(folder.path() / "a.vgr").robot == read_back);

@@ -84,7 +84,7 @@ end)
 test("contacts that are wrong are told by their number", function(t)
   local good = {point = {1, 0, 0}, normal = {-1, 0, 0}, mu = 0.5}
   local function refused(given, sentence) t.fails(function() clench.wrench_space(given) end, sentence) end
-  refused({contacts = {good, {point = {0, 1, 0}, normal = {0, -1, 0}, mu = -1}}}, "contacts[2]: contact cone: mu must be >= 0, got -1")
+  refused({contacts = {good, {point = {0, 1, 0}, normal = {0, -1, 0}, mu = -1}}}, "contacts[2]: contact cone: mu: wanted a number from 0 to 1e+06, got -1")
   refused({contacts = {good, {point = {0, 1, 0}, mu = 1}}}, "contacts[2]: normal: wanted a vec3 or {x, y, z}, got nil")
   refused({contacts = {a = good}}, "contacts: wanted a list of contacts, got a table with the key 'a'")
   refused({contacts = {good}, coordinates = {"fx", "fx"}}, "coordinates: fx is there twice")

@@ -47,7 +47,7 @@ TEST_CASE("sets that do not fit the robot are refused by its name") {
   CHECK_THROWS_AS(place(1, 2), Error);
   CHECK_THROWS_AS(place(-2, 0), Error);
   CHECK_THROWS_WITH_AS(place(0, 0, -1),
-                       "virtual contact 1 of robot 'gripper': mu must be >= 0, got -1", Error);
+                       "virtual contact 1 of robot 'gripper': mu: wanted a number from 0 to 1e+06, got -1", Error);
 }
 
 TEST_CASE("a robot whose description does not fit itself is not added at all") {

@@ -262,25 +262,26 @@ TEST_CASE("properties refuse what is no mass, inertia, modulus, threshold, mater
   World world;
   const auto a = add_box(world, "a", {0, 0, 0});
   add_box(world, "b", {1, 0, 0});
-  CHECK_THROWS_WITH_AS(world.set_mass(a, -1), "body 'a': its mass must be > 0 and at most 1e+30 [kg], got -1", Error);
-  CHECK_THROWS_WITH_AS(world.set_com(a, {NAN, 0, 0}), "body 'a': its centre of mass must be finite",
+  CHECK_THROWS_WITH_AS(world.set_mass(a, -1), "body 'a': mass: wanted a number from 1e-12 to 1e+12 [kg], got -1", Error);
+  CHECK_THROWS_WITH_AS(world.set_com(a, {NAN, 0, 0}), "body 'a': com: wanted a number from -1e+09 to 1e+09 [m], got nan",
                        Error);
   CHECK_THROWS_WITH_AS(world.set_inertia(a, Eigen::Vector3d(1, 1, -1).asDiagonal()),
-                       "body 'a': its inertia must be symmetric and positive definite [kg m^2]",
+                       "body 'a': inertia: wanted a positive definite matrix with moments of 1e-24 to "
+                       "1e+20 m^2 a kilogram, got another",
                        Error);
   CHECK_THROWS_WITH_AS(world.set_elastic_modulus(a, 0),
-                       "body 'a': its elastic modulus must be > 0 [Pa], got 0", Error);
+                       "body 'a': elastic modulus: wanted a number from 0.001 to 1e+15 [Pa], got 0", Error);
   CHECK_THROWS_WITH_AS(world.set_soft_layer(a, -1),
-                       "body 'a': its soft layer must be > 0 [m], got -1", Error);
+                       "body 'a': soft layer: wanted a number from 1e-09 to 1e+09 [m], got -1", Error);
   CHECK_THROWS_WITH_AS(world.set_poisson_ratio(a, 0.5),
-                       "body 'a': Poisson's ratio must be in [0, 0.5), got 0.5", Error);
+                       "body 'a': Poisson's ratio: wanted a number from 0 to 0.499999, got 0.5", Error);
   CHECK_THROWS_WITH_AS(world.set_contact_threshold(0),
-                       "contact_threshold must lie in [1e-09, 0.01] m, got 0", Error);
+                       "world: contact threshold: wanted a number from 1e-09 to 0.01 [m], got 0", Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, "b"), "the name 'b' is taken in this world", Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, ""), "body 'a': a name may not be empty", Error);
   CHECK_THROWS_AS(world.set_material(a, "woood"), Error);
   CHECK_THROWS_WITH_AS(world.set_pose(a, Pose::translation({NAN, 0, 0})),
-                       "body 'a': its pose must be finite, its quaternion unit", Error);
+                       "body 'a': wanted a position within 1e+09 m of the origin, got (nan, 0, 0)", Error);
 }
 
 TEST_CASE("a body may not stand where rounding leaves nothing of it, nor take a robot's name") {
@@ -288,10 +289,72 @@ TEST_CASE("a body may not stand where rounding leaves nothing of it, nor take a 
   const auto a = add_box(world, "a", {0, 0, 0});
   world.add_robot(two_finger(), Pose::translation({1, 0, 0}));
   CHECK_THROWS_WITH_AS(world.set_pose(a, Pose::translation({0, 1e300, 0})),
-                       "body 'a': wanted a position within 1000000000 m of the origin, got 1e+300",
+                       "body 'a': wanted a position within 1e+09 m of the origin, got (0, 1e+300, 0)",
                        Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, "gripper"), "the name 'gripper' is taken in this world",
                        Error);
+}
+
+TEST_CASE("a robot of which a link would stand too far out is not added, moved, driven or mounted") {
+  RobotSpec far = two_finger();
+  far.chains[0].X_BC.position.z() = 1e9;
+  World world;
+  add_box(world, "a", {0, 0, 0});
+  const uint64_t empty = world.hash();
+  CHECK_THROWS_WITH_AS(world.add_robot(far, Pose::translation({0, 0, 1e9})),
+                       doctest::Contains("within 1e+09 m of the origin, got (0, 0, 2000000000)"),
+                       Error);
+  CHECK(world.hash() == empty);
+  CHECK(world.robots().empty());
+  CHECK(world.bodies().size() == 1);
+
+  const auto hand = world.add_robot(far, {}), other = world.add_robot(two_finger(), {});
+  const uint64_t as_added = world.hash();
+  CHECK_THROWS_AS(world.set_pose(hand, Pose::translation({0, 0, 1})), Error);
+  CHECK_THROWS_AS(world.mount(other, hand, 0, Pose::translation({0, 0, 1e9})), Error);
+  CHECK_THROWS_AS(world.mount(other, hand, 0, Pose::translation({0, 0, 1e308})), Error);
+  CHECK(world.hash() == as_added);
+
+  RobotSpec sliding = two_finger();
+  for (JointSpec& joint : sliding.chains[0].joints) {
+    joint.kind = JointKind::prismatic;
+    joint.min = 0, joint.max = 1e20;
+  }
+  World slides;
+  const auto slider = slides.add_robot(sliding, {});
+  const uint64_t before = slides.hash();
+  Eigen::VectorXd q = slides.robot(slider).q;
+  q[0] = 1e15;
+  CHECK_THROWS_AS(slides.set_dofs(slider, q), Error);
+  CHECK(slides.hash() == before);
+}
+
+TEST_CASE("an inertia that no body has, a name with control characters and a camera nowhere are refused") {
+  World world;
+  const auto a = add_box(world, "a", {0, 0, 0});
+  CHECK_THROWS_WITH_AS(world.set_inertia(a, Eigen::Vector3d(1, 1, 100).asDiagonal()),
+                       "body 'a': inertia: wanted no moment above the sum of the others, got one "
+                       "of 50 times that sum",
+                       Error);
+  CHECK_THROWS_AS(world.set_mass(a, 5e-324), Error);
+  CHECK_THROWS_AS(world.set_com(a, {1e200, 0, 0}), Error);
+  world.set_com(a, {1e9, 0, 0});
+  CHECK(world.body(a).inertia_per_mass.allFinite());
+  CHECK_THROWS_WITH_AS(world.set_name(a, "a\nb"),
+                       "body 'a': name: wanted no control characters, got 'a?b'", Error);
+  CHECK_THROWS_WITH_AS(world.set_friction("co\trk", "wood", {0.5, 0.4}),
+                       "material: name: wanted no control characters, got 'co?rk'", Error);
+  CHECK_THROWS_AS(world.add_robot(two_finger(), {}, "\x1b[31m"), Error);
+  CHECK_THROWS_WITH_AS(world.set_camera(Camera{.X_WC = {}, .focal_distance = -1}),
+                       "camera: focal distance: wanted a number from 1e-12 to 1e+09 [m], got -1",
+                       Error);
+  CHECK_FALSE(world.camera());
+}
+
+TEST_CASE("the parts of a robot that is given a long name are named within its length") {
+  World world;
+  const auto hand = world.add_robot(two_finger(), {}, std::string(250, 'x'));
+  for (const auto body : world.bodies_of(hand)) CHECK(world.body(body).name.size() <= 252);
 }
 
 TEST_CASE("the hash knows shapes and mountings") {

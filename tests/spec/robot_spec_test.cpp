@@ -64,15 +64,15 @@ TEST_CASE("what is out of order in a robot is told by place") {
   refused([](RobotSpec& r) { r.chains[0].joints[0].ratio = 0; },
           "arm: chain 0 joint 0: wanted a ratio other than 0, got 0");
   refused([](RobotSpec& r) { r.chains[0].joints[0].ratio = 1e-309; },
-          "arm: chain 0 joint 0: wanted a ratio that leaves DOF 0 a finite range, got 1e-309");
+          "arm: chain 0 joint 0: ratio: wanted a number from 1e-30 to 1e+30, got 1e-309");
   refused([](RobotSpec& r) { r.chains[0].joints[0].d = -1e31; },
-          "arm: chain 0 joint 0: wanted numbers of at most 1e+30, got -1e+31");
+          "arm: chain 0 joint 0: d: wanted a number from -1e+09 to 1e+09 [m], got -1e+31");
   refused([](RobotSpec& r) { r.chains[0].joints[1].theta = 1e300; },
-          "arm: chain 0 joint 1: wanted numbers of at most 1e+30, got 1e+300");
+          "arm: chain 0 joint 1: theta: wanted a number from -1e+09 to 1e+09 [rad], got 1e+300");
   refused([](RobotSpec& r) { r.chains[0].joints[1].max = INFINITY; },
-          "arm: chain 0 joint 1: wanted finite numbers, got inf");
+          "arm: chain 0 joint 1: max: wanted a number from -1e+30 to 1e+30 [rad or m], got inf");
   refused([](RobotSpec& r) { r.chains[0].joints[0].a = NAN; },
-          "arm: chain 0 joint 0: wanted finite numbers, got nan");
+          "arm: chain 0 joint 0: a: wanted a number from -1e+09 to 1e+09 [m], got nan");
   refused([](RobotSpec& r) { r.chains[0].joints[0].min = 3; },
           "arm: chain 0 joint 0: min 3 exceeds max 2 [rad]");
   refused(
@@ -81,20 +81,20 @@ TEST_CASE("what is out of order in a robot is told by place") {
       },
       "arm: chain 0 joint 0: min 3 exceeds max 2 [m]");
   refused([](RobotSpec& r) { r.chains[0].joints[0].spring = -1; },
-          "arm: chain 0 joint 0: friction and spring must be >= 0, got -1");
+          "arm: chain 0 joint 0: spring: wanted a number from 0 to 1e+30, got -1");
   refused([](RobotSpec& r) { r.chains[0].links[0].last_joint = 2; },
           "arm: chain 0 link 0: wanted a last joint from -1 to 1, got 2");
   refused([](RobotSpec& r) { r.chains[0].X_BC.position.x() = INFINITY; },
-          "arm: chain 0: wanted a finite pose of its base");
-  refused([](RobotSpec& r) { r.dofs[0].kp = NAN; }, "arm: DOF 0: wanted finite numbers, got nan");
+          "arm: chain 0: wanted a position within 1e+09 m of the origin, got (inf, 0, 0)");
+  refused([](RobotSpec& r) { r.dofs[0].kp = NAN; }, "arm: DOF 0: Kp: wanted a number from -1e+30 to 1e+30, got nan");
   refused([](RobotSpec& r) { r.dofs[0].default_velocity = -1e31; },
-          "arm: DOF 0: wanted numbers of at most 1e+30, got -1e+31");
+          "arm: DOF 0: default velocity: wanted a number from -1e+30 to 1e+30, got -1e+31");
   refused([](RobotSpec& r) { r.base.mass = 1e31; },
-          "arm: '': its mass must lie in [0, 1e+30] [kg], got 1e+31");
+          "arm: '': mass: wanted a number from 1e-12 to 1e+12 [kg], got 1e+31");
   refused([](RobotSpec& r) { r.dofs[0].max_effort = -1; },
-          "arm: DOF 0: max effort must be >= 0, got -1");
+          "arm: DOF 0: max effort: wanted a number from 0 to 1e+30, got -1");
   refused([](RobotSpec& r) { r.dofs[0].breakaway_torque = -1; },
-          "arm: DOF 0: breakaway torque must be >= 0, got -1");
+          "arm: DOF 0: breakaway torque: wanted a number from 0 to 1e+30, got -1");
   refused([](RobotSpec& r) { r.chains[0].joints[1].min = 0.9, r.chains[0].joints[0].min = 1.5; },
           "arm: DOF 0: wanted a range that all of its joints allow, got from 1.5 to -1.8");
 }

@@ -1,0 +1,79 @@
+#include "spec/valid.h"
+
+#include <cmath>
+
+#include "base/text.h"
+
+namespace clench {
+
+std::string fault(const Quantity& quantity, double x) {
+  if (quantity.allows(x)) return "";
+  const std::string unit = *quantity.unit ? fmt::format(" [{}]", quantity.unit) : "";
+  // which of the two it is depends on how it was made
+  return fmt::format("wanted a number from {:g} to {:g}{}, got {}", quantity.min, quantity.max, unit,
+                     std::isnan(x) ? std::abs(x) : x);
+}
+
+void check(const Quantity& quantity, double x, std::string_view subject) {
+  if (!quantity.allows(x)) fail("{}: {}: {}", subject, quantity.name, fault(quantity, x));
+}
+
+void check(const Quantity& quantity, const Eigen::Vector3d& v, std::string_view subject) {
+  for (const double x : v) check(quantity, x, subject);
+}
+
+bool is_place(const Pose& X) {
+  // files hold six digits; what is read is made unit, so this is rounding
+  return (X.position.array().abs() <= largest_coordinate).all() &&
+         std::abs(X.rotation.norm() - 1) <= 1e-6;
+}
+
+void check_place(const Pose& X, std::string_view subject) {
+  if (is_place(X)) return;
+  const Eigen::Vector3d& p = X.position;
+  if (!(p.array().abs() <= largest_coordinate).all())
+    fail("{}: wanted a position within {:g} m of the origin, got ({}, {}, {})", subject,
+         largest_coordinate, p.x(), p.y(), p.z());
+  fail("{}: wanted a unit quaternion, got one of length {}", subject, X.rotation.norm());
+}
+
+/// Bytes of the character at i that a name may have; 0: none that it may.
+static size_t name_character(std::string_view text, size_t i) {
+  const size_t size = utf8_size(text, i);
+  const auto first = static_cast<unsigned char>(text[i]);
+  if (size == 1) return first < ' ' || first == 127 ? 0 : 1;
+  // U+0080 to U+009F are controls, too
+  const bool control = size == 2 && first == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+  return control ? 0 : size;
+}
+
+std::string name_fault(std::string_view name) {
+  if (name.size() > max_name_length)
+    return fmt::format("wanted at most {} bytes, got {}", max_name_length, name.size());
+  for (size_t i = 0; i < name.size();) {
+    const size_t size = name_character(name, i);
+    if (size == 0)
+      return fmt::format("wanted {}, got {}",
+                         utf8_size(name, i) ? "no control characters" : "text in UTF-8",
+                         in_quotes(name));
+    i += size;
+  }
+  return "";
+}
+
+void check_name(std::string_view name, std::string_view subject) {
+  if (const auto fault = name_fault(name); !fault.empty()) fail("{}: name: {}", subject, fault);
+}
+
+std::string mended_name(std::string_view name) {
+  std::string out;
+  for (size_t i = 0; i < name.size();) {
+    const size_t size = name_character(name, i), length = size ? size : 1;
+    if (out.size() + length > max_name_length) break;
+    size ? out += name.substr(i, size) : out += '?';
+    i += length;
+  }
+  return out;
+}
+
+}  // namespace clench
