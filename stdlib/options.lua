@@ -18,8 +18,8 @@ local function is_number(x) return type(x) == "number" and x == x and math.abs(x
 --- is this {number, number, ...} with `least` to `most` finite numbers, each up to `largest`?
 local function is_point(value, least, most, largest)
   if type(value) ~= "table" or #value < least or #value > most then return false end
-  for _, x in ipairs(value) do
-    if not is_number(x) or math.abs(x) > largest then return false end
+  for i = 1, #value do
+    if not is_number(value[i]) or math.abs(value[i]) > largest then return false end
   end
   return true
 end
@@ -85,8 +85,11 @@ function Options:points(name, least, size)
   if type(value) ~= "table" or #value < least then
     self:wanted(name, ("a list of at least %d points %s"):format(least, form), value)
   end
-  for i, point in ipairs(value) do
-    if not is_point(point, size, size, self.largest) then self:wanted(name .. "[" .. i .. "]", "a point " .. form, point) end
+  -- a hole in the list is a point that is missing
+  for i = 1, #value do
+    if not is_point(value[i], size, size, self.largest) then
+      self:wanted(name .. "[" .. i .. "]", "a point " .. form, value[i])
+    end
   end
   return value
 end

@@ -16,7 +16,8 @@ return function(given)
     local name = "ring " .. i
     if type(ring) ~= "table" then o:wanted(name, "a list of points", ring) end
     if #ring < 3 and #ring ~= least then o:wanted(name, "a list of at least 3 points, or one at an end", ring) end
-    for k, p in ipairs(ring) do
+    for k = 1, #ring do
+      local p = ring[k]
       for axis = 1, 3 do
         local x = type(p) == "table" and p[axis]
         if type(x) ~= "number" or x ~= x or math.abs(x) == math.huge then

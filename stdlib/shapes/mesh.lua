@@ -21,9 +21,10 @@ function mesh.check(shape, subject)
   if type(shape) ~= "table" or type(shape.vertices) ~= "table" or type(shape.triangles) ~= "table" then
     fail(subject, "wanted a shape {vertices = ..., triangles = ...}, got a %s", type(shape))
   end
-  for i, p in ipairs(shape.vertices) do check_vertex(subject, i, p) end
+  for i = 1, #shape.vertices do check_vertex(subject, i, shape.vertices[i]) end
   local count = #shape.vertices
-  for i, t in ipairs(shape.triangles) do
+  for i = 1, #shape.triangles do
+    local t = shape.triangles[i]
     for k = 1, 3 do
       local index = type(t) == "table" and math.tointeger(t[k])
       if not index or index < 1 or index > count then
