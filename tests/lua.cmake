@@ -48,6 +48,18 @@ foreach(path ${lua_files})
 endforeach()
 
 if(NOT CLENCH_SANITIZE)
+  # some calls and files of the fuzzers, which find nothing, in a folder where they may write
+  set(fuzz ${CMAKE_CURRENT_BINARY_DIR}/fuzz_root)
+  file(MAKE_DIRECTORY ${fuzz})
+  foreach(name models worlds)
+    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${name} ${fuzz}/${name} SYMBOLIC)
+  endforeach()
+  file(COPY ${PROJECT_SOURCE_DIR}/models/hands/parallel_jaw DESTINATION ${fuzz})
+  file(WRITE ${fuzz}/list "parallel_jaw/parallel_jaw.cfg\n")
+  lua_test("fuzz: calls" clench_app -q run ${PROJECT_SOURCE_DIR}/tests/fuzz/api.lua 1 100)
+  lua_test("fuzz: files" clench_app -q run ${PROJECT_SOURCE_DIR}/tests/fuzz/files.lua 1 50 list)
+  set_tests_properties("fuzz: calls" "fuzz: files" PROPERTIES WORKING_DIRECTORY ${fuzz})
+
   lua_test("docs/api is what the bindings say" clench_app doc docs/api --check)
 
   lua_test("stock Lua loads the module" ${CMAKE_COMMAND} -E env "LUA_CPATH=$<TARGET_FILE_DIR:clench_module>/?.so"

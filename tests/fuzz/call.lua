@@ -1,0 +1,44 @@
+-- Runs one statement of the API's fuzzer, and judges what came of it: a message that is no sentence, a number that is not
+-- finite, seconds. What is wrong is printed as `FINDING <statement> <signature>`, once.
+local here = debug.getinfo(1, "S").source:match "^@(.*/)" or ""
+local judge = dofile(here .. "judge.lua")
+local env = dofile(here .. "values.lua").environment()
+
+-- seconds of one call that are too many under sanitizers, of any values
+local max_seconds = 10
+
+local call = {findings = 0, number = 0, v = env.v}
+local said = {}
+
+local function finding(what, text)
+  local signature = judge.signature(what, text)
+  if said[signature] then return end
+  said[signature] = true
+  call.findings = call.findings + 1
+  print(("FINDING %d %s"):format(call.number, signature))
+end
+
+---@param text string
+---@param name string  of what it calls
+---@param target? integer  which of v it sets
+---@param sensible? boolean  whether all that it is given is finite and as the docs say
+---@return boolean ok
+---@return any result  the value, or the message
+function call.run(text, name, target, sensible)
+  call.number = call.number + 1
+  local chunk = assert(load(text, "=fuzz", "t", env))
+  local began = os.clock()
+  local ok, message = pcall(chunk)
+  if os.clock() - began > max_seconds then finding("slow", name) end
+  if not ok then
+    local bad = judge.message(message)
+    if bad then finding("message", name .. ": " .. bad) end
+    return false, message
+  end
+  local value = target and env.v[target]
+  local bad = sensible and judge.value(value, name)
+  if bad then finding("not finite", bad) end
+  return true, value
+end
+
+return call

@@ -1,0 +1,97 @@
+-- Files changed at random, read as `clench check` reads them. The same seed makes the same files.
+--   clench -q run tests/fuzz/files.lua SEED COUNT LIST      LIST: a file that names the good files to begin with, one a line
+--   clench -q run tests/fuzz/files.lua read FILE...         files as they are
+-- A changed file stands beside its original, as fuzz-SEED.ENDING, so that what it names is found, and stays there when it
+-- breaks the program. What is wrong without a crash (a message that is none, a number that is not finite, seconds) is kept
+-- as found-SEED-NUMBER.ENDING in the current folder and printed as `FINDING <number> <signature>`; the exit code is then 3.
+local here = arg[0]:match "^(.*/)" or ""
+local judge = dofile(here .. "judge.lua")
+local mutate = dofile(here .. "mutate.lua")
+local report = require "clench.report"
+
+-- seconds of one file that are too many under sanitizers
+local max_seconds = 15
+
+local function read_all(path)
+  local file <close> = assert(io.open(path, "rb"))
+  return file:read "a"
+end
+
+local function write_all(path, text)
+  local file <close> = assert(io.open(path, "wb"))
+  file:write(text)
+end
+
+-- where the names in a file count from
+local function options_of(path)
+  local root = path:match "^shared/data/[^/]+" or not path:find "^tests/" and "." or path:match "^(.*)/"
+  return {root = root, folder = path:match "^(.*)/", package = path:match "^(.*)/"}
+end
+
+local said, findings, understood = {}, 0, 0
+local function finding(number, what, text, path)
+  local signature = judge.signature(what, text)
+  if said[signature] then return end
+  said[signature] = true
+  findings = findings + 1
+  print(("FINDING %d %s"):format(number, signature))
+  if arg[1] ~= "read" then write_all(("found-%s-%d.%s"):format(arg[1], number, path:match "[^.]*$"), read_all(path)) end
+end
+
+local function try(number, path)
+  local began = os.clock()
+  local ok, r = pcall(report.of, path, options_of(path))
+  local took = os.clock() - began
+  if ok and r.understood then understood = understood + 1 end
+  local ending = path:match "[^.]*$"
+  if took > max_seconds then finding(number, "slow", ending, path) end
+  if not ok then return finding(number, "message", ending .. ": " .. tostring(r), path) end
+  local bad = r.wrong and judge.message(r.wrong)
+  if bad then finding(number, "message", ending .. ": " .. bad, path) end
+  if r.understood and judge.value(r.understood, ending) then finding(number, "not finite", ending, path) end
+  if arg[1] == "read" then print(path, r.wrong or r.kind) end
+  return took
+end
+
+if arg[1] == "read" then
+  for i = 2, #arg do try(i - 1, arg[i]) end
+  os.exit(findings > 0 and 3 or 0, true)
+end
+
+local seed, count = tonumber(arg[1]), tonumber(arg[2])
+math.randomseed(seed)
+local random = math.random
+local function one_of(values) return values[random(#values)] end
+local by_ending, endings = {}, {}
+for path in io.lines(arg[3]) do
+  local ending = path:match "[^.]*$"
+  if not by_ending[ending] then
+    by_ending[ending] = {}
+    endings[#endings + 1] = ending
+  end
+  table.insert(by_ending[ending], path)
+end
+table.sort(endings)
+
+-- batches take the formats in turn, and a few good files of theirs
+local number, wrong, stop = 0, 0, os.clock() + 10
+local list = by_ending[endings[seed % #endings + 1]]
+local good = {}
+for _, path in ipairs(list) do good[#good + 1] = not path:find "/bad/" and path or nil end
+while number < count and os.clock() < stop do
+  local path = one_of(random(6) > 1 and #good > 0 and good or list)
+  local text, other = read_all(path), read_all(one_of(list))
+  local changed = ("%s/fuzz-%d.%s"):format(path:match "^(.*)/", seed, path:match "[^.]*$")
+  -- of those that take long fewer
+  local spent, tries = 0, 0
+  while number < count and tries < 150 and spent < 1 and os.clock() < stop do
+    number, tries = number + 1, tries + 1
+    write_all(changed, text == "" and "x" or mutate(text, other))
+    spent = spent + (try(number, changed) or 1)
+  end
+  os.remove(changed)
+end
+print("UNDERSTOOD " .. understood)
+print("CALLS " .. number)
+collectgarbage()
+os.exit(findings > 0 and 3 or 0, true)

@@ -1,0 +1,59 @@
+-- What is wrong with a message or a value that came back.
+local judge = {}
+
+-- words of a library, of the compiler or of Lua itself, in a place where a sentence for the user belongs
+local forbidden = {"std::", "bad_alloc", "vector::", "basic_string", "unprotected", "stack traceback", "terminate",
+                   "not enough memory", "Assertion"}
+
+--- Why an error's message is no sentence with a subject; nil when it is one.
+function judge.message(message)
+  if type(message) ~= "string" then
+    -- a script's own error object
+    return type(message) ~= "table" and "an error that is a " .. type(message) or nil
+  end
+  for _, word in ipairs(forbidden) do
+    if message:find(word, 1, true) then return message end
+  end
+  -- what the statement itself did wrong, such as to call a table, Lua tells; but not of the standard library's own code
+  if message:find "attempt to" or message:find "bad argument" then return message:find "^fuzz:" == nil and message or nil end
+  if #message > 4000 then return "a message of " .. #message .. " characters" end
+  return not message:find ": " and message ~= "mine" and message ~= "never asked" and message or nil
+end
+
+-- infinite where there is no limit, or nothing to measure, as the docs say
+local endless = {
+  ["patch.radii"] = true, ["patch.relative_radii"] = true, ["robot.dof_limits"] = true, ["eigengrasps.limits"] = true,
+  ["eigengrasps.range"] = true, ["grasp:quality"] = true,
+}
+
+local function is_odd(value, may_be_infinite)
+  return value ~= value or not may_be_infinite and (value == math.huge or value == -math.huge)
+end
+
+local function has_odd(value, infinite, depth, seen)
+  if type(value) == "number" then return is_odd(value, infinite) end
+  if depth == 0 then return false end
+  if type(value) == "userdata" and getmetatable(value) == "vec3" then
+    return is_odd(value.x, infinite) or is_odd(value.y, infinite) or is_odd(value.z, infinite)
+  end
+  if type(value) ~= "table" or seen[value] then return false end
+  seen[value] = true
+  local looked = 0
+  for _, item in pairs(value) do
+    looked = looked + 1
+    if looked > 50 then break end
+    if has_odd(item, infinite, depth - 1, seen) then return true end
+  end
+  return false
+end
+
+--- What hands out a number that is not finite; nil when all are.
+function judge.value(value, name) return has_odd(value, endless[name], 4, {}) and name or nil end
+
+--- What two findings of one cause have in common.
+function judge.signature(what, text)
+  local short = text:gsub("^fuzz:%d+: ", ""):gsub("'.-'", "'...'"):gsub("%-?%d[%w.+-]*", "N"):gsub("[\r\n].*", ""):sub(1, 160)
+  return what .. ": " .. short
+end
+
+return judge

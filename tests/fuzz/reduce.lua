@@ -1,0 +1,60 @@
+-- Leaves out of a list of calls what is not needed to break the program in the same way.
+--   FUZZ_CLENCH=PROGRAM lua5.4 tests/fuzz/reduce.lua REPEAT CALLS SIGNATURE OUT [LAST]
+local repeat_script, from, signature, out, last = table.unpack(arg)
+local crash = dofile((arg[0]:match "^(.*/)" or "") .. "crash.lua")
+
+local lines = {}
+for line in io.lines(from) do
+  lines[#lines + 1] = line
+  if #lines == tonumber(last) then break end
+end
+
+local function write(list)
+  local file <close> = assert(io.open(out, "w"))
+  file:write(table.concat(list, "\n"), "\n")
+end
+
+-- runs that are left; each takes the time of a start at least
+local runs = 60
+local function breaks(list)
+  if runs == 0 then return false end
+  runs = runs - 1
+  write(list)
+  local pipe = assert(io.popen(("%s -q run %s %s 2>&1; echo EXIT $?"):format(os.getenv "FUZZ_CLENCH", repeat_script, out)))
+  local said = pipe:read "a"
+  pipe:close()
+  local code = tonumber(said:match "EXIT (%d+)\n$")
+  if code == 3 then return said:find(signature, 1, true) ~= nil end
+  return code ~= 0 and code ~= 1 and crash(said, code) == signature
+end
+
+-- the last call and those whose values it uses
+local function needed(list)
+  local wanted, kept = {}, {}
+  for i = #list, 1, -1 do
+    local target = list[i]:match '^call%("v%[(%d+)%] ='
+    local changed = not target and list[i]:match '^call%("v%[(%d+)%]'
+    if i == #list or target and wanted[target] or changed and wanted[changed] then
+      for n in list[i]:gmatch "v%[(%d+)%]" do wanted[n] = true end
+      table.insert(kept, 1, list[i])
+    end
+  end
+  return kept
+end
+
+local best = lines
+local slice = needed(lines)
+if #slice < #lines and breaks(slice) then best = slice end
+local size = (#best + 1) // 2
+while size >= 1 and runs > 0 do
+  local at = 1
+  while at < #best do  -- the last one stays
+    local fewer = {}
+    for i, line in ipairs(best) do
+      if i < at or i >= at + size or i == #best then fewer[#fewer + 1] = line end
+    end
+    if #fewer < #best and breaks(fewer) then best = fewer else at = at + size end
+  end
+  size = size // 2
+end
+write(best)
