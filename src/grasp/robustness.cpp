@@ -35,8 +35,7 @@ void check_robustness_problem(const RobustnessProblem& p) {
         forces, forces, p.G.rows(), p.G.cols(), p.J.rows(), p.compliance.size());
   if (!p.G.allFinite() || !p.J.allFinite() || !p.load.allFinite())
     fail("robustness: G, J and the load must be finite");
-  for (const double mu : p.mu)
-    check(friction_rule.called("mu"), mu, "robustness");
+  for (const double mu : p.mu) check(friction_rule.called("mu"), mu, "robustness");
   for (const double c : p.compliance)
     if (!(c > 0) || !std::isfinite(c)) fail("robustness: compliance must be > 0, got {} [m/N]", c);
   if (!(p.max_force > 0) || !std::isfinite(p.max_force))

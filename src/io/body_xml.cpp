@@ -95,7 +95,8 @@ void read_compliance(const XmlElement& body, const Library& library) {
 }
 
 void read_mass(const XmlElement& body, const Library& library, BodySpec& out) {
-  if (const XmlElement mass = body.child("mass")) out.mass = number_of(mass, mass_rule.in("g", units::gram)) * units::gram;
+  if (const XmlElement mass = body.child("mass"))
+    out.mass = number_of(mass, mass_rule.in("g", units::gram)) * units::gram;
   if (const XmlElement cog = body.child("cog")) {
     out.com = cog.vector() * units::millimetre;
     check(coordinate_rule.called("cog"), *out.com, cog.place());

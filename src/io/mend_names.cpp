@@ -18,8 +18,7 @@ void mend_names(BodySpec& body, const std::string& place, const ReadOptions& opt
 static void mend_robot_names(RobotSpec& robot, const std::string& place,
                              const ReadOptions& options) {
   const auto mend = [&](std::string& name) { mend_name(name, place, options); };
-  for (std::string* name :
-       {&robot.name, &robot.class_name, &robot.database_name, &robot.base.name})
+  for (std::string* name : {&robot.name, &robot.class_name, &robot.database_name, &robot.base.name})
     mend(*name);
   for (DofSpec& dof : robot.dofs) mend(dof.name);
   for (ChainSpec& chain : robot.chains) {

@@ -18,8 +18,8 @@ int push(lua_State* L, bool b);
 int push(lua_State* L, int n);
 int push(lua_State* L, std::string_view text);
 int push(lua_State* L, const char* text);
-int push(lua_State* L, const Eigen::Vector3d& v);  ///< a vec3
-int push(lua_State* L, const Pose& pose);          ///< one that check_place allows
+int push(lua_State* L, const Eigen::Vector3d& v);                 ///< a vec3
+int push(lua_State* L, const Pose& pose);                         ///< one that check_place allows
 int push_numbers(lua_State* L, std::span<const double> numbers);  ///< a list
 int push_rows(lua_State* L, const Eigen::MatrixXd& rows);         ///< a list of lists
 

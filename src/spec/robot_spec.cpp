@@ -166,7 +166,8 @@ static void check_sets(const RobotSpec& robot) {
   if (!robot.glove) return;
   check_fit(robot, *robot.glove);
   const std::string glove = robot.name + ": glove";
-  for (const double x : robot.glove->slopes.reshaped()) check(number_rule.called("slope"), x, glove);
+  for (const double x : robot.glove->slopes.reshaped())
+    check(number_rule.called("slope"), x, glove);
   for (const double x : robot.glove->intercepts) check(number_rule.called("intercept"), x, glove);
 }
 

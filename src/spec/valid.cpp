@@ -10,8 +10,8 @@ std::string fault(const Quantity& quantity, double x) {
   if (quantity.allows(x)) return "";
   const std::string unit = *quantity.unit ? fmt::format(" [{}]", quantity.unit) : "";
   // which of the two it is depends on how it was made
-  return fmt::format("wanted a number from {:g} to {:g}{}, got {}", quantity.min, quantity.max, unit,
-                     std::isnan(x) ? std::abs(x) : x);
+  return fmt::format("wanted a number from {:g} to {:g}{}, got {}", quantity.min, quantity.max,
+                     unit, std::isnan(x) ? std::abs(x) : x);
 }
 
 void check(const Quantity& quantity, double x, std::string_view subject) {

@@ -178,5 +178,6 @@ TEST_CASE("a round cone holds its pyramid's edges on its rim") {
     }
   }
   CHECK(round_cone({.mu = 0}).spread.cols() == 0);
-  CHECK_THROWS_WITH_AS(round_cone({.mu = -0.5}), "contact cone: mu: wanted a number from 0 to 1e+06, got -0.5", Error);
+  CHECK_THROWS_WITH_AS(round_cone({.mu = -0.5}),
+                       "contact cone: mu: wanted a number from 0 to 1e+06, got -0.5", Error);
 }

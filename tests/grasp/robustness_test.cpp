@@ -181,7 +181,8 @@ TEST_CASE("what is out of range is refused by name") {
     change(problem);
     CHECK_THROWS_WITH_AS(contact_robustness(problem), sentence, Error);
   };
-  refused([](RobustnessProblem& p) { p.mu[1] = -1; }, "robustness: mu: wanted a number from 0 to 1e+06, got -1");
+  refused([](RobustnessProblem& p) { p.mu[1] = -1; },
+          "robustness: mu: wanted a number from 0 to 1e+06, got -1");
   refused([](RobustnessProblem& p) { p.compliance[2] = 0; },
           "robustness: compliance must be > 0, got 0 [m/N]");
   refused([](RobustnessProblem& p) { p.max_force = 0; },

@@ -80,7 +80,8 @@ TEST_CASE("an inertia that no body has is left to the shape, with a warning") {
   }
 }
 
-TEST_CASE("an inertia of which one moment exceeds the others' sum keeps it, and the others are raised") {
+TEST_CASE(
+    "an inertia of which one moment exceeds the others' sum keeps it, and the others are raised") {
   Warnings warnings;
   const BodySpec b = body_with("#inertia_matrix\n#1 0 0\n#0 1 0\n#0 0 3", warnings.options());
   CHECK((*b.inertia_per_mass)(2, 2) == doctest::Approx(3e-6));

@@ -46,8 +46,9 @@ TEST_CASE("sets that do not fit the robot are refused by its name") {
       place(2, 0), "virtual contact 1 of robot 'gripper': there is no link 1 of chain 3", Error);
   CHECK_THROWS_AS(place(1, 2), Error);
   CHECK_THROWS_AS(place(-2, 0), Error);
-  CHECK_THROWS_WITH_AS(place(0, 0, -1),
-                       "virtual contact 1 of robot 'gripper': mu: wanted a number from 0 to 1e+06, got -1", Error);
+  CHECK_THROWS_WITH_AS(
+      place(0, 0, -1),
+      "virtual contact 1 of robot 'gripper': mu: wanted a number from 0 to 1e+06, got -1", Error);
 }
 
 TEST_CASE("a robot whose description does not fit itself is not added at all") {

@@ -185,7 +185,8 @@ TEST_CASE("wrong counts and numbers that are none are refused") {
   CHECK_THROWS_WITH_AS(grasps.posture(vec({1, 2, 3})), "eigengrasps: wanted 2 amplitudes, got 3",
                        Error);
   CHECK_THROWS_WITH_AS(grasps.posture(vec({1, NAN})),
-                       "eigengrasps: amplitudes: wanted a number from -1e+30 to 1e+30, got nan", Error);
+                       "eigengrasps: amplitudes: wanted a number from -1e+30 to 1e+30, got nan",
+                       Error);
   CHECK_THROWS_WITH_AS(Eigengrasps(identity_eigengrasps(2), {{0, 1}}),
                        "eigengrasps: wanted a set for 1 DOFs, got one for 2", Error);
 }
@@ -281,9 +282,9 @@ TEST_CASE("postures that give no components are refused") {
                        "eigengrasps: wanted postures that differ, got the same 2 times", Error);
   CHECK_THROWS_WITH_AS(principal_eigengrasps({vec({1, 2}), vec({1})}),
                        "eigengrasps: posture 2: wanted 2 DOF values, got 1", Error);
-  CHECK_THROWS_WITH_AS(principal_eigengrasps({vec({1, 2}), vec({1, NAN})}),
-                       "eigengrasps: posture 2: number: wanted a number from -1e+30 to 1e+30, got nan",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      principal_eigengrasps({vec({1, 2}), vec({1, NAN})}),
+      "eigengrasps: posture 2: number: wanted a number from -1e+30 to 1e+30, got nan", Error);
   CHECK_THROWS_WITH_AS(principal_eigengrasps({vec({1, 2}), vec({1, 3})}, 2),
                        "eigengrasps: count: 2 postures vary in 1 directions only, wanted 2", Error);
   CHECK_THROWS_WITH_AS(principal_eigengrasps({vec({1, 2}), vec({1, 3})}, 3),

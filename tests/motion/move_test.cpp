@@ -146,5 +146,6 @@ TEST_CASE("bad numbers are refused") {
                        "approach of 'gripper': the reach must be >= 0 [m], got -1", Error);
   const auto a = add(world, "a", box(0.02, 0.02, 0.02), {1, 0, 0});
   CHECK_THROWS_WITH_AS(move_body(world, a, Pose::translation({NAN, 0, 0})),
-                       "body 'a': wanted a position within 1e+09 m of the origin, got (nan, 0, 0)", Error);
+                       "body 'a': wanted a position within 1e+09 m of the origin, got (nan, 0, 0)",
+                       Error);
 }

@@ -179,6 +179,8 @@ TEST_CASE("a chain begins on a link that exists, of a chain before it") {
                        Error);
   spec = two_finger();
   spec.chains[0].joints[1].X_after.position.x() = NAN;
-  CHECK_THROWS_WITH_AS(world.add_robot(spec, {}),
-                       "gripper: chain 0 joint 1: wanted a position within 1e+09 m of the origin, got (nan, 0, 0)", Error);
+  CHECK_THROWS_WITH_AS(
+      world.add_robot(spec, {}),
+      "gripper: chain 0 joint 1: wanted a position within 1e+09 m of the origin, got (nan, 0, 0)",
+      Error);
 }

@@ -32,10 +32,12 @@ TEST_CASE("sets that are out of order are refused by a sentence") {
   set.grasps[1].vector = VectorXd::Zero(2);
   check_set_refused(set, "s: eigengrasp 2: wanted 3 numbers, got 2");
   set.grasps[1].vector = vec(0, NAN, 1);
-  check_set_refused(set, "s: eigengrasp 2: number 2: wanted a number from -1e+30 to 1e+30, got nan");
+  check_set_refused(set,
+                    "s: eigengrasp 2: number 2: wanted a number from -1e+30 to 1e+30, got nan");
   set.grasps[1].vector = vec(1, 1, 0);
   set.grasps[1].eigenvalue = INFINITY;
-  check_set_refused(set, "s: eigengrasp 2: eigenvalue: wanted a number from -1e+30 to 1e+30, got inf");
+  check_set_refused(set,
+                    "s: eigengrasp 2: eigenvalue: wanted a number from -1e+30 to 1e+30, got inf");
   set.grasps[1].eigenvalue = 1;
   set.grasps[1].limits = {2, 1};
   check_set_refused(set, "s: eigengrasp 2: min 2 exceeds max 1");

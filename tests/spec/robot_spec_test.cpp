@@ -86,7 +86,8 @@ TEST_CASE("what is out of order in a robot is told by place") {
           "arm: chain 0 link 0: wanted a last joint from -1 to 1, got 2");
   refused([](RobotSpec& r) { r.chains[0].X_BC.position.x() = INFINITY; },
           "arm: chain 0: wanted a position within 1e+09 m of the origin, got (inf, 0, 0)");
-  refused([](RobotSpec& r) { r.dofs[0].kp = NAN; }, "arm: DOF 0: Kp: wanted a number from -1e+30 to 1e+30, got nan");
+  refused([](RobotSpec& r) { r.dofs[0].kp = NAN; },
+          "arm: DOF 0: Kp: wanted a number from -1e+30 to 1e+30, got nan");
   refused([](RobotSpec& r) { r.dofs[0].default_velocity = -1e31; },
           "arm: DOF 0: default velocity: wanted a number from -1e+30 to 1e+30, got -1e+31");
   refused([](RobotSpec& r) { r.base.mass = 1e31; },

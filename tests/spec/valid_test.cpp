@@ -53,8 +53,7 @@ TEST_CASE("what is no number, and what is infinite, is allowed by no rule") {
 
 TEST_CASE("a number that its rule refuses is told with its bounds, in the unit of who gave it") {
   CHECK(fault(mass_rule, 0) == "wanted a number from 1e-12 to 1e+12 [kg], got 0");
-  CHECK(fault(mass_rule.in("g", 1e-3), -1) ==
-        "wanted a number from 1e-09 to 1e+15 [g], got -1");
+  CHECK(fault(mass_rule.in("g", 1e-3), -1) == "wanted a number from 1e-09 to 1e+15 [g], got -1");
   CHECK(fault(number_rule, -double(NAN)) == "wanted a number from -1e+30 to 1e+30, got nan");
   CHECK_THROWS_WITH_AS(check(coordinate_rule.called("com"), Eigen::Vector3d(0, 0, 2e9), "cup"),
                        "cup: com: wanted a number from -1e+09 to 1e+09 [m], got 2000000000", Error);
@@ -108,10 +107,10 @@ TEST_CASE("each number of a robot has one rule") {
       check_robot(spec);
     };
   };
-  const auto joint = [&](double JointSpec::* number) {
+  const auto joint = [&](double JointSpec::*number) {
     return robot([number](RobotSpec& r, double x) { r.chains[0].joints[0].*number = x; });
   };
-  const auto dof = [&](double DofSpec::* number) {
+  const auto dof = [&](double DofSpec::*number) {
     return robot([number](RobotSpec& r, double x) { r.dofs[0].*number = x; });
   };
   check_verdicts(angle_rule, "theta", joint(&JointSpec::theta));
@@ -169,28 +168,24 @@ TEST_CASE("each frame and part of a robot has one rule") {
       check_robot(robot);
     };
   };
-  check_verdicts(not_negative_rule, "stiffness of a tendon", part([](RobotSpec& r, double x) {
-                   r.tendons.emplace_back().stiffness = x;
-                 }));
-  check_verdicts(not_negative_rule, "length of a tendon", part([](RobotSpec& r, double x) {
-                   r.tendons.emplace_back().rest_length = x;
-                 }));
+  check_verdicts(not_negative_rule, "stiffness of a tendon",
+                 part([](RobotSpec& r, double x) { r.tendons.emplace_back().stiffness = x; }));
+  check_verdicts(not_negative_rule, "length of a tendon",
+                 part([](RobotSpec& r, double x) { r.tendons.emplace_back().rest_length = x; }));
   check_verdicts(coordinate_rule, "point of a tendon", part([](RobotSpec& r, double x) {
                    r.tendons.emplace_back().points.emplace_back().p_L.x() = x;
                  }));
   check_verdicts(friction_rule, "friction of a tendon", part([](RobotSpec& r, double x) {
                    r.tendons.emplace_back().points.emplace_back().friction = x;
                  }));
-  check_verdicts(not_negative_rule, "radius of a wrapper", part([](RobotSpec& r, double x) {
-                   r.wrappers.emplace_back().radius = x;
-                 }));
-  check_verdicts(coordinate_rule, "corner of a sensor", part([](RobotSpec& r, double x) {
-                   r.tactile.emplace_back().low_L.y() = x;
-                 }));
-  check_verdicts(number_rule, "slope of a glove", part([](RobotSpec& r, double x) {
-                   r.glove = GloveCalibration{Eigen::MatrixXd::Constant(1, 2, x),
-                                              Eigen::VectorXd::Zero(1)};
-                 }));
+  check_verdicts(not_negative_rule, "radius of a wrapper",
+                 part([](RobotSpec& r, double x) { r.wrappers.emplace_back().radius = x; }));
+  check_verdicts(coordinate_rule, "corner of a sensor",
+                 part([](RobotSpec& r, double x) { r.tactile.emplace_back().low_L.y() = x; }));
+  check_verdicts(
+      number_rule, "slope of a glove", part([](RobotSpec& r, double x) {
+        r.glove = GloveCalibration{Eigen::MatrixXd::Constant(1, 2, x), Eigen::VectorXd::Zero(1)};
+      }));
 }
 
 TEST_CASE("each number of virtual contacts, eigengrasps and cameras has one rule") {
@@ -219,9 +214,8 @@ TEST_CASE("each number of virtual contacts, eigengrasps and cameras has one rule
     set.origin = Eigen::VectorXd::Constant(2, x);
     check_eigengrasps(set, "s");
   });
-  check_verdicts(length_rule, "focal distance", [](double x) {
-    check_camera({.X_WC = {}, .focal_distance = x});
-  });
+  check_verdicts(length_rule, "focal distance",
+                 [](double x) { check_camera({.X_WC = {}, .focal_distance = x}); });
   check_verdicts(coordinate_rule, "camera", [](double x) {
     check_camera({.X_WC = Pose::translation({x, 0, 0})});
   });
@@ -241,7 +235,10 @@ TEST_CASE("a place is near enough for queries, and its quaternion is unit") {
 // --- names ---
 
 TEST_CASE("a name has no control characters, is UTF-8 and not too long") {
-  for (const char* name : {"", "cup", "left hand", "Gr\xC3\xBC\xC3\x9F""e", "\xE6\x9D\xAF", "a'b\"c"})
+  for (const char* name : {"", "cup", "left hand",
+                           "Gr\xC3\xBC\xC3\x9F"
+                           "e",
+                           "\xE6\x9D\xAF", "a'b\"c"})
     CHECK(name_fault(name).empty());
   CHECK(name_fault(std::string(250, 'x')).empty());
   CHECK_THROWS_WITH_AS(check_name("a\nb", "body"),
@@ -253,8 +250,13 @@ TEST_CASE("a name has no control characters, is UTF-8 and not too long") {
 }
 
 TEST_CASE("a name from a file is mended, and is a name then") {
-  CHECK(mended_name("a\nb\xFF" "c\xC2\x9B" "d") == "a?b?c??d");
-  CHECK(mended_name("Gr\xC3\xBC\xC3\x9F" "e") == "Gr\xC3\xBC\xC3\x9F" "e");
+  CHECK(mended_name("a\nb\xFF"
+                    "c\xC2\x9B"
+                    "d") == "a?b?c??d");
+  CHECK(mended_name("Gr\xC3\xBC\xC3\x9F"
+                    "e") ==
+        "Gr\xC3\xBC\xC3\x9F"
+        "e");
   // no character is cut in two
   std::string name;
   for (int i = 0; i < 200; ++i) name += "\xC3\xBC";
@@ -274,9 +276,10 @@ TEST_CASE("an inertia is symmetric and positive definite, and no moment exceeds 
   CHECK(inertia_fault(diagonal_inertia(1, 1, 2.02)) == InertiaFault::none);  // one of three digits
   CHECK(inertia_fault(diagonal_inertia(1, 1, 2.03)) == InertiaFault::breaks_triangle);
   CHECK(inertia_fault(diagonal_inertia(100, 1, 1)) == InertiaFault::breaks_triangle);
-  for (const auto& none : {diagonal_inertia(0, 0, 0), diagonal_inertia(1, 1, 0), diagonal_inertia(-1, 1, 1),
-                           diagonal_inertia(NAN, 1, 1), diagonal_inertia(INFINITY, 1, 1), diagonal_inertia(1e21, 1e21, 1e21),
-                           diagonal_inertia(1e-25, 1e-25, 1e-25)})
+  for (const auto& none :
+       {diagonal_inertia(0, 0, 0), diagonal_inertia(1, 1, 0), diagonal_inertia(-1, 1, 1),
+        diagonal_inertia(NAN, 1, 1), diagonal_inertia(INFINITY, 1, 1),
+        diagonal_inertia(1e21, 1e21, 1e21), diagonal_inertia(1e-25, 1e-25, 1e-25)})
     CHECK(inertia_fault(none) == InertiaFault::not_definite);
   Eigen::Matrix3d skew = diagonal_inertia(1, 1, 1);
   skew(0, 1) = 0.1;
@@ -298,7 +301,8 @@ TEST_CASE("the moments beside one that is too large are raised to it") {
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const Eigen::Matrix3d mended = with_triangle(turn * diagonal_inertia(1, 2, 5) * turn.transpose());
   CHECK(inertia_fault(mended) == InertiaFault::none);
-  CHECK((mended - turn * diagonal_inertia(2, 3, 5) * turn.transpose()).cwiseAbs().maxCoeff() < 1e-14);
+  CHECK((mended - turn * diagonal_inertia(2, 3, 5) * turn.transpose()).cwiseAbs().maxCoeff() <
+        1e-14);
 }
 
 TEST_CASE("the inertia of a shape is always one") {

@@ -12,9 +12,11 @@ TEST_CASE("a virtual contact is in order as it is made, and refused by a sentenc
   VirtualContactSpec contact;
   CHECK_NOTHROW(check_virtual_contact(contact, "s"));
   contact.X_LC.rotation = Eigen::Quaterniond(1, 1, 0, 0);
-  check_contact_refused(contact, "s: wanted a unit quaternion, got one of length 1.4142135623730951");
+  check_contact_refused(contact,
+                        "s: wanted a unit quaternion, got one of length 1.4142135623730951");
   contact.X_LC = Pose::translation({NAN, 0, 0});
-  check_contact_refused(contact, "s: wanted a position within 1e+09 m of the origin, got (nan, 0, 0)");
+  check_contact_refused(contact,
+                        "s: wanted a position within 1e+09 m of the origin, got (nan, 0, 0)");
   contact.X_LC = {};
   contact.mu = NAN;
   check_contact_refused(contact, "s: mu: wanted a number from 0 to 1e+06, got nan");
