@@ -5,6 +5,7 @@
 -- before it runs, so that a crash leaves what repeat.lua repeats. The exit code is 3 when call.lua found something.
 local here = arg[0]:match "^(.*/)" or ""
 local parse_type = dofile(here .. "types.lua")
+local known = dofile(here .. "known.lua")
 local values = dofile(here .. "values.lua")
 local call = dofile(here .. "call.lua")
 local doc = require "clench.host.doc"
@@ -126,10 +127,10 @@ local function remember(class, source)
 end
 
 -- classes of the API alone, as their metatables say
-local known = {}
+local is_class = {}
 local function note(value, source, depth)
   local class = type(value) == "userdata" and getmetatable(value)
-  if known[class] then
+  if is_class[class] then
     remember(class, source)
     if class == "body" or class == "robot" then
       local ok, name = pcall(function() return value.name end)
@@ -162,9 +163,15 @@ local function any_object()
   return maker:object(class)
 end
 
+-- a step of a list; those that take a second are rarer
+local function pick(list)
+  local chosen = one_of(list)
+  return known.heavy[chosen.name] and random(15) > 1 and pick(list) or chosen
+end
+
 local function of_class(list)
   for _ = 1, 20 do
-    local step = one_of(list)
+    local step = pick(list)
     local object = maker:object(step.class)
     if object then return step, object end
   end
@@ -190,7 +197,7 @@ local function statement()
   local kind = random(100)
   local n = count + 1
   if kind <= 22 then
-    local step = one_of(steps.functions)
+    local step = pick(steps.functions)
     return ("v[%d] = %s(%s)"):format(n, step.name, arguments(step)), step.name, n
   elseif kind <= 62 then
     local step, object = of_class(steps.methods)
@@ -238,12 +245,13 @@ local function run(text, name, target)
 end
 
 read_api()
-for _, class in ipairs(api.classes) do known[class] = true end
+for _, class in ipairs(api.classes) do is_class[class] = true end
 maker = values.maker(pool, api)
 clench.log.level "quiet"
 
 local worlds = {
-  "worlds/parallel_jaw_cube.wld", "worlds/parallel_jaw_cube.wld", "worlds/adaptive_cylinder.wld", "worlds/adaptive_cylinder.wld",
+  "worlds/parallel_jaw_cube.wld", "worlds/parallel_jaw_cube.wld", "worlds/parallel_jaw_cube.wld", "worlds/parallel_jaw_cube.wld",
+  "worlds/parallel_jaw_cube.wld", "worlds/adaptive_cylinder.wld", "worlds/adaptive_cylinder.wld", "worlds/adaptive_cylinder.wld",
   "worlds/three_finger_sphere.wld", "worlds/barrett_mug.wld", "worlds/dlr_flask.wld",
 }
 -- a world with a hand that holds something; what went before is out of reach, but lives on in v

@@ -11,7 +11,7 @@ mkdir -p "$found"
 export CLENCH_MODELS=. ASAN_OPTIONS=hard_rss_limit_mb=3000:max_allocation_size_mb=3000:allocator_may_return_null=1
 export UBSAN_OPTIONS=print_stacktrace=1 LSAN_OPTIONS=suppressions=$root/tests/support/lsan.supp:print_suppressions=0
 # of the processor; a batch stops by itself after some seconds and waits for its last call
-ulimit -t 40
+ulimit -t 60
 ulimit -c 0
 
 case $mode in

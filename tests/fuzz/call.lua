@@ -5,7 +5,7 @@ local judge = dofile(here .. "judge.lua")
 local env = dofile(here .. "values.lua").environment()
 
 -- seconds of one call that are too many under sanitizers, of any values
-local max_seconds = 10
+local max_seconds = 20
 
 local call = {findings = 0, number = 0, v = env.v}
 local said = {}

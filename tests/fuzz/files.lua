@@ -10,7 +10,7 @@ local mutate = dofile(here .. "mutate.lua")
 local report = require "clench.report"
 
 -- seconds of one file that are too many under sanitizers
-local max_seconds = 15
+local max_seconds = 20
 
 local function read_all(path)
   local file <close> = assert(io.open(path, "rb"))

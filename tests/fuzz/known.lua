@@ -67,4 +67,10 @@ known.sources = {
   body = function() return one_of(shapes) end,
 }
 
+known.heavy = {
+  ["clench.render"] = true, render = true, quality_all = true, save = true, volume = true, volume_bounds = true, project = true,
+  find_virtual_contacts = true, move_to = true, ["clench.study.robustness"] = true, ["clench.study.compare"] = true, ["clench.convert"] = true,
+  ["clench.catalog"] = true, ["clench.entries"] = true,
+}
+
 return known
