@@ -2,16 +2,9 @@
 --- Reads the one table that a function is called with: each value by name, with its bounds; what nobody
 --- read is an error. Names in `places` may also be given by position: {0.02} is {radius = 0.02}.
 local raise = require "clench.raise"
+local described = require "clench.described"
 local Options = {}
 Options.__index = Options
-
---- a value as an error message shows it
-local function show(value)
-  if type(value) == "number" then return ("%.10g"):format(value) end
-  if type(value) == "string" then return "'" .. value .. "'" end
-  if type(value) == "table" then return "a table of " .. #value end
-  return value == nil and "nothing" or type(value) == "boolean" and tostring(value) or "a " .. type(value)
-end
 
 local function is_number(x) return type(x) == "number" and x == x and math.abs(x) < math.huge end
 
@@ -40,7 +33,7 @@ function Options:raw(name)
   return self.given[name]
 end
 
-function Options:wanted(name, what, value) self:fail("%s must be %s, got %s", name, what, show(value)) end
+function Options:wanted(name, what, value) self:fail("%s must be %s, got %s", name, what, described(value)) end
 
 local function read_number(self, name, default, what, fits)
   local value = self:raw(name)
@@ -115,7 +108,7 @@ end
 function Options:done()
   local strange = {}
   for key in pairs(self.given) do
-    if not self.read[key] then strange[#strange + 1] = type(key) == "number" and show(key) or tostring(key) end
+    if not self.read[key] then strange[#strange + 1] = type(key) == "number" and described(key) or tostring(key) end
   end
   if #strange == 0 then return end
   table.sort(strange)
@@ -131,7 +124,7 @@ return function(subject, given, places, largest)
                              largest = largest or math.huge}, Options)
   for place, name in ipairs(places or {}) do self.places[name] = place end
   if type(given) ~= "table" then
-    self:fail("wanted one table of options, as in %s {...}, got %s", subject, show(given))
+    self:fail("wanted one table of options, as in %s {...}, got %s", subject, described(given))
   end
   return self
 end

@@ -2,6 +2,7 @@
 --- A shape is a plain table {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}: indices from 1,
 --- metres, counter-clockwise from outside. This unit checks, welds and orients such tables.
 local raise = require "clench.raise"
+local described = require "clench.described"
 local vector = require "clench.shapes.vector"
 local mesh = {}
 
@@ -9,9 +10,10 @@ local function fail(subject, format, ...) raise(subject .. ": " .. format:format
 
 local function check_vertex(subject, i, p)
   for k = 1, 3 do
-    local x = type(p) == "table" and p[k]
+    local x = p
+    if type(p) == "table" then x = p[k] end
     if type(x) ~= "number" or x ~= x or math.abs(x) == math.huge then
-      fail(subject, "vertex %d must be three finite numbers, got %s", i, tostring(x or type(p)))
+      fail(subject, "vertex %d must be three finite numbers, got %s", i, described(x))
     end
   end
 end
@@ -19,7 +21,7 @@ end
 --- throws one sentence when `shape` is not a mesh table; returns it
 function mesh.check(shape, subject)
   if type(shape) ~= "table" or type(shape.vertices) ~= "table" or type(shape.triangles) ~= "table" then
-    fail(subject, "wanted a shape {vertices = ..., triangles = ...}, got a %s", type(shape))
+    fail(subject, "wanted a shape {vertices = ..., triangles = ...}, got %s", described(shape))
   end
   for i = 1, #shape.vertices do check_vertex(subject, i, shape.vertices[i]) end
   local count = #shape.vertices
@@ -28,8 +30,9 @@ function mesh.check(shape, subject)
     for k = 1, 3 do
       local index = type(t) == "table" and math.tointeger(t[k])
       if not index or index < 1 or index > count then
-        fail(subject, "triangle %d must name vertices 1 to %d, got %s", i, count,
-             tostring(type(t) == "table" and t[k] or type(t)))
+        local got = t
+        if type(t) == "table" then got = t[k] end
+        fail(subject, "triangle %d must name vertices 1 to %d, got %s", i, count, described(got))
       end
     end
   end

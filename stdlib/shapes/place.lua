@@ -1,15 +1,17 @@
 -- stdlib/shapes/place.lua
 --- Shapes moved, turned, scaled, mirrored: each returns a new mesh and leaves the given one alone.
 local raise = require "clench.raise"
+local described = require "clench.described"
 local mesh = require "clench.shapes.mesh"
 local vector = require "clench.shapes.vector"
 local place = {}
 
 local function check_vector(subject, what, v)
   for k = 1, 3 do
-    local x = type(v) == "table" and v[k]
+    local x = v
+    if type(v) == "table" then x = v[k] end
     if type(x) ~= "number" or x ~= x or math.abs(x) == math.huge then
-      raise(("%s: %s must be {x, y, z}, got %s"):format(subject, what, tostring(x or type(v))))
+      raise(("%s: %s must be {x, y, z}, got %s"):format(subject, what, described(x)))
     end
   end
   return v
@@ -36,7 +38,7 @@ function place.turn(shape, axis, angle, about)
   local unit = vector.unit(check_vector("shapes.turn", "the axis", axis))
   if not unit then raise("shapes.turn: the axis must have a length, got {0, 0, 0}") end
   if type(angle) ~= "number" or angle ~= angle or math.abs(angle) == math.huge then
-    raise("shapes.turn: the angle must be a finite number, got " .. tostring(angle))
+    raise("shapes.turn: the angle must be a finite number, got " .. described(angle))
   end
   local centre = about and check_vector("shapes.turn", "the point", about) or {0, 0, 0}
   return mesh.map(shape, function(p)
@@ -53,7 +55,7 @@ function place.scale(shape, factor)
   local k = type(factor) == "table" and factor or {factor, factor, factor}
   for i = 1, 3 do
     if type(k[i]) ~= "number" or not (k[i] > 0 and k[i] < math.huge) then
-      raise("shapes.scale: the factor must be > 0, got " .. tostring(k[i]))
+      raise("shapes.scale: the factor must be > 0, got " .. described(k[i]))
     end
   end
   return mesh.map(shape, function(p) return {k[1] * p[1], k[2] * p[2], k[3] * p[3]} end, "shapes.scale")
@@ -66,7 +68,7 @@ end
 function place.mirror(shape, axis)
   mesh.check(shape, "shapes.mirror")
   local place_of = ({x = 1, y = 2, z = 3})[axis]
-  if not place_of then raise("shapes.mirror: the axis must be 'x', 'y' or 'z', got " .. tostring(axis)) end
+  if not place_of then raise("shapes.mirror: the axis must be 'x', 'y' or 'z', got " .. described(axis)) end
   return mesh.flip(mesh.map(shape, function(p)
     local q = {p[1], p[2], p[3]}
     q[place_of] = -q[place_of]

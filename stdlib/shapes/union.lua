@@ -1,5 +1,6 @@
 -- stdlib/shapes/union.lua
 local raise = require "clench.raise"
+local described = require "clench.described"
 local mesh = require "clench.shapes.mesh"
 
 --- Several closed shapes as one: their vertices and triangles side by side, nothing cut away. Parts may overlap;
@@ -8,8 +9,7 @@ local mesh = require "clench.shapes.mesh"
 ---@return table mesh
 return function(parts)
   if type(parts) ~= "table" or #parts == 0 then
-    local got = type(parts) == "table" and "none" or "a " .. type(parts)
-    raise("shapes.union: wanted a list of shapes, got " .. got)
+    raise("shapes.union: wanted a list of shapes, got " .. (type(parts) == "table" and "none" or described(parts)))
   end
   local vertices, triangles = {}, {}
   for i = 1, #parts do
