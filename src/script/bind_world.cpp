@@ -172,7 +172,7 @@ static int measure_distance(lua_State* L) {
   const auto& world = self<WorldHandle>(L).world;
   const auto a = check_bodies(L, 2, "a", world), b = check_bodies(L, 3, "b", world);
   const BodyDistance d = distance(*world, a, b);
-  push(L, d.distance);
+  push_unbounded(L, d.distance);
   push(L, d.p_a);
   push(L, d.p_b);
   return 3;
@@ -402,7 +402,7 @@ Pairs of bodies that collide, of the world, of one thing, or between two. A clos
 Least distance of two things, 0 when they collide, with the closest points in the world frame.
 @param a body|robot
 @param b body|robot
-@return number distance  [m]
+@return number distance  [m]; infinite where one has no surface
 @return vec3 on_a
 @return vec3 on_b
 > world:distance(hand, flask) <= world.contact_threshold  --> true)"},

@@ -302,7 +302,7 @@ TEST_CASE("a robot of which a link would stand too far out is not added, moved, 
   add_box(world, "a", {0, 0, 0});
   const uint64_t empty = world.hash();
   CHECK_THROWS_WITH_AS(world.add_robot(far, Pose::translation({0, 0, 1e9})),
-                       doctest::Contains("within 1e+09 m of the origin, got (0, 0, 2000000000)"),
+                       doctest::Contains("wanted a position within 1e+09 m of the origin, got ("),
                        Error);
   CHECK(world.hash() == empty);
   CHECK(world.robots().empty());
