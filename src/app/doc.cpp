@@ -1,25 +1,20 @@
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "app/verbs.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "script/state.h"
 
 namespace clench {
 
 namespace fs = std::filesystem;
 
-static std::string read_text(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-static bool write_text(const fs::path& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  return static_cast<bool>(out.flush());
+/// Does the file hold that text already?
+static bool holds(const fs::path& path, const std::string& text) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && read_bytes(path) == text;
 }
 
 int write_docs(const std::string& folder, bool check) {
@@ -35,13 +30,16 @@ int write_docs(const std::string& folder, bool check) {
   int different = 0;
   for (size_t i = 0; i + 1 < pages.values.size(); i += 2) {
     const fs::path path = fs::path(folder) / pages.values[i];
-    if (read_text(path) == pages.values[i + 1]) continue;
-    ++different;
-    if (check) {
-      std::fprintf(stderr, "clench doc: %s is not what the bindings say; run clench doc\n",
-                   path.c_str());
-    } else if (!write_text(path, pages.values[i + 1])) {
-      std::fprintf(stderr, "clench doc: %s cannot be written\n", path.c_str());
+    try {
+      if (holds(path, pages.values[i + 1])) continue;
+      ++different;
+      if (check)
+        std::fprintf(stderr, "clench doc: %s is not what the bindings say; run clench doc\n",
+                     path.c_str());
+      else
+        write_file(path, pages.values[i + 1]);
+    } catch (const Error& fault) {
+      std::fprintf(stderr, "clench doc: %s\n", fault.what());
       return 1;
     }
   }

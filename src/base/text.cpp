@@ -4,32 +4,13 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+
+#include "base/file.h"
 
 namespace clench {
 
 static bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
-}
-
-std::string read_bytes(const std::filesystem::path& path) {
-  namespace fs = std::filesystem;
-  std::error_code code;
-  if (!fs::exists(path, code)) fail("no such file: {}", path.generic_string());
-  if (!fs::is_regular_file(path, code))
-    fail("{}: wanted a file, got a {}", path.generic_string(),
-         fs::is_directory(path, code) ? "folder" : "special file");
-  const auto size = fs::file_size(path, code);
-  if (!code && size > (uintmax_t{1} << 30))
-    fail("{}: wanted a file of at most 1 GB, got {} bytes", path.generic_string(), size);
-  std::ifstream in(path, std::ios::binary);
-  if (!in) fail("{}: the file cannot be opened", path.generic_string());
-  std::string raw(code ? 0 : static_cast<size_t>(size), '\0');
-  in.read(raw.data(), static_cast<std::streamsize>(raw.size()));
-  if (in.bad()) fail("{}: the file cannot be read", path.generic_string());
-  raw.resize(static_cast<size_t>(std::max<std::streamsize>(in.gcount(), 0)));
-
-  return raw;
 }
 
 std::string_view without_mark(std::string_view text) {

@@ -13,14 +13,11 @@
 
 namespace clench {
 
-/// A whole file as it stands.
-/// throws Error when it does not exist, is a folder, cannot be read or is larger than 1 GB
-std::string read_bytes(const std::filesystem::path& path);
 /// Without the mark that some editors put before UTF-8.
 std::string_view without_mark(std::string_view text);
 /// Without such a mark; line ends of every kind become '\n'.
 std::string plain_text(std::string raw);
-/// A whole file as plain text.   throws as read_bytes
+/// A whole file as plain text.   throws as read_bytes, and when it is larger than 256 MB
 std::string read_text(const std::filesystem::path& path);
 
 /// A finite decimal number, an explicit '+' allowed, nothing before or after it; else empty.

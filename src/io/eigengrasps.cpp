@@ -1,7 +1,9 @@
 #include "io/eigengrasps.h"
 
+#include <algorithm>
+
+#include "base/file.h"
 #include "base/text.h"
-#include "io/write_file.h"
 #include "io/xml.h"
 
 namespace clench {
@@ -231,21 +233,25 @@ EigengraspSet read_eigengrasps(const fs::path& path, const ReadOptions& options)
   return EgrReader(file, std::move(text), options).read();
 }
 
+std::string eigengrasps_text(const EigengraspSet& set, const fs::path& path) {
+  const std::string file = path.filename().string();
+  check_eigengrasps(set, file);
+  const std::string ending = lower_case(path.extension().string());
+  if (ending == ".xml") return eigengrasps_xml(set);
+  if (ending != ".egr")
+    fail("{}: wanted a file of eigengrasps, .egr or .xml, got {}", file, in_quotes(ending));
+  return text_of(set);
+}
+
 void write_eigengrasps(const EigengraspSet& set, const fs::path& path,
                        const std::function<void(const std::string&)>& warn) {
-  check_eigengrasps(set, path.filename().string());
-  const std::string ending = lower_case(path.extension().string());
-  if (ending == ".xml") return write_file(path, eigengrasps_xml(set));
-  if (ending != ".egr")
-    fail("{}: wanted a file of eigengrasps, .egr or .xml, got {}", path.filename().string(),
-         in_quotes(ending));
-  for (const auto& grasp : set.grasps)
-    if (grasp.limits && warn) {
-      warn(fmt::format("{}: the text format has no place for limits of amplitudes; .xml has",
-                       path.filename().string()));
-      break;
-    }
-  write_file(path, text_of(set));
+  const std::string text = eigengrasps_text(set, path);
+  const bool limited = std::ranges::any_of(
+      set.grasps, [](const EigengraspSpec& grasp) { return grasp.limits.has_value(); });
+  if (limited && warn && lower_case(path.extension().string()) == ".egr")
+    warn(fmt::format("{}: the text format has no place for limits of amplitudes; .xml has",
+                     path.filename().string()));
+  write_file(path, text);
 }
 
 }  // namespace clench

@@ -14,9 +14,12 @@ EigengraspSet read_eigengrasps(const std::filesystem::path& path, const ReadOpti
 /// The text of an .xml.
 std::string eigengrasps_xml(const EigengraspSet& set);
 
-/// As .egr or .xml, by the ending; every number with the digits that give it back to the bit. The
-/// text format has no limits: `warn` is told when there are some.
-/// throws Error when the ending is another one, or the file cannot be written
+/// The text of a file of that name, .egr or .xml; every number with the digits that give it back to
+/// the bit.   throws Error when the ending is another one
+std::string eigengrasps_text(const EigengraspSet& set, const std::filesystem::path& path);
+
+/// The .egr has no limits: `warn` is told when there are some.
+/// throws Error as eigengrasps_text, or when the file cannot be written
 void write_eigengrasps(const EigengraspSet& set, const std::filesystem::path& path,
                        const std::function<void(const std::string&)>& warn = {});
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 
+#include "base/file.h"
 #include "base/text.h"
 #include "io/xml.h"
 
@@ -116,17 +116,6 @@ bool is_glove_poses(Numbers x) {
   return count && x.used_up();
 }
 
-/// The first part of a file, whole when it is no longer than any of these lists would be.
-std::string start_of(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return {};
-  std::ifstream file(path, std::ios::binary);
-  std::string text(size_t{4} << 20, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<size_t>(file.gcount()));
-  return plain_text(std::move(text));
-}
-
 }  // namespace
 
 std::optional<FileKind> kind_of_numbers(const std::string& text) {
@@ -168,7 +157,8 @@ FileKind file_kind(const std::filesystem::path& path) {
     return root ? root->kind : FileKind::body;
   }
   if (const Ending* known = find(known_endings, ending)) return known->kind;
-  if (const auto kind = kind_of_numbers(start_of(path))) return *kind;
+  // any of these lists is whole in so many bytes
+  if (const auto kind = kind_of_numbers(plain_text(read_start(path, size_t{4} << 20)))) return *kind;
   fail("{}: wanted a model, a world, or a file that goes with one, got {}",
        path.filename().string(), in_quotes(ending));
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/file.h"
 #include "base/suggest.h"
 #include "base/text.h"
 #include "io/read.h"
@@ -83,6 +84,11 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
     if (const fs::path found = exact_or_case(place); !found.empty())
       fail("wanted a file, got a {}: {}", fs::is_directory(found, code) ? "folder" : "special file",
            name);
+  // what the system does not let us see may be there
+  for (const auto& place : places)
+    if (fs::status(place, code).type() == fs::file_type::none)
+      fail("{}: the file cannot be read: {}", name.size() > 200 ? in_quotes(name) : name,
+           system_reason(code.value()));
   fail("no such file: {}{}", name, suggestion(places));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/file.h"
 #include "base/text.h"
 #include "io/byte_reader.h"
 #include "io/geometry_builder.h"

@@ -1,9 +1,9 @@
 #include "io/grasp_lists.h"
 
+#include "base/file.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "io/number_reader.h"
-#include "io/write_file.h"
 
 namespace clench {
 

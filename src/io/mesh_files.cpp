@@ -1,5 +1,6 @@
 #include "io/mesh_files.h"
 
+#include "base/file.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "io/collada.h"

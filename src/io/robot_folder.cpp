@@ -9,7 +9,6 @@
 #include "io/eigengrasps.h"
 #include "io/saved_files.h"
 #include "io/virtual_contacts.h"
-#include "io/write_file.h"
 
 namespace clench {
 
@@ -147,15 +146,13 @@ std::string RobotFolder::eigengrasps(const EigengraspSet& set) {
   const bool limited = std::ranges::any_of(
       set.grasps, [](const EigengraspSpec& grasp) { return grasp.limits.has_value(); });
   const std::string name = named_file("eigen", limited ? ".xml" : ".egr");
-  texts_[name];
-  others_.push_back([this, set, name] { write_eigengrasps(set, path_.parent_path() / name); });
+  texts_[name] = eigengrasps_text(set, name);
   return name;
 }
 
 std::string RobotFolder::virtual_contacts(const VirtualContactSet& set) {
   const std::string name = named_file("virtual", ".vgr");
-  texts_[name];
-  others_.push_back([this, set, name] { write_virtual_contacts(set, path_.parent_path() / name); });
+  texts_[name] = virtual_contacts_text(set, name);
   return name;
 }
 
@@ -176,21 +173,14 @@ std::string RobotFolder::glove(const GloveCalibration& glove) {
 // --- writing ---
 
 void RobotFolder::write_parts() {
-  const fs::path folder = path_.parent_path();
-  for (const auto& [name, text] : texts_) {
-    std::error_code code;
-    fs::create_directories((folder / name).parent_path(),
-                           code);  // what fails is told by who writes
-    if (!text.empty()) write_file(folder / name, text);
-  }
-  for (const auto& write : others_) write();
+  for (const auto& [name, text] : texts_) written_.write(path_.parent_path() / name, text);
   texts_.clear();
-  others_.clear();
 }
 
 void RobotFolder::write(const std::string& text) {
   write_parts();
   write_file(path_, text);
+  written_.keep();
 }
 
 }  // namespace clench

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/file.h"
 #include "io/write_world.h"
 
 namespace clench {
@@ -38,7 +39,7 @@ class RobotFolder {
 
   /// Writes what was gathered so far.   throws Error when a file cannot be written
   void write_parts();
-  /// Writes all, the robot's own file last.
+  /// Writes all, the robot's own file last.   throws Error when one cannot be written; then none is
   void write(const std::string& text);
 
  private:
@@ -52,7 +53,7 @@ class RobotFolder {
   std::function<void(const std::string&)> warn_;
   std::map<std::string, std::string> texts_;  // name in the folder, from the robot's on, to text
   std::map<std::string, std::string> names_;  // by folder, ending and text
-  std::vector<std::function<void()>> others_;
+  FileSet written_;
 };
 
 /// A colour's share brought within 0..1, as files hold it; 0 for what is no number.

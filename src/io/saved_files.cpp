@@ -8,7 +8,6 @@
 #include "base/hash.h"
 #include "base/units.h"
 #include "io/world_parts.h"
-#include "io/write_file.h"
 #include "io/write_mesh.h"
 #include "io/xml.h"
 #include "spec/material_names.h"
@@ -138,10 +137,8 @@ fs::path SavedFiles::write_beside(const std::string& name, const std::vector<Bes
   for (const Beside& file : files) hash.add(file.text);
   const fs::path own = folder_ / fmt::format("{}_files", path_.stem().string()) /
                        fmt::format("{:08x}", static_cast<uint32_t>(hash.value()));
-  std::error_code code;
-  fs::create_directories(own, code);  // what fails is told by who writes there
   const std::string stem = file_stem(name);
-  for (const Beside& file : files) write_file(own / (stem + file.ending), file.text);
+  for (const Beside& file : files) beside_.write(own / (stem + file.ending), file.text);
   return own / (stem + files.front().ending);
 }
 

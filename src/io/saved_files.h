@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "base/file.h"
 #include "io/library.h"
 #include "io/write_world.h"
 
@@ -38,6 +39,8 @@ class SavedFiles {
     std::string ending, text;
   };
   std::filesystem::path write_beside(const std::string& name, const std::vector<Beside>& files);
+  /// Else nothing of what was written beside stays: for a world that cannot be saved.
+  void keep() { beside_.keep(); }
 
   void warn(const std::string& sentence) const {
     if (warn_) warn_(sentence);
@@ -54,6 +57,7 @@ class SavedFiles {
   std::function<void(const std::string&)> warn_;
   std::map<std::string, RobotSpec> given_;  // robots whose reading was given folders, by name
   std::set<std::string> warned_;
+  FileSet beside_;
 };
 
 /// The elements of an XML body, a line each, `indent` before them.

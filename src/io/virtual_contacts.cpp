@@ -1,9 +1,9 @@
 #include "io/virtual_contacts.h"
 
+#include "base/file.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "io/number_reader.h"
-#include "io/write_file.h"
 #include "io/xml.h"
 
 namespace clench {
@@ -228,14 +228,18 @@ VirtualContactSet read_virtual_contacts(const fs::path& path, const ReadOptions&
   return read_vgr(file, std::move(text), options.warn);
 }
 
-void write_virtual_contacts(const VirtualContactSet& set, const fs::path& path) {
+std::string virtual_contacts_text(const VirtualContactSet& set, const fs::path& path) {
   const std::string file = path.filename().string();
   for (size_t i = 0; i < set.contacts.size(); ++i)
     check_virtual_contact(set.contacts[i], fmt::format("{}: contact {}", file, i + 1));
   const std::string ending = lower_case(path.extension().string());
   if (ending != ".vgr" && ending != ".xml")
     fail("{}: wanted a file of virtual contacts, .vgr or .xml, got {}", file, in_quotes(ending));
-  write_file(path, ending == ".xml" ? virtual_contacts_xml(set) : text_of(set));
+  return ending == ".xml" ? virtual_contacts_xml(set) : text_of(set);
+}
+
+void write_virtual_contacts(const VirtualContactSet& set, const fs::path& path) {
+  write_file(path, virtual_contacts_text(set, path));
 }
 
 // --- contacts on objects ---

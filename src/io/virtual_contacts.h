@@ -14,8 +14,9 @@ VirtualContactSet read_virtual_contacts(const std::filesystem::path& path,
 /// The text of an .xml.
 std::string virtual_contacts_xml(const VirtualContactSet& set);
 
-/// As .vgr or .xml, by the ending.
-/// throws Error when the ending is another one, or the file cannot be written
+/// The text of a file of that name, .vgr or .xml.   throws Error when the ending is another one
+std::string virtual_contacts_text(const VirtualContactSet& set, const std::filesystem::path& path);
+/// throws Error as virtual_contacts_text, or when the file cannot be written
 void write_virtual_contacts(const VirtualContactSet& set, const std::filesystem::path& path);
 
 /// A contact on an object, as the original stores them.

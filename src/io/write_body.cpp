@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/file.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "io/mesh_files.h"
 #include "io/saved_files.h"
 #include "io/world_parts.h"
-#include "io/write_file.h"
 #include "io/write_mesh.h"
 #include "spec/material_names.h"
 
@@ -145,9 +145,11 @@ void tell(const BodySpec& body, const fs::path& path, const std::string& ending,
 void write_body(const BodySpec& body, const fs::path& path, const WriteOptions& options) {
   const std::string ending = lower_case(path.extension().string()), file = path.filename().string();
   if (ending == ".xml") {
+    check_folder_of(path);
     SavedFiles files(path, options);
     const std::string surface = files.write_surface(body).generic_string();
     write_file(path, body_xml_text(body, surface.empty() ? "" : files.name(surface)));
+    files.keep();
   } else if (ending == ".iv") {
     write_file(path, inventor_text(body));
   } else if (is_mesh_ending(ending)) {

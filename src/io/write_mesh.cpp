@@ -6,9 +6,9 @@
 #include <iterator>
 #include <limits>
 
+#include "base/file.h"
 #include "base/text.h"
 #include "io/byte_writer.h"
-#include "io/write_file.h"
 
 namespace clench {
 

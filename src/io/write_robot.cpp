@@ -1,5 +1,6 @@
 #include "io/write_robot.h"
 
+#include "base/file.h"
 #include "base/text.h"
 #include "io/dh_robot.h"
 #include "io/write_robot_texts.h"
@@ -22,11 +23,8 @@ void write_robot(const RobotSpec& robot, const fs::path& path, const WriteOption
   const std::string file = path.filename().string();
   if (ending != ".cfg" && ending != ".xml" && ending != ".urdf")
     fail("{}: wanted a robot to .cfg, .xml or .urdf, got {}", file, in_quotes(ending));
+  check_folder_of(path);
   std::error_code code;
-  const fs::path beside = path.has_parent_path() ? path.parent_path() : ".";
-  if (!fs::is_directory(beside, code))
-    fail("{}: the file cannot be written: no such folder: {}", path.generic_string(),
-         beside.generic_string());
   if (fs::is_directory(path, code))
     fail("{}: wanted a file to write, got a folder", path.generic_string());
   check_writable(robot, file);

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "io/read.h"
+#include "base/file.h"
 #include "io/robot_numbers.h"
 #include "io/urdf_plan.h"
-#include "io/write_file.h"
 #include "io/write_robot_texts.h"
 #include "io/xml.h"
 
@@ -212,30 +212,12 @@ void UrdfText::beside_glove() {
                            folder_.file(), folder_.glove(glove)));
 }
 
-/// A file that is gone at the end.
-class UrdfDraft {
- public:
-  explicit UrdfDraft(fs::path path) : path_(std::move(path)) {}
-  ~UrdfDraft() {
-    std::error_code code;
-    fs::remove(path_, code);
-  }
-  UrdfDraft(const UrdfDraft&) = delete;
-  UrdfDraft& operator=(const UrdfDraft&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 /// Chains and links have the numbers that a reader of the file gives them: they are looked up by
 /// name.
 void UrdfText::beside_contacts(const std::string& text) {
   if (!robot_.virtual_contacts) return;
   folder_.write_parts();
-  const UrdfDraft draft(folder_.path().parent_path() /
-                        fmt::format(".{}.saving.urdf", folder_.path().stem().string()));
-  write_file(draft.path(), text);
+  const Draft draft(folder_.path(), text);
   const RobotSpec read = read_robot(draft.path());
   std::map<std::string, RobotPart> parts;
   for (int c = 0; c < static_cast<int>(read.chains.size()); ++c)

@@ -2,12 +2,10 @@
 
 #include <png.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
+#include <string_view>
 
 #include "base/error.h"
+#include "base/file.h"
 
 namespace clench {
 
@@ -17,20 +15,16 @@ void save_png(const Picture& picture, const std::string& path) {
     fail("cannot write '{}': a picture of {} x {} pixels wants {} bytes, got {}", path,
          picture.width, picture.height, 3LL * picture.width * picture.height,
          picture.pixels.size());
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (!file) fail("cannot write '{}': {}", path, std::strerror(errno));
-
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.format = PNG_FORMAT_RGB;
   image.width = static_cast<png_uint_32>(picture.width);
   image.height = static_cast<png_uint_32>(picture.height);
-  const bool written =
-      png_image_write_to_stdio(&image, file, 0, picture.pixels.data(), 0, nullptr) != 0;
-  // a full disk may show only now
-  const bool closed = std::fclose(file) == 0;
-  if (!written) fail("cannot write '{}': {}", path, image.message);
-  if (!closed) fail("cannot write '{}': {}", path, std::strerror(errno));
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string bytes(size, '\0');
+  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.pixels.data(), 0, nullptr))
+    fail("cannot write '{}': {}", path, image.message);
+  write_file(path, std::string_view(bytes).substr(0, size));
 }
 
 }  // namespace clench

@@ -1,5 +1,7 @@
 #include "base/error.h"
+#include "base/text.h"
 #include "io/read.h"
+#include "support/plain_user.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -62,4 +64,29 @@ TEST_CASE("a folder, an empty name and a monstrous one are no files") {
   CHECK_THROWS_WITH_AS(find_file(" ", "", {}), "wanted the name of a file, got nothing", Error);
   CHECK_THROWS_AS(find_file(std::string(100000, 'x'), "", {}), Error);
   CHECK_THROWS_AS(find_file(std::string("a\0b", 3), "", {}), Error);
+}
+
+TEST_CASE("what may be there and cannot be seen is told with the reason") {
+  const TemporaryFolder folder;
+  folder.write("closed/a.iv", "");
+  const fs::path closed = folder.path() / "closed", world = folder.path() / "w.wld";
+  fs::permissions(closed, fs::perms::none);
+  std::string fault;
+  {
+    const test::PlainUser user;
+    try {
+      find_file("closed/a.iv", world, {});
+    } catch (const Error& error) {
+      fault = error.what();
+    }
+  }
+  fs::permissions(closed, fs::perms(0777));
+  CHECK(fault == "closed/a.iv: the file cannot be read: Permission denied");
+  CHECK_THROWS_WITH_AS(find_file(std::string(300, 'a'), world, {}),
+                       (in_quotes(std::string(300, 'a')) +
+                        ": the file cannot be read: File name too long")
+                           .c_str(),
+                       Error);
+  folder.write("plain", "");
+  CHECK_THROWS_WITH_AS(find_file("plain/a.iv", world, {}), "no such file: plain/a.iv", Error);
 }

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/text.h"
 #include "files_below.h"
 #include "io/read.h"
 #include "robot_compare.h"
+#include "support/plain_user.h"
 #include "support/shapes.h"
 #include "support/shared.h"
 #include "temporary.h"
@@ -314,6 +317,13 @@ void check_refused(const RobotSpec& robot, const std::string& name, const std::s
   CHECK(fs::is_empty(folder.path()));
 }
 
+std::map<std::string, std::string> contents_below(const fs::path& folder) {
+  std::map<std::string, std::string> out;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    out[entry.path().string()] = entry.is_regular_file() ? read_bytes(entry.path()) : "";
+  return out;
+}
+
 }  // namespace
 
 TEST_CASE("a base and links without surfaces come back as frames from every format") {
@@ -378,6 +388,34 @@ TEST_CASE("a robot whose file cannot be written keeps the older one") {
   const fs::path older = folder.write("hand.cfg", "older");
   CHECK_THROWS_AS(write_robot(robot, older), Error);
   CHECK(read_bytes(older) == "older");
+  CHECK(contents_below(folder.path()).size() == 2);
+}
+
+TEST_CASE("of a robot that cannot be written whole no part is, and older parts stay") {
+  const TemporaryFolder folder;
+  RobotSpec robot = bare_hand();
+  robot.base.shape = Shape::make(box(1, 1, 1));
+  fs::permissions(folder.path(), fs::perms(0777));
+  for (const char* name : {"hand.cfg", "hand.xml", "hand.urdf"}) {
+    write_robot(robot, folder.path() / name);
+    fs::permissions(folder.path() / name, fs::perms(0444));
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+    fs::permissions(entry, entry.is_directory() ? fs::perms(0777) : fs::perms(0666));
+  for (const char* name : {"hand.cfg", "hand.xml", "hand.urdf"})
+    fs::permissions(folder.path() / name, fs::perms(0444));
+  const auto before = contents_below(folder.path());
+  robot.base.shape = Shape::make(box(2, 1, 1));
+  robot.chains[0].links[0].body.shape = Shape::make(box(3, 1, 1));
+  for (const char* name : {"hand.cfg", "hand.xml", "hand.urdf"}) {
+    const test::PlainUser user;
+    CHECK_THROWS_WITH_AS(
+        write_robot(robot, folder.path() / name),
+        ((folder.path() / name).string() + ": the file cannot be written: Permission denied")
+            .c_str(),
+        Error);
+  }
+  CHECK(contents_below(folder.path()) == before);
 }
 
 TEST_CASE("what neither .cfg nor .xml holds is told, a sentence each") {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/text.h"
 #include "io/dh_robot.h"
 #include "io/read.h"

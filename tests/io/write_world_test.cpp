@@ -8,6 +8,7 @@
 #include "io/read.h"
 #include "io/world_parts.h"
 #include "support/meshes.h"
+#include "support/plain_user.h"
 #include "support/shapes.h"
 #include "temporary.h"
 
@@ -265,6 +266,32 @@ TEST_CASE("what cannot be written is refused in a sentence") {
   CHECK_THROWS_WITH_AS(write_world(made, folder.path() / "w.wld"),
                        "the name of a file cannot stand in a line of a .wld: '#a.iv'", Error);
   CHECK_NOTHROW(write_world(made, folder.path() / "w.xml"));
+}
+
+TEST_CASE("a save that fails leaves nothing behind, and what was there as it was") {
+  const TemporaryFolder folder;
+  WorldSpec world;
+  world.bodies.emplace_back();
+  world.bodies[0].body.name = "block";
+  world.bodies[0].body.shape = Shape::make(test::box(1, 1, 1));
+  world.order.push_back({WorldEntry::Kind::body, 0});
+  fs::permissions(folder.path(), fs::perms(0777));
+  for (const char* name : {"w.wld", "w.xml", "w.lua"}) {
+    const fs::path older = folder.write(name, "older");
+    fs::permissions(older, fs::perms(0444));
+    {
+      const test::PlainUser user;
+      CHECK_THROWS_WITH_AS(
+          write_world(world, older),
+          (older.string() + ": the file cannot be written: Permission denied").c_str(), Error);
+    }
+    CHECK(read_text(older) == "older");
+    const auto failing = [](const fs::path&) { fail("no"); };
+    CHECK_THROWS_AS(write_world(world, folder.path() / ("new_" + std::string(name)),
+                                {.check = failing}),
+                    Error);
+  }
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 3);
 }
 
 TEST_CASE("what is saved, or fails to be, changes no world that was saved before") {

@@ -45,9 +45,13 @@ TEST_CASE("a PNG file read back is the picture that was saved") {
 
 TEST_CASE("a path that cannot be written is named, with the reason") {
   CHECK_THROWS_WITH_AS(save_png(pattern(2, 2), "no/such/folder/a.png"),
-                       "cannot write 'no/such/folder/a.png': No such file or directory", Error);
-  CHECK_THROWS_WITH_AS(save_png(pattern(2, 2), ""), "cannot write '': No such file or directory",
+                       "no/such/folder/a.png: the file cannot be written: no such folder: "
+                       "no/such/folder",
                        Error);
+  CHECK_THROWS_WITH_AS(save_png(pattern(2, 2), ""), "wanted the name of a file, got nothing",
+                       Error);
+  CHECK_THROWS_WITH_AS(save_png(pattern(2, 2), "/dev/full"),
+                       "/dev/full: wanted a file to write, got a special file", Error);
 }
 
 TEST_CASE("a picture whose pixels do not fit its size is refused") {

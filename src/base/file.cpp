@@ -1,0 +1,242 @@
+#include "base/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <random>
+#include <system_error>
+#include <utility>
+
+#include "base/error.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+std::string system_reason(int error) { return std::generic_category().message(error); }
+
+namespace {
+
+/// A file that the system has opened; closed at the end.
+class OpenFile {
+ public:
+  explicit OpenFile(int number) : number_(number) {}
+  ~OpenFile() {
+    if (number_ >= 0) ::close(number_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  int number() const { return number_; }
+  explicit operator bool() const { return number_ >= 0; }
+  /// A full disk may show only now.
+  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
+
+ private:
+  int number_;
+};
+
+// --- reading ---
+
+constexpr size_t max_bytes = size_t{1} << 30;
+
+[[noreturn]] void fail_read(const fs::path& path, int error) {
+  if (error == ENOENT) fail("no such file: {}", path.generic_string());
+  fail("{}: the file cannot be read: {}", path.generic_string(), system_reason(error));
+}
+
+void check_regular(const fs::path& path, const struct stat& status) {
+  if (!S_ISREG(status.st_mode))
+    fail("{}: wanted a file, got a {}", path.generic_string(),
+         S_ISDIR(status.st_mode) ? "folder" : "special file");
+}
+
+/// At most `count` bytes; `status` is the file's.
+std::string read_at_most(const fs::path& path, size_t count, struct stat& status) {
+  // looked at before it is opened, which for a device may have an effect, and again after that
+  if (::stat(path.c_str(), &status) != 0) fail_read(path, errno);
+  check_regular(path, status);
+  const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file || ::fstat(file.number(), &status) != 0) fail_read(path, errno);
+  check_regular(path, status);
+  std::string out(std::min(static_cast<size_t>(status.st_size), count), '\0');
+  size_t at = 0;
+  while (at < out.size()) {
+    const ssize_t got = ::read(file.number(), out.data() + at, out.size() - at);
+    if (got < 0 && errno != EINTR) fail_read(path, errno);
+    if (got == 0) break;
+    if (got > 0) at += static_cast<size_t>(got);
+  }
+  out.resize(at);
+  return out;
+}
+
+}  // namespace
+
+std::string read_bytes(const fs::path& path) {
+  struct stat status;
+  std::string out = read_at_most(path, max_bytes, status);
+  if (static_cast<size_t>(status.st_size) > max_bytes)
+    fail("{}: wanted a file of at most 1 GB, got {} bytes", path.generic_string(), status.st_size);
+  return out;
+}
+
+std::string read_start(const fs::path& path, size_t count) {
+  struct stat status;
+  return read_at_most(path, count, status);
+}
+
+// --- writing ---
+
+namespace {
+
+[[noreturn]] void fail_write(const fs::path& path, int error) {
+  fail("{}: the file cannot be written: {}", path.generic_string(), system_reason(error));
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// A hidden name in the same folder, as long as any folder takes it.
+fs::path unused_name(const fs::path& beside) {
+  constexpr size_t max_stem = 100, max_ending = 20;
+  std::random_device random;
+  const std::string ending = beside.extension().string();
+  return folder_of(beside) /
+         fmt::format(".{}.{:08x}{:08x}{}", beside.stem().string().substr(0, max_stem), random(),
+                     random(), ending.substr(0, ending.size() > max_ending ? 0 : max_ending));
+}
+
+/// False, with errno, when not all of it could be written to the disk.
+bool write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t put = ::write(file, text.data(), text.size());
+    if (put < 0 && errno != EINTR) return false;
+    if (put > 0) text.remove_prefix(static_cast<size_t>(put));
+  }
+  return ::fsync(file) == 0;
+}
+
+}  // namespace
+
+Draft::Draft(const fs::path& beside, std::string_view text, unsigned mode) {
+  // a name that stands there already, as a link perhaps, is never used
+  constexpr int max_names = 100;
+  int number = -1;
+  for (int i = 0; number < 0 && i < max_names; ++i) {
+    path_ = unused_name(beside);
+    number = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+    if (number < 0 && errno != EEXIST) break;
+  }
+  if (number < 0) fail_write(beside, errno);
+  OpenFile file(number);
+  const bool written = write_all(file.number(), text);
+  int error = written ? 0 : errno;
+  if (!file.close() && written) error = errno;
+  if (error == 0) return;
+  ::unlink(path_.c_str());
+  fail_write(beside, error);
+}
+
+Draft::~Draft() {
+  if (!path_.empty()) ::unlink(path_.c_str());
+}
+
+void Draft::move_to(const fs::path& target) {
+  if (::rename(path_.c_str(), target.c_str()) != 0) fail_write(target, errno);
+  path_.clear();
+}
+
+/// As move_to, with the permissions of what stands there, which the text has from the beginning.
+static void write_over(const fs::path& target, std::string_view text, mode_t mode) {
+  Draft draft(target, text, mode & 0777);
+  ::chmod(draft.path().c_str(), mode & 07777);
+  draft.move_to(target);
+}
+
+/// Where the text goes: the file itself, or the one that a link leads to.
+static fs::path target_of(const fs::path& path) {
+  if (!fs::is_symlink(fs::symlink_status(path))) return path;
+  const fs::path next = folder_of(path) / fs::read_symlink(path);
+  std::error_code code;
+  const fs::path end = fs::canonical(next, code);
+  return code ? fs::weakly_canonical(next) : end;
+}
+
+void check_folder_of(const fs::path& file) {
+  struct stat status;
+  if (::stat(folder_of(file).c_str(), &status) == 0) return;
+  if (errno != ENOENT) fail_write(file, errno);
+  fail("{}: the file cannot be written: no such folder: {}", file.generic_string(),
+       folder_of(file).generic_string());
+}
+
+void write_file(const fs::path& path, std::string_view text) {
+  struct stat before;
+  if (path.empty()) fail("wanted the name of a file, got nothing");
+  if (path.filename().empty() || (::stat(path.c_str(), &before) == 0 && S_ISDIR(before.st_mode)))
+    fail("{}: wanted a file to write, got a folder", path.generic_string());
+  check_folder_of(path);
+  try {
+    const fs::path target = target_of(path);
+    if (::stat(target.c_str(), &before) != 0) {
+      if (errno != ENOENT) fail_write(path, errno);
+      Draft(target, text).move_to(target);
+      return;
+    }
+    if (!S_ISREG(before.st_mode))
+      fail("{}: wanted a file to write, got a special file", path.generic_string());
+    if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) fail_write(path, errno);
+    write_over(target, text, before.st_mode);
+  } catch (const fs::filesystem_error& error) {
+    fail_write(path, error.code().value());
+  }
+}
+
+FileSet::~FileSet() {
+  // the last first: a folder is empty when its turn comes; what fails here has no better way
+  for (auto it = undo_.rbegin(); it != undo_.rend(); ++it) {
+    try {
+      if (it->before)
+        it->before->move_to(it->path);
+      else
+        ::remove(it->path.c_str());
+    } catch (const Error&) {
+    }
+  }
+}
+
+void FileSet::make_folder(const fs::path& folder, const fs::path& file) {
+  struct stat status;
+  if (folder.empty() || ::stat(folder.c_str(), &status) == 0) return;
+  make_folder(folder.parent_path(), file);
+  if (::mkdir(folder.c_str(), 0777) == 0)
+    undo_.push_back({folder, nullptr});
+  else if (errno != EEXIST)
+    fail_write(file, errno);
+}
+
+void FileSet::write(const fs::path& path, std::string_view text) {
+  make_folder(path.parent_path(), path);
+  struct stat status;
+  const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (!exists) {
+    write_file(path, text);
+    undo_.push_back({path, nullptr});
+    return;
+  }
+  const std::string old = read_bytes(path);
+  if (old == text) return;
+  const fs::path target = fs::weakly_canonical(path);
+  auto before = std::make_unique<Draft>(target, old, status.st_mode & 0777);
+  ::chmod(before->path().c_str(), status.st_mode & 07777);
+  write_file(path, text);
+  undo_.push_back({target, std::move(before)});
+}
+
+}  // namespace clench
