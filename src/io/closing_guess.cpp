@@ -22,7 +22,8 @@ constexpr double nearly_axis = 0.94;  // cosine of 20 degrees: a direction this 
 
 struct Finger {
   int tip = 0;              // link
-  std::vector<int> joints;  // between palm and tip, from the palm on
+  std::vector<int> links;   // between palm and tip, from the palm on, and the tip
+  std::vector<int> joints;  // theirs
   Eigen::Vector3d p_tip;    // in the tip's frame
 };
 
@@ -43,11 +44,18 @@ int common_ancestor(const TreeModel& tree, int a, int b) {
   return a;
 }
 
-/// Joints between an ancestor (its own excluded) and a link.
+/// Links between an ancestor, which is not among them, and a link, which is; from the ancestor on.
+std::vector<int> links_below(const TreeModel& tree, int ancestor, int link) {
+  std::vector<int> out;
+  for (; link != ancestor && link >= 0; link = tree.links[link].parent) out.push_back(link);
+  return {out.rbegin(), out.rend()};
+}
+
+/// Joints of those links.
 std::vector<int> joints_below(const TreeModel& tree, int ancestor, int link) {
   std::vector<int> out;
-  for (; link != ancestor && link >= 0; link = tree.links[link].parent)
-    out.insert(out.begin(), tree.links[link].joints.begin(), tree.links[link].joints.end());
+  for (const int l : links_below(tree, ancestor, link))
+    out.insert(out.end(), tree.links[l].joints.begin(), tree.links[l].joints.end());
   return out;
 }
 
@@ -71,20 +79,30 @@ std::vector<int> ends(const TreeModel& tree) {
   return out;
 }
 
+/// Values of all joints, and where they put the links in the root's frame.
+struct Posture {
+  std::vector<double> q;
+  std::vector<Pose> poses;
+};
+
 struct Hand {
   const TreeModel& tree;
   int palm = -1;
   std::vector<Finger> fingers;
   std::vector<int> dofs;     // joints that lead, and themselves move
-  std::vector<double> rest;  // one a joint: at first
+  Posture rest;              // at first
   std::vector<std::array<double, 2>>
       ranges;  // one a joint; of leaders, with their followers' limits
+  std::vector<std::vector<int>> followers;  // one a joint: joints that it leads
+  std::vector<int> link_of;                 // one a joint
 };
 
-std::array<double, 2> range_of(const TreeModel& tree, int leader) {
+std::array<double, 2> range_of(const Hand& hand, int leader) {
+  const TreeModel& tree = hand.tree;
   std::array<double, 2> range = {tree.joints[leader].min, tree.joints[leader].max};
-  for (const TreeJoint& joint : tree.joints) {
-    if (joint.leader != leader || joint.ratio == 0) continue;
+  for (const int follower : hand.followers[leader]) {
+    const TreeJoint& joint = tree.joints[follower];
+    if (joint.ratio == 0) continue;
     const double a = (joint.min - joint.offset) / joint.ratio,
                  b = (joint.max - joint.offset) / joint.ratio;
     range = {std::max(range[0], std::min(a, b)), std::min(range[1], std::max(a, b))};
@@ -113,21 +131,29 @@ void find_fingers(Hand& hand) {
   }
   for (const int tip : tips) {
     const ShapePtr& shape = drawn(tree.links[tip].body);
-    hand.fingers.push_back({tip, joints_below(tree, hand.palm, tip),
+    hand.fingers.push_back({tip, links_below(tree, hand.palm, tip),
+                            joints_below(tree, hand.palm, tip),
                             shape ? shape->centre() : Eigen::Vector3d(Eigen::Vector3d::Zero())});
   }
 }
 
 Hand make_hand(const TreeModel& tree) {
-  Hand hand{tree, -1, {}, {}, {}, {}};
-  for (int j = 0; j < static_cast<int>(tree.joints.size()); ++j) {
+  const int joints = static_cast<int>(tree.joints.size());
+  Hand hand{tree, -1, {}, {}, {}, {}, {}, std::vector<int>(joints)};
+  hand.followers.resize(joints);
+  for (int j = 0; j < joints; ++j)
+    if (const int leader = tree.joints[j].leader; leader >= 0) hand.followers[leader].push_back(j);
+  for (int l = 0; l < static_cast<int>(tree.links.size()); ++l)
+    for (const int j : tree.links[l].joints) hand.link_of[j] = l;
+  for (int j = 0; j < joints; ++j) {
     const TreeJoint& joint = tree.joints[j];
-    hand.ranges.push_back(joint.leader < 0 ? range_of(tree, j)
+    hand.ranges.push_back(joint.leader < 0 ? range_of(hand, j)
                                            : std::array<double, 2>{joint.min, joint.max});
     const auto [low, high] = hand.ranges.back();
     if (joint.leader < 0 && low < high) hand.dofs.push_back(j);
-    hand.rest.push_back(low <= high ? std::clamp(joint.start, low, high) : joint.start);
+    hand.rest.q.push_back(low <= high ? std::clamp(joint.start, low, high) : joint.start);
   }
+  hand.rest.poses = link_poses(tree, hand.rest.q);
   find_fingers(hand);
   return hand;
 }
@@ -135,9 +161,8 @@ Hand make_hand(const TreeModel& tree) {
 /// Sets a DOF, and what follows it.
 void set(const Hand& hand, std::vector<double>& q, int dof, double value) {
   q[dof] = value;
-  for (size_t j = 0; j < q.size(); ++j)
-    if (const TreeJoint& joint = hand.tree.joints[j]; joint.leader == dof)
-      q[j] = joint.ratio * value + joint.offset;
+  for (const int j : hand.followers[dof])
+    q[j] = hand.tree.joints[j].ratio * value + hand.tree.joints[j].offset;
 }
 
 /// Fingertips in the palm's frame.
@@ -148,6 +173,18 @@ std::vector<Eigen::Vector3d> tips_at(const Hand& hand, const std::vector<double>
   for (const Finger& finger : hand.fingers)
     out.push_back(X_PB * (poses[finger.tip] * finger.p_tip));
   return out;
+}
+
+/// The tip of a finger alone, as all its joints are now; the palm stands where it does in `posture`.
+/// Long hands would else take the square of their length.
+Eigen::Vector3d tip_at(const Hand& hand, const Posture& posture, const std::vector<double>& q,
+                       const Finger& finger) {
+  Pose X = posture.poses[hand.palm];
+  for (const int l : finger.links) {
+    X = X * hand.tree.links[l].X_PL;
+    for (const int j : hand.tree.links[l].joints) X = X * joint_pose(hand.tree.joints[j], q[j]);
+  }
+  return posture.poses[hand.palm].inverse() * (X * finger.p_tip);
 }
 
 bool follows(const Hand& hand, int joint, int dof) {
@@ -177,7 +214,7 @@ Eigen::Vector3d grasp_centre(const Hand& hand) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int s = 0; s < samples; ++s) {
     Random random(1, static_cast<uint64_t>(s));
-    auto q = hand.rest;
+    auto q = hand.rest.q;
     for (const int dof : hand.dofs) {
       const auto [low, high] = hand.ranges[dof];
       const double value = random.uniform(low, high);
@@ -191,21 +228,15 @@ Eigen::Vector3d grasp_centre(const Hand& hand) {
 
 /// Does some joint of the DOF turn its finger the way that the finger's last joint does?
 bool flexes(const Hand& hand, int dof) {
-  auto q = hand.rest;
-  const auto poses = link_poses(hand.tree, q);
   // axis of a joint in the root's frame
   const auto axis = [&](int joint) {
-    for (size_t l = 0; l < hand.tree.links.size(); ++l) {
-      const TreeLink& link = hand.tree.links[l];
-      if (std::find(link.joints.begin(), link.joints.end(), joint) == link.joints.end()) continue;
-      Pose X = link.parent < 0 ? Pose{} : poses[link.parent] * link.X_PL;
-      for (const int j : link.joints) {
-        if (j == joint) break;
-        X = X * joint_pose(hand.tree.joints[j], q[j]);
-      }
-      return Eigen::Vector3d(X.rotation * hand.tree.joints[joint].axis);
+    const TreeLink& link = hand.tree.links[hand.link_of[joint]];
+    Pose X = link.parent < 0 ? Pose{} : hand.rest.poses[link.parent] * link.X_PL;
+    for (const int j : link.joints) {
+      if (j == joint) break;
+      X = X * joint_pose(hand.tree.joints[j], hand.rest.q[j]);
     }
-    return Eigen::Vector3d(Eigen::Vector3d::Zero());
+    return Eigen::Vector3d(X.rotation * hand.tree.joints[joint].axis);
   };
   for (const Finger& finger : hand.fingers)
     for (const int j : finger.joints) {
@@ -225,45 +256,52 @@ struct Way {
   double far = 0;         // from the centre at first [m]
 };
 
-Way way_to(const Hand& hand, std::vector<double> q, int dof, const std::vector<int>& fingers,
+/// `fingers`: those that the DOF moves, whose palm it does not
+Way way_to(const Hand& hand, const Posture& posture, int dof, const std::vector<int>& fingers,
            const Eigen::Vector3d& centre, double end) {
   Way way;
-  const double start = q[dof];
-  std::vector<Eigen::Vector3d> before;
+  auto q = posture.q;
+  const double start = hand.rest.q[dof];
+  std::vector<Eigen::Vector3d> before(fingers.size());
   double first = 0;
   for (int s = 0; s <= steps; ++s) {
     set(hand, q, dof, start + (end - start) * s / steps);
-    const auto tips = tips_at(hand, q);
     double distance = 0;
-    for (const int f : fingers) {
-      distance += (tips[f] - centre).norm();
-      if (s > 0) way.length += (tips[f] - before[f]).norm();
+    for (size_t f = 0; f < fingers.size(); ++f) {
+      const Eigen::Vector3d tip = tip_at(hand, posture, q, hand.fingers[fingers[f]]);
+      distance += (tip - centre).norm();
+      if (s > 0) way.length += (tip - before[f]).norm();
+      before[f] = tip;
     }
     if (s == 0) first = way.far = distance;
     way.end = first - distance;
     if (way.end > way.nearer) way.nearer = way.end, way.nearest_at = way.length;
-    before = tips;
   }
   return way;
 }
 
-double sense_of(const Hand& hand, int dof, const Eigen::Vector3d& centre) {
+/// Every DOF at half its way, but those that turn without end.
+Posture half_way(const Hand& hand) {
+  Posture out{hand.rest.q, {}};
+  for (const int dof : hand.dofs) {
+    const auto [least, most] = hand.ranges[dof];
+    if (most - least < 1.5 * endless_turn) set(hand, out.q, dof, (least + most) / 2);
+  }
+  out.poses = link_poses(hand.tree, out.q);
+  return out;
+}
+
+double sense_of(const Hand& hand, const Posture& bent, int dof, const Eigen::Vector3d& centre) {
   const auto fingers = moved_fingers(hand, dof);
   const auto [low, high] = hand.ranges[dof];
   if (fingers.empty() || hand.tree.joints[dof].passive) return 0;
   if (!(high - low < 1.5 * endless_turn)) return 0;
-  auto posture = hand.rest;
-  Way up = way_to(hand, posture, dof, fingers, centre, high),
-      down = way_to(hand, posture, dof, fingers, centre, low);
+  Way up = way_to(hand, hand.rest, dof, fingers, centre, high),
+      down = way_to(hand, hand.rest, dof, fingers, centre, low);
   if (up.length + down.length < rolling * up.far) {
     // a straight finger about its own axis: where it goes shows when it is bent
-    for (const int other : hand.dofs) {
-      const auto [least, most] = hand.ranges[other];
-      if (other != dof && most - least < 1.5 * endless_turn)
-        set(hand, posture, other, (least + most) / 2);
-    }
-    up = way_to(hand, posture, dof, fingers, centre, high);
-    down = way_to(hand, posture, dof, fingers, centre, low);
+    up = way_to(hand, bent, dof, fingers, centre, high);
+    down = way_to(hand, bent, dof, fingers, centre, low);
   }
   const double length = up.length + down.length;
   if (!(length > 0)) return 0;
@@ -290,19 +328,19 @@ Eigen::Vector3d snapped(const Eigen::Vector3d& direction) {
 /// fingers point.
 Eigen::Vector3d approach_direction(const Hand& hand, const std::vector<double>& senses,
                                    const Eigen::Vector3d& centre) {
-  auto from = hand.rest, to = hand.rest;
+  auto from = hand.rest.q, to = hand.rest.q;
   for (const int dof : hand.dofs) {
     if (senses[dof] == 0) continue;
     const auto [low, high] = hand.ranges[dof];
     const double little = 0.05 * (high - low) * senses[dof];
-    double start = hand.rest[dof];
+    double start = hand.rest.q[dof];
     if (start + little > high || start + little < low) start -= little;
     set(hand, from, dof, start);
     set(hand, to, dof, start + little);
   }
   const auto before = tips_at(hand, from), after = tips_at(hand, to);
   Eigen::Vector3d closing = Eigen::Vector3d::Zero(), pointing = closing;
-  const auto poses = link_poses(hand.tree, hand.rest);
+  const auto& poses = hand.rest.poses;
   const Pose X_PB = poses[hand.palm].inverse();
   for (size_t f = 0; f < hand.fingers.size(); ++f) {
     closing += (after[f] - before[f]).stableNormalized() / static_cast<double>(hand.fingers.size());
@@ -327,7 +365,7 @@ Eigen::Vector3d approach_point(const Hand& hand, const Eigen::Vector3d& directio
   while (link > 0 && !drawn(hand.tree.links[link].body)) link = hand.tree.links[link].parent;
   const ShapePtr& shape = drawn(hand.tree.links[link].body);
   if (!shape) return Eigen::Vector3d::Zero();
-  const auto poses = link_poses(hand.tree, hand.rest);
+  const auto& poses = hand.rest.poses;
   const Pose X_PL = poses[hand.palm].inverse() * poses[link];
   const Eigen::Vector3d centre = X_PL * shape->bounds().centre();
   double farthest = 0;
@@ -345,11 +383,12 @@ ClosingGuess guess_closing(const TreeModel& tree) {
   if (hand.fingers.empty()) return guess;
   const Eigen::Vector3d centre = grasp_centre(hand);
   if (!centre.allFinite()) return guess;
-  for (const int dof : hand.dofs) guess.senses[dof] = sense_of(hand, dof, centre);
+  const Posture bent = half_way(hand);
+  for (const int dof : hand.dofs) guess.senses[dof] = sense_of(hand, bent, dof, centre);
 
   const Eigen::Vector3d z_P = approach_direction(hand, guess.senses, centre);
   const Eigen::Vector3d p_P = approach_point(hand, z_P);
-  const Pose X_BP = link_poses(tree, hand.rest)[hand.palm];
+  const Pose X_BP = hand.rest.poses[hand.palm];
   const Eigen::Vector3d z_B = snapped(X_BP.rotation * z_P), p_B = X_BP * p_P;
   if (z_B.allFinite() && p_B.allFinite()) guess.X_BA = approach_frame(p_B, z_B);
   return guess;

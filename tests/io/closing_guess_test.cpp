@@ -279,3 +279,17 @@ TEST_CASE("passive joints, frames without geometry and robots without joints are
   const Sketch box;
   CHECK(guess_closing(box.tree).senses.empty());
 }
+
+TEST_CASE("a hand of hundreds of fingers closes all of them, in the time of one after the other") {
+  // looking at the whole hand for each of its DOFs took 20 s
+  Sketch sketch;
+  constexpr int fingers = 400;
+  for (int i = 0; i < fingers; ++i) {
+    const double angle = 2 * std::numbers::pi * i / fingers;
+    const Pose at = Pose::turn(angle, {0, 0, 1}) * Pose::translation({0.3, 0, 0});
+    const int link = sketch.add("finger", 0, at, {0.005, 0.002, 0.1}, {0, 0, 0.05});
+    sketch.joint(link, {0, 1, 0}, -1, 1);
+  }
+  const ClosingGuess guess = guess_closing(sketch.tree);
+  CHECK(guess.senses == std::vector<double>(fingers, -1.0));
+}
