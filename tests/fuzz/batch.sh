@@ -10,20 +10,22 @@ mkdir -p "$found"
 
 export CLENCH_MODELS=. ASAN_OPTIONS=hard_rss_limit_mb=3000:max_allocation_size_mb=3000:allocator_may_return_null=1
 export UBSAN_OPTIONS=print_stacktrace=1 LSAN_OPTIONS=suppressions=$root/tests/support/lsan.supp:print_suppressions=0
-# of the processor; a batch stops by itself after some seconds and waits for its last call
+# of the processor; a batch stops by itself after some seconds and waits for its last call. One that waits for something
+# else is ended, too
 ulimit -t 60
+limited=(timeout 600)
 ulimit -c 0
 
 case $mode in
   api)
     folder=build/fuzz/api/$seed
     rm -rf "$folder" && mkdir -p "$folder" && ln -s ../../api-tree/models ../../api-tree/worlds "$folder" && cd "$folder" || exit 1
-    "$program" -q run "$root/tests/fuzz/api.lua" "$seed" "$calls" >"out" 2>&1
+    "${limited[@]}" "$program" -q run "$root/tests/fuzz/api.lua" "$seed" "$calls" >"out" 2>&1
     ;;
   files)
     folder=build/fuzz/files-tree
     cd "$folder" && mkdir -p "../files" || exit 1
-    "$program" -q run "$root/tests/fuzz/files.lua" "$seed" "$calls" list >"../files/$seed.out" 2>&1
+    "${limited[@]}" "$program" -q run "$root/tests/fuzz/files.lua" "$seed" "$calls" list >"../files/$seed.out" 2>&1
     ;;
 esac
 status=$?
