@@ -8,11 +8,9 @@
 
 namespace clench {
 
-DofTexts dof_texts(const RobotSpec& robot, int number, const std::string& file) {
+DofTexts dof_texts(const RobotSpec& robot, int number) {
   const DofSpec& dof = robot.dofs[number];
   const bool slides = dof_slides(robot, number);
-  for (const double x : {dof.max_effort, dof.breakaway_torque})
-    if (!std::isfinite(x)) fail("{}: DOF {}: wanted finite numbers, got {}", file, number, x);
   DofTexts out;
   out.kind = dof.kind == DofKind::breakaway ? 'b' : dof.kind == DofKind::compliant ? 'c' : 'r';
   out.velocity = number_in(dof.default_velocity, slides ? units::millimetre : 1.0);

@@ -18,8 +18,7 @@ struct JointTexts {
   std::string a, alpha, min, max, viscous, coulomb, spring, rest;
 };
 
-/// throws Error  "hand.cfg: DOF 0: wanted finite numbers, got inf"
-DofTexts dof_texts(const RobotSpec& robot, int dof, const std::string& file);
+DofTexts dof_texts(const RobotSpec& robot, int dof);
 JointTexts joint_texts(const RobotSpec& robot, const JointSpec& joint);
 /// "x y z", in the unit of v.
 std::string words(const Eigen::Vector3d& v);

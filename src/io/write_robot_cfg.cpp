@@ -22,8 +22,8 @@ static const char* link_word(LinkJoint joint) {
   return "Fixed";
 }
 
-static std::string dof_line(const RobotSpec& robot, int dof, const std::string& file) {
-  const DofTexts t = dof_texts(robot, dof, file);
+static std::string dof_line(const RobotSpec& robot, int dof) {
+  const DofTexts t = dof_texts(robot, dof);
   std::string out =
       fmt::format("{} {} {} {} {} {}", t.kind, t.velocity, t.effort, t.kp, t.kd, t.scale);
   if (t.kind == "b") out += " " + t.breakaway;
@@ -58,7 +58,7 @@ std::string robot_cfg_text(const RobotSpec& robot, RobotFolder& folder) {
                   folder.body(robot.base, part_name(robot.base, robot)), robot.dofs.size());
   const auto to = std::back_inserter(out);
   for (size_t d = 0; d < robot.dofs.size(); ++d)
-    out += dof_line(robot, static_cast<int>(d), folder.file());
+    out += dof_line(robot, static_cast<int>(d));
   fmt::format_to(to, "\n{}\n", robot.chains.size());
   for (const ChainSpec& chain : robot.chains) out += chain_block(robot, chain, folder);
   out += '\n';

@@ -37,7 +37,7 @@ class XmlRobotText {
 };
 
 std::string XmlRobotText::dof(int number) const {
-  const DofTexts t = dof_texts(robot_, number, folder_.file());
+  const DofTexts t = dof_texts(robot_, number);
   std::string out = fmt::format("  <dof type=\"{}\">\n", t.kind);
   out += element(2, "defaultVelocity", t.velocity);
   if (t.value != "0") out += element(2, "defaultValue", t.value);

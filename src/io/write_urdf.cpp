@@ -149,12 +149,8 @@ void UrdfText::add_joint(const UrdfJoint& joint) {
 }
 
 std::string UrdfText::text() {
-  for (const DofSpec& dof : robot_.dofs)
-    for (const double x : {dof.max_effort, dof.max_velocity})
-      if (!std::isfinite(x)) fail("{}: wanted finite numbers of a DOF, got {}", folder_.file(), x);
   for (const UrdfJoint& joint : plan_.joints)
-    if (!joint.X_PC.is_finite())
-      fail("{}: joint '{}': wanted a finite pose in its parent", folder_.file(), joint.name);
+    check_place(joint.X_PC, fmt::format("{}: joint '{}'", folder_.file(), joint.name));
   out_ = "<?xml version=\"1.0\"?>\n";
   add("", fmt::format("<robot name=\"{}\">", xml_escaped(plan_.name)));
   for (const UrdfLink& link : plan_.links) add_link(link);

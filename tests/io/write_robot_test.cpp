@@ -346,17 +346,18 @@ TEST_CASE("robots that cannot be written are refused in one sentence, and leave 
                 "hand.cfg cannot be written: any: chain 0 joint 0: min 0 exceeds max -1 [rad]");
   robot = bare_hand();
   robot.dofs[0].max_effort = HUGE_VAL;
-  check_refused(robot, "hand.cfg", "hand.cfg: DOF 0: wanted finite numbers, got inf");
-  check_refused(robot, "hand.xml", "hand.xml: DOF 0: wanted finite numbers, got inf");
-  check_refused(robot, "hand.urdf", "hand.urdf: wanted finite numbers of a DOF, got inf");
+  check_refused(robot, "hand.cfg", "hand.cfg cannot be written: any: DOF 0: max effort: wanted a number from 0 to 1e+30, got inf");
+  check_refused(robot, "hand.xml", "hand.xml cannot be written: any: DOF 0: max effort: wanted a number from 0 to 1e+30, got inf");
+  check_refused(robot, "hand.urdf", "hand.urdf cannot be written: any: DOF 0: max effort: wanted a number from 0 to 1e+30, got inf");
   robot = bare_hand();
   JointSpec far = robot.chains[0].joints[0];
   far.placed_freely = true;
-  far.X_before = far.X_after = Pose::translation({1e308, 1e308, 0});
+  far.X_before = far.X_after = Pose::translation({8e8, 8e8, 0});
   robot.chains[0].joints.assign(3, far);
   robot.chains[0].links[0].last_joint = 2;
   check_refused(robot, "hand.urdf",
-                "hand.urdf: joint 'chain0_joint1': wanted a finite pose in its parent");
+                "hand.urdf: joint 'chain0_joint1': wanted a position within 1e+09 m of the origin, got "
+                "(1600000000, 1600000000, 0)");
   check_refused(robot, "hand.cfg",
                 "hand.cfg cannot be written: any: chain 0 joint 0: wanted finite numbers, got inf");
   robot = bare_hand();
