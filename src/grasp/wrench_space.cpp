@@ -7,6 +7,7 @@
 #include "contact/friction_edges.h"
 #include "grasp/expanding_polytope.h"
 #include "grasp/nearest_point.h"
+#include "grasp/sum_volume.h"
 #include "grasp/wrench_hull.h"
 #include "math/decompositions.h"
 
@@ -37,6 +38,9 @@ constexpr double poor = 3e-10;
 constexpr double carries = 1e-9;
 
 constexpr int most_facets = 1'000'000;
+
+// Cells of a sum take some 15 us each: at most a second and a half.
+constexpr int max_cells = 100'000;
 
 // Around a curved set whose nearest points to the origin are many, brackets close slowly: so many facets take a
 // third of a second and 160 MB, and what they certify is what there is.
@@ -419,21 +423,46 @@ double WrenchSpace::volume() const {
     const VolumeBounds bounds = volume_bounds();
     return volume_.emplace((bounds.lower + bounds.upper) / 2);
   }
-  const bool l1 = options_.norm == WrenchNorm::l1;
   if (rank() < dimension()) return volume_.emplace(0);
-  if (l1 && affine_rank(spanning(), rank_tolerance) < dimension()) return volume_.emplace(0);
+  const double scaled =
+      options_.norm == WrenchNorm::l1 ? hull_volume() : sum_of_hulls_volume();
+  return volume_.emplace(std::ldexp(scaled, dimension() * prepared().exponent));
+}
+
+// of the space in L1, scaled
+double WrenchSpace::hull_volume() const {
+  if (affine_rank(spanning(), rank_tolerance) < dimension()) return 0;
   const Facets facets = all_facets(prepared().reach, {.most_facets = most_facets});
   if (facets.end == FacetsEnd::too_many)
     fail(
-        "wrench space: volume: the hull of {} contact{}{} has more than {} facets; give fewer "
+        "wrench space: volume: the hull of {} contact{} has more than {} facets; give fewer "
         "edges",
-        contacts_.size(), contacts_.size() == 1 ? "" : "s", l1 ? "" : " in L-infinity",
-        most_facets);
-  if (facets.end == FacetsEnd::complete)
-    return volume_.emplace(std::ldexp(facets.volume, dimension() * prepared().exponent));
-  if (facets.end == FacetsEnd::flat) return volume_.emplace(0);
-  if (!l1) fail("wrench space: volume: rounding broke the hull in L-infinity");
-  return volume_.emplace(hull().volume);
+        contacts_.size(), contacts_.size() == 1 ? "" : "s", most_facets);
+  if (facets.end == FacetsEnd::complete) return facets.volume;
+  if (facets.end == FacetsEnd::flat) return 0;
+  return std::ldexp(hull().volume, -dimension() * prepared().exponent);
+}
+
+// of the space in L-infinity, scaled
+double WrenchSpace::sum_of_hulls_volume() const {
+  const Eigen::MatrixXd all = spanning();
+  std::vector<Eigen::MatrixXd> hulls;
+  Eigen::Index column = 0;
+  for (const UnitWrenches& contact : contacts_) {
+    const Eigen::Index count = contact.edges.cols();
+    auto& points = hulls.emplace_back(Eigen::MatrixXd::Zero(dimension(), count + 1));
+    points.rightCols(count) = all.middleCols(column, count);
+    column += count;
+  }
+  const SumVolume sum = sum_volume(hulls, max_cells);
+  if (sum.end == SumVolume::too_many)
+    fail(
+        "wrench space: volume: in L-infinity the space of {} contacts has more than {} cells; give "
+        "fewer edges",
+        contacts_.size(), max_cells);
+  if (sum.end == SumVolume::failed)
+    fail("wrench space: volume: rounding broke the cells in L-infinity");
+  return sum.volume;
 }
 
 VolumeBounds WrenchSpace::volume_bounds(int edges) const {

@@ -79,8 +79,9 @@ class WrenchSpace {
   /// An epsilon that is less certain, and found sooner.   throws Error when tolerance < 0 or not finite
   EpsilonBounds epsilon_bounds(const EpsilonOptions& options) const;
   /// Of the space in its coordinates; 0 when it is flat. With round cones the middle of its bounds.
-  /// throws  Error when the hull has more than a million facets, as in L-infinity with more than three
-  ///         or four contacts
+  /// throws  Error when the hull has more than a million facets or, in L-infinity, the sum more than
+  ///         100,000 cells, which is known within some two seconds: six hard contacts of eight edges or
+  ///         three soft ones have fewer
   double volume() const;
   /// edges   of the pyramids for round cones, 4 to most_edges; a soft contact's are those of
   ///         friction_edges with half as many directions. Without round cones both bounds are the volume
@@ -121,6 +122,8 @@ class WrenchSpace {
   Bracket bracket_of(const ContactReach& reach, double tolerance, double at_least) const;
   const Bracket& final_bracket() const;
   Weakest unresisted() const;
+  double hull_volume() const;
+  double sum_of_hulls_volume() const;
   Eigen::MatrixXd spanning() const;
   Vector6d in_all_coordinates(const Eigen::VectorXd& x) const;
 
