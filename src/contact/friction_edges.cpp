@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/convert.h"
 #include "base/error.h"
 
 namespace clench {
@@ -20,7 +21,7 @@ FrictionEdges friction_edges(double torsion_radius, int directions, double even_
   std::vector<std::pair<double, int>> all;
   for (int k = rings; k >= -rings; --k) {
     const double latitude = k * (pi / 2) / std::max(rings, 1);
-    const int around = static_cast<int>(directions * std::cos(latitude));
+    const int around = floor_int(directions * std::cos(latitude));
     all.emplace_back(latitude, k == 0                 ? directions
                                : std::abs(k) == rings ? 1
                                                       : std::max(around, 1));

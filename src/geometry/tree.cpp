@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/convert.h"
 #include "geometry/lanes.h"
 #include "geometry/make_casing.h"
 #include "geometry/mesh.h"
@@ -177,7 +178,7 @@ class TreeBuilder {
   };
 
   static int bin_of(double x, double low, double scale) {
-    return std::clamp(static_cast<int>((x - low) * scale), 0, bin_count - 1);
+    return floor_between((x - low) * scale, 0, bin_count - 1);
   }
 
   static void find_cut(const std::array<Bounds, bin_count>& bins,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/convert.h"
 #include "grasp/support_set.h"
 
 namespace clench {
@@ -39,8 +40,8 @@ bool all_differ(std::span<const double> marks) {
   };
   for (const double mark : marks) {
     const double low = (mark - alike_marks) * per_cell, high = (mark + alike_marks) * per_cell;
-    const auto first = static_cast<int64_t>(std::floor(low));
-    const auto last = static_cast<int64_t>(std::floor(high));
+    const int64_t first = floor_between(low, none + 1, -(none + 1));
+    const int64_t last = floor_between(high, none + 1, -(none + 1));
     const size_t at = place(first);
     if (cells[at] != none || (last != first && cells[place(last)] != none)) return false;
     cells[at] = first;

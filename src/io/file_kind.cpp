@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/convert.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "io/xml.h"
@@ -72,7 +73,7 @@ class Numbers {
     if (at_ >= numbers_.size()) return {};
     const double x = numbers_[at_++];
     if (!(x >= 0 && x <= 1e6 && x == std::floor(x))) return {};
-    return static_cast<size_t>(x);
+    return floor_between(x, size_t{0}, size_t{1} << 20);
   }
   void skip(size_t n) { at_ += n; }
   bool used_up() const { return at_ == numbers_.size(); }

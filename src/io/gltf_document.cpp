@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/convert.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "io/byte_reader.h"
@@ -301,7 +302,7 @@ std::vector<int> GltfDocument::read_indices(int accessor, const std::string& wan
   for (int i = 0; i < s.count; ++i) {
     ByteReader reader(std::string_view(s.first + int64_t{i} * s.stride, bytes));
     const double index = component(reader, s.component_type, false);
-    out.push_back(static_cast<int>(std::min(index, 2147483647.0)));
+    out.push_back(floor_int(index));
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/convert.h"
 #include "base/suggest.h"
 #include "geometry/hull.h"
 #include "io/tree_shapes.h"
@@ -60,8 +61,8 @@ std::shared_ptr<const Geometry> MjcfGeoms::inline_mesh(const Asset& asset) {
             faces[i + k] != std::floor(faces[i + k]))
           asset.values.fail("face", "wanted vertices from 0 to {}, got {}", count - 1,
                             faces[i + k]);
-      mesh.triangles.push_back({static_cast<int>(faces[i]), static_cast<int>(faces[i + 1]),
-                                static_cast<int>(faces[i + 2])});
+      mesh.triangles.push_back(
+          {floor_int(faces[i]), floor_int(faces[i + 1]), floor_int(faces[i + 2])});
     }
   } else {
     const Hull hull = convex_hull(Eigen::Map<const Eigen::MatrixXd>(numbers.data(), 3, count));

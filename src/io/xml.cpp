@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/convert.h"
 #include "base/suggest.h"
 #include "io/xml_scan.h"
 
@@ -139,7 +140,7 @@ static int whole(const XmlElement& element, std::string_view what, const std::st
     element.fail("{}: wanted a whole number from {} to {}, got {}", what, low, high,
                  in_quotes(word));
   }
-  return static_cast<int>(*value);
+  return floor_int(*value);
 }
 
 int XmlElement::integer(int low, int high) const { return whole(*this, name(), text(), low, high); }

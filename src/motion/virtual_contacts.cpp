@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/convert.h"
 #include "base/error.h"
 #include "contact/cone.h"
 #include "contact/friction_edges.h"
@@ -118,7 +119,7 @@ std::vector<std::vector<Piece>> shares(std::vector<Piece> pieces, int count) {
   double before = 0;
   for (const Piece& p : pieces) {
     const double middle = (before + 0.5 * p.swept) / all;
-    out[std::clamp(static_cast<int>(middle * count), 0, count - 1)].push_back(p);
+    out[floor_between(middle * count, 0, count - 1)].push_back(p);
     before += p.swept;
   }
   std::erase_if(out, [](const auto& share) { return share.empty(); });

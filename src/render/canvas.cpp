@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/convert.h"
 #include "render/lettering.h"
 
 namespace clench {
@@ -16,9 +17,7 @@ struct PixelRange {
   int first, last;
 };
 PixelRange pixels_of(float low, float high, int count) {
-  const float end = static_cast<float>(count);
-  return {static_cast<int>(std::floor(std::clamp(low, 0.0f, end))),
-          static_cast<int>(std::ceil(std::clamp(high, 0.0f, end))) - 1};
+  return {floor_between(low, 0, count), floor_between(std::ceil(high), 0, count) - 1};
 }
 
 // part of the pixel [i, i+1] that [low, high] covers
@@ -44,7 +43,7 @@ void Canvas::blend(int x, int y, float part, const Color& color) {
   uint8_t* pixel = &picture_.pixels[3 * (static_cast<size_t>(y) * picture_.width + x)];
   for (int k = 0; k < 3; ++k) {
     const float mixed = (1 - part) * pixel[k] + part * 255 * color[k];
-    pixel[k] = static_cast<uint8_t>(std::lround(std::clamp(mixed, 0.0f, 255.0f)));
+    pixel[k] = static_cast<uint8_t>(floor_between(mixed + 0.5, 0, 255));
   }
 }
 
@@ -84,7 +83,7 @@ std::string Canvas::shortened(std::string_view words, float height, float width)
   const std::u32string letters = letters_of(words);
   const float letter = text_width("x", height);
   // one of those that fit is the ellipsis
-  const int kept = static_cast<int>(std::floor(width / letter)) - 1;
+  const int kept = floor_int(width / letter) - 1;
   if (kept < 0) return "";
   const auto back = static_cast<size_t>(kept / 2), front = static_cast<size_t>(kept) - back;
   return text_of(letters.substr(0, front) + U"…" + letters.substr(letters.size() - back));

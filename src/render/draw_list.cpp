@@ -5,6 +5,7 @@
 #include <numbers>
 #include <span>
 
+#include "base/convert.h"
 #include "base/error.h"
 #include "render/corner_normals.h"
 #include "render/pieces.h"
@@ -21,7 +22,7 @@ constexpr size_t most_triangles = 200000;
 
 std::array<uint8_t, 4> to_bytes(const Eigen::Vector3f& color, float opacity) {
   const auto byte = [](float x) {
-    return static_cast<uint8_t>(std::lround(255 * std::clamp(x, 0.0f, 1.0f)));
+    return static_cast<uint8_t>(floor_between(255 * x + 0.5, 0, 255));
   };
   return {byte(color[0]), byte(color[1]), byte(color[2]), byte(opacity)};
 }

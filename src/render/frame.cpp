@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/convert.h"
 #include "base/error.h"
 #include "render/render.h"
 
@@ -123,7 +124,7 @@ class Overview {
     const Eigen::Vector3d p = axes_.transpose() * (p_scene - eye_);
     const double depth = std::max(1e-6, -p.z());
     const auto cell = [&](double x, int count) {
-      return std::clamp(static_cast<int>((0.5 + 0.5 * x) * count), 0, count - 1);
+      return floor_between((0.5 + 0.5 * x) * count, 0, count - 1);
     };
     const int column = cell(std::clamp(focal_ / aspect_ * p.x() / depth, -1.0, 1.0), columns);
     return {column + columns * cell(std::clamp(focal_ * p.y() / depth, -1.0, 1.0), rows), depth};

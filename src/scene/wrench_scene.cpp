@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/convert.h"
 #include "math/round_step.h"
 #include "scene/palette.h"
 
@@ -12,9 +13,9 @@ namespace clench {
 
 namespace {
 
-constexpr double axis_reach = 1.15;                     // beyond the solid, part of its size
-constexpr double arrow_width = 0.006;                   // part of the solid's size
-constexpr double steps = 4;                             // at most so many numbers along half an axis
+constexpr double axis_reach = 1.15;    // beyond the solid, part of its size
+constexpr double arrow_width = 0.006;  // part of the solid's size
+constexpr double steps = 4;            // at most so many numbers along half an axis
 constexpr double tick_length = 0.025, tick_end = 0.08;  // parts of the solid's size
 constexpr int ball_rings = 24;
 
@@ -59,8 +60,8 @@ AxisRange reach_of(const Bounds& bounds, int k, double size) {
 void add_ticks(int k, const AxisRange& range, double step, double size, Scene& out) {
   const Eigen::Vector3d along = Eigen::Vector3d::Unit(k),
                         across = Eigen::Vector3d::Unit((k + 2) % 3);
-  const auto first = std::lround(std::ceil(range.low / step));
-  for (long i = first; static_cast<double>(i) * step < range.high - tick_end * size; ++i) {
+  for (int i = floor_int(std::ceil(range.low / step));
+       static_cast<double>(i) * step < range.high - tick_end * size; ++i) {
     if (i == 0) continue;
     const double value = static_cast<double>(i) * step;
     out.cones.push_back({.apex = value * along,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/convert.h"
 #include "script/check.h"
 #include "script/guard.h"
 #include "script/push.h"
@@ -85,7 +86,7 @@ static int item(lua_State* L) {
   const Vector3d& v = self<Vector3d>(L);
   if (lua_type(L, 2) == LUA_TNUMBER) {
     const double i = lua_tonumber(L, 2);
-    if (i == 1 || i == 2 || i == 3) return push(L, v[static_cast<int>(i) - 1]);
+    if (i == 1 || i == 2 || i == 3) return push(L, v[floor_int(i) - 1]);
   }
   return 0;
 }
