@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "base/convert.h"
 #include "base/error.h"
 #include "math/round_step.h"
 #include "render/canvas.h"
@@ -29,6 +30,8 @@ constexpr float turned_label = 150;   // length that an upright label may have [
 constexpr float turned_part = 0.25f;  // of the chart's height that it may have
 constexpr float level_label = 110;    // columns as wide keep their labels level [pixels]
 constexpr int least_size = 64, largest_size = 8192;
+constexpr size_t max_items = largest_size, max_values = 1'000'000;  // a series, and in all
+constexpr size_t max_letters = 10'000'000;                          // of all texts [bytes]
 
 const Canvas::Color ink(0.13f, 0.16f, 0.20f), quiet(0.86f, 0.87f, 0.89f);
 const Canvas::Color column_color(0.45f, 0.66f, 0.84f), best_color(0.09f, 0.40f, 0.67f);
@@ -43,6 +46,15 @@ void check_chart(const Chart& chart, const ChartOptions& options) {
     if (series.values.size() != items)
       fail("chart: series '{}': wanted {} values, as the first has, got {}", series.name, items,
            series.values.size());
+  if (items > max_items) fail("chart: wanted at most {} values a series, got {}", max_items, items);
+  if (items * chart.series.size() > max_values)
+    fail("chart: wanted at most {} values in all, got {} series of {}", max_values,
+         chart.series.size(), items);
+  size_t letters = chart.title.size();
+  for (const std::string& label : chart.labels) letters += label.size();
+  for (const ChartSeries& series : chart.series) letters += series.name.size();
+  if (letters > max_letters)
+    fail("chart: wanted texts of at most {} bytes in all, got {}", max_letters, letters);
   if (!chart.labels.empty() && chart.labels.size() != items)
     fail("chart: wanted {} label{}, one a value, got {}", items, items == 1 ? "" : "s",
          chart.labels.size());
@@ -77,7 +89,8 @@ struct ChartScale {
   ChartAxis axis;
   float top, bottom;
   float height(double value) const {
-    const double part = (value - axis.low) / (axis.high - axis.low);
+    // halves, so that the range of the largest numbers is one
+    const double part = (value / 2 - axis.low / 2) / (axis.high / 2 - axis.low / 2);
     return bottom - static_cast<float>(part) * (bottom - top);
   }
 };
@@ -89,18 +102,18 @@ bool nothing_to_show(const std::vector<double>& values) {
 // the line of 0, and unless there is nothing but zeros, the others
 void draw_axis(Canvas& canvas, const ChartPanel& panel, const ChartScale& scale, bool zeros) {
   const ChartAxis& axis = scale.axis;
-  // halves first, so that the range of the largest numbers is one
-  const auto steps = std::lround((axis.high / 2 - axis.low / 2) / (axis.step / 2));
-  const long origin = std::lround(-axis.low / axis.step);
-  const float apart = (scale.bottom - scale.top) / static_cast<float>(steps);
-  const auto every = static_cast<long>(std::ceil(least_lines / apart));
-  for (long i = 0; i <= steps; ++i) {
-    const bool zero = i == origin;
-    if ((zeros && !zero) || (i - origin) % every != 0) continue;
-    const double value = axis.low + static_cast<double>(i) * axis.step;
+  // lines by their numbers from 0 on
+  const int first = floor_int(axis.low / axis.step + 0.5);
+  const int last = floor_int(axis.high / axis.step + 0.5);
+  const float apart = (scale.bottom - scale.top) / static_cast<float>(last - first);
+  const int every = floor_between(std::ceil(least_lines / apart), 1, last - first + 1);
+  for (int i = first; i <= last; ++i) {
+    const double value = i * axis.step;
+    // the axis of the largest numbers ends at the largest there is
+    if ((zeros && i != 0) || i % every != 0 || !std::isfinite(value)) continue;
     const float y = scale.height(value);
     canvas.rectangle({panel.left, y - 0.5f}, {panel.right, y + 0.5f}, quiet);
-    const std::string number = fmt::format("{:.4g}", zero ? 0.0 : value);
+    const std::string number = fmt::format("{:.4g}", value);
     canvas.text(number,
                 {panel.left - 8 - Canvas::text_width(number, letter_height), y + letter_height / 2},
                 letter_height, ink);
@@ -229,8 +242,9 @@ ChartLabels fit_labels(const Chart& chart, const ChartColumns& columns, float lo
 void draw_labels(Canvas& canvas, const ChartLabels& labels, float top,
                  const ChartColumns& columns) {
   const float least = labels.upright ? letter_height + 4 : 0;
-  const auto every = static_cast<size_t>(std::ceil(least / columns.width));
-  for (size_t i = 0; i < labels.texts.size(); i += std::max<size_t>(1, every)) {
+  const size_t every =
+      floor_between(std::ceil(least / columns.width), size_t{1}, labels.texts.size());
+  for (size_t i = 0; i < labels.texts.size(); i += every) {
     const std::string& text = labels.texts[i];
     const float width = Canvas::text_width(text, letter_height), x = columns.centre(i);
     if (labels.upright)
@@ -252,7 +266,9 @@ ChartAxis chart_axis(const std::vector<double>& values) {
   // beside numbers that small a step would be none
   if (range < 1e-300) return {};
   const double step = round_step(range / 2);
-  return {std::floor(low / step) * step, std::ceil(high / step) * step, step};
+  constexpr double largest = std::numeric_limits<double>::max();
+  return {std::max(std::floor(low / step) * step, -largest),
+          std::min(std::ceil(high / step) * step, largest), step};
 }
 
 Picture draw_chart(const Chart& chart, const ChartOptions& options) {
@@ -267,9 +283,9 @@ Picture draw_chart(const Chart& chart, const ChartOptions& options) {
   const float above = chart.title.empty() ? 0 : title_height + margin;
   const float below = 8 + labels.height + margin;
   const auto panels = static_cast<float>(chart.series.size());
-  const int needed = static_cast<int>(margin + above + panels * panel_height + below);
+  const float needed = margin + above + panels * panel_height + below;
   const int height =
-      options.height > 0 ? options.height : std::clamp(needed, least_size, largest_size);
+      options.height > 0 ? options.height : floor_between(needed, least_size, largest_size);
 
   Picture picture = blank_picture(options.width, height);
   Canvas canvas(picture);

@@ -9,6 +9,9 @@
 
 namespace clench {
 
+// some minutes without graphics hardware
+static constexpr int64_t max_drawn = int64_t{1} << 30;
+
 Picture render(const Scene& scene, const RenderOptions& options) {
   for (const auto& [name, value] :
        {std::pair("width", options.width), std::pair("height", options.height)})
@@ -16,6 +19,9 @@ Picture render(const Scene& scene, const RenderOptions& options) {
       fail("picture: {} must be between 16 and 8192 pixels, got {}", name, value);
   if (options.samples < 1 || options.samples > 256)
     fail("picture: samples must be between 1 and 256, got {}", options.samples);
+  const int64_t drawn = int64_t{options.width} * options.height * options.samples;
+  if (drawn > max_drawn)
+    fail("picture: wanted at most {} pixels times samples, got {}", max_drawn, drawn);
   if (scene.eye) view_axes(*scene.eye);
 
   const DrawList list = make_draw_list(scene);

@@ -208,3 +208,31 @@ TEST_CASE("a chart whose counts do not fit is refused in a sentence") {
   refused({.series = {{"a", {1}}}}, "chart: wanted a height of 64 to 8192 pixels, got 9000",
           {.height = 9000});
 }
+
+TEST_CASE("numbers of any size make a chart") {
+  const double largest = std::numeric_limits<double>::max();
+  for (const auto& values : {std::vector<double>{1e308, -1e308},
+                             {largest, -largest},
+                             {largest},
+                             {-largest, 1},
+                             {2e307, 5e-324},
+                             {1e-300, -1e-300}})
+    for (const int size : {64, 300}) {
+      const Picture picture =
+          draw_chart({.series = {{"x", values}}}, {.width = size, .height = size});
+      CHECK(ink_of(picture) > 0);
+    }
+  const ChartAxis axis = chart_axis({largest, -largest});
+  CHECK(axis.low == -largest);
+  CHECK(axis.high == largest);
+}
+
+TEST_CASE("a chart has no more values and letters than anybody can see") {
+  CHECK_THROWS_WITH_AS(draw_chart({.series = {{"x", std::vector<double>(10000, 1)}}}),
+                       "chart: wanted at most 8192 values a series, got 10000", Error);
+  CHECK_THROWS_WITH_AS(
+      draw_chart({.series = std::vector<ChartSeries>(200, {"x", std::vector<double>(8000, 1)})}),
+      "chart: wanted at most 1000000 values in all, got 200 series of 8000", Error);
+  CHECK_THROWS_WITH_AS(draw_chart({.title = std::string(10'000'000, 'x'), .series = {{"x", {1}}}}),
+                       "chart: wanted texts of at most 10000000 bytes in all, got 10000001", Error);
+}
