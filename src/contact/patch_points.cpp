@@ -2,14 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "base/convert.h"
+#include "base/error.h"
 
 namespace clench {
 
 using Eigen::Vector2d;
+using Eigen::Vector2i;
 using Eigen::Vector3d;
 
-static constexpr int rings_of_places = 8;   // lattice points along a radius
-static constexpr double full_facing = 0.7;  // cosine: what leans less counts wholly
+static constexpr int rings_of_places = 8;     // lattice points along a radius
+static constexpr double full_facing = 0.7;    // cosine: what leans less counts wholly
+static constexpr double least_radius = 1e-7;  // of the distance of contacts: cells have numbers
 
 bool weights_over(const Corners& c, const Vector2d& place, Vector3d& weights) {
   const auto cross = [](const Vector2d& u, const Vector2d& v) {
@@ -33,41 +39,43 @@ void PatchHit::offer(const PatchSheet& sheet, int candidate, const Vector3d& at)
 
 namespace {
 
-// which place stands in a cell; -1 for none
+Vector2i floor_cell(const Vector2d& x) { return {floor_int(x.x()), floor_int(x.y())}; }
+
+bool row_before(const Vector2i& a, const Vector2i& b) {
+  return a.y() != b.y() ? a.y() < b.y() : a.x() < b.x();
+}
+
+// Which place stands in a cell: no table, since sites may lie far apart.
 class CellIndex {
  public:
-  explicit CellIndex(const PatchLattice& lattice) {
-    low_ = high_ = lattice.cells[0];
-    for (const auto& cell : lattice.cells) low_ = low_.cwiseMin(cell), high_ = high_.cwiseMax(cell);
-    size_ = high_ - low_ + Eigen::Vector2i::Ones();
-    at_.assign(static_cast<size_t>(size_.x()) * size_.y(), -1);
-    for (size_t i = 0; i < lattice.cells.size(); ++i)
-      at_[slot(lattice.cells[i])] = static_cast<int>(i);
+  explicit CellIndex(const PatchLattice& lattice) : cells_(lattice.cells) {
+    order_.resize(cells_.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    std::ranges::sort(order_, row_before, [&](int i) { return cells_[i]; });
   }
 
   /// take(place) for those in the box
   template <class Take>
   void within(const Vector2d& low, const Vector2d& high, double spacing, Take take) const {
-    // clamped as numbers of any size before they become whole
-    const auto whole = [&](const Vector2d& x) {
-      return Eigen::Vector2i(x.cwiseMax((low_ - Eigen::Vector2i::Ones()).cast<double>())
-                                 .cwiseMin((high_ + Eigen::Vector2i::Ones()).cast<double>())
-                                 .cast<int>());
-    };
-    const Eigen::Vector2i from = whole((low / spacing).array().ceil().matrix()).cwiseMax(low_);
-    const Eigen::Vector2i to = whole((high / spacing).array().floor().matrix()).cwiseMin(high_);
-    for (int y = from.y(); y <= to.y(); ++y)
-      for (int x = from.x(); x <= to.x(); ++x)
-        if (const int place = at_[slot({x, y})]; place >= 0) take(place);
+    const Vector2i from = floor_cell((low / spacing).array().ceil());
+    const Vector2i to = floor_cell(high / spacing);
+    for (auto at = first_from(from); at != order_.end() && cells_[*at].y() <= to.y();) {
+      const Vector2i& cell = cells_[*at];
+      if (cell.x() > to.x())
+        at = first_from({from.x(), cell.y() + 1});
+      else if (cell.x() < from.x())
+        at = first_from({from.x(), cell.y()});
+      else
+        take(*at++);
+    }
   }
 
  private:
-  size_t slot(const Eigen::Vector2i& cell) const {
-    const Eigen::Vector2i c = cell - low_;
-    return static_cast<size_t>(c.y()) * size_.x() + c.x();
+  std::vector<int>::const_iterator first_from(const Vector2i& cell) const {
+    return std::ranges::lower_bound(order_, cell, row_before, [&](int i) { return cells_[i]; });
   }
-  Eigen::Vector2i low_, high_, size_;
-  std::vector<int> at_;
+  const std::vector<Vector2i>& cells_;
+  std::vector<int> order_;
 };
 
 }  // namespace
@@ -92,20 +100,25 @@ PatchLattice patch_lattice(std::span<const Vector2d> sites, double radius) {
   PatchLattice out;
   out.radius = radius;
   out.spacing = radius / rings_of_places;
-  Vector2d low = sites[0], high = low;
-  for (const Vector2d& site : sites) low = low.cwiseMin(site), high = high.cwiseMax(site);
-  const Eigen::Vector2i from = ((low.array() - radius) / out.spacing).floor().cast<int>();
-  const Eigen::Vector2i to = ((high.array() + radius) / out.spacing).ceil().cast<int>();
+  double farthest = 0;
+  for (const Vector2d& site : sites) farthest = std::max(farthest, site.lpNorm<Eigen::Infinity>());
+  const double least = std::max(1e-100, least_radius * farthest);
+  if (!(radius > least))
+    fail("contact patch: radius: wanted more than {:.3g} [m], got {}", least, radius);
   // a place on the rim is one however it is rounded
   const double rim = radius * (1 + 1e-9);
-  for (int y = from.y(); y <= to.y(); ++y)
-    for (int x = from.x(); x <= to.x(); ++x) {
-      const Vector2d place(x * out.spacing, y * out.spacing);
-      const bool near = std::any_of(sites.begin(), sites.end(), [&](const Vector2d& site) {
-        return (place - site).norm() <= rim;
-      });
-      if (near) out.places.push_back(place), out.cells.emplace_back(x, y);
-    }
+  // about each site, so that nothing is looked for between those that lie far apart
+  for (const Vector2d& site : sites) {
+    const Vector2i from = floor_cell((site.array() - radius) / out.spacing);
+    const Vector2i to = floor_cell(((site.array() + radius) / out.spacing).ceil());
+    for (int y = from.y(); y <= to.y(); ++y)
+      for (int x = from.x(); x <= to.x(); ++x)
+        if ((Vector2d(x * out.spacing, y * out.spacing) - site).norm() <= rim)
+          out.cells.emplace_back(x, y);
+  }
+  std::ranges::sort(out.cells, row_before);
+  out.cells.erase(std::ranges::unique(out.cells).begin(), out.cells.end());
+  for (const Vector2i& cell : out.cells) out.places.push_back(cell.cast<double>() * out.spacing);
   return out;
 }
 

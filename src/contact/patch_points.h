@@ -12,6 +12,7 @@ struct PatchLattice {
   std::vector<Eigen::Vector2i> cells;   ///< place = cell * spacing
 };
 
+/// throws  Error when sites lie farther apart than the lattice can count
 PatchLattice patch_lattice(std::span<const Eigen::Vector2d> sites, double radius);
 
 /// With weights for a fit: 1 where the surface leans less than 45 degrees, 0 where the sheet ends, so
