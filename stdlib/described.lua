@@ -1,12 +1,21 @@
 -- stdlib/described.lua
---- A value as an error message shows it: texts in quotes and no longer than 40 characters, without any that move a cursor.
+--- A value as an error message shows it, on one short line: 3, 'abc', a table of 2, nothing.
+---@param value any
+---@return string
 return function(value)
-  if math.type(value) == "integer" then return tostring(value) end
-  if type(value) == "number" then return ("%.10g"):format(value) end
+  if type(value) == "number" then
+    -- whole numbers have no point, however large
+    local whole = math.tointeger(value)
+    if value ~= value then return "nan" end
+    return whole and ("%d"):format(whole) or ("%.10g"):format(value)
+  end
   if type(value) == "string" then
     local text = value:gsub("%c", "?")
-    return "'" .. (#text > 40 and text:sub(1, 37) .. "..." or text) .. "'"
+    return #text > 40 and "'" .. text:sub(1, 37) .. "...'" or "'" .. text .. "'"
   end
   if type(value) == "table" then return "a table of " .. rawlen(value) end
-  return value == nil and "nothing" or type(value) == "boolean" and tostring(value) or "a " .. type(value)
+  if value == nil then return "nothing" end
+  if type(value) == "boolean" then return tostring(value) end
+  local meta = type(value) == "userdata" and debug.getmetatable(value)
+  return "a " .. (meta and meta.__name or type(value))
 end

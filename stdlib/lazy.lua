@@ -3,13 +3,15 @@
 ---@param subject string  the module's name, in clench and for messages
 ---@param names string[]  in order
 ---@param home? table  in which file a name lies, unless in one of its own
+local name_list = require "clench.name_list"
+
 return function(subject, names, home)
   local known = {}
   for _, name in ipairs(names) do known[name] = true end
 
   local function load(module, name)
     if not known[name] then
-      error(("%s: there is no '%s', only %s"):format(subject, tostring(name), table.concat(names, ", ")), 2)
+      error(("%s: there is no '%s', only %s"):format(subject, tostring(name), name_list(names)), 2)
     end
     local file = home and home[name]
     local unit = require("clench." .. subject .. "." .. (file or name))

@@ -3,6 +3,7 @@
 --- read is an error. Names in `places` may also be given by position: {0.02} is {radius = 0.02}.
 local raise = require "clench.raise"
 local described = require "clench.described"
+local name_list = require "clench.name_list"
 local Options = {}
 Options.__index = Options
 
@@ -71,6 +72,8 @@ function Options:point(name, default)
   return value
 end
 
+local max_points = 100000
+
 --- a list of at least `least` points with `size` numbers each
 function Options:points(name, least, size)
   local value = self:raw(name)
@@ -78,6 +81,7 @@ function Options:points(name, least, size)
   if type(value) ~= "table" or #value < least then
     self:wanted(name, ("a list of at least %d points %s"):format(least, form), value)
   end
+  if #value > max_points then self:wanted(name, ("a list of at most %d points"):format(max_points), value) end
   -- a hole in the list is a point that is missing
   for i = 1, #value do
     if not is_point(value[i], size, size, self.largest) then
@@ -108,11 +112,11 @@ end
 function Options:done()
   local strange = {}
   for key in pairs(self.given) do
-    if not self.read[key] then strange[#strange + 1] = type(key) == "number" and described(key) or tostring(key) end
+    if not self.read[key] then strange[#strange + 1] = type(key) == "string" and key or described(key) end
   end
   if #strange == 0 then return end
   table.sort(strange)
-  self:fail("unknown key '%s', wanted any of %s", strange[1], table.concat(self.known, ", "))
+  self:fail("unknown key '%s', wanted any of %s", strange[1], name_list(self.known))
 end
 
 ---@param subject string  the function's name, for messages

@@ -1,4 +1,6 @@
 // The verbs that read files: what they do and say is in stdlib/host.
+#include <fmt/format.h>
+
 #include <cstdio>
 
 #include "app/interrupt.h"
@@ -17,7 +19,7 @@ static int run_host(const std::string& verb, std::vector<std::string> arguments,
                    {reading.root, reading.folder, reading.package, reading.unit});
   const auto result = state.call("host." + verb, "main", arguments);
   std::fflush(stdout);
-  if (!result.ok) std::fprintf(stderr, "clench %s: %s\n", verb.c_str(), result.error.c_str());
+  if (!result.ok) fmt::print(stderr, "clench {}: {}\n", verb, result.error);
   return result.ok && result.values == std::vector<std::string>{"0"} ? 0 : 1;
 }
 

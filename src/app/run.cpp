@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cstdio>
 
 #include "app/interrupt.h"
@@ -9,7 +11,7 @@ namespace clench {
 
 static bool report(const State::Result& result) {
   std::fflush(stdout);
-  if (!result.ok) std::fprintf(stderr, "clench: %s\n", result.error.c_str());
+  if (!result.ok) fmt::print(stderr, "clench: {}\n", result.error);
   return result.ok;
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -37,7 +39,7 @@ static Count run_test_file(const fs::path& file, bool quiet) {
   if (result.ok && result.values.size() == 3)
     return {std::atoi(result.values[0].c_str()), std::atoi(result.values[1].c_str()),
             std::atoi(result.values[2].c_str())};
-  std::printf("  FAILED   %s\n", result.error.c_str());
+  fmt::print("  FAILED   {}\n", result.error);
   return {0, 1, 0};
 }
 

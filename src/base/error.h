@@ -10,7 +10,15 @@ namespace clench {
 /// Bad input. what() is one sentence: place, subject, wanted, got.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(const std::string& text) : std::runtime_error(without_zeros(text)) {}
+
+ private:
+  // what() would end at the first
+  static std::string without_zeros(std::string text) {
+    for (size_t at = 0; (at = text.find('\0', at)) != std::string::npos;)
+      text.replace(at, 1, "\\0");
+    return text;
+  }
 };
 
 /// throws Error with a formatted sentence

@@ -36,6 +36,22 @@ size_t utf8_size(std::string_view text, size_t i);
 /// A word for an error: in quotes, cut when long, unprintable characters as '?'; "nothing" when
 /// empty.
 std::string in_quotes(std::string_view text);
+/// Names or numbers for a message: "a, b, c"; after 300 characters "and 40 more".
+template <class Names>
+std::string name_list(const Names& names) {
+  constexpr size_t longest = 300, longest_name = 120;
+  std::string out;
+  size_t left = std::size(names);
+  for (const auto& name : names) {
+    std::string text = fmt::format("{}", name);
+    if (text.size() > longest_name) text.replace(longest_name - 3, std::string::npos, "...");
+    if (!out.empty() && out.size() + text.size() + 2 > longest)
+      return out + fmt::format(" and {} more", left);
+    out += (out.empty() ? "" : ", ") + text;
+    --left;
+  }
+  return out;
+}
 
 /// A line and where it stands. The text belongs to the LineReader that gave it.
 class Line {

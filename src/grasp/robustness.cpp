@@ -1,10 +1,9 @@
 #include "grasp/robustness.h"
 
-#include <fmt/ranges.h>
-
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "math/cone_program.h"
 #include "math/decompositions.h"
 #include "spec/valid.h"
@@ -26,7 +25,7 @@ void check_robustness_problem(const RobustnessProblem& p) {
     fail(
         "robustness of {} contacts: wanted the starts of their forces and the end, rising from 0, "
         "got {}",
-        contacts, fmt::join(p.starts, ", "));
+        contacts, name_list(p.starts));
   if (p.G.rows() != 6 || p.G.cols() != forces || p.J.rows() != forces ||
       p.compliance.size() != forces)
     fail(

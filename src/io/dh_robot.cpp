@@ -1,6 +1,7 @@
 #include "io/dh_robot.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/denavit_hartenberg.h"
 
 namespace clench {
@@ -73,17 +74,17 @@ void DhMaker::make_chain(int number) {
   chain.X_BC = dh.X_BC;
   chain.joints = dh.joints;
   moved_.push_back(dh.X_JL);
-  std::string frames;  // names of those that are nothing else
+  std::vector<std::string> frames;  // names of those that are nothing else
   for (size_t l = 0; l < chain.links.size(); ++l) {
     chain.links[l].X_JL.reset();
     if (dh.X_JL[l] == Pose{}) continue;
     BodySpec& body = chain.links[l].body;
-    if (!body.shape) frames += fmt::format("{}'{}'", frames.empty() ? "" : ", ", body.name);
+    if (!body.shape) frames.push_back(in_quotes(body.name));
     move_body(body, dh.X_JL[l]);
   }
   if (!frames.empty() && warn_)
     warn_(fmt::format("{} does not hold where links without a surface have their frames: {}", file_,
-                      frames));
+                      name_list(frames)));
   if (dh.farthest > far_away && warn_)
     warn_(
         fmt::format("{}: chain {}: two of its axes are so nearly parallel that their common "

@@ -1,8 +1,8 @@
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 
+#include "base/text.h"
 #include "io/write_robot_texts.h"
 #include "spec/material_names.h"
 
@@ -105,7 +105,7 @@ void tell_matter(const RobotSpec& robot, const RobotFolder& folder) {
         !std::ranges::count(materials, body->material))
       materials.push_back(body->material);
   if (!materials.empty())
-    folder.lost(fmt::format("materials of the user's own: {}", fmt::join(materials, ", ")));
+    folder.lost(fmt::format("materials of the user's own: {}", name_list(materials)));
   const auto drawn = std::ranges::count_if(
       bodies_of(robot), [](const BodySpec* body) { return body->appearance.visual != nullptr; });
   if (drawn) folder.lost(fmt::format("the surfaces that pictures show of {} links", drawn));

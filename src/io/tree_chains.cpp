@@ -206,19 +206,16 @@ void ChainMaker::add_link(int link) {
 }
 
 void ChainMaker::tell_closing(const ClosingGuess& guess) {
-  std::string closing;
-  int told = 0;
-  for (const DofSpec& dof : robot_.dofs) {
-    if (dof.default_velocity == 0) continue;
-    ++told;
-    closing +=
-        fmt::format("{}{}{}", told > 1 ? ", " : "", dof.default_velocity > 0 ? "+" : "-", dof.name);
-  }
+  std::vector<std::string> closing;
+  for (const DofSpec& dof : robot_.dofs)
+    if (dof.default_velocity != 0)
+      closing.push_back((dof.default_velocity > 0 ? "+" : "-") + dof.name);
   library_.note(
-      told ? fmt::format("{}: these DOFs close it, by its geometry: {}; the option "
-                         "'close' says otherwise",
-                         file_, closing)
-           : fmt::format("{}: no DOF is found to close it; the option 'close' names some", file_));
+      !closing.empty()
+          ? fmt::format("{}: these DOFs close it, by its geometry: {}; the option "
+                        "'close' says otherwise",
+                        file_, name_list(closing))
+          : fmt::format("{}: no DOF is found to close it; the option 'close' names some", file_));
   if (!guess.X_BA || library_.options().approach) return;
   const Eigen::Vector3d z = guess.X_BA->rotation * Eigen::Vector3d::UnitZ();
   library_.note(

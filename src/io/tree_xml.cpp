@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/suggest.h"
+#include "base/text.h"
 
 namespace clench {
 
@@ -135,12 +136,10 @@ std::vector<std::string> UnusedXml::sentences() const {
                               : kind.count == 2 ? ", nor is another one"
                                                 : ""));
   for (const Kind& kind : attributes_) {
-    std::string list;
-    int count = 0;
-    for (const auto& entry : kind.attributes)
-      if (++count <= 20) list += (list.empty() ? "" : ", ") + shown(entry.first);
+    std::vector<std::string> names;
+    for (const auto& entry : kind.attributes) names.push_back(shown(entry.first));
     out.push_back(fmt::format("{}: of <{}>, here and further on, not used: {}", kind.place,
-                              shown(kind.name), list));
+                              shown(kind.name), name_list(names)));
   }
   for (const Kind& kind : texts_)
     out.push_back(fmt::format("{}: text in <{}> is not used: {}", kind.place, shown(kind.name),

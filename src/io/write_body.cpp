@@ -121,7 +121,7 @@ void tell(const BodySpec& body, const fs::path& path, const std::string& ending,
   if (!options.warn) return;
   const std::string file = path.filename().string();
   if (const auto list = lost(body, ending); !list.empty())
-    options.warn(fmt::format("{} does not hold {}", file, fmt::join(list, ", ")));
+    options.warn(fmt::format("{} does not hold {}", file, name_list(list)));
   if (!body.shape) return;
   if (ending == ".iv" || ending == ".stl") {
     const int small = too_small(body.shape->mesh());

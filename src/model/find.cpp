@@ -1,6 +1,7 @@
 #include "model/find.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "contact/contact_set.h"
 
 namespace clench {
@@ -107,11 +108,10 @@ std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> othe
 }
 
 std::string describe(const World& world, std::span<const BodyPair> pairs) {
-  std::string out;
+  std::vector<std::string> names;
   for (const auto& [a, b] : pairs)
-    out +=
-        fmt::format("{}{} and {}", out.empty() ? "" : ", ", world.body(a).name, world.body(b).name);
-  return out;
+    names.push_back(fmt::format("{} and {}", world.body(a).name, world.body(b).name));
+  return name_list(names);
 }
 
 }  // namespace clench

@@ -141,7 +141,7 @@ static int set_virtual_contacts(lua_State* L) {
   Contacts contacts;
   lua_pushstring(L, "robot");
   std::string made_for;  // as lists from files say it
-  if (lua_rawget(L, 2) == LUA_TSTRING) made_for = lua_tostring(L, -1);
+  if (lua_rawget(L, 2) == LUA_TSTRING) made_for = string_at(L, -1);
   lua_pop(L, 1);
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, 2, i);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/suggest.h"
+#include "base/text.h"
 #include "script/check.h"
 #include "script/guard.h"
 #include "script/push.h"
@@ -40,7 +41,8 @@ void log(lua_State* L, LogLevel level, const std::string& message, const char* a
     return;
   }
   lua_pop(L, 1);
-  std::fprintf(stderr, "clench: %s: %s\n", name, message.c_str());
+  const std::string line = fmt::format("clench: {}: {}\n", name, message);
+  std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 // the arguments as text, a space between two
@@ -55,7 +57,7 @@ static std::string joined(lua_State* L) {
     lua_pushvalue(L, i);
     protected_call(L, 1, 1);
     if (i > 1) text += ' ';
-    text += lua_tostring(L, -1);
+    text += string_at(L, -1);
     lua_pop(L, 1);
   }
   return text;
@@ -75,7 +77,7 @@ static int level(lua_State* L) {
     const auto* found = std::find(std::begin(level_names), end, name);
     const std::vector<std::string> known(std::begin(level_names), end);
     if (found == end)
-      fail("{}: wanted one of {}, got '{}'{}", subject(L), fmt::join(known, ", "), name,
+      fail("{}: wanted one of {}, got '{}'{}", subject(L), name_list(known), name,
            did_you_mean(name, known));
     set_log_level(L, static_cast<LogLevel>(found - level_names));
   }

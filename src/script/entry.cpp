@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "base/suggest.h"
+#include "base/text.h"
 #include "script/guard.h"
+#include "script/read.h"
 
 namespace clench {
 
@@ -67,7 +69,7 @@ static std::vector<std::string> string_keys(lua_State* L, int upvalue) {
   std::vector<std::string> keys;
   if (!lua_istable(L, lua_upvalueindex(upvalue))) return keys;
   for (lua_pushnil(L); lua_next(L, lua_upvalueindex(upvalue)); lua_pop(L, 1))
-    if (lua_type(L, -2) == LUA_TSTRING) keys.push_back(lua_tostring(L, -2));
+    if (lua_type(L, -2) == LUA_TSTRING) keys.emplace_back(string_at(L, -2));
   std::sort(keys.begin(), keys.end());
   return keys;
 }
@@ -76,21 +78,21 @@ static int no_such_member(lua_State* L) {
   const std::string name = lua_tostring(L, lua_upvalueindex(owner));
   if (lua_type(L, 2) != LUA_TSTRING)
     fail("{}: wanted a name of a field or method, got a {}", name, luaL_typename(L, 2));
-  const std::string key = lua_tostring(L, 2);
+  const std::string key(string_at(L, 2));
   auto known = string_keys(L, in_fields);
   for (auto& method : string_keys(L, in_methods)) known.push_back(std::move(method));
-  fail("{} has no '{}'{}", name, key, did_you_mean(key, known));
+  fail("{} has no {}{}", name, in_quotes(key), did_you_mean(key, known));
 }
 
 static int no_such_setter(lua_State* L) {
   const std::string name = lua_tostring(L, lua_upvalueindex(owner));
   if (lua_type(L, 2) != LUA_TSTRING)
     fail("{}: wanted a name of a field to set, got a {}", name, luaL_typename(L, 2));
-  const std::string key = lua_tostring(L, 2);
+  const std::string key(string_at(L, 2));
   const auto known = string_keys(L, in_methods);  // here: the getters
   for (const auto& getter : known)
     if (getter == key) fail("{}.{} cannot be set: it is read only", name, key);
-  fail("{} has no field '{}' to set{}", name, key, did_you_mean(key, known));
+  fail("{} has no field {} to set{}", name, in_quotes(key), did_you_mean(key, known));
 }
 
 // calls the getter that a field's name stands for, if it does

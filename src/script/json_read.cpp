@@ -143,7 +143,8 @@ class Reader {
     // out of range is either too large, an error, or too small, which is zero or nearly so
     if (result.ec != std::errc()) x = std::strtod(std::string(first, last).c_str(), nullptr);
     if (!std::isfinite(x))
-      complain(start, "a number too large for 64 bits: " + std::string(first, last));
+      complain(start, "a number too large for 64 bits: " +
+                          std::string(std::string_view(first, last).substr(0, 40)));
     lua_pushnumber(L_, x);
   }
 

@@ -2,9 +2,8 @@
 
 #include <climits>
 #include <cmath>
-#include <cstring>
 
-#include "base/error.h"
+#include "base/text.h"
 #include "script/bind_pose.h"
 #include "script/bind_vec3.h"
 #include "script/entry.h"
@@ -19,15 +18,14 @@ std::string What::text() const {
 }
 
 static std::string quoted(lua_State* L, int index) {
-  size_t size = 0;
-  const char* text = lua_tolstring(L, index, &size);
-  if (size > 40) return fmt::format("'{}...'", std::string_view(text, 37));
-  return fmt::format("'{}'", std::string_view(text, size));
+  const std::string_view text = string_at(L, index);
+  if (text.empty()) return "''";
+  return text.size() > 40 ? in_quotes(text.substr(0, 37)).insert(38, "...") : in_quotes(text);
 }
 
 static std::string class_name(lua_State* L, int index) {
   if (luaL_getmetafield(L, index, "__name") == LUA_TNIL) return "userdata";
-  const std::string name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "userdata";
+  const std::string name(lua_type(L, -1) == LUA_TSTRING ? string_at(L, -1) : "userdata");
   lua_pop(L, 1);
   return name;
 }
@@ -95,11 +93,10 @@ bool read_boolean(lua_State* L, int i, const What& what) {
 
 std::string read_string(lua_State* L, int i, const What& what) {
   if (lua_type(L, i) != LUA_TSTRING) fail_wanted(what, "a string", i);
-  size_t size = 0;
-  const char* text = lua_tolstring(L, i, &size);
-  if (std::string_view(text, size).find('\0') != std::string_view::npos)
+  const std::string_view text = string_at(L, i);
+  if (text.find('\0') != std::string_view::npos)
     fail_wanted(what, "a string without zero bytes", i);
-  return {text, size};
+  return std::string(text);
 }
 
 // leaves the item of a list on the stack; metamethods are not asked
@@ -118,7 +115,7 @@ static std::string foreign_key(lua_State* L, int table, lua_Integer size, const 
       if (k < 1 || k > size) other = fmt::format("[{}]", k);
     } else if (lua_type(L, -2) != LUA_TSTRING) {
       other = "[" + described(L, -2) + "]";
-    } else if (const char* key = lua_tostring(L, -2); !extra || std::strcmp(key, extra) != 0) {
+    } else if (!extra || string_at(L, -2) != extra) {
       const std::string here = quoted(L, -2);
       if (name.empty() || here < name) name = here;
     }

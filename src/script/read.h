@@ -22,6 +22,13 @@ struct What {
   What item(int i) const { return {L, subject, key + '[' + std::to_string(i) + ']'}; }
 };
 
+/// The string at the index, with its zero bytes, as long as it stays on the stack.
+inline std::string_view string_at(lua_State* L, int index) {
+  size_t size = 0;
+  const char* text = lua_tolstring(L, index, &size);
+  return {text, text ? size : 0};
+}
+
 /// "a robot", "an object", "eigengrasps"
 std::string with_article(std::string_view noun);
 

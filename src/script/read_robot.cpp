@@ -12,7 +12,7 @@ static void each_key(lua_State* L, const std::string& subject, Visit visit) {
   while (lua_next(L, table)) {
     std::string key;
     if (lua_type(L, -2) == LUA_TSTRING)
-      key = lua_tostring(L, -2);
+      key = string_at(L, -2);
     else if (lua_isinteger(L, -2))
       key = std::to_string(lua_tointeger(L, -2));
     else
@@ -34,12 +34,11 @@ static void read_packages(lua_State* L, Table& options, ReadOptions& reading) {
   const std::string subject = options.subject() + ": package";
   const int type = options.push("package");
   if (type == LUA_TSTRING) {
-    reading.packages[""] = check_folder(lua_tostring(L, -1), subject);
+    reading.packages[""] = check_folder(options.string("package"), subject);
   } else if (type == LUA_TTABLE) {
     each_key(L, subject, [&](const std::string& key) {
-      if (lua_type(L, -1) != LUA_TSTRING)
-        fail("{}: {}: wanted a folder, got a {}", subject, key, luaL_typename(L, -1));
-      reading.packages[key] = check_folder(lua_tostring(L, -1), subject + ": " + key);
+      const std::string folder = read_string(L, -1, {L, subject, key});
+      reading.packages[key] = check_folder(folder, subject + ": " + key);
     });
   } else if (type != LUA_TNIL) {
     fail_wanted(options.what("package"), "a folder or a table of folders", -1);

@@ -37,7 +37,7 @@ void State::warn(void* memory, const char* text, int to_be_continued) {
   if (m.warning.empty() && !to_be_continued && *text == '@') return;  // a control message
   m.warning += text;
   if (to_be_continued) return;
-  if (!m.quiet) std::fprintf(stderr, "clench: warning: %s\n", m.warning.c_str());
+  if (!m.quiet) fmt::print(stderr, "clench: warning: {}\n", m.warning);
   m.warning.clear();
 }
 
@@ -123,7 +123,10 @@ static int explain(lua_State* L) {
     }
     lua_replace(L, 1);
   }
-  luaL_traceback(L, L, lua_tostring(L, 1), 1);
+  // a traceback's own text would end at a zero byte
+  lua_pushliteral(L, "\n");
+  luaL_traceback(L, L, nullptr, 1);
+  lua_concat(L, 3);
   return 1;
 }
 
@@ -293,7 +296,7 @@ State::Line State::evaluate(const std::string& input, int line) {
     lua_remove(L_, base + 1);
   }
   const Result result = finish(status, base);
-  if (!result.ok) std::fprintf(stderr, "%s\n", result.error.c_str());
+  if (!result.ok) fmt::print(stderr, "{}\n", result.error);
   return result.ok ? Line::done : Line::failed;
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/error.h"
 #include "base/suggest.h"
+#include "base/text.h"
 
 namespace clench {
 
@@ -86,7 +86,7 @@ std::string Table::choice(const char* key, const std::vector<std::string>& names
                           const std::string& fallback) {
   const std::string name = string(key, fallback);
   if (std::find(names.begin(), names.end(), name) == names.end())
-    fail("{}: unknown {} '{}', wanted one of {}{}", subject_, key, name, fmt::join(names, ", "),
+    fail("{}: unknown {} {}, wanted one of {}{}", subject_, key, in_quotes(name), name_list(names),
          did_you_mean(name, names));
   return name;
 }
@@ -133,8 +133,8 @@ bool Table::push_function(const char* key) {
 
 void Table::refuse(int key) const {
   if (lua_type(L_, key) != LUA_TSTRING) fail("{}: unknown key [{}]", subject_, described(L_, key));
-  const std::string name = lua_tostring(L_, key);
-  fail("{}: unknown key '{}'{}", subject_, name, did_you_mean(name, known_));
+  const std::string name(string_at(L_, key));
+  fail("{}: unknown key {}{}", subject_, described(L_, key), did_you_mean(name, known_));
 }
 
 void Table::done() {
@@ -143,13 +143,13 @@ void Table::done() {
   std::string unknown;
   for (lua_pushnil(L_); lua_next(L_, index_); lua_pop(L_, 1)) {
     if (lua_type(L_, -2) != LUA_TSTRING) refuse(lua_absindex(L_, -2));
-    const std::string name = lua_tostring(L_, -2);
+    const std::string name(string_at(L_, -2));
     if (std::find(known_.begin(), known_.end(), name) == known_.end() &&
         (unknown.empty() || name < unknown))
       unknown = name;
   }
   if (unknown.empty()) return;
-  lua_pushstring(L_, unknown.c_str());
+  lua_pushlstring(L_, unknown.data(), unknown.size());
   refuse(lua_absindex(L_, -1));
 }
 

@@ -1,7 +1,5 @@
 #include "script/world_files.h"
 
-#include <fmt/ranges.h>
-
 #include "base/text.h"
 #include "io/write_world.h"
 #include "model/build.h"
@@ -77,7 +75,7 @@ static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& r
   const std::string folder = fs::absolute(path).parent_path().lexically_normal().generic_string();
   const ScopedSetting modules(L, Setting::modules, folder);
   if (load_text_file(L, path.string().c_str()) != LUA_OK)
-    fail("{}", lua_tostring(L, -1) ? lua_tostring(L, -1) : "no reason given");
+    fail("{}", string_at(L, -1));
   lua_createtable(L, 0, 1);
   if (!root.empty()) set_field(L, "root", root.generic_string());
   push(L, folder);
@@ -150,7 +148,7 @@ static void warn_of_losses(lua_State* L, const World& world, const World& again,
   const size_t more = lost.size() > most ? lost.size() - most : 0;
   lost.resize(lost.size() - more);
   const std::string rest = more ? fmt::format(" and {} more", more) : "";
-  log_warning(L, fmt::format("{} does not hold {}{}", file, fmt::join(lost, ", "), rest));
+  log_warning(L, fmt::format("{} does not hold {}{}", file, name_list(lost), rest));
 }
 
 void save_world(lua_State* L, const World& world, const fs::path& path, const fs::path& root) {

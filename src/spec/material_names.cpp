@@ -1,11 +1,10 @@
 #include "spec/material_names.h"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 
 #include "base/error.h"
 #include "base/suggest.h"
+#include "base/text.h"
 
 namespace clench {
 
@@ -13,7 +12,7 @@ void check_material(std::string_view name) {
   if (std::find(material_names.begin(), material_names.end(), name) != material_names.end()) return;
   const std::string near = did_you_mean(name, {material_names.begin(), material_names.end()});
   if (!near.empty()) fail("unknown material '{}'{}", name, near);
-  fail("unknown material '{}'; wanted one of {}", name, fmt::join(material_names, ", "));
+  fail("unknown material '{}'; wanted one of {}", name, name_list(material_names));
 }
 
 }  // namespace clench

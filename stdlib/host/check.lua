@@ -1,5 +1,7 @@
 --- `clench check`: files read for a person's eyes, or as JSON for a program's.
 local report = require "clench.report"
+local described = require "clench.described"
+local name_list = require "clench.name_list"
 local check = {}
 
 -- numbers with their unit, as people say them
@@ -7,7 +9,7 @@ local function quantity(x, unit)
   if x == nil then return "-" end
   if unit == "rad" then return ("%.1f deg"):format(clench.deg(x)) end
   if unit == "m" then return ("%.1f mm"):format(x * 1000) end
-  return ("%.4g %s"):format(x, unit)
+  return ("%s %s"):format(math.tointeger(x) and described(x) or ("%.4g"):format(x), unit)
 end
 
 -- three numbers; one that is rounding beside `scale`, the largest unless given, is 0
@@ -58,7 +60,7 @@ end
 local function kept_words(kept)
   local list = {}
   local function add(format, ...) list[#list + 1] = format:format(...) end
-  if kept.tendons then add("%s (%s)", several(#kept.tendons, "tendon"), table.concat(kept.tendons, ", ")) end
+  if kept.tendons then add("%s (%s)", several(#kept.tendons, "tendon"), name_list(kept.tendons)) end
   if kept.tendon_wrappers then add("%s", several(kept.tendon_wrappers, "tendon wrapper")) end
   if kept.tactile_sensors then add("%s", several(kept.tactile_sensors, "tactile sensor")) end
   if kept.glove then add("a glove of %s for %s", several(kept.glove.sensors, "sensor"), several(kept.glove.dofs, "DOF")) end

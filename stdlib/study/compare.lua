@@ -1,11 +1,11 @@
 -- stdlib/study/compare.lua
 local raise = require "clench.raise"
 local options = require "clench.options"
-local kind_of = require "clench.study.kind"
+local described = require "clench.described"
 
 local function check_grasps(grasps)
   local function fail(format, ...) raise(("study.compare: " .. format):format(...)) end
-  if type(grasps) ~= "table" then fail("wanted a list of grasps, got %s", kind_of.described(grasps)) end
+  if type(grasps) ~= "table" then fail("wanted a list of grasps, got %s", described(grasps)) end
   local count = 0
   for _ in pairs(grasps) do count = count + 1 end
   if count == 0 then fail "wanted at least one grasp, got none" end
@@ -13,7 +13,7 @@ local function check_grasps(grasps)
     if grasps[i] == nil then fail("grasps: wanted a list without holes or names, got none as number %d", i) end
   end
   for i, grasp in ipairs(grasps) do
-    if not kind_of(grasp):find "grasp$" then fail("grasps[%d]: wanted a grasp, got %s", i, kind_of.described(grasp)) end
+    if described(grasp) ~= "a grasp" then fail("grasps[%d]: wanted a grasp, got %s", i, described(grasp)) end
   end
 end
 

@@ -1,7 +1,7 @@
 -- stdlib/study/robustness.lua
 local raise = require "clench.raise"
 local options = require "clench.options"
-local kind_of = require "clench.study.kind"
+local described = require "clench.described"
 local spread = require "clench.study.spread"
 
 -- each of these is one stream of random numbers a sample, so that an error switched off changes no other
@@ -50,7 +50,7 @@ local function mean_of(numbers)
 end
 
 local function check_grasp(grasp)
-  if not kind_of(grasp):find "grasp$" then raise("study.robustness: wanted a grasp, got " .. kind_of.described(grasp)) end
+  if described(grasp) ~= "a grasp" then raise("study.robustness: wanted a grasp, got " .. described(grasp)) end
 end
 
 --- What a grasp is worth when things are not where and what they were thought to be. Each sample draws errors of the

@@ -111,3 +111,18 @@ TEST_CASE("every kind of line end reads as one") {
   CHECK_THROWS_WITH_AS(read_text(path), ("no such file: " + path.generic_string()).c_str(), Error);
   CHECK_THROWS_WITH_AS(read_text("/"), "/: wanted a file, got a folder", Error);
 }
+
+TEST_CASE("a list in a message ends after 300 characters and says how many are left") {
+  CHECK(clench::name_list(std::vector<std::string>{}) == "");
+  CHECK(clench::name_list(std::vector<std::string>{"a", "b"}) == "a, b");
+  CHECK(clench::name_list(std::vector<int>{3, 40}) == "3, 40");
+  const std::string text = clench::name_list(std::vector<std::string>(100, "finger"));
+  CHECK(text.size() < 320);
+  CHECK(text.ends_with("finger, finger and 63 more"));
+  CHECK(clench::name_list(std::vector<std::string>(3, std::string(10000, 'x'))).size() < 400);
+}
+
+TEST_CASE("an error is whole though its text has zero bytes") {
+  CHECK(std::string(clench::Error(std::string("a\0b", 3) + " is no name").what()) ==
+        "a\\0b is no name");
+}

@@ -76,8 +76,7 @@ TEST_CASE("what is wrong is said with subject, wanted and got") {
         "hand:autograsp: edges: wanted an integer of 32 bits, got 1099511627776");
   CHECK(f("{stop_at_contact = 1}") ==
         "hand:autograsp: stop_at_contact: wanted true or false, got 1");
-  CHECK(f("{norm = 'L3'}") ==
-        "hand:autograsp: unknown norm 'L3', wanted one of L1, Linf");
+  CHECK(f("{norm = 'L3'}") == "hand:autograsp: unknown norm 'L3', wanted one of L1, Linf");
   CHECK(f("{point = {1, 2}}") == "hand:autograsp: point: wanted 3 numbers, got 2");
   CHECK(f("{point = {1, 2, {}}}") == "hand:autograsp: point[3]: wanted a number, got a table");
   CHECK(f("{point = 'up'}") == "hand:autograsp: point: wanted a vec3 or {x, y, z}, got 'up'");
@@ -102,4 +101,9 @@ TEST_CASE("a long text is cut short in a message") {
   Options f;
   CHECK(f("{speed = ('x'):rep(1e6)}") ==
         "hand:autograsp: speed: wanted a number, got '" + std::string(37, 'x') + "...'");
+}
+
+TEST_CASE("a key is known whole, or not at all") {
+  Options f;
+  CHECK(f("{['speed\\0x'] = 2}") == "hand:autograsp: unknown key 'speed?x'; did you mean 'speed'?");
 }
