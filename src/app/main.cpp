@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <new>
 
 #include "app/verbs.h"
 #include "base/suggest.h"
@@ -151,8 +152,10 @@ static int main_of(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return clench::main_of(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fputs("clench: not enough memory\n", stderr);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "clench: %s\n", e.what());
-    return 1;
   }
+  return 1;
 }

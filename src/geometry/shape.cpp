@@ -108,6 +108,13 @@ std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject) 
   return shape;
 }
 
+size_t Shape::bytes() const {
+  constexpr size_t tree_bytes = 100;  // of a triangle, in bundles that are not full
+  return sizeof *this + mesh_.vertices.capacity() * sizeof(Eigen::Vector3d) +
+         mesh_.triangles.capacity() * (sizeof(Triangle) + tree_bytes) +
+         part_extremes_.capacity() * sizeof(Extremes);
+}
+
 const Tree& Shape::build_tree() const {
   const std::lock_guard lock(building_);
   if (!tree_) {

@@ -38,6 +38,8 @@ class Shape {
   const std::vector<Extremes>& part_extremes() const { return part_extremes_; }
   /// fingerprint of vertices and triangles: equal for equal bits
   uint64_t hash() const { return hash_; }
+  /// that it takes, about, with its tree
+  size_t bytes() const;
   /// built when first asked: who reads, checks or converts a mesh needs none. Any thread may ask.
   const Tree& tree() const {
     const Tree* const built = built_.load(std::memory_order_acquire);

@@ -36,6 +36,8 @@ struct WorldState {
   std::optional<Camera> camera;
   std::string source;
   std::map<std::string, int> counts;  ///< how often a name was numbered
+
+  size_t bytes() const;  ///< that it takes, about; meshes, which are shared, left out
 };
 
 class World {
@@ -129,6 +131,7 @@ class World {
   const WorldState& state() const { return state_; }
   /// Fingerprint of poses, DOFs, masses, materials, switches: equal for equal bits.
   uint64_t hash() const;
+  size_t bytes() const;  ///< that it takes, as its state's
 
   /// Coherence memory of a pair; changes no answer.
   PairCache& cache(Id<Body> a, Id<Body> b) const { return caches_[{a, b}]; }

@@ -23,6 +23,12 @@ inline const Class& class_of<EigengraspsHandle>() {
   return eigengrasps_class;
 }
 
+inline size_t owned_bytes(const EigengraspsHandle& handle) {
+  if (!handle.set) return 0;  // the robot's
+  const size_t numbers = static_cast<size_t>(handle.set->dofs) * (handle.set->grasps.size() + 2);
+  return handle.set->grasps.size() * sizeof(EigengraspSpec) + numbers * sizeof(double);
+}
+
 /// Amplitudes of an argument.
 /// throws  Error "hand:set_amplitudes: wanted 2 amplitudes, got 3"
 Eigen::VectorXd check_amplitudes(lua_State* L, int i, const Eigengrasps& grasps);

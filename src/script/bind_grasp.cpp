@@ -1,5 +1,7 @@
 #include "script/bind_grasp.h"
 
+#include <algorithm>
+
 #include "script/bind_contact.h"
 #include "script/bind_log.h"
 #include "script/bind_measures.h"
@@ -48,12 +50,21 @@ static int measure(lua_State* L) {
   return push_object(L, GraspHandle{hand.world, std::move(measured), {}});
 }
 
+// more than any measure looks at side by side
+static constexpr size_t max_kept_spaces = 16;
+
 const WrenchSpacePtr& space_of(GraspHandle& handle, const GraspSpaceOptions& options) {
-  for (const auto& [known, space] : handle.spaces)
-    if (known == options) return space;
-  handle.spaces.emplace_back(options,
-                             std::make_shared<WrenchSpace>(wrench_space(handle.grasp, options)));
-  return handle.spaces.back().second;
+  // the last one used is the last one
+  auto& spaces = handle.spaces;
+  const auto found =
+      std::ranges::find(spaces, options, [](const auto& kept) { return kept.first; });
+  if (found != spaces.end()) {
+    std::rotate(found, found + 1, spaces.end());
+    return spaces.back().second;
+  }
+  if (spaces.size() == max_kept_spaces) spaces.erase(spaces.begin());
+  spaces.emplace_back(options, std::make_shared<WrenchSpace>(wrench_space(handle.grasp, options)));
+  return spaces.back().second;
 }
 
 static int get_hand(lua_State* L) {

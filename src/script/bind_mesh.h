@@ -12,4 +12,8 @@ inline const Class& class_of<ShapePtr>() {
   return mesh_class;
 }
 
+inline size_t owned_bytes(const ShapePtr& shape) {
+  return shape.use_count() == 1 ? shape->bytes() : 0;
+}
+
 }  // namespace clench

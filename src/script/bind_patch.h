@@ -21,6 +21,11 @@ inline const Class& class_of<PatchHandle>() {
   return patch_class;
 }
 
+inline size_t owned_bytes(const PatchHandle& handle) {
+  const auto& points = handle.patch->points;
+  return sizeof(SoftPatch) + (points[0].size() + points[1].size()) * sizeof(Eigen::Vector3d);
+}
+
 /// "series" or "larger" of an option `modulus`
 ModulusRule read_modulus_rule(Table& options);
 /// as that takes it

@@ -21,4 +21,9 @@ inline const Class& class_of<ProjectionHandle>() {
   return projection_class;
 }
 
+inline size_t owned_bytes(const ProjectionHandle& handle) {
+  // its mesh lies in both
+  return sizeof(Projection) + (handle.shape ? 2 * handle.shape->bytes() : 0);
+}
+
 }  // namespace clench

@@ -18,4 +18,6 @@ inline const Class& class_of<Picture>() {
   return picture_class;
 }
 
+inline size_t owned_bytes(const Picture& picture) { return picture.pixels.capacity(); }
+
 }  // namespace clench

@@ -16,6 +16,10 @@ inline const Class& class_of<VirtualContactHandle>() {
   return virtual_contact_class;
 }
 
+inline size_t owned_bytes(const VirtualContactHandle& handle) {
+  return static_cast<size_t>(handle.contact.edges.size()) * sizeof(double);
+}
+
 /// A list of virtual contacts.
 int push_virtual_contacts(lua_State* L, const RobotHandle& robot,
                           const std::vector<VirtualContactSpec>& contacts);

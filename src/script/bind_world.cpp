@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "base/suggest.h"
 #include "io/doubts.h"
@@ -22,10 +23,10 @@ static World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
 static int new_world(lua_State* L) {
   check_count(L, 1);
   Table options(L, 1);
-  auto world = std::make_shared<World>();
+  const auto world = std::make_shared<World>();
   world->set_contact_threshold(options.positive("contact_threshold", world->contact_threshold()));
   options.done();
-  return push_object(L, WorldHandle{std::move(world)});
+  return push_world(L, world);
 }
 
 static int add_body(lua_State* L, BodyKind kind) {
@@ -42,6 +43,7 @@ static int add_body(lua_State* L, BodyKind kind) {
   const bool named = options.has("name");
   options.done();
   const auto id = handle.world->add_body(spec, kind, pose, named ? spec.name : "");
+  add_owned_bodies(L, 1, std::array{id});
   return push(L, BodyHandle{handle.world, id});
 }
 
@@ -59,8 +61,9 @@ static int add_robot(lua_State* L) {
   const std::string name = options.string("name", "");
   options.done();
   const RobotSpec spec = read_robot(find_file(path, {}, reading), reading);
-  return push(L, RobotHandle{handle.world, clench::add_robot(*handle.world, spec, pose, name,
-                                                             reading.listeners())});
+  const auto id = clench::add_robot(*handle.world, spec, pose, name, reading.listeners());
+  add_owned_bodies(L, 1, handle.world->bodies_of(id));
+  return push(L, RobotHandle{handle.world, id});
 }
 
 static int remove(lua_State* L) {
@@ -133,7 +136,7 @@ static int robot(lua_State* L) {
 
 static int clone(lua_State* L) {
   check_count(L, 0);
-  return push_object(L, WorldHandle{std::make_shared<World>(world_of(L))});
+  return push_world(L, std::make_shared<World>(world_of(L)));
 }
 
 static int snapshot(lua_State* L) {

@@ -106,6 +106,8 @@ static UnitWrenches read_contact(lua_State* L, int i, const What& what, const Co
   return {wrenches, {}};
 }
 
+static constexpr Eigen::Index max_space_edges = 100'000;  // each question goes through all
+
 static int new_wrench_space(lua_State* L) {
   check_count(L, 1);
   Table options(L, 1);
@@ -118,15 +120,26 @@ static int new_wrench_space(lua_State* L) {
   options.push("contacts");
   const int list = lua_gettop(L);
   const int count = read_list_size(L, list, options.what("contacts"), "a list of contacts");
+  Eigen::Index edges = 0;
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, list, i);
     contacts.push_back(read_contact(L, lua_gettop(L), options.what("contacts").item(i), cone));
     lua_pop(L, 1);
+    edges += contacts.back().edges.cols();
+    if (edges > max_space_edges)
+      fail("{}: contacts: wanted at most {} edges in all, got more", subject(L), max_space_edges);
   }
   lua_pop(L, 1);
   options.done();
   return push_object(
       L, WrenchSpacePtr(std::make_shared<WrenchSpace>(std::move(contacts), space_options)));
+}
+
+size_t owned_bytes(const WrenchSpacePtr& space) {
+  size_t bytes = sizeof *space;
+  for (const UnitWrenches& contact : space->contacts())
+    bytes += sizeof contact + 4 * static_cast<size_t>(contact.edges.size()) * sizeof(double);
+  return bytes;
 }
 
 static const WrenchSpace& space(lua_State* L) { return *self<WrenchSpacePtr>(L); }

@@ -33,4 +33,7 @@ inline const Class& class_of<WrenchSpacePtr>() {
   return wrench_space_class;
 }
 
+/// with what it works out when it is asked
+size_t owned_bytes(const WrenchSpacePtr& space);
+
 }  // namespace clench

@@ -1,6 +1,12 @@
 #include "script/guard.h"
 
 #include <cstring>
+#include <new>
+#include <stdexcept>
+#include <string_view>
+
+#include "script/entry.h"
+#include "script/object.h"
 
 namespace clench {
 
@@ -16,11 +22,18 @@ void protected_call(lua_State* L, int arguments, int results) {
 struct Message {
   char text[2000];
 
-  void copy(const char* what) {
-    const size_t size = std::strlen(what);
-    std::strncpy(text, what, sizeof text - 1);
-    text[sizeof text - 1] = 0;
-    if (size >= sizeof text) std::strcpy(text + sizeof text - 4, "...");
+  void copy(std::string_view what) {
+    const size_t size = what.copy(text, sizeof text - 1);
+    text[size] = 0;
+    if (size < what.size()) std::strcpy(text + sizeof text - 4, "...");
+  }
+  // of what is no sentence of ours, such as the standard library's
+  void copy(lua_State* L, std::string_view what) {
+    try {
+      copy(fmt::format("{}: {}", subject(L), what));
+    } catch (const std::bad_alloc&) {
+      copy(what);
+    }
   }
 };
 
@@ -32,17 +45,27 @@ static Failure run_caught(lua_State* L, lua_CFunction fn, int& results, Message&
     return Failure::none;
   } catch (const Raised&) {
     return Failure::raised;
-  } catch (const std::exception& e) {
+  } catch (const Error& e) {
     message.copy(e.what());
-    return Failure::message;
+  } catch (const std::bad_alloc&) {
+    message.copy(L, "not enough memory");
+  } catch (const std::length_error&) {  // of what is larger than any memory
+    message.copy(L, "not enough memory");
+  } catch (const std::exception& e) {
+    message.copy(L, e.what());
   }
+  return Failure::message;
 }
 
 int run_guarded(lua_State* L, lua_CFunction fn) {
   int results = 0;
   Message message;
   const Failure failure = run_caught(L, fn, results, message);
-  if (failure == Failure::none) return results;
+  if (failure == Failure::none) {
+    // the results are on the stack, and nothing of C++ is alive
+    collect_owned(L);
+    return results;
+  }
 
   // the handler is left: nothing but plain memory is alive
   lua_settop(L, 0);

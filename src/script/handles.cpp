@@ -5,6 +5,23 @@
 
 namespace clench {
 
+int push_world(lua_State* L, const WorldPtr& world) {
+  push_object(L, WorldHandle{world});
+  add_owned<WorldHandle>(L, -1, world->bytes());
+  return 1;
+}
+
+void add_owned_bodies(lua_State* L, int index, std::span<const Id<Body>> bodies) {
+  const World& world = *to<WorldHandle>(L, index)->world;
+  size_t bytes = 0;
+  for (const auto id : bodies) {
+    const Body& body = world.body(id);
+    bytes += sizeof body + body.appearance.triangle_colors.size() * sizeof(Eigen::Vector3f);
+    if (body.shape) bytes += body.shape->bytes();
+  }
+  add_owned<WorldHandle>(L, index, bytes);
+}
+
 int push_bodies(lua_State* L, const WorldPtr& world, const std::vector<Id<Body>>& ids) {
   return push_list_of(L, ids, [&](Id<Body> id) { push(L, BodyHandle{world, id}); });
 }

@@ -2,6 +2,7 @@
 // holds a part of it.
 #pragma once
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "model/find.h"
@@ -32,6 +33,11 @@ struct RobotHandle {
   const Robot* operator->() const { return &world->robot(id); }
 };
 
+/// Leaves a world that nobody has yet on the stack; handles of what is in it own nothing.
+int push_world(lua_State* L, const WorldPtr& world);
+/// The world whose handle is at the index got these bodies, read from files.
+void add_owned_bodies(lua_State* L, int index, std::span<const Id<Body>> bodies);
+
 /// A moment of a world.
 struct SnapshotHandle {
   WorldPtr world;
@@ -57,6 +63,8 @@ template <>
 inline const Class& class_of<SnapshotHandle>() {
   return snapshot_class;
 }
+
+inline size_t owned_bytes(const SnapshotHandle& moment) { return moment.state->bytes(); }
 
 inline int push(lua_State* L, const BodyHandle& body) { return push_object(L, body); }
 inline int push(lua_State* L, const RobotHandle& robot) { return push_object(L, robot); }

@@ -93,7 +93,8 @@ WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& re
   }
   const auto world =
       std::make_shared<World>(build_world(read_world(path, reading), reading.listeners()));
-  push_object(L, WorldHandle{world});
+  push_world(L, world);
+  add_owned_bodies(L, -1, world->bodies());
   return world;
 }
 

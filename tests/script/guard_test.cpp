@@ -1,5 +1,8 @@
 #include "script/guard.h"
 
+#include <new>
+#include <stdexcept>
+
 #include "script_state.h"
 
 using clench::Error;
@@ -25,6 +28,10 @@ int calls_back(lua_State* L) {
   clench::protected_call(L, 0, 1);
   return 1;
 }
+
+int throws_no_memory(lua_State*) { throw std::bad_alloc(); }
+int throws_length(lua_State*) { throw std::length_error("vector::_M_default_append"); }
+int throws_other(lua_State*) { throw std::runtime_error("it broke"); }
 
 int throws_long(lua_State*) { throw Error(std::string(10000, 'x')); }
 
@@ -73,4 +80,15 @@ TEST_CASE("a message too long for its place is cut and says so") {
   const auto message = lua.run("f()");
   CHECK(message.size() < 3000);
   CHECK(message.ends_with("..."));
+}
+
+TEST_CASE("whatever else is thrown is told with the entry's name; no memory is a sentence too") {
+  Script lua;
+  const auto thrown = [&](lua_CFunction f) {
+    lua_register(lua.L, "f", f);
+    return lua.run("f()");
+  };
+  CHECK(thrown(guarded<throws_no_memory>) == "test:1: clench: not enough memory");
+  CHECK(thrown(guarded<throws_length>) == "test:1: clench: not enough memory");
+  CHECK(thrown(guarded<throws_other>) == "test:1: clench: it broke");
 }

@@ -1,0 +1,47 @@
+#include "model/world.h"
+
+namespace clench {
+
+// what the standard library puts around an item of a set or a map
+static constexpr size_t node_bytes = 48;
+
+template <class T>
+static size_t bytes_of(const std::vector<T>& items) {
+  return items.capacity() * sizeof(T);
+}
+
+static size_t bytes_of(const std::string& text) { return text.capacity(); }
+
+static size_t bytes_of(const Body& body) {
+  return bytes_of(body.name) + bytes_of(body.source) + bytes_of(body.file) +
+         bytes_of(body.appearance.triangle_colors);
+}
+
+static size_t bytes_of(const Robot& robot) {
+  size_t bytes = bytes_of(robot.source) + bytes_of(robot.file) + bytes_of(robot.dofs) +
+                 bytes_of(robot.limits) + bytes_of(robot.chains) +
+                 static_cast<size_t>(robot.q.size()) * sizeof(double);
+  for (const Chain& chain : robot.chains)
+    bytes += bytes_of(chain.joints) + bytes_of(chain.apart) + bytes_of(chain.last_joints) +
+             bytes_of(chain.X_JL) + bytes_of(chain.link_joints) + bytes_of(chain.links);
+  return bytes;
+}
+
+size_t WorldState::bytes() const {
+  size_t sum = sizeof *this + bytes_of(bodies) + bytes_of(robots) + bytes_of(body_order) +
+               bytes_of(robot_order) + bytes_of(source);
+  for (const auto& slot : bodies) sum += bytes_of(slot.value);
+  for (const auto& slot : robots) sum += bytes_of(slot.value);
+  sum += switched_off.size() * (node_bytes + sizeof(Id<Body>));
+  sum += pairs_off.size() * (node_bytes + 2 * sizeof(Id<Body>));
+  sum += counts.size() * (node_bytes + sizeof(std::string));
+  // a row for each material
+  const size_t names = materials.names().size();
+  return sum + names * (sizeof(std::string) + names * sizeof(Friction));
+}
+
+size_t World::bytes() const {
+  return sizeof *this + state_.bytes() + caches_.size() * (node_bytes + sizeof(PairCache));
+}
+
+}  // namespace clench
