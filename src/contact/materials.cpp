@@ -20,6 +20,8 @@ constexpr double static_friction[material_names.size()][material_names.size()] =
     {0, 0.3, 0.4, 0.4, 0.6, 1.5, 0.7},  // stone
 };
 
+static constexpr size_t max_materials = 500;  // the table is square
+
 MaterialTable::MaterialTable() : names_(material_names.begin(), material_names.end()) {
   for (const auto& row : static_friction)
     for (const double mu : row) table_.push_back({mu, std::max(0.0, mu - 0.1)});
@@ -49,8 +51,9 @@ int MaterialTable::find_or_add(std::string_view name) {
   const auto found = std::find(names_.begin(), names_.end(), name);
   if (found != names_.end()) return static_cast<int>(found - names_.begin());
 
-  // one more row and column, without friction
   const size_t count = names_.size();
+  if (count == max_materials) fail("material '{}': wanted at most {} materials", name, count);
+  // one more row and column, without friction
   std::vector<Friction> grown((count + 1) * (count + 1));
   for (size_t i = 0; i < count; ++i)
     for (size_t j = 0; j < count; ++j) grown[i * (count + 1) + j] = table_[i * count + j];

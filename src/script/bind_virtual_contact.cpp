@@ -55,7 +55,8 @@ static std::pair<int, int> read_place(lua_State* L, Table& table, const RobotHan
   } else if (type == LUA_TNUMBER) {
     // numbers as lists from files have them; that they exist is checked with the whole
     const int chain = table.integer("chain", 0);
-    place = chain == 0 ? std::pair(-1, 0) : std::pair(chain - 1, read_int(L, -1, what) - 1);
+    if (chain < 0) fail("{}: chain: wanted 0 or more, got {}", what.text(), chain);
+    place = {chain - 1, chain == 0 ? 0 : std::max(read_int(L, -1, what), 0) - 1};
   } else {
     fail_wanted(what, "a link, its name, or its number with that of its chain", -1);
   }

@@ -3,6 +3,13 @@
 local raise = require "clench.raise"
 local polygon = {}
 
+-- every edge is held against every other one
+local max_points = 1024
+
+local function check_count(points, subject)
+  if #points > max_points then raise(("%s must have at most %d points, got %d"):format(subject, max_points, #points)) end
+end
+
 local function cross(o, a, b) return (a[1] - o[1]) * (b[2] - o[2]) - (a[2] - o[2]) * (b[1] - o[1]) end
 
 --- signed area, > 0 when counter-clockwise
@@ -41,6 +48,7 @@ end
 
 --- the points counter-clockwise; throws one sentence when they bound no simple area
 function polygon.simple(points, subject)
+  check_count(points, subject)
   local i, j = polygon.crossing(points)
   if i then
     local what = i == j and ("edge %d has no length"):format(i) or ("edges %d and %d meet"):format(i, j)
@@ -89,6 +97,7 @@ end
 --- triangles {i, j, k} that fill a simple counter-clockwise polygon, by ear clipping, best ear first
 --- source  Meisters (1975), polygons have ears; Eberly (2008), triangulation by ear clipping
 function polygon.triangulate(points, subject)
+  check_count(points, subject)
   local ring, quality, triangles = {}, {}, {}
   for i = 1, #points do ring[i] = i end
   for i = 1, #points do quality[i] = ear(points, ring, i) or -1 end

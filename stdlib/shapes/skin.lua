@@ -6,6 +6,8 @@ local vector = require "clench.shapes.vector"
 local mesh = require "clench.shapes.mesh"
 local polygon = require "clench.shapes.polygon"
 
+local max_vertices = 300000
+
 local function distance2(a, b)
   local d = vector.sub(a, b)
   return vector.dot(d, d)
@@ -71,7 +73,9 @@ end
 ---@param subject string  for messages
 ---@return table mesh
 return function(rings, closed, subject)
-  local vertices, triangles, starts = {}, {}, {}
+  local vertices, triangles, starts, count = {}, {}, {}, 0
+  for _, ring in ipairs(rings) do count = count + #ring end
+  if count > max_vertices then raise(("%s: wanted at most %d vertices, got %d"):format(subject, max_vertices, count)) end
   for i, ring in ipairs(rings) do
     starts[i] = #vertices + 1
     for _, p in ipairs(ring) do vertices[#vertices + 1] = {p[1], p[2], p[3] or 0} end

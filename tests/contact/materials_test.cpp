@@ -82,3 +82,11 @@ TEST_CASE("bad coefficients and names are refused, and leave the table as it was
   CHECK(table.names().size() == 7);
   CHECK_THROWS_WITH_AS(table.index("rubbr"), "no material 'rubbr'; did you mean 'rubber'?", Error);
 }
+
+TEST_CASE("there are no more materials than a table can hold") {
+  MaterialTable table;
+  const auto add = [&] {
+    for (int i = 0; i < 500; ++i) table.set_friction("wood", fmt::format("m{}", i), {});
+  };
+  CHECK_THROWS_WITH_AS(add(), "material 'm493': wanted at most 500 materials", Error);
+}
