@@ -14,12 +14,14 @@
 #include <system_error>
 
 #include "app/interrupt.h"
+#include "app/kept_terminal.h"
 
 namespace clench {
 
 namespace fs = std::filesystem;
 
 struct LineEditor::Terminal {
+  KeptTerminal kept;  // before the editor changes anything
   EditLine* edit = nullptr;
   History* history = nullptr;
   HistEvent event = {};
@@ -168,6 +170,7 @@ void LineEditor::remember(const std::string& entry) {
   if (entry.find_first_not_of(" \t\n") == std::string::npos) return;
   ::history(t.history, &t.event, H_ENTER, entry.c_str());
   if (t.file.empty()) return;
+  const SignalsLater whole_file;
   std::error_code ignored;
   fs::create_directories(t.file.parent_path(), ignored);
   ::history(t.history, &t.event, H_SAVE, t.file.c_str());

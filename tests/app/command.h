@@ -1,10 +1,12 @@
 // Runs the command as a user does, without and with a terminal.
 #pragma once
 #include <doctest/doctest.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <pty.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -109,6 +111,30 @@ class Terminal {
       }
       if (!read_some()) FAIL("waited for '", text, "', saw: ", rest_);
     }
+  }
+
+  /// Sends a signal, and waits until it has ended the process.
+  struct End {
+    int code;
+    bool cooked;  ///< does the terminal edit lines and echo again, as it was found?
+  };
+  End end_by(int signal) {
+    // open, it keeps its settings when the process is gone
+    const int terminal = open(ptsname(fd_), O_RDWR | O_NOCTTY);
+    kill(pid_, signal);
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = -1;
+    termios now = {};
+    const bool known = tcgetattr(terminal, &now) == 0;
+    close(terminal);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status),
+            known && (now.c_lflag & ICANON) && (now.c_lflag & ECHO)};
+  }
+  pid_t process() const { return pid_; }
+  bool is_raw() const {
+    termios now = {};
+    return tcgetattr(fd_, &now) == 0 && !(now.c_lflag & ICANON);
   }
 
   /// The exit code, once the process ends.

@@ -142,3 +142,49 @@ TEST_CASE("no arguments on a terminal open the console") {
   terminal.enter("print(clench ~= nil)");
   terminal.wait_for("true");
 }
+
+TEST_CASE("a signal that ends the console ends it as that signal, and gives the terminal back") {
+  for (const int signal : {SIGTERM, SIGHUP, SIGQUIT}) {
+    CAPTURE(signal);
+    const Folder home;
+    {  // at the prompt, in the middle of a line
+      Terminal terminal(home);
+      terminal.wait_for("> ");
+      terminal.enter("x = 1");
+      terminal.wait_for("> ");
+      terminal.type("half a li");
+      terminal.wait_for("li");
+      CHECK(terminal.is_raw());
+      const auto end = terminal.end_by(signal);
+      CHECK(end.code == 1000 + signal);
+      CHECK(end.cooked);
+    }
+    CHECK(fs::exists(home / ".clench_history"));
+    {  // while a chunk runs
+      Terminal terminal(home);
+      terminal.wait_for("> ");
+      terminal.enter("print 'running' while true do end");
+      terminal.wait_for("running\r\n");
+      const auto end = terminal.end_by(signal);
+      CHECK(end.code == 1000 + signal);
+      CHECK(end.cooked);
+    }
+  }
+}
+
+TEST_CASE("a console that is stopped gives the terminal back, and takes it again when it goes on") {
+  const Folder home;
+  Terminal terminal(home);
+  terminal.wait_for("> ");
+  kill(terminal.process(), SIGTSTP);
+  int status = 0;
+  // an orphaned group of processes is not stopped: then there is nothing to see but that it goes on
+  waitpid(terminal.process(), &status, WUNTRACED | WNOHANG);
+  kill(terminal.process(), SIGCONT);
+  terminal.enter("'still ' .. 'here'");
+  terminal.wait_for("still here");
+  terminal.wait_for("> ");
+  CHECK(terminal.is_raw());
+  terminal.type("\x04");
+  CHECK(terminal.wait_for_end() == 0);
+}

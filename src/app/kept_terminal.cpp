@@ -1,0 +1,77 @@
+#include "app/kept_terminal.h"
+
+#include <termios.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <iterator>
+
+namespace clench {
+
+static constexpr int ending_signals[] = {SIGTERM, SIGHUP, SIGQUIT};
+
+// a signal handler has no arguments: what it needs must lie outside
+static termios found_terminal;
+
+static void on_end(int number) {
+  // not TCSADRAIN, which would wait for a terminal that is perhaps gone
+  tcsetattr(STDIN_FILENO, TCSANOW, &found_terminal);
+  // it waits until this returns, and then ends the program as if nobody had caught it
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+}
+
+static void set_handler(int number, void (*handler)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(number, &action, nullptr);
+}
+
+static void on_stop(int number) {
+  const int error = errno;
+  termios now;
+  const bool known = tcgetattr(STDIN_FILENO, &now) == 0;
+  tcsetattr(STDIN_FILENO, TCSANOW, &found_terminal);
+  set_handler(number, SIG_DFL);
+  sigset_t only, before;
+  sigemptyset(&only);
+  sigaddset(&only, number);
+  std::raise(number);
+  sigprocmask(SIG_UNBLOCK, &only, &before);  // here it stops, and goes on
+  sigprocmask(SIG_SETMASK, &before, nullptr);
+  set_handler(number, on_stop);
+  if (known) tcsetattr(STDIN_FILENO, TCSANOW, &now);
+  errno = error;
+}
+
+static void catch_signal(int number, void (*handler)(int), struct sigaction& before) {
+  sigaction(number, nullptr, &before);
+  // what nohup or a shell has switched off stays so
+  if (before.sa_handler != SIG_IGN) set_handler(number, handler);
+}
+
+KeptTerminal::KeptTerminal() {
+  if (tcgetattr(STDIN_FILENO, &found_terminal) != 0) found_terminal = {};
+  for (size_t i = 0; i < std::size(ending_signals); ++i)
+    catch_signal(ending_signals[i], on_end, before_[i]);
+  catch_signal(SIGTSTP, on_stop, before_[std::size(ending_signals)]);
+}
+
+KeptTerminal::~KeptTerminal() {
+  for (size_t i = 0; i < std::size(ending_signals); ++i)
+    sigaction(ending_signals[i], &before_[i], nullptr);
+  sigaction(SIGTSTP, &before_[std::size(ending_signals)], nullptr);
+}
+
+SignalsLater::SignalsLater() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int number : ending_signals) sigaddset(&signals, number);
+  sigprocmask(SIG_BLOCK, &signals, &before_);
+}
+
+SignalsLater::~SignalsLater() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+
+}  // namespace clench
