@@ -1,4 +1,5 @@
 --- What a file was understood to be, as tables: what `clench check` prints, or writes as JSON.
+local error_text = require "clench.host.error_text"
 local reading = require "clench.host.reading"
 local report = {}
 
@@ -39,7 +40,7 @@ local function of_primitives(path, options)
   local counts = {}
   if not path:lower():find "%.iv$" then return nil end
   local before = clench.log.level "quiet"  -- what is no primitive is the rule here
-  local ok, list = pcall(clench.files.primitives, path, {root = options.root})
+  local ok, list = pcall(clench.files.primitives, path, {root = options.root, confine = options.confine})
   clench.log.level(before)
   for _, p in ipairs(ok and list or {}) do counts[p.kind] = (counts[p.kind] or 0) + 1 end
   return next(counts) and counts
@@ -155,7 +156,7 @@ local readers = {
 --- One file, understood: what `clench check` says of it. Loaded by require "clench.report" or as clench.report.
 --- `understood` is a table of what its kind holds, all in metres, kilograms and radians; without it `wrong` says why.
 ---@param path string
----@param options? {root?: string, folder?: string, package?: string, unit?: string}  those that its kind takes are used
+---@param options? {root?: string, confine?: string, folder?: string, package?: string, unit?: string}  those that its kind takes are used
 ---@return {file: string, kind: string?, understood: table?, guessed: string[], mended: string[], ignored: string[], doubtful: string[], wrong: string?}
 --- > r = clench.report.of "models/hands/barrett/barrett.cfg"
 --- > r.kind, #r.understood.dofs, r.understood.dofs[2].unit  --> robot, 4, rad
@@ -164,12 +165,12 @@ function report.of(path, options)
   local kind
   options = options or {}
   local heard, ok, result = listen(function()
-    kind = clench.file_kind(path)
+    kind = clench.file_kind(path, {confine = options.confine})
     return readers[kind](path, reading(kind, options))
   end)
   return {file = path, kind = kind, understood = ok and result or nil, guessed = heard.guessed, mended = heard.mended,
           ignored = heard.ignored, doubtful = heard.doubtful,
-          wrong = not ok and tostring(result):gsub("^stdlib/report.lua:%d+: ", "") or nil}
+          wrong = not ok and error_text(result):gsub("^stdlib/report.lua:%d+: ", "") or nil}
 end
 
 return report

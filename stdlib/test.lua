@@ -1,5 +1,6 @@
 --- Tests as claims: `test("a ring of contacts balances", function(t) t.close(sum, 0, 1e-12) end)`. Each runs where it
 --- stands; `clench test` counts them, file by file.
+local error_text = require "clench.host.error_text"
 local show = require "clench.show"
 local test = {passed = 0, failed = 0, skipped = 0}
 
@@ -76,7 +77,7 @@ end
 function t.skip(reason) error({mark = skip, reason = reason or "no reason given"}, 0) end
 
 local function explain(message)
-  if type(message) == "table" and message.mark == skip then return message end
+  if type(message) == "table" and rawequal(rawget(message, "mark"), skip) then return message end
   if getmetatable(message) == failure then
     -- the line of the test that failed is what is looked for
     for level = 3, 12 do
@@ -87,7 +88,7 @@ local function explain(message)
     end
     return message.message
   end
-  return debug.traceback(type(message) == "string" and message or show(message), 2)
+  return debug.traceback(error_text(message), 2)
 end
 
 ---@param claim string  what holds
@@ -97,7 +98,7 @@ local function run(_, claim, fn)
   local ok, message = xpcall(fn, explain, t)
   if ok then
     test.passed = test.passed + 1
-  elseif type(message) == "table" and message.mark == skip then
+  elseif type(message) == "table" then
     test.skipped = test.skipped + 1
     print(("  skipped  %s: %s"):format(claim, message.reason))
   else

@@ -10,9 +10,11 @@
 namespace clench {
 
 // `main` of stdlib/host/<verb>.lua returns the exit code
-static int run_host(const std::string& verb, std::vector<std::string> arguments,
-                    const ReadingOptions& reading) {
+static int run_in_state(const std::string& verb, std::vector<std::string> arguments,
+                        const ReadingOptions& reading, std::string& exit_asked) {
   State state;
+  state.refuse_exit(exit_asked);
+  if (!reading.confine.empty()) state.set_confine(reading.confine);
   catch_interrupts();
   const Interruptible running(state);
   arguments.insert(arguments.begin(),
@@ -21,6 +23,16 @@ static int run_host(const std::string& verb, std::vector<std::string> arguments,
   std::fflush(stdout);
   if (!result.ok) fmt::print(stderr, "clench {}: {}\n", verb, result.error);
   return result.ok && result.values == std::vector<std::string>{"0"} ? 0 : 1;
+}
+
+static int run_host(const std::string& verb, const std::vector<std::string>& arguments,
+                    const ReadingOptions& reading) {
+  // finalizers run as the state closes, and may ask, too
+  std::string exit_asked;
+  const int code = run_in_state(verb, arguments, reading, exit_asked);
+  if (code != 0 || exit_asked.empty()) return code;
+  std::fprintf(stderr, "clench %s: %s\n", verb.c_str(), exit_asked.c_str());
+  return 1;
 }
 
 int check_files(const CheckOptions& options) {

@@ -34,9 +34,16 @@ static CommandLine split(int argc, char** argv) {
     if (run && !option) file = true;
     if (!run && word == "run") run = true;
     // the next word is this option's value, not the verb
-    if (!run && (word == "-e" || word == "-i") && i + 1 < argc) line.ours.push_back(argv[++i]);
+    const bool value = word == "--confine" || (!run && (word == "-e" || word == "-i"));
+    if (value && i + 1 < argc) line.ours.push_back(argv[++i]);
   }
   return line;
+}
+
+static void add_confine(CLI::App& verb, std::string& folder) {
+  verb.add_option("--confine", folder, "read models and worlds only below this folder")
+      ->type_name("FOLDER")
+      ->check(CLI::ExistingDirectory);
 }
 
 static void add_reading(CLI::App& verb, ReadingOptions& reading) {
@@ -52,6 +59,12 @@ static void add_reading(CLI::App& verb, ReadingOptions& reading) {
   verb.add_option("--unit", reading.unit, "of meshes: mm cm m inch foot")->type_name("UNIT");
 }
 
+// what --help says of every verb that loads
+static const std::string trust =
+    "\n\nScripts and worlds in Lua are programs; files of every other format run nothing, and may "
+    "have regular files read that they name, with --confine only those below FOLDER. See "
+    "docs/guide/trust.md.";
+
 static int main_of(int argc, char** argv) {
   CommandLine line = split(argc, argv);
   CLI::App app("Clench simulates, judges and plans robotic grasps.", "clench");
@@ -64,25 +77,28 @@ static int main_of(int argc, char** argv) {
   app.require_subcommand(0, 1);
 
   RunOptions run;
-  std::string interactive, test_path, doc_folder = "docs/api";
+  std::string interactive, test_path, confine, doc_folder = "docs/api";
   bool check = false;
   app.add_flag("-q,--quiet", run.quiet, "show errors only");
   app.add_option("-e", run.code, "run this code")->type_name("CODE")->allow_extra_args(false);
   app.add_option("-i", interactive, "run a script, then open a console")->type_name("FILE");
+  add_confine(app, confine);
 
   auto* run_verb = app.add_subcommand("run", "run a script");
   run_verb
       ->add_option("FILE", run.file, "a Lua script, or - for stdin; what follows are its arguments")
       ->required();
-  run_verb->footer("Examples:\n  clench run grasp.lua\n  clench run plan.lua mug.iv --seconds 10");
+  run_verb->footer("Examples:\n  clench run grasp.lua\n  clench run plan.lua mug.iv --seconds 10" +
+                   trust);
   auto* repl_verb = app.add_subcommand("repl", "open a console");
   repl_verb->footer(
       "Examples:\n  clench repl\n  echo '=clench.rad(90)' | clench repl\n\nIn a console: =x or x "
       "prints, "
-      "help(x) explains, Tab completes, Ctrl-C interrupts, Ctrl-D leaves.");
+      "help(x) explains, Tab completes, Ctrl-C interrupts, Ctrl-D leaves." +
+      trust);
   auto* test_verb = app.add_subcommand("test", "run every *_test.lua of a folder");
   test_verb->add_option("DIR", test_path, "a folder, or one file")->required();
-  test_verb->footer("Example:\n  clench test tests/lua");
+  test_verb->footer("Example:\n  clench test tests/lua" + trust);
   auto* doc_verb =
       app.add_subcommand("doc", "write the pages of the Lua API and the editor's stub");
   doc_verb->add_option("DIR", doc_folder, "where to; default: docs/api");
@@ -97,7 +113,8 @@ static int main_of(int argc, char** argv) {
   check_verb->add_flag("--json", checking.json, "as JSON");
   check_verb->footer(
       "Examples:\n  clench check hand.urdf\n  clench check --json mug.stl worlds/dlr_flask.wld\n\n"
-      "Exit code: 1 when a file could not be read.");
+      "Exit code: 1 when a file could not be read." +
+      trust);
   ConvertOptions converting;
   auto* convert_verb = app.add_subcommand("convert", "write what a file holds as another format");
   convert_verb->add_option("IN", converting.from, "a file of any kind that is read")->required();
@@ -107,7 +124,10 @@ static int main_of(int argc, char** argv) {
       "Examples:\n  clench convert --unit mm mug.stl mug.xml\n"
       "  clench convert models/hands/barrett/barrett.cfg barrett.urdf\n"
       "  clench convert worlds/dlr_flask.wld dlr_flask.lua\n\n"
-      "What the new format cannot hold is told in warnings.");
+      "What the new format cannot hold is told in warnings." +
+      trust);
+  for (auto* verb : {run_verb, repl_verb, test_verb, check_verb, convert_verb})
+    add_confine(*verb, confine);
   for (auto* verb : {run_verb, repl_verb, test_verb, doc_verb, check_verb, convert_verb})
     verb->fallthrough();
 
@@ -132,7 +152,8 @@ static int main_of(int argc, char** argv) {
   }
 
   run.arguments = line.script;
-  if (test_verb->parsed()) return run_tests(test_path, run.quiet);
+  run.confine = checking.reading.confine = converting.reading.confine = confine;
+  if (test_verb->parsed()) return run_tests(test_path, confine, run.quiet);
   if (check_verb->parsed()) return check_files(checking);
   if (convert_verb->parsed()) return convert_file(converting);
   if (doc_verb->parsed()) return write_docs(doc_folder, check);

@@ -18,6 +18,7 @@ static bool report(const State::Result& result) {
 int run_scripts(const RunOptions& options) {
   State state;
   if (options.quiet) state.set_quiet();
+  if (!options.confine.empty()) state.set_confine(options.confine);
   state.set_script("here");  // what is typed or piped stands where we stand
   catch_interrupts();
   bool ok = true;

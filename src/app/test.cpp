@@ -29,9 +29,10 @@ struct Count {
   int passed = 0, failed = 0, skipped = 0;
 };
 
-static Count run_test_file(const fs::path& file, bool quiet) {
+static Count run_test_file(const fs::path& file, const std::string& confine, bool quiet) {
   State state;
   if (quiet) state.set_quiet();
+  if (!confine.empty()) state.set_confine(confine);
   state.set_script(file.string());
   const Interruptible running(state);
   const auto result = state.call("test", "run_file", {file.string()});
@@ -43,7 +44,7 @@ static Count run_test_file(const fs::path& file, bool quiet) {
   return {0, 1, 0};
 }
 
-int run_tests(const std::string& path, bool quiet) {
+int run_tests(const std::string& path, const std::string& confine, bool quiet) {
   std::error_code error;
   if (!fs::exists(path, error)) {
     std::fprintf(stderr, "clench test: no such file or folder: '%s'\n", path.c_str());
@@ -58,7 +59,7 @@ int run_tests(const std::string& path, bool quiet) {
   Count all;
   for (const auto& file : files) {
     if (!quiet) std::printf("%s\n", file.c_str());
-    const Count one = run_test_file(file, quiet);
+    const Count one = run_test_file(file, confine, quiet);
     all.passed += one.passed, all.failed += one.failed, all.skipped += one.skipped;
   }
   std::printf("%d passed, %d failed, %d skipped\n", all.passed, all.failed, all.skipped);

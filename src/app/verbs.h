@@ -10,13 +10,14 @@ struct RunOptions {
   std::string file;                    ///< then this, "-" for stdin; empty: none
   std::vector<std::string> arguments;  ///< the file's
   bool console = false;                ///< and then a console
+  std::string confine;                 ///< the folder below which files are read; empty: anywhere
   bool quiet = false;
 };
 
 int run_scripts(const RunOptions& options);
 
 /// Runs every *_test.lua below a folder, or one file, each in a Lua of its own.
-int run_tests(const std::string& path, bool quiet);
+int run_tests(const std::string& path, const std::string& confine, bool quiet);
 
 /// Writes the API's pages and the editor's stub to a folder; check: compares, and writes nothing.
 int write_docs(const std::string& folder, bool check);
@@ -27,6 +28,7 @@ struct ReadingOptions {
   std::string folder;   ///< where names in a robot's file are looked up, too
   std::string package;  ///< folder of the packages that a URDF names
   std::string unit;     ///< of a mesh
+  std::string confine;  ///< the folder below which files are read
 };
 
 struct CheckOptions {

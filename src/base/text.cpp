@@ -131,13 +131,15 @@ size_t utf8_size(std::string_view text, size_t i) {
   return size;
 }
 
-std::string in_quotes(std::string_view text) {
-  if (text.empty()) return "nothing";
-  constexpr size_t longest = 40;
-  std::string out(text.substr(0, longest));
+std::string excerpt(std::string_view text) {
+  std::string out(text.substr(0, max_excerpt));
   for (char& c : out)
     if (static_cast<unsigned char>(c) < ' ' || c == 127) c = '?';
-  return "'" + out + (text.size() > longest ? "...'" : "'");
+  return text.size() > max_excerpt ? out + "..." : out;
+}
+
+std::string in_quotes(std::string_view text) {
+  return text.empty() ? "nothing" : fmt::format("'{}'", excerpt(text));
 }
 
 Line::Line(const std::string* file, int number, std::string_view text)

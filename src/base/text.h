@@ -33,8 +33,11 @@ std::string lower_case(std::string_view text);
 std::vector<std::string_view> split_words(std::string_view text, std::string_view separators = "");
 /// Bytes of the character that begins at i; 0 when it is not UTF-8.
 size_t utf8_size(std::string_view text, size_t i);
-/// A word for an error: in quotes, cut when long, unprintable characters as '?'; "nothing" when
-/// empty.
+/// What messages show of a file: at most so many characters of any one place.
+constexpr size_t max_excerpt = 40;
+/// A word for a message: cut when long, unprintable characters as '?'.
+std::string excerpt(std::string_view text);
+/// The same in quotes; "nothing" when empty.
 std::string in_quotes(std::string_view text);
 /// Names or numbers for a message: "a, b, c"; after 300 characters "and 40 more".
 template <class Names>

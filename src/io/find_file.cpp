@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/suggest.h"
 #include "base/text.h"
+#include "io/confine.h"
 #include "io/read.h"
 
 namespace clench {
@@ -42,54 +43,75 @@ static fs::path exact_or_case(const fs::path& path) {
 }
 
 /// A near name in the folder where the file should be, of the first place that has such a folder.
-static std::string suggestion(const std::vector<fs::path>& places) {
+static std::string suggestion(const std::vector<fs::path>& places, const ReadOptions& options) {
   for (const auto& place : places) {
     const fs::path folder = exact_or_case(place.parent_path().empty() ? "." : place.parent_path());
-    if (folder.empty()) continue;
+    if (folder.empty() || !lies_within(folder, options.confine)) continue;
     const std::string near = did_you_mean(place.filename().string(), entries(folder));
     if (!near.empty()) return near;
   }
   return "";
 }
 
+/// Where a name may be meant: beside the referrer, below the folder and the root of the call, below
+/// the referrer's parent folder; where we stand for the user's own.
+static std::vector<fs::path> places_of(const fs::path& name, const fs::path& referrer,
+                                       const ReadOptions& options) {
+  if (name.is_absolute()) return {name.lexically_normal()};
+  const fs::path here = referrer.parent_path();
+  std::vector<fs::path> places = {here / name};
+  if (!referrer.empty() && !options.folder.empty()) places.push_back(options.folder / name);
+  if (!options.root.empty()) places.push_back(options.root / name);
+  if (!referrer.empty()) places.push_back(here / ".." / name);
+  for (auto& place : places) place = place.lexically_normal();
+  return places;
+}
+
+ReadOptions ReadOptions::beside_only() const {
+  ReadOptions out = *this;
+  out.root.clear();
+  out.folder.clear();
+  return out;
+}
+
+bool is_readable(const fs::path& file, const ReadOptions& options) {
+  std::error_code code;
+  return lies_within(file, options.confine) && fs::is_regular_file(file, code);
+}
+
+void fail_outside(const std::string& name, const ReadOptions& options) {
+  fail("'{}' lies outside of {}, to which reading is confined", name,
+       options.confine.generic_string());
+}
+
 fs::path find_file(const std::string& name, const fs::path& referrer, const ReadOptions& options) {
   std::string slashed = name;
   std::replace(slashed.begin(), slashed.end(), '\\', '/');
-  const fs::path wanted = slashed;
   if (trim(name).empty()) fail("wanted the name of a file, got nothing");
   if (slashed.find('\0') != std::string::npos || slashed.size() > 4096)
     fail("no such file: {}", in_quotes(name));
 
-  // beside the referrer, below the folder and the root of the call, below the referrer's parent
-  // folder; where we stand for the user's own
-  std::vector<fs::path> places;
-  if (wanted.is_absolute())
-    places = {wanted};
-  else if (referrer.empty()) {
-    places.push_back(wanted);
-    if (!options.root.empty()) places.push_back(options.root / wanted);
-  } else {
-    places.push_back(referrer.parent_path() / wanted);
-    if (!options.folder.empty()) places.push_back(options.folder / wanted);
-    if (!options.root.empty()) places.push_back(options.root / wanted);
-    places.push_back(referrer.parent_path() / ".." / wanted);
-  }
+  auto places = places_of(slashed, referrer, options);
+  // of what lies outside nothing is asked, so that no answer tells what is there
+  std::erase_if(places, [&](const auto& place) { return !lies_within(place, options.confine); });
+  // a name from a file is quoted as all of it is; the user's own stands whole
+  const std::string shown = referrer.empty() ? name : excerpt(name);
+  if (places.empty()) fail_outside(shown, options);
+  for (const auto& place : places)
+    if (is_readable(place, options)) return place;
+  for (const auto& place : places)
+    if (const fs::path found = exact_or_case(place); is_readable(found, options)) return found;
   std::error_code code;
   for (const auto& place : places)
-    if (fs::is_regular_file(place, code)) return place.lexically_normal();
-  for (const auto& place : places)
-    if (const fs::path found = exact_or_case(place); fs::is_regular_file(found, code))
-      return found.lexically_normal();
-  for (const auto& place : places)
-    if (const fs::path found = exact_or_case(place); !found.empty())
+    if (const fs::path found = exact_or_case(place);
+        !found.empty() && lies_within(found, options.confine))
       fail("wanted a file, got a {}: {}", fs::is_directory(found, code) ? "folder" : "special file",
-           name);
+           shown);
   // what the system does not let us see may be there
   for (const auto& place : places)
     if (fs::status(place, code).type() == fs::file_type::none)
-      fail("{}: the file cannot be read: {}", name.size() > 200 ? in_quotes(name) : name,
-           system_reason(code.value()));
-  fail("no such file: {}{}", name, suggestion(places));
+      fail("{}: the file cannot be read: {}", shown, system_reason(code.value()));
+  fail("no such file: {}{}", shown, suggestion(places, options));
 }
 
 }  // namespace clench

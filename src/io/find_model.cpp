@@ -37,7 +37,8 @@ static std::string first_word(const fs::path& folder) {
 }
 
 // below the folders beside `root` that are called like it, in the order of their names
-static fs::path try_generations(const std::string& name, const fs::path& root, ModelKind kind) {
+static fs::path try_generations(const std::string& name, const fs::path& root, ModelKind kind,
+                                const ReadOptions& options) {
   const fs::path home = (fs::absolute(root).lexically_normal() / "").parent_path();
   const fs::path above = home.parent_path();
   const std::string library = first_word(home);
@@ -53,7 +54,7 @@ static fs::path try_generations(const std::string& name, const fs::path& root, M
   std::sort(folders.begin(), folders.end());
   for (const auto& folder : folders)
     // find_file looks in the folder above, too
-    if (const fs::path found = try_endings(name, folder / "x", kind, {});
+    if (const fs::path found = try_endings(name, folder / "x", kind, options.beside_only());
         !found.empty() && *found.lexically_relative(folder).begin() != "..")
       return found;
   return {};
@@ -83,7 +84,7 @@ fs::path find_model(const std::string& name, const fs::path& referrer, ModelKind
     const bool rooted = relative.is_relative() && relative.has_parent_path() &&
                         name.find("..") == std::string::npos && !referrer.empty();
     const fs::path root = options.root.empty() ? referrer.parent_path() / ".." : options.root;
-    const fs::path found = rooted ? try_generations(name, root, kind) : fs::path();
+    const fs::path found = rooted ? try_generations(name, root, kind, options) : fs::path();
     if (found.empty()) throw missing;
     options.mended(fmt::format("{}: {} is not below the root; {} is taken", place, name,
                                found.generic_string()));

@@ -186,9 +186,8 @@ std::vector<Primitive> read_primitives(const fs::path& path, const ReadOptions& 
   // what somebody has simplified already
   const fs::path beside =
       path.parent_path() / "primitives" / fs::path(path.filename()).replace_extension(".iv");
-  std::error_code code;
   PlacedFile source{.path = path};
-  if (fs::is_regular_file(beside, code))
+  if (is_readable(beside, options))
     source.path = beside;
   else if (ending_of(path) == ".xml")
     source = geometry_of_body(path, options);

@@ -126,7 +126,7 @@ fs::path Library::find_part(const std::string& name, const fs::path& robot,
   if (!options_.folder.empty()) folders.push_back(options_.folder / "iv");
   for (const auto& folder : folders) {
     try {
-      return find_file(name, folder / "x", {});
+      return find_file(name, folder / "x", options_.beside_only());
     } catch (const Error&) {
       // the next one
     }
@@ -134,9 +134,8 @@ fs::path Library::find_part(const std::string& name, const fs::path& robot,
   try {
     return find_file(name, robot, options_);
   } catch (const Error&) {
-    ReadOptions options;
-    options.note = options_.note;
-    return find_converted(name, folders.back() / "x", ModelKind::body, place, options);
+    return find_converted(name, folders.back() / "x", ModelKind::body, place,
+                          options_.beside_only());
   }
 }
 

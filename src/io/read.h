@@ -31,6 +31,8 @@ struct ReadOptions {
   std::optional<double> silent_mesh_unit = {};
   /// where names in a file are looked up after the file's own folder, before the root
   std::filesystem::path folder = {};
+  /// nothing is read that does not lie below this folder, links followed; empty: anything may be
+  std::filesystem::path confine = {};
   /// where the packages lie that URDF files name: by name; under "" any of them
   std::map<std::string, std::filesystem::path> packages = {};
   /// how DOFs close, by name or number from 1: 1 up, -1 down, 0 not; the
@@ -42,6 +44,8 @@ struct ReadOptions {
   bool turn_mesh_up = true;
 
   Listeners listeners() const { return {warn, note, mend, doubt}; }
+  /// As these, but names count from the folder of their file alone.
+  ReadOptions beside_only() const;
   void mended(const std::string& sentence) const { tell(mend, warn, sentence); }
   void doubted(const std::string& sentence) const { tell(doubt, warn, sentence); }
 };
@@ -60,7 +64,14 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
 /// referrer, below options.folder, below the root, below the referrer's parent folder. Back-slashes count as slashes, and
 /// a name that differs only in case is found.
 /// throws Error  "no such file: flsk.iv; did you mean 'flask.iv'?"  "wanted a file, got a folder: models"
+///               "'../flask.iv' lies outside of models, to which reading is confined"
 std::filesystem::path find_file(const std::string& name, const std::filesystem::path& referrer,
                                 const ReadOptions& options);
+
+/// Is there a file, and may the options' caller read it? Readers ask this, and never the disk, about
+/// names that they make up.
+bool is_readable(const std::filesystem::path& file, const ReadOptions& options);
+/// throws Error  as find_file, of something, named as it is to be shown, outside options.confine
+[[noreturn]] void fail_outside(const std::string& name, const ReadOptions& options);
 
 }  // namespace clench

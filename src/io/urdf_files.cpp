@@ -2,6 +2,7 @@
 
 #include "base/suggest.h"
 #include "base/text.h"
+#include "io/confine.h"
 
 namespace clench {
 
@@ -9,14 +10,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_file(const fs::path& path) {
+bool is_folder(const fs::path& path, const ReadOptions& options) {
   std::error_code code;
-  return fs::is_regular_file(path, code);
-}
-
-bool is_folder(const fs::path& path) {
-  std::error_code code;
-  return fs::is_directory(path, code);
+  return lies_within(path, options.confine) && fs::is_directory(path, code);
 }
 
 /// The folder of a package as the options name it; empty when they do not.
@@ -27,7 +23,7 @@ fs::path given_package(const std::string& package, const ReadOptions& options) {
   const auto all = options.packages.find("");
   if (all == options.packages.end()) return {};
   const fs::path within = all->second / package;
-  return is_folder(within) ? within : all->second;
+  return is_folder(within, options) ? within : all->second;
 }
 
 /// The referrer's folder and those above it, as far as it has any.
@@ -46,24 +42,27 @@ std::vector<fs::path> folders_above(const fs::path& referrer) {
 fs::path find_in_package(const std::string& package, const std::string& rest,
                          const fs::path& referrer, const ReadOptions& options) {
   if (const fs::path folder = given_package(package, options); !folder.empty())
-    return find_file((folder / rest).string(), {}, {});
+    return find_file(rest, folder / "x", options.beside_only());
   auto folders = folders_above(referrer);
   if (!options.folder.empty()) folders.insert(folders.begin(), options.folder);
   for (const fs::path& folder : folders) {
-    if (folder.filename() == package && is_file(folder / rest)) return folder / rest;
-    if (is_file(folder / package / rest)) return folder / package / rest;
+    if (folder.filename() == package && is_readable(folder / rest, options)) return folder / rest;
+    if (is_readable(folder / package / rest, options)) return folder / package / rest;
   }
   for (const fs::path& folder : folders)
-    if (is_file(folder / rest)) {
+    if (is_readable(folder / rest, options)) {
       if (options.note)
-        options.note(fmt::format("{}: package '{}' is taken to be {}", referrer.filename().string(),
-                                 package, folder.generic_string()));
+        options.note(fmt::format("{}: package {} is taken to be {}", referrer.filename().string(),
+                                 in_quotes(package), folder.generic_string()));
       return folder / rest;
     }
-  if (is_folder(folders.front() / package) || folders.front().filename() == package)
-    fail("no such file in package '{}': {}", package, rest);
-  fail("no package '{}' with {} beside or above the file; the option 'package' names its folder",
-       package, in_quotes(rest));
+  // nobody lies inside whose nearest place does not
+  if (!lies_within(folders.front() / package / rest, options.confine))
+    fail_outside(excerpt(rest), options);
+  if (is_folder(folders.front() / package, options) || folders.front().filename() == package)
+    fail("no such file in package {}: {}", in_quotes(package), excerpt(rest));
+  fail("no package {} with {} beside or above the file; the option 'package' names its folder",
+       in_quotes(package), in_quotes(rest));
 }
 
 }  // namespace

@@ -6,12 +6,15 @@
 #include <system_error>
 #include <vector>
 
+#include "io/confine.h"
 #include "io/file_kind.h"
 #include "io/read.h"
 #include "script/check.h"
 #include "script/guard.h"
 #include "script/home.h"
 #include "script/push.h"
+#include "script/read_spec.h"
+#include "script/setting.h"
 
 namespace clench {
 
@@ -38,7 +41,8 @@ static bool holds_parts(const fs::path& folder) {
   return name == "iv" || name == "primitives" || name.ends_with("_files");
 }
 
-static bool belongs(const fs::path& path, FileKind kind) {
+static bool belongs(const fs::path& path, FileKind kind, const fs::path& confine) {
+  if (!lies_within(path, confine)) return false;
   // a surface that lies beside its body's XML file belongs to that
   if (path.extension() != ".xml" && kind == FileKind::body &&
       fs::exists(fs::path(path).replace_extension(".xml")))
@@ -58,7 +62,8 @@ static std::string plain_path(const fs::path& path) {
                                                           : path.generic_string();
 }
 
-static std::vector<std::string> files_on(const fs::path& home, const Shelf& shelf) {
+static std::vector<std::string> files_on(const fs::path& home, const Shelf& shelf,
+                                         const fs::path& confine) {
   std::vector<std::string> found;
   std::error_code error;
   for (fs::recursive_directory_iterator it(home / shelf.folder, error), end; !error && it != end;
@@ -68,7 +73,7 @@ static std::vector<std::string> files_on(const fs::path& home, const Shelf& shel
       if (holds_parts(it->path())) it.disable_recursion_pending();
       continue;
     }
-    if (!belongs(it->path(), shelf.kind)) continue;
+    if (!belongs(it->path(), shelf.kind, confine)) continue;
     found.push_back(plain_path(it->path()));
   }
   std::sort(found.begin(), found.end());
@@ -81,17 +86,23 @@ static int catalog(lua_State* L) {
   if (home.empty())
     fail("{}: no folder with models and worlds found near the program; set CLENCH_MODELS to it",
          subject(L));
+  const std::string confine = get_setting(L, Setting::confine);
   push_list(L, 0, static_cast<int>(std::size(shelves)));
   for (const Shelf& shelf : shelves) {
-    push_list_of(L, files_on(home, shelf), [L](const std::string& path) { push(L, path); });
+    push_list_of(L, files_on(home, shelf, confine), [L](const std::string& path) { push(L, path); });
     lua_setfield(L, -2, shelf.name);
   }
   return 1;
 }
 
 static int kind_of_file(lua_State* L) {
-  check_count(L, 1);
-  return push(L, kind_name(file_kind(find_file(check_string(L, 1, "path"), {}, {}))));
+  check_count(L, 2);
+  const std::string path = check_string(L, 1, "path");
+  Table options(L, 2);
+  ReadOptions reading;
+  reading.confine = read_confine(L, options);
+  options.done();
+  return push(L, kind_name(file_kind(find_file(path, {}, reading))));
 }
 
 static const Entry functions[] = {
@@ -99,6 +110,7 @@ static const Entry functions[] = {
 What a file describes, by its ending, or by its outermost element in XML; where the ending says nothing, by how its numbers
 stand.
 @param path string
+@param options? {confine?: string}
 @return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"object contacts"|"pre-grasps"|"planned grasps"|"glove calibration"|"glove poses"
 > clench.file_kind "models/objects/flask.iv"  --> body
 > clench.file_kind "worlds/dlr_flask.wld"  --> world

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "script/bind_log.h"
+#include "script/setting.h"
 
 namespace clench {
 
@@ -24,11 +25,21 @@ static std::optional<double> read_unit(Table& options) {
   return lengths[std::find(names.begin(), names.end(), name) - names.begin()];
 }
 
+std::filesystem::path read_confine(lua_State* L, Table& options) {
+  const std::string chosen = get_setting(L, Setting::confine);
+  const std::string folder = options.string("confine", chosen);
+  std::error_code code;
+  if (options.has("confine") && !std::filesystem::is_directory(folder, code))
+    fail("{}: confine: wanted a folder, got '{}'", options.subject(), folder);
+  return folder;
+}
+
 ReadOptions read_options(lua_State* L, Table& options) {
   ReadOptions out;
   out.root = options.string("root", "");
   if (!out.root.empty() && !std::filesystem::is_directory(out.root))
     fail("{}: root: wanted a folder, got '{}'", options.subject(), out.root.string());
+  out.confine = read_confine(L, options);
   out.mesh_scale = read_unit(options);
   out.warn = [L](const std::string& message) { log(L, LogLevel::warning, message, "ignored"); };
   out.note = [L](const std::string& message) { log(L, LogLevel::info, message, "guessed"); };

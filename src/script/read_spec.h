@@ -5,8 +5,11 @@
 
 namespace clench {
 
-/// Options of reading that a call's table holds: root; unit, by its name, or mesh_scale. Warnings
-/// and notes go to the script's log.
+/// The folder below which a call reads: its option confine, else what its state was given; empty:
+/// anywhere.
+std::filesystem::path read_confine(lua_State* L, Table& options);
+/// Options of reading that a call's table holds: root; confine; unit, by its name, or mesh_scale.
+/// Warnings and notes go to the script's log.
 ReadOptions read_options(lua_State* L, Table& options);
 
 /// A body from argument i: a file name, or a mesh in metres, indices from 1,

@@ -15,16 +15,20 @@ void push_setting(lua_State* L, Setting setting) {
   lua_pushliteral(L, "");
 }
 
+std::string get_setting(lua_State* L, Setting setting) {
+  push_setting(L, setting);
+  std::string text = lua_tostring(L, -1);
+  lua_pop(L, 1);
+  return text;
+}
+
 void set_setting(lua_State* L, Setting setting, const std::string& text) {
   lua_pushlstring(L, text.data(), text.size());
   lua_rawsetp(L, LUA_REGISTRYINDEX, key_of(setting));
 }
 
 ScopedSetting::ScopedSetting(lua_State* L, Setting setting, const std::string& text)
-    : L_(L), setting_(setting) {
-  push_setting(L, setting);
-  before_ = lua_tostring(L, -1);
-  lua_pop(L, 1);
+    : L_(L), setting_(setting), before_(get_setting(L, setting)) {
   set_setting(L, setting, text);
 }
 

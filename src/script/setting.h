@@ -8,8 +8,10 @@ namespace clench {
 
 enum class Setting {
   modules,  ///< the folder of the script that runs: require looks in it for the user's modules
+  confine,  ///< the folder below which files are read, where a call does not name another
 };
 
+std::string get_setting(lua_State* L, Setting setting);
 /// Leaves it on the stack.
 void push_setting(lua_State* L, Setting setting);
 void set_setting(lua_State* L, Setting setting, const std::string& text);

@@ -65,6 +65,8 @@ static int open_all(lua_State* L) {
   luaL_requiref(L, "clench", clench_open, 1);
   lua_pop(L, 1);
   add_bare_names(L);
+  push_packed(L, "host.error_text");  // while all that it needs is there
+  lua_pop(L, 1);
   // the coroutines' guide gets our tracker
   push_packed(L, "host.coroutines");
   lua_pushvalue(L, 1);
@@ -99,6 +101,14 @@ void State::set_script(const std::string& path) {
   set_setting(L_, Setting::modules, folder.empty() ? "." : folder.string());
 }
 
+void State::set_confine(const std::string& folder) {
+  std::error_code code;
+  const auto path = std::filesystem::canonical(folder, code);
+  if (code || !std::filesystem::is_directory(path, code))
+    fail("--confine: wanted a folder, got '{}'", folder);
+  set_setting(L_, Setting::confine, path.string());
+}
+
 void State::set_quiet() {
   memory_.quiet = true;
   set_log_level(L_, LogLevel::error);
@@ -108,26 +118,45 @@ void State::set_quiet() {
 
 // any error value as text, with the traceback
 static int explain(lua_State* L) {
-  if (lua_type(L, 1) != LUA_TSTRING) {
-    if (luaL_getmetafield(L, 1, "__tostring") != LUA_TNIL) {
-      lua_pop(L, 1);
-      luaL_tolstring(L, 1, nullptr);
-    } else if (lua_type(L, 1) == LUA_TTABLE) {
-      lua_pushstring(L, "error object is the table ");
-      push_packed(L, "show");
-      lua_pushvalue(L, 1);
-      lua_call(L, 1, 1);
-      lua_concat(L, 2);
-    } else {
-      lua_pushfstring(L, "error object is a %s value", luaL_typename(L, 1));
-    }
-    lua_replace(L, 1);
-  }
+  lua_settop(L, 1);
+  push_packed(L, "host.error_text");
+  lua_pushvalue(L, 1);
+  if (lua_pcall(L, 1, 1, 0) != LUA_OK) lua_pushliteral(L, "error object that cannot be told");
+  lua_replace(L, 1);
+  lua_settop(L, 1);
   // a traceback's own text would end at a zero byte
   lua_pushliteral(L, "\n");
   luaL_traceback(L, L, nullptr, 1);
   lua_concat(L, 3);
   return 1;
+}
+
+// os.exit where the program is not the script's to end; upvalue: where that is told
+static int on_exit(lua_State* L) {
+  auto* asked = static_cast<std::string*>(lua_touserdata(L, lua_upvalueindex(1)));
+  // the nearest line of a script: what calls it may be pcall, or a finalizer's nobody
+  lua_pushliteral(L, "");
+  lua_Debug caller;
+  for (int level = 1; lua_rawlen(L, -1) == 0 && lua_getstack(L, level, &caller); ++level)
+    luaL_where(L, level);
+  lua_pushliteral(L, "os.exit: a file that is read cannot end the program");
+  lua_concat(L, 2);
+  if (asked->empty()) *asked = lua_tostring(L, -1);
+  return lua_error(L);
+}
+
+static int replace_exit(lua_State* L) {
+  lua_getglobal(L, LUA_OSLIBNAME);
+  lua_pushvalue(L, 1);
+  lua_pushcclosure(L, on_exit, 1);
+  lua_setfield(L, -2, "exit");
+  return 0;
+}
+
+void State::refuse_exit(std::string& asked) {
+  lua_pushcfunction(L_, replace_exit);
+  lua_pushlightuserdata(L_, &asked);
+  if (lua_pcall(L_, 1, 0, 0) != LUA_OK) lua_pop(L_, 1);
 }
 
 static void interrupted(lua_State* L, lua_Debug*) {

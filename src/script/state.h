@@ -38,6 +38,12 @@ class State {
   Result call(const std::string& module, const std::string& function,
               const std::vector<std::string>& arguments);
 
+  /// From now on os.exit ends nothing but is an error. The first sentence of these is put into
+  /// `asked`, which outlives the state, for a script may hide the error.
+  void refuse_exit(std::string& asked);
+  /// From now on files are read only below this folder, unless a call names another.
+  /// throws Error when it is no folder
+  void set_confine(const std::string& folder);
   /// Messages below errors are not shown from now on.
   void set_quiet();
 

@@ -87,6 +87,10 @@ static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& r
 
 WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& reading) {
   if (is_script(path)) {
+    if (!reading.confine.empty())
+      fail("{}: a world in Lua is a program, which reads what it likes; wanted one of another format "
+           "where reading is confined",
+           path.filename().string());
     WorldPtr world = run_script(L, path, reading.root);
     if (world->source().empty()) world->set_source(path.generic_string());
     return world;
@@ -134,6 +138,7 @@ static World read_again(lua_State* L, const fs::path& path, const fs::path& root
     return build_world(read_world(path, reading));
   }
   const Silence silence(L);
+  const ScopedSetting own_text(L, Setting::confine, "");  // it was written by us
   const int top = lua_gettop(L);
   World world = *run_script(L, path, root);
   lua_settop(L, top);

@@ -1,4 +1,5 @@
 --- `clench convert`: what a file holds, written as another format.
+local error_text = require "clench.host.error_text"
 local reading = require "clench.host.reading"
 local convert = {}
 
@@ -11,7 +12,7 @@ function convert.main(root, folder, package, unit, from, to)
     return clench.convert(from, to, reading(clench.file_kind(from), said))
   end)
   if not ok then
-    io.stderr:write("clench convert: ", (tostring(kind):gsub("^stdlib/host/convert.lua:%d+: ", "")), "\n")
+    io.stderr:write("clench convert: ", (error_text(kind):gsub("^stdlib/host/convert.lua:%d+: ", "")), "\n")
     return 1
   end
   print(("%s: %s, from %s"):format(to, kind, from))

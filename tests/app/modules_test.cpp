@@ -7,12 +7,30 @@ using clench::test::run;
 
 // files with the names of our modules, each of which says that it has been run
 static void plant(const Folder& folder) {
-  for (const std::string name :
-       {"clench", "clench/init", "clench/report", "clench/show", "clench/options", "clench/test",
-        "clench/shapes", "clench/shapes/init", "clench/shapes/box", "clench/host/check",
-        "clench/host/convert", "clench/host/reading", "clench/host/paths",
-        "clench/host/coroutines", "clench/host/doc", "clench/host/help", "clench/host/complete",
-        "report", "test", "show", "shapes", "study", "host/check", "host/paths"})
+  for (const std::string name : {"clench",
+                                 "clench/init",
+                                 "clench/report",
+                                 "clench/show",
+                                 "clench/options",
+                                 "clench/test",
+                                 "clench/shapes",
+                                 "clench/shapes/init",
+                                 "clench/shapes/box",
+                                 "clench/host/check",
+                                 "clench/host/convert",
+                                 "clench/host/reading",
+                                 "clench/host/paths",
+                                 "clench/host/coroutines",
+                                 "clench/host/doc",
+                                 "clench/host/help",
+                                 "clench/host/complete",
+                                 "report",
+                                 "test",
+                                 "show",
+                                 "shapes",
+                                 "study",
+                                 "host/check",
+                                 "host/paths"})
     folder.file(name + ".lua", "io.stdout:write 'PLANTED\\n' return {}");
   folder.file("clench.so", "PLANTED");  // to open it would be an error
 }
@@ -44,7 +62,8 @@ TEST_CASE("files that are called like modules of ours are never run in their pla
       CHECK(result.code == 0);
       CHECK_MESSAGE(result.out.find("PLANTED") == std::string::npos, result.out);
     }
-    const auto console = run("repl", "help(clench.rad)\n=require 'clench.shapes'.box ~= nil\n", before);
+    const auto console =
+        run("repl", "help(clench.rad)\n=require 'clench.shapes'.box ~= nil\n", before);
     CHECK(has(console.out, "Degrees to radians"));
     CHECK(has(console.out, "true"));
     CHECK(console.out.find("PLANTED") == std::string::npos);
@@ -77,7 +96,8 @@ TEST_CASE("a script's own modules lie beside it, then where LUA_PATH says, and n
   CHECK(has(run("-e 'print(require [[mine]])'", "", here).out, "where one stands"));
   CHECK(has(run("run -", "print(require 'mine')", here).out, "where one stands"));
   CHECK(has(run("repl", "=require 'mine'", here).out, "where one stands"));
-  CHECK(has(run("-i other/s.lua", "=pcall(require, 'parts')", here).out, "no file 'other/parts.lua'"));
+  CHECK(has(run("-i other/s.lua", "=pcall(require, 'parts')", here).out,
+            "no file 'other/parts.lua'"));
 }
 
 TEST_CASE("a world in Lua finds its modules beside it while it is run") {

@@ -101,7 +101,8 @@ TEST_CASE("a world in Lua that is a compiled chunk is refused in every state") {
         "test:1: " + compiled.name() + ": bytecode is not run; wanted Lua text");
 }
 
-TEST_CASE("a host's state refuses bytecode when it asks for that, before or after Clench is opened") {
+TEST_CASE(
+    "a host's state refuses bytecode when it asks for that, before or after Clench is opened") {
   const Compiled compiled;
   for (const bool before : {true, false}) {
     CAPTURE(before);
