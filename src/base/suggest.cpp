@@ -31,7 +31,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
-  constexpr size_t longest = 64;  // of what a person mistypes
+  constexpr size_t longest = 40;  // of what a person mistypes, and messages quote of a file
   if (name.size() < 3 || name.size() > longest) return "";
   // a slip is at most a third of the letters, and never the whole of a short name
   const int limit = std::clamp(static_cast<int>(name.size()) / 3, 1, 3);

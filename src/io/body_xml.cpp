@@ -182,12 +182,12 @@ BodySpec read_body_element(const XmlElement& element, const fs::path& path, Libr
 void check_body_root(const XmlFile& file) {
   for (const char* other : {"robot", "world", "mujoco", "EigenGrasps", "virtual_contacts"})
     if (file.root().name() == other)
-      file.root().fail("wanted a body, got <{}>", file.root().name());
+      file.root().fail("wanted a body, got <{}>", excerpt(file.root().name()));
   const auto children = file.root().children();
   if (std::ranges::none_of(
           children, [](const XmlElement& e) { return std::ranges::count(known.once, e.name()); }))
     file.root().fail("wanted a body with geometryFile, mass or the like, got <{}> without any",
-                     file.root().name());
+                     excerpt(file.root().name()));
 }
 
 BodySpec read_body_xml(const fs::path& path, Library& library) {

@@ -59,7 +59,7 @@ Pose DhMaker::base_of(const ChainSpec& chain, int number) const {
       fail(
           "{}: chain {} begins on link '{}' of another; .cfg and .xml hold only chains that begin "
           "on the base, .urdf holds all",
-          file_, number, link.body.name);
+          file_, number, excerpt(link.body.name));
     X = parent.X_BC * link.X_JL.value_or(Pose{}) * X;
     at = &parent;
   }

@@ -116,7 +116,7 @@ void MjcfReader::tell_lost(const MjcfNode& node, bool in_world) {
             : "the bodies that it makes";
     warn(node.element, fmt::format("<{}> is not used: the robot lacks {}; save the model expanded "
                                    "by MuJoCo",
-                                   name, what));
+                                   excerpt(name), what));
   } else if (name == "attach") {
     warn(node.element,
          fmt::format("<attach> is not used: the robot lacks the body {} of model {} and all that "
@@ -138,8 +138,9 @@ void MjcfReader::choose_base(std::vector<TopBody> bodies) {
   const MjcfNode* kept = robot->node;
   std::erase_if(bodies, [&](const TopBody& body) {
     if (body.node == kept || !body.free) return false;
-    warn(body.node->element, fmt::format("body '{}' moves freely beside the robot; it is not read",
-                                         body.node->element.attribute("name").value_or("")));
+    warn(body.node->element,
+         fmt::format("body '{}' moves freely beside the robot; it is not read",
+                     excerpt(body.node->element.attribute("name").value_or(""))));
     return true;
   });
   const TopBody& first = bodies.front();
@@ -168,7 +169,7 @@ int MjcfReader::add_link(const XmlElement& element, const std::string& name, int
   link.body.name = name.empty() ? fmt::format("body{}", number) : name;
   link.body.source = document_.path().generic_string();
   if (!links_.emplace(link.body.name, number).second)
-    element.fail("body: there is another one of the name '{}'", link.body.name);
+    element.fail("body: there is another one of the name '{}'", excerpt(link.body.name));
   tree_.links.push_back(std::move(link));
   pieces_.emplace_back().place = element.place();
   link_geoms_.emplace_back();
@@ -188,7 +189,7 @@ void MjcfReader::read_body(const MjcfNode& node, int parent, const std::string& 
   const int link = add_link(element, values.text("name", ""), parent, base ? Pose{} : X);
   if (base && !(X == Pose{}))
     library_.note(fmt::format("{}: body '{}' is the base; its place in the file is not used",
-                              element.place(), tree_.links[link].body.name));
+                              element.place(), excerpt(tree_.links[link].body.name)));
   read_contents(node, link, inherited, Pose{});
   if (!pieces_[link].has_inertial || document_.inertia_from_geoms()) weigh_geoms(link);
 }
@@ -239,24 +240,26 @@ void MjcfReader::set_range(const XmlValues& values, TreeJoint& joint) {
     const double endless = turns ? endless_turn : endless_slide;
     joint.min = joint.zero - endless, joint.max = joint.zero + endless;
     library_.note(fmt::format("{}: joint '{}' has no limits; it may go from {:.4g} to {:.4g} {}",
-                              joint.place, joint.name, joint.min, joint.max, turns ? "rad" : "m"));
+                              joint.place, excerpt(joint.name), joint.min, joint.max,
+                              turns ? "rad" : "m"));
     return;
   }
   const auto range = values.numbers("range", 2, 2);
   if (range[0] > range[1])
-    values.fail("range", "joint '{}': min {} exceeds max {}", joint.name, range[0], range[1]);
+    values.fail("range", "joint '{}': min {} exceeds max {}", excerpt(joint.name), range[0],
+                range[1]);
   joint.min = range[0] * unit;
   joint.max = range[1] * unit;
   if (joint.min == joint.max)
-    library_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}", joint.place, joint.name,
-                              joint.min, turns ? "rad" : "m"));
+    library_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}", joint.place,
+                              excerpt(joint.name), joint.min, turns ? "rad" : "m"));
 }
 
 void MjcfReader::add_joint(TreeJoint joint, const XmlElement& element, int link) {
   if (tree_.joints.size() >= most_joints) element.fail("wanted at most {} joints", most_joints);
   const int number = static_cast<int>(tree_.joints.size());
   if (!joints_.emplace(joint.name, number).second)
-    element.fail("joint: there is another one of the name '{}'", joint.name);
+    element.fail("joint: there is another one of the name '{}'", excerpt(joint.name));
   joint.start = std::clamp(joint.zero, joint.min, joint.max);
   tree_.joints.push_back(std::move(joint));
   tree_.links[link].joints.push_back(number);
@@ -283,7 +286,7 @@ void MjcfReader::read_joint(const XmlElement& element, int link, const std::stri
     // the base goes where the world puts it
     if (link == 0) return;
     warn(element, fmt::format("joint '{}' is free; body '{}' stays where the file puts it",
-                              joint.name, body));
+                              excerpt(joint.name), excerpt(body)));
     return;
   }
   joint.kind = type == "slide" ? JointKind::prismatic : JointKind::revolute;
@@ -309,7 +312,7 @@ void MjcfReader::read_joint(const XmlElement& element, int link, const std::stri
   if (!(most > 0)) values.fail("range", "wanted a largest angle > 0");
   library_.note(
       fmt::format("{}: joint '{}' is a ball; it becomes three turns of at most {:.4g} rad",
-                  joint.place, joint.name, most));
+                  joint.place, excerpt(joint.name), most));
   for (int i = 0; i < 3; ++i) {
     TreeJoint turn = joint;
     turn.name += fmt::format("_{}", "xyz"[i]);
@@ -335,7 +338,8 @@ void MjcfReader::read_inertial(const XmlElement& element, int link, const Pose& 
   }
   const double mass = values.number("mass");
   if (const auto wrong = fault(mass_rule, mass); !wrong.empty()) {
-    warn(element, fmt::format("body '{}': mass: {}; the geometry gives it", body.name, wrong));
+    warn(element,
+         fmt::format("body '{}': mass: {}; the geometry gives it", excerpt(body.name), wrong));
     return;
   }
   const Inertial inertial = set_inertial(body, mass, X_frame * document_.pose(values), inertia);
@@ -393,7 +397,7 @@ void MjcfReader::read_excludes() {
     if (!known)
       warn(node->element,
            fmt::format("exclude: '{}' and '{}' are not both bodies of the robot; not used",
-                       values.text("body1"), values.text("body2")));
+                       excerpt(values.text("body1")), excerpt(values.text("body2"))));
     else if (pair[0] != pair[1])
       tree_.never_meet.emplace_back(pair[0], pair[1]);
   }

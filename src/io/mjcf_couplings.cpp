@@ -132,8 +132,8 @@ void Couplings::follow(const XmlElement& at, int follower, int leader, double ra
                        double offset) {
   TreeJoint& joint = tree_.joints[follower];
   if (joint.leader >= 0 || leader_of(leader) == follower) {
-    warn(at, fmt::format("joint '{}' is tied already; this does not tie it to '{}'", joint.name,
-                         tree_.joints[leader].name));
+    warn(at, fmt::format("joint '{}' is tied already; this does not tie it to '{}'",
+                         excerpt(joint.name), excerpt(tree_.joints[leader].name)));
     return;
   }
   joint.leader = leader;
@@ -182,7 +182,8 @@ void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
     return;
   }
   if (c[2] != 0 || c[3] != 0 || c[4] != 0)
-    warn(element, fmt::format("joint '{}': polycoef: only its linear part is used", tied.name));
+    warn(element,
+         fmt::format("joint '{}': polycoef: only its linear part is used", excerpt(tied.name)));
   const auto second = joint(values, "joint2");
   if (!second) return;
   const int leader = *second;
@@ -191,7 +192,7 @@ void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
     library_.doubted(
         fmt::format("{}: joint '{}': polycoef has no linear part: it stands still when "
                     "'{}' moves",
-                    element.place(), tied.name, tree_.joints[leader].name));
+                    element.place(), excerpt(tied.name), excerpt(tree_.joints[leader].name)));
   // both count from where the model stands at first
   follow(element, follower, leader, c[1], tied.zero + c[0] - c[1] * tree_.joints[leader].zero);
 }
@@ -249,11 +250,11 @@ void Couplings::take_control_range(const XmlElement& element, const XmlValues& v
     joint.start = std::clamp(joint.start, low, high);
     if (low == high)
       library_.note(fmt::format("{}: joint '{}' may only stand at {:.4g}, as ctrlrange says",
-                                element.place(), joint.name, low));
+                                element.place(), excerpt(joint.name), low));
   } else if (range[0] < range[1]) {
     warn(element, fmt::format("position: ctrlrange has nothing in common with the range of joint "
                               "'{}'; not used",
-                              joint.name));
+                              excerpt(joint.name)));
   }
 }
 
@@ -296,7 +297,8 @@ void Couplings::drive_tendon(const XmlElement& element, const Tendon& tendon) {
     library_.note(
         fmt::format("{}: joints '{}' and '{}' share a tendon; they are taken to turn as "
                     "1 to {:.4g}",
-                    element.place(), tree_.joints[first].name, tree_.joints[number].name, ratio));
+                    element.place(), excerpt(tree_.joints[first].name),
+                    excerpt(tree_.joints[number].name), ratio));
   }
 }
 
@@ -332,7 +334,7 @@ void Couplings::mark_passive() {
   int count = 0;
   for (const auto& joint : tree_.joints)
     if (joint.passive && joint.leader < 0 && ++count <= 6)
-      names += fmt::format("{}'{}'", count > 1 ? ", " : "", joint.name);
+      names += fmt::format("{}'{}'", count > 1 ? ", " : "", excerpt(joint.name));
   if (count > 0)
     library_.note(fmt::format("{}: joints that no actuator drives do not close: {}{}",
                               document_.file(), names, count > 6 ? " and others" : ""));

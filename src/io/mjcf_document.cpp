@@ -61,7 +61,7 @@ void MjcfDocument::include(const XmlElement& element, std::vector<MjcfNode>& int
   }
   const fs::path canonical = fs::weakly_canonical(found);
   if (std::find(open_.begin(), open_.end(), canonical) != open_.end())
-    element.fail("include: '{}' includes itself", name);
+    element.fail("include: '{}' includes itself", excerpt(name));
   if (files_.size() >= most_files) element.fail("wanted at most {} files", most_files);
   files_.push_back(std::make_unique<XmlFile>(found));
   open_.push_back(canonical);
@@ -107,13 +107,13 @@ void MjcfDocument::read_defaults(const MjcfNode& node, int parent) {
   if (parent < 0 && !name.empty() && name != "main") {
     // MuJoCo once called the global class so, and refuses it today
     if (const auto [at, is_new] = class_numbers_.emplace(name, 0); !is_new && at->second != 0)
-      node.element.fail("default: there is another class '{}'", name);
+      node.element.fail("default: there is another class '{}'", excerpt(name));
     library_.warn(fmt::format("{}: default: the outermost class is called main; {} is taken for it",
                               node.element.place(), in_quotes(name)));
   } else if (!name.empty() && name != "main") {
     number = static_cast<int>(classes_.size());
     if (!class_numbers_.emplace(name, number).second)
-      node.element.fail("default: there is another class '{}'", name);
+      node.element.fail("default: there is another class '{}'", excerpt(name));
     classes_.push_back({parent, {}});
   }
   for (const auto& child : node.children) {

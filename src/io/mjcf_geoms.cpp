@@ -33,7 +33,7 @@ void MjcfGeoms::read_assets() {
       std::string name = values.text("name", "");
       if (name.empty()) name = std::filesystem::path(values.text("file")).stem().string();
       if (!meshes_.emplace(name, Asset{element, values, nullptr}).second)
-        element.fail("mesh: there is another one of the name '{}'", name);
+        element.fail("mesh: there is another one of the name '{}'", excerpt(name));
       document_.unused().attributes(element, {"name", "class", "file", "scale", "refpos", "refquat",
                                               "vertex", "face", "content_type"});
     } else if (node->name() == "material") {

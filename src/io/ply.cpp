@@ -49,7 +49,7 @@ class Values {
 std::string Values::place() const {
   if (!element_) return words_.file();
   if (ascii_) return words_.place();
-  return fmt::format("{}: {} {} of {}", words_.file(), *element_, i_ + 1, count_);
+  return fmt::format("{}: {} {} of {}", words_.file(), excerpt(*element_), i_ + 1, count_);
 }
 
 void Values::begin(const std::string& name, int i, int count) {
@@ -57,7 +57,7 @@ void Values::begin(const std::string& name, int i, int count) {
   i_ = i;
   count_ = count;
   if (ascii_ && !words_.next_line())
-    words_.fail("wanted {} {} of {}, got the end of the file", name, i + 1, count);
+    words_.fail("wanted {} {} of {}, got the end of the file", excerpt(name), i + 1, count);
 }
 
 void Values::end() {
@@ -162,7 +162,7 @@ int PlyReader::read_count(const PlyProperty& list) {
   const double count = values_.next(list.count_type);
   // every item of a list is a byte at least, so the file's size bounds their number
   if (!(count >= 0 && count <= 1 << 30))
-    values_.fail("wanted a count of {} from 0 on, got {}", list.name, count);
+    values_.fail("wanted a count of {} from 0 on, got {}", excerpt(list.name), count);
   return static_cast<int>(count);
 }
 
@@ -233,7 +233,7 @@ void PlyReader::read_faces(const PlyElement& element, bool strips) {
   int list = element.find("vertex_indices");
   if (list < 0) list = element.find("vertex_index");
   if (list < 0 || !element.properties[list].list)
-    values_.fail("wanted a list vertex_indices of every {}, got none", element.name);
+    values_.fail("wanted a list vertex_indices of every {}, got none", excerpt(element.name));
   std::vector<int> paint(element.properties.size(), -1);
   int channels = 0;
   for (size_t k = 0; k < paint.size(); ++k)

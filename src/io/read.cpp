@@ -58,7 +58,7 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
   for (const PlacedBody& placed : world.bodies)
     if (placed.role == Role::object && told.insert(placed.body.file).second)
       doubt_object(placed.body,
-                   fmt::format("{}: '{}'", found.filename().string(), placed.body.name),
+                   fmt::format("{}: '{}'", found.filename().string(), excerpt(placed.body.name)),
                    options.listeners());
   world.source = path.generic_string();
   return world;

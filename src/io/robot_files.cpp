@@ -1,6 +1,6 @@
 #include "io/robot_files.h"
 
-#include "base/error.h"
+#include "base/text.h"
 #include "io/eigengrasps.h"
 #include "io/glove_files.h"
 #include "io/virtual_contacts.h"
@@ -54,9 +54,9 @@ static void note_other_robot(const RobotSpec& robot, const ReadOptions& options)
   if (!options.note || !robot.virtual_contacts) return;
   const std::string& other = robot.virtual_contacts->robot;
   if (other != robot.name)
-    options.note(
-        fmt::format("{}: virtual contacts made for '{}' are used for '{}'",
-                    fs::path(robot.files.virtual_contacts).filename().string(), other, robot.name));
+    options.note(fmt::format("{}: virtual contacts made for '{}' are used for '{}'",
+                             fs::path(robot.files.virtual_contacts).filename().string(),
+                             excerpt(other), excerpt(robot.name)));
 }
 
 void read_robot_files(RobotSpec& robot, const NamedFiles& names, const fs::path& path,

@@ -394,7 +394,7 @@ void XmlRobotReader::read_files() {
 RobotSpec read_robot_xml(const fs::path& path, Library& library) {
   const XmlFile file(path);
   const XmlElement root = file.root();
-  if (root.name() != "robot") root.fail("wanted a <robot>, got <{}>", root.name());
+  if (root.name() != "robot") root.fail("wanted a <robot>, got <{}>", excerpt(root.name()));
   return XmlRobotReader(root, path, library).read();
 }
 

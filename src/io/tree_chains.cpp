@@ -96,14 +96,14 @@ void ChainMaker::widen_followers() {
       continue;
     }
     library_.warn(
-        slips
-            ? fmt::format("{}: joint '{}' follows '{}' {}, and its own limits {} would stop "
-                          "that; they are not used",
-                          joint.place, joint.name, leader.name, way_text(low, high),
-                          limits_text(joint.min, joint.max))
-            : fmt::format("{}: joint '{}' follows '{}', and its own limits {} have no value in "
-                          "common with those of others that follow it; they are not used",
-                          joint.place, joint.name, leader.name, limits_text(joint.min, joint.max)));
+        slips ? fmt::format("{}: joint '{}' follows '{}' {}, and its own limits {} would stop "
+                            "that; they are not used",
+                            joint.place, excerpt(joint.name), excerpt(leader.name),
+                            way_text(low, high), limits_text(joint.min, joint.max))
+              : fmt::format("{}: joint '{}' follows '{}', and its own limits {} have no value in "
+                            "common with those of others that follow it; they are not used",
+                            joint.place, excerpt(joint.name), excerpt(leader.name),
+                            limits_text(joint.min, joint.max)));
     // a leader that stands still must not be moved by rounding
     const double slack = high - low < 1e-9 ? 1e-9 * std::max(1.0, std::abs(low)) : 0;
     joint.min = low - slack;

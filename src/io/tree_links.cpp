@@ -72,7 +72,7 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
   std::string first_open;
   for (size_t i = 0; i < tree.links.size(); ++i) {
     BodySpec& body = tree.links[i].body;
-    const std::string subject = fmt::format("{}: link '{}'", file, body.name);
+    const std::string subject = fmt::format("{}: link '{}'", file, excerpt(body.name));
     const auto visual = geometry.merge(pieces[i].visual, subject);
     const auto collision = any ? geometry.merge(pieces[i].collision, subject) : visual;
     body.shape = collision.shape;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "base/text.h"
 
 namespace clench {
 
@@ -17,14 +17,15 @@ void resolve_leaders(TreeModel& tree) {
   const int count = static_cast<int>(tree.joints.size());
   for (auto& joint : tree.joints) {
     if (joint.leader == &joint - tree.joints.data())
-      fail("{}: joint '{}' follows itself", joint.place, joint.name);
+      fail("{}: joint '{}' follows itself", joint.place, excerpt(joint.name));
     const std::string first = joint.leader < 0 ? "" : tree.joints[joint.leader].name;
     int steps = 0;
     while (joint.leader >= 0 && tree.joints[joint.leader].leader >= 0) {
       const TreeJoint& before = tree.joints[joint.leader];
       // a row of leaders that is longer than there are joints runs in a circle
       if (++steps > count)
-        fail("{}: joint '{}' follows itself by way of '{}'", joint.place, joint.name, first);
+        fail("{}: joint '{}' follows itself by way of '{}'", joint.place, excerpt(joint.name),
+             excerpt(first));
       joint.offset += joint.ratio * before.offset;
       joint.ratio *= before.ratio;
       joint.leader = before.leader;

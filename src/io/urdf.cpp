@@ -148,7 +148,7 @@ void UrdfReader::read_inertial(const XmlElement& element, BodySpec& body, LinkPi
     pieces.has_inertial = true;
   } catch (const Error& error) {
     library_.warn(
-        fmt::format("{}; the inertial of link '{}' is not used", error.what(), body.name));
+        fmt::format("{}; the inertial of link '{}' is not used", error.what(), excerpt(body.name)));
   }
 }
 
@@ -210,13 +210,14 @@ std::optional<GeometryPiece> UrdfReader::read_piece(const XmlElement& element,
     if (std::find(std::begin(kinds), std::end(kinds), child.name()) == std::end(kinds))
       unused_.element(child);
     else if (shape)
-      child.fail("link '{}': wanted one shape in a geometry, got a second, <{}>", link,
-                 child.name());
+      child.fail("link '{}': wanted one shape in a geometry, got a second, <{}>", excerpt(link),
+                 excerpt(child.name()));
     else
       shape = child;
   }
   if (!shape)
-    geometry.fail("link '{}': wanted a box, sphere, cylinder, capsule or mesh, got none", link);
+    geometry.fail("link '{}': wanted a box, sphere, cylinder, capsule or mesh, got none",
+                  excerpt(link));
   unused_.attributes(shape, {"size", "radius", "length", "filename", "scale"});
   auto piece = read_geometry_of(shape, visual);
   if (!piece) return {};
@@ -233,7 +234,8 @@ void UrdfReader::read_link(const XmlElement& element) {
   if (link.body.name.empty()) element.fail("link: wanted a name, got nothing");
   const auto [other, is_new] =
       link_numbers_.emplace(link.body.name, static_cast<int>(links_.size()));
-  if (!is_new) element.fail("link '{}': there is another one of this name", link.body.name);
+  if (!is_new)
+    element.fail("link '{}': there is another one of this name", excerpt(link.body.name));
   if (links_.size() >= most_links) element.fail("wanted at most {} links", most_links);
   unused_.attributes(element, {"name"});
   LinkPieces pieces;
@@ -271,18 +273,19 @@ void UrdfReader::read_joint_names(const XmlElement& element) {
   if (joints_.size() >= most_joints) element.fail("wanted at most {} joints", most_joints);
   for (const FileJoint& other : joints_)
     if (other.name == joint.name)
-      element.fail("joint '{}': there is another one of this name", joint.name);
+      element.fail("joint '{}': there is another one of this name", excerpt(joint.name));
   element.wanted_attribute("type");
   joint.type = XmlValues(element).word(
       "type", {"revolute", "continuous", "prismatic", "fixed", "floating", "planar"}, "");
   joint.parent = link_of(element, "parent");
   joint.child = link_of(element, "child");
   if (links_[joint.child].parent >= 0)
-    element.fail("joint '{}': link '{}' has a parent already, '{}'", joint.name,
-                 links_[joint.child].body.name, links_[links_[joint.child].parent].body.name);
+    element.fail("joint '{}': link '{}' has a parent already, '{}'", excerpt(joint.name),
+                 excerpt(links_[joint.child].body.name),
+                 excerpt(links_[links_[joint.child].parent].body.name));
   if (joint.parent == joint.child)
-    element.fail("joint '{}': wanted two links, got '{}' twice", joint.name,
-                 links_[joint.child].body.name);
+    element.fail("joint '{}': wanted two links, got '{}' twice", excerpt(joint.name),
+                 excerpt(links_[joint.child].body.name));
   links_[joint.child].parent = joint.parent;
   unused_.attributes(element, {"name", "type"});
   for (const auto& child : element.children()) {
@@ -303,8 +306,8 @@ void UrdfReader::order_links() {
   if (roots.empty()) xml_.root().fail("robot: every link has a parent: its joints run in a circle");
   if (roots.size() > 1)
     xml_.root().fail("robot: wanted one link without a parent, got {}: '{}' and '{}'{}",
-                     roots.size(), links_[roots[0]].body.name, links_[roots[1]].body.name,
-                     roots.size() > 2 ? " among them" : "");
+                     roots.size(), excerpt(links_[roots[0]].body.name),
+                     excerpt(links_[roots[1]].body.name), roots.size() > 2 ? " among them" : "");
   std::vector<std::vector<const FileJoint*>> below(links_.size());
   for (const FileJoint& joint : joints_) below[joint.parent].push_back(&joint);
   std::vector<LinkPieces> pieces;
@@ -341,8 +344,8 @@ void UrdfReader::read_axis(const FileJoint& from, TreeJoint& joint) {
   const Eigen::Vector3d axis =
       element ? XmlValues(element).vec3("xyz", {1, 0, 0}) : Eigen::Vector3d(1, 0, 0);
   if (!(axis.stableNorm() > 1e-9))
-    element.fail("joint '{}': axis: wanted a direction, got ({}, {}, {})", joint.name, axis.x(),
-                 axis.y(), axis.z());
+    element.fail("joint '{}': axis: wanted a direction, got ({}, {}, {})", excerpt(joint.name),
+                 axis.x(), axis.y(), axis.z());
   joint.axis = axis.stableNormalized();
 }
 
@@ -361,14 +364,15 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
       joint.min = values.number("lower", 0);
       joint.max = values.number("upper", 0);
       if (joint.min > joint.max)
-        element.fail("joint '{}': lower {} exceeds upper {} [{}]", joint.name, joint.min, joint.max,
-                     unit);
+        element.fail("joint '{}': lower {} exceeds upper {} [{}]", excerpt(joint.name), joint.min,
+                     joint.max, unit);
       return;
     }
   }
-  note(from.element, fmt::format("joint '{}' {}; it may go from {:.4g} to {:.4g} {}", joint.name,
-                                 from.type == "continuous" ? "turns without end" : "has no limits",
-                                 joint.min, joint.max, unit));
+  note(from.element,
+       fmt::format("joint '{}' {}; it may go from {:.4g} to {:.4g} {}", excerpt(joint.name),
+                   from.type == "continuous" ? "turns without end" : "has no limits", joint.min,
+                   joint.max, unit));
 }
 
 TreeJoint UrdfReader::read_joint(const FileJoint& from) {
@@ -393,7 +397,7 @@ void UrdfReader::read_mimics() {
     if (!mimic) continue;
     const auto self = joint_numbers_.find(from.name);
     if (self == joint_numbers_.end()) {
-      warn(mimic, fmt::format("joint '{}' does not move, and mimics nothing", from.name));
+      warn(mimic, fmt::format("joint '{}' does not move, and mimics nothing", excerpt(from.name)));
       continue;
     }
     const XmlValues values(mimic);
@@ -402,7 +406,7 @@ void UrdfReader::read_mimics() {
     if (leader == joint_numbers_.end()) {
       std::vector<std::string> known;
       for (const auto& [joint, number] : joint_numbers_) known.push_back(joint);
-      mimic.fail("joint '{}': mimic: no joint that moves is called {}{}", from.name,
+      mimic.fail("joint '{}': mimic: no joint that moves is called {}{}", excerpt(from.name),
                  in_quotes(name), did_you_mean(name, known));
     }
     TreeJoint& joint = tree_.joints[self->second];
@@ -410,8 +414,8 @@ void UrdfReader::read_mimics() {
     joint.ratio = values.number("multiplier", 1);
     joint.offset = values.number("offset", 0);
     if (joint.ratio == 0)
-      warn(mimic, fmt::format("joint '{}': its multiplier is 0; it stays at {}", joint.name,
-                              joint.offset));
+      warn(mimic, fmt::format("joint '{}': its multiplier is 0; it stays at {}",
+                              excerpt(joint.name), joint.offset));
   }
 }
 
@@ -435,7 +439,7 @@ RobotSpec UrdfReader::read() {
   for (const FileJoint& joint : joints_) {
     if (joint.type == "floating" || joint.type == "planar")
       warn(joint.element, fmt::format("joint '{}' is {}; its link stays where the file puts it",
-                                      joint.name, joint.type));
+                                      excerpt(joint.name), joint.type));
     else if (joint.type != "fixed") {
       joint_numbers_[joint.name] = static_cast<int>(tree_.joints.size());
       tree_.joints.push_back(read_joint(joint));

@@ -146,7 +146,7 @@ WorldSpec read_world_xml(const fs::path& path, Library& library) {
   const XmlElement root = file.root();
   if (root.name() == "robot")
     root.fail("wanted a <world>, got a <robot>: a robot is added to a world");
-  if (root.name() != "world") root.fail("wanted a <world>, got <{}>", root.name());
+  if (root.name() != "world") root.fail("wanted a <world>, got <{}>", excerpt(root.name()));
   return XmlWorldReader(root, path, library).read();
 }
 

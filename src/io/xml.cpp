@@ -104,7 +104,7 @@ XmlElement XmlElement::child(std::string_view name) const {
 
 XmlElement XmlElement::wanted(std::string_view name) const {
   if (const XmlElement found = child(name)) return found;
-  fail("{}: wanted an element <{}>, got none", this->name(), name);
+  fail("{}: wanted an element <{}>, got none", this->name(), excerpt(name));
 }
 
 std::vector<XmlElement> XmlElement::children(std::string_view name) const {
@@ -118,7 +118,7 @@ std::string XmlElement::loose_text() const { return own_text(*element_); }
 
 std::string XmlElement::text() const {
   if (auto* inner = element_->FirstChildElement())
-    fail("{}: wanted text, got an element <{}>", name(), inner->Name());
+    fail("{}: wanted text, got an element <{}>", name(), excerpt(inner->Name()));
   return own_text(*element_);
 }
 
@@ -176,7 +176,7 @@ std::optional<std::string> XmlElement::attribute(std::string_view name) const {
 
 std::string XmlElement::wanted_attribute(std::string_view name) const {
   if (auto value = attribute(name)) return *value;
-  fail("{}: wanted an attribute '{}', got none", this->name(), name);
+  fail("{}: wanted an attribute '{}', got none", this->name(), excerpt(name));
 }
 
 std::vector<std::string> XmlElement::attributes() const {
@@ -205,18 +205,19 @@ void XmlElement::check(const XmlKnown& known,
     const std::string child(e.name());
     if (!contains(names, child))
       warn(fmt::format("{}: unknown element <{}> in <{}> is not used{}", e.place(),
-                       child.substr(0, 40), name(), did_you_mean(child, names)));
+                       child.substr(0, 40), excerpt(name()), did_you_mean(child, names)));
     else if (contains(seen, child))
-      warn(fmt::format("{}: <{}> stands in <{}> again; the first one counts", e.place(), child,
-                       name()));
+      warn(fmt::format("{}: <{}> stands in <{}> again; the first one counts", e.place(),
+                       excerpt(child), excerpt(name())));
     if (contains(known.once, child)) seen.push_back(child);
   }
   for (const std::string& attribute : attributes())
     if (!contains(known.attributes, attribute))
       warn(fmt::format("{}: unknown attribute '{}' of <{}> is not used{}", place(),
-                       attribute.substr(0, 40), name(), did_you_mean(attribute, known.attributes)));
+                       attribute.substr(0, 40), excerpt(name()),
+                       did_you_mean(attribute, known.attributes)));
   if (const std::string own = own_text(*element_); !own.empty() && !names.empty())
-    warn(fmt::format("{}: text {} in <{}> is not used", place(), in_quotes(own), name()));
+    warn(fmt::format("{}: text {} in <{}> is not used", place(), in_quotes(own), excerpt(name())));
 }
 
 // --- files ---
@@ -233,7 +234,7 @@ XmlFile::XmlFile(std::string file, const std::string& text, size_t most_bytes)
   if (!root) fail("{}: wanted an XML element, got none", file_);
   if (const auto* second = root->NextSiblingElement())
     fail("{}:{}: wanted one outermost element, got a second, <{}>", file_, second->GetLineNum(),
-         second->Name());
+         excerpt(second->Name()));
 }
 
 XmlFile::~XmlFile() = default;

@@ -1,0 +1,126 @@
+// Messages quote at most 40 characters of any one place of a file, whatever is wrong with it.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "io/eigengrasps.h"
+#include "io/file_kind.h"
+#include "io/glove_files.h"
+#include "io/grasp_lists.h"
+#include "io/virtual_contacts.h"
+#include "temporary.h"
+
+using namespace clench;
+using namespace clench::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// No 41 characters of it stand in it twice.
+std::string long_word(const std::string& letters) {
+  std::string out;
+  for (size_t i = 0; out.size() < 120; ++i) out += letters[(i * i / 3 + i) % letters.size()];
+  return out;
+}
+
+bool quotes_too_much(const std::string& message, const std::string& word) {
+  for (size_t i = 0; i + max_excerpt < word.size(); ++i)
+    if (message.find(word.substr(i, max_excerpt + 1)) != std::string::npos) return true;
+  return false;
+}
+
+void read_kind(const fs::path& file, const ReadOptions& options) {
+  switch (file_kind(file)) {
+    case FileKind::world:
+      read_world(file, options);
+      break;
+    case FileKind::robot:
+      read_robot(file, options);
+      break;
+    case FileKind::body:
+      read_body(file, options);
+      break;
+    case FileKind::eigengrasps:
+      read_eigengrasps(file, options);
+      break;
+    case FileKind::virtual_contacts:
+      read_virtual_contacts(file, options);
+      break;
+    case FileKind::object_contacts:
+      read_object_contacts(file, options);
+      break;
+    case FileKind::pregrasps:
+      read_pregrasps(file, options);
+      break;
+    case FileKind::planned_grasps:
+      read_planned_grasps(file, options);
+      break;
+    case FileKind::glove_calibration:
+      read_glove_calibration(file, options);
+      break;
+    case FileKind::glove_poses:
+      read_glove_poses(file, options);
+  }
+}
+
+/// All that reading says.
+std::vector<std::string> told(const fs::path& file, const fs::path& folder) {
+  std::vector<std::string> list;
+  ReadOptions options;
+  options.root = options.folder = folder;
+  options.packages[""] = folder;
+  options.warn = options.note = [&](const std::string& sentence) { list.push_back(sentence); };
+  try {
+    read_kind(file, options);
+  } catch (const Error& error) {
+    list.emplace_back(error.what());
+  }
+  return list;
+}
+
+/// Where words, names and values begin and end.
+std::vector<std::pair<size_t, size_t>> words_of(const std::string& text) {
+  constexpr const char* between = " \t\r\n<>=\"'/,:;[]{}()";
+  std::vector<std::pair<size_t, size_t>> out;
+  for (size_t end = 0;;) {
+    const size_t begin = text.find_first_not_of(between, end);
+    if (begin == std::string::npos) return out;
+    end = std::min(text.find_first_of(between, begin), text.size());
+    out.emplace_back(begin, end);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("no message quotes more than 40 characters of a word, wherever it stands in a file") {
+  const TemporaryFolder folder;
+  const std::string words[] = {long_word("abcdefghijklmnopqrstuvwxyz"), long_word("1234567890")};
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator("tests/data"))
+    if (entry.is_regular_file() && entry.file_size() < 1500) files.push_back(entry.path());
+  std::ranges::sort(files);
+  std::set<std::string> leaks;
+  int changed = 0;
+  for (const fs::path& file : files) {
+    const std::string ending = ending_of(file), text = read_bytes(file);
+    // Coin's own words about Inventor files are not ours to cut
+    if (ending == ".lua" || ending == ".txt" || is_inventor(file)) continue;
+    const auto places = words_of(text);
+    // some of the many, others in each file
+    for (size_t i = files.size() % 3; i < places.size(); i += 1 + places.size() / 3) {
+      for (const std::string& word : words) {
+        std::string spoilt = text;
+        spoilt.replace(places[i].first, places[i].second - places[i].first, word);
+        const fs::path copy = folder.write("copy" + ending, spoilt);
+        ++changed;
+        for (const std::string& message : told(copy, file.parent_path()))
+          if (quotes_too_much(message, word)) leaks.insert(file.string() + " | " + message);
+      }
+    }
+  }
+  CHECK(changed > 300);
+  for (const std::string& leak : leaks) CHECK_MESSAGE(false, leak);
+}
