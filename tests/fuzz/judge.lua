@@ -23,7 +23,7 @@ end
 -- infinite where there is no limit, or nothing to measure, as the docs say
 local endless = {
   ["patch.radii"] = true, ["patch.relative_radii"] = true, ["robot.dof_limits"] = true, ["eigengrasps.limits"] = true,
-  ["eigengrasps.range"] = true, ["grasp:quality"] = true,
+  ["eigengrasps.range"] = true, ["grasp:quality"] = true, ["world:distance"] = true,
 }
 
 local function is_odd(value, may_be_infinite)
