@@ -24,7 +24,7 @@ static int new_world(lua_State* L) {
   check_count(L, 1);
   Table options(L, 1);
   const auto world = std::make_shared<World>();
-  world->set_contact_threshold(options.positive("contact_threshold", world->contact_threshold()));
+  world->set_contact_threshold(options.number("contact_threshold", world->contact_threshold()));
   options.done();
   return push_world(L, world);
 }

@@ -55,7 +55,7 @@ int set_camera(lua_State* L) {
   Camera camera;
   if (options.has("pose")) {
     camera.X_WC = options.pose("pose");
-    camera.focal_distance = options.positive("focal_distance", camera.focal_distance);
+    camera.focal_distance = options.number("focal_distance", camera.focal_distance);
   } else {
     camera = looking(options);
   }

@@ -174,9 +174,9 @@ static void check_sets(const RobotSpec& robot) {
 static void check_bodies(const RobotSpec& robot) {
   for (const std::string* name : {&robot.class_name, &robot.database_name})
     check_name(*name, robot.name);
-  check_body(robot.base, robot.name + ":");
+  check_body(robot.base, robot.name + ": base");
   for (const ChainSpec& chain : robot.chains)
-    for (const LinkSpec& link : chain.links) check_body(link.body, robot.name + ":");
+    for (const LinkSpec& link : chain.links) check_body(link.body, robot.name + ": link");
   if (robot.X_BA) check_place(*robot.X_BA, robot.name + ": approach");
   if (robot.tracker) check_place(robot.tracker->X_BS, robot.name + ": tracker");
 }

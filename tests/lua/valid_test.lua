@@ -58,7 +58,7 @@ local quantities = {
    file = function(x)
      with_file(".iv", "#Inventor V2.1 ascii\n" .. box, function(path)
        local name = path:match "[^/]*$"
-       with_file(".wld", ("#GraspIt! version 2.1\nBody\n%s\nT (1 0 0 0)[0 %s 0]\n"):format(name, written(x)), clench.load)
+       with_file(".wld", ("#GraspIt! version 2.1\nGraspableBody\n%s\nT (1 0 0 0)[0 %s 0]\n"):format(name, written(x)), clench.load)
      end)
    end,
    option = function(x) a_box {pose = {xyz = {0, x, 0}}} end, field = function(x) a_box().pose = {xyz = {0, x, 0}} end},
@@ -132,7 +132,7 @@ test("names of things made in a script have no control characters", function(t)
   local world = clench.world()
   local bad = "a\27[31mb"
   t.fails(function() world:add_object(clench.shapes.box {1, 1, 1}, {name = bad}) end,
-          "world:add_object: name: wanted no control characters, got 'a?[31mb'")
+          "world:add_object: body: name: wanted no control characters, got 'a?[31mb'")
   local body = world:add_object(clench.shapes.box {1, 1, 1})
   t.fails(function() body.name = "a\nb" end, "name: wanted no control characters, got 'a?b'")
   t.fails(function() body.name = "\xff" end, "name: wanted text in UTF-8")

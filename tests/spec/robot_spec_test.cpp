@@ -91,7 +91,7 @@ TEST_CASE("what is out of order in a robot is told by place") {
   refused([](RobotSpec& r) { r.dofs[0].default_velocity = -1e31; },
           "arm: DOF 0: default velocity: wanted a number from -1e+30 to 1e+30, got -1e+31");
   refused([](RobotSpec& r) { r.base.mass = 1e31; },
-          "arm: '': mass: wanted a number from 1e-12 to 1e+12 [kg], got 1e+31");
+          "arm: base '': mass: wanted a number from 1e-12 to 1e+12 [kg], got 1e+31");
   refused([](RobotSpec& r) { r.dofs[0].max_effort = -1; },
           "arm: DOF 0: max effort: wanted a number from 0 to 1e+30, got -1");
   refused([](RobotSpec& r) { r.dofs[0].breakaway_torque = -1; },
