@@ -20,7 +20,7 @@ return function(given)
       local p = ring[k]
       for axis = 1, 3 do
         local x = type(p) == "table" and p[axis]
-        if type(x) ~= "number" or x ~= x or math.abs(x) == math.huge then
+        if type(x) ~= "number" or not (math.abs(x) <= o.largest) then
           o:wanted(("%s[%d]"):format(name, k), "a point {x, y, z}", p)
         end
       end

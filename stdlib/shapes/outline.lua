@@ -31,7 +31,7 @@ return function(given)
     local p = o:raw(i)
     for k = 1, 3 do
       local x = type(p) == "table" and (p[k] or k == 3 and rounding)
-      if type(x) ~= "number" or x ~= x or math.abs(x) == math.huge or (k == 3 and x < 0) then
+      if type(x) ~= "number" or not (math.abs(x) <= o.largest) or (k == 3 and x < 0) then
         o:wanted("corner " .. i, "{x, y} or {x, y, radius >= 0}", p)
       end
     end

@@ -103,7 +103,7 @@ local function read_section(o, count)
   end
   for i = 1, count do
     radii[i] = profile and 1 or list and radius[i] or radius
-    if type(radii[i]) ~= "number" or not (radii[i] > 0 and radii[i] < math.huge) then
+    if type(radii[i]) ~= "number" or not (radii[i] > 0 and radii[i] <= o.largest) then
       o:wanted(list and "radius[" .. i .. "]" or "radius", "a number > 0", radii[i])
     end
   end

@@ -243,7 +243,7 @@ test("bad numbers are refused with what was wanted and what was got", function(t
   t.fails(function() shapes.capsule {3, 1, top = 1} end, "differ by less than the length, 1, got 3 and 1")
   t.fails(function() shapes.torus {1e300, 1} end, "radius must be a number of at most 1e+09, got 1e+300")
   t.fails(function() shapes.loft {{{0, 0, 0}, {1e200, 0, 0}, {0, 1e200, 0}}, {{0, 0, 1e200}}} end,
-          "wanted a solid, got one whose volume is no number")
+          "shapes.loft: ring 1[2] must be a point {x, y, z}")
   t.fails(function() shapes.torus {1, 1} end, "tube must be smaller than radius, 1, got 1")
 end)
 
