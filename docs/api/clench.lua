@@ -154,7 +154,7 @@ function world:colliding(a, b) end
 ---Least distance of two things, 0 when they collide, with the closest points in the world frame.
 ---@param a body|robot
 ---@param b body|robot
----@return number distance # [m]
+---@return number distance # [m]; infinite where one has no surface
 ---@return vec3 on_a
 ---@return vec3 on_b
 function world:distance(a, b) end
@@ -194,12 +194,12 @@ local snapshot = {}
 ---@field material string # Name of its material, which decides how it rubs.
 ---@field mass number # Its mass. [kg]
 ---@field com vec3 # Centre of mass in the body frame. Setting it takes an inertia that comes from its shape to the new centre; one that was given stays. [m]
----@field inertia number[][] # Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. [kg m^2]
+---@field inertia number[][] # Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the sum of the others: no body has such an inertia. [kg m^2]
 ---@field mesh mesh? # Its surface; nil when it has none.
 ---@field mesh_report table? # What was done to the triangles of its file: lines of text, and the same as fields `format`, `unit` [m], `unit_from` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `turned` (was it inside out?). Nil when it has no mesh, or none from a file.
 ---@field elastic_modulus number? # Young's modulus; nil when it is rigid. [Pa]
 ---@field soft_layer number # Height of the soft layer of an elastic body. [m]
----@field poisson_ratio number # Poisson's ratio of an elastic body, in [0, 0.5): its layer gives way by modulus / (1 - ratio^2).
+---@field poisson_ratio number # Poisson's ratio of an elastic body, below 0.5: its layer gives way by modulus / (1 - ratio^2).
 ---@field contacts contact[] # Where others touch it now.
 ---@field color number[] # Colour in pictures: red, green and blue in 0..1.
 ---@field transparency number # From 0, opaque, to 1, invisible.
@@ -595,7 +595,7 @@ function clench.mm(millimetres) end
 ---@return vec3
 function clench.vec3(x, y, z) end
 
----A rigid transform: the pose of one frame in another. The rotation is given one way at most.
+---A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given one way at most.
 ---@param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][]} # xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4
 ---@return pose
 function clench.pose(options) end
