@@ -510,7 +510,7 @@ function wrench_space:epsilon() end
 ---@return {lower: number, upper: number, converged: boolean, reached?: boolean} # converged: within the tolerance; reached: lower >= at_least
 function wrench_space:epsilon_bounds(options) end
 
----Volume in the coordinates that count; 0 when the space is flat. With round cones the middle of volume_bounds. In "Linf" six hard contacts of eight edges or three soft ones are about the most: beyond 100,000 cells it is an error that says so.
+---Volume in the coordinates that count; 0 when the space is flat. With round cones the middle of volume_bounds. In "Linf" five hard contacts of eight edges or three soft ones are about the most: beyond 60,000 cells it is an error that says so.
 ---@return number
 function wrench_space:volume() end
 

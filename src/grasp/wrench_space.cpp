@@ -39,8 +39,8 @@ constexpr double carries = 1e-9;
 
 constexpr int most_facets = 1'000'000;
 
-// Cells of a sum take some 15 us each: at most a second and a half.
-constexpr int max_cells = 100'000;
+// Cells of a sum take some 15 to 30 us each: a second or two at most.
+constexpr int max_cells = 60'000;
 
 // Around a curved set whose nearest points to the origin are many, brackets close slowly: so many facets take a
 // third of a second and 160 MB, and what they certify is what there is.

@@ -80,7 +80,7 @@ class WrenchSpace {
   EpsilonBounds epsilon_bounds(const EpsilonOptions& options) const;
   /// Of the space in its coordinates; 0 when it is flat. With round cones the middle of its bounds.
   /// throws  Error when the hull has more than a million facets or, in L-infinity, the sum more than
-  ///         100,000 cells, which is known within some two seconds: six hard contacts of eight edges or
+  ///         60,000 cells, which is known within some two seconds: five hard contacts of eight edges or
   ///         three soft ones have fewer
   double volume() const;
   /// edges   of the pyramids for round cones, 4 to most_edges; a soft contact's are those of

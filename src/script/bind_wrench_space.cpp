@@ -273,8 +273,8 @@ is known whether epsilon reaches at_least.
 > bounds.lower <= bounds.upper and bounds.upper <= bounds.lower + 1e-3  --> true
 > grasp:wrench_space():epsilon_bounds{at_least = 1}.reached  --> false)"},
     {"volume", guarded<volume>, R"(
-Volume in the coordinates that count; 0 when the space is flat. With round cones the middle of volume_bounds. In "Linf" six hard
-contacts of eight edges or three soft ones are about the most: beyond 100,000 cells it is an error that says so.
+Volume in the coordinates that count; 0 when the space is flat. With round cones the middle of volume_bounds. In "Linf" five hard
+contacts of eight edges or three soft ones are about the most: beyond 60,000 cells it is an error that says so.
 @return number
 > grasp:wrench_space():volume() == grasp:quality "volume"  --> true)"},
     {"volume_bounds", guarded<volume_bounds>, R"(

@@ -108,11 +108,11 @@ TEST_CASE("random pairs, triples and fours have one volume however they lie") {
     CHECK(volume > 0);
     CHECK(volume_of(elsewhere(summands, random)) == doctest::Approx(volume).epsilon(1e-10));
   };
-  for (int trial = 0; trial < test::cases(20); ++trial) {
+  for (int trial = 0; trial < test::cases(8); ++trial) {
     check(pyramids(random_contacts(random, 2, true), 8));
     check(pyramids(random_contacts(random, 3, false), 8));
   }
-  for (int trial = 0; trial < test::cases(3); ++trial)
+  for (int trial = 0; trial < 1; ++trial)
     check(pyramids(random_contacts(random, 4, false), 8));
 }
 

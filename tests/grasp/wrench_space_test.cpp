@@ -828,7 +828,7 @@ TEST_CASE("hulls that do not exist or are too large are refused") {
   CHECK_THROWS_WITH_AS(sums.hull(), "wrench space: no hull of points in L-infinity", Error);
   CHECK_THROWS_WITH_AS(
       sums.volume(),
-      "wrench space: volume: in L-infinity the space of 6 contacts has more than 100000 cells; give "
+      "wrench space: volume: in L-infinity the space of 6 contacts has more than 60000 cells; give "
       "fewer edges",
       Error);
   // a cyclic polytope of n corners has n (n - 4) (n - 5) / 6 facets
