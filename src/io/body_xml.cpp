@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "io/inertia.h"
+#include "io/mends.h"
 #include "io/transform_xml.h"
 #include "spec/material_names.h"
 
@@ -19,23 +20,27 @@ const XmlKnown known = {.once = {"material", "youngs", "normalCompliance", "shea
                                  "geometryScalingX", "geometryScalingY", "geometryScalingZ",
                                  "geometryOffset", "mass", "cog", "inertia_matrix"}};
 
-double number_of(const XmlElement& element, const Quantity& quantity) {
-  const double value = element.number();
+double number_of(const XmlElement& element, const Quantity& quantity, Mends& mends) {
+  const double value =
+      mends.magnitude(element.number(), fmt::format("{}: {}", element.place(), element.name()));
   if (const auto wrong = fault(quantity, value); !wrong.empty())
     element.fail("{}: {}", element.name(), wrong);
   return value;
 }
 
 /// Factors along x, y and z.
-Eigen::Vector3d read_scaling(const XmlElement& body) {
+Eigen::Vector3d read_scaling(const XmlElement& body, Mends& mends) {
   Eigen::Vector3d scaling = Eigen::Vector3d::Ones();
   const XmlElement all = body.child("geometryScaling");
-  if (all) scaling.setConstant(number_of(all, scale_rule));
+  if (all) scaling.setConstant(number_of(all, scale_rule, mends));
   constexpr const char* names[] = {"geometryScalingX", "geometryScalingY", "geometryScalingZ"};
   for (int i = 0; i < 3; ++i)
     if (const XmlElement one = body.child(names[i])) {
-      if (all) one.fail("{}: wanted it or geometryScaling, got both", names[i]);
-      scaling[i] = number_of(one, scale_rule);
+      if (all)
+        mends.add("scaling", fmt::format("{}: {} and geometryScaling are given; {} is used for its "
+                                         "axis",
+                                         one.place(), names[i], names[i]));
+      scaling[i] = number_of(one, scale_rule, mends);
     }
   return scaling;
 }
@@ -81,22 +86,20 @@ Geometry read_scaled(const XmlElement& element, const PlacedFile& file, Library&
   return geometry;
 }
 
-void read_compliance(const XmlElement& body, const Library& library) {
+void read_compliance(const XmlElement& body, const Library& library, Mends& mends) {
   const std::array both = {body.child("normalCompliance"), body.child("shearCompliance")};
   for (int i = 0; i < 2; ++i) {
     if (!both[i]) continue;
-    number_of(both[i], positive_rule);
-    if (!both[1 - i])
-      both[i].fail("{}: wanted normalCompliance and shearCompliance, or neither", both[i].name());
-    if (i == 0)
+    number_of(both[i], positive_rule, mends);
+    if (i == 0 || !both[0])
       library.warn(
           fmt::format("{}: normalCompliance and shearCompliance are not used", both[i].place()));
   }
 }
 
-void read_mass(const XmlElement& body, const Library& library, BodySpec& out) {
+void read_mass(const XmlElement& body, const Library& library, Mends& mends, BodySpec& out) {
   if (const XmlElement mass = body.child("mass"))
-    out.mass = number_of(mass, mass_rule.in("g", units::gram)) * units::gram;
+    out.mass = number_of(mass, mass_rule.in("g", units::gram), mends) * units::gram;
   if (const XmlElement cog = body.child("cog")) {
     out.com = cog.vector() * units::millimetre;
     check(coordinate_rule.called("cog"), *out.com, cog.place());
@@ -109,7 +112,7 @@ void read_mass(const XmlElement& body, const Library& library, BodySpec& out) {
   }
 }
 
-void read_matter(const XmlElement& body, const Library& library, BodySpec& out) {
+void read_matter(const XmlElement& body, const Library& library, Mends& mends, BodySpec& out) {
   if (const XmlElement material = body.child("material")) {
     out.material = material.text();
     try {
@@ -119,14 +122,14 @@ void read_matter(const XmlElement& body, const Library& library, BodySpec& out) 
     }
   }
   if (const XmlElement youngs = body.child("youngs")) {
-    out.elastic_modulus = number_of(youngs, elastic_modulus_rule);
+    out.elastic_modulus = number_of(youngs, elastic_modulus_rule, mends);
     if (*out.elastic_modulus < 1e4)
       library.doubted(fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
                                   youngs.place(), *out.elastic_modulus));
   }
   if (const XmlElement bird = body.child("useFlockOfBirds"))
-    out.tracker = bird.integer(0, 1'000'000);
-  read_compliance(body, library);
+    out.tracker = mends.count(bird.text(), bird.place() + ": useFlockOfBirds");
+  read_compliance(body, library, mends);
 }
 
 }  // namespace
@@ -138,7 +141,9 @@ std::optional<PlacedFile> read_placed_file(const XmlElement& body, const fs::pat
   element.check({.attributes = {"type"}}, options.warn);
   PlacedFile out;
   out.format = read_format(element, options);
-  out.scaling = read_scaling(body);
+  Mends mends(options.listeners());
+  out.scaling = read_scaling(body, mends);
+  mends.tell();
   try {
     out.path = find_file(element.text(), path, options);
   } catch (const Error& error) {
@@ -154,8 +159,10 @@ std::optional<PlacedFile> read_placed_file(const XmlElement& body, const fs::pat
 BodySpec read_body_element(const XmlElement& element, const fs::path& path, Library& library) {
   element.check(known, library.options().warn);
   BodySpec body;
-  read_matter(element, library, body);
-  read_mass(element, library, body);
+  Mends mends(library.options().listeners());
+  read_matter(element, library, mends, body);
+  read_mass(element, library, mends, body);
+  mends.tell();
   const XmlElement file = element.child("geometryFile");
   if (!file) {
     library.doubted(fmt::format("{}: no <geometryFile>: the body is a frame without a surface",

@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 #include "base/text.h"
+#include "io/mends.h"
 #include "io/xml.h"
 
 namespace clench {
@@ -27,12 +28,53 @@ void doubt_eigenvalues(const EigengraspSet& set, const EigengraspPlaces& places,
                                   places.grasps[i], i + 1, x));
 }
 
+void tell_count(Mends& mends, const std::string& place, int declared, int given) {
+  mends.add("count", fmt::format("{}: {} DOF{} declared, and numbers of {} are given; {} are used",
+                                 place, declared, declared == 1 ? " is" : "s are", given, given));
+}
+
+/// There are at most as many as DOFs.
+void add_grasp(EigengraspSpec grasp, const std::string& place, EigengraspSet& set,
+               EigengraspPlaces& places, Mends& mends) {
+  if (static_cast<int>(set.grasps.size()) >= set.dofs) {
+    mends.add("surplus", fmt::format("{}: wanted at most {} eigengrasps, one a DOF; this one is "
+                                     "not used",
+                                     place, set.dofs));
+    return;
+  }
+  set.grasps.push_back(std::move(grasp));
+  places.grasps.push_back(place);
+}
+
 // --- text ---
+
+bool begins_block(std::string_view keyword) {
+  return keyword == "eg" || keyword == "origin" || keyword == "norm";
+}
+
+/// With how many numbers the lines of values begin, all of them at least.
+int given_dofs(const std::string& text) {
+  LineReader lines("", text);
+  std::optional<int> least;
+  while (lines.skip_to_full()) {
+    if (!begins_block(lower_case(lines.next().word(0))) || !lines.skip_to_full()) continue;
+    lines.next();  // the eigenvalue
+    if (!lines.skip_to_full()) continue;
+    const Line line = lines.next();
+    int count = 0;
+    while (parse_number(line.word(count))) ++count;
+    least = std::min(least.value_or(count), count);
+  }
+  return least.value_or(0);
+}
 
 class EgrReader {
  public:
   EgrReader(const std::string& file, std::string text, const ReadOptions& options)
-      : lines_(file, std::move(text)), options_(options) {}
+      : options_(options),
+        mends_(options.listeners()),
+        given_(given_dofs(text)),
+        lines_(file, std::move(text)) {}
   EigengraspSet read();
 
  private:
@@ -41,8 +83,10 @@ class EgrReader {
   void read_block(const std::string& keyword, const Line& line);
   void note_junk(const Line& line);
 
-  LineReader lines_;
   const ReadOptions& options_;
+  Mends mends_;
+  int given_;  // so many numbers every block begins with
+  LineReader lines_;
   EigengraspSet set_;
   EigengraspPlaces places_;
   int junk_lines_ = 0;
@@ -55,10 +99,15 @@ EigengraspSet EgrReader::read() {
     head.fail("wanted DIMENSIONS and the number of DOFs, got {}", in_quotes(head.word(0)));
   set_.dofs = head.integer(1, "DIMENSIONS", 1, most_dofs);
   warn(options_, head.surplus(2));
+  // what is declared counts for less than what all blocks have
+  if (given_ > set_.dofs && given_ <= most_dofs) {
+    tell_count(mends_, head.place(), set_.dofs, given_);
+    set_.dofs = given_;
+  }
   while (lines_.skip_to_full()) {
     const Line line = lines_.next();
     const std::string keyword = lower_case(line.word(0));
-    if (keyword == "eg" || keyword == "origin" || keyword == "norm")
+    if (begins_block(keyword))
       read_block(keyword, line);
     else
       note_junk(line);
@@ -67,6 +116,7 @@ EigengraspSet EgrReader::read() {
   if (junk_lines_ > 1)
     warn(options_,
          fmt::format("{} and {} more belong to no block and are not used", junk_, junk_lines_ - 1));
+  mends_.tell();
   check_eigengrasps(set_, lines_.file(), places_);
   doubt_eigenvalues(set_, places_, options_);
   return std::move(set_);
@@ -99,14 +149,11 @@ VectorXd EgrReader::read_values(const std::string& what) {
 void EgrReader::read_block(const std::string& keyword, const Line& line) {
   warn(options_, line.surplus(1));
   if (keyword == "eg") {
-    if (static_cast<int>(set_.grasps.size()) == set_.dofs)
-      line.fail("wanted at most {} eigengrasps, one a DOF", set_.dofs);
     EigengraspSpec grasp;
     const std::string what = fmt::format("eigengrasp {}", set_.grasps.size() + 1);
     grasp.eigenvalue = read_eigenvalue(what);
     grasp.vector = read_values(what);
-    set_.grasps.push_back(std::move(grasp));
-    places_.grasps.push_back(line.place());
+    add_grasp(std::move(grasp), line.place(), set_, places_, mends_);
     return;
   }
   auto& target = keyword == "norm" ? set_.norm : set_.origin;
@@ -123,15 +170,17 @@ void EgrReader::read_block(const std::string& keyword, const Line& line) {
 class EigengraspXml {
  public:
   EigengraspXml(const std::string& file, const std::string& text, const ReadOptions& options)
-      : file_(file, text), options_(options) {}
+      : file_(file, text), options_(options), mends_(options.listeners()) {}
   EigengraspSet read();
 
  private:
+  void count_dofs(const XmlElement& root);
   VectorXd read_values(const XmlElement& block, double missing);
   EigengraspSpec read_grasp(const XmlElement& block);
 
   XmlFile file_;
   const ReadOptions& options_;
+  Mends mends_;
   EigengraspSet set_;
   EigengraspPlaces places_;
 };
@@ -142,13 +191,9 @@ EigengraspSet EigengraspXml::read() {
     root.fail("wanted an element <EigenGrasps>, got <{}>", root.name().substr(0, 40));
   root.check({.once = {"ORIGIN", "NORM"}, .many = {"EG"}, .attributes = {"dimensions"}},
              options_.warn);
-  set_.dofs = root.integer_attribute("dimensions", 1, most_dofs);
-  for (const XmlElement& block : root.children("EG")) {
-    if (static_cast<int>(set_.grasps.size()) == set_.dofs)
-      block.fail("wanted at most {} eigengrasps, one a DOF", set_.dofs);
-    set_.grasps.push_back(read_grasp(block));
-    places_.grasps.push_back(block.place());
-  }
+  count_dofs(root);
+  for (const XmlElement& block : root.children("EG"))
+    add_grasp(read_grasp(block), block.place(), set_, places_, mends_);
   for (const auto& [name, target, missing] :
        {std::tuple("ORIGIN", &set_.origin, 0.0), {"NORM", &set_.norm, 1.0}})
     if (const XmlElement block = root.child(name)) {
@@ -156,9 +201,29 @@ EigengraspSet EigengraspXml::read() {
       *target = read_values(block, missing);
       (target == &set_.norm ? places_.norm : places_.origin) = block.place();
     }
+  mends_.tell();
   check_eigengrasps(set_, file_.file(), places_);
   doubt_eigenvalues(set_, places_, options_);
   return std::move(set_);
+}
+
+/// The number of DOF that an attribute "d3" names; empty when it names none.
+std::optional<int> numbered_dof(const std::string& name) {
+  const auto number = name.starts_with('d') ? parse_integer(name.substr(1)) : std::nullopt;
+  return number && *number >= 0 && *number < most_dofs ? number : std::nullopt;
+}
+
+/// What is declared counts for less than what is given.
+void EigengraspXml::count_dofs(const XmlElement& root) {
+  set_.dofs = root.integer_attribute("dimensions", 1, most_dofs);
+  int given = set_.dofs;
+  for (const char* kind : {"EG", "ORIGIN", "NORM"})
+    for (const XmlElement& block : root.children(kind))
+      if (const XmlElement list = block.child("DimVals"))
+        for (const std::string& name : list.attributes())
+          given = std::max(given, numbered_dof(name).value_or(-1) + 1);
+  if (given > set_.dofs) tell_count(mends_, root.place(), set_.dofs, given);
+  set_.dofs = given;
 }
 
 EigengraspSpec EigengraspXml::read_grasp(const XmlElement& block) {
@@ -170,9 +235,9 @@ EigengraspSpec EigengraspXml::read_grasp(const XmlElement& block) {
   }
   if (const XmlElement limits = block.child("Limits")) {
     limits.check({.attributes = {"min", "max"}}, options_.warn);
-    grasp.limits = {limits.number_attribute("min"), limits.number_attribute("max")};
-    if ((*grasp.limits)[0] > (*grasp.limits)[1])
-      limits.fail("Limits: min {} exceeds max {}", (*grasp.limits)[0], (*grasp.limits)[1]);
+    double low = limits.number_attribute("min"), high = limits.number_attribute("max");
+    mends_.order(low, high, limits.place() + ": Limits");
+    grasp.limits = {low, high};
   }
   grasp.vector = read_values(block, 0);
   return grasp;
@@ -183,8 +248,8 @@ VectorXd EigengraspXml::read_values(const XmlElement& block, double missing) {
   VectorXd values = VectorXd::Constant(set_.dofs, missing);
   const XmlElement list = block.wanted("DimVals");
   for (const std::string& name : list.attributes()) {
-    const auto number = name.starts_with('d') ? parse_integer(name.substr(1)) : std::nullopt;
-    if (!number || *number < 0 || *number >= set_.dofs)
+    const auto number = numbered_dof(name);
+    if (!number)
       list.fail("DimVals: wanted d0 to d{}, got {}", set_.dofs - 1, in_quotes(name));
     values[*number] = list.number_attribute(name);
   }

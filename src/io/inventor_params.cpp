@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "io/inertia.h"
+#include "io/mends.h"
 #include "spec/material_names.h"
 
 namespace clench {
@@ -23,8 +24,9 @@ std::vector<bool> marked_lines(std::string_view text) {
   return out;
 }
 
-double number_of(const Line& line, const Quantity& quantity) {
-  const double value = line.number(1, quantity.name);
+double number_of(const Line& line, const Quantity& quantity, Mends& mends) {
+  const double value = mends.magnitude(line.number(1, quantity.name),
+                                       fmt::format("{}: {}", line.place(), quantity.name));
   check(quantity, value, line.place());
   return value;
 }
@@ -62,6 +64,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
                           const ReadOptions& options, BodySpec& body) {
   const std::vector<bool> marked = marked_lines(text);
   LineReader lines(file, text);
+  Mends mends(options.listeners());
   while (!lines.done()) {
     const Line line = lines.next();
     if (!line.text().starts_with('#')) continue;
@@ -80,15 +83,15 @@ void read_inventor_params(const std::string& text, const std::string& file,
       }
       body.material = line.word(1);
     } else if (key == "youngs") {
-      body.elastic_modulus = number_of(line, elastic_modulus_rule.called("youngs"));
+      body.elastic_modulus = number_of(line, elastic_modulus_rule.called("youngs"), mends);
       if (*body.elastic_modulus < 1e4 && options.warn)
         options.doubted(
             fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
                         line.place(), *body.elastic_modulus));
     } else if (key == "useFlockOfBirds") {
-      body.tracker = line.integer(1, "useFlockOfBirds", 0);
+      body.tracker = mends.count(line.word(1), line.place() + ": useFlockOfBirds");
     } else if (key == "mass") {
-      body.mass = number_of(line, mass_rule.in("g", units::gram)) * units::gram;
+      body.mass = number_of(line, mass_rule.in("g", units::gram), mends) * units::gram;
     } else if (key == "cog") {
       body.com =
           Eigen::Vector3d(line.number(1, "cog"), line.number(2, "cog"), line.number(3, "cog")) *
@@ -98,6 +101,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
       body.inertia_per_mass = inertia_rows(lines, line, options);
     }
   }
+  mends.tell();
 }
 
 }  // namespace clench

@@ -45,6 +45,8 @@ class MjcfReader {
                      const Pose& X_frame);
   void read_joint(const XmlElement& element, int link, const std::string& child_class,
                   const Pose& X_frame);
+  std::string own_name(const XmlElement& element, const std::string& name,
+                       const std::map<std::string, int>& taken);
   void add_joint(TreeJoint joint, const XmlElement& element, int link);
   void set_range(const XmlValues& values, TreeJoint& joint);
   void read_inertial(const XmlElement& element, int link, const Pose& X_frame);
@@ -159,6 +161,18 @@ void MjcfReader::choose_base(std::vector<TopBody> bodies) {
 
 // --- bodies ---
 
+/// The name, or another where an element before has it.
+std::string MjcfReader::own_name(const XmlElement& element, const std::string& name,
+                                 const std::map<std::string, int>& taken) {
+  if (!taken.contains(name)) return name;
+  const std::string own = unused_name(name, taken);
+  document_.mends().add(std::string(element.name()),
+                        fmt::format("{}: {}: there is another one of the name '{}'; it is called "
+                                    "'{}'",
+                                    element.place(), element.name(), name, own));
+  return own;
+}
+
 int MjcfReader::add_link(const XmlElement& element, const std::string& name, int parent,
                          const Pose& X_PL) {
   const int number = static_cast<int>(tree_.links.size());
@@ -168,8 +182,8 @@ int MjcfReader::add_link(const XmlElement& element, const std::string& name, int
   link.X_PL = X_PL;
   link.body.name = name.empty() ? fmt::format("body{}", number) : name;
   link.body.source = document_.path().generic_string();
-  if (!links_.emplace(link.body.name, number).second)
-    element.fail("body: there is another one of the name '{}'", excerpt(link.body.name));
+  link.body.name = own_name(element, link.body.name, links_);
+  links_[link.body.name] = number;
   tree_.links.push_back(std::move(link));
   pieces_.emplace_back().place = element.place();
   link_geoms_.emplace_back();
@@ -234,8 +248,13 @@ void MjcfReader::set_range(const XmlValues& values, TreeJoint& joint) {
   // two zeros undo what a class says
   const bool has_range = given_range(values);
   if (limited == "auto" && has_range && !document_.autolimits())
-    values.fail("range", "wanted limited=\"true\" beside it, as autolimits is off");
-  if (limited == "true" && !values.has("range")) values.fail("limited", "wanted a range, got none");
+    document_.mends().add("autolimits",
+                          values.subject("range") +
+                              ": wanted limited=\"true\" beside it, as autolimits is off; the range "
+                              "is used");
+  if (limited == "true" && !values.has("range"))
+    document_.mends().add("limited", values.subject("limited") +
+                                         ": wanted a range, got none; there are no limits");
   if (limited == "false" || !has_range) {
     const double endless = turns ? endless_turn : endless_slide;
     joint.min = joint.zero - endless, joint.max = joint.zero + endless;
@@ -244,10 +263,7 @@ void MjcfReader::set_range(const XmlValues& values, TreeJoint& joint) {
                               turns ? "rad" : "m"));
     return;
   }
-  const auto range = values.numbers("range", 2, 2);
-  if (range[0] > range[1])
-    values.fail("range", "joint '{}': min {} exceeds max {}", excerpt(joint.name), range[0],
-                range[1]);
+  const auto range = values.range("range", document_.mends());
   joint.min = range[0] * unit;
   joint.max = range[1] * unit;
   if (joint.min == joint.max)
@@ -258,8 +274,8 @@ void MjcfReader::set_range(const XmlValues& values, TreeJoint& joint) {
 void MjcfReader::add_joint(TreeJoint joint, const XmlElement& element, int link) {
   if (tree_.joints.size() >= most_joints) element.fail("wanted at most {} joints", most_joints);
   const int number = static_cast<int>(tree_.joints.size());
-  if (!joints_.emplace(joint.name, number).second)
-    element.fail("joint: there is another one of the name '{}'", excerpt(joint.name));
+  joint.name = own_name(element, joint.name, joints_);
+  joints_[joint.name] = number;
   joint.start = std::clamp(joint.zero, joint.min, joint.max);
   tree_.joints.push_back(std::move(joint));
   tree_.links[link].joints.push_back(number);
@@ -295,9 +311,9 @@ void MjcfReader::read_joint(const XmlElement& element, int link, const std::stri
   const Eigen::Vector3d axis = values.vec3("axis", {0, 0, 1});
   if (!(axis.stableNorm() > 1e-9)) values.fail("axis", "wanted a direction, got none");
   joint.axis = (X_frame.rotation * axis.stableNormalized()).normalized();
-  joint.viscous = values.not_negative("damping", 0);
-  joint.coulomb = values.not_negative("frictionloss", 0);
-  joint.spring = values.not_negative("stiffness", 0);
+  joint.viscous = values.not_negative("damping", 0, document_.mends());
+  joint.coulomb = values.not_negative("frictionloss", 0, document_.mends());
+  joint.spring = values.not_negative("stiffness", 0, document_.mends());
   joint.rest = values.number("springref", 0) * unit;
   if (type != "ball") {
     joint.zero = values.number("ref", 0) * unit;
@@ -456,6 +472,7 @@ RobotSpec MjcfReader::read() {
   dress_links(tree_, pieces_, geoms_.geometry(), document_.file(), library_);
   RobotSpec robot = make_chains(std::move(tree_), document_.file(), library_);
   robot.source = document_.path().generic_string();
+  document_.mends().tell();
   inertial_faults_.tell(library_);
   for (const auto& sentence : document_.unused().sentences()) library_.warn(sentence);
   return robot;

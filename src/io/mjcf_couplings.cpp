@@ -237,8 +237,7 @@ void Couplings::read_equality(const XmlElement& element) {
 void Couplings::take_control_range(const XmlElement& element, const XmlValues& values,
                                    TreeJoint& joint, double gear) {
   if (!values.has("ctrlrange") || values.text("ctrllimited", "auto") == "false") return;
-  const auto range = values.numbers("ctrlrange", 2, 2);
-  if (range[0] > range[1]) values.fail("ctrlrange", "min {} exceeds max {}", range[0], range[1]);
+  const auto range = values.range("ctrlrange", document_.mends());
   // two zeros undo what a class says
   const bool zeros = range[0] == 0 && range[1] == 0;
   if (zeros && values.text("ctrllimited", "auto") != "true") return;

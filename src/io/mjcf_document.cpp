@@ -15,7 +15,10 @@ static constexpr int most_files = 100;       // included; far above any robot
 static constexpr int deepest_element = 200;  // of elements, over all includes
 
 MjcfDocument::MjcfDocument(const fs::path& path, Library& library)
-    : path_(path), file_(path.filename().string()), library_(library) {
+    : path_(path),
+      file_(path.filename().string()),
+      library_(library),
+      mends_(library.options().listeners()) {
   angle_unit_ = units::degree;
   files_.push_back(std::make_unique<XmlFile>(path));
   open_.push_back(fs::weakly_canonical(path));
@@ -111,10 +114,13 @@ void MjcfDocument::read_defaults(const MjcfNode& node, int parent) {
     library_.warn(fmt::format("{}: default: the outermost class is called main; {} is taken for it",
                               node.element.place(), in_quotes(name)));
   } else if (!name.empty() && name != "main") {
-    number = static_cast<int>(classes_.size());
-    if (!class_numbers_.emplace(name, number).second)
-      node.element.fail("default: there is another class '{}'", excerpt(name));
-    classes_.push_back({parent, {}});
+    const auto [at, is_new] = class_numbers_.emplace(name, static_cast<int>(classes_.size()));
+    number = at->second;
+    if (is_new)
+      classes_.push_back({parent, {}});
+    else
+      mends_.add("class", fmt::format("{}: default: there is another class {}; they count as one",
+                                      node.element.place(), in_quotes(name)));
   }
   for (const auto& child : node.children) {
     if (child.name() == "default")

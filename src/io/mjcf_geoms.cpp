@@ -17,10 +17,8 @@ MjcfGeoms::MjcfGeoms(MjcfDocument& document, Library& library)
 
 // --- assets ---
 
-static PieceColor color_of(const XmlValues& values) {
-  const auto rgba = values.numbers("rgba", 4, 4);
-  for (const double x : rgba)
-    if (x < 0 || x > 1) values.fail("rgba", "wanted numbers in 0..1, got {}", x);
+static PieceColor color_of(const XmlValues& values, Mends& mends) {
+  const auto rgba = values.color("rgba", 4, mends);
   return {Eigen::Vector3d(rgba[0], rgba[1], rgba[2]).cast<float>(),
           static_cast<float>(1 - rgba[3])};
 }
@@ -33,11 +31,13 @@ void MjcfGeoms::read_assets() {
       std::string name = values.text("name", "");
       if (name.empty()) name = std::filesystem::path(values.text("file")).stem().string();
       if (!meshes_.emplace(name, Asset{element, values, nullptr}).second)
-        element.fail("mesh: there is another one of the name '{}'", excerpt(name));
+        document_.mends().add("mesh", fmt::format("{}: mesh: there is another one of the name '{}'; "
+                                                  "the first one counts",
+                                                  element.place(), excerpt(name)));
       document_.unused().attributes(element, {"name", "class", "file", "scale", "refpos", "refquat",
                                               "vertex", "face", "content_type"});
     } else if (node->name() == "material") {
-      if (values.has("rgba")) materials_[values.text("name")] = color_of(values);
+      if (values.has("rgba")) materials_[values.text("name")] = color_of(values, document_.mends());
       document_.unused().attributes(element, {"name", "class", "rgba"});
     } else {
       document_.unused().element(element);
@@ -133,7 +133,7 @@ std::shared_ptr<const Geometry> MjcfGeoms::mesh(const XmlValues& geom, bool coll
 // --- geoms ---
 
 std::optional<PieceColor> MjcfGeoms::color(const XmlValues& geom) const {
-  if (geom.has("rgba")) return color_of(geom);
+  if (geom.has("rgba")) return color_of(geom, document_.mends());
   const auto found = materials_.find(geom.text("material", ""));
   if (found == materials_.end()) return {};
   return found->second;
@@ -158,6 +158,8 @@ void MjcfGeoms::set_primitive(const std::string& type, const XmlValues& values, 
   if (size.size() < wanted)
     values.fail("size", "wanted {} number{} for a {}, got {}", wanted, wanted > 1 ? "s" : "", type,
                 size.size());
+  for (double& length : size)
+    length = document_.mends().magnitude(length, values.subject("size"));
   for (size_t i = 0; i < wanted; ++i)
     if (!(size[i] > 0)) values.fail("size", "wanted lengths > 0, got {}", size[i]);
   std::string name = type;
@@ -212,8 +214,8 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
   geom.piece.X_LG = X_frame * X;
   geom.piece.color = color(values);
   const double volume = std::abs(solid_of(geom.piece).volume);
-  geom.mass = values.has("mass") ? values.not_negative("mass", 0)
-                                 : values.not_negative("density", 1000) * volume;
+  geom.mass = values.has("mass") ? values.not_negative("mass", 0, document_.mends())
+                                 : values.not_negative("density", 1000, document_.mends()) * volume;
   return geom;
 }
 

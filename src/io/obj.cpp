@@ -63,7 +63,11 @@ void ObjReader::read_point() {
     const auto value = parse_number(word);
     if (!value) words_.fail("wanted three numbers after v, got {}", in_quotes(word));
     if (count == 7) {
-      words_.fail("wanted at most a point, a weight and a colour after v, got more numbers");
+      warn_once("point", "wanted at most a point, a weight and a colour after v; only the point is "
+                         "used");
+      words_.rest();
+      count = 3;
+      break;
     }
     numbers[count++] = *value;
   }

@@ -24,6 +24,13 @@ static void check_options(const ReadOptions& options) {
   check("silent_mesh_unit", options.silent_mesh_unit);
 }
 
+ReadOptions strict(ReadOptions options) {
+  options.warn = options.mend = options.doubt = [](const std::string& sentence) {
+    throw Error(sentence);
+  };
+  return options;
+}
+
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
   BodySpec body = Library(options).body(find_file(path.string(), "", options));

@@ -50,6 +50,9 @@ struct ReadOptions {
   void doubted(const std::string& sentence) const { tell(doubt, warn, sentence); }
 };
 
+/// The same, but what would be warned of is thrown: nothing is mended, left out or doubtful.
+ReadOptions strict(ReadOptions options);
+
 /// A body from .xml, .iv .wrl .vrml (millimetres), .off .ply .obj .stl .gltf .glb .dae, in any case.
 /// throws Error  "flask.iv:31: ..." one sentence: place, subject, wanted, got
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options = {});

@@ -5,6 +5,7 @@
 #include "base/units.h"
 #include "io/joint_expression.h"
 #include "io/mend_names.h"
+#include "io/mends.h"
 #include "io/robot_classes.h"
 #include "io/robot_files.h"
 #include "io/transform_list.h"
@@ -30,7 +31,10 @@ struct DofLine {
 class CfgReader {
  public:
   CfgReader(const fs::path& path, Library& library)
-      : path_(path), library_(library), lines_(path.filename().string(), read_text(path)) {}
+      : path_(path),
+        library_(library),
+        mends_(library.options().listeners()),
+        lines_(path.filename().string(), read_text(path)) {}
   RobotSpec read();
 
  private:
@@ -54,6 +58,7 @@ class CfgReader {
 
   const fs::path& path_;
   Library& library_;
+  Mends mends_;
   LineReader lines_;
   std::vector<DofLine> dof_lines_;
   std::vector<std::optional<JointKind>> dof_kinds_;  // of its first joint
@@ -92,6 +97,7 @@ RobotSpec CfgReader::read() {
   check_ranges();
   read_optional_blocks();
   check_read_robot(robot_, head.place(), library_.options());
+  mends_.tell();
   read_robot_files(robot_, named_, path_, library_.options());
   return std::move(robot_);
 }
@@ -117,20 +123,25 @@ void CfgReader::read_dofs() {
       d.line.fail("DOF {}: wanted type r, b or c, got {}", i, in_quotes(kind));
     const auto number = [&](int k, const char* what) {
       const std::string subject = fmt::format("DOF {}: {}", i, what);
+      if (k > 2 && k >= d.line.size()) {
+        mends_.add("missing", fmt::format("{}: {} is missing; 0 is used", d.line.place(), subject));
+        return 0.0;
+      }
       const double x = d.line.number(k, subject);
       check_size(d.line, x, subject);
       return x;
     };
     d.velocity = number(1, "default velocity");
-    d.effort = number(2, "max effort");
+    const auto magnitude = [&](int k, const char* what) {
+      return mends_.magnitude(number(k, what),
+                              fmt::format("{}: DOF {}: {}", d.line.place(), i, what));
+    };
+    d.effort = magnitude(2, "max effort");
     d.kp = number(3, "Kp");
     d.kd = number(4, "Kd");
     d.scale = number(5, "dragger scale");
-    if (d.kind == DofKind::breakaway) d.breakaway = number(6, "breakaway torque");
+    if (d.kind == DofKind::breakaway) d.breakaway = magnitude(6, "breakaway torque");
     used_up(d.line, d.kind == DofKind::breakaway ? 7 : 6);
-    if (d.effort < 0) d.line.fail("DOF {}: max effort: wanted a number >= 0, got {}", i, d.effort);
-    if (d.breakaway < 0)
-      d.line.fail("DOF {}: breakaway torque: wanted a number >= 0, got {}", i, d.breakaway);
     dof_lines_.push_back(std::move(d));
   }
   dof_kinds_.resize(dofs);
@@ -180,26 +191,23 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
   joint.d = revolute ? value(1, "d") * units::millimetre : expression->offset * units::millimetre;
   joint.a = value(2, "a") * units::millimetre;
   joint.alpha = value(3, "alpha") * units::degree;
-  const double low = value(4, "min"), high = value(5, "max");
-  if (low > high)
-    line.fail("joint {}: min {} exceeds max {} [{}]", number, low, high, revolute ? "deg" : "mm");
+  double low = value(4, "min"), high = value(5, "max");
+  mends_.order(low, high, fmt::format("{}: joint {}", line.place(), number));
   joint.min = low * unit;
   joint.max = high * unit;
-  if (line.size() > 6)
-    joint.viscous =
-        value(6, "viscous friction") * (revolute ? units::gram_square_millimetre : units::gram);
-  if (line.size() > 7)
-    joint.coulomb = value(7, "Coulomb friction") *
-                    (revolute ? units::gram_square_millimetre : units::gram_millimetre);
-  if (line.size() > 8)
-    joint.spring = value(8, "spring stiffness") *
-                   (revolute ? units::newton_millimetre : units::newton_per_millimetre);
+  const auto loss = [&](int i, const char* what, double loss_unit) {
+    if (line.size() <= i) return 0.0;
+    return loss_unit * mends_.magnitude(value(i, what),
+                                   fmt::format("{}: joint {}: {}", line.place(), number, what));
+  };
+  joint.viscous =
+      loss(6, "viscous friction", revolute ? units::gram_square_millimetre : units::gram);
+  joint.coulomb = loss(7, "Coulomb friction",
+                       revolute ? units::gram_square_millimetre : units::gram_millimetre);
+  joint.spring = loss(8, "spring stiffness",
+                      revolute ? units::newton_millimetre : units::newton_per_millimetre);
   if (line.size() > 9) joint.rest = value(9, "rest value") * (revolute ? 1.0 : units::millimetre);
   used_up(line, 10);
-  constexpr const char* losses[] = {"viscous friction", "Coulomb friction", "spring stiffness"};
-  for (int i = 0; i < 3 && line.size() > 6 + i; ++i)
-    if (const double x = line.number(6 + i, losses[i]); x < 0)
-      line.fail("joint {}: {}: wanted a number >= 0, got {}", number, losses[i], x);
 
   // a DOF counts in the unit of its first joint: rad or mm
   auto& kind = dof_kinds_[joint.dof];
@@ -279,11 +287,13 @@ NamedFile CfgReader::named_file(const char* what) {
 void CfgReader::read_tracker() {
   TrackerSpec tracker;
   // some files leave the number out
-  if (lines_.skip_to_full() && begins_transform(lines_.peek()))
+  if (lines_.skip_to_full() && begins_transform(lines_.peek())) {
     library_.note(
         fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
-  else
-    tracker.number = wanted("a bird number").integer(0, "FlockOfBirds", 0);
+  } else {
+    const Line line = wanted("a bird number");
+    tracker.number = mends_.count(line.word(0), line.place() + ": FlockOfBirds");
+  }
   tracker.X_BS = read_transform_list(lines_, library_.options().listeners());
   robot_.tracker = tracker;
 }

@@ -6,6 +6,7 @@
 #include "base/units.h"
 #include "io/joint_expression.h"
 #include "io/mend_names.h"
+#include "io/mends.h"
 #include "io/robot_classes.h"
 #include "io/robot_files.h"
 #include "io/tendons_xml.h"
@@ -24,7 +25,7 @@ constexpr size_t most_parts = 1000;  // DOFs, chains, joints, links: far above a
 class XmlRobotReader {
  public:
   XmlRobotReader(const XmlElement& root, const fs::path& path, Library& library)
-      : root_(root), path_(path), library_(library) {}
+      : root_(root), path_(path), library_(library), mends_(library.options().listeners()) {}
   RobotSpec read();
 
  private:
@@ -34,8 +35,10 @@ class XmlRobotReader {
   void read_chain(const XmlElement& element);
   void read_joint(const XmlElement& element, ChainSpec& chain);
   void read_expression(const XmlElement& element, JointSpec& joint, const std::string& subject);
-  void read_limits(const XmlElement& element, JointSpec& joint, const std::string& subject) const;
-  void read_losses(const XmlElement& element, JointSpec& joint, const std::string& subject) const;
+  void read_limits(const XmlElement& element, JointSpec& joint, const std::string& subject);
+  void read_losses(const XmlElement& element, JointSpec& joint, const std::string& subject);
+  double magnitude(const XmlElement& element, const std::string& subject);
+  double number_or_zero(const XmlElement& parent, const char* name, const std::string& subject);
   void read_link(const XmlElement& element, ChainSpec& chain);
   void read_rule(const XmlElement& link, const RobotPart& part);
   void read_disabled_pair(const XmlElement& element);
@@ -49,6 +52,7 @@ class XmlRobotReader {
   const XmlElement root_;
   const fs::path& path_;
   Library& library_;
+  Mends mends_;
   std::vector<XmlElement> dofs_;
   std::vector<std::optional<JointKind>> dof_kinds_;            // of its first joint
   std::vector<std::pair<XmlElement, RobotPart>> named_parts_;  // to be looked at when all are known
@@ -83,10 +87,12 @@ RobotSpec XmlRobotReader::read() {
   for (const auto& [element, part] : named_parts_) check_part(element, part);
   robot_.collision_rules.near_pairs_off = true;
   read_tendons(
-      root_, [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), robot_);
+      root_, [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), mends_,
+      robot_);
   read_approach();
   read_tracker();
   check_read_robot(robot_, root_.place(), library_.options());
+  mends_.tell();
   read_files();
   return std::move(robot_);
 }
@@ -122,6 +128,20 @@ static double bounded(const XmlElement& element, const std::string& subject) {
   return x;
 }
 
+/// Of what is never negative.
+double XmlRobotReader::magnitude(const XmlElement& element, const std::string& subject) {
+  return mends_.magnitude(bounded(element, subject),
+                          fmt::format("{}: {}: {}", element.place(), subject, element.name()));
+}
+
+/// Of what counts as 0 when it is missing.
+double XmlRobotReader::number_or_zero(const XmlElement& parent, const char* name,
+                                      const std::string& subject) {
+  if (const XmlElement child = parent.child(name)) return bounded(child, subject);
+  mends_.add("missing", fmt::format("{}: {}: <{}> is missing; 0 is used", parent.place(), subject, name));
+  return 0;
+}
+
 void XmlRobotReader::read_dof(const XmlElement& element) {
   element.check({.once = {"defaultVelocity", "defaultValue", "maxEffort", "Kp", "Kd",
                           "draggerScale", "breakAwayTorque"},
@@ -132,8 +152,10 @@ void XmlRobotReader::read_dof(const XmlElement& element) {
   if (!dof_kinds_[i])
     library_.doubted(fmt::format("{}: DOF {} moves no joint", element.place(), i));
   DofSpec dof;
-  const std::string kind = element.wanted_attribute("type");
-  if (kind == "b")
+  const std::string kind = element.attribute("type").value_or("");
+  if (kind.empty())
+    mends_.add("kind", fmt::format("{}: DOF {}: no type; it is taken for r", element.place(), i));
+  else if (kind == "b")
     dof.kind = DofKind::breakaway;
   else if (kind == "c")
     dof.kind = DofKind::compliant;
@@ -144,19 +166,20 @@ void XmlRobotReader::read_dof(const XmlElement& element) {
     const XmlElement child = element.child(name);
     return child ? bounded(child, subject) * unit : 0.0;
   };
+  const auto positive = [&](const char* name, double unit) {
+    const XmlElement child = element.child(name);
+    return child ? magnitude(child, subject) * unit : 0.0;
+  };
   const double force = slides ? units::gram_millimetre : units::gram_square_millimetre;
   dof.default_velocity =
-      bounded(element.wanted("defaultVelocity"), subject) * (slides ? units::millimetre : 1.0);
+      number_or_zero(element, "defaultVelocity", subject) * (slides ? units::millimetre : 1.0);
   dof.default_value = number("defaultValue", slides ? units::millimetre : units::degree);
-  dof.max_effort = number("maxEffort", force);
+  dof.max_effort = positive("maxEffort", force);
   dof.kp = number("Kp", slides ? units::gram_per_square_second : units::gram_square_millimetre);
   dof.kd = number("Kd", slides ? units::gram : units::gram_square_millimetre);
   dof.dragger_scale = number("draggerScale", units::millimetre);
   if (dof.kind == DofKind::breakaway)
-    dof.breakaway_torque = std::max(0.0, number("breakAwayTorque", 1.0));
-  if (dof.max_effort < 0)
-    element.child("maxEffort")
-        .fail("maxEffort: wanted a number >= 0, got {}", dof.max_effort / force);
+    dof.breakaway_torque = positive("breakAwayTorque", 1.0);
   robot_.dofs.push_back(dof);
 }
 
@@ -192,7 +215,8 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
   robot_.chains.push_back(std::move(chain));
   read_tactile(
       element, static_cast<int>(robot_.chains.size()) - 1,
-      [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), robot_);
+      [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), mends_,
+      robot_);
 }
 
 void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
@@ -209,8 +233,8 @@ void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
     element.fail("{}: wanted type Revolute or Prismatic, got {}{}", subject, in_quotes(type),
                  did_you_mean(type, {"Revolute", "Prismatic"}));
   read_expression(element, joint, subject);
-  joint.a = bounded(element.wanted("a"), subject) * units::millimetre;
-  joint.alpha = bounded(element.wanted("alpha"), subject) * units::degree;
+  joint.a = number_or_zero(element, "a", subject) * units::millimetre;
+  joint.alpha = number_or_zero(element, "alpha", subject) * units::degree;
   read_limits(element, joint, subject);
   read_losses(element, joint, subject);
 
@@ -225,8 +249,7 @@ void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
 void XmlRobotReader::read_expression(const XmlElement& element, JointSpec& joint,
                                      const std::string& subject) {
   const bool revolute = joint.kind == JointKind::revolute;
-  const XmlElement theta = element.wanted("theta"), d = element.wanted("d");
-  const XmlElement& moved = revolute ? theta : d;
+  const XmlElement moved = element.wanted(revolute ? "theta" : "d");
   const std::string text = moved.text();
   const auto expression = parse_joint_expression(text);
   if (!expression)
@@ -238,40 +261,28 @@ void XmlRobotReader::read_expression(const XmlElement& element, JointSpec& joint
     moved.fail("{}: wanted a ratio other than 0, got {}", subject, in_quotes(text));
   joint.dof = expression->dof;
   joint.ratio = expression->ratio;
-  joint.theta = (revolute ? expression->offset : bounded(theta, subject)) * units::degree;
-  joint.d = (revolute ? bounded(d, subject) : expression->offset) * units::millimetre;
+  const double other = number_or_zero(element, revolute ? "d" : "theta", subject);
+  joint.theta = (revolute ? expression->offset : other) * units::degree;
+  joint.d = (revolute ? other : expression->offset) * units::millimetre;
 }
 
 void XmlRobotReader::read_limits(const XmlElement& element, JointSpec& joint,
-                                 const std::string& subject) const {
+                                 const std::string& subject) {
   const XmlElement low = element.wanted("minValue"), high = element.wanted("maxValue");
   double min = bounded(low, subject), max = bounded(high, subject);
-  if (min > max && joint.ratio < 0) {
-    // some files write the limits in the DOF's direction
-    library_.mended(
-        fmt::format("{}: {}: minValue {} exceeds maxValue {}; as the joint runs against "
-                    "its DOF they are exchanged",
-                    low.place(), subject, min, max));
-    std::swap(min, max);
-  }
-  const bool revolute = joint.kind == JointKind::revolute;
-  if (min > max)
-    low.fail("{}: minValue {} exceeds maxValue {} [{}]", subject, min, max,
-             revolute ? "deg" : "mm");
-  const double unit = revolute ? units::degree : units::millimetre;
+  // some files write the limits in the direction of a DOF that the joint runs against
+  mends_.order(min, max, fmt::format("{}: {}", low.place(), subject), {"minValue", "maxValue"});
+  const double unit = joint.kind == JointKind::revolute ? units::degree : units::millimetre;
   joint.min = min * unit;
   joint.max = max * unit;
 }
 
 void XmlRobotReader::read_losses(const XmlElement& element, JointSpec& joint,
-                                 const std::string& subject) const {
+                                 const std::string& subject) {
   const bool revolute = joint.kind == JointKind::revolute;
   const auto number = [&](const char* name, double unit) {
     const XmlElement child = element.child(name);
-    if (!child) return 0.0;
-    const double value = child.number();
-    if (value < 0) child.fail("{}: {}: wanted a number >= 0, got {}", subject, name, value);
-    return value * unit;
+    return child ? magnitude(child, subject) * unit : 0.0;
   };
   joint.viscous = number("viscousFriction", revolute ? units::gram_square_millimetre : units::gram);
   joint.coulomb =
@@ -326,13 +337,22 @@ void XmlRobotReader::read_rule(const XmlElement& link, const RobotPart& part) {
     rules.parts_off.push_back(part);
   } else if (lower_case(*rule) == "overlappingpair") {
     RobotPart target;
-    if (lower_case(link.wanted_attribute("targetChain")) != "base")
-      target = {link.integer_attribute("targetChain", 0), link.integer_attribute("targetLink", 0)};
+    const auto chain = link.attribute("targetChain");
+    if (!chain)
+      mends_.add("target", fmt::format("{}: link {}: OverlappingPair without a targetChain; its own "
+                                       "chain, {}, is used",
+                                       link.place(), part.link, part.chain));
+    if (!chain || lower_case(*chain) != "base")
+      target = {chain ? link.integer_attribute("targetChain", 0) : part.chain,
+                link.integer_attribute("targetLink", 0)};
     named_parts_.emplace_back(link, target);
     rules.pairs_off.push_back({part, target});
   } else {
-    link.fail("link: collisionRule: wanted Off or OverlappingPair, got {}{}", in_quotes(*rule),
-              did_you_mean(*rule, {"Off", "OverlappingPair"}));
+    mends_.add("rule",
+               fmt::format("{}: link {}: collisionRule {} is neither Off nor OverlappingPair, and "
+                           "not used{}",
+                           link.place(), part.link, in_quotes(*rule),
+                           did_you_mean(*rule, {"Off", "OverlappingPair"})));
   }
 }
 
@@ -369,8 +389,8 @@ void XmlRobotReader::read_tracker() {
   if (!element) return;
   element.check({.once = {"transform"}, .attributes = {"number"}}, warn());
   TrackerSpec tracker;
-  if (element.attribute("number"))
-    tracker.number = element.integer_attribute("number", 0);
+  if (const auto number = element.attribute("number"))
+    tracker.number = mends_.count(*number, element.place() + ": flockOfBirds: number");
   else
     library_.note(fmt::format("{}: flockOfBirds: no bird number, 0 is used", element.place()));
   tracker.X_BS = read_transform_of(element, library_.options().listeners());

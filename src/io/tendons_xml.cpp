@@ -20,10 +20,8 @@ Eigen::Vector3d direction(const XmlElement& element) {
   return v / length;
 }
 
-double not_negative(const XmlElement& element) {
-  const double value = element.number();
-  if (value < 0) element.fail("{}: wanted a number >= 0, got {}", element.name(), value);
-  return value;
+double not_negative(const XmlElement& element, Mends& mends) {
+  return mends.magnitude(element.number(), fmt::format("{}: {}", element.place(), element.name()));
 }
 
 /// <chain> and <link>, both -1 for the base.
@@ -33,21 +31,22 @@ RobotPart part_of(const XmlElement& element, const PartCheck& check) {
   return part;
 }
 
-double friction_of(const XmlElement& element) {
+double friction_of(const XmlElement& element, Mends& mends) {
   const XmlElement friction = element.child("friction");
-  return friction ? not_negative(friction) : 0;
+  return friction ? not_negative(friction, mends) : 0;
 }
 
 /// A length in metres; the original writes -1 for none.
-std::optional<double> length_of(const XmlElement& element, const char* name) {
+std::optional<double> length_of(const XmlElement& element, const char* name, Mends& mends) {
   const XmlElement child = element.child(name);
   if (!child) return {};
   const double value = child.number();
   if (value == -1) return {};
-  return not_negative(child) * units::millimetre;
+  return not_negative(child, mends) * units::millimetre;
 }
 
-TendonSpec read_tendon(const XmlElement& element, const PartCheck& check, const Warn& warn) {
+TendonSpec read_tendon(const XmlElement& element, const PartCheck& check, const Warn& warn,
+                       Mends& mends) {
   element.check({.once = {"stiffness", "restLength", "preTensionLength"},
                  .many = {"insertionPoint"},
                  .attributes = {"name"}},
@@ -55,15 +54,15 @@ TendonSpec read_tendon(const XmlElement& element, const PartCheck& check, const 
   TendonSpec tendon;
   tendon.name = element.wanted_attribute("name");
   if (const XmlElement stiffness = element.child("stiffness"))
-    tendon.stiffness = not_negative(stiffness) * units::newton_per_millimetre;
-  tendon.rest_length = length_of(element, "restLength");
-  tendon.pre_tension_length = length_of(element, "preTensionLength");
+    tendon.stiffness = not_negative(stiffness, mends) * units::newton_per_millimetre;
+  tendon.rest_length = length_of(element, "restLength", mends);
+  tendon.pre_tension_length = length_of(element, "preTensionLength", mends);
   for (const XmlElement& e : element.children("insertionPoint")) {
     e.check({.once = {"chain", "link", "position", "friction"}}, warn);
     TendonPoint point;
     point.part = part_of(e, check);
     point.p_L = e.wanted("position").vector() * units::millimetre;
-    point.friction = friction_of(e);
+    point.friction = friction_of(e, mends);
     tendon.points.push_back(point);
   }
   if (tendon.points.size() < 2)
@@ -71,19 +70,20 @@ TendonSpec read_tendon(const XmlElement& element, const PartCheck& check, const 
   return tendon;
 }
 
-TendonWrapper read_wrapper(const XmlElement& element, const PartCheck& check, const Warn& warn) {
+TendonWrapper read_wrapper(const XmlElement& element, const PartCheck& check, const Warn& warn,
+                           Mends& mends) {
   element.check(
       {.once = {"chain", "link", "friction", "position", "orientation", "radius", "length"},
        .many = {"exemption", "wrapping_side"}},
       warn);
   TendonWrapper wrapper;
   wrapper.part = part_of(element, check);
-  wrapper.friction = friction_of(element);
+  wrapper.friction = friction_of(element, mends);
   wrapper.p_L = element.wanted("position").vector() * units::millimetre;
   wrapper.axis_L = direction(element.wanted("orientation"));
-  wrapper.radius = not_negative(element.wanted("radius")) * units::millimetre;
+  wrapper.radius = not_negative(element.wanted("radius"), mends) * units::millimetre;
   if (const XmlElement length = element.child("length"))
-    wrapper.length = not_negative(length) * units::millimetre;
+    wrapper.length = not_negative(length, mends) * units::millimetre;
   for (const XmlElement& e : element.children("exemption")) {
     e.check({.attributes = {"tendon"}}, warn);
     wrapper.exempt.push_back(e.wanted_attribute("tendon"));
@@ -111,11 +111,11 @@ void check_names(const std::vector<XmlElement>& wrappers, const std::vector<Tend
 
 }  // namespace
 
-void read_tendons(const XmlElement& robot, const PartCheck& check, const Warn& warn,
+void read_tendons(const XmlElement& robot, const PartCheck& check, const Warn& warn, Mends& mends,
                   RobotSpec& out) {
   const auto tendons = robot.children("tendon"), wrappers = robot.children("tendonWrapper");
-  for (const XmlElement& e : tendons) out.tendons.push_back(read_tendon(e, check, warn));
-  for (const XmlElement& e : wrappers) out.wrappers.push_back(read_wrapper(e, check, warn));
+  for (const XmlElement& e : tendons) out.tendons.push_back(read_tendon(e, check, warn, mends));
+  for (const XmlElement& e : wrappers) out.wrappers.push_back(read_wrapper(e, check, warn, mends));
   if (warn) check_names(wrappers, out.tendons, warn);
   if (warn && !(tendons.empty() && wrappers.empty()))
     warn(fmt::format("{}: tendons and their wrappers are kept, {} and {}, but do not act yet",
@@ -124,7 +124,7 @@ void read_tendons(const XmlElement& robot, const PartCheck& check, const Warn& w
 }
 
 void read_tactile(const XmlElement& chain, int number, const PartCheck& check, const Warn& warn,
-                  RobotSpec& out) {
+                  Mends& mends, RobotSpec& out) {
   for (const XmlElement& e : chain.children("filter")) {
     e.check({.attributes = {"params"}}, warn);
     TactileSpec sensor;
@@ -141,9 +141,13 @@ void read_tactile(const XmlElement& chain, int number, const PartCheck& check, c
     }
     sensor.low_L = Eigen::Vector3d(x[0], x[1], x[2]);
     sensor.high_L = Eigen::Vector3d(x[3], x[4], x[5]);
-    if ((sensor.low_L.array() > sensor.high_L.array()).any())
-      e.fail("filter: params: wanted the low corner before the high one, got {}",
-             in_quotes(params));
+    if ((sensor.low_L.array() > sensor.high_L.array()).any()) {
+      mends.add("corners", fmt::format("{}: filter: params: the corners {} are put in order",
+                                       e.place(), in_quotes(params)));
+      const Eigen::Vector3d low = sensor.low_L.cwiseMin(sensor.high_L);
+      sensor.high_L = sensor.low_L.cwiseMax(sensor.high_L);
+      sensor.low_L = low;
+    }
     out.tactile.push_back(sensor);
   }
 }

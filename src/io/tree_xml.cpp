@@ -25,9 +25,13 @@ std::optional<std::string> XmlValues::find(const char* name) const {
   return giver(name).attribute(name);
 }
 
-void XmlValues::refuse(const char* name, const std::string& what) const {
+std::string XmlValues::subject(const char* name) const {
   const XmlElement& at = giver(name);
-  at.fail("{}: {}: {}", at.name(), name, what);
+  return fmt::format("{}: {}: {}", at.place(), at.name(), name);
+}
+
+void XmlValues::refuse(const char* name, const std::string& what) const {
+  throw Error(subject(name) + ": " + what);
 }
 
 std::string XmlValues::text(const char* name) const {
@@ -50,10 +54,21 @@ double XmlValues::number(const char* name, double fallback) const {
   return has(name) ? number(name) : fallback;
 }
 
-double XmlValues::not_negative(const char* name, double fallback) const {
-  const double value = number(name, fallback);
-  if (value < 0) fail(name, "wanted a number >= 0, got {}", value);
-  return value;
+double XmlValues::not_negative(const char* name, double fallback, Mends& mends) const {
+  return has(name) ? mends.magnitude(number(name), subject(name)) : fallback;
+}
+
+std::array<double, 2> XmlValues::range(const char* name, Mends& mends) const {
+  const auto x = numbers(name, 2, 2);
+  double low = x[0], high = x[1];
+  mends.order(low, high, subject(name));
+  return {low, high};
+}
+
+std::vector<double> XmlValues::color(const char* name, int least, Mends& mends) const {
+  auto shares = numbers(name, least, 4);
+  for (double& share : shares) share = mends.within(share, 0, 1, subject(name));
+  return shares;
 }
 
 int XmlValues::integer(const char* name, int fallback) const {

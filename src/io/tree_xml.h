@@ -2,6 +2,7 @@
 // elements may stand behind, and a record of what nobody used.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/mends.h"
 #include "io/xml.h"
 
 namespace clench {
@@ -28,7 +30,12 @@ class XmlValues {
   std::string text(const char* name, const std::string& fallback) const;
   double number(const char* name) const;  ///< wanted
   double number(const char* name, double fallback) const;
-  double not_negative(const char* name, double fallback) const;
+  double not_negative(const char* name, double fallback, Mends& mends) const;
+  /// lower and upper, put in order   throws as numbers
+  std::array<double, 2> range(const char* name, Mends& mends) const;
+  /// three or four shares of a colour in 0..1
+  std::vector<double> color(const char* name, int least, Mends& mends) const;
+  std::string subject(const char* name) const;  ///< "hand.xml:31: joint: range"
   int integer(const char* name, int fallback) const;
   bool boolean(const char* name, bool fallback) const;
   /// between `least` and `most` numbers, each of at most 1e15

@@ -32,7 +32,8 @@ class UrdfReader {
         file_(path.filename().string()),
         library_(library),
         xml_(path),
-        geometry_(library.options()) {}
+        geometry_(library.options()),
+        mends_(library.options().listeners()) {}
   RobotSpec read();
 
  private:
@@ -64,6 +65,7 @@ class UrdfReader {
   Library& library_;
   XmlFile xml_;
   TreeGeometry geometry_;
+  Mends mends_;
   UnusedXml unused_;
   InertialFaults inertial_faults_;
   std::map<std::string, PieceColor> materials_;
@@ -71,6 +73,7 @@ class UrdfReader {
   std::vector<LinkPieces> pieces_;
   std::map<std::string, int> link_numbers_;
   std::vector<FileJoint> joints_;
+  std::set<std::string> names_;  // of joints
   size_t piece_count_ = 0;
   TreeModel tree_;
   std::map<std::string, int> joint_numbers_;  // in the tree
@@ -113,9 +116,7 @@ std::optional<PieceColor> UrdfReader::read_color(const XmlElement& material) {
     if (found == materials_.end()) return {};
     return found->second;
   }
-  const auto rgba = XmlValues(color).numbers("rgba", 3, 4);
-  for (const double x : rgba)
-    if (x < 0 || x > 1) color.fail("color: rgba: wanted numbers in 0..1, got {}", x);
+  const auto rgba = XmlValues(color).color("rgba", 3, mends_);
   PieceColor out{Eigen::Vector3d(rgba[0], rgba[1], rgba[2]).cast<float>(), 0};
   if (rgba.size() == 4) out.transparency = static_cast<float>(1 - rgba[3]);
   return out;
@@ -156,7 +157,7 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
   const XmlValues values(shape);
   const std::string kind(shape.name());
   const auto positive = [&](const char* name) {
-    const double length = values.number(name);
+    const double length = mends_.magnitude(values.number(name), values.subject(name));
     if (!(length > 0)) values.fail(name, "wanted a length > 0, got {}", length);
     return length;
   };
@@ -165,9 +166,11 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
     piece.geometry = geometry_.made(name, std::move(mesh));
   };
   if (kind == "box") {
-    const auto s = values.numbers("size", 3, 3);
-    for (const double x : s)
+    auto s = values.numbers("size", 3, 3);
+    for (double& x : s) {
+      x = mends_.magnitude(x, values.subject("size"));
       if (!(x > 0)) values.fail("size", "wanted lengths > 0, got {}", x);
+    }
     made(fmt::format("box {} {} {}", s[0], s[1], s[2]), box_mesh({s[0], s[1], s[2]}));
   } else if (kind == "sphere") {
     const double r = positive("radius");
@@ -234,8 +237,12 @@ void UrdfReader::read_link(const XmlElement& element) {
   if (link.body.name.empty()) element.fail("link: wanted a name, got nothing");
   const auto [other, is_new] =
       link_numbers_.emplace(link.body.name, static_cast<int>(links_.size()));
-  if (!is_new)
-    element.fail("link '{}': there is another one of this name", excerpt(link.body.name));
+  if (!is_new) {
+    mends_.add("link", fmt::format("{}: link '{}': there is another one of this name; the first one "
+                                   "counts",
+                                   element.place(), excerpt(link.body.name)));
+    return;
+  }
   if (links_.size() >= most_links) element.fail("wanted at most {} links", most_links);
   unused_.attributes(element, {"name"});
   LinkPieces pieces;
@@ -271,9 +278,13 @@ void UrdfReader::read_joint_names(const XmlElement& element) {
   FileJoint joint{element, element.wanted_attribute("name"), "", -1, -1};
   if (joint.name.empty()) element.fail("joint: wanted a name, got nothing");
   if (joints_.size() >= most_joints) element.fail("wanted at most {} joints", most_joints);
-  for (const FileJoint& other : joints_)
-    if (other.name == joint.name)
-      element.fail("joint '{}': there is another one of this name", excerpt(joint.name));
+  if (!names_.insert(joint.name).second) {
+    const std::string own = unused_name(joint.name, names_);
+    mends_.add("joint", fmt::format("{}: joint '{}': there is another one of this name; it is called "
+                                    "'{}'",
+                                    element.place(), excerpt(joint.name), excerpt(own)));
+    names_.insert(joint.name = own);
+  }
   element.wanted_attribute("type");
   joint.type = XmlValues(element).word(
       "type", {"revolute", "continuous", "prismatic", "fixed", "floating", "planar"}, "");
@@ -358,14 +369,14 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
   if (element) {
     unused_.attributes(element, {"lower", "upper", "effort", "velocity"});
     const XmlValues values(element);
-    joint.effort = values.not_negative("effort", 0);
-    joint.velocity = values.not_negative("velocity", 0);
+    joint.effort = values.not_negative("effort", 0, mends_);
+    joint.velocity = values.not_negative("velocity", 0, mends_);
     if (from.type != "continuous" && (values.has("lower") || values.has("upper"))) {
       joint.min = values.number("lower", 0);
       joint.max = values.number("upper", 0);
-      if (joint.min > joint.max)
-        element.fail("joint '{}': lower {} exceeds upper {} [{}]", excerpt(joint.name), joint.min,
-                     joint.max, unit);
+      mends_.order(joint.min, joint.max,
+                   fmt::format("{}: joint '{}'", element.place(), excerpt(joint.name)),
+                   {"lower", "upper"});
       return;
     }
   }
@@ -385,8 +396,8 @@ TreeJoint UrdfReader::read_joint(const FileJoint& from) {
   joint.start = std::clamp(0.0, joint.min, joint.max);
   if (const XmlElement dynamics = from.element.child("dynamics")) {
     unused_.attributes(dynamics, {"damping", "friction"});
-    joint.viscous = XmlValues(dynamics).not_negative("damping", 0);
-    joint.coulomb = XmlValues(dynamics).not_negative("friction", 0);
+    joint.viscous = XmlValues(dynamics).not_negative("damping", 0, mends_);
+    joint.coulomb = XmlValues(dynamics).not_negative("friction", 0, mends_);
   }
   return joint;
 }
@@ -450,6 +461,7 @@ RobotSpec UrdfReader::read() {
   dress_links(tree_, pieces_, geometry_, file_, library_);
   RobotSpec robot = make_chains(std::move(tree_), file_, library_);
   robot.source = path_.generic_string();
+  mends_.tell();
   inertial_faults_.tell(library_);
   for (const auto& sentence : unused_.sentences()) library_.warn(sentence);
   return robot;

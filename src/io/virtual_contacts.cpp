@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "io/mends.h"
 #include "io/number_reader.h"
 #include "io/xml.h"
 
@@ -60,13 +61,18 @@ FrictionEdges read_edges(NumberReader& numbers, const std::string& what) {
   return edges;
 }
 
-double read_mu(NumberReader& numbers, const std::string& what) {
+/// `mends`: null where a number < 0 says that the file is another one
+double read_mu(NumberReader& numbers, const std::string& what, Mends* mends) {
   const double mu = numbers.number(what + ": friction coefficient");
-  if (mu < 0) numbers.line().fail("{}: friction coefficient: wanted >= 0, got {}", what, mu);
-  return mu;
+  if (mu < 0 && !mends)
+    numbers.line().fail("{}: friction coefficient: wanted >= 0, got {}", what, mu);
+  if (!mends) return mu;
+  return mends->magnitude(
+      mu, fmt::format("{}: {}: friction coefficient", numbers.line().place(), what));
 }
 
-VirtualContactSpec read_vgr_contact(NumberReader& numbers, int number, const Tell& warn) {
+VirtualContactSpec read_vgr_contact(NumberReader& numbers, int number, const Tell& warn,
+                                    Mends& mends) {
   const std::string what = fmt::format("contact {}", number);
   VirtualContactSpec contact;
   contact.chain = numbers.integer(what + ": finger", -1, most_chains);
@@ -78,26 +84,36 @@ VirtualContactSpec read_vgr_contact(NumberReader& numbers, int number, const Tel
   place.translation = numbers.vector(what + ": translation");
   place.normal = numbers.vector(what + ": normal");
   contact.X_LC = contact_pose(place, fmt::format("{}: {}", numbers.line().place(), what), warn);
-  contact.mu = read_mu(numbers, what);
+  contact.mu = read_mu(numbers, what, &mends);
   if (contact.chain < 0) contact.link = 0;
   check_virtual_contact(contact, fmt::format("{}: {}", numbers.line().place(), what));
   return contact;
 }
 
-VirtualContactSet read_vgr(const std::string& file, std::string text, const Tell& warn) {
+VirtualContactSet read_vgr(const std::string& file, std::string text, const Tell& warn,
+                           Mends& mends) {
   LineReader lines(file, std::move(text));
   VirtualContactSet set;
   set.robot = lines.next_full("the robot's name").text();
   NumberReader numbers(lines);
   const int count = numbers.integer("number of contacts", 0);
-  for (int i = 0; i < count; ++i) set.contacts.push_back(read_vgr_contact(numbers, i + 1, warn));
+  for (int i = 0; i < count; ++i) 
+    set.contacts.push_back(read_vgr_contact(numbers, i + 1, warn, mends));
   numbers.finish(warn);
   return set;
 }
 
 // --- XML ---
 
-VirtualContactSpec read_xml_contact(const XmlElement& e, const Tell& warn) {
+/// What is there counts, not what is declared.
+void check_count(const XmlElement& declared, int given, const char* what, Mends& mends) {
+  if (const std::string text = declared.text(); parse_integer(text) != given)
+    mends.add("count", fmt::format("{}: {}: wanted {}, as there are as many {}, got {}; those count",
+                                   declared.place(), declared.name(), given, what,
+                                   in_quotes(text)));
+}
+
+VirtualContactSpec read_xml_contact(const XmlElement& e, const Tell& warn, Mends& mends) {
   e.check({.once = {"finger_number", "link_number", "num_friction_edges", "friction_edges",
                     "location", "rotation", "translation", "normal", "sCof"}},
           warn);
@@ -110,8 +126,10 @@ VirtualContactSpec read_xml_contact(const XmlElement& e, const Tell& warn) {
   list.check({.many = {"friction_edge"}}, warn);
   const auto edges = list.children("friction_edge");
   const int count = static_cast<int>(edges.size());
-  const int promised = e.wanted("num_friction_edges").integer(0, most_friction_edges);
-  if (count != promised) list.fail("wanted {} friction edges, got {}", promised, count);
+  if (count > most_friction_edges)
+    list.fail("wanted at most {} friction edges, got {}", most_friction_edges, count);
+  if (const XmlElement said = e.child("num_friction_edges"))
+    check_count(said, count, "friction edges", mends);
   contact.edges.resize(6, count);
   for (int i = 0; i < count; ++i)
     contact.edges.col(i) = edge_in_metres(Vector6d(edges[i].numbers(6).data()));
@@ -128,13 +146,13 @@ VirtualContactSpec read_xml_contact(const XmlElement& e, const Tell& warn) {
                     .rotation = *q};
   contact.X_LC = contact_pose(place, e.place(), warn);
   const XmlElement mu = e.wanted("sCof");
-  contact.mu = mu.number();
-  if (contact.mu < 0) mu.fail("sCof: wanted >= 0, got {}", contact.mu);
+  contact.mu = mends.magnitude(mu.number(), mu.place() + ": sCof");
   check_virtual_contact(contact, e.place());
   return contact;
 }
 
-VirtualContactSet read_xml(const std::string& name, const std::string& text, const Tell& warn) {
+VirtualContactSet read_xml(const std::string& name, const std::string& text, const Tell& warn,
+                           Mends& mends) {
   const XmlFile file(name, text);
   const XmlElement root = file.root();
   if (root.name() != "virtual_contacts")
@@ -143,10 +161,9 @@ VirtualContactSet read_xml(const std::string& name, const std::string& text, con
   VirtualContactSet set;
   if (const XmlElement robot = root.child("robot_name")) set.robot = robot.text();
   for (const XmlElement& e : root.children("virtual_contact"))
-    set.contacts.push_back(read_xml_contact(e, warn));
+    set.contacts.push_back(read_xml_contact(e, warn, mends));
   if (const XmlElement count = root.child("num_contacts"))
-    if (const int promised = count.integer(0); promised != static_cast<int>(set.contacts.size()))
-      count.fail("num_contacts: {} are promised, got {}", promised, set.contacts.size());
+    check_count(count, static_cast<int>(set.contacts.size()), "contacts", mends);
   return set;
 }
 
@@ -224,8 +241,12 @@ std::string virtual_contacts_xml(const VirtualContactSet& set) {
 VirtualContactSet read_virtual_contacts(const fs::path& path, const ReadOptions& options) {
   std::string text = read_text(path);
   const std::string file = path.filename().string();
-  if (trim(text).starts_with('<')) return read_xml(file, text, options.warn);
-  return read_vgr(file, std::move(text), options.warn);
+  Mends mends(options.listeners());
+  VirtualContactSet set = trim(text).starts_with('<')
+                              ? read_xml(file, text, options.warn, mends)
+                              : read_vgr(file, std::move(text), options.warn, mends);
+  mends.tell();
+  return set;
 }
 
 std::string virtual_contacts_text(const VirtualContactSet& set, const fs::path& path) {
@@ -244,7 +265,8 @@ void write_virtual_contacts(const VirtualContactSet& set, const fs::path& path) 
 
 // --- contacts on objects ---
 
-static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed) {
+static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed,
+                                            Mends* mends) {
   const int count = numbers.integer("number of contacts", 0);
   std::vector<ObjectContact> contacts;
   for (int i = 0; i < count; ++i) {
@@ -258,7 +280,7 @@ static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed) 
     const double length = normal.stableNorm();
     if (!(length > 1e-6)) numbers.line().fail("{}: normal: wanted a direction, got zero", what);
     c.n_O = normal / length;
-    c.mu = read_mu(numbers, what);
+    c.mu = read_mu(numbers, what, mends);
     check_virtual_contact({.X_LC = c.X_OC, .mu = c.mu, .edges = c.edges},
                           fmt::format("{}: {}", numbers.line().place(), what));
     contacts.push_back(std::move(c));
@@ -272,7 +294,7 @@ std::vector<ObjectContact> read_object_contacts(const fs::path& path, const Read
   LineReader bare_lines(file, text), lines(file, text);
   NumberReader bare_numbers(bare_lines), numbers(lines);
   try {
-    auto contacts = read_list(bare_numbers, false);
+    auto contacts = read_list(bare_numbers, false, nullptr);
     if (!bare_numbers.more() && !contacts.empty()) {
       if (options.warn)
         options.warn(file + ": the points of the contacts are left out; they are not placed");
@@ -281,7 +303,9 @@ std::vector<ObjectContact> read_object_contacts(const fs::path& path, const Read
   } catch (const Error&) {
     // then it is the other one, whose errors are told
   }
-  auto contacts = read_list(numbers, true);
+  Mends mends(options.listeners());
+  auto contacts = read_list(numbers, true, &mends);
+  mends.tell();
   numbers.finish(options.warn);
   return contacts;
 }

@@ -41,7 +41,7 @@ bool dof_slides(const RobotSpec& robot, int dof) {
   return !joints.empty() && joint_at(robot, joints.front()).kind == JointKind::prismatic;
 }
 
-void read_dof_values(const Line& line, PlacedRobot& placed) {
+void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& listeners) {
   const RobotSpec& robot = placed.robot;
   const int dofs = static_cast<int>(robot.dofs.size());
   const bool plain = line.size() == dofs;
@@ -50,12 +50,23 @@ void read_dof_values(const Line& line, PlacedRobot& placed) {
   for (const auto& chain : robot.chains)
     for (const auto& joint : chain.joints)
       least += robot.dofs[joint.dof].kind == DofKind::breakaway;
-  if (!plain && line.size() < least)
+  const auto mend = [&](int wanted, const char* made) {
+    tell(listeners.mend, listeners.warn,
+         fmt::format("{}: wanted {} numbers for the {} DOFs of {}, got {}; {}", line.place(), wanted,
+                     dofs, robot.name, line.size(), made));
+  };
+  // with joints that may break away nobody knows which numbers lack
+  const bool short_line = line.size() < dofs && least == dofs;
+  if (!plain && !short_line && line.size() < least)
     line.fail("wanted {} numbers for the {} DOFs of {}, got {}", least, dofs, robot.name,
               line.size());
   for (const auto& chain : robot.chains) placed.apart.emplace_back(chain.joints.size());
   int next = 0;
   for (int d = 0; d < dofs; ++d) {
+    if (short_line && d >= line.size()) {
+      placed.dofs.push_back(robot.dofs[d].default_value);
+      continue;
+    }
     const auto joints = joints_of(robot, d);
     const double unit = unit_of(robot, d);
     placed.dofs.push_back(line.number(next++, fmt::format("DOF {} of {}", d, dofs)) * unit);
@@ -68,9 +79,8 @@ void read_dof_values(const Line& line, PlacedRobot& placed) {
           line.number(next++, what) * unit * joint_at(robot, at).ratio;
     }
   }
-  if (next < line.size())
-    line.fail("wanted {} numbers for the {} DOFs of {}, got {}", next, dofs, robot.name,
-              line.size());
+  if (short_line) mend(dofs, "the others start at their defaults");
+  if (next < line.size()) mend(next, "what follows is not used");
 }
 
 std::string dof_values(const PlacedRobot& placed) {
@@ -95,7 +105,7 @@ std::string dof_values(const PlacedRobot& placed) {
 
 void check_connections(const WorldSpec& world, const std::vector<std::string>& places) {
   const int robots = static_cast<int>(world.robots.size());
-  std::vector<bool> carried(robots);
+  std::vector<int> carrier(robots, -1);
   for (size_t i = 0; i < world.connections.size(); ++i) {
     const Connection& c = world.connections[i];
     const std::string& place = places[i];
@@ -113,8 +123,13 @@ void check_connections(const WorldSpec& world, const std::vector<std::string>& p
            world.robots[c.parent].robot.name, c.chain);
     if (chains[c.chain].links.empty())
       fail("{}: parent chain: chain {} has no link to carry a robot", place, c.chain);
-    if (carried[c.child]) fail("{}: child robot: robot {} is carried already", place, c.child);
-    carried[c.child] = true;
+    if (carrier[c.child] >= 0)
+      fail("{}: child robot: robot {} is carried already", place, c.child);
+    for (int robot = c.parent; robot >= 0; robot = carrier[robot])
+      if (robot == c.child)
+        fail("{}: child robot: wanted one that does not carry robot {} already, got {}", place,
+             c.parent, c.child);
+    carrier[c.child] = c.parent;
   }
 }
 

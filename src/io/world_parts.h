@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "base/listeners.h"
 #include "base/text.h"
 #include "io/read.h"
 
@@ -13,13 +14,13 @@ bool dof_slides(const RobotSpec& robot, int dof);
 
 /// Values of the robot's DOFs in their order [rad or mm]; after that of a breakaway DOF, for each of
 /// its joints, 0, or 1 and the value of the DOF at which the joint broke away. One value a DOF and
-/// nothing else is understood too.
+/// nothing else is understood too; DOFs whose values lack start at their defaults.
 /// throws Error at the line's place
-void read_dof_values(const Line& line, PlacedRobot& placed);
+void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& listeners);
 std::string dof_values(const PlacedRobot& placed);
 
 /// throws Error, begun by the connection's place, when its robots or chain do not exist, carry
-/// themselves, or are carried twice
+/// themselves or one another in a circle, or are carried twice
 void check_connections(const WorldSpec& world, const std::vector<std::string>& places);
 
 /// Orientation of a camera, in Inventor's order x y z w; empty when they are no rotation.

@@ -150,7 +150,8 @@ void WldReader::read_robot() {
   if (placed.robot.dofs.empty()) {
     if (lines_.peek().blank()) lines_.next();
   } else {
-    read_dof_values(lines_.next_full("the values of the DOFs").before('#'), placed);
+    read_dof_values(lines_.next_full("the values of the DOFs").before('#'), placed,
+                    library_.options().listeners());
   }
   placed.X_WB = pose();
   world_.order.push_back({WorldEntry::Kind::robot, static_cast<int>(world_.robots.size())});
@@ -181,9 +182,13 @@ void WldReader::read_camera(bool focal_distance) {
   for (int i = 0; i < 7; ++i)
     x[i] = line.number(i, i < 3 ? "camera position" : "camera orientation (x y z w)");
   const auto q = camera_orientation(x[3], x[4], x[5], x[6]);
-  if (!q)
-    line.fail("camera orientation: wanted a quaternion of length 1, got {} {} {} {}", x[3], x[4],
-              x[5], x[6]);
+  if (!q) {
+    library_.mended(
+        fmt::format("{}: camera orientation: wanted a quaternion of length 1, got {} {} {} {}; the "
+                    "camera is not used",
+                    line.place(), x[3], x[4], x[5], x[6]));
+    return;
+  }
   used_up(line, focal_distance ? 8 : 7);
   Camera camera;
   camera.X_WC = {*q, Eigen::Vector3d(x[0], x[1], x[2]) * units::millimetre};

@@ -79,7 +79,8 @@ void XmlWorldReader::read_body(const XmlElement& element, Role role) {
   const XmlElement own = element.child("body"), name = element.child("filename");
   if (own) {
     if (name && lower_case(name.text()) != "unspecified")
-      name.fail("{}: wanted <filename> or <body>, got both", element.name());
+      library_.mended(fmt::format("{}: {}: wanted <filename> or <body>, got both; <body> is used",
+                                  name.place(), element.name()));
     placed.body = inline_body(own);
   } else {
     const XmlElement file = element.wanted("filename");
@@ -100,7 +101,7 @@ void XmlWorldReader::read_robot(const XmlElement& element) {
   const XmlElement values = element.child("dofValues");
   if (values) {
     const std::string text = values.text();
-    read_dof_values(values.as_line(text), placed);
+    read_dof_values(values.as_line(text), placed, library_.options().listeners());
   } else if (!placed.robot.dofs.empty()) {
     library_.note(fmt::format("{}: robot: no <dofValues>; its DOFs start at their defaults",
                               element.place()));
@@ -129,9 +130,13 @@ void XmlWorldReader::read_camera(const XmlElement& element) {
   const XmlElement turn = element.wanted("orientation");
   const auto x = turn.numbers(4);
   const auto q = camera_orientation(x[0], x[1], x[2], x[3]);
-  if (!q)
-    turn.fail("orientation: wanted a quaternion of length 1, got {} {} {} {}", x[0], x[1], x[2],
-              x[3]);
+  if (!q) {
+    library_.mended(
+        fmt::format("{}: orientation: wanted a quaternion of length 1, got {} {} {} {}; the camera "
+                    "is not used",
+                    turn.place(), x[0], x[1], x[2], x[3]));
+    return;
+  }
   Camera camera;
   camera.X_WC = {*q, element.wanted("position").vector() * units::millimetre};
   if (const XmlElement focus = element.child("focalDistance"))

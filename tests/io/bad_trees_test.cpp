@@ -11,7 +11,7 @@ using clench::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 static void check_trees(const std::string& format) {
-  check_bad_files(format, "", "." + format, 25, [](const fs::path& path) { read_robot(path); });
+  check_bad_files(format, "", "." + format, 20, [](const fs::path& path) { read_robot(path); });
 }
 
 TEST_CASE("a malformed URDF file is told by file, line, wanted and got") { check_trees("urdf"); }

@@ -56,10 +56,12 @@ TEST_CASE("every ending of a body's file is loaded, checked and tried for anothe
 }
 
 TEST_CASE("an ending that no reader has is refused") {
+  const test::TemporaryFolder folder;
+  CHECK_THROWS_WITH_AS(file_kind("notes.txt"), "no such file: notes.txt", Error);
   CHECK_THROWS_WITH_AS(
-      file_kind("notes.txt"),
+      file_kind(folder.write("notes.txt", "")),
       "notes.txt: wanted a model, a world, or a file that goes with one, got '.txt'", Error);
-  CHECK_THROWS_WITH_AS(file_kind("notes"),
+  CHECK_THROWS_WITH_AS(file_kind(folder.write("notes", "")),
                        "notes: wanted a model, a world, or a file that goes with one, got nothing",
                        Error);
 }

@@ -95,13 +95,22 @@ TEST_CASE("a point or a face of an OBJ that is wrong is told by line") {
   refused("v 1 abc 2", "three numbers after v, got 'abc'");
   refused("v 1 2", "three numbers after v, got nothing");
   refused("v 1 nan 2", "three numbers after v, got 'nan'");
-  refused("v 1 2 3 4 5 6 7 8", "at most a point, a weight and a colour after v, got more numbers");
   refused("f 1 2 9", "one of 8 points after f, got 9");
   refused("f 1/1 2/1 0/1", "one of 8 points after f, got 0");
   refused("f -1 -2 -9", "one of 8 points after f, got -9");
   refused("f 1 2 x", "numbers of points after f, got 'x'");
   refused("f 1 2 3/x", "numbers of points after f, got '3/x'");
   refused("f 1 2 99999999999", "numbers of points after f, got '99999999999'");
+}
+
+TEST_CASE("of too many numbers after v the first three count, with a warning") {
+  Warnings warnings;
+  const Mesh mesh =
+      read_obj_text(cube_points + "v 1 2 3 4 5 6 7 8\n" + cube_faces, warnings.options());
+  CHECK(mesh.triangles.size() == 12);
+  REQUIRE(!warnings.list.empty());
+  CHECK(warnings.list[0] ==
+        "q.obj:9: wanted at most a point, a weight and a colour after v; only the point is used");
 }
 
 TEST_CASE("what an OBJ holds and is not used is told by line, each kind once") {

@@ -28,7 +28,7 @@ static std::vector<fs::path> files_of(const std::string& root_name) {
 TEST_CASE("every XML body of the original loads, with triangles unless it names none") {
   REQUIRE_SHARED();
   const auto files = files_of("root");
-  CHECK(files.size() >= 85);
+  CHECK(files.size() == 138);
   int frames = 0;
   for (const auto& file : files) {
     INFO(file.string());
@@ -36,14 +36,14 @@ TEST_CASE("every XML body of the original loads, with triangles unless it names 
     CHECK_NOTHROW(body = read_body(file));
     frames += !body.shape;
   }
-  CHECK(frames == 1);  // the template of all bodies
+  CHECK(frames == 2);  // the template of all bodies, and a link that is a frame
 }
 
 TEST_CASE("every XML robot of the original loads, and every XML world") {
   REQUIRE_SHARED();
   const auto robots = files_of("robot"), worlds = files_of("world");
-  CHECK(robots.size() >= 15);
-  CHECK(worlds.size() >= 4);
+  CHECK(robots.size() == 26);
+  CHECK(worlds.size() == 4);
   for (const auto& file : robots) {
     INFO(file.string());
     RobotSpec robot;

@@ -166,8 +166,8 @@ TEST_CASE("every set of the original loads, text and XML say the same") {
         ++compared;
       }
     }
-  CHECK(read_contacts == 35);
-  CHECK(compared == 8);
+  CHECK(read_contacts == 42);
+  CHECK(compared == 12);
 }
 
 // --- contacts on objects ---

@@ -389,7 +389,7 @@ TEST_CASE("a robot whose file cannot be written keeps the older one") {
   const fs::path older = folder.write("hand.cfg", "older");
   CHECK_THROWS_AS(write_robot(robot, older), Error);
   CHECK(read_bytes(older) == "older");
-  CHECK(contents_below(folder.path()).size() == 2);
+  CHECK(contents_below(folder.path()).size() == 3);
 }
 
 TEST_CASE("of a robot that cannot be written whole no part is, and older parts stay") {
