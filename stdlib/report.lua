@@ -156,7 +156,8 @@ local readers = {
 --- One file, understood: what `clench check` says of it. Loaded by require "clench.report" or as clench.report.
 --- `understood` is a table of what its kind holds, all in metres, kilograms and radians; without it `wrong` says why.
 ---@param path string
----@param options? {root?: string, confine?: string, folder?: string, package?: string, unit?: string}  those that its kind takes are used
+--- With `strict` so does the first sentence of what was mended, not used or doubtful.
+---@param options? {root?: string, confine?: string, folder?: string, package?: string, unit?: string, strict?: boolean}  those that its kind takes are used
 ---@return {file: string, kind: string?, understood: table?, guessed: string[], mended: string[], ignored: string[], doubtful: string[], wrong: string?}
 --- > r = clench.report.of "models/hands/barrett/barrett.cfg"
 --- > r.kind, #r.understood.dofs, r.understood.dofs[2].unit  --> robot, 4, rad
@@ -168,6 +169,9 @@ function report.of(path, options)
     kind = clench.file_kind(path, {confine = options.confine})
     return readers[kind](path, reading(kind, options))
   end)
+  -- a world in Lua tells what its own files have wrong
+  local told = ok and options.strict and (heard.mended[1] or heard.ignored[1] or heard.doubtful[1])
+  if told then ok, result = false, told end
   return {file = path, kind = kind, understood = ok and result or nil, guessed = heard.guessed, mended = heard.mended,
           ignored = heard.ignored, doubtful = heard.doubtful,
           wrong = not ok and error_text(result):gsub("^stdlib/report.lua:%d+: ", "") or nil}

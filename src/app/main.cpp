@@ -57,6 +57,7 @@ static void add_reading(CLI::App& verb, ReadingOptions& reading) {
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);
   verb.add_option("--unit", reading.unit, "of meshes: mm cm m inch foot")->type_name("UNIT");
+  verb.add_flag("--strict", reading.strict, "what would be warned of is an error");
 }
 
 // what --help says of every verb that loads
@@ -113,7 +114,8 @@ static int main_of(int argc, char** argv) {
   check_verb->add_flag("--json", checking.json, "as JSON");
   check_verb->footer(
       "Examples:\n  clench check hand.urdf\n  clench check --json mug.stl worlds/dlr_flask.wld\n\n"
-      "Exit code: 1 when a file could not be read." +
+      "Exit code: 1 when a file could not be read; with --strict also when something in one was "
+      "mended, is not used or looks wrong." +
       trust);
   ConvertOptions converting;
   auto* convert_verb = app.add_subcommand("convert", "write what a file holds as another format");

@@ -29,6 +29,7 @@ struct ReadingOptions {
   std::string package;  ///< folder of the packages that a URDF names
   std::string unit;     ///< of a mesh
   std::string confine;  ///< the folder below which files are read
+  bool strict = false;  ///< is what is warned of an error?
 };
 
 struct CheckOptions {

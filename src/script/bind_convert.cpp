@@ -37,7 +37,7 @@ Writes what a file holds as another format, by the ending of `to`: bodies as .xm
 told in warnings; where it cannot hold the matter itself, that is an error, and nothing is written.
 @param from string
 @param to string
-@param options? {root?: string, confine?: string, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number}  of reading; of robots those of add_robot, too
+@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number}  of reading; of robots those of add_robot, too
 @return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
 > path = os.tmpname()
 > clench.convert("models/objects/flask.iv", path .. ".ply")  --> body

@@ -210,14 +210,14 @@ static const Entry functions[] = {
     {"eigengrasps", guarded<eigengrasps>, R"(
 Eigengrasps from .egr or .xml. Give them to a hand: hand.eigengrasps = set.
 @param path string
-@param options? {root?: string, confine?: string}
+@param options? {root?: string, confine?: string, strict?: boolean}
 @return eigengrasps
 > clench.files.eigengrasps "no.egr"  --> error: no such file: no.egr)"},
     {"virtual_contacts", guarded<virtual_contacts>, R"(
 Virtual contacts from .vgr or .xml. Give them to a hand: hand.virtual_contacts = list. `chain` and `link` count from 1,
 chain 0 is the base; `frame` is in the link's, +z out of it; `robot` of the list is the hand they were made for.
 @param path string
-@param options? {root?: string, confine?: string}
+@param options? {root?: string, confine?: string, strict?: boolean}
 @return {chain: integer, link: integer, frame: pose, mu: number, edges: number[][]}[]
 > path = os.tmpname() .. ".vgr"
 > hand:save_virtual_contacts(path)
@@ -228,7 +228,7 @@ chain 0 is the base; `frame` is in the link's, +z out of it; `robot` of the list
 Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, where the file leaves the
 points out.
 @param path string
-@param options? {root?: string, confine?: string}
+@param options? {root?: string, confine?: string, strict?: boolean}
 @return {frame: pose, placed: boolean, normal: vec3, mu: number, edges: number[][]}[]
 > clench.files.object_contacts "no.txt"  --> error: no such file)"},
     {"save_object_contacts", guarded<save_object_contacts>, R"(
@@ -244,7 +244,7 @@ Writes contacts on an object; without `edges` those of a point.
 Boxes, spheres, cylinders and cones in an Inventor or VRML file, in its frame. Of an object's file those in
 primitives/<its name>.iv beside it are read instead, when that exists. y is the axis of cylinder and cone.
 @param path string
-@param options? {root?: string, confine?: string}
+@param options? {root?: string, confine?: string, strict?: boolean}
 @return {kind: "box"|"sphere"|"cylinder"|"cone", pose: pose, size?: vec3, radius?: number, height?: number}[]  [m]
 > path = os.tmpname() .. ".iv"
 > file = io.open(path, "w")
@@ -256,7 +256,7 @@ primitives/<its name>.iv beside it are read instead, when that exists. y is the 
     {"pregrasps", guarded<pregrasps>, R"(
 Pre-grasps of a planner's list, in the object's frame.
 @param path string
-@param options? {root?: string, confine?: string}
+@param options? {root?: string, confine?: string, strict?: boolean}
 @return {point: vec3, direction: vec3, thumb: vec3, spread: number}[]  [m, rad]
 > path = os.tmpname()
 > clench.files.save_pregrasps(path, {{point = {0, 0, 0.1}, direction = {0, 0, -1}, thumb = {1, 0, 0}, spread = 1}})
@@ -271,7 +271,7 @@ Writes pre-grasps as a planner's list.
     {"planned_grasps", guarded<planned_grasps>, R"(
 Grasps that a planner has tried, in the object's frame; `run` counts the planner's runs.
 @param path string
-@param options? {root?: string, confine?: string}
+@param options? {root?: string, confine?: string, strict?: boolean}
 @return {run: integer, pose: pose, spread: number, quality: number}[]
 > path = os.tmpname()
 > clench.files.save_planned_grasps(path, {{pose = {xyz = {0, 0, 0.1}}, quality = 0.5}})
@@ -286,14 +286,14 @@ Writes grasps as a planner's results; runs in their order.
     {"glove_calibration", guarded<glove_calibration>, R"(
 How the raw numbers of a data glove become DOF values: DOF = intercept + slopes * raw.
 @param path string
-@param options? {root?: string, confine?: string}
+@param options? {root?: string, confine?: string, strict?: boolean}
 @return {slopes: number[][], intercepts: number[]}  [rad per count, rad]
 > clench.files.glove_calibration "no.txt"  --> error: no such file)"},
     {"glove_poses", guarded<glove_poses>, R"(
 Postures that a glove was calibrated from: raw `sensors`, the `dof_of_sensor` (0: not used), `joints` [rad], the
 `distance` of fingertips that were to meet [m], and the hand's `pose`.
 @param path string
-@param options? {root?: string, confine?: string}
+@param options? {root?: string, confine?: string, strict?: boolean}
 @return {distance?: number, sensors?: integer[], dof_of_sensor?: integer[], joints?: number[], pose: pose}[]
 > clench.files.glove_poses "no.txt"  --> error: no such file)"},
 };

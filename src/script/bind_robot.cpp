@@ -424,7 +424,7 @@ Moves the hand along its approach direction until it touches something.
     {"mount_on", guarded<mount_on>, R"(
 Fixes the robot to the last link of another one's chain. It follows from now on.
 @param carrier robot
-@param options? {chain?: integer, pose?: pose, piece?: string, root?: string, confine?: string}  chain 1 by default; pose of the base in the link; file of an adapter
+@param options? {chain?: integer, pose?: pose, piece?: string, root?: string, confine?: string, strict?: boolean}  chain 1 by default; pose of the base in the link; file of an adapter
 > hand:mount_on(hand)  --> error: which it carries itself)"},
 };
 

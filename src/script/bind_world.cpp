@@ -278,7 +278,7 @@ A world from a file. Names in it are looked up beside the file, then below the r
 that holds the root and with the folder of the file as its arguments, and returns a world. With `confine`, here and wherever
 files are read, nothing is read that does not lie below that folder, links followed, and no .lua file is run.
 @param path string  .wld, .xml or .lua
-@param options? {root?: string, confine?: string}
+@param options? {root?: string, confine?: string, strict?: boolean}  strict: what would be warned of is an error
 @return world
 > #clench.load("worlds/dlr_flask.wld", {root = "."}).robots  --> 1
 > clench.load("no/such.wld")  --> error: no/such.wld)"},
@@ -342,7 +342,7 @@ The robot of a name.
 Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options
 give overrides the file.
 @param body string|table  file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
-@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, color?: number[], transparency?: number, root?: string, confine?: string, unit?: string, mesh_scale?: number}  density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
+@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, color?: number[], transparency?: number, root?: string, confine?: string, strict?: boolean, unit?: string, mesh_scale?: number}  density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
 @return body
 > world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "cube", mass = 0.2}).mass  --> 0.2
 > math.abs(world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {density = 1000}).mass - 1) < 1e-12  --> true
@@ -356,7 +356,7 @@ Adds a body that only stands in the way; as add_object.
     {"add_robot", guarded<add_robot>, R"(
 Adds a robot from a file.
 @param path string  .cfg .xml .urdf .mjcf
-@param options? {pose?: pose, name?: string, root?: string, confine?: string, folder?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}}  folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; eigengrasps, virtual_contacts: files to read in place of those it names; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
+@param options? {pose?: pose, name?: string, root?: string, confine?: string, strict?: boolean, folder?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}}  folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; eigengrasps, virtual_contacts: files to read in place of those it names; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
 @return robot
 > world:add_robot("nothing.cfg")  --> error: nothing.cfg)"},
     {"remove", guarded<remove>, R"(

@@ -45,7 +45,7 @@ ReadOptions read_options(lua_State* L, Table& options) {
   out.note = [L](const std::string& message) { log(L, LogLevel::info, message, "guessed"); };
   out.mend = [L](const std::string& message) { log(L, LogLevel::warning, message, "mended"); };
   out.doubt = [L](const std::string& message) { log(L, LogLevel::warning, message, "doubtful"); };
-  return out;
+  return options.boolean("strict", false) ? strict(std::move(out)) : out;
 }
 
 // a table of vertices and triangles, as the shapes of the standard library are

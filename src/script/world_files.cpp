@@ -30,7 +30,7 @@ const char running_key = 0;
 class Running {
  public:
   Running(lua_State* L, const fs::path& path)
-      : L_(L), name_(fs::absolute(path).lexically_normal().generic_string()) {
+      : L_(L), name_(fs::weakly_canonical(path).generic_string()) {
     push_table();
     lua_getfield(L_, -1, name_.c_str());
     const bool runs = !lua_isnil(L_, -1);

@@ -180,11 +180,11 @@ local function in_utf8(value)
 end
 
 --- Prints what each file was understood to be.
----@param root string  this and the next three: what is said of reading, "" when nothing is
+---@param root string  this and the next four: what is said of reading, "" when nothing is
 ---@param form "text"|"json"
 ---@return integer  the exit code: 1 when a file could not be read
-function check.main(root, folder, package, unit, form, ...)
-  local options = {root = root, folder = folder, package = package, unit = unit}
+function check.main(root, folder, package, unit, strict, form, ...)
+  local options = {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""}
   local all, code = {}, 0
   for i, path in ipairs {...} do
     all[i] = report.of(path, options)

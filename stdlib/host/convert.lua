@@ -4,10 +4,10 @@ local reading = require "clench.host.reading"
 local convert = {}
 
 --- Writes `to`, and prints what it is.
----@param root string  this and the next three: what is said of reading, "" when nothing is
+---@param root string  this and the next four: what is said of reading, "" when nothing is
 ---@return integer  the exit code
-function convert.main(root, folder, package, unit, from, to)
-  local said = {root = root, folder = folder, package = package, unit = unit}
+function convert.main(root, folder, package, unit, strict, from, to)
+  local said = {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""}
   local ok, kind = pcall(function()
     return clench.convert(from, to, reading(clench.file_kind(from), said))
   end)

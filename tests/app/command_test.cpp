@@ -153,7 +153,7 @@ TEST_CASE("doc writes pages, and --check finds one that is not what the bindings
   // the stub is Lua
   CHECK(run("run " + pages + "/clench.lua").code == 0);
   const std::string file = folder.file("file", "x");
-  CHECK(has(run("doc " + file).out, "cannot be written"));
+  CHECK(has(run("doc " + file).out, "the file cannot be written: Not a directory"));
 }
 
 TEST_CASE("check says what a file is, and fails with 1 when one cannot be read") {
@@ -182,6 +182,26 @@ TEST_CASE("check says what a file is, and fails with 1 when one cannot be read")
   CHECK(has(run("check tests/data/urdf/gripper.urdf").out, "package"));
   CHECK(run("check --package tests/data/urdf tests/data/urdf/gripper.urdf").code == 0);
   CHECK(run("check").code == 2);
+}
+
+TEST_CASE("strictly read, what is mended, not used or doubtful is wrong") {
+  const Folder folder;
+  const std::string body = folder.file("b.xml", "<root>\n<mass>-300</mass></root>"),
+                    world = folder.file("w.lua", "local world = clench.world()\nworld:add_object('" +
+                                                     body + "')\nreturn world"),
+                    out = folder / "out.xml";
+  CHECK(run("check " + body).code == 0);
+  for (const std::string& file : {body, world}) {
+    const auto checked = run("check --strict " + file);
+    CHECK(checked.code == 1);
+    CHECK(has(checked.out, "wrong: b.xml:2: mass: -300 is negative; 300 is used"));
+  }
+  CHECK(run("check --strict models/objects/flask.iv").code == 0);
+  const auto converted = run("convert --strict " + body + " " + out);
+  CHECK(converted.code == 1);
+  CHECK(has(converted.out, "clench convert: b.xml:2: mass: -300 is negative; 300 is used"));
+  CHECK(run("check " + out).code == 1);
+  CHECK(run("convert " + body + " " + out).code == 0);
 }
 
 TEST_CASE("convert writes another format, says what is lost, and fails with 1") {
