@@ -155,8 +155,8 @@ local readers = {
 
 --- One file, understood: what `clench check` says of it. Loaded by require "clench.report" or as clench.report.
 --- `understood` is a table of what its kind holds, all in metres, kilograms and radians; without it `wrong` says why.
----@param path string
 --- With `strict` so does the first sentence of what was mended, not used or doubtful.
+---@param path string
 ---@param options? {root?: string, confine?: string, folder?: string, package?: string, unit?: string, strict?: boolean}  those that its kind takes are used
 ---@return {file: string, kind: string?, understood: table?, guessed: string[], mended: string[], ignored: string[], doubtful: string[], wrong: string?}
 --- > r = clench.report.of "models/hands/barrett/barrett.cfg"

@@ -130,7 +130,7 @@ TEST_CASE("a path lies within a folder when it leads there, by links and dots, o
   CHECK(lies_within(in / "alias.off", in));
   CHECK(lies_within(in / "link/../inside/part.off", in));
   CHECK(lies_within("anywhere", ""));
-  for (const fs::path out :
+  for (const fs::path& out :
        {in / "..", in / "../outside", in / "link", in / "link/nothing", in / "sub/link/part.off",
         in / "linked.off", in / "dangling.off", in / "circle.off", in / "nothing/../../outside",
         fs::path(in.string() + "side"), fs::path("/"), fs::path("/etc/passwd"), fs::path("")}) {
