@@ -42,7 +42,7 @@ std::string ending_of(const std::filesystem::path& path);
 /// none: no file of that ending holds geometry alone
 GeometryFormat geometry_format(std::string_view ending);
 
-/// Is it a file that Coin reads?
+/// Is it an Inventor or VRML file?
 bool is_inventor(const std::filesystem::path& path);
 
 /// Endings of files of geometry, in the order in which they are tried; of a body's, .xml first.

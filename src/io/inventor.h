@@ -1,4 +1,4 @@
-// Geometry from Inventor and VRML files, ascii, all versions up to VRML 97; read through Coin.
+// Geometry from Inventor and VRML files, ascii, all versions up to VRML 97.
 #pragma once
 #include <filesystem>
 

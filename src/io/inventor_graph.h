@@ -1,75 +1,53 @@
-// Inventor and VRML files as Coin's scene graphs, with the files that they include in their places.
-// Included by the inventor files only.
+// Inventor and VRML files as graphs of nodes, with the files that they include in their places.
 #pragma once
-#include <Inventor/errors/SoError.h>
-#include <Inventor/nodes/SoSeparator.h>
-
+#include <deque>
 #include <filesystem>
-#include <map>
-#include <mutex>
-#include <string>
-#include <utility>
-#include <vector>
 
+#include "io/inventor_types.h"
 #include "io/read.h"
 
 namespace clench {
 
-/// Coin keeps global state: one reader at a time, its messages caught, a host's handlers put back.
-class CoinLease {
- public:
-  CoinLease();
-  ~CoinLease();
-  CoinLease(const CoinLease&) = delete;
-  CoinLease& operator=(const CoinLease&) = delete;
+/// Read once; it stands at every place where USE names it.
+struct InventorNode {
+  const InventorType* type = nullptr;
+  int file = 0;  ///< of InventorGraph::files
+  int line = 0;
+  int height = 1;  ///< nodes above one another, itself and all below
+  std::vector<std::pair<const InventorField*, InventorValue>> values = {};  ///< those given
+  /// Of a group; of an Inventor shape what stands inside it, as in old files, for it alone.
+  std::vector<const InventorNode*> children = {};
 
-  std::string error;  ///< first message of the reader
-
- private:
-  static void on_read_error(const SoError* error, void* self);
-
-  std::lock_guard<std::mutex> lock_;
-  SoErrorCB* read_;
-  void* read_data_;
-  SoErrorCB* debug_;
-  void* debug_data_;
-};
-
-/// Counts a reference to a node.
-template <class T>
-class Ref {
- public:
-  Ref(T* node = nullptr) : node_(node) {
-    if (node_) node_->ref();
-  }
-  Ref(const Ref& other) : Ref(other.node_) {}
-  Ref& operator=(Ref other) {
-    std::swap(node_, other.node_);
-    return *this;
-  }
-  ~Ref() {
-    if (node_) node_->unref();
-  }
-  T* get() const { return node_; }
-
- private:
-  T* node_;
+  // what a field of the type holds, given or not
+  const std::vector<float>& numbers(std::string_view field) const;
+  const std::vector<int32_t>& integers(std::string_view field) const;
+  const std::vector<std::string>& words(std::string_view field) const;
+  float number(std::string_view field) const { return numbers(field)[0]; }
+  int32_t integer(std::string_view field) const { return integers(field)[0]; }
+  const std::string& word(std::string_view field) const { return words(field)[0]; }
+  const InventorNode* node(std::string_view field) const;  ///< null when there is none
 };
 
 struct InventorGraph {
-  Ref<SoSeparator> root;
-  std::map<const SoNode*, std::string> places;  ///< of shapes: "part.iv:31", where that is known
+  std::deque<InventorNode> nodes;
+  const InventorNode* root = nullptr;
+  std::deque<std::string> files;      ///< names, the first that of the file itself
+  std::vector<std::string> warnings;  ///< of what is not used
+  std::vector<std::string> mendings;  ///< of what was wrong and is read all the same
 
-  /// For a sentence on a node: "box.iv:31", "box.iv: part.iv:31" of one in a file that it includes,
-  /// or "box.iv" alone.
-  std::string place(const SoNode* node, const std::string& file) const;
+  /// For a sentence on a node: "box.iv:31", or "box.iv: part.iv:31" of one in an included file.
+  std::string place(const InventorNode& node) const;
 };
 
-/// The graph of a file. Its lines are `text`; what is not used is told to `warnings`.
-/// throws Error  "box.iv:31: ..." when the file or one that it includes is malformed, missing or
-/// includes itself
-InventorGraph load_graph(CoinLease& coin, const std::filesystem::path& path,
-                         const std::string& text, const ReadOptions& options,
-                         std::vector<std::string>& warnings);
+/// Files included, each counted as often as it is named: far above what models name.
+inline constexpr size_t max_includes = 10'000;
+
+/// The graph of a file that holds `text`. Nodes of unknown types are stepped over with a warning,
+/// nodes that have no part in triangles, colours, units and transforms without one. A PROTO's body
+/// is read again for each of its instances, with their values.
+/// throws Error  "box.iv:31: ..." when the file or one that it includes is malformed, missing,
+/// includes itself or is larger than files may be
+InventorGraph read_inventor_graph(const std::filesystem::path& path, const std::string& text,
+                                  const ReadOptions& options);
 
 }  // namespace clench

@@ -1,16 +1,11 @@
 #include "io/inventor_primitives.h"
 
-#include <Inventor/VRMLnodes/SoVRMLNodes.h>
-#include <Inventor/actions/SoCallbackAction.h>
-#include <Inventor/nodes/SoNodes.h>
-
 #include <set>
 
 #include "base/text.h"
 #include "base/units.h"
 #include "io/body_xml.h"
-#include "io/inventor_faces.h"
-#include "io/inventor_graph.h"
+#include "io/inventor_walk.h"
 
 namespace clench {
 
@@ -20,8 +15,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int most_visits = 100'000;  // nodes visited, shared ones each time
-constexpr size_t most_found = 10'000;
+constexpr int max_primitive_visits = 100'000;  // of nodes, shared ones each time
+constexpr size_t max_primitives = 10'000;
 constexpr double digits =
     1e-4;  // matrices of scene graphs have six digits, and several are multiplied
 
@@ -32,36 +27,28 @@ struct Solid {
   double radius = 0, height = 0;
 };
 
-template <class Node>
-Node* as(SoNode* node) {
-  return node->isOfType(Node::getClassTypeId()) ? static_cast<Node*>(node) : nullptr;
-}
-
-std::optional<Solid> primitive_of(SoNode* node) {
+std::optional<Solid> primitive_of(const InventorNode& node) {
   using Kind = PrimitiveKind;
-  if (const auto* n = as<SoCube>(node))
-    return Solid{.kind = Kind::box,
-                 .size = Vector3d(n->width.getValue(), n->height.getValue(), n->depth.getValue())};
-  if (const auto* n = as<SoVRMLBox>(node)) {
-    const SbVec3f s = n->size.getValue();
-    return Solid{.kind = Kind::box, .size = Vector3d(s[0], s[1], s[2])};
+  switch (node.type->kind) {
+    case InventorKind::cube:
+      if (node.type->name == "Cube")
+        return Solid{
+            .kind = Kind::box,
+            .size = Vector3d(node.number("width"), node.number("height"), node.number("depth"))};
+      return Solid{.kind = Kind::box,
+                   .size = Eigen::Vector3f(node.numbers("size").data()).cast<double>()};
+    case InventorKind::sphere:
+      return Solid{.kind = Kind::sphere, .radius = node.number("radius")};
+    case InventorKind::cylinder:
+      return Solid{
+          .kind = Kind::cylinder, .radius = node.number("radius"), .height = node.number("height")};
+    case InventorKind::cone:
+      return Solid{.kind = Kind::cone,
+                   .radius = node.number("bottomRadius"),
+                   .height = node.number("height")};
+    default:
+      return {};
   }
-  if (const auto* n = as<SoSphere>(node))
-    return Solid{.kind = Kind::sphere, .radius = n->radius.getValue()};
-  if (const auto* n = as<SoVRMLSphere>(node))
-    return Solid{.kind = Kind::sphere, .radius = n->radius.getValue()};
-  const auto round = [](Kind kind, double radius, double height) {
-    return Solid{.kind = kind, .radius = radius, .height = height};
-  };
-  if (const auto* n = as<SoCylinder>(node))
-    return round(Kind::cylinder, n->radius.getValue(), n->height.getValue());
-  if (const auto* n = as<SoVRMLCylinder>(node))
-    return round(Kind::cylinder, n->radius.getValue(), n->height.getValue());
-  if (const auto* n = as<SoCone>(node))
-    return round(Kind::cone, n->bottomRadius.getValue(), n->height.getValue());
-  if (const auto* n = as<SoVRMLCone>(node))
-    return round(Kind::cone, n->bottomRadius.getValue(), n->height.getValue());
-  return {};
 }
 
 const char* name_of(PrimitiveKind kind) {
@@ -69,84 +56,33 @@ const char* name_of(PrimitiveKind kind) {
   return names[static_cast<int>(kind)];
 }
 
-/// Walks a scene graph and gathers its primitives.
-class PrimitiveCollector {
- public:
-  PrimitiveCollector(std::string file, const InventorGraph& graph)
-      : file_(std::move(file)), graph_(graph) {}
-  void apply(SoNode* root);
-
-  std::vector<Primitive> found;
-  std::set<std::string> warnings;
-
- private:
-  static SoCallbackAction::Response on_node(void* self, SoCallbackAction* action,
-                                            const SoNode* node) {
-    return static_cast<PrimitiveCollector*>(self)->enter(action, const_cast<SoNode*>(node));
-  }
-  SoCallbackAction::Response enter(SoCallbackAction* action, SoNode* node);
-  Primitive placed(const Solid& shape, const SbMatrix& X);
-
-  std::string file_, error_, place_;  // of the node at hand
-  const InventorGraph& graph_;
-  int steps_ = 0;
-};
-
-void PrimitiveCollector::apply(SoNode* root) {
-  SoCallbackAction action;
-  action.addPreCallback(SoNode::getClassTypeId(), on_node, this);
-  action.apply(root);
-  if (!error_.empty()) throw Error(error_);
-}
-
-SoCallbackAction::Response PrimitiveCollector::enter(SoCallbackAction* action, SoNode* node) {
-  if (++steps_ > most_visits || found.size() > most_found)
-    error_ = fmt::format("{}: wanted at most {} primitives and {} nodes", file_, most_found,
-                         most_visits);
-  if (!error_.empty()) return SoCallbackAction::ABORT;
-  place_ = graph_.place(node, file_);
-  // no exception may pass through Coin
-  try {
-    if (const auto shape = primitive_of(node))
-      found.push_back(placed(*shape, action->getModelMatrix()));
-    else if (node->isOfType(SoShape::getClassTypeId()))
-      warnings.insert(
-          fmt::format("{}: {} is no primitive and is not used", file_, node_name(node)));
-    else
-      return SoCallbackAction::CONTINUE;
-    return SoCallbackAction::PRUNE;
-  } catch (const Error& error) {
-    error_ = error.what();
-  }
-  return SoCallbackAction::ABORT;
-}
-
-Primitive PrimitiveCollector::placed(const Solid& shape, const SbMatrix& X) {
+Primitive placed(const Solid& shape, const InventorMatrix& X, const std::string& file,
+                 std::set<std::string>& warnings) {
   const char* name = name_of(shape.kind);
   const bool box = shape.kind == PrimitiveKind::box, ball = shape.kind == PrimitiveKind::sphere;
   const double least =
       box ? shape.size.minCoeff() : std::min(shape.radius, ball ? shape.radius : shape.height);
-  if (!(least > 0)) fail("{}: {}: wanted sizes > 0, got {}", place_, name, least);
+  if (!(least > 0)) fail("{}: wanted sizes > 0, got {}", name, least);
 
-  // turn and scale of each axis; Coin multiplies rows
+  // turn and scale of each axis; rows are multiplied
   Matrix3d axes;
   Vector3d position;
   for (int i = 0; i < 3; ++i) {
-    position[i] = X[3][i];
-    for (int j = 0; j < 3; ++j) axes(j, i) = X[i][j];
+    position[i] = X.m[3][i];
+    for (int j = 0; j < 3; ++j) axes(j, i) = X.m[i][j];
   }
   const Vector3d scale = axes.colwise().norm();
   if (!axes.allFinite() || !position.allFinite() || !(scale.minCoeff() > 0))
-    fail("{}: {}: wanted a finite scale other than 0", place_, name);
+    fail("{}: wanted a finite scale other than 0", name);
   axes = axes * scale.cwiseInverse().asDiagonal();
   if ((axes.transpose() * axes - Matrix3d::Identity()).cwiseAbs().maxCoeff() > digits)
-    fail("{}: {}: it is skewed, and is none any more", place_, name);
+    fail("{}: it is skewed, and is none any more", name);
   if (axes.determinant() < 0) axes.col(0) *= -1;  // all of them are the same mirrored
   const double across = std::max(scale.x(), scale.z());
   const bool oval = ball ? scale.maxCoeff() - scale.minCoeff() > digits * scale.maxCoeff()
                          : std::abs(scale.x() - scale.z()) > digits * across;
   if (!box && oval)
-    warnings.insert(fmt::format("{}: {}: it is oval; the largest radius is used", file_, name));
+    warnings.insert(fmt::format("{}: {}: it is oval; the largest radius is used", file, name));
 
   Primitive out{.kind = shape.kind,
                 .X_OP = {Eigen::Quaterniond(axes).normalized(), position * units::millimetre}};
@@ -166,18 +102,16 @@ PlacedFile geometry_of_body(const fs::path& path, const ReadOptions& options) {
   return found.value_or(PlacedFile());
 }
 
-/// Millimetres to millimetres; Coin multiplies rows.
-SoMatrixTransform* new_placement(const PlacedFile& file) {
+/// Millimetres to millimetres; rows are multiplied.
+InventorMatrix placement_of(const PlacedFile& file) {
   const Pose X_BG = file.X_BG.value_or(Pose{});
   const Matrix3d axes = X_BG.rotation.toRotationMatrix() * file.scaling.asDiagonal();
-  SbMatrix X = SbMatrix::identity();
+  InventorMatrix X;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) X[i][j] = static_cast<float>(axes(j, i));
-    X[3][i] = static_cast<float>(X_BG.position[i] / units::millimetre);
+    for (int j = 0; j < 3; ++j) X.m[i][j] = static_cast<float>(axes(j, i));
+    X.m[3][i] = static_cast<float>(X_BG.position[i] / units::millimetre);
   }
-  auto* placement = new SoMatrixTransform;
-  placement->matrix = X;
-  return placement;
+  return X;
 }
 
 }  // namespace
@@ -199,22 +133,21 @@ std::vector<Primitive> read_primitives(const fs::path& path, const ReadOptions& 
          one_of(endings_of(GeometryFormat::inventor)), in_quotes(ending));
 
   std::vector<Primitive> found;
-  std::vector<std::string> warnings;
-  {
-    const std::string text = read_text(source.path);
-    CoinLease coin;
-    const Ref<SoSeparator> all(new SoSeparator);
-    all.get()->addChild(new_placement(source));
-    const InventorGraph graph = load_graph(coin, source.path, text, options, warnings);
-    all.get()->addChild(graph.root.get());
-    PrimitiveCollector collector(file, graph);
-    collector.apply(all.get());
-    warnings.insert(warnings.end(), collector.warnings.begin(), collector.warnings.end());
-    found = std::move(collector.found);
-  }
-  // told when Coin is free again, for a listener may want to read, too
-  if (options.warn)
-    for (const auto& warning : warnings) options.warn(warning);
+  const InventorGraph graph = read_inventor_graph(source.path, read_text(source.path), options);
+  InventorWalk walk;
+  walk.max_visits = max_primitive_visits;
+  walk.shape = [&](const InventorNode& shape, const InventorState& state) {
+    if (found.size() >= max_primitives) fail("wanted at most {} primitives", max_primitives);
+    if (const auto solid = primitive_of(shape))
+      found.push_back(placed(*solid, state.X, file, walk.warnings));
+    else
+      walk.warnings.insert(
+          fmt::format("{}: {} is no primitive and is not used", file, shape.type->name));
+  };
+  InventorState start;
+  start.X = placement_of(source);
+  walk_inventor(graph, start, walk);
+  tell_inventor_warnings(graph, walk, options);
   return found;
 }
 

@@ -311,7 +311,7 @@ TEST_CASE("nodes that use one another have a limit of depth") {
   std::string text = "DEF g0 Group { }\n";
   for (int i = 1; i < 1200; ++i)
     text += "DEF g" + std::to_string(i) + " Group { USE g" + std::to_string(i - 1) + " }\n";
-  CHECK_THROWS_WITH_AS(body(text), "body.iv: wanted nodes at most 1000 deep", Error);
+  CHECK_THROWS_WITH_AS(body(text), "body.iv:1002: wanted nodes at most 1000 deep", Error);
 }
 
 TEST_CASE("nodes shared a hundred thousand fold have a limit") {
@@ -385,7 +385,7 @@ TEST_CASE("what is lifted out of a shape leaves lines as they are, and a file th
       read_body(folder.write("a.iv", head + square +
                                          "FaceSet {\n Material {\n diffuseColor 1 0 0\n }\n "
                                          "numVertices 3\n}\nCube { widht 3 }\n")),
-      "a.iv:9: Unknown field \"widht\" in \"Cube\"", Error);
+      "a.iv:9: Cube: unknown field 'widht'; did you mean 'width'?", Error);
   Warnings warnings;
   read_body(
       folder.write("b.iv", head + square + "FaceSet {\n File { name \"b.iv\" } numVertices 3 }"),
@@ -436,7 +436,7 @@ TEST_CASE("every header is read, and comments before it do not count") {
         doctest::Approx(0.1));
   CHECK(body("Separator { Cube { } }", "\xEF\xBB\xBF#Inventor V2.1 ascii").shape);
   CHECK_THROWS_WITH_AS(body("Separator { Cube { wdith 3 } }", "#mass 100\n#Inventor V2.1 ascii"),
-                       "body.iv:3: Unknown field \"wdith\" in \"Cube\"", Error);
+                       "body.iv:3: Cube: unknown field 'wdith'; did you mean 'width'?", Error);
 }
 
 TEST_CASE("the same text with other line ends is the same body") {
@@ -473,8 +473,8 @@ TEST_CASE("a file without a surface is a frame, which is told") {
 }
 
 TEST_CASE(
-    "a shape in an included file is told with both files, and one that a PROTO makes without a "
-    "line") {
+    "a shape in an included file is told with both files, and one that a PROTO makes with the "
+    "PROTO's line") {
   const test::TemporaryFolder folder;
   const std::string bad = "Separator {\n FaceSet { numVertices [3] }\n}\n";
   folder.write("part.iv", "#Inventor V2.1 ascii\n\n" + bad);
@@ -483,11 +483,12 @@ TEST_CASE(
   CHECK_THROWS_WITH_AS(
       read_body(outer),
       "outer.iv: part.iv:4: FaceSet: number 0 of numVertices: wanted 3 points, got 1", Error);
-  const auto proto = folder.write("proto.wrl",
-                                  "#VRML V2.0 utf8\nPROTO P [ ] { Group { } }\n"
-                                  "Shape { geometry IndexedFaceSet { coordIndex [0 1 2 -1] } }\n");
+  const auto proto = folder.write(
+      "proto.wrl",
+      "#VRML V2.0 utf8\nPROTO P [ ] {\n  Shape { geometry IndexedFaceSet { coordIndex [0 1 2 -1] } "
+      "}\n}\nGroup { }\nP { }\n");
   CHECK_THROWS_WITH_AS(read_body(proto),
-                       "proto.wrl: IndexedFaceSet: number 0 of coordIndex: wanted -1 or one of 0 "
+                       "proto.wrl:3: IndexedFaceSet: number 0 of coordIndex: wanted -1 or one of 0 "
                        "points, got 0",
                        Error);
 }
