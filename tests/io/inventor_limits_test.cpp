@@ -152,7 +152,8 @@ TEST_CASE("PROTOs are read again for each instance, with an end") {
   CHECK(refusal(wrl +
                 "PROTO P [ field SFNode x NULL ] { Group { children [ Group { children IS x } "
                 "Group { children IS x } ] } }\n" +
-                nested + "NULL" + repeated(40, " }")) == "a.iv:3: wanted at most 1000000 nodes");
+                nested + "NULL" + repeated(40, " }")) ==
+        "a.iv:2: wanted PROTOs that stand for at most 20000000 bytes of text");
   // long bodies
   CHECK(refusal(wrl + "PROTO P [ ] {\n#" + std::string(1 << 20, '-') + "\n}\n" +
                 repeated(60, "P { }\n")) ==
