@@ -148,13 +148,8 @@ static World read_again(lua_State* L, const fs::path& path, const fs::path& root
 // tells what the file that was written does not hold
 static void warn_of_losses(lua_State* L, const World& world, const World& again,
                            const std::string& file) {
-  constexpr size_t most = 12;
-  auto lost = differences(world, again);
-  if (lost.empty()) return;
-  const size_t more = lost.size() > most ? lost.size() - most : 0;
-  lost.resize(lost.size() - more);
-  const std::string rest = more ? fmt::format(" and {} more", more) : "";
-  log_warning(L, fmt::format("{} does not hold {}{}", file, name_list(lost), rest));
+  const auto lost = differences(world, again);
+  if (!lost.empty()) log_warning(L, fmt::format("{} does not hold {}", file, name_list(lost)));
 }
 
 void save_world(lua_State* L, const World& world, const fs::path& path, const fs::path& root) {
