@@ -187,7 +187,6 @@ void tell_lost_in_urdf(const RobotSpec& robot, const RobotFolder& folder) {
   body_has([](const BodySpec* b) { return b->elastic_modulus.has_value(); }, "elastic moduli");
   tell_softness(robot, folder);
   body_has([](const BodySpec* b) { return b->tracker.has_value(); }, "the trackers of links");
-  body_has([](const BodySpec* b) { return !(b->mass > 0); }, "a mass of 0");
   if (robot.X_BA)
     folder.lost("the approach frame; it is guessed from the geometry when it is read");
   if (robot.tracker) folder.lost("the tracker on the robot");

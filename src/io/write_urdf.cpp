@@ -67,7 +67,7 @@ void UrdfText::add_inertial(const UrdfLink& link) {
   // what a reader gives a frame that weighs nothing in the file
   const bool frame = !body.shape && !body.appearance.visual && !body.com &&
                      !body.inertia_per_mass && body.mass == 1e-3;
-  if (frame || !(body.mass > 0)) return;
+  if (frame) return;
   const Eigen::Matrix3d I = inertia_of(body) * body.mass;
   add("    ", "<inertial>");
   Pose X_UC = Pose::translation(com_of(body));

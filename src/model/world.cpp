@@ -1,7 +1,6 @@
 #include "model/world.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/error.h"
 #include "base/suggest.h"
@@ -88,6 +87,7 @@ Id<Body> World::insert(Body body, const std::string& name) {
 Id<Body> World::add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB,
                          const std::string& name) {
   check_body(spec, "body");
+  check_appearance(spec.appearance, the_body(spec.name));
   check_place(X_WB, the_body(spec.name));
   Body body = make_body(spec, kind, X_WB);
   body.material = state_.materials.index(spec.material);
@@ -354,10 +354,13 @@ void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
 void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
                                const std::vector<std::vector<Apart>>& apart) {
   Robot& r = edit(id);
-  const Eigen::VectorXd was = std::exchange(r.q, q);
+  const Eigen::VectorXd was = r.q;
   std::vector<std::vector<Apart>> was_apart;
-  for (size_t c = 0; c < r.chains.size(); ++c)
-    was_apart.push_back(std::exchange(r.chains[c].apart, apart[c]));
+  r.q = q;
+  for (size_t c = 0; c < r.chains.size(); ++c) {
+    was_apart.push_back(r.chains[c].apart);
+    r.chains[c].apart = apart[c];
+  }
   try {
     place(id, body(r.base).X_WB);
   } catch (const Error&) {

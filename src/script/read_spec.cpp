@@ -118,6 +118,7 @@ static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
     spec.inertia_per_mass = read_matrix3(L, -1, options.what("inertia")) / spec.mass;
   lua_pop(L, 1);
   check_body(spec, options.subject() + ": body");
+  check_appearance(spec.appearance, options.subject());
 }
 
 BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions& reading) {

@@ -79,12 +79,16 @@ TEST_CASE("each number of a body has one rule") {
                    s.inertia_per_mass = x * Eigen::Matrix3d::Identity();
                  }));
   // a float cannot tell the smallest from 0, which is allowed
-  check_verdicts(share_rule, "color", body([](BodySpec& s, double x) {
-                   s.appearance.color[1] = static_cast<float>(x);
-                 }));
-  check_verdicts(share_rule, "transparency", body([](BodySpec& s, double x) {
-                   s.appearance.transparency = static_cast<float>(x);
-                 }));
+  check_verdicts(share_rule, "color", [](double x) {
+    Appearance looks;
+    looks.color[1] = static_cast<float>(x);
+    check_appearance(looks, "body");
+  });
+  check_verdicts(share_rule, "transparency", [](double x) {
+    Appearance looks;
+    looks.transparency = static_cast<float>(x);
+    check_appearance(looks, "body");
+  });
 }
 
 static RobotSpec one_joint() {
