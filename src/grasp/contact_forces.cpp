@@ -14,6 +14,12 @@ using Eigen::VectorXd;
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
 
+// of a load, torque over rho: a power of two, so that no digit changes
+double size_of(const Vector6d& load, const Grasp& grasp) {
+  return std::exp2(std::round(
+      std::log2(std::hypot(load.head<3>().stableNorm(), load.tail<3>().stableNorm() / grasp.rho))));
+}
+
 ContactForce read_force(const ForceProgram& p, const World& world, const Grasp& grasp, int i) {
   const PointContact& contact = grasp.points[i];
   const int count = p.map.starts[i + 1] - p.map.starts[i];
@@ -40,7 +46,7 @@ ContactForce read_force(const ForceProgram& p, const World& world, const Grasp& 
 VectorXd read_efforts(const ForceProgram& p, const World& world, const Grasp& grasp, bool asked) {
   const int dofs = static_cast<int>(world.robot(grasp.hand).dofs.size());
   VectorXd out = VectorXd::Zero(dofs);
-  if (asked) return p.solution.x.segment(p.u, dofs);
+  if (asked) return p.solution.x.segment(p.u, dofs) + p.at_rest.head(dofs);
   const VectorXd rows =
       p.joints.forces * p.solution.x.segment(p.f, p.map.forces()) - p.joints.springs;
   for (int k = 0; k < dofs; ++k) {
@@ -50,19 +56,60 @@ VectorXd read_efforts(const ForceProgram& p, const World& world, const Grasp& gr
   return out;
 }
 
+// below this part of its unit an unknown is what the solver leaves
+constexpr double noise = 1e-9;
+
+// of forces that are the larger the better
+double read_extra(const ForceProgram& p) {
+  const double x = p.solution.x[p.extra];
+  return x > noise * p.solution.units[p.extra] ? x : 0;
+}
+
+// of `interior` what it is largest in, of all others what is left beside rounding
+void read_margin(const ForceProgram& p, bool interior, ForceResult& out) {
+  if (out.forces.empty()) return;
+  double most = 0;
+  out.margin = no_end;
+  for (const ContactForce& f : out.forces) {
+    most = std::max(most, f.normal);
+    out.margin = std::min(out.margin, f.margin);
+  }
+  if (interior) out.objective = read_extra(p);
+  if (interior) out.margin = std::min(out.margin, out.objective);
+  if (out.margin <= noise * most) out.margin = 0;
+}
+
+// Is what is left small against a load, in force and in torque about the longest arm, each as the other at its end?
+bool balances(double arm, const Vector6d& load, const Vector6d& left) {
+  const auto force = [&](const Vector6d& w) { return w.head<3>().stableNorm(); };
+  const auto torque = [&](const Vector6d& w) { return w.tail<3>().stableNorm(); };
+  // what forces a hundred million times the load leave of it by rounding
+  const double part = 1e-7;
+  return force(left) * arm <= part * (force(load) * arm + torque(load)) &&
+         torque(left) <= part * (force(load) * arm + torque(load));
+}
+
 void read_forces(const ForceProgram& p, const World& world, const Grasp& grasp,
                  const ForceOptions& options, ForceQuestion question, ForceResult& out) {
   for (int i = 0; i < p.map.contacts(); ++i) out.forces.push_back(read_force(p, world, grasp, i));
-  Vector6d sum = p.map.matrix * p.solution.x.segment(p.f, p.map.forces());
-  if (question == ForceQuestion::largest) out.load_factor = std::max(0.0, p.solution.x[p.extra]);
-  sum += (question == ForceQuestion::largest ? out.load_factor : 1) * p.load_O;
+  Vector6d held = p.load_O;
+  if (question == ForceQuestion::largest) {
+    out.load_factor = read_extra(p);
+    held *= out.load_factor;
+  }
+  Vector6d sum = p.map.matrix * p.solution.x.segment(p.f, p.map.forces()) + held;
+  const bool asked = !held.isZero(0) && question != ForceQuestion::nearest;
+  if (asked && !balances(p.arm, held, sum)) out.status = ForceStatus::inaccurate;
   out.unbalanced = turned_wrench(sum, world.body(grasp.object).X_WB.matrix());
   sum.tail<3>() /= grasp.rho;
-  out.residual = sum.norm();
+  out.residual = sum.stableNorm();
+  if (!std::isfinite(out.residual)) out.status = ForceStatus::inaccurate;
   out.efforts = read_efforts(p, world, grasp, options.joints.has_value());
   const bool grows = options.objective == ForceObjective::interior ||
                      options.objective == ForceObjective::interior_sum;
   if (question == ForceQuestion::forces) out.objective = (grows ? -1 : 1) * p.solution.objective;
+  const bool interior = options.objective == ForceObjective::interior;
+  read_margin(p, interior && question == ForceQuestion::forces, out);
 }
 
 int largest_of(const std::vector<double>& values) {
@@ -90,7 +137,8 @@ void name_weakest(ForceCertificate& c) {
 ForceCertificate read_certificate(const ForceProgram& p, const World& world, const Grasp& grasp,
                                   std::optional<double> factor) {
   const ConeSolution& s = p.solution;
-  const Vector6d y = s.y.segment<6>(p.balance.start);
+  Vector6d y = s.y.segment<6>(p.balance.start);
+  y.tail<3>() /= p.arm;
   Vector6d measured = y;
   measured.tail<3>() *= grasp.rho;
   // no motion of the object is in a proof that its forces contradict each other whatever the load
@@ -122,12 +170,6 @@ ForceCertificate read_certificate(const ForceProgram& p, const World& world, con
   out.effort_shares.resize(dofs);
   name_weakest(out);
   return out;
-}
-
-// of a load, torque over rho: a power of two, so that no digit changes
-double size_of(const Vector6d& load, const Grasp& grasp) {
-  return std::exp2(std::round(
-      std::log2(std::hypot(load.head<3>().stableNorm(), load.tail<3>().stableNorm() / grasp.rho))));
 }
 
 // What stands in the way of the largest part of the load that is held is the tightest of all proofs. Where no part is,

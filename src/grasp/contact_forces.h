@@ -54,9 +54,9 @@ struct ContactForce {
 
 enum class ForceStatus {
   optimal,
-  infeasible,  ///< proved: no forces do it
+  infeasible,  ///< proved: no forces up to 1e12 times what is asked for do it
   unbounded,   ///< the more force the better: a cap is missing
-  inaccurate,  ///< the solver stopped short; what it has is given
+  inaccurate,  ///< what was found does not pass its check: the best there is
 };
 
 /// Proof that a load is too much: a small motion of the object and of the hand's joints that gives way to it. Along it
@@ -82,6 +82,9 @@ struct ForceResult {
   std::vector<ContactForce> forces;        ///< one a contact of the grasp
   Vector6d unbalanced = Vector6d::Zero();  ///< load and forces together, world axes
   double residual = 0;                     ///< its length, torque over rho [N]
+  /// the least distance that a force keeps from the edge of its cone, and of `interior` from its cap; 0: some force lies
+  /// on its edge, and for `interior` no forces keep away from it, as without force closure [N]
+  double margin = 0;
   Eigen::VectorXd efforts;  ///< of the hand's motors; without `joints`: that fit best [N m or N]
   double load_factor = 0;   ///< of largest_load
   std::optional<ForceCertificate> certificate = {};

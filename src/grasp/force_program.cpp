@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "math/decompositions.h"
+
 namespace clench {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
@@ -38,7 +40,7 @@ void add_cones(ForceProgram& p, const Grasp& grasp, const ForceOptions& options,
   const int contacts = p.map.contacts();
   // how far inside: one number for all, or one a contact
   int depth = -1;
-  if (interior && contacts > 0) depth = p.builder.unknowns(1);
+  if (interior && contacts > 0) depth = p.extra = p.builder.unknowns(1);
   if (sum && contacts > 0) depth = p.builder.unknowns(contacts);
   for (int i = 0; i < contacts; ++i) {
     const double mu = grasp.points[i].mu;
@@ -122,8 +124,25 @@ void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
   }
 }
 
+// Efforts that hold springs and weights without a contact, and what of those no effort holds: so that heavy links do not
+// hide small forces.
+VectorXd efforts_at_rest(const JointBalance& joints, VectorXd& left) {
+  left = joints.springs;
+  if (joints.efforts.size() == 0) return VectorXd::Zero(joints.efforts.cols());
+  const VectorXd efforts = least_squares(joints.efforts, -joints.springs);
+  const MatrixXd sizes = joints.efforts.cwiseAbs();
+  left += joints.efforts * efforts;
+  const VectorXd terms = joints.springs.cwiseAbs() + sizes * efforts.cwiseAbs();
+  // a few roundings of what has cancelled
+  for (int i = 0; i < left.size(); ++i)
+    if (std::abs(left[i]) <= 1e-14 * terms[i]) left[i] = 0;
+  return efforts;
+}
+
 // each joint is in balance, or nearly
 void balance_joints(ForceProgram& p, const JointDemand& demand) {
+  VectorXd springs;
+  p.at_rest = efforts_at_rest(p.joints, springs);
   std::vector<int> tight, loose;
   for (int i = 0; i < p.joints.slack.size(); ++i)
     (demand.nearly_at_rest && p.joints.slack[i] > 0 ? loose : tight).push_back(i);
@@ -131,10 +150,10 @@ void balance_joints(ForceProgram& p, const JointDemand& demand) {
     return std::vector<ConeBlock>{{p.f, sign * p.joints.forces(rows, Eigen::all)},
                                   {p.u, -sign * p.joints.efforts(rows, Eigen::all)}};
   };
-  if (!tight.empty()) p.builder.equal(blocks(tight, 1), p.joints.springs(tight));
+  if (!tight.empty()) p.builder.equal(blocks(tight, 1), springs(tight));
   if (loose.empty()) return;
   for (const double sign : {1.0, -1.0})
-    p.builder.at_most(blocks(loose, sign), sign * p.joints.springs(loose) + p.joints.slack(loose));
+    p.builder.at_most(blocks(loose, sign), sign * springs(loose) + p.joints.slack(loose));
 }
 
 void add_joints(ForceProgram& p, const World& world, const Grasp& grasp,
@@ -146,21 +165,29 @@ void add_joints(ForceProgram& p, const World& world, const Grasp& grasp,
   p.lows.resize(efforts), p.highs.resize(efforts);
   for (int k = 0; k < efforts; ++k) {
     if (p.low[k] == p.high[k]) {
-      p.builder.equal({{p.u + k, number(1)}}, numbers(p.high[k]));
+      p.builder.equal({{p.u + k, number(1)}}, numbers(p.high[k] - p.at_rest[k]));
       continue;
     }
     if (std::isfinite(p.high[k]))
-      p.highs[k] = p.builder.at_most({{p.u + k, number(1)}}, numbers(p.high[k]));
+      p.highs[k] = p.builder.at_most({{p.u + k, number(1)}}, numbers(p.high[k] - p.at_rest[k]));
     if (std::isfinite(p.low[k]))
-      p.lows[k] = p.builder.at_most({{p.u + k, number(-1)}}, numbers(-p.low[k]));
+      p.lows[k] = p.builder.at_most({{p.u + k, number(-1)}}, numbers(p.at_rest[k] - p.low[k]));
   }
   if (demand.total_torque) {
     MatrixXd row = MatrixXd::Zero(1, efforts);
     for (int k = 0; k < efforts; ++k)
       if (p.joints.refs[k].robot == grasp.hand && !p.joints.refs[k].clutch)
         row(0, k) = closing_sense(world, grasp, p.joints.refs[k].dof);
-    p.builder.equal({{p.u, row}}, numbers(*demand.total_torque));
+    p.builder.equal({{p.u, row}}, numbers(*demand.total_torque - row.row(0).dot(p.at_rest)));
   }
+}
+
+// so that torques count as much as forces
+double about_longest_arm(const Grasp& grasp) {
+  double arm = 0;
+  for (const PointContact& point : grasp.points)
+    arm = std::max(arm, (point.p_O - grasp.com).stableNorm());
+  return arm > 0 ? std::exp2(std::round(std::log2(arm))) : 1;
 }
 
 }  // namespace
@@ -172,20 +199,24 @@ ForceProgram make_program(const World& world, const Grasp& grasp, const ForceOpt
   const Eigen::Matrix3d R_OW = world.body(grasp.object).X_WB.matrix().transpose();
   p.load_O = turned_wrench(options.load, R_OW);
   p.f = p.builder.unknowns(p.map.forces());
+  p.arm = about_longest_arm(grasp);
+  Vector6d rows = Vector6d::Ones();
+  rows.tail<3>() /= p.arm;
+  const MatrixXd map = rows.asDiagonal() * p.map.matrix;
+  const Vector6d load = rows.cwiseProduct(p.load_O);
   const bool chosen = question == ForceQuestion::forces;
   if (question == ForceQuestion::forces) {
-    p.balance = p.builder.equal({{p.f, p.map.matrix}}, -p.load_O);
+    p.balance = p.builder.equal({{p.f, map}}, -load);
   } else if (question == ForceQuestion::nearest) {
     // what is left, torque over rho
-    Vector6d unit = Vector6d::Ones();
+    Vector6d unit = rows;
     unit.tail<3>() *= grasp.rho;
     p.extra = p.builder.unknowns(6);
-    p.balance =
-        p.builder.equal({{p.f, p.map.matrix}, {p.extra, -MatrixXd(unit.asDiagonal())}}, -p.load_O);
+    p.balance = p.builder.equal({{p.f, map}, {p.extra, -MatrixXd(unit.asDiagonal())}}, -load);
     for (int k = 0; k < 6; ++k) p.builder.square(p.extra + k, 1);
   } else {
     p.extra = p.builder.unknowns(1);
-    p.balance = p.builder.equal({{p.f, p.map.matrix}, {p.extra, p.load_O}}, Vector6d::Zero());
+    p.balance = p.builder.equal({{p.f, map}, {p.extra, load}}, Vector6d::Zero());
     p.builder.cost(p.extra, -1);
     p.builder.at_most({{p.extra, number(-1)}}, numbers(0));
   }

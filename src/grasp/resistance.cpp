@@ -20,10 +20,7 @@ double resistance(const World& world, const Grasp& grasp, const Vector6d& wrench
   if (most.status == ForceStatus::infeasible) return 0;
   if (most.status != ForceStatus::optimal)
     fail("resistance: the solver stopped short of an answer for this wrench");
-  // forces of one newton that balance a billionth of one balance nothing: what the solver leaves
-  const double balanced = most.load_factor * std::hypot(wrench_W.head<3>().norm(),
-                                                        wrench_W.tail<3>().norm() / grasp.rho);
-  return balanced > 1e-9 ? most.load_factor : 0;
+  return most.load_factor;
 }
 
 double ellipsoid_resistance(const World& world, const Grasp& grasp, const Vector6d& axes_W,

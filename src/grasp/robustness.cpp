@@ -160,8 +160,13 @@ Robustness robustness_of(const RobustnessProblem& p, const std::vector<ContactHo
   MarginProgram program(p, start, span);
   for (size_t i = 0; i < states.size(); ++i)
     if (states[i] != ContactHold::detached) program.bound(i, states[i], true);
-  const VectorXd x = program.solve(MatrixXd(0, span.cols() + 1), VectorXd(0)).x;
-  if (!(x[0] > 0)) return out;
+  const ConeSolution best = program.solve(MatrixXd(0, span.cols() + 1), VectorXd(0));
+  if (best.status == ConeStatus::infeasible) return out;
+  if (best.status != ConeStatus::optimal)
+    fail("robustness: the solver stopped short of an answer for these forces");
+  const VectorXd& x = best.x;
+  // what is far below the data is rounding
+  if (!(x[0] > 1e-9 * best.units[0])) return out;
   out.margin = x[0];
   out.radius = out.margin / singular_value_decomposition(right).values[0];
   out.forces = start + span * x.tail(span.cols());

@@ -11,6 +11,7 @@ using Eigen::VectorXd;
 constexpr double accepted = 1e-9;  // residuals of an optimum, as the header promises
 constexpr double wanted = 1e-11;   // it goes on until here, while that succeeds
 constexpr double certain = 1e-9;   // residuals of a proof that there is no solution, or no bound
+constexpr double proved = 1e-14;   // it goes on until here, while that succeeds
 constexpr int most_iterations = 100;
 constexpr double step_back = 0.99;  // part of the way to the boundary
 
@@ -145,7 +146,9 @@ ConeQuality judge(const ConeRows& rows, const ConePoint& p) {
   q.primal = size_of(back / tau - rows.b) / against(std::max(size_of(Ax), size_of(p.s)) / tau);
   q.dual = size_of((Px + Az) / tau + rows.q) / against(std::max(size_of(Px), size_of(Az)) / tau);
   const double above = (xPx / tau / 2 + qx) / tau, below = -(xPx / tau / 2 + bz) / tau;
-  q.gap = std::abs(above - below) / std::max({1.0, std::abs(above), std::abs(below)});
+  const double steepest = std::max(size_of(rows.q), size_of(Px) / tau);
+  q.gap = std::abs(above - below) /
+          std::max({gap_floor, std::abs(above), std::abs(below), steepest * size_of(p.x) / tau});
   q.infeasible = bz < 0 ? size_of(Az) / -bz : none;
   q.unbounded = qx < 0 ? std::max(size_of(Px), size_of(back)) / -qx : none;
   return q;
@@ -186,11 +189,12 @@ bool advance_point(const ConeRows& rows, ConeKkt& kkt, ConePoint& p) {
 
 EmbeddingEnd solve_embedding(const ConeRows& rows) {
   ConeKkt kkt(rows);
-  EmbeddingEnd best;
+  EmbeddingEnd best, proof;
   best.quality = {1e300, 1e300, 1e300, 1e300, 1e300};
   best.point = {.x = VectorXd::Zero(rows.unknowns()),
                 .z = VectorXd::Zero(rows.count()),
                 .s = VectorXd::Zero(rows.in_cones())};
+  proof.quality = best.quality;
   const NesterovTodd none(rows.cones);
   if (!kkt.factor(none)) return best;
   ConePoint p = first_point(rows, kkt);
@@ -198,21 +202,23 @@ EmbeddingEnd solve_embedding(const ConeRows& rows) {
   int without_progress = 0;
   for (int i = 0;; ++i) {
     const ConeQuality q = judge(rows, p);
-    const bool proves_none = q.infeasible <= certain, proves_no_bound = q.unbounded <= certain;
-    if (proves_none || proves_no_bound)
-      return {proves_none ? ConeStatus::infeasible : ConeStatus::unbounded, p, q, i};
+    ++without_progress;
     if (q.worst() < best.quality.worst()) {
       best = {best.status, p, q, i};
       without_progress = 0;
-    } else {
-      ++without_progress;
     }
-    const bool enough = best.quality.worst() <= accepted && without_progress > 1;
-    if (best.quality.worst() <= wanted || enough || i == most_iterations) break;
+    if (best.quality.worst() > accepted && q.proof() < proof.quality.proof()) {
+      const bool none_meets = q.infeasible <= q.unbounded;
+      proof = {none_meets ? ConeStatus::infeasible : ConeStatus::unbounded, p, q, i};
+      without_progress = 0;
+    }
+    const bool enough = best.quality.worst() <= accepted || proof.quality.proof() <= certain;
+    if (best.quality.worst() <= wanted || proof.quality.proof() <= proved) break;
+    if ((enough && without_progress > 1) || i == most_iterations) break;
     if (!advance_point(rows, kkt, p)) break;
   }
   if (best.quality.worst() <= accepted) best.status = ConeStatus::optimal;
-  return best;
+  return best.status != ConeStatus::optimal && proof.quality.proof() <= certain ? proof : best;
 }
 
 }  // namespace clench

@@ -19,6 +19,7 @@ struct ConeQuality {
   double primal = 0, dual = 0, gap = 0;  // as a solution
   double infeasible = 0, unbounded = 0;  // as a proof; infinite when it is none
   double worst() const { return std::max({primal, dual, gap}); }
+  double proof() const { return std::min(infeasible, unbounded); }
 };
 
 /// optimal: point.x / tau solves it; infeasible: point.z proves it; unbounded: point.x does; inaccurate: the best

@@ -1,14 +1,19 @@
 #include "math/cone_program.h"
 
+#include <limits>
+
 #include "base/error.h"
+#include "math/cone_check.h"
 #include "math/cone_embedding.h"
-#include "math/scale_program.h"
+#include "math/decompositions.h"
 
 namespace clench {
 namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 using Sparse = SparseLdl::Matrix;
+
+constexpr double no_end = std::numeric_limits<double>::infinity();
 
 void check_program(const ConeProgram& program) {
   const auto n = program.c.size();
@@ -57,80 +62,126 @@ Sparse whole_cones(const MatrixXd& A, int equal, const ConeSizes& cones) {
   return out;
 }
 
-// what of the program is left after those equations and unknowns that say nothing new
-struct Kept {
-  std::vector<int> equations, unknowns;
-};
-
-ConeRows make_rows(const ScaledProgram& scaled, const Kept& kept) {
+ConeRows make_rows(const ScaledProgram& scaled, const SolvedPart& part) {
   ConeRows rows;
-  const auto in_cones = scaled.h.size();
-  const auto n = static_cast<int>(kept.unknowns.size());
-  rows.equal = static_cast<int>(kept.equations.size());
+  const auto [primal, dual] = part.sizes;
+  const auto in_cones = static_cast<Eigen::Index>(part.rows.size());
+  const auto n = static_cast<int>(part.unknowns.size());
+  rows.equal = static_cast<int>(part.equations.size());
   MatrixXd A(rows.equal + in_cones, n);
   rows.b.resize(rows.equal + in_cones);
-  if (rows.equal > 0) A.topRows(rows.equal) = scaled.A(kept.equations, kept.unknowns);
-  if (in_cones > 0) A.bottomRows(in_cones) = scaled.G(Eigen::all, kept.unknowns);
-  rows.b.head(rows.equal) = scaled.b(kept.equations);
-  rows.b.tail(in_cones) = scaled.h;
-  rows.cones = scaled.cones;
+  if (rows.equal > 0) A.topRows(rows.equal) = scaled.A(part.equations, part.unknowns);
+  if (in_cones > 0) A.bottomRows(in_cones) = scaled.G(part.rows, part.unknowns);
+  rows.b.head(rows.equal) = scaled.b(part.equations) / primal;
+  rows.b.tail(in_cones) = scaled.h(part.rows) / primal;
+  // a cone is there with all of its rows or none
+  std::vector<int> cone_of;
+  for (int c = 0; c < static_cast<int>(scaled.cones.size()); ++c)
+    cone_of.insert(cone_of.end(), scaled.cones[c], c);
+  for (size_t i = 0; i < part.rows.size();) {
+    rows.cones.push_back(scaled.cones[cone_of[part.rows[i]]]);
+    i += rows.cones.back();
+  }
   for (int c = 0; c < static_cast<int>(rows.cones.size()); ++c)
     rows.cone_at.insert(rows.cone_at.end(), rows.cones[c], c);
   rows.A = whole_cones(A, rows.equal, rows.cones);
   rows.At = rows.A.transpose();
   rows.P.resize(n, n);
-  if (scaled.P.size() > 0) rows.P = MatrixXd(scaled.P(kept.unknowns, kept.unknowns)).sparseView();
-  rows.q = scaled.c(kept.unknowns);
+  if (scaled.P.size() > 0)
+    rows.P = MatrixXd(scaled.P(part.unknowns, part.unknowns) * (primal / dual)).sparseView();
+  rows.q = scaled.c(part.unknowns) / dual;
   return rows;
 }
 
-// equations that no x meets: y with A^T y = 0, b.y = -1
-ConeSolution contradiction(const ConeProgram& program, const VectorXd& y) {
-  ConeSolution out;
-  out.status = ConeStatus::infeasible;
-  out.x = VectorXd::Zero(program.c.size());
-  out.z = out.s = VectorXd::Zero(program.h.size());
-  out.y = y / -program.b.dot(y);
-  out.dual_residual = (program.A.transpose() * out.y).norm();
-  return out;
+// y with A^T y = 0, b.y < 0, in the scaled equations
+EmbeddingEnd contradiction(const ScaledProgram& scaled, const SolvedPart& part, const VectorXd& y) {
+  EmbeddingEnd end;
+  end.status = ConeStatus::infeasible;
+  end.point.x = VectorXd::Zero(scaled.c.size());
+  end.point.s = VectorXd::Zero(static_cast<Eigen::Index>(part.rows.size()));
+  end.point.z = VectorXd::Zero(y.size() + end.point.s.size());
+  end.point.z.head(y.size()) = y;
+  return end;
 }
 
-// back in the program's own units
-ConeSolution unscaled(const ConeProgram& program, const ScaledProgram& scaled, const Kept& kept,
-                      const EmbeddingEnd& end) {
+// The least change of x that meets A x = b, as the last steps of the solver lose digits: as small as what is missing, far
+// within what cones are checked to.
+void restore_equations(const MatrixXd& A, const VectorXd& b, VectorXd& x) {
+  VectorXd left = b - A * x;
+  for (int pass = 0; pass < 3; ++pass) {
+    const double off = left.size() == 0 ? 0 : left.lpNorm<Eigen::Infinity>();
+    if (!(off > 0)) return;
+    const VectorXd next = x + A.transpose() * solve_symmetric(A * A.transpose(), left);
+    left = b - A * next;
+    if (!(left.lpNorm<Eigen::Infinity>() < 0.5 * off)) return;
+    x = next;
+  }
+}
+
+// The same of a proof, A^T y + G^T z = 0, each number by a part of its cone's, so that what is hardly inside stays there.
+VectorXd restored_proof(const ConeRows& rows, const VectorXd& z) {
+  VectorXd sizes = VectorXd::Constant(z.size(), z.lpNorm<Eigen::Infinity>());
+  int start = rows.equal;
+  for (const int size : rows.cones) {
+    sizes.segment(start, size).setConstant(std::max(z[start], 1e-300));
+    start += size;
+  }
+  VectorXd parts = z.cwiseQuotient(sizes);
+  restore_equations(MatrixXd(rows.At) * sizes.asDiagonal(), VectorXd::Zero(rows.unknowns()), parts);
+  const VectorXd better = sizes.cwiseProduct(parts);
+  return cone_margin(rows.cones, better.tail(rows.in_cones())) >= 0 ? better : z;
+}
+
+// back in the program's own units, and checked there
+ConeSolution unscaled(const ConeProgram& program, const ScaledProgram& scaled,
+                      const SolvedPart& part, const EmbeddingEnd& end) {
   ConeSolution out;
   out.status = end.status;
   out.iterations = end.iterations;
   const ConePoint& p = end.point;
-  const auto in_cones = scaled.h.size();
+  const auto [primal, dual] = part.sizes;
   const bool solved = end.status == ConeStatus::optimal || end.status == ConeStatus::inaccurate;
   const double over = solved ? 1 / p.tau : 1;
-  const auto equal = static_cast<Eigen::Index>(kept.equations.size());
+  const auto equal = static_cast<Eigen::Index>(part.equations.size());
+  const auto in_cones = static_cast<Eigen::Index>(part.rows.size());
+  out.units = primal * scaled.columns;
   out.x = VectorXd::Zero(scaled.c.size());
-  out.x(kept.unknowns) = over * scaled.primal * p.x;
+  out.x(part.unknowns) = over * primal * p.x;
+  if (solved && equal > 0)
+    restore_equations(scaled.A(part.equations, Eigen::all), scaled.b(part.equations), out.x);
+  VectorXd both = p.z;
+  if (end.status == ConeStatus::infeasible && end.quality.infeasible > 0.01 * proof_tolerance)
+    both = restored_proof(make_rows(scaled, part), p.z);
   out.x = out.x.cwiseProduct(scaled.columns);
   out.y = VectorXd::Zero(scaled.b.size());
-  out.y(kept.equations) = over * scaled.dual * p.z.head(equal);
+  out.y(part.equations) = over * dual * both.head(equal);
   out.y = out.y.cwiseProduct(scaled.rows_equal);
-  out.z = over * scaled.dual * scaled.rows_cone.cwiseProduct(p.z.tail(in_cones));
-  out.s = over * scaled.primal * p.s.cwiseQuotient(scaled.rows_cone);
-  if (solved) {
-    out.primal_residual = end.quality.primal;
-    out.dual_residual = end.quality.dual;
-    out.gap = end.quality.gap;
-    out.objective = program.c.dot(out.x);
-    if (program.P.size() > 0) out.objective += 0.5 * out.x.dot(program.P * out.x);
-  } else if (end.status == ConeStatus::infeasible) {
+  out.z = VectorXd::Zero(scaled.h.size());
+  out.z(part.rows) = over * dual * both.tail(in_cones);
+  out.z = out.z.cwiseProduct(scaled.rows_cone);
+  VectorXd s = (over * primal * p.s).cwiseQuotient(VectorXd(scaled.rows_cone(part.rows)));
+  if (end.status == ConeStatus::infeasible) {
     const double size = -(program.b.dot(out.y) + program.h.dot(out.z));
     out.y /= size, out.z /= size;
-    out.x.setZero(), out.s.setZero();
-    out.dual_residual = end.quality.infeasible;
-  } else {
+    out.x.setZero(), s.setZero();
+  } else if (end.status == ConeStatus::unbounded) {
     const double size = -program.c.dot(out.x);
-    out.x /= size, out.s /= size;
+    out.x /= size, s /= size;
     out.y.setZero(), out.z.setZero();
-    out.primal_residual = end.quality.unbounded;
+  } else if (end.status == ConeStatus::optimal && program.b.isZero(0) &&
+             VectorXd(program.h(part.rows)).isZero(0) && program.P.isZero(0)) {
+    // where nothing is asked for, and nothing falls without end, 0 is best
+    out.x.setZero(), s.setZero();
   }
+  // of rows that were left out, what the point leaves of them
+  out.s = (solved ? 1 : 0) * program.h;
+  if (program.G.size() > 0) out.s -= program.G * out.x;
+  out.s(part.rows) = s;
+  if (solved) {
+    out.objective = program.c.dot(out.x);
+    if (program.P.size() > 0) out.objective += 0.5 * out.x.dot(program.P * out.x);
+  }
+  check_solution(program, scaled, part, out);
   return out;
 }
 
@@ -151,36 +202,102 @@ Idle idle_unknowns(const ScaledProgram& scaled) {
   return idle;
 }
 
-}  // namespace
+// residuals of what a second start may bring to an optimum
+constexpr double nearly = 1e-6;
 
-// A solution, or one of the proofs; of a program that has neither solution nor bound, any of the two.
-static ConeSolution solve_once(const ConeProgram& program) {
-  const ScaledProgram scaled = scale_program(program);
+// of half lines, how far they are: a right side beyond the rest's seldom binds
+constexpr double far = 100;
 
+std::vector<int> numbers_to(Eigen::Index count) {
+  std::vector<int> out(static_cast<size_t>(count));
+  for (size_t k = 0; k < out.size(); ++k) out[k] = static_cast<int>(k);
+  return out;
+}
+
+// rows of half lines that x = 0 meets with something to spare
+std::vector<int> roomy_rows(const ScaledProgram& scaled) {
+  std::vector<int> out;
+  int start = 0;
+  for (const int size : scaled.cones) {
+    if (size == 1 && scaled.h[start] > 0) out.push_back(start);
+    start += size;
+  }
+  return out;
+}
+
+ConeSolution solve_part(const ConeProgram& program, const ScaledProgram& scaled, SolvedPart part) {
+  part.sizes = program_sizes(scaled, scaled.b, scaled.h(part.rows));
+  part.unknowns = numbers_to(scaled.c.size());
   // equations that follow from others are left out; those that contradict them are the answer
-  const RowDependence equations = row_dependence(scaled.A, scaled.b);
-  if (equations.contradiction)
-    return contradiction(program, scaled.rows_equal.cwiseProduct(*equations.contradiction));
-
-  Kept kept{equations.independent, {}};
-  for (int k = 0; k < scaled.c.size(); ++k) kept.unknowns.push_back(k);
-  const ConeSolution all =
-      unscaled(program, scaled, kept, solve_embedding(make_rows(scaled, kept)));
+  const RowDependence equations = row_dependence(scaled.A, scaled.b / part.sizes.primal);
+  if (equations.contradiction) {
+    part.equations = numbers_to(scaled.b.size());
+    return unscaled(program, scaled, part, contradiction(scaled, part, *equations.contradiction));
+  }
+  part.equations = equations.independent;
+  ConeSolution all = unscaled(program, scaled, part, solve_embedding(make_rows(scaled, part)));
   if (all.status != ConeStatus::inaccurate) return all;
+
+  // nearly there? then in the units of what was found
+  if (std::max({all.primal_residual, all.dual_residual, all.gap}) < nearly) {
+    const ScaledProgram again = scaled_to(scaled, all.x);
+    SolvedPart same = part;
+    same.sizes = program_sizes(again, again.b, again.h(part.rows));
+    const ConeSolution better =
+        unscaled(program, again, same, solve_embedding(make_rows(again, same)));
+    if (better.status == ConeStatus::optimal) return better;
+  }
 
   // are there unknowns too many? to look for them takes longer than most programs
   const Idle idle = idle_unknowns(scaled);
   if (idle.unknowns.empty()) return all;
-  kept.unknowns = idle.others;
-  ConeSolution fewer = unscaled(program, scaled, kept, solve_embedding(make_rows(scaled, kept)));
+  part.unknowns = idle.others;
+  ConeSolution fewer = unscaled(program, scaled, part, solve_embedding(make_rows(scaled, part)));
   if (!idle.falling || fewer.status == ConeStatus::infeasible) return fewer;
   fewer.status = ConeStatus::unbounded;
   fewer.x = scaled.columns.cwiseProduct(*idle.falling);
   fewer.x /= -program.c.dot(fewer.x);
   fewer.y.setZero(), fewer.z.setZero(), fewer.s.setZero();
   fewer.objective = fewer.primal_residual = fewer.dual_residual = fewer.gap = 0;
+  check_solution(program, scaled, part, fewer);
   return fewer;
 }
+
+// how far half lines may be at first: by the size of what is asked for, or, where nothing is, by the nearest of them
+double first_limit(const ScaledProgram& scaled, const std::vector<int>& roomy) {
+  VectorXd asked(scaled.b.size() + scaled.h.size());
+  asked << scaled.b, scaled.h;
+  double nearest = no_end;
+  for (const int row : roomy) {
+    nearest = std::min(nearest, scaled.h[row]);
+    asked[scaled.b.size() + row] = 0;
+  }
+  return far * (asked.isZero(0) ? nearest : asked.lpNorm<Eigen::Infinity>());
+}
+
+// A solution, or one of the proofs; of a program that has neither solution nor bound, any of the two. Half lines far away
+// are left out, which would set the size of all numbers, and come in where they bind or are needed.
+ConeSolution solve_once(const ConeProgram& program) {
+  const ScaledProgram scaled = scale_program(program);
+  const std::vector<int> roomy = roomy_rows(scaled);
+  double limit = first_limit(scaled, roomy);
+  for (;;) {
+    SolvedPart part;
+    part.rows = numbers_to(scaled.h.size());
+    double next = no_end;  // the nearest that is left out
+    std::erase_if(part.rows, [&](int row) {
+      if (scaled.h[row] <= limit || !std::ranges::binary_search(roomy, row)) return false;
+      next = std::min(next, scaled.h[row]);
+      return true;
+    });
+    ConeSolution out = solve_part(program, scaled, part);
+    if (next == no_end || out.status == ConeStatus::infeasible) return out;
+    if (out.status == ConeStatus::optimal && out.s(roomy).minCoeff() >= 0) return out;
+    limit = far * next;
+  }
+}
+
+}  // namespace
 
 ConeSolution solve(const ConeProgram& program) {
   check_program(program);

@@ -20,9 +20,9 @@ struct ConeProgram {
 
 enum class ConeStatus {
   optimal,
-  infeasible,  ///< no x meets the constraints; y and z prove it
+  infeasible,  ///< no x meets the constraints, none up to 1e12 times the data; y and z prove it
   unbounded,   ///< not proved infeasible, and the objective falls without end along x
-  inaccurate,  ///< it stopped before that was sure: the best point found
+  inaccurate,  ///< it does not pass its check: the best point found
 };
 
 /// With y of A x = b and z of G x + s = h, z in K:
@@ -32,14 +32,20 @@ enum class ConeStatus {
 struct ConeSolution {
   ConeStatus status = ConeStatus::inaccurate;
   Eigen::VectorXd x, y, z, s;
+  /// what is about one of each unknown, as the data are: those of x far below it are rounding
+  Eigen::VectorXd units;
   double objective = 0;  ///< at x; 0 without optimum
   /// of the equations above, relative to the size of data and solution; optimal: at most 1e-9
   double primal_residual = 0, dual_residual = 0, gap = 0;
   int iterations = 0;
 };
 
+/// Of objectives that are smaller than this, in data scaled to one, the gap is measured against it.
+inline constexpr double gap_floor = 1e-4;
+
 /// Primal-dual interior points in a homogeneous embedding, so that what has no solution is proved to have
-/// none. Redundant, zero and badly scaled rows and columns are no trouble. The same bits every time.
+/// none. Redundant, zero and badly scaled rows and columns are no trouble, nor half lines far away, which are left out
+/// while they do not bind. What is handed out has been checked at the program itself. The same bits every time.
 ///
 /// throws  Error when sizes do not fit or a number is not finite
 /// source  Nesterov & Todd (1997); Mehrotra (1992); Goulart & Chen (2024), Clarabel: an interior-point

@@ -39,14 +39,27 @@ static void multiply(ScaledProgram& p, const VectorXd& columns, const VectorXd& 
   p.rows_cone = p.rows_cone.cwiseProduct(rows_cone);
 }
 
+// Half lines that bound a single unknown fit any unit: they have no say in it.
+static std::vector<bool> single_bounds(const ScaledProgram& p) {
+  std::vector<bool> single(static_cast<size_t>(p.h.size()), false);
+  Eigen::Index start = 0;
+  for (const int size : p.cones) {
+    single[start] = size == 1 && (p.G.row(start).array() != 0).count() <= 1;
+    start += size;
+  }
+  return single;
+}
+
 // every row and column towards largest number one
 static void equilibrate(ScaledProgram& p) {
   const auto n = p.c.size();
+  const std::vector<bool> single = single_bounds(p);
   for (int pass = 0; pass < 12; ++pass) {
     VectorXd columns = VectorXd::Zero(n), rows_equal(p.b.size()), rows_cone(p.h.size());
     for (Eigen::Index k = 0; k < n; ++k) {
       if (p.A.size() > 0) columns[k] = std::max(columns[k], largest(p.A.col(k)));
-      if (p.G.size() > 0) columns[k] = std::max(columns[k], largest(p.G.col(k)));
+      for (Eigen::Index i = 0; i < p.G.rows(); ++i)
+        if (!single[i]) columns[k] = std::max(columns[k], std::abs(p.G(i, k)));
     }
     for (Eigen::Index k = 0; k < p.b.size(); ++k) rows_equal[k] = largest(p.A.row(k));
     for (Eigen::Index k = 0; k < p.h.size(); ++k) rows_cone[k] = largest(p.G.row(k));
@@ -55,6 +68,52 @@ static void equilibrate(ScaledProgram& p) {
     multiply(p, columns.unaryExpr(to_power), rows_equal.unaryExpr(to_power),
              rows_cone.unaryExpr(to_power));
   }
+}
+
+// Each unknown in the units of the cones that it is in: narrow and wide ones become round.
+static void round_cones(ScaledProgram& p) {
+  VectorXd norms = VectorXd::Zero(p.c.size());
+  Eigen::Index start = 0;
+  for (const int size : p.cones) {
+    if (size > 1)
+      for (Eigen::Index k = 0; k < norms.size(); ++k)
+        norms[k] = std::max(norms[k], largest(p.G.col(k).segment(start, size)));
+    start += size;
+  }
+  const VectorXd columns =
+      norms.unaryExpr([](double norm) { return power_of_two(norm > 0 ? 1 / norm : 1); });
+  multiply(p, columns, VectorXd::Ones(p.b.size()), VectorXd::Ones(p.h.size()));
+}
+
+// every row to largest number one
+static void equilibrate_rows(ScaledProgram& p) {
+  VectorXd rows_equal(p.b.size()), rows_cone(p.h.size());
+  for (Eigen::Index k = 0; k < p.b.size(); ++k) rows_equal[k] = largest(p.A.row(k));
+  for (Eigen::Index k = 0; k < p.h.size(); ++k) rows_cone[k] = largest(p.G.row(k));
+  even_out(p.cones, rows_cone);
+  const auto to_power = [](double norm) { return power_of_two(norm > 0 ? 1 / norm : 1); };
+  multiply(p, VectorXd::Ones(p.c.size()), rows_equal.unaryExpr(to_power),
+           rows_cone.unaryExpr(to_power));
+}
+
+// with the right sides and the objective as they were
+static void rescale(ScaledProgram& p, const VectorXd& columns) {
+  const VectorXd before = p.columns, equal = p.rows_equal, cone = p.rows_cone;
+  multiply(p, columns, VectorXd::Ones(p.b.size()), VectorXd::Ones(p.h.size()));
+  equilibrate_rows(p);
+  p.c = p.c.cwiseProduct(p.columns.cwiseQuotient(before));
+  p.b = p.b.cwiseProduct(p.rows_equal.cwiseQuotient(equal));
+  p.h = p.h.cwiseProduct(p.rows_cone.cwiseQuotient(cone));
+}
+
+ScaledProgram scaled_to(ScaledProgram scaled, const VectorXd& x) {
+  const VectorXd own = x.cwiseQuotient(scaled.columns).cwiseAbs();
+  const double most = largest(own);
+  // what is a thousandth of the largest may be rounding
+  if (most > 0)
+    rescale(scaled,
+            own.unaryExpr([&](double v) { return power_of_two(std::max(v / most, 1e-3)); }));
+  return scaled;
 }
 
 ScaledProgram scale_program(const ConeProgram& program) {
@@ -69,18 +128,23 @@ ScaledProgram scale_program(const ConeProgram& program) {
   p.columns.setOnes(p.c.size());
   p.rows_equal.setOnes(p.b.size());
   p.rows_cone.setOnes(p.h.size());
+  round_cones(p);
   equilibrate(p);
   p.c = p.columns.cwiseProduct(p.c);
   p.b = p.rows_equal.cwiseProduct(p.b);
   p.h = p.rows_cone.cwiseProduct(p.h);
-  // right sides and objective of size one
-  p.primal = power_of_two(std::max(largest(p.b), largest(p.h)));
-  const double curved = p.P.size() == 0 ? 0 : p.P.cwiseAbs().maxCoeff() * p.primal;
-  p.dual = power_of_two(std::max(largest(p.c), curved));
-  p.b /= p.primal, p.h /= p.primal;
-  p.c /= p.dual;
-  p.P *= p.primal / p.dual;
   return p;
+}
+
+ProgramSizes program_sizes(const ScaledProgram& scaled, const VectorXd& b, const VectorXd& h) {
+  ProgramSizes sizes;
+  const double slope = largest(scaled.c);
+  const double curvature = scaled.P.size() == 0 ? 0 : scaled.P.cwiseAbs().maxCoeff();
+  double size = std::max(largest(b), largest(h));
+  if (size == 0 && curvature > 0) size = slope / curvature;
+  sizes.primal = power_of_two(size);
+  sizes.dual = power_of_two(std::max(slope, curvature * sizes.primal));
+  return sizes;
 }
 
 RowDependence row_dependence(const MatrixXd& A, const VectorXd& b) {

@@ -6,18 +6,29 @@
 
 namespace clench {
 
-/// The same program in unknowns x' = x / (primal columns), with rows multiplied by rows_equal and rows_cone
-/// (one number a cone), b and h by 1/primal, the objective by 1/(primal dual).
+/// The same program in unknowns x' = x / columns, with rows multiplied by rows_equal and rows_cone (one number a
+/// cone).
 struct ScaledProgram {
   Eigen::MatrixXd P, A, G;
   Eigen::VectorXd c, b, h;
   std::vector<int> cones;  ///< all: a nonnegative row is a cone of size 1
   Eigen::VectorXd columns, rows_equal, rows_cone;
-  double primal = 1, dual = 1;
 };
 
 /// source  Ruiz (2001), A scaling algorithm to equilibrate both rows and columns norms in matrices
 ScaledProgram scale_program(const ConeProgram& program);
+
+/// The same with unknowns in the units of a solution that is nearly one.
+ScaledProgram scaled_to(ScaledProgram scaled, const Eigen::VectorXd& x);
+
+/// Right sides are over primal, the objective is over primal dual: then both are about one.
+struct ProgramSizes {
+  double primal = 1, dual = 1;
+};
+
+/// b, h  those right sides that count
+ProgramSizes program_sizes(const ScaledProgram& scaled, const Eigen::VectorXd& b,
+                           const Eigen::VectorXd& h);
 
 /// Which equations follow from others, to 1e-10 of the largest.
 struct RowDependence {

@@ -145,7 +145,7 @@ static void set_certificate(lua_State* L, const GraspHandle& g, const ForceCerti
 // leaves the result on the stack
 static void push_result(lua_State* L, const GraspHandle& g, const ForceResult& r,
                         const char* status) {
-  push_list(L, 0, 8);
+  push_list(L, 0, 9);
   set_field(L, "status", status);
   if (r.status == ForceStatus::optimal || r.status == ForceStatus::inaccurate) {
     size_t i = 0;
@@ -154,6 +154,7 @@ static void push_result(lua_State* L, const GraspHandle& g, const ForceResult& r
     push_vector(L, r.unbalanced);
     lua_setfield(L, -2, "unbalanced");
     set_field(L, "residual", r.residual);
+    set_field(L, "margin", r.margin);
     push_vector(L, r.efforts);
     lua_setfield(L, -2, "joint_torques");
   }
@@ -245,16 +246,20 @@ its weight is {0, 0, -9.81 * mass, 0, 0, 0}.
 Objectives: "least" sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); least sum of "squares" of the forces, the only
 one that always has a single answer; least largest normal force ("peak"); "interior", as far from the edges of the cones and from max_force
 as all can be; "interior_sum", the largest sum of the distances from the edges.
-`status`: "optimal"; "infeasible", with a `certificate`; "unbounded" when more force is always better; "inaccurate".
+`status`: "optimal"; "infeasible", with a `certificate`; "unbounded" when more force is always better; "inaccurate" when what was found
+does not pass its check: balance, cones, caps and optimum to 1e-9, and what is left of a load, to 1e-7 of it. A cap that does not bind changes nothing.
+`margin`: the least of the forces' margins, for "interior" of the distances from max_force, too; 0 when some force has to lie on an edge: then
+"interior" is optimal, but these contacts cannot keep inside their cones, as without force closure.
 `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in the
 world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho.
 `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of
 caps and motors; `opens` and `slides` of each contact along it; `cap_shares`, `effort_shares` of the capacity; `contact` or `dof`, whichever gives way.
 @param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, or a list of one a contact, limit and value of their sum [N]; torque_limits: the motors' own, or one a DOF; without it motors give what they must; total_torque: of all motors, closing [N m or N]; closing_only: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
-@return table result  `status`, `forces`, `objective`, `residual`, `unbalanced`, `joint_torques`, `certificate`
+@return table result  `status`, `forces`, `objective`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
 > held = grasp:contact_forces{load = weight}
 > held.status, held.residual < 1e-9  --> optimal, true
+> grasp:contact_forces{load = weight, objective = "interior", max_force = 1}.margin > 0  --> true
 > grasp:contact_forces{load = weight, max_force = 1e-3}.certificate.contact.body == flask  --> true
 > grasp:contact_forces{load = weight, objective = "lest"}  --> error: did you mean 'least'?
 > grasp:contact_forces{load = {1, 2}}  --> error: 6)"},
@@ -262,7 +267,7 @@ caps and motors; `opens` and `slides` of each contact along it; `cap_shares`, `e
 The largest multiple `load` of a wrench on the object that forces at the contacts balance, its axes as in contact_forces.
 `status` "unlimited" when no cap and no torque ends it. The `certificate` says what gives way beyond it.
 @param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean}  as in contact_forces
-@return table result  `status`, `load`, `forces`, `joint_torques`, `certificate`
+@return table result  `status`, `load`, `forces`, `margin`, `joint_torques`, `certificate`
 > grasp:largest_load{direction = {0, 0, -1, 0, 0, 0}, max_force = 10}.load > 1  --> true
 > grasp:largest_load{direction = {0, 0, -1, 0, 0, 0}}.status  --> unlimited)"},
     {"equilibrium", guarded<balance>, R"(
@@ -271,7 +276,7 @@ their limits (max_effort of each DOF; none where that is 0), by springs, and by 
 `status`: "stable"; "unstable", then `unbalanced` is the least wrench that is left and `certificate` says what gives way; "moving" when no contact
 forces balance the joints, so that a finger moves; "inaccurate".
 @param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one a DOF, or false for none; torques: what the motors give, one a DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact, or one a contact [N]
-@return table result  `status`, `forces`, `residual`, `unbalanced`, `joint_torques`, `certificate`
+@return table result  `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > grasp:equilibrium{load = {0, 0, -0.1, 0, 0, 0}}.status  --> stable
 > grasp:equilibrium{load = {0, 0, -1e4, 0, 0, 0}}.status  --> unstable
 > grasp:equilibrium{torques = {1}}  --> error: wanted 12, one a DOF)"},

@@ -1,0 +1,308 @@
+// Every number that contact forces are asked with, over 25 orders of magnitude: what is called optimal, infeasible or
+// stable is, by plain sums and closed formulas, and between 1e-6 and 1e6 there is an answer.
+#include "base/error.h"
+#include "grasp/equilibrium.h"
+#include "grasp/jaws.h"
+#include "grasp/resistance.h"
+
+using namespace clench;
+using Eigen::Vector2d, Eigen::Vector3d, Eigen::VectorXd;
+using test::held, test::Held, test::jaws, test::Jaws, test::wrench;
+
+namespace {
+
+// what is promised is 1e-9 of the largest numbers, here added up over some contacts and in other units
+constexpr double close_to = 1e-7;
+
+constexpr ForceObjective all_objectives[] = {ForceObjective::least, ForceObjective::squares,
+                                             ForceObjective::peak, ForceObjective::interior,
+                                             ForceObjective::interior_sum};
+
+const Vector6d some_load = wrench(0.3, -0.5, -0.8, 0.01, 0.02, -0.03);
+
+// from 1e-12 to 1e13; must: is an answer due?
+template <class Visit>
+void each_power(Visit visit) {
+  for (int e = -12; e <= 13; ++e) {
+    CAPTURE(e);
+    visit(std::pow(10.0, e), std::abs(e) <= 6);
+  }
+}
+
+using Sum = Eigen::Matrix<long double, 3, 1>;
+
+// Balance, cones and caps by sums in more digits than the solver has. What is left counts against the load and, as
+// a torque, against the load at the longest arm.
+void check_sums(const Held& h, const ForceOptions& options, const ForceResult& r) {
+  Sum force = options.load.head<3>().cast<long double>(),
+      torque = options.load.tail<3>().cast<long double>();
+  double largest = 0, arm = 0, total = 0;
+  for (size_t i = 0; i < r.forces.size(); ++i) {
+    const PointContact& c = h.grasp.points[i];
+    const ForceOptions& o = options;
+    const ContactForce& f = r.forces[i];
+    const Sum f_W = f.force_W.cast<long double>();
+    const Sum p = (c.p_O - h.grasp.com).cast<long double>();
+    force += f_W;
+    torque += p.cross(f_W) + c.n_O.cast<long double>() * static_cast<long double>(f.torsion);
+    largest = std::max(largest, f.force_W.norm());
+    arm = std::max(arm, static_cast<double>(p.norm()));
+    total += f.normal;
+    if (o.max_force) CHECK(f.normal <= o.max_force.of(static_cast<int>(i)) * (1 + close_to));
+  }
+  const double of_load = options.load.head<3>().norm() * arm + options.load.tail<3>().norm();
+  for (size_t i = 0; i < r.forces.size(); ++i) {
+    const PointContact& c = h.grasp.points[i];
+    const ContactForce& f = r.forces[i];
+    const double twist = c.torsion_radius > 0 ? f.torsion / c.torsion_radius : 0;
+    // forces that torsion makes tiny against the load have its rounding
+    const double off = close_to * largest + 1e-15 * of_load / arm;
+    CHECK(std::hypot(f.tangential.norm(), twist) <= c.mu * f.normal + std::max(1.0, c.mu) * off);
+    CHECK(f.normal >= -off);
+  }
+  // and what rounding does to the forces in turning them
+  const double allowed =
+      (of_load > 0 ? 3e-7 * of_load : 1e-9 * largest * arm) + 1e-15 * largest * arm;
+  CHECK(static_cast<double>(force.norm()) * arm <= allowed);
+  CHECK(static_cast<double>(torque.norm()) <= allowed);
+  if (options.max_total_force) CHECK(total <= *options.max_total_force * (1 + close_to));
+  if (options.total_force) CHECK(std::abs(total - *options.total_force) <= close_to * total);
+}
+
+ForceResult hold(const Held& h, const ForceOptions& options) {
+  return contact_forces(h.world, h.grasp, options);
+}
+
+// an answer where it is due, checked by sums; wanted: the best, and whether there is any
+void check_hold(const Held& h, const ForceOptions& options, bool must, bool feasible,
+                std::optional<double> best = {}) {
+  const ForceResult r = hold(h, options);
+  if (must) REQUIRE(r.status == (feasible ? ForceStatus::optimal : ForceStatus::infeasible));
+  if (r.status == ForceStatus::optimal) {
+    CHECK(feasible);
+    check_sums(h, options, r);
+    // forces of which friction leaves next to nothing are as good as the load that they hold
+    if (best)
+      CHECK(std::abs(r.objective - *best) <= close_to * *best + 1e-11 * options.load.norm());
+  }
+  if (r.status == ForceStatus::infeasible) CHECK(!feasible);
+  CHECK(r.status != ForceStatus::unbounded);
+}
+
+Held ball(double mu = 0.6) { return held(test::around_ball(7, mu, 3)); }
+
+// the largest load against caps of one newton
+double largest_of_unit(const Held& h, ForceOptions options) {
+  options.load = some_load;
+  const ForceResult r = largest_load(h.world, h.grasp, options);
+  REQUIRE(r.status == ForceStatus::optimal);
+  return r.load_factor;
+}
+
+}  // namespace
+
+TEST_CASE("forces grow with load and caps, whatever their size") {
+  const Held h = ball();
+  for (const ForceObjective by : all_objectives) {
+    CAPTURE(static_cast<int>(by));
+    const double once = hold(h, {.load = some_load, .objective = by, .max_force = 10.0}).objective;
+    each_power([&](double x, bool) {
+      const double times = by == ForceObjective::squares ? x * x : x;
+      check_hold(h, {.load = x * some_load, .objective = by, .max_force = 10 * x}, true, true,
+                 once * times);
+    });
+  }
+}
+
+TEST_CASE("a load of any size against given caps or a given sum") {
+  const Held h = ball();
+  const double most = largest_of_unit(h, {.max_force = 1.0});
+  for (const ForceObjective by : all_objectives) {
+    CAPTURE(static_cast<int>(by));
+    each_power([&](double x, bool must) {
+      check_hold(h, {.load = x * some_load, .objective = by, .max_force = 10.0}, must,
+                 x < 10 * most);
+      check_hold(h, {.load = x * some_load, .objective = by, .total_force = 10.0}, must, x < 5);
+    });
+  }
+}
+
+TEST_CASE("a cap that does not bind changes nothing") {
+  const Held h = ball();
+  const double most = largest_of_unit(h, {.max_force = 1.0}),
+               most_total = largest_of_unit(h, {.max_total_force = 1.0});
+  for (const ForceObjective by :
+       {ForceObjective::least, ForceObjective::squares, ForceObjective::peak}) {
+    CAPTURE(static_cast<int>(by));
+    const ForceResult free = hold(h, {.load = some_load, .objective = by});
+    double peak = 0, total = 0;
+    for (const ContactForce& f : free.forces) peak = std::max(peak, f.normal), total += f.normal;
+    each_power([&](double x, bool) {
+      const auto best = [&](double needed) {
+        return x > needed ? std::optional(free.objective) : std::nullopt;
+      };
+      check_hold(h, {.load = some_load, .objective = by, .max_force = x}, true, x * most > 1,
+                 best(peak));
+      check_hold(h, {.load = some_load, .objective = by, .max_total_force = x}, true,
+                 x * most_total > 1, best(total));
+      if (by != ForceObjective::squares || x < 10) return;
+      // the only ones of which the forces themselves are certain, to the root of what their objective is
+      const ForceResult r = hold(h, {.load = some_load, .objective = by, .max_force = x});
+      for (size_t i = 0; i < r.forces.size(); ++i)
+        CHECK((r.forces[i].force_W - free.forces[i].force_W).norm() < 1e-5);
+    });
+  }
+}
+
+TEST_CASE("forces that shall be large are told where they hide the load") {
+  const Held h = ball();
+  const double most = largest_of_unit(h, {.max_force = 1.0}),
+               most_total = largest_of_unit(h, {.max_total_force = 1.0});
+  for (const ForceObjective by : all_objectives)
+    each_power([&](double x, bool must) {
+      check_hold(h, {.load = some_load, .objective = by, .total_force = x}, must,
+                 x * most_total > 1);
+      if (by != ForceObjective::interior && by != ForceObjective::interior_sum) return;
+      check_hold(h, {.load = some_load, .objective = by, .max_force = x}, must, x * most > 1);
+    });
+  const ForceResult absurd = hold(h, {.load = some_load, .total_force = 1e300});
+  CHECK(absurd.status == ForceStatus::inaccurate);
+}
+
+TEST_CASE("friction and torsion radii of any size") {
+  each_power([&](double x, bool must) {
+    // each carries half of the load by friction
+    const Held pinch = held(test::pinch(x));
+    const Vector6d weight = wrench(0, 0, -1, 0, 0, 0);
+    const auto check = [&](const Held& h, const Vector6d& load, ForceObjective by, double best) {
+      check_hold(h, {.load = load, .objective = by}, must, true, best);
+    };
+    check(pinch, weight, ForceObjective::least, 1 / x);
+    check(pinch, weight, ForceObjective::peak, 0.5 / x);
+    check(pinch, weight, ForceObjective::squares, 0.5 / (x * x) + 0.5);
+    // and of a torque by torsion
+    const Held soft = held(test::pinch(0.5, x));
+    check(soft, wrench(0, 0, 0, 1, 0, 0), ForceObjective::least, 2 / x);
+    for (const ForceObjective by : all_objectives) {
+      const Held h = ball(x);
+      const ForceOptions options{.load = some_load, .objective = by, .max_force = 10.0};
+      const ForceResult r = hold(h, options);
+      if (r.status == ForceStatus::optimal) check_sums(h, options, r);
+      if (must) CHECK(r.status != ForceStatus::inaccurate);
+      // what is held with less friction is held with more
+      CHECK((r.status != ForceStatus::infeasible || x < 0.1));
+      CHECK((r.status != ForceStatus::optimal || x > 1e-3));
+    }
+  });
+}
+
+TEST_CASE("neither the length of torques nor that of the object changes what a load costs") {
+  const Held h = ball();
+  for (const ForceObjective by : all_objectives) {
+    const ForceOptions options{.load = some_load, .objective = by, .max_force = 10.0};
+    const double once = hold(h, options).objective;
+    each_power([&](double x, bool) {
+      Held other = ball();
+      other.grasp.rho = x;
+      check_hold(other, options, true, true, once);
+      auto points = h.grasp.points;
+      for (PointContact& point : points) point.p_O *= x;
+      Held scaled = held(points);
+      scaled.grasp.rho = 0.1 * x;
+      ForceOptions longer = options;
+      longer.load.tail<3>() *= x;
+      check_hold(scaled, longer, true, true, once);
+    });
+  }
+  // nothing holds across, whatever a torque counts
+  each_power([&](double x, bool must) {
+    Held smooth = held(test::pinch(0));
+    smooth.grasp.rho = x;
+    const ForceResult r = hold(smooth, {.load = wrench(1, 2, 0, 0, 0.03, 0), .nearest = true});
+    if (must) REQUIRE(r.status == ForceStatus::optimal);
+    if (r.status != ForceStatus::optimal) return;
+    CHECK(r.residual == doctest::Approx(std::hypot(2, 0.03 / x)).epsilon(close_to));
+  });
+}
+
+TEST_CASE("the largest load grows with caps and friction, and resistance with them") {
+  const Vector6d weight = wrench(0, 0, -1, 0, 0, 0);
+  const auto check = [&](const Held& h, double cap, double wanted, bool must) {
+    const ForceResult r = largest_load(h.world, h.grasp, {.load = weight, .max_force = cap});
+    if (must) REQUIRE(r.status == ForceStatus::optimal);
+    if (r.status == ForceStatus::optimal)
+      CHECK(std::abs(r.load_factor - wanted) <= close_to * wanted + 1e-15 * cap);
+    CHECK(r.status != ForceStatus::infeasible);
+  };
+  each_power([&](double x, bool must) {
+    check(held(test::pinch(0.5)), x, x, must);
+    check(held(test::pinch(x)), 1, 2 * x, must);
+    const Held turned = held(test::pinch(0.5));
+    if (must)
+      CHECK(resistance(turned.world, turned.grasp, x * weight) ==
+            doctest::Approx(0.5 / x).epsilon(close_to));
+    Held other = turned;
+    other.grasp.rho = x;
+    CHECK(resistance(other.world, other.grasp, weight) == doctest::Approx(0.5).epsilon(close_to));
+  });
+}
+
+TEST_CASE("equilibrium is stable where the motors, springs and caps say so, whatever their size") {
+  const auto ask = [](const Jaws& j, const EquilibriumOptions& options, bool must, bool stable) {
+    const Equilibrium e = equilibrium(j.world, j.grasp, options);
+    if (must)
+      REQUIRE(e.status == (stable ? EquilibriumStatus::stable : EquilibriumStatus::unstable));
+    if (e.status == EquilibriumStatus::unstable) CHECK(!stable);
+    CHECK(e.status != EquilibriumStatus::moving);
+    if (e.status != EquilibriumStatus::stable) return;
+    CHECK(stable);
+    // plain sums, along the world's axes that the object's are
+    Sum sum = options.load.head<3>().cast<long double>();
+    for (const ContactForce& f : e.result.forces) sum += f.force_W.cast<long double>();
+    CHECK(static_cast<double>(sum.norm()) <= 2e-7 * options.load.norm());
+  };
+  const Vector6d load = wrench(0, 0, -2, 0, 0, 0);  // each jaw presses 2
+  each_power([&](double x, bool must) {
+    const Jaws free = jaws(DofKind::rigid, 0.5, 0), strong = jaws(DofKind::rigid, 0.5, x);
+    ask(free, {.load = x * load}, true, true);
+    ask(strong, {.load = load}, true, x > 2);
+    ask(free, {.load = load, .max_force = x}, true, x > 2);
+    JointDemand demand;
+    demand.limits = Vector2d(x, x);
+    ask(free, {.load = load, .joints = demand}, true, x > 2);
+    demand.limits.reset();
+    demand.efforts = Vector2d(x, x);
+    ask(free, {.load = load, .joints = demand}, must, x > 2);
+    ask(jaws(DofKind::rigid, x, 0), {.load = load}, must, true);
+    // motors without limit hold what springs press too much or too little
+    ask(jaws(DofKind::compliant, 0.5, 0, false, x), {.load = load}, must, true);
+  });
+}
+
+TEST_CASE("just inside the friction angle is never infeasible, just outside never optimal") {
+  const double slope = 0.3;
+  for (double off = 1e-3; off > 1e-11; off /= 10)
+    for (const double sign : {1.0, -1.0}) {
+      CAPTURE(sign * off);
+      const double mu = std::tan(slope) * (1 + sign * off);
+      Held h = held({test::contact_at({0.05, 0, 0}, {-std::cos(slope), 0, std::sin(slope)}, mu),
+                     test::contact_at({-0.05, 0, 0}, {std::cos(slope), 0, std::sin(slope)}, mu)});
+      const ForceResult r = hold(h, {.load = wrench(0, 0, 1, 0, 0, 0)});
+      CHECK(r.status != (sign > 0 ? ForceStatus::infeasible : ForceStatus::optimal));
+    }
+}
+
+TEST_CASE("a margin of 0 is told, with and without force closure") {
+  const ForceOptions firm{.objective = ForceObjective::interior, .max_force = 10.0};
+  const ForceResult one = hold(held({test::contact_at({0.05, 0, 0}, {-1, 0, 0}, 0.5)}), firm);
+  REQUIRE(one.status == ForceStatus::optimal);
+  CHECK(one.margin == 0);
+  CHECK(one.objective == 0);
+  const ForceResult two = hold(held(test::pinch(0.5)), firm);
+  REQUIRE(two.status == ForceStatus::optimal);
+  CHECK(two.margin == doctest::Approx(two.objective).epsilon(1e-6));
+  CHECK(two.margin > 3);
+  // least forces lie on their edges
+  const ForceResult least = hold(held(test::pinch(0.5)), {.load = wrench(0, 0, -1, 0, 0, 0)});
+  CHECK(least.margin < 1e-8);
+}

@@ -1,0 +1,64 @@
+// A hand of two sliding jaws around a block.
+#pragma once
+#include "grasp/held_object.h"
+
+namespace clench::test {
+
+/// Two jaws that slide along x towards each other, a block of 40 mm between them; a palm below that may touch it.
+struct Jaws {
+  World world;
+  Grasp grasp;
+};
+
+/// springs of this stiffness [N/m] press inwards until the jaws are closed
+inline Jaws jaws(DofKind kind, double mu, double max_effort, bool palm = false, double spring = 0) {
+  Jaws j;
+  RobotSpec spec;
+  spec.name = "jaws";
+  spec.base = body_spec("palm", box(0.1, 0.02, 0.02));
+  DofSpec dof;
+  dof.kind = kind;
+  dof.default_velocity = 1;
+  dof.max_effort = max_effort;
+  spec.dofs = {dof, dof};
+  for (int side = 0; side < 2; ++side) {
+    ChainSpec chain;
+    const double quarter = std::numbers::pi / 2;
+    // z of the chain points inwards
+    chain.X_BC = {Eigen::Quaterniond(
+                      Eigen::AngleAxisd(side == 0 ? -quarter : quarter, Eigen::Vector3d::UnitY())),
+                  {side == 0 ? 0.1 : -0.1, 0, 0.1}};
+    chain.joints.push_back({.kind = JointKind::prismatic,
+                            .dof = side,
+                            .min = 0,
+                            .max = 0.1,
+                            .spring = spring,
+                            .rest = 0.1});
+    LinkSpec link;
+    link.body = body_spec("jaw" + std::to_string(side), box(0.02, 0.02, 0.02));
+    link.joint = LinkJoint::prismatic;
+    chain.links.push_back(link);
+    spec.chains.push_back(chain);
+  }
+  j.grasp.hand = j.world.add_robot(spec, Pose());
+  j.world.set_dofs(j.grasp.hand, Eigen::Vector2d(0.07, 0.07));
+  j.grasp.object = j.world.add_body(body_spec("block", box(0.04, 0.04, 0.04)), BodyKind::object,
+                                    Pose::translation({0, 0, 0.1}));
+  j.grasp.rho = 0.02 * std::sqrt(3.0);
+  const auto touch = [&](Id<Body> part, const Eigen::Vector3d& p_O, const Eigen::Vector3d& n) {
+    Contact contact;
+    contact.body = j.grasp.object;
+    contact.other = part;
+    contact.p_W = p_O + Eigen::Vector3d(0, 0, 0.1);
+    contact.n_W = n;
+    j.grasp.contacts.push_back(contact);
+    j.grasp.points.push_back({.p_O = p_O, .n_O = n, .mu = mu});
+  };
+  const auto& chains = j.world.robot(j.grasp.hand).chains;
+  touch(chains[0].links[0], {0.02, 0, 0}, {-1, 0, 0});
+  touch(chains[1].links[0], {-0.02, 0, 0}, {1, 0, 0});
+  if (palm) touch(j.world.robot(j.grasp.hand).base, {0, 0, -0.02}, {0, 0, 1});
+  return j;
+}
+
+}  // namespace clench::test
