@@ -8,7 +8,7 @@
 
 namespace clench {
 
-static constexpr size_t max_inventor_values = 20'000'000;
+static constexpr size_t max_inventor_values = 10'000'000;
 
 void InventorParser::field(InventorNode& node, const InventorField& field) {
   const InventorType& type = *node.type;

@@ -113,10 +113,10 @@ TEST_CASE("copies count as nodes that are visited") {
                 repeated(1500, "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n") + "] } }") == limit);
 }
 
-TEST_CASE("a file has at most a million nodes, and twenty million values") {
+TEST_CASE("a file has at most a million nodes, and ten million values") {
   CHECK(refusal(iv + repeated(1'000'000, "Group{}")) == "a.iv:2: wanted at most 1000000 nodes");
-  CHECK(refusal(iv + "Normal { }\nIndexedFaceSet { coordIndex [\n" + repeated(20'000'001, "0,") +
-                "] }") == "a.iv:4: wanted at most 20000000 values of fields");
+  CHECK(refusal(iv + "Normal { }\nIndexedFaceSet { coordIndex [\n" + repeated(10'000'001, "0,") +
+                "] }") == "a.iv:4: wanted at most 10000000 values of fields");
 }
 
 TEST_CASE("names, warnings and PROTOs of a file have an end") {
