@@ -196,6 +196,7 @@ const InventorNode* InventorParser::node(const InventorToken& first, const Inven
     warn(type_word.line, fmt::format("{} inside {} is skipped", type.name, around->name));
     skip_brackets();
   } else if (type.kind <= InventorKind::odd && type.kind != InventorKind::value) {
+    count_value();  // so that these, too, have an end
     if (type.kind != InventorKind::idle)
       warn(type_word.line,
            fmt::format("{} {} is skipped", type.kind == InventorKind::odd ? "node" : "unknown node",
