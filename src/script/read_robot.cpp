@@ -37,6 +37,8 @@ static void read_packages(lua_State* L, Table& options, ReadOptions& reading) {
     reading.packages[""] = check_folder(options.string("package"), subject);
   } else if (type == LUA_TTABLE) {
     each_key(L, subject, [&](const std::string& key) {
+      if (lua_type(L, -1) != LUA_TSTRING)
+        fail("{}: {}: wanted a folder, got a {}", subject, key, luaL_typename(L, -1));
       const std::string folder = read_string(L, -1, {L, subject, key});
       reading.packages[key] = check_folder(folder, subject + ": " + key);
     });

@@ -11,11 +11,11 @@ end
 
 test("a patch of any radius is fitted or refused", function(t)
   clench.log.sink(function() end)
-  -- the corners of a cube on a plate share one patch, 20 mm across
+  -- the corners of a cube on a plate share one patch, 5 mm across
   local world = clench.world()
   local plate = world:add_obstacle(clench.shapes.box {0.2, 0.2, 0.02}, {material = "wood", pose = {xyz = {0, 0, -0.01}}})
-  local cube = world:add_object(clench.shapes.box {0.02, 0.02, 0.02}, {
-    material = "rubber", elastic_modulus = 1.5e6, pose = {xyz = {0, 0, 0.01005}}})
+  local cube = world:add_object(clench.shapes.box {0.005, 0.005, 0.005}, {
+    material = "rubber", elastic_modulus = 1.5e6, pose = {xyz = {0, 0, 0.00255}}})
   local corners = world:contacts(plate, cube)
   t.equal(#corners, 4)
   for power = -30, 20 do
