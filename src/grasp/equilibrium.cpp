@@ -25,8 +25,10 @@ Equilibrium equilibrium(const World& world, const Grasp& grasp, const Equilibriu
   asked.max_force = options.max_force;
   asked.joints = options.joints;
   const Equilibrium out = asked_once(world, grasp, asked);
-  if (!options.joints.springs_only || out.status != EquilibriumStatus::moving) return out;
-  // springs that closing has brought to rest balance but nearly
+  const bool balanced =
+      out.status == EquilibriumStatus::stable || out.status == EquilibriumStatus::unstable;
+  if (!options.joints.springs_only || balanced) return out;
+  // springs that closing has brought to rest balance but nearly, perhaps too nearly to tell
   asked.joints->nearly_at_rest = true;
   return asked_once(world, grasp, asked);
 }
