@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 static constexpr double nowhere = std::numeric_limits<double>::infinity();
 static constexpr double whole_turn = 2 * std::numbers::pi;
-static constexpr double full_facing = 0.7;  // cosine: what leans less counts wholly
+static constexpr double full_facing = 0.7;   // cosine: what leans less counts wholly
 static constexpr double least_width = 1e-6;  // of the radius: rings narrower than this are none
 static constexpr double longest_piece = whole_turn / 16, shortest_piece = 0.01;
 
@@ -118,7 +118,8 @@ static Crossings crossings(const std::array<Vector2d, 3>& p, double radius) {
   return out;
 }
 
-static void add_arcs(const SeenSheet& side, int triangle, double radius, std::vector<RingArc>& out) {
+static void add_arcs(const SeenSheet& side, int triangle, double radius,
+                     std::vector<RingArc>& out) {
   const Corners& c = side.sheet.corners(triangle);
   const std::array<Vector2d, 3> p = {side.seen(c[0]), side.seen(c[1]), side.seen(c[2])};
   const Vector2d middle = (p[0] + p[1] + p[2]) / 3;
@@ -189,10 +190,11 @@ static Vector3d point_over(const SeenSheet& side, int triangle, const Vector2d& 
 }
 
 static void add_point(const SeenSheet& side, int triangle, const Vector3d& point, double area,
-                      SurfacePoints& out) {
+                      RingPoints& out) {
   if (triangle < 0) return;
   constexpr double range = full_facing - PatchSheet::least_facing;
-  const double part = std::min(1.0, (side.sheet.facing(triangle) - PatchSheet::least_facing) / range);
+  const double part =
+      std::min(1.0, (side.sheet.facing(triangle) - PatchSheet::least_facing) / range);
   out.points.push_back(point);
   out.weights.push_back(area * part * part);
 }
@@ -314,7 +316,8 @@ Matrix2d meeting_moments(const std::vector<GapPlace>& gap, double depth) {
   Matrix2d sum = Matrix2d::Zero();
   double area = 0;
   for (const GapPlace& g : gap) {
-    const double share = g.gap < nowhere ? g.area * std::exp(-4 * g.gap * g.gap / (depth * depth)) : 0;
+    const double share =
+        g.gap < nowhere ? g.area * std::exp(-4 * g.gap * g.gap / (depth * depth)) : 0;
     sum += share * g.place * g.place.transpose();
     area += share;
   }

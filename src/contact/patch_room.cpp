@@ -45,15 +45,14 @@ std::array<double, 2> make_room(const PatchRoom& room, const Eigen::Matrix2d& ax
   }
   if (part == 1) return semi_axes;
   std::array<double, 2> out = {part * semi_axes[0], part * semi_axes[1]};
-  // the longer axis last: it has least to lose
   for (int axis = 0; axis < 2 && grows; ++axis) {
     double longest = semi_axes[axis];
     for (size_t i = 0; i < room.directions.size(); ++i) {
       const Vector2d d = axes.transpose() * room.directions[i];
-      const double most = (1 + across_slack) * room.half_widths[i], other = out[1 - axis] * d[1 - axis];
-      const double rest = most * most - other * other;
-      if (std::abs(d[axis]) * longest > std::sqrt(std::max(0.0, rest)))
-        longest = std::sqrt(std::max(0.0, rest)) / std::abs(d[axis]);
+      const double most = (1 + across_slack) * room.half_widths[i];
+      const double other = out[1 - axis] * d[1 - axis];
+      const double rest = std::sqrt(std::max(0.0, most * most - other * other));
+      if (std::abs(d[axis]) * longest > rest) longest = rest / std::abs(d[axis]);
     }
     out[axis] = std::max(out[axis], longest);
   }

@@ -4,8 +4,8 @@
 
 namespace clench {
 
-/// Half of how wide both surfaces are along unit directions of the tangent plane as b sees it, across the sides of
-/// their hulls: in others they are no narrower than these make them.
+/// Half of how wide both surfaces are along unit directions of the tangent plane as b sees it, across
+/// the sides of their hulls: in others they are no narrower than these make them.
 struct PatchRoom {
   std::vector<Eigen::Vector2d> directions;
   std::vector<double> half_widths;  ///< [m]
@@ -14,8 +14,9 @@ struct PatchRoom {
 /// a, b  as patch_rings has them
 PatchRoom patch_room(const PatchSheet& a, const PatchSheet& b);
 
-/// The ellipse may lie anywhere on the surfaces, so in no direction is it wider than they are: it shrinks as
-/// it is until it finds room, and then grows again along either axis as far as there is some.
+/// The ellipse may lie anywhere on the surfaces, so in no direction is it wider than they are: it
+/// shrinks as it is until it finds room, and then grows again along either axis as far as there is
+/// some.
 ///
 /// axes   unit, columns
 /// grows  false where the axes are any, as of a circle

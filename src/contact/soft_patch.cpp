@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 static const double one_side = std::cos(40 * std::numbers::pi / 180);  // normals of one site
 static constexpr double alike = 0.05;  // difference of curvatures over their mean: as of a ball
 static constexpr double least_relief = 1e-4;  // of the radius: flat, whatever noise there is
-static constexpr double least_share = 0.07;  // of the disc: with less of a surface there is no fit
+static constexpr double least_share = 0.07;   // of the disc: with less of a surface there is no fit
 
 double neighbourhood_radius(double modulus) {
   const double radius = 0.4 / std::cbrt(modulus);
@@ -106,19 +106,19 @@ struct PatchFrames {
     axes_a.rightCols<2>() *= -1;
     X_AP = {Pose{Eigen::Quaterniond(axes_a), site.centre_A},
             Pose{Eigen::Quaterniond(axes), site.centre_A}};
-    for (const Vector3d& p : site.points_A)
-      spread = std::max(spread, (p - site.centre_A).norm());
+    for (const Vector3d& p : site.points_A) spread = std::max(spread, (p - site.centre_A).norm());
   }
   Eigen::Matrix<double, 3, 2> plane() const { return axes.leftCols<2>(); }
 
-  Matrix3d axes;              // as b sees it
+  Matrix3d axes;             // as b sees it
   std::array<Pose, 2> X_AP;  // as a and as b see it
-  double spread = 0;          // how far from the centre contacts are
+  double spread = 0;         // how far from the centre contacts are
 };
 
 }  // namespace
 
-static PatchSheet sheet_of(const SoftSite& site, const PatchFrames& frames, int body, double radius) {
+static PatchSheet sheet_of(const SoftSite& site, const PatchFrames& frames, int body,
+                           double radius) {
   const Pose X_PA = frames.X_AP[body].inverse();
   std::vector<Vector3d> sites;
   for (const Vector3d& p : site.points_A) sites.push_back(X_PA * p);
@@ -167,9 +167,9 @@ static Meeting meeting(const SoftPatch& patch, double depth) {
   const Matrix2d axes = directions_in_plane(patch);
   const Matrix2d there = meeting_moments(patch.gap, depth);
   const double fitted =
-      meeting_moments(round_gap(patch.gap, Vector2d(1 / R[0], 1 / R[1]), axes), depth).determinant();
-  const double part =
-      fitted > 0 ? std::pow(std::max(0.0, there.determinant()) / fitted, 0.25) : 1;
+      meeting_moments(round_gap(patch.gap, Vector2d(1 / R[0], 1 / R[1]), axes), depth)
+          .determinant();
+  const double part = fitted > 0 ? std::pow(std::max(0.0, there.determinant()) / fitted, 0.25) : 1;
   return {axes.transpose() * there * axes, std::max(patch.crease, ramp(part, 0.85, 0.65))};
 }
 
@@ -216,7 +216,8 @@ static Matrix2d fit_surfaces(const PatchRings& rings, const PatchFrames& frames,
     if (enough)
       fit = kind == PatchFit::jet ? fit_jet(points, radius) : fit_quadric(points, radius, weights);
     if (!enough || fit.relief > least_relief * radius)
-      patch.crease = std::max(patch.crease, enough ? ramp(fit.residual / fit.relief, 0.15, 0.25) : 1);
+      patch.crease =
+          std::max(patch.crease, enough ? ramp(fit.residual / fit.relief, 0.15, 0.25) : 1);
     patch.surfaces[i] = turned(fit, frames.X_AP[i]);
     patch.residual = std::max(patch.residual, fit.residual);
     for (const Vector3d& p : points) patch.points[i].push_back(frames.X_AP[i] * p);

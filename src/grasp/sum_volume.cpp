@@ -96,8 +96,8 @@ struct NextPoint {
 
 // The point that is first to be as high over a turning plane as its summand's corner.
 struct TurningPlane {
-  Eigen::RowVectorXd level;   // of all points over the plane
-  Eigen::RowVectorXd rise;    // of them by its turning
+  Eigen::RowVectorXd level;  // of all points over the plane
+  Eigen::RowVectorXd rise;   // of them by its turning
   Eigen::RowVectorXd least;  // rise that is no rounding
 };
 
@@ -142,8 +142,8 @@ Cell first_cell(const LiftedPoints& points, Random& random) {
     if (next.point < 0) plane.rise *= -1, next = next_point(points, cell, corners, plane);
     if (next.point < 0) throw BrokenCells();
     plane.level += next.way * plane.rise;
-    const CellVector edge = across(points.x.col(next.point) -
-                                   points.x.col(corners[points.summand[next.point]]));
+    const CellVector edge =
+        across(points.x.col(next.point) - points.x.col(corners[points.summand[next.point]]));
     spanned.conservativeResize(d, k + 1);
     spanned.col(k) = edge;
     exchange(cell, -1, next.point);
@@ -178,7 +178,7 @@ double invert(CellMatrix& m) {
 }
 
 struct Surroundings {
-  double volume = 0;           // of the cell
+  double volume = 0;  // of the cell
   std::vector<Cell> neighbours;
 };
 
@@ -205,8 +205,8 @@ Surroundings look_around(const LiftedPoints& points, const Cell& cell) {
   TurningPlane plane{points.height + (falls.transpose() * along).eval(), {}, {}};
   plane.least.resize(points.count());
   for (int i = 0; i < points.count(); ++i)
-    plane.least[i] = rounding_rise *
-                     (1 + (along.col(i) - along.col(first[points.summand[i]])).lpNorm<1>());
+    plane.least[i] =
+        rounding_rise * (1 + (along.col(i) - along.col(first[points.summand[i]])).lpNorm<1>());
 
   // across the wall that each corner leaves when it sinks
   std::vector<Eigen::Index> rows(cell.size(), -1);

@@ -424,8 +424,7 @@ double WrenchSpace::volume() const {
     return volume_.emplace((bounds.lower + bounds.upper) / 2);
   }
   if (rank() < dimension()) return volume_.emplace(0);
-  const double scaled =
-      options_.norm == WrenchNorm::l1 ? hull_volume() : sum_of_hulls_volume();
+  const double scaled = options_.norm == WrenchNorm::l1 ? hull_volume() : sum_of_hulls_volume();
   return volume_.emplace(std::ldexp(scaled, dimension() * prepared().exponent));
 }
 

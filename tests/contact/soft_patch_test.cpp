@@ -578,8 +578,7 @@ struct PatchNumbers {
   std::vector<double> depths;  // indentation, pressure
 };
 
-std::vector<PatchNumbers> numbers_of(const Mesh& a, const Mesh& b, const Pose& X_AB,
-                                            bool a_soft) {
+std::vector<PatchNumbers> numbers_of(const Mesh& a, const Mesh& b, const Pose& X_AB, bool a_soft) {
   const auto shape_a = Shape::make(a), shape_b = Shape::make(b);
   const Elasticity soft{.modulus = rubber}, rigid;
   const auto sites = soft_sites(shape_a, shape_b, X_AB, a_soft ? soft : rigid,
@@ -612,7 +611,8 @@ void check_alike(const std::vector<PatchNumbers>& some, const PatchNumbers& want
 
 }  // namespace
 
-TEST_CASE("equivalent corners have equal patches: turned, mirrored, exchanged, moved, cut otherwise") {
+TEST_CASE(
+    "equivalent corners have equal patches: turned, mirrored, exchanged, moved, cut otherwise") {
   Random random(21);
   constexpr double rounding = 1e-7;
   const Mesh floor = floor_mesh();

@@ -112,8 +112,7 @@ TEST_CASE("random pairs, triples and fours have one volume however they lie") {
     check(pyramids(random_contacts(random, 2, true), 8));
     check(pyramids(random_contacts(random, 3, false), 8));
   }
-  for (int trial = 0; trial < 1; ++trial)
-    check(pyramids(random_contacts(random, 4, false), 8));
+  for (int trial = 0; trial < 1; ++trial) check(pyramids(random_contacts(random, 4, false), 8));
 }
 
 TEST_CASE("symmetric grasps, whose faces are parallel, have the volume of all sums") {
