@@ -72,11 +72,14 @@ TEST_CASE("bad coefficients and names are refused, and leave the table as it was
     CHECK_THROWS_WITH_AS(table.set_friction(a, b, friction), message, Error);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  refuse("cork", "glass", {-0.5, 0}, "friction of cork and glass: static must be >= 0, got -0.5");
-  refuse("cork", "glass", {nan, 0}, "friction of cork and glass: static must be >= 0, got nan");
+  refuse("cork", "glass", {-0.5, 0},
+         "friction of cork and glass: static: wanted a number from 0 to 1e+06, got -0.5");
+  refuse("cork", "glass", {nan, 0},
+         "friction of cork and glass: static: wanted a number from 0 to 1e+06, got nan");
   refuse("cork", "glass", {1e300, 0.5},
-         "friction of cork and glass: static must be at most 1e+30, got 1e+300");
-  refuse("cork", "glass", {0.5, -1}, "friction of cork and glass: kinetic must be >= 0, got -1");
+         "friction of cork and glass: static: wanted a number from 0 to 1e+06, got 1e+300");
+  refuse("cork", "glass", {0.5, -1},
+         "friction of cork and glass: kinetic: wanted a number from 0 to 1e+06, got -1");
   refuse("cork", "glass", {0.5, 0.6}, "friction of cork and glass: kinetic 0.6 exceeds static 0.5");
   refuse("", "glass", {0.5, 0.4}, "friction of '' and 'glass': a material needs a name");
   CHECK(table.names().size() == 7);
