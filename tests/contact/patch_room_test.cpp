@@ -9,8 +9,6 @@ using Eigen::Vector2d;
 
 namespace {
 
-const double pi = std::numbers::pi;
-
 // the sides of a regular polygon or a rectangle, turned
 PatchRoom room_of(const std::vector<double>& half_widths, double step, double turn) {
   PatchRoom out;
@@ -28,13 +26,13 @@ Matrix2d turned_axes(double turn) { return Rotation2Dd(turn).toRotationMatrix();
 
 TEST_CASE("an ellipse with room for it stays as it is, to the bit") {
   const std::array<double, 2> axes = {0.003, 0.004};
-  CHECK(make_room(room_of({0.005, 0.006}, pi / 2, 0.3), turned_axes(0.1), axes, true) == axes);
+  CHECK(make_room(room_of({0.005, 0.006}, std::numbers::pi / 2, 0.3), turned_axes(0.1), axes, true) == axes);
   CHECK(make_room({}, turned_axes(0.1), axes, true) == axes);
 }
 
 TEST_CASE("a rectangle bounds each semi-axis by itself") {
   for (const double turn : {0.0, 0.4, 2.0}) {
-    const PatchRoom room = room_of({2, 3}, pi / 2, turn);
+    const PatchRoom room = room_of({2, 3}, std::numbers::pi / 2, turn);
     const auto both = make_room(room, turned_axes(turn), {4, 4}, true);
     CHECK(both[0] == doctest::Approx(2).epsilon(1e-5));
     CHECK(both[1] == doctest::Approx(3).epsilon(1e-5));
@@ -51,7 +49,7 @@ TEST_CASE("a rectangle bounds each semi-axis by itself") {
 TEST_CASE("in a regular polygon a circle is one, whichever way its axes lie") {
   for (const int sides : {2, 3, 4, 6})
     for (const double turn : {0.0, 0.2, 0.5, 1.0}) {
-      const PatchRoom room = room_of(std::vector<double>(sides, 1.0), pi / sides, 0);
+      const PatchRoom room = room_of(std::vector<double>(sides, 1.0), std::numbers::pi / sides, 0);
       const auto circle = make_room(room, turned_axes(turn), {1.5, 1.5}, true);
       for (const double a : circle) CHECK(a == doctest::Approx(1).epsilon(1e-4));
     }
