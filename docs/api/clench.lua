@@ -104,7 +104,7 @@ function world:robot(name) end
 
 ---Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options give overrides the file.
 ---@param body string|table # file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
----@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, color?: number[], transparency?: number, root?: string, confine?: string, unit?: string, mesh_scale?: number} # density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
+---@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, color?: number[], transparency?: number, root?: string, confine?: string, strict?: boolean, unit?: string, mesh_scale?: number} # density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
 ---@return body
 function world:add_object(body, options) end
 
@@ -116,7 +116,7 @@ function world:add_obstacle(body, options) end
 
 ---Adds a robot from a file.
 ---@param path string # .cfg .xml .urdf .mjcf
----@param options? {pose?: pose, name?: string, root?: string, confine?: string, folder?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}} # folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; eigengrasps, virtual_contacts: files to read in place of those it names; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
+---@param options? {pose?: pose, name?: string, root?: string, confine?: string, strict?: boolean, folder?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}} # folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; eigengrasps, virtual_contacts: files to read in place of those it names; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
 ---@return robot
 function world:add_robot(path, options) end
 
@@ -340,7 +340,7 @@ function robot:approach_object(options) end
 
 ---Fixes the robot to the last link of another one's chain. It follows from now on.
 ---@param carrier robot
----@param options? {chain?: integer, pose?: pose, piece?: string, root?: string, confine?: string} # chain 1 by default; pose of the base in the link; file of an adapter
+---@param options? {chain?: integer, pose?: pose, piece?: string, root?: string, confine?: string, strict?: boolean} # chain 1 by default; pose of the base in the link; file of an adapter
 function robot:mount_on(carrier, options) end
 
 ---A few postures whose sums are a hand's: each posture is an origin and an amplitude for each eigengrasp.
@@ -619,7 +619,7 @@ function clench.catalog() end
 ---Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as .cfg .xml .urdf, worlds as .wld .xml .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml. What the format cannot hold is told in warnings; where it cannot hold the matter itself, that is an error, and nothing is written.
 ---@param from string
 ---@param to string
----@param options? {root?: string, confine?: string, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # of reading; of robots those of add_robot, too
+---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # of reading; of robots those of add_robot, too
 ---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
 function clench.convert(from, to, options) end
 
@@ -634,7 +634,7 @@ function clench.world(options) end
 
 ---A world from a file. Names in it are looked up beside the file, then below the root. A .lua file is run, with a table that holds the root and with the folder of the file as its arguments, and returns a world. With `confine`, here and wherever files are read, nothing is read that does not lie below that folder, links followed, and no .lua file is run.
 ---@param path string # .wld, .xml or .lua
----@param options? {root?: string, confine?: string}
+---@param options? {root?: string, confine?: string, strict?: boolean} # strict: what would be warned of is an error
 ---@return world
 function clench.load(path, options) end
 
@@ -721,19 +721,19 @@ clench.files = {}
 
 ---Eigengrasps from .egr or .xml. Give them to a hand: hand.eigengrasps = set.
 ---@param path string
----@param options? {root?: string, confine?: string}
+---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return eigengrasps
 function clench.files.eigengrasps(path, options) end
 
 ---Virtual contacts from .vgr or .xml. Give them to a hand: hand.virtual_contacts = list. `chain` and `link` count from 1, chain 0 is the base; `frame` is in the link's, +z out of it; `robot` of the list is the hand they were made for.
 ---@param path string
----@param options? {root?: string, confine?: string}
+---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {chain: integer, link: integer, frame: pose, mu: number, edges: number[][]}[]
 function clench.files.virtual_contacts(path, options) end
 
 ---Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, where the file leaves the points out.
 ---@param path string
----@param options? {root?: string, confine?: string}
+---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {frame: pose, placed: boolean, normal: vec3, mu: number, edges: number[][]}[]
 function clench.files.object_contacts(path, options) end
 
@@ -744,13 +744,13 @@ function clench.files.save_object_contacts(path, list) end
 
 ---Boxes, spheres, cylinders and cones in an Inventor or VRML file, in its frame. Of an object's file those in primitives/<its name>.iv beside it are read instead, when that exists. y is the axis of cylinder and cone.
 ---@param path string
----@param options? {root?: string, confine?: string}
+---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {kind: "box"|"sphere"|"cylinder"|"cone", pose: pose, size?: vec3, radius?: number, height?: number}[] # [m]
 function clench.files.primitives(path, options) end
 
 ---Pre-grasps of a planner's list, in the object's frame.
 ---@param path string
----@param options? {root?: string, confine?: string}
+---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {point: vec3, direction: vec3, thumb: vec3, spread: number}[] # [m, rad]
 function clench.files.pregrasps(path, options) end
 
@@ -761,7 +761,7 @@ function clench.files.save_pregrasps(path, list) end
 
 ---Grasps that a planner has tried, in the object's frame; `run` counts the planner's runs.
 ---@param path string
----@param options? {root?: string, confine?: string}
+---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {run: integer, pose: pose, spread: number, quality: number}[]
 function clench.files.planned_grasps(path, options) end
 
@@ -772,13 +772,13 @@ function clench.files.save_planned_grasps(path, list) end
 
 ---How the raw numbers of a data glove become DOF values: DOF = intercept + slopes * raw.
 ---@param path string
----@param options? {root?: string, confine?: string}
+---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {slopes: number[][], intercepts: number[]} # [rad per count, rad]
 function clench.files.glove_calibration(path, options) end
 
 ---Postures that a glove was calibrated from: raw `sensors`, the `dof_of_sensor` (0: not used), `joints` [rad], the `distance` of fingertips that were to meet [m], and the hand's `pose`.
 ---@param path string
----@param options? {root?: string, confine?: string}
+---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {distance?: number, sensors?: integer[], dof_of_sensor?: integer[], joints?: number[], pose: pose}[]
 function clench.files.glove_poses(path, options) end
 
