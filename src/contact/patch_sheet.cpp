@@ -61,6 +61,7 @@ PatchSheet::PatchSheet(const Shape& shape, const Pose& X_PB, std::span<const Vec
       X_PB_(X_PB),
       X_BP_(X_PB.inverse()),
       sites_(sites.begin(), sites.end()),
+      radius_(radius),
       highest_(reach * radius),
       near_(shape.mesh(), {}, X_PB) {
   Neighbourhood all = find_neighbourhood(shape, X_BP_, sites, radius);
@@ -207,17 +208,46 @@ Vector3d PatchSheet::round_point(int triangle, const Vector3d& weights) {
   return q + lift;
 }
 
-std::vector<std::array<Vector3d, 2>> PatchSheet::rim() const {
-  std::vector<std::array<Vector3d, 2>> out;
+// of a segment near the origin, as crease_length counts
+static double length_near(const Vector2d& from, const Vector2d& to, double radius) {
+  constexpr int samples = 16;
+  const Vector2d along = to - from;
+  const double length = along.norm();
+  if (length == 0) return 0;
+  // the chord within the radius
+  const double foot = -from.dot(along) / length;
+  const double room = radius * radius - from.squaredNorm() + foot * foot;
+  if (room <= 0) return 0;
+  const double low = std::max(0.0, foot - std::sqrt(room));
+  const double high = std::min(length, foot + std::sqrt(room));
+  if (low >= high) return 0;
+  double sum = 0;
+  for (int i = 0; i < samples; ++i) {
+    const double s = low + (high - low) * (i + 0.5) / samples;
+    sum += std::clamp(2 - 2 * (from + s / length * along).norm() / radius, 0.0, 1.0);
+  }
+  return sum * (high - low) / samples;
+}
+
+double PatchSheet::crease_length() const {
+  const auto goes_on = [&](int t, int k) {
+    for (const int slot : near_.at_edge(near_.edge(t, k))) {
+      const double cosine = normals_[t].dot(normals_[slot / 3]);
+      if (slot / 3 != t && (shape_.closed() ? cosine : std::abs(cosine)) > least_smooth)
+        return true;
+    }
+    return false;
+  };
+  std::vector<double> lengths(sites_.size(), 0);
+  std::vector<char> seen(near_.edge_count(), 0);
   for (const int t : triangles_)
     for (int k = 0; k < 3; ++k) {
-      const auto slots = near_.at_edge(near_.edge(t, k));
-      const bool goes_on = std::any_of(slots.begin(), slots.end(), [&](int slot) {
-        return slot / 3 != t && std::binary_search(triangles_.begin(), triangles_.end(), slot / 3);
-      });
-      if (!goes_on) out.push_back({corners(t)[k], corners(t)[(k + 1) % 3]});
+      if (seen[near_.edge(t, k)]++ || goes_on(t, k)) continue;
+      for (size_t i = 0; i < sites_.size(); ++i)
+        lengths[i] += length_near((corners(t)[k] - sites_[i]).head<2>(),
+                                  (corners(t)[(k + 1) % 3] - sites_[i]).head<2>(), radius_);
     }
-  return out;
+  return *std::max_element(lengths.begin(), lengths.end());
 }
 
 }  // namespace clench

@@ -42,10 +42,13 @@ class PatchSheet {
     return highest_;
   }  ///< what is farther from the tangent plane does not count [m]
 
-  /// edges beyond which the sheet does not go on, or is not known [m]
-  std::vector<std::array<Eigen::Vector3d, 2>> rim() const;
   /// on the round surface, by barycentric weights [m]
   Eigen::Vector3d round_point(int triangle, const Eigen::Vector3d& weights);
+
+  /// How long creases are around a site, of the site that has most: edges where neighbours lean from
+  /// each other by more than 40 degrees, or none follows. Counted whole where they lie within half the
+  /// radius across the tangent plane, less from there to none at the radius [m].
+  double crease_length() const;
 
  private:
   // a triangle at a corner
@@ -71,7 +74,7 @@ class PatchSheet {
   const Shape& shape_;
   Pose X_PB_, X_BP_;
   std::vector<Eigen::Vector3d> sites_;
-  double highest_;
+  double radius_, highest_;
   std::vector<double> reaches_;  // about each site, to where all triangles are known
   std::vector<int> known_;       // triangles of the mesh, ascending
   NearSurface near_;             // of them
