@@ -82,7 +82,7 @@ TEST_CASE("a message too long for its place is cut and says so") {
   CHECK(message.ends_with("..."));
 }
 
-TEST_CASE("whatever else is thrown is told with the entry's name; no memory is a sentence too") {
+TEST_CASE("whatever else is thrown is told with the entry's name and no memory is a sentence too") {
   Script lua;
   const auto thrown = [&](lua_CFunction f) {
     lua_register(lua.L, "f", f);
