@@ -1,6 +1,5 @@
 // Numbers made whole: the one place where a double of any size becomes an integer.
 #pragma once
-#include <cmath>
 #include <limits>
 
 namespace clench {
@@ -11,7 +10,9 @@ template <class Integer>
 Integer floor_between(double x, Integer low, Integer high) {
   if (!(x > static_cast<double>(low))) return low;
   if (x >= static_cast<double>(high)) return high;
-  return static_cast<Integer>(std::floor(x));
+  // a cast cuts towards 0, and takes a tenth of the time of a call of floor
+  const auto cut = static_cast<Integer>(x);
+  return cut - (static_cast<double>(cut) > x);
 }
 
 /// As above, cut to what an int holds.

@@ -259,7 +259,7 @@ caps and motors; `opens` and `slides` of each contact along it; `cap_shares`, `e
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
 > held = grasp:contact_forces{load = weight}
 > held.status, held.residual < 1e-9  --> optimal, true
-> grasp:contact_forces{load = weight, objective = "interior", max_force = 1}.margin > 0  --> true
+> grasp:contact_forces{load = weight, objective = "interior", max_force = 10}.margin > 0  --> true
 > grasp:contact_forces{load = weight, max_force = 1e-3}.certificate.contact.body == flask  --> true
 > grasp:contact_forces{load = weight, objective = "lest"}  --> error: did you mean 'least'?
 > grasp:contact_forces{load = {1, 2}}  --> error: 6)"},
