@@ -11,7 +11,7 @@ namespace clench {
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using SurfacePoints = std::span<const Vector3d>;
+using PointSpan = std::span<const Vector3d>;
 
 namespace {
 
@@ -55,7 +55,7 @@ Column weight_column(std::span<const double> weights, size_t count) {
   return Eigen::Map<const Column>(weights.data(), static_cast<Eigen::Index>(count));
 }
 
-void move_into(const Matrix3d& axes, const Vector3d& origin, double scale, SurfacePoints points,
+void move_into(const Matrix3d& axes, const Vector3d& origin, double scale, PointSpan points,
                Columns& out) {
   const Eigen::Map<const Eigen::Matrix3Xd> all(points[0].data(), 3,
                                                static_cast<Eigen::Index>(points.size()));
@@ -108,7 +108,7 @@ Coefficients solve_quadric(const Columns& at, const Column& weights, const Princ
 
 }  // namespace
 
-void measure_fit(SurfacePoints points, const Vector3d& origin, SurfaceFit& fit,
+void measure_fit(PointSpan points, const Vector3d& origin, SurfaceFit& fit,
                  std::span<const double> weights) {
   Matrix3d axes;
   axes << fit.directions, fit.normal;
@@ -125,7 +125,7 @@ void measure_fit(SurfacePoints points, const Vector3d& origin, SurfaceFit& fit,
   fit.relief = std::sqrt((w * (at.z - mean).square()).sum() / total);
 }
 
-SurfaceFit fit_quadric(SurfacePoints points, double scale, std::span<const double> weights) {
+SurfaceFit fit_quadric(PointSpan points, double scale, std::span<const double> weights) {
   if (points.size() < 3)
     fail("contact patch: a surface needs 3 points at least, got {}", points.size());
   Matrix3d axes = Matrix3d::Identity();  // columns: the tangent frame

@@ -208,6 +208,19 @@ Vector3d PatchSheet::round_point(int triangle, const Vector3d& weights) {
   return q + lift;
 }
 
+std::vector<std::array<Vector3d, 2>> PatchSheet::rim() const {
+  std::vector<std::array<Vector3d, 2>> out;
+  for (const int t : triangles_)
+    for (int k = 0; k < 3; ++k) {
+      const auto slots = near_.at_edge(near_.edge(t, k));
+      const bool goes_on = std::any_of(slots.begin(), slots.end(), [&](int slot) {
+        return slot / 3 != t && std::binary_search(triangles_.begin(), triangles_.end(), slot / 3);
+      });
+      if (!goes_on) out.push_back({corners(t)[k], corners(t)[(k + 1) % 3]});
+    }
+  return out;
+}
+
 // of a segment near the origin, as crease_length counts
 static double length_near(const Vector2d& from, const Vector2d& to, double radius) {
   constexpr int samples = 16;

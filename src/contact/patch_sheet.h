@@ -42,6 +42,8 @@ class PatchSheet {
     return highest_;
   }  ///< what is farther from the tangent plane does not count [m]
 
+  /// edges beyond which the sheet does not go on, or is not known [m]
+  std::vector<std::array<Eigen::Vector3d, 2>> rim() const;
   /// on the round surface, by barycentric weights [m]
   Eigen::Vector3d round_point(int triangle, const Eigen::Vector3d& weights);
 

@@ -8,7 +8,8 @@
 
 #include "contact/contact_set.h"
 #include "contact/patch_fit.h"
-#include "contact/patch_rim.h"
+#include "contact/patch_rings.h"
+#include "contact/patch_room.h"
 
 namespace clench {
 
@@ -67,16 +68,16 @@ struct SoftPatch {
   std::array<double, 2> relative_radii = {};
   std::array<bool, 2> flat = {};
   /// Unit, orthogonal to each other and to the normal. Where the gap bends alike in all directions, to
-  /// 5 %, they are those of the rim, if there is one near.
+  /// 5 %, they are those of the region where the surfaces meet.
   Eigen::Matrix<double, 3, 2> directions;
+  bool directed = true;       ///< false where that is alike in all directions, too: they are any
   double flat_radius = 0.02;  ///< as it was asked for [m]
-  /// As it is, its first ray along directions.col(0); none: as the radii have it.
-  std::optional<GapProfile> gap = {};
-  PatchRim rim;   ///< on the rays of the gap
-  SoftSite site;  ///< what it is of: larger patches look farther for the rim
+  std::vector<GapPlace> gap;  ///< as it is; none: as the radii have it
+  PatchRoom room;             ///< as far as the surfaces are known
+  SoftSite site;              ///< what it is of: larger patches look farther for room
   /// 0 to 1: is there a crease that the fit does not follow? 0 where the fit is off by 10 % of the
   /// surface's relief, or creases around a contact are as long as 0.2 of the radius, 1 from 20 % and 0.6
-  /// on. A triangle that is folded over is none.
+  /// on, and where there is too little to fit.
   double crease = 0;
   /// root of the mean square that points lie from their fit, of the worse surface [m]
   double residual = 0;
@@ -112,16 +113,15 @@ struct ContactEllipse {
 /// In no direction is the ellipse wider than the surfaces: those of a pad end at its rim, those of a
 /// round body where they lean by 73 degrees. What is cut off makes it deeper, by the same F.
 ///
-/// Where the surfaces do not meet over such an ellipse, as at a corner, an edge or the rim of a plate,
-/// only what is sure to touch counts: where the gap is no wider than the indentation of flat surfaces
-/// under that force, that is, of R1 = R2 = flat_radius. What is sharper goes deeper. The semi-axes
-/// are those of an ellipse with the same second moments about the contact. From the one rule to the other
-/// it goes by the weight w, as a^(1 - w) b^w, the largest of three: the patch's crease; how far surfaces
-/// miss under the ellipse, 0 where its mean semi-axis is 80 % of the whole one's, as on the corner of
-/// a face, 1 at 60 %; how much sooner the gap widens, 0 where the mean semi-axis of what meets is 85 %
-/// of that, 1 at 50 %. The indentation goes by the same weight from that of the ellipse to that of the
-/// gap as it is within the neighbourhood: where the springs under it make up the force. It is more than
-/// what is sure to touch tells of the width, and the pressure is of no paraboloid there.
+/// Where the surfaces do not meet over such an ellipse, as at a corner or an edge, only what is sure to
+/// touch counts: where the gap is no wider than the indentation of flat surfaces under that force,
+/// that is, of R1 = R2 = flat_radius. What is sharper goes deeper. How wide that is its moments tell.
+/// From the one rule to the other it goes by the weight w, as a^(1 - w) b^w, the larger of two: the patch's
+/// crease, and how much narrower the surfaces meet than the fitted ones, 0 where the mean semi-axis
+/// is 85 % of theirs, 1 at 65 %. The indentation
+/// goes by the same weight to that of the gap as it is within the neighbourhood: where the springs
+/// under it make up the force. It is more than what is sure to touch tells of the width, and the
+/// pressure is of no paraboloid there.
 ///
 /// force   normal, >= 0 [N]
 /// throws  Error when it is negative or not finite

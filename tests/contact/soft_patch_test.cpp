@@ -1,6 +1,7 @@
 #include "contact/soft_patch.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/error.h"
 #include "math/decompositions.h"
@@ -17,7 +18,7 @@ namespace {
 
 constexpr double gap = 5e-5;  // within the contact threshold [m]
 constexpr double rubber = 1.5e6;
-const double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Mesh floor_mesh() {
   return test::moved(test::box(0.2, 0.2, 0.02), Pose::translation({0, 0, -0.01}));
@@ -541,4 +542,121 @@ TEST_CASE("numbers that are none are refused") {
                        "contact patch: flat_radius must be > 0 [m], got 0", Error);
   CHECK_THROWS_WITH_AS(contact_ellipse(paraboloid(1, 1, {}, {.modulus = 1}), -2),
                        "contact patch: the normal force must be >= 0 [N], got -2", Error);
+}
+
+namespace {
+
+Mesh mirrored(Mesh mesh) {
+  for (Vector3d& p : mesh.vertices) p.x() = -p.x();
+  for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
+  return mesh;
+}
+
+// the other diagonal of each face of a box, triangles and vertices in another order
+Mesh cut_otherwise(Mesh mesh) {
+  for (size_t t = 0; t + 1 < mesh.triangles.size(); t += 2) {
+    const auto one = mesh.triangles[t], two = mesh.triangles[t + 1];
+    // p q r and the corner that only the second has
+    for (int k = 0; k < 3; ++k) {
+      const int p = one[k], q = one[(k + 1) % 3], r = one[(k + 2) % 3];
+      if (std::find(two.begin(), two.end(), p) != two.end()) continue;
+      for (const int s : two)
+        if (s != q && s != r) mesh.triangles[t] = {p, q, s}, mesh.triangles[t + 1] = {p, s, r};
+    }
+  }
+  std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+  const int last = static_cast<int>(mesh.vertices.size()) - 1;
+  std::reverse(mesh.vertices.begin(), mesh.vertices.end());
+  for (auto& t : mesh.triangles)
+    for (int& i : t) i = last - i;
+  return mesh;
+}
+
+// what all patches of two bodies are, apart from where, at some forces
+struct PatchNumbers {
+  std::vector<double> sizes;   // area, torsion radius
+  std::vector<double> depths;  // indentation, pressure
+};
+
+std::vector<PatchNumbers> numbers_of(const Mesh& a, const Mesh& b, const Pose& X_AB, bool a_soft) {
+  const auto shape_a = Shape::make(a), shape_b = Shape::make(b);
+  const Elasticity soft{.modulus = rubber}, rigid;
+  const auto sites = soft_sites(shape_a, shape_b, X_AB, a_soft ? soft : rigid,
+                                a_soft ? rigid : soft, contact_set(*shape_a, *shape_b, X_AB));
+  std::vector<PatchNumbers> out;
+  for (const auto& site : sites) {
+    const SoftPatch patch = soft_patch(*site);
+    PatchNumbers& numbers = out.emplace_back();
+    for (const double force : {0.1, 1.0, 5.0, 25.0}) {
+      const ContactEllipse e = contact_ellipse(patch, force);
+      numbers.sizes.push_back(e.semi_axes[0] * e.semi_axes[1]);
+      numbers.sizes.push_back(torsion_radius(patch, force));
+      numbers.depths.push_back(e.indentation), numbers.depths.push_back(e.pressure);
+    }
+  }
+  return out;
+}
+
+// all are as one: sums over pieces of circles are integrals to some digits, and springs that just touch
+// leave a kink
+void check_alike(const std::vector<PatchNumbers>& some, const PatchNumbers& wanted, double sizes,
+                 double depths) {
+  REQUIRE(!some.empty());
+  for (const PatchNumbers& numbers : some)
+    for (size_t i = 0; i < numbers.sizes.size(); ++i) {
+      CHECK(numbers.sizes[i] == doctest::Approx(wanted.sizes[i]).epsilon(sizes));
+      CHECK(numbers.depths[i] == doctest::Approx(wanted.depths[i]).epsilon(depths));
+    }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "equivalent corners have equal patches: turned, mirrored, exchanged, moved, cut otherwise") {
+  Random random(21);
+  constexpr double rounding = 1e-7;
+  const Mesh floor = floor_mesh();
+  std::optional<PatchNumbers> corner;
+  for (const double size : {0.012, 0.02, 0.03, 0.05, 0.1}) {
+    const Mesh box = test::box(size, size, size);
+    for (const double turn : {0.0, 0.3, pi / 4, 1.1}) {
+      const Pose X_AB{Pose::turn(turn, Vector3d::UnitZ()).rotation, {0, 0, size / 2 + gap}};
+      const auto corners = numbers_of(floor, box, X_AB, false);
+      REQUIRE(corners.size() == 4);
+      // the corners of all cubes that are wider than their patches are alike
+      if (!corner) corner = corners[0];
+      check_alike(corners, *corner, rounding, rounding);
+      check_alike(numbers_of(floor, cut_otherwise(box), X_AB, false), *corner, rounding, rounding);
+      check_alike(numbers_of(cut_otherwise(floor), box, X_AB, false), *corner, rounding, rounding);
+      check_alike(numbers_of(box, floor, X_AB.inverse(), true), *corner, rounding, rounding);
+      const Pose X = test::random_pose(random, 0.1), Y = test::random_pose(random, 0.1);
+      check_alike(
+          numbers_of(test::moved(floor, X), test::moved(box, Y), X * X_AB * Y.inverse(), false),
+          *corner, rounding, rounding);
+    }
+  }
+}
+
+TEST_CASE("edges, rims, narrow pads and corners that stand have equal patches however they lie") {
+  Random random(22);
+  const auto check = [](const std::vector<PatchNumbers>& some, const PatchNumbers& wanted) {
+    check_alike(some, wanted, 1e-5, 3e-3);
+  };
+  const Mesh floor = floor_mesh();
+  std::vector<Mesh> bodies = {test::box(0.004, 0.006, 0.01), test::box(0.06, 0.002, 0.03)};
+  for (const Vector3d& down : {Vector3d(1, 1, 1), Vector3d(0, 1, 1), Vector3d(0.2, 0.5, 1)})
+    bodies.push_back(
+        test::moved(cube, Pose::turn(least_turn(down.normalized(), -Vector3d::UnitZ()))));
+  for (const Mesh& body : bodies) {
+    const double height = gap - Shape::make(body)->bounds().low.z();
+    const Pose X_AB = Pose::translation({0, 0, height});
+    const auto here = numbers_of(floor, body, X_AB, false);
+    check(here, here[0]);
+    check(numbers_of(body, floor, X_AB.inverse(), true), here[0]);
+    check(numbers_of(floor, mirrored(body), X_AB, false), here[0]);
+    for (int trial = 0; trial < 5; ++trial) {
+      const Pose turn = Pose::turn(random.uniform(0, 6), Vector3d::UnitZ());
+      check(numbers_of(floor, body, turn * X_AB, false), here[0]);
+    }
+  }
 }

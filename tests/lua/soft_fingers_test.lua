@@ -104,8 +104,10 @@ test("options are read strictly", function(t)
   local contact = world:contacts(top, ball)[1]
   t.close(contact:fit_patch {radius = 0.005}.radius, 0.005, 0)
   t.close(world:contacts(top, ball)[1]:fit_patch {flat_radius = 0.05}.relative_radii[1], 0.02, 1e-5)
-  t.fails(function() contact:fit_patch {radius = 1e-6} end, "a fit needs 15 points of each surface, and within radius 1e-06 [m] one has 0")
-  t.fails(function() contact:fit_patch {radius = 10} end, "within radius 10 [m] one has 1")
+  t.fails(function() contact:fit_patch {radius = 1e-6} end, "within radius 1e-06 [m] there is too little of a surface to fit")
+  for _, radius in ipairs {5e-324, 1e-200, 1e-30, 1e-7, 10, 1e20, 1e300} do
+    t.fails(function() contact:fit_patch {radius = radius} end, "there is too little of a surface to fit")
+  end
   t.equal(contact.patch:ellipse {force = 100}.beyond_layer, false)
   t.equal(contact.patch:ellipse {force = 1000}.beyond_layer, true)
   t.fails(function() contact:fit_patch {radius = 0} end, "radius must be > 0, got 0")
