@@ -45,6 +45,7 @@ class TreeBuilder {
     const Vector3d centre = bounds.centre();
     Vector3d::Map(tree.centre_) = centre;
     points_.reserve(mesh.vertices.size());
+    gathered_.assign(mesh.vertices.size(), 0);
     for (const Vector3d& p : mesh.vertices) points_.push_back(p - centre);
     items_.reserve(count);
     for (int i = 0; i < count; ++i) {
@@ -269,14 +270,16 @@ class TreeBuilder {
     store(axes, best, bundle, lane);
   }
 
-  // the corners of a group, coordinate by coordinate, the last one repeated to fill the lanes
+  // the vertices of a group, coordinate by coordinate, the last one repeated to fill the lanes
   void gather(const Group& group) {
     for (auto& list : corners_) list.clear();
     const auto add = [&](const Vector3d& p) {
       for (int m = 0; m < 3; ++m) corners_[m].push_back(p[m]);
     };
+    ++fitted_;
     for (int i = group.begin; i < group.end; ++i)
-      for (int k = 0; k < 3; ++k) add(point(items_[i].triangle, k));
+      for (const int v : mesh_.triangles[items_[i].triangle])
+        if (gathered_[v] != fitted_) gathered_[v] = fitted_, add(points_[v]);
     while (corners_[0].size() % Four::count != 0) add(point(items_[group.end - 1].triangle, 2));
   }
 
@@ -286,19 +289,23 @@ class TreeBuilder {
     const double* const ys = corners_[1].data();
     const double* const zs = corners_[2].data();
     const size_t count = corners_[0].size();
+    Four low[3], high[3];
+    for (int k = 0; k < 3; ++k) {
+      low[k] = Four::all(std::numeric_limits<double>::infinity());
+      high[k] = Four::all(-std::numeric_limits<double>::infinity());
+    }
+    for (size_t i = 0; i < count; i += Four::count) {
+      const Four x = Four::stored(xs + i), y = Four::stored(ys + i), z = Four::stored(zs + i);
+      for (int k = 0; k < 3; ++k) {
+        const Four along = x * axes(0, k) + y * axes(1, k) + z * axes(2, k);
+        low[k] = min(along, low[k]);
+        high[k] = max(along, high[k]);
+      }
+    }
     Bounds out;
     for (int k = 0; k < 3; ++k) {
-      const double ax = axes(0, k), ay = axes(1, k), az = axes(2, k);
-      Four low = Four::all(std::numeric_limits<double>::infinity());
-      Four high = Four::all(-std::numeric_limits<double>::infinity());
-      for (size_t i = 0; i < count; i += Four::count) {
-        const Four along =
-            Four::stored(xs + i) * ax + Four::stored(ys + i) * ay + Four::stored(zs + i) * az;
-        low = min(along, low);
-        high = max(along, high);
-      }
       double lows[Four::count], highs[Four::count];
-      low.store(lows), high.store(highs);
+      low[k].store(lows), high[k].store(highs);
       out.low[k] = *std::min_element(lows, lows + Four::count);
       out.high[k] = *std::max_element(highs, highs + Four::count);
     }
@@ -377,6 +384,8 @@ class TreeBuilder {
   std::vector<Vector3d> points_;  // vertices about the centre
   std::vector<Item> items_;
   std::array<std::vector<double>, 3> corners_;  // of the group that is fitted
+  std::vector<int> gathered_;                   // by vertex: the last group that it was fitted for
+  int fitted_ = 0;                              // groups so far
 };
 
 Tree::Tree(const Mesh& mesh) {
