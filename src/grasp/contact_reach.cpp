@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "grasp/symmetry_cone.h"
 
 namespace clench {
 
@@ -165,49 +164,6 @@ double ContactReach::support(const double* direction, double* point) const {
   else
     return 0;
   return best;
-}
-
-DirectionCone ContactReach::least_support_cone() const {
-  if (norm_ == WrenchNorm::linf || !rounds_.empty()) return cone_of_parts();
-  if (blocks_.empty()) return {};
-  const Block& all = blocks_[0];
-  return symmetry_cone({dimension_, all.count, all.padded, coordinates_.data() + all.begin, {}});
-}
-
-// Isometries that carry contacts to contacts. Those that carry eight points around an ellipse, and two more of an
-// ellipsoid, to such points carry the round sets, too. Pyramids are none of them: a mixture is left as it is.
-DirectionCone ContactReach::cone_of_parts() const {
-  static constexpr double s = std::numbers::sqrt2 / 2;
-  static constexpr double around[][3] = {{1, 0, 0},  {s, s, 0},   {0, 1, 0},  {-s, s, 0},
-                                         {-1, 0, 0}, {-s, -s, 0}, {0, -1, 0}, {s, -s, 0},
-                                         {0, 0, 1},  {0, 0, -1}};
-  if (!rounds_.empty() && !contact_blocks_.empty()) return {};
-  std::vector<double> points;  // one after the other
-  std::vector<int> parts;
-  for (size_t c = 0; c < contacts_.size(); ++c) {
-    const auto add = [&](const auto& add_to) {
-      points.resize(points.size() + dimension_);
-      add_to(points.data() + points.size() - dimension_);
-      parts.push_back(static_cast<int>(c));
-    };
-    if (contacts_[c].block >= 0) {
-      const Block& block = contact_blocks_[contacts_[c].block];
-      for (int i = 0; i < block.count; ++i) add([&](double* to) { add_point(block, i, to); });
-    } else if (contacts_[c].round >= 0) {
-      const Round& round = rounds_[contacts_[c].round];
-      // in fewer dimensions an ellipsoid may lie in a line, and ten points tell it no longer
-      if (round.width == 3 && dimension_ < most_dimensions) return {};
-      for (const double* along : around) {
-        const int last = along[2] != 0 ? 2 : along[1] != 0 ? 1 : 0;
-        if (last < std::max(round.width, 1)) add([&](double* to) { add_point(round, along, to); });
-      }
-    }
-  }
-  const int count = static_cast<int>(parts.size());
-  std::vector<double> rows(points.size());
-  for (int i = 0; i < count; ++i)
-    for (int row = 0; row < dimension_; ++row) rows[row * count + i] = points[i * dimension_ + row];
-  return symmetry_cone({dimension_, count, count, rows.data(), parts});
 }
 
 double ContactReach::support_of(int contact, const double* direction) const {

@@ -28,7 +28,6 @@ class ContactReach final : public SupportSet {
 
   int dimension() const override { return dimension_; }
   double support(const double* direction, double* point) const override;
-  DirectionCone least_support_cone() const override;
   /// of one contact alone; minus infinity when it has no wrench
   double support_of(int contact, const double* direction) const;
   bool empty() const { return blocks_.empty() && rounds_.empty(); }
@@ -47,7 +46,6 @@ class ContactReach final : public SupportSet {
   };
   double farthest(const Block& block, const double* direction, int& column) const;
   double farthest(const Round& round, const double* direction, double* along) const;
-  DirectionCone cone_of_parts() const;
   void add_point(const Block& block, int column, double* point) const;
   void add_point(const Round& round, const double* along, double* point) const;
 

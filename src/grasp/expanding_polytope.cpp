@@ -41,21 +41,19 @@ class Growing {
     waiting_.clear();
   }
 
-  Ball ball(const BallOptions& options, bool walls);
+  Ball ball(const BallOptions& options);
   Facets hull(const FacetsOptions& options);
 
   /// what is known so far
   double bound() const { return std::min(lower_ - slack(), upper_); }
   double upper() const { return upper_; }
   const double* direction() const { return direction_; }
-  bool walled() const { return walled_; }
 
  private:
   double support(const double* direction, double* point);
   SimplexEnd start(double zero);
-  void raise_walls();
   double settle_plane(int index, double unless);
-  void grow(int first, const double* point, bool at_infinity = false);
+  void grow(int first, const double* point);
   void wait(int index) {
     const double offset = complex_.facet(index).offset();
     // a facet beyond the upper bound will not decide
@@ -74,7 +72,6 @@ class Growing {
   // the least support so far
   double upper_ = infinite, direction_[D];
   double limit_ = infinite;
-  bool walled_ = false;
 };
 
 // The set's own support, for the upper bound; the point may be shifted, always the same point alike.
@@ -117,27 +114,6 @@ SimplexEnd Growing<D>::start(double zero) {
   return simplex.end;
 }
 
-// The walls of the cone of directions that need be searched become points at infinity: no facet faces
-// along one of them then, so that all facets face into the cone.
-template <int D>
-void Growing<D>::raise_walls() {
-  const DirectionCone cone = set_.least_support_cone();
-  // one less than a facet has corners: one of them at least is not at infinity
-  const int walls = std::min(cone.walls, D - 1);
-  for (int i = 0; i < walls; ++i) {
-    int first = -1;
-    double most = seen;
-    for (int index = 0; index < complex_.facet_count(); ++index) {
-      const auto& facet = complex_.facet(index);
-      const double faces = dot<D>(facet.plane.x, cone.wall[i]);
-      if (facet.alive() && faces > most) most = faces, first = index;
-    }
-    if (first < 0) continue;
-    walled_ = true;
-    grow(first, cone.wall[i], true);
-  }
-}
-
 // Turns the plane of a facet into the one that its corners span, as far as they do, and moves it in front of them.
 // unless   it is within that of them
 // returns  how far the worst corner lies from it
@@ -148,7 +124,6 @@ double Growing<D>::settle_plane(int index, double unless) {
   for (int k = 0; k < D; ++k) {
     const Eight& point = complex_.point(facet.corner[k]);
     std::copy_n(point.x, D, corners.x[k]);
-    corners.at_infinity[k] = point.x[behind] == 0;
   }
   Spread spread = spread_along<D>(facet.plane.x, corners);
   if (spread.width() > unless) spread = true_normal<D>(facet.plane.x, corners);
@@ -157,14 +132,14 @@ double Growing<D>::settle_plane(int index, double unless) {
 }
 
 template <int D>
-void Growing<D>::grow(int first, const double* point, bool at_infinity) {
-  complex_.grow(first, point, at_infinity);
+void Growing<D>::grow(int first, const double* point) {
+  complex_.grow(first, point);
   for (const int gone : complex_.gone()) waiting_.drop(gone);
   for (const int made : complex_.made()) wait(made);
 }
 
 template <int D>
-Ball Growing<D>::ball(const BallOptions& options, bool walls) {
+Ball Growing<D>::ball(const BallOptions& options) {
   const auto ended = [&](BallEnd end, double lower) {
     Ball ball;
     ball.end = end;
@@ -183,7 +158,6 @@ Ball Growing<D>::ball(const BallOptions& options, bool walls) {
     default:
       break;
   }
-  if (walls) raise_walls();
   double p[D];
   while (true) {
     limit_ = upper_;
@@ -202,11 +176,8 @@ Ball Growing<D>::ball(const BallOptions& options, bool walls) {
     const double reach = support(facet.plane.x, p);
     const double lower = lower_ = std::min(facet.offset(), upper_);
     if (upper_ <= options.zero) return ended(BallEnd::outside, lower);
-    if (upper_ - lower <= enough(options.tolerance)) {
-      // walls are as good as an isometry, points to the last digit
-      if (walled_) settle_plane(nearest, 0), support(facet.plane.x, p);
+    if (upper_ - lower <= enough(options.tolerance))
       return ended(BallEnd::inside, std::min(lower, upper_));
-    }
     if (options.at_least > 0 && (lower - slack() >= options.at_least || upper_ < options.at_least))
       return ended(BallEnd::decided, lower);
     if (complex_.point_count() >= options.most_points ||
@@ -292,20 +263,16 @@ template <int D>
 Ball ball_in(const SupportSet& set, const BallOptions& options) {
   Ball best;
   best.lower = -infinite, best.upper = infinite;
-  bool walls = options.at_least <= 0;
-  for (int attempt = 0; attempt < static_cast<int>(std::size(shifts));) {
+  for (int attempt = 0; attempt < static_cast<int>(std::size(shifts)); ++attempt) {
     Growing<D> growing(set, attempt, room<D>());
     try {
-      return growing.ball(options, walls);
+      return growing.ball(options);
     } catch (const BrokenSurface&) {
       best.lower = std::max(best.lower, growing.bound());
       if (growing.upper() < best.upper) {
         best.upper = growing.upper();
         std::copy_n(growing.direction(), D, best.direction);
       }
-      // what breaks with walls may hold without
-      attempt += !growing.walled();
-      walls = false;
     }
   }
   if (best.upper <= options.zero) best.end = BallEnd::outside;

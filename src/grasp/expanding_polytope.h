@@ -10,8 +10,6 @@
 // upper one. The lower bound needs no more than that the facets are closed around the origin, which
 // follows from how they are joined, and that each plane holds its points, which is checked for
 // the plane that decides; a wrong turn of rounding elsewhere costs time, not truth.
-// A set that isometries carry onto itself is asked in a cone of directions that holds an image of each. Walls of
-// the cone are points of the polytope at infinity, and what is said above holds in the cone.
 // source  van den Bergen (2001), Proximity queries and penetration depth computation, in 3 dimensions
 #pragma once
 #include <vector>

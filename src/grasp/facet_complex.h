@@ -25,7 +25,7 @@ struct BrokenSurface {};
 /// is some 1e-15, and what is nearer counts as in the plane.
 inline constexpr double seen = 1e-13;
 
-/// A point, with 1 in the place behind its coordinates (0: at infinity, in that direction), or a plane,
+/// A point, with 1 in the place behind its coordinates, or a plane,
 /// with minus its offset there: their product is the point's height above the plane. Zero elsewhere.
 struct alignas(64) Eight {
   double x[lane_count] = {};
@@ -70,11 +70,11 @@ class FacetComplex {
 
   /// Keeps its memory.
   void clear();
-  int add_point(const double* x, bool at_infinity = false);
+  int add_point(const double* x);
   /// The facets of a simplex of points 0 to D, facet k without point k.
   void start(const Eight* planes);
   /// Joins the rim of all facets that see the point to it. throws BrokenSurface
-  void grow(int first, const double* point, bool at_infinity = false);
+  void grow(int first, const double* point);
   /// of the last growth
   std::span<const int> gone() const { return {seen_.data(), static_cast<size_t>(seen_count_)}; }
   std::span<const int> made() const { return made_; }
@@ -123,11 +123,11 @@ void FacetComplex<D>::clear() {
 }
 
 template <int D>
-int FacetComplex<D>::add_point(const double* x, bool at_infinity) {
+int FacetComplex<D>::add_point(const double* x) {
   const int index = point_count();
   Eight& point = points_.emplace_back();
   std::copy_n(x, D, point.x);
-  point.x[behind] = at_infinity ? 0 : 1;
+  point.x[behind] = 1;
   keys_.push_back(Hasher::mix(static_cast<uint64_t>(index) + 1));
   return index;
 }
@@ -147,8 +147,8 @@ void FacetComplex<D>::start(const Eight* planes) {
 }
 
 template <int D>
-void FacetComplex<D>::grow(int first, const double* x, bool at_infinity) {
-  const int corner = add_point(x, at_infinity);
+void FacetComplex<D>::grow(int first, const double* x) {
+  const int corner = add_point(x);
   look(first, points_[corner]);
   if (rim_count_ < D) throw BrokenSurface();
   reserve();

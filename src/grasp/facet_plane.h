@@ -42,18 +42,16 @@ struct Basis {
   }
 };
 
-/// The corners of a facet: points, some of them at infinity in their direction.
+/// The corners of a facet.
 template <int D>
 struct FacetCorners {
   double x[D][D];
-  bool at_infinity[D];
 };
 
 /// How far points lie along a direction.
 struct Spread {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  double leaning = 0;  // how far those at infinity lean out of the plane, as a sine
-  double width() const { return std::max(high - low, leaning); }
+  double width() const { return high - low; }
 };
 
 template <int D>
@@ -61,29 +59,20 @@ Spread spread_along(const double* direction, const FacetCorners<D>& corners) {
   Spread out;
   for (int k = 0; k < D; ++k) {
     const double x = dot<D>(direction, corners.x[k]);
-    if (corners.at_infinity[k])
-      out.leaning = std::max(out.leaning, std::abs(x));
-    else
-      out.low = std::min(out.low, x), out.high = std::max(out.high, x);
+    out.low = std::min(out.low, x), out.high = std::max(out.high, x);
   }
   return out;
 }
 
 /// Turns a unit normal into that of the plane that D points span, as far as they do: the longest edges
-/// first, and what the shortest leave open stays as it was. One point at least is not at infinity.
+/// first, and what the shortest leave open stays as it was.
 /// returns  how far the points lie along it
 template <int D>
 Spread true_normal(double* normal, const FacetCorners<D>& corners) {
   const Spread before = spread_along<D>(normal, corners);
-  const int base = static_cast<int>(std::find(corners.at_infinity, corners.at_infinity + D, false) -
-                                    corners.at_infinity);
   double edges[D - 1][D];
-  for (int k = 0, edge = 0; k < D; ++k) {
-    if (k == base) continue;
-    for (int i = 0; i < D; ++i)
-      edges[edge][i] = corners.x[k][i] - (corners.at_infinity[k] ? 0 : corners.x[base][i]);
-    ++edge;
-  }
+  for (int k = 1; k < D; ++k)
+    for (int i = 0; i < D; ++i) edges[k - 1][i] = corners.x[k][i] - corners.x[0][i];
   Basis<D> basis;
   for (int k = 0; k < D - 1; ++k) {
     int longest = k;

@@ -6,13 +6,6 @@ namespace clench {
 
 inline constexpr int most_dimensions = 6;
 
-/// All directions u with wall . u <= 0 for each wall.
-struct DirectionCone {
-  static constexpr int most_walls = 5;
-  int walls = 0;
-  double wall[most_walls][most_dimensions];  ///< unit vectors
-};
-
 class SupportSet {
  public:
   virtual ~SupportSet() = default;
@@ -21,8 +14,6 @@ class SupportSet {
   /// Leaves a farthest point of the set along the direction in `point`.
   /// returns  direction . point
   virtual double support(const double* direction, double* point) const = 0;
-  /// The least support of all directions is found in this cone, too.
-  virtual DirectionCone least_support_cone() const { return {}; }
 };
 
 }  // namespace clench
