@@ -1,6 +1,7 @@
 #include "grasp/robustness.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -53,10 +54,60 @@ std::vector<Index> held_rows(const RobustnessProblem& p, const std::vector<Conta
   return rows;
 }
 
-double least_singular_value(const MatrixXd& G) {
-  if (G.cols() < 6) return 0;
-  const VectorXd values = singular_value_decomposition(G).values;
-  return values[5] > rank_part * values[0] ? values[5] : 0;
+// The same problem with torques that count about as much as forces, and DOFs that move their fingers alike.
+struct EvenProblem : RobustnessProblem {
+  Vector6d units = Vector6d::Ones();  // of wrenches, in the problem's own
+
+  explicit EvenProblem(const RobustnessProblem& given) : RobustnessProblem(given) {
+    const double force = largest(G.topRows<3>()), torque = largest(G.bottomRows<3>());
+    if (force > 0 && torque > 0) units.tail<3>().setConstant(power_of_two(torque / force));
+    G.array().colwise() /= units.array();
+    load.array() /= units.array();
+    for (auto column : J.colwise())
+      if (const double size = largest(column); size > 0) column /= power_of_two(size);
+  }
+
+ private:
+  static double largest(const MatrixXd& m) { return m.size() > 0 ? m.cwiseAbs().maxCoeff() : 0; }
+  static double power_of_two(double x) { return std::exp2(std::round(std::log2(x))); }
+};
+
+// springs in series, as they share a wrench
+struct Springs {
+  VectorXd root;       // of their stiffness
+  MatrixXd wrenches;   // orthonormal: forces over root that hold wrenches
+  MatrixXd right;      // the right inverse of G that they make; empty: G does not span all wrenches
+  double stretch = 0;  // the most that a wrench of length one does to the forces
+};
+
+Springs springs_of(const MatrixXd& G, const VectorXd& stiffness, const Vector6d& units) {
+  Springs out;
+  if (G.cols() < 6) return out;
+  out.root = stiffness.cwiseSqrt();
+  const Svd svd = singular_value_decomposition(G * out.root.asDiagonal());
+  if (!(svd.values[5] > rank_part * svd.values[0])) return out;
+  out.wrenches = svd.v.leftCols(6);
+  out.right = out.root.asDiagonal() * out.wrenches * svd.values.cwiseInverse().asDiagonal() *
+              svd.u.transpose();
+  out.stretch =
+      singular_value_decomposition(out.right * units.cwiseInverse().asDiagonal()).values[0];
+  return out;
+}
+
+// of the contact force nearest to its bounds, or farthest outside
+double least_margin(const RobustnessProblem& p, const std::vector<ContactHold>& states,
+                    const VectorXd& f) {
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < states.size(); ++i) {
+    if (states[i] == ContactHold::detached) continue;
+    const int start = p.starts[i], across = p.starts[i + 1] - start - 1;
+    least = std::min({least, f[start], p.max_force - f[start]});
+    if (states[i] != ContactHold::sticks || across == 0) continue;
+    const double mu = p.mu[static_cast<Index>(i)];
+    const double room = mu * f[start] - f.segment(start + 1, across).norm();
+    least = std::min(least, room / std::sqrt(1 + mu * mu));
+  }
+  return least;
 }
 
 // The bounds of contact forces f = start + span x, with the margin d between each and its bounds; the
@@ -138,23 +189,22 @@ MatrixXd range_of(const MatrixXd& m, double zero) {
   return svd.u.leftCols(rank);
 }
 
-Robustness robustness_of(const RobustnessProblem& p, const std::vector<ContactHold>& states) {
+Robustness robustness_of(const EvenProblem& p, const std::vector<ContactHold>& states) {
   Robustness out;
   out.states = states;
   const std::vector<Index> rows = held_rows(p, states);
   const MatrixXd G = p.G(Eigen::all, rows), J = p.J(rows, Eigen::all);
-  if (least_singular_value(G) == 0) return out;
+  const Springs springs = springs_of(G, p.compliance(rows).cwiseInverse(), p.units);
+  if (springs.right.size() == 0) return out;
 
-  // springs in series: how the contacts share a wrench, and which internal forces the joints can make
-  const VectorXd stiffness = p.compliance(rows).cwiseInverse();
-  const MatrixXd KGt = stiffness.asDiagonal() * G.transpose();
-  const MatrixXd right = solve_symmetric(G * KGt, KGt.transpose()).transpose();
-  const MatrixXd KJ = stiffness.asDiagonal() * J;
-  const MatrixXd internal =
-      range_of(KJ - right * (G * KJ), rank_part * (KJ.size() > 0 ? KJ.norm() : 0));
+  // which internal forces the joints can make
+  const MatrixXd made = springs.root.asDiagonal() * J;
+  const MatrixXd no_wrench = made - springs.wrenches * (springs.wrenches.transpose() * made);
+  const MatrixXd internal = springs.root.asDiagonal() *
+                            range_of(no_wrench, rank_part * (made.size() > 0 ? made.norm() : 0));
 
   VectorXd start = VectorXd::Zero(p.G.cols());
-  start(rows) = -right * p.load;
+  start(rows) = -springs.right * p.load;
   MatrixXd span = MatrixXd::Zero(p.G.cols(), internal.cols());
   for (size_t k = 0; k < rows.size(); ++k) span.row(rows[k]) = internal.row(static_cast<Index>(k));
   MarginProgram program(p, start, span);
@@ -162,14 +212,16 @@ Robustness robustness_of(const RobustnessProblem& p, const std::vector<ContactHo
     if (states[i] != ContactHold::detached) program.bound(i, states[i], true);
   const ConeSolution best = program.solve(MatrixXd(0, span.cols() + 1), VectorXd(0));
   if (best.status == ConeStatus::infeasible) return out;
-  if (best.status != ConeStatus::optimal)
-    fail("robustness: the solver stopped short of an answer for these forces");
-  const VectorXd& x = best.x;
+  // what is not sure bounds nothing, and its forces keep the margin that they keep
+  if (best.status != ConeStatus::optimal) out.most = p.max_force / 2 / springs.stretch;
+  const VectorXd forces = start + span * best.x.tail(span.cols());
+  const double margin = least_margin(p, states, forces);
   // what is far below the data is rounding
-  if (!(x[0] > 1e-9 * best.units[0])) return out;
-  out.margin = x[0];
-  out.radius = out.margin / singular_value_decomposition(right).values[0];
-  out.forces = start + span * x.tail(span.cols());
+  if (!(margin > 1e-9 * best.units[0])) return out;
+  out.margin = margin;
+  out.radius = margin / springs.stretch;
+  out.most = std::max(out.most, out.radius);
+  out.forces = forces;
   return out;
 }
 
@@ -179,7 +231,7 @@ constexpr ContactHold all_holds[] = {ContactHold::sticks, ContactHold::slips,
 // Depth first over the states of the contacts, the undecided ones counted on for all they could do.
 class RobustnessSearch {
  public:
-  RobustnessSearch(const RobustnessProblem& problem, int steps)
+  RobustnessSearch(const EvenProblem& problem, int steps)
       : problem_(problem),
         steps_(steps),
         states_(static_cast<size_t>(problem.mu.size()), ContactHold::sticks) {
@@ -214,6 +266,7 @@ class RobustnessSearch {
   void search(size_t decided) {
     if (decided == states_.size()) {
       const Robustness found = robustness_of(problem_, states_);
+      if (found.most > found.radius) left_ = std::max(left_, found.most);
       if (found.radius > best_.radius) best_ = found;
       return;
     }
@@ -233,12 +286,12 @@ class RobustnessSearch {
     states_[decided] = ContactHold::sticks;
   }
 
-  // No right inverse of G stretches less than the one of least norm, 1 over its least singular value,
-  // which grows with every row; and no margin is larger than with free forces that balance the load.
+  // No right inverse of G stretches less than the one of least norm, which stretches less with every row; and no margin is larger than with free forces that balance the load.
   double bound(size_t decided) const {
     const std::vector<Index> rows = held_rows(problem_, states_);
-    const double least = least_singular_value(problem_.G(Eigen::all, rows));
-    if (least == 0) return 0;
+    const MatrixXd G = problem_.G(Eigen::all, rows);
+    const Springs springs = springs_of(G, VectorXd::Ones(G.cols()), problem_.units);
+    if (springs.right.size() == 0) return 0;
     const auto held = static_cast<Index>(rows.size());
     MatrixXd span = MatrixXd::Zero(problem_.G.cols(), held);
     for (Index k = 0; k < held; ++k) span(rows[k], k) = 1;
@@ -252,15 +305,15 @@ class RobustnessSearch {
     const double most = problem_.max_force / 2;
     MatrixXd balance = MatrixXd::Zero(6, held + 1);
     balance.rightCols(held) = problem_.G * span;
-    if (!margin) return most * least;
+    if (!margin) return most / springs.stretch;
     const ConeSolution solution = program.solve(balance, -problem_.load);
     if (solution.status == ConeStatus::infeasible) return 0;
     // what is not sure bounds nothing
-    if (solution.status != ConeStatus::optimal) return most * least;
-    return std::min(solution.x[0], most) * least;
+    if (solution.status != ConeStatus::optimal) return most / springs.stretch;
+    return std::min(solution.x[0], most) / springs.stretch;
   }
 
-  const RobustnessProblem& problem_;
+  const EvenProblem& problem_;
   int steps_;  // that are left
   std::vector<ContactHold> states_;
   std::vector<double> bounds_ = {std::numeric_limits<double>::infinity()};  // of the way here
@@ -275,7 +328,7 @@ Robustness contact_robustness(const RobustnessProblem& problem,
   check_robustness_problem(problem);
   if (static_cast<Index>(states.size()) != problem.mu.size())
     fail("robustness: wanted {} states, one a contact, got {}", problem.mu.size(), states.size());
-  return robustness_of(problem, states);
+  return robustness_of(EvenProblem(problem), states);
 }
 
 Robustness contact_robustness(const RobustnessProblem& problem) {
@@ -286,7 +339,8 @@ Robustness contact_robustness(const RobustnessProblem& problem) {
 
 Robustness grasp_robustness(const RobustnessProblem& problem, int most_steps) {
   check_robustness_problem(problem);
-  return RobustnessSearch(problem, most_steps).best();
+  const EvenProblem even(problem);
+  return RobustnessSearch(even, most_steps).best();
 }
 
 }  // namespace clench

@@ -35,7 +35,8 @@ struct Robustness {
   double margin = 0;       ///< of the contact force nearest to its bounds [N]
   Eigen::VectorXd forces;  ///< those that hold the load with that margin; empty at radius 0
   std::vector<ContactHold> states;  ///< one a contact
-  /// of grasp_robustness: what no choice of states exceeds; the radius itself once the search has ended [N]
+  /// what no forces, of grasp_robustness no choice of states, exceed; the radius itself unless a search was cut short or
+  /// a program could not be solved for certain [N]
   double most = 0;
 };
 

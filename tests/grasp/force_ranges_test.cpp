@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "grasp/equilibrium.h"
 #include "grasp/jaws.h"
+#include "grasp/measures.h"
 #include "grasp/resistance.h"
 
 using namespace clench;
@@ -276,6 +277,75 @@ TEST_CASE("equilibrium is stable where the motors, springs and caps say so, what
     ask(jaws(DofKind::rigid, x, 0), {.load = load}, must, true);
     // motors without limit hold what springs press too much or too little
     ask(jaws(DofKind::compliant, 0.5, 0, false, x), {.load = load}, must, true);
+  });
+}
+
+// jaws of this mass above and below the block: what they weigh, the motor of the upper one gives less
+static Jaws upright_jaws(double mass, double max_effort) {
+  Jaws j = jaws(DofKind::rigid, 0.5, max_effort);
+  const Pose up = Pose::turn(-std::numbers::pi / 2, Vector3d::UnitY());  // x to z
+  j.world.set_pose(j.grasp.hand, up);
+  j.world.set_pose(j.grasp.object, up * j.world.body(j.grasp.object).X_WB);
+  for (Contact& contact : j.grasp.contacts) {
+    contact.p_W = up * contact.p_W;
+    contact.n_W = up.rotation * contact.n_W;
+  }
+  for (const Chain& chain : j.world.robot(j.grasp.hand).chains)
+    j.world.set_mass(chain.links[0], mass);
+  return j;
+}
+
+TEST_CASE("motors hold links of any mass and press with the rest") {
+  JointDemand demand;
+  demand.link_weights = true;
+  each_power([&](double mass, bool) {
+    if (mass > 1e12) return;
+    const double weight = 9.80665 * mass;
+    const auto ask = [&](double max_effort, EquilibriumStatus wanted) {
+      const Jaws j = upright_jaws(mass, max_effort);
+      const Equilibrium e =
+          equilibrium(j.world, j.grasp, {.load = wrench(0, 2, 0, 0, 0, 0), .joints = demand});
+      REQUIRE(e.status == wanted);
+      if (wanted != EquilibriumStatus::stable) return;
+      for (int k = 0; k < 2; ++k) {
+        const double normal = e.result.forces[k].normal, effort = e.result.efforts[k];
+        CHECK(normal >= 2 - close_to);
+        const double off = close_to * normal + 1e-14 * weight;
+        CHECK(std::abs(effort - normal - (k == 0 ? -weight : weight)) <= off);
+        if (max_effort > 0) CHECK(std::abs(effort) <= max_effort + off);
+      }
+    };
+    // each jaw presses 2 N, the lower one beside its weight, which it cannot hold at all with less
+    const double needed = weight + 2;
+    ask(0, EquilibriumStatus::stable);  // without limit
+    ask(needed * (1 + 1e-4), EquilibriumStatus::stable);
+    ask(needed * (1 - 1e-4),
+        needed * (1 - 1e-4) > weight ? EquilibriumStatus::unstable : EquilibriumStatus::moving);
+  });
+}
+
+TEST_CASE("an object of any mass is pressed as its weight wants, and as robust as what is left") {
+  const double free = 20 * 0.5 / (0.5 + std::sqrt(1.25));  // of six fingers with caps of 10 N
+  std::vector<PointContact> faces;
+  for (int k = 0; k < 3; ++k)
+    for (const double side : {-1.0, 1.0})
+      faces.push_back(
+          test::contact_at(0.1 * side * Vector3d::Unit(k), -side * Vector3d::Unit(k), 0.5));
+  each_power([&](double mass, bool) {
+    if (mass > 1e12) return;
+    const double weight = 9.80665 * mass;
+    Held pinched = held(test::pinch(0.5)), firm = held(faces);
+    pinched.world.set_mass(pinched.grasp.object, mass);
+    MeasuredGrasp measured(pinched.world, pinched.grasp);
+    CHECK(find_measure("weight_effort").of(measured) / (2 * weight) ==
+          doctest::Approx(1).epsilon(close_to));
+    firm.world.set_mass(firm.grasp.object, mass);
+    RobustnessProblem problem = MeasuredGrasp(firm.world, firm.grasp).robustness_problem();
+    problem.J.setIdentity(18, 18);  // fingers that press each as they will
+    const double found = contact_robustness(problem).radius;
+    CHECK(found <= free * (1 + close_to));
+    CHECK(found >= free * (1 - close_to) - 2 * weight);
+    CHECK((found == 0) == (mass > 5));
   });
 }
 

@@ -164,6 +164,62 @@ TEST_CASE("forces in another unit and contacts in another order change nothing e
   CHECK(contact_robustness(turned).radius == doctest::Approx(radius).epsilon(1e-7));
 }
 
+// from 1e-12 to 1e13
+template <class Visit>
+static void each_size(Visit visit) {
+  for (int e = -12; e <= 13; ++e) {
+    CAPTURE(e);
+    visit(std::pow(10.0, e));
+  }
+}
+
+TEST_CASE("friction, torque lengths and caps of any size, as the formula for six fingers says") {
+  const std::vector<Vector3d> faces = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                       {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+  const auto check = [](const RobustnessProblem& problem, double radius) {
+    CHECK(std::abs(contact_robustness(problem).radius - radius) <= 1e-7 * radius);
+    const Robustness best = grasp_robustness(problem, 20);
+    CHECK(best.radius >= radius * (1 - 1e-7));
+    CHECK(best.most >= best.radius);
+  };
+  const auto margin = [](double mu) { return 10 * mu / (mu + std::sqrt(1 + mu * mu)); };
+  each_size([&](double x) {
+    // the margin is that of forces, whose least stretch is 2 or, of short lengths, the root of 6
+    RobustnessProblem problem = towards_origin(faces, 0.5);
+    problem.G.bottomRows<3>() *= x;
+    check(problem, margin(0.5) * std::min(2 * x, std::sqrt(6.0)));
+    if (x <= 1e6 && x >= 1e-6) check(towards_origin(faces, x), 2 * margin(x));
+    problem = towards_origin(faces, 0.5);
+    problem.max_force = x;
+    check(problem, 2 * margin(0.5) * x / 10);
+    // forces between cone and cap: of a load too small to count, and of one too large to hold
+    problem.load[2] = -1;
+    const double found = contact_robustness(problem).radius, free = 2 * margin(0.5) * x / 10;
+    CHECK(found <= free * (1 + 1e-7));
+    if (x > 10) CHECK(found > free * (1 - 1e-7) - 2);
+    if (x < 0.1) CHECK(grasp_robustness(problem, 20).radius == 0);
+  });
+}
+
+TEST_CASE("the unit of one DOF, of compliance or of all forces changes nothing else") {
+  Random random(7);
+  RobustnessProblem problem = at_random(random, 5);
+  while (contact_robustness(problem).radius == 0) problem = at_random(random, 5);
+  const double radius = contact_robustness(problem).radius;
+  each_size([&](double x) {
+    const auto check = [&](auto change, double times) {
+      RobustnessProblem other = problem;
+      change(other);
+      const double wanted = times * radius;
+      CHECK(std::abs(contact_robustness(other).radius - wanted) <= 1e-6 * wanted);
+    };
+    check([&](RobustnessProblem& p) { p.J.col(1) *= x; }, 1);
+    check([&](RobustnessProblem& p) { p.J *= x; }, 1);
+    check([&](RobustnessProblem& p) { p.compliance *= x; }, 1);
+    check([&](RobustnessProblem& p) { p.load *= x, p.max_force *= x; }, x);
+  });
+}
+
 TEST_CASE("two fingers, or a load beyond the caps, are not robust") {
   CHECK(contact_robustness(towards_origin({{1, 0, 0}, {-1, 0, 0}}, 1)).radius == 0);
   CHECK(grasp_robustness(towards_origin({{1, 0, 0}, {-1, 0, 0}}, 1)).radius == 0);
