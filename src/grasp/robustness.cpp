@@ -286,7 +286,8 @@ class RobustnessSearch {
     states_[decided] = ContactHold::sticks;
   }
 
-  // No right inverse of G stretches less than the one of least norm, which stretches less with every row; and no margin is larger than with free forces that balance the load.
+  // No right inverse of G stretches less than the one of least norm, which stretches less with every row;
+  // and no margin is larger than with free forces that balance the load.
   double bound(size_t decided) const {
     const std::vector<Index> rows = held_rows(problem_, states_);
     const MatrixXd G = problem_.G(Eigen::all, rows);

@@ -42,14 +42,18 @@ std::string no_range(const std::array<double, 2>& range) {
 
 static void check_dof(const DofSpec& dof, const std::string& subject) {
   check_name(dof.name, subject);
-  check(number_rule.called("default velocity"), dof.default_velocity, subject);
-  check(number_rule.called("Kp"), dof.kp, subject);
-  check(number_rule.called("Kd"), dof.kd, subject);
-  check(number_rule.called("dragger scale"), dof.dragger_scale, subject);
   check(limit_rule.called("default value"), dof.default_value, subject);
-  check(not_negative_rule.called("max effort"), dof.max_effort, subject);
-  check(not_negative_rule.called("max velocity"), dof.max_velocity, subject);
-  check(not_negative_rule.called("breakaway torque"), dof.breakaway_torque, subject);
+  check_each(number_rule,
+             {{"default velocity", dof.default_velocity},
+              {"Kp", dof.kp},
+              {"Kd", dof.kd},
+              {"dragger scale", dof.dragger_scale}},
+             subject);
+  check_each(not_negative_rule,
+             {{"max effort", dof.max_effort},
+              {"max velocity", dof.max_velocity},
+              {"breakaway torque", dof.breakaway_torque}},
+             subject);
 }
 
 static void check_joint(const JointSpec& joint, const RobotSpec& robot,
@@ -58,13 +62,10 @@ static void check_joint(const JointSpec& joint, const RobotSpec& robot,
   if (joint.dof < 0 || joint.dof >= dofs)
     fail("{}: wanted a DOF from 0 to {}, got {}", subject, dofs - 1, joint.dof);
   check_name(joint.name, subject);
-  check(angle_rule.called("theta"), joint.theta, subject);
-  check(coordinate_rule.called("d"), joint.d, subject);
-  check(coordinate_rule.called("a"), joint.a, subject);
-  check(angle_rule.called("alpha"), joint.alpha, subject);
-  check(limit_rule.called("min"), joint.min, subject);
-  check(limit_rule.called("max"), joint.max, subject);
-  check(limit_rule.called("rest value"), joint.rest, subject);
+  check_each(angle_rule, {{"theta", joint.theta}, {"alpha", joint.alpha}}, subject);
+  check_each(coordinate_rule, {{"d", joint.d}, {"a", joint.a}}, subject);
+  check_each(limit_rule, {{"min", joint.min}, {"max", joint.max}, {"rest value", joint.rest}},
+             subject);
   check_place(joint.X_before, subject);
   check_place(joint.X_after, subject);
   if (joint.ratio == 0) fail("{}: wanted a ratio other than 0, got 0", subject);
@@ -73,9 +74,11 @@ static void check_joint(const JointSpec& joint, const RobotSpec& robot,
   if (joint.min > joint.max)
     fail("{}: min {} exceeds max {} [{}]", subject, joint.min, joint.max,
          joint.kind == JointKind::revolute ? "rad" : "m");
-  check(not_negative_rule.called("viscous friction"), joint.viscous, subject);
-  check(not_negative_rule.called("Coulomb friction"), joint.coulomb, subject);
-  check(not_negative_rule.called("spring"), joint.spring, subject);
+  check_each(not_negative_rule,
+             {{"viscous friction", joint.viscous},
+              {"Coulomb friction", joint.coulomb},
+              {"spring", joint.spring}},
+             subject);
 }
 
 static bool has_part(const RobotSpec& robot, const RobotPart& part) {

@@ -22,6 +22,11 @@ void check(const Quantity& quantity, const Eigen::Vector3d& v, std::string_view 
   for (const double x : v) check(quantity, x, subject);
 }
 
+void check_each(const Quantity& quantity, std::initializer_list<NamedNumber> numbers,
+                std::string_view subject) {
+  for (const auto& [name, value] : numbers) check(quantity.called(name), value, subject);
+}
+
 bool is_place(const Pose& X) {
   // files hold six digits; what is read is made unit, so this is rounding
   return (X.position.array().abs() <= largest_coordinate).all() &&

@@ -1,5 +1,6 @@
 // What each quantity of a model may be: one rule, the same for files, scripts, specs and worlds.
 #pragma once
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,6 +59,14 @@ std::string fault(const Quantity& quantity, double x);
 void check(const Quantity& quantity, double x, std::string_view subject);
 /// Each of three.
 void check(const Quantity& quantity, const Eigen::Vector3d& v, std::string_view subject);
+
+struct NamedNumber {
+  const char* name;
+  double value;
+};
+/// Each by its own name.
+void check_each(const Quantity& quantity, std::initializer_list<NamedNumber> numbers,
+                std::string_view subject);
 
 /// A position within the bounds of coordinates, and a unit quaternion.
 bool is_place(const Pose& X);

@@ -1,23 +1,14 @@
 // Every file of tests/data/bad/<format>/ is refused with the sentence that stands beside it.
 #include "bad_files.h"
-#include "io/read.h"
+#include "read_any.h"
 
 using namespace clench;
 using clench::test::check_bad_files;
 namespace fs = std::filesystem;
 
-static void read_any(const fs::path& path) {
-  const auto extension = path.extension();
-  if (extension == ".cfg")
-    read_robot(path);
-  else if (extension == ".wld")
-    read_world(path);
-  else
-    read_body(path);
-}
-
 static void check_format(const std::string& format, size_t at_least) {
-  check_bad_files(format, "", "." + format, at_least, read_any);
+  check_bad_files(format, "", "." + format, at_least,
+                  [](const fs::path& path) { test::read_any(path); });
 }
 
 TEST_CASE("a malformed Inventor file is told by file, line, wanted and got") {

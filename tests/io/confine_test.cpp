@@ -6,9 +6,8 @@
 #include <sys/stat.h>
 
 #include "base/error.h"
-#include "io/eigengrasps.h"
-#include "io/file_kind.h"
 #include "io/inventor_primitives.h"
+#include "read_any.h"
 #include "support/meshes.h"
 #include "temporary.h"
 
@@ -104,19 +103,6 @@ constexpr Referrer referrers[] = {
     {"b.iv", "iv", "#Inventor V2.1 ascii\nSeparator { File { name \"%\" } }\n"},
     {"b.wrl", "wrl", "#VRML V2.0 utf8\nInline { url \"%\" }\n"},
 };
-
-void read_any(const fs::path& file, const ReadOptions& options) {
-  switch (file_kind(file)) {
-    case FileKind::world:
-      read_world(file, options);
-      break;
-    case FileKind::robot:
-      read_robot(file, options);
-      break;
-    default:
-      read_body(file, options);
-  }
-}
 
 }  // namespace
 

@@ -7,11 +7,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "io/eigengrasps.h"
 #include "io/file_kind.h"
-#include "io/glove_files.h"
-#include "io/grasp_lists.h"
-#include "io/virtual_contacts.h"
+#include "read_any.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -33,40 +30,6 @@ bool quotes_too_much(const std::string& message, const std::string& word) {
   return false;
 }
 
-void read_kind(const fs::path& file, const ReadOptions& options) {
-  switch (file_kind(file)) {
-    case FileKind::world:
-      read_world(file, options);
-      break;
-    case FileKind::robot:
-      read_robot(file, options);
-      break;
-    case FileKind::body:
-      read_body(file, options);
-      break;
-    case FileKind::eigengrasps:
-      read_eigengrasps(file, options);
-      break;
-    case FileKind::virtual_contacts:
-      read_virtual_contacts(file, options);
-      break;
-    case FileKind::object_contacts:
-      read_object_contacts(file, options);
-      break;
-    case FileKind::pregrasps:
-      read_pregrasps(file, options);
-      break;
-    case FileKind::planned_grasps:
-      read_planned_grasps(file, options);
-      break;
-    case FileKind::glove_calibration:
-      read_glove_calibration(file, options);
-      break;
-    case FileKind::glove_poses:
-      read_glove_poses(file, options);
-  }
-}
-
 /// All that reading says.
 std::vector<std::string> told(const fs::path& file, const fs::path& folder) {
   std::vector<std::string> list;
@@ -75,7 +38,7 @@ std::vector<std::string> told(const fs::path& file, const fs::path& folder) {
   options.packages[""] = folder;
   options.warn = options.note = [&](const std::string& sentence) { list.push_back(sentence); };
   try {
-    read_kind(file, options);
+    read_any(file, options);
   } catch (const Error& error) {
     list.emplace_back(error.what());
   }

@@ -5,10 +5,8 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "io/eigengrasps.h"
-#include "io/file_kind.h"
 #include "io/mends.h"
-#include "io/virtual_contacts.h"
+#include "read_any.h"
 #include "support/shared.h"
 #include "temporary.h"
 
@@ -17,33 +15,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void read_any(const fs::path& path, const ReadOptions& options) {
-  switch (file_kind(path)) {
-    case FileKind::body:
-      read_body(path, options);
-      break;
-    case FileKind::robot:
-      read_robot(path, options);
-      break;
-    case FileKind::world:
-      read_world(path, options);
-      break;
-    case FileKind::eigengrasps:
-      read_eigengrasps(path, options);
-      break;
-    case FileKind::virtual_contacts:
-      read_virtual_contacts(path, options);
-      break;
-    default:
-      read_object_contacts(path, options);
-  }
-}
-
 std::vector<std::string> mended(const fs::path& path) {
   std::vector<std::string> out;
   ReadOptions options;
   options.mend = [&](const std::string& sentence) { out.push_back(sentence); };
-  read_any(path, options);
+  test::read_any(path, options);
   return out;
 }
 
@@ -67,7 +43,7 @@ TEST_CASE("what a file has wrong and can be put right is told by file and line, 
     try {
       ReadOptions options;
       options.note = [](const std::string&) {};
-      read_any(file, strict(options));
+      test::read_any(file, strict(options));
     } catch (const Error& error) {
       thrown = error.what();
     }
@@ -92,9 +68,10 @@ TEST_CASE("files of the original's last distribution are mended in one sentence 
         "used");
   check("MicoGripper/MicoGripper.xml",
         "eigen.xml:2: 1 DOF is declared, and numbers of 4 are given; 4 are used");
-  check("harvardHand/harvardHandTwist3.xml",
-        "harvardHandTwist3.xml:127: link 3: OverlappingPair without a targetChain; its own chain, 0, "
-        "is used (3 more alike)");
+  check(
+      "harvardHand/harvardHandTwist3.xml",
+      "harvardHandTwist3.xml:127: link 3: OverlappingPair without a targetChain; its own chain, 0, "
+      "is used (3 more alike)");
 }
 
 TEST_CASE("what is wrong alike at many places is told once, with how many more there are") {

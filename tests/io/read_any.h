@@ -1,0 +1,47 @@
+// A file of any kind read, as its name and its beginning say.
+#pragma once
+#include "io/eigengrasps.h"
+#include "io/file_kind.h"
+#include "io/glove_files.h"
+#include "io/grasp_lists.h"
+#include "io/read.h"
+#include "io/virtual_contacts.h"
+
+namespace clench::test {
+
+inline void read_any(const std::filesystem::path& file, const ReadOptions& options = {}) {
+  switch (file_kind(file)) {
+    case FileKind::world:
+      read_world(file, options);
+      break;
+    case FileKind::robot:
+      read_robot(file, options);
+      break;
+    case FileKind::body:
+      read_body(file, options);
+      break;
+    case FileKind::eigengrasps:
+      read_eigengrasps(file, options);
+      break;
+    case FileKind::virtual_contacts:
+      read_virtual_contacts(file, options);
+      break;
+    case FileKind::object_contacts:
+      read_object_contacts(file, options);
+      break;
+    case FileKind::pregrasps:
+      read_pregrasps(file, options);
+      break;
+    case FileKind::planned_grasps:
+      read_planned_grasps(file, options);
+      break;
+    case FileKind::glove_calibration:
+      read_glove_calibration(file, options);
+      break;
+    case FileKind::glove_poses:
+      read_glove_poses(file, options);
+      break;
+  }
+}
+
+}  // namespace clench::test
