@@ -96,20 +96,30 @@ std::string lower_case(std::string_view text) {
   return out;
 }
 
-std::vector<std::string_view> split_words(std::string_view text, std::string_view separators) {
+// the first word at or behind `at`; empty: there is none
+static std::string_view word_from(std::string_view text, size_t at, std::string_view separators) {
   const auto parts = [&](char c) {
     return is_blank(c) || separators.find(c) != std::string_view::npos;
   };
+  while (at < text.size() && parts(text[at])) ++at;
+  size_t end = at;
+  while (end < text.size() && !parts(text[end])) ++end;
+  return text.substr(at, end - at);
+}
+
+// the next one behind a word of the text, or the first behind an empty one
+static std::string_view word_behind(std::string_view text, std::string_view word,
+                                    std::string_view separators = "") {
+  const size_t at = word.empty() ? 0 : word.data() + word.size() - text.data();
+  return word_from(text, at, separators);
+}
+
+std::vector<std::string_view> split_words(std::string_view text, std::string_view separators,
+                                          size_t most) {
   std::vector<std::string_view> words;
-  for (size_t i = 0; i < text.size();) {
-    if (parts(text[i])) {
-      ++i;
-      continue;
-    }
-    const size_t start = i;
-    while (i < text.size() && !parts(text[i])) ++i;
-    words.push_back(text.substr(start, i - start));
-  }
+  auto word = word_behind(text, "", separators);
+  for (; !word.empty() && words.size() < most; word = word_behind(text, word, separators))
+    words.push_back(word);
   return words;
 }
 
@@ -143,14 +153,26 @@ std::string in_quotes(std::string_view text) {
 }
 
 Line::Line(const std::string* file, int number, std::string_view text)
-    : file_(file), number_(number), text_(trim(text)), words_(split_words(text_)) {}
+    : file_(file), number_(number), text_(trim(text)) {}
 
 std::string Line::place() const { return fmt::format("{}:{}", file_ ? *file_ : "", number_); }
 
+std::string_view Line::word(int i) const {
+  if (i < last_ || last_ < 0) last_ = 0, last_word_ = word_behind(text_, "");
+  for (; last_ < i && !last_word_.empty(); ++last_) last_word_ = word_behind(text_, last_word_);
+  return last_word_;
+}
+
+int Line::size() const {
+  if (size_ >= 0) return size_;
+  size_ = 0;
+  for (auto w = word_behind(text_, ""); !w.empty(); w = word_behind(text_, w)) ++size_;
+  return size_;
+}
+
 Line Line::before(char mark) const {
-  for (int i = 0; i < size(); ++i)
-    if (words_[i].front() == mark)
-      return Line(file_, number_, text_.substr(0, words_[i].data() - text_.data()));
+  for (auto w = word_behind(text_, ""); !w.empty(); w = word_behind(text_, w))
+    if (w.front() == mark) return Line(file_, number_, text_.substr(0, w.data() - text_.data()));
   return *this;
 }
 

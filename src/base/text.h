@@ -29,8 +29,9 @@ std::string integer_fault(std::string_view word, int low, int high);
 
 std::string_view trim(std::string_view text);
 std::string lower_case(std::string_view text);
-/// Words between white space and any of `separators`.
-std::vector<std::string_view> split_words(std::string_view text, std::string_view separators = "");
+/// Words between white space and any of `separators`: the first `most`.
+std::vector<std::string_view> split_words(std::string_view text, std::string_view separators = "",
+                                          size_t most = std::string_view::npos);
 /// Bytes of the character that begins at i; 0 when it is not UTF-8.
 size_t utf8_size(std::string_view text, size_t i);
 /// What messages show of a file: at most so many characters of any one place.
@@ -66,9 +67,9 @@ class Line {
   std::string place() const;                       ///< "Barrett.cfg:31"
   std::string_view text() const { return text_; }  ///< without blanks at its ends
   bool blank() const { return text_.empty(); }
-  int size() const { return static_cast<int>(words_.size()); }
+  int size() const;  ///< words
   /// word i, or "" when there is none
-  std::string_view word(int i) const { return i < size() ? words_[i] : std::string_view(); }
+  std::string_view word(int i) const;
   /// The same line without the words from the first that begins with `mark` on.
   Line before(char mark) const;
   /// What to warn of when only the first `used` words are: "Barrett.cfg:31: 2 surplus words are not
@@ -90,7 +91,10 @@ class Line {
   const std::string* file_ = nullptr;
   int number_ = 0;
   std::string_view text_;
-  std::vector<std::string_view> words_;
+  // No list of words, for a line may be as long as a file: how many there are, and the one that was asked for last,
+  // from which the next is near.
+  mutable int size_ = -1, last_ = -1;
+  mutable std::string_view last_word_;
 };
 
 /// Walks through the lines of a text.

@@ -63,6 +63,8 @@ auto find(const Entries& entries, std::string_view text) {
   return found == std::end(entries) ? nullptr : found;
 }
 
+constexpr size_t max_numbers = 10'000'000;  // of a file that holds nothing else
+
 /// Numbers, taken one after the other; beyond the last one there are none.
 class Numbers {
  public:
@@ -126,9 +128,10 @@ std::optional<FileKind> kind_of_numbers(const std::string& text) {
   while (lines.skip_to_full()) {
     const Line line = lines.next().before('#');
     if (numbers.empty() && line.text().front() == '[')
-      return split_words(line.text(), "[],").size() > 6 ? std::optional(FileKind::pregrasps)
-                                                        : std::nullopt;
+      return split_words(line.text(), "[],", 7).size() > 6 ? std::optional(FileKind::pregrasps)
+                                                           : std::nullopt;
     for (int i = 0; i < line.size(); ++i) {
+      if (numbers.size() >= max_numbers) return {};
       const auto value = parse_number(line.word(i));
       // a mistake further down is the reader's to tell
       if (!value && widths.empty()) return {};
@@ -159,7 +162,8 @@ FileKind file_kind(const std::filesystem::path& path) {
   }
   if (const Ending* known = find(known_endings, ending)) return known->kind;
   // any of these lists is whole in so many bytes
-  if (const auto kind = kind_of_numbers(plain_text(read_start(path, size_t{4} << 20)))) return *kind;
+  if (const auto kind = kind_of_numbers(plain_text(read_start(path, size_t{4} << 20))))
+    return *kind;
   fail("{}: wanted a model, a world, or a file that goes with one, got {}",
        path.filename().string(), in_quotes(ending));
 }

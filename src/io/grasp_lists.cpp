@@ -23,7 +23,7 @@ static Pregrasp read_pregrasp(const Line& line) {
   std::string shape;
   for (const char c : line.text())
     if (c == '[' || c == ']') shape += c;
-  const auto words = split_words(line.text(), "[],");
+  const auto words = split_words(line.text(), "[],", 11);
   if (shape != "[][][]" || words.size() != 10 || line.text().front() != '[')
     line.fail("wanted [x y z][x y z][x y z] and a spread angle, got {}", in_quotes(line.text()));
   double x[10];

@@ -14,6 +14,8 @@ struct Material {
   float transparency = 0;
 };
 
+constexpr size_t max_material_files = 1000;  // named in one line
+
 /// What a face needs when all points are known.
 struct Face {
   int first;  // of its corners
@@ -63,8 +65,9 @@ void ObjReader::read_point() {
     const auto value = parse_number(word);
     if (!value) words_.fail("wanted three numbers after v, got {}", in_quotes(word));
     if (count == 7) {
-      warn_once("point", "wanted at most a point, a weight and a colour after v; only the point is "
-                         "used");
+      warn_once("point",
+                "wanted at most a point, a weight and a colour after v; only the point is "
+                "used");
       words_.rest();
       count = 3;
       break;
@@ -128,7 +131,7 @@ void ObjReader::read_other(std::string_view keyword) {
 void ObjReader::read_materials(const std::string& names) {
   // one name, with blanks in it perhaps, or several
   std::vector<std::string> candidates = {names};
-  for (const auto word : split_words(names)) candidates.emplace_back(word);
+  for (const auto word : split_words(names, "", max_material_files)) candidates.emplace_back(word);
   std::string missing;
   bool found = false;
   for (const auto& name : candidates) {

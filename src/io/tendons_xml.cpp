@@ -131,7 +131,7 @@ void read_tactile(const XmlElement& chain, int number, const PartCheck& check, c
     sensor.part = {number, e.integer(0)};
     check(e, sensor.part);
     const std::string params = e.wanted_attribute("params");
-    const auto words = split_words(params, ",");
+    const auto words = split_words(params, ",", 7);
     double x[6];
     for (size_t i = 0; i < 6; ++i) {
       const auto value = i < words.size() ? parse_number(words[i]) : std::nullopt;

@@ -19,7 +19,7 @@ Pose read_full_transform(const Line& line, std::string_view text, const Listener
   std::string shape;
   for (const char c : text)
     if (c == '(' || c == ')' || c == '[' || c == ']') shape += c;
-  const auto words = split_words(text, "()[],");
+  const auto words = split_words(text, "()[],", 8);
   if (shape != "()[]" || words.size() != 7 || text.front() != '(')
     line.fail("transform: wanted '(w x y z)[x y z]', got {}", in_quotes(text));
   double x[7];

@@ -1,5 +1,7 @@
 #include "base/text.h"
 
+#include <malloc.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -125,4 +127,25 @@ TEST_CASE("a list in a message ends after 300 characters and says how many are l
 TEST_CASE("an error is whole though its text has zero bytes") {
   CHECK(std::string(clench::Error(std::string("a\0b", 3) + " is no name").what()) ==
         "a\\0b is no name");
+}
+
+TEST_CASE("a line of millions of words takes no memory for them, and gives each") {
+  const auto taken = [] {
+    const auto info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+  };
+  std::string text = "# first";
+  for (int i = 0; i < 1'000'000; ++i) text += " a";
+  text += " last # tail";
+  const size_t before = taken();
+  const Line line(nullptr, 1, text);
+  CHECK(line.word(1) == "first");
+  CHECK(line.size() == 1'000'005);
+  CHECK(line.word(1'000'002) == "last");
+  CHECK(line.word(1'000'004) == "tail");
+  CHECK(line.word(1'000'005).empty());
+  CHECK(line.word(0) == "#");
+  CHECK(line.before('l').size() == 1'000'002);
+  CHECK(taken() <= before + 100'000);
+  CHECK(split_words(text, "", 3).size() == 3);
 }
