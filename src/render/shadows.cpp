@@ -129,9 +129,9 @@ gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Ligh
                    normals = gl::make_texture(gl::Format::rgba32f, gathered_width, rows, n.data());
   gl::Object gathered = gl::make_texture(gl::Format::rgba32f, gathered_width, rows);
   const gl::Object framebuffer = gl::make_framebuffer({gathered}, 0);
-  const gl::Object program =
-      gl::make_program(shader_head(Shadows::most), shaders::cover_vertex,
-                       std::string(shaders::light_part) + shaders::gather_fragment);
+  const std::string light = shaders::light_part;
+  const gl::Object program = gl::make_program(shader_head(Shadows::most), shaders::cover_vertex,
+                                              light + shaders::gather_fragment);
   const Cover cover;
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
