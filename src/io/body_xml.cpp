@@ -20,9 +20,12 @@ const XmlKnown known = {.once = {"material", "youngs", "normalCompliance", "shea
                                  "geometryScalingX", "geometryScalingY", "geometryScalingZ",
                                  "geometryOffset", "mass", "cog", "inertia_matrix"}};
 
-double number_of(const XmlElement& element, const Quantity& quantity, Mends& mends) {
-  const double value =
-      mends.magnitude(element.number(), fmt::format("{}: {}", element.place(), element.name()));
+/// absent  what stands for 0; 0: nothing does
+double number_of(const XmlElement& element, const Quantity& quantity, Mends& mends,
+                 double absent = 0) {
+  const std::string subject = fmt::format("{}: {}", element.place(), element.name());
+  double value = mends.magnitude(element.number(), subject);
+  if (absent > 0) value = mends.not_zero(value, absent, subject);
   if (const auto wrong = fault(quantity, value); !wrong.empty())
     element.fail("{}: {}", element.name(), wrong);
   return value;
@@ -99,7 +102,9 @@ void read_compliance(const XmlElement& body, const Library& library, Mends& mend
 
 void read_mass(const XmlElement& body, const Library& library, Mends& mends, BodySpec& out) {
   if (const XmlElement mass = body.child("mass"))
-    out.mass = number_of(mass, mass_rule.in("g", units::gram), mends) * units::gram;
+    out.mass =
+        number_of(mass, mass_rule.in("g", units::gram), mends, BodySpec().mass / units::gram) *
+        units::gram;
   if (const XmlElement cog = body.child("cog")) {
     out.com = cog.vector() * units::millimetre;
     check(coordinate_rule.called("cog"), *out.com, cog.place());

@@ -24,9 +24,11 @@ std::vector<bool> marked_lines(std::string_view text) {
   return out;
 }
 
-double number_of(const Line& line, const Quantity& quantity, Mends& mends) {
-  const double value = mends.magnitude(line.number(1, quantity.name),
-                                       fmt::format("{}: {}", line.place(), quantity.name));
+/// absent  what stands for 0; 0: nothing does
+double number_of(const Line& line, const Quantity& quantity, Mends& mends, double absent = 0) {
+  const std::string subject = fmt::format("{}: {}", line.place(), quantity.name);
+  double value = mends.magnitude(line.number(1, quantity.name), subject);
+  if (absent > 0) value = mends.not_zero(value, absent, subject);
   check(quantity, value, line.place());
   return value;
 }
@@ -42,16 +44,12 @@ std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
     if (!line.text().starts_with('#') || line.number() == head.number())
       line.fail("inertia_matrix: wanted row {} of 3 as '#a b c', got {}", i + 1,
                 in_quotes(line.text()));
-    auto words = split_words(line.text().substr(1));
-    for (size_t k = 0; k < words.size(); ++k)
-      if (words[k].front() == '#') words.resize(k);
-    if (words.size() > 3)
-      line.fail("inertia_matrix: wanted 3 numbers in a row, got {}", words.size());
+    const Line row = Line(&lines.file(), line.number(), line.text().substr(1)).before('#');
+    if (row.size() > 3) line.fail("inertia_matrix: wanted 3 numbers in a row, got {}", row.size());
     for (int j = 0; j < 3; ++j) {
-      const std::string_view word =
-          j < static_cast<int>(words.size()) ? words[j] : std::string_view();
-      const auto value = parse_number(word);
-      if (!value) line.fail("inertia_matrix: wanted three numbers [mm^2], got {}", in_quotes(word));
+      const auto value = parse_number(row.word(j));
+      if (!value)
+        line.fail("inertia_matrix: wanted three numbers [mm^2], got {}", in_quotes(row.word(j)));
       rows(i, j) = *value * units::square_millimetre;
     }
   }
@@ -91,7 +89,9 @@ void read_inventor_params(const std::string& text, const std::string& file,
     } else if (key == "useFlockOfBirds") {
       body.tracker = mends.count(line.word(1), line.place() + ": useFlockOfBirds");
     } else if (key == "mass") {
-      body.mass = number_of(line, mass_rule.in("g", units::gram), mends) * units::gram;
+      body.mass =
+          number_of(line, mass_rule.in("g", units::gram), mends, BodySpec().mass / units::gram) *
+          units::gram;
     } else if (key == "cog") {
       body.com =
           Eigen::Vector3d(line.number(1, "cog"), line.number(2, "cog"), line.number(3, "cog")) *

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/convert.h"
 #include "base/text.h"
 
 namespace clench {
@@ -23,6 +24,12 @@ double Mends::magnitude(double value, const std::string& subject) {
   return std::abs(value);
 }
 
+double Mends::not_zero(double value, double absent, const std::string& subject) {
+  if (value != 0) return value;
+  add("zero", fmt::format("{}: 0 is none; {} is used, as where it is missing", subject, absent));
+  return absent;
+}
+
 double Mends::within(double value, double low, double high, const std::string& subject) {
   const double nearest = std::clamp(value, low, high);
   if (nearest != value)
@@ -35,7 +42,7 @@ int Mends::count(std::string_view word, const std::string& subject) {
   constexpr double max_count = 1e6;
   const auto value = parse_number(word);
   if (value && *value >= 0 && *value <= max_count && *value == std::floor(*value))
-    return static_cast<int>(*value);
+    return floor_int(*value);
   add("count", fmt::format("{}: wanted a whole number from 0 on, got {}; 0 is used", subject,
                            in_quotes(word)));
   return 0;
@@ -51,9 +58,9 @@ void Mends::add(const std::string& way, const std::string& sentence) {
 
 void Mends::tell() {
   for (const Kind& kind : std::exchange(kinds_, {}))
-    clench::tell(listeners_.mend, listeners_.warn,
-                 kind.more ? fmt::format("{} ({} more alike)", kind.sentence, kind.more)
-                           : kind.sentence);
+    clench::tell(
+        listeners_.mend, listeners_.warn,
+        kind.more ? fmt::format("{} ({} more alike)", kind.sentence, kind.more) : kind.sentence);
 }
 
 }  // namespace clench

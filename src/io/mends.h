@@ -20,6 +20,8 @@ class Mends {
              std::pair<const char*, const char*> names = {"min", "max"});
   /// Of what is never negative: "hand.xml:6: DOF 0: maxEffort: -1.5 is negative; 1.5 is used".
   double magnitude(double value, const std::string& subject);
+  /// Of what is never 0: "distal.xml:5: mass: 0 is none; 300 is used, as where it is missing".
+  double not_zero(double value, double absent, const std::string& subject);
   /// The nearest of low..high: "hand.xml:9: color: rgba: 1.5 is not in 0..1; 1 is used".
   double within(double value, double low, double high, const std::string& subject);
   /// Of a number of something, 0 when it is none: "hand.xml:304: flockOfBirds: number: wanted a whole
