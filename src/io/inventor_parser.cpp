@@ -109,6 +109,7 @@ void InventorParser::finish(InventorNode& node) {
 
 const InventorNode* InventorParser::read() {
   InventorNode& root = add_node(inventor_type("Group", false), 1);
+  int stray = 0, stray_line = 0;
   for (InventorToken token = tokens_.next(); token.kind != InventorToken::end;
        token = tokens_.next()) {
     if (token.kind == InventorToken::word) {
@@ -119,12 +120,14 @@ const InventorNode* InventorParser::read() {
       tokens_.refuse(token.line, "wanted a node type before '{}', got nothing", token.text);
     if (token.kind == InventorToken::string)
       tokens_.refuse(token.line, "wanted a node, got {}", token.told());
-    // one bracket too many closes what is closed already
-    if (token.text != "}" || tokens_.peek().kind != InventorToken::end)
-      tokens_.refuse(token.line, "'{}' closes nothing", token.text);
-    graph_.mendings.push_back(
-        fmt::format("{}:{}: '}}' closes nothing; it is left out", graph_.files[file_], token.line));
+    // one brace too many closes what is closed already
+    if (token.text != "}") tokens_.refuse(token.line, "'{}' closes nothing", token.text);
+    if (++stray == 1) stray_line = token.line;
   }
+  if (stray > 0)
+    graph_.mendings.push_back(
+        fmt::format("{}:{}: '}}' closes nothing; it is left out{}", graph_.files[file_], stray_line,
+                    stray > 1 ? fmt::format(" ({} more alike)", stray - 1) : ""));
   finish(root);
   return &root;
 }

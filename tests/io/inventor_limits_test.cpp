@@ -188,9 +188,12 @@ TEST_CASE("coordinates that leave the range of 32 bits on their way are refused"
         "a.iv:2: Cube: width: wanted a finite number that fits 32 bits, got 'nan'");
 }
 
-TEST_CASE("a closing brace too many at the end of a file is left out, with a warning") {
+TEST_CASE("closing braces too many are left out, with one warning, and what follows is read") {
   const Outcome out = read_text_as_body(iv + "Separator { Cube { } }\n}\n# the end\n");
   CHECK(out.triangles == 12);
   CHECK(out.warnings == "a.iv:3: '}' closes nothing; it is left out\n");
-  CHECK(refusal(iv + "Separator { }\n}\nCube { }") == "a.iv:3: '}' closes nothing");
+  const Outcome more = read_text_as_body(iv + "Cube { }\n}\nCube { }\n} } Cube { }");
+  CHECK(more.triangles == 36);
+  CHECK(more.warnings == "a.iv:3: '}' closes nothing; it is left out (2 more alike)\n");
+  CHECK(refusal(iv + "Cube { }\n]") == "a.iv:3: ']' closes nothing");
 }
