@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace clench {
 
@@ -36,7 +37,7 @@ std::string some_names(const std::vector<std::string>& names) {
   constexpr size_t most = 6;
   std::string out;
   for (size_t i = 0; i < names.size() && i < most; ++i)
-    out += fmt::format("{}'{}'", i ? ", " : "", names[i].substr(0, 60));
+    out += fmt::format("{}'{}'", i ? ", " : "", excerpt(names[i]));
   if (names.size() > most) out += fmt::format(" and {} more", names.size() - most);
   return out;
 }

@@ -1,6 +1,7 @@
 #include "io/mend_names.h"
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace clench {
 
@@ -8,7 +9,7 @@ static void mend_name(std::string& name, const std::string& place, const ReadOpt
   const std::string wrong = name_fault(name);
   if (wrong.empty()) return;
   name = mended_name(name);
-  options.mended(fmt::format("{}: name: {}; it becomes '{}'", place, wrong, name));
+  options.mended(fmt::format("{}: name: {}; it becomes '{}'", place, wrong, excerpt(name)));
 }
 
 void mend_names(BodySpec& body, const std::string& place, const ReadOptions& options) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/suggest.h"
+#include "base/text.h"
 #include "io/mjcf_couplings.h"
 #include "io/mjcf_geoms.h"
 #include "io/tree_chains.h"
@@ -169,7 +170,7 @@ std::string MjcfReader::own_name(const XmlElement& element, const std::string& n
   document_.mends().add(std::string(element.name()),
                         fmt::format("{}: {}: there is another one of the name '{}'; it is called "
                                     "'{}'",
-                                    element.place(), element.name(), name, own));
+                                    element.place(), element.name(), excerpt(name), own));
   return own;
 }
 

@@ -123,11 +123,11 @@ void tell_lost_in_both(const RobotSpec& robot, const RobotFolder& folder) {
   // one that its file alone gives it is no loss
   const std::string stem = folder.path().stem().string();
   if (robot.name != stem && robot.name != std::filesystem::path(robot.file).stem())
-    folder.lost(
-        fmt::format("the name '{}'; the robot is called '{}' as its file", robot.name, stem));
+    folder.lost(fmt::format("the name '{}'; the robot is called '{}' as its file",
+                            excerpt(robot.name), stem));
   if (const std::string word = class_word(robot);
       word != robot.class_name && !robot.chain_links_collide)
-    folder.lost(fmt::format("the class '{}'; it is {}", robot.class_name, word));
+    folder.lost(fmt::format("the class '{}'; it is {}", excerpt(robot.class_name), word));
   if (any_dof(robot, [](const DofSpec& dof) { return dof.max_velocity != 0; }))
     folder.lost("the largest velocities of DOFs");
   if (robot.chain_links_collide) folder.lost("that links of one chain can collide with each other");

@@ -153,7 +153,7 @@ void write_body(const BodySpec& body, const fs::path& path, const WriteOptions& 
   } else if (ending == ".iv") {
     write_file(path, inventor_text(body));
   } else if (is_mesh_ending(ending)) {
-    if (!body.shape) fail("{}: '{}' has no surface to write", file, body.name);
+    if (!body.shape) fail("{}: '{}' has no surface to write", file, excerpt(body.name));
     write_mesh(body.shape->mesh(), path);
   } else {
     fail("{}: wanted a body to .xml, .iv, .obj, .off, .ply or .stl, got {}", file,

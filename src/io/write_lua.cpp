@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/eigengrasps.h"
 #include "io/virtual_contacts.h"
 #include "io/write_text_worlds.h"
@@ -180,7 +181,8 @@ void LuaWriter::add_body(const PlacedBody& placed) {
   else
     made = file(files_.write_body(body).generic_string());
   if (!read && !body.appearance.triangle_colors.empty())
-    files_.warn(fmt::format("the colours of the triangles of '{}' are not saved", body.name));
+    files_.warn(
+        fmt::format("the colours of the triangles of '{}' are not saved", excerpt(body.name)));
   std::string options =
       fmt::format("name = {}, pose = {}{}", as_lua(body.name), pose(placed.X_WB), root_option());
   std::string after;

@@ -3,6 +3,7 @@
 
 #include "io/read.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "io/robot_numbers.h"
 #include "io/urdf_plan.h"
 #include "io/write_robot_texts.h"
@@ -150,7 +151,7 @@ void UrdfText::add_joint(const UrdfJoint& joint) {
 
 std::string UrdfText::text() {
   for (const UrdfJoint& joint : plan_.joints)
-    check_place(joint.X_PC, fmt::format("{}: joint '{}'", folder_.file(), joint.name));
+    check_place(joint.X_PC, fmt::format("{}: joint '{}'", folder_.file(), excerpt(joint.name)));
   out_ = "<?xml version=\"1.0\"?>\n";
   add("", fmt::format("<robot name=\"{}\">", xml_escaped(plan_.name)));
   for (const UrdfLink& link : plan_.links) add_link(link);
@@ -160,12 +161,12 @@ std::string UrdfText::text() {
   for (const UrdfLink& link : plan_.links)
     if (!link.body)
       folder_.warn(fmt::format("{}: '{}' is a frame without mass between two joints of one link",
-                               folder_.file(), link.name));
+                               folder_.file(), excerpt(link.name)));
   for (int d = 0; d < static_cast<int>(robot_.dofs.size()); ++d)
     if (plan_.leader_of[d] >= 0 && scale_of(d) != 1)
       folder_.warn(fmt::format("{}: DOF {} counts {} times as far in it, as its joint '{}' does",
                                folder_.file(), d, scale_of(d),
-                               plan_.joints[plan_.leader_of[d]].name));
+                               excerpt(plan_.joints[plan_.leader_of[d]].name)));
   return out_;
 }
 
@@ -225,7 +226,7 @@ void UrdfText::beside_contacts(const std::string& text) {
     const UrdfLink& link = plan_.links[plan_.link({contact.chain, contact.link})];
     const auto found = parts.find(read.name + "_" + link.name);
     if (found == parts.end())
-      fail("{}: link '{}' is not found again in it", folder_.file(), link.name);
+      fail("{}: link '{}' is not found again in it", folder_.file(), excerpt(link.name));
     contact.chain = found->second.chain;
     contact.link = found->second.link;
     if (!(link.X_UB == Pose{})) contact.X_LC = link.X_UB * contact.X_LC;

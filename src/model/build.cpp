@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace clench {
 
@@ -16,13 +17,13 @@ static std::vector<std::vector<Apart>> checked_apart(const Robot& robot, const E
                                                      const Listeners& listeners) {
   auto out = given;
   if (out.size() != robot.chains.size())
-    fail("robot '{}': wanted joint states of {} chains, got {}", robot.name, robot.chains.size(),
-         out.size());
+    fail("robot '{}': wanted joint states of {} chains, got {}", excerpt(robot.name),
+         robot.chains.size(), out.size());
   for (size_t c = 0; c < out.size(); ++c) {
     const auto& joints = robot.chains[c].joints;
     if (out[c].size() != joints.size())
-      fail("robot '{}': wanted joint states of {} joints, got {}", robot.name, joints.size(),
-           out[c].size());
+      fail("robot '{}': wanted joint states of {} joints, got {}", excerpt(robot.name),
+           joints.size(), out[c].size());
     for (size_t j = 0; j < out[c].size(); ++j) {
       if (!out[c][j]) continue;
       const JointSpec& joint = joints[j];
@@ -32,8 +33,8 @@ static std::vector<std::vector<Apart>> checked_apart(const Robot& robot, const E
       if (listeners.warn && beyond)
         listeners.warn(fmt::format(
             "robot '{}': joint {} of chain {} {} at {}, outside [{}, {}]; it follows its DOF",
-            robot.name, j + 1, c + 1, sprung ? "stands" : "broke away", *out[c][j], joint.min,
-            joint.max));
+            excerpt(robot.name), j + 1, c + 1, sprung ? "stands" : "broke away", *out[c][j],
+            joint.min, joint.max));
       out[c][j].reset();
     }
   }
@@ -45,7 +46,7 @@ static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed
   const Robot& robot = world.robot(id);
   if (placed.dofs.empty()) return;
   if (placed.dofs.size() != robot.dofs.size())
-    fail("robot '{}': wanted {} DOF values, got {}", robot.name, robot.dofs.size(),
+    fail("robot '{}': wanted {} DOF values, got {}", excerpt(robot.name), robot.dofs.size(),
          placed.dofs.size());
   Eigen::VectorXd q(robot.q.size());
   for (int i = 0; i < q.size(); ++i) {
@@ -54,7 +55,7 @@ static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed
     if (std::abs(q[i] - placed.dofs[i]) > digits)
       tell(listeners.mend, listeners.warn,
            fmt::format("robot '{}': DOF {} starts at {}, outside [{}, {}]; moved to the limit",
-                       robot.name, i + 1, placed.dofs[i], low, high));
+                       excerpt(robot.name), i + 1, placed.dofs[i], low, high));
   }
   world.set_dofs(id, q);
   if (!placed.apart.empty())
@@ -78,7 +79,8 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
       listeners.warn(
           fmt::format("robot '{}': its pose and its connection to '{}' differ by {:.3g} m and "
                       "{:.3g} rad; the connection is used",
-                      world.robot(child).name, carrier.name, off.position.norm(), off.angle()));
+                      excerpt(world.robot(child).name), excerpt(carrier.name), off.position.norm(),
+                      off.angle()));
   }
   world.mount(child, parent, c.chain, X_LB, c.mount ? &*c.mount : nullptr);
 }
@@ -106,7 +108,7 @@ Id<Robot> add_robot(World& world, const RobotSpec& spec, const Pose& X_WB, const
   if (listeners.note && !pairs.empty())
     listeners.note(fmt::format(
         "robot '{}': these of its bodies overlap{} as it is loaded, and may from now on: {}",
-        world.robot(id).name, near ? " or touch" : "", describe(world, pairs)));
+        excerpt(world.robot(id).name), near ? " or touch" : "", describe(world, pairs)));
   return id;
 }
 
@@ -157,7 +159,7 @@ void Builder::add_connection(int index) {
 
 Id<Body> Builder::named(const std::string& name) const {
   const auto id = world_.find_body(name);
-  if (!id) fail("a collision switch names body '{}', but the world has none", name);
+  if (!id) fail("a collision switch names body '{}', but the world has none", excerpt(name));
   return id;
 }
 

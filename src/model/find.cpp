@@ -110,7 +110,8 @@ std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> othe
 std::string describe(const World& world, std::span<const BodyPair> pairs) {
   std::vector<std::string> names;
   for (const auto& [a, b] : pairs)
-    names.push_back(fmt::format("{} and {}", world.body(a).name, world.body(b).name));
+    names.push_back(
+        fmt::format("{} and {}", excerpt(world.body(a).name), excerpt(world.body(b).name)));
   return name_list(names);
 }
 

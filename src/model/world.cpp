@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/suggest.h"
+#include "base/text.h"
 #include "model/near_bodies.h"
 #include "spec/inertia.h"
 
@@ -21,7 +22,7 @@ template <class T>
 static const T& follow(const std::vector<Slot<T>>& slots, Id<T> id, const char* what) {
   if (holds(slots, id)) return slots[id.index].value;
   if (id.index < slots.size() && slots[id.index].serial == id.serial)
-    fail("{} '{}' was removed from its world", what, slots[id.index].value.name);
+    fail("{} '{}' was removed from its world", what, excerpt(slots[id.index].value.name));
   fail("this {} is no longer in its world", what);
 }
 
@@ -31,7 +32,9 @@ static Id<T> insert_slot(std::vector<Slot<T>>& slots, T value, uint32_t serial) 
   return {static_cast<uint32_t>(slots.size() - 1), serial};
 }
 
-static std::string the_body(const std::string& name) { return fmt::format("body '{}'", name); }
+static std::string the_body(const std::string& name) {
+  return fmt::format("body '{}'", excerpt(name));
+}
 
 const Body& World::body(Id<Body> id) const { return follow(state_.bodies, id, "body"); }
 const Robot& World::robot(Id<Robot> id) const { return follow(state_.robots, id, "robot"); }
@@ -64,11 +67,11 @@ std::string World::unique_name(const std::string& wanted) {
 }
 
 void World::set_name(Id<Body> id, const std::string& name) {
-  if (name.empty()) fail("body '{}': a name may not be empty", body(id).name);
+  if (name.empty()) fail("body '{}': a name may not be empty", excerpt(body(id).name));
   check_name(name, the_body(body(id).name));
   const Id<Body> holder = find_body(name);
   if ((holder && holder != id) || find_robot(name))
-    fail("the name '{}' is taken in this world", name);
+    fail("the name '{}' is taken in this world", excerpt(name));
   edit(id).name = name;
 }
 
@@ -77,7 +80,7 @@ void World::set_name(Id<Body> id, const std::string& name) {
 Id<Body> World::insert(Body body, const std::string& name) {
   check_name(name, "body");
   if (!name.empty() && (find_body(name) || find_robot(name)))
-    fail("the name '{}' is taken in this world", name);
+    fail("the name '{}' is taken in this world", excerpt(name));
   body.name = name.empty() ? unique_name(body.name) : name;
   const auto id = insert_slot(state_.bodies, std::move(body), next_serial_++);
   state_.body_order.push_back(id);
@@ -103,9 +106,9 @@ static std::string part_name(const std::string& part, const std::string& was,
 Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::string& name) {
   check_robot(spec);
   check_name(name, "robot");
-  check_place(X_WB, fmt::format("robot '{}'", spec.name));
+  check_place(X_WB, fmt::format("robot '{}'", excerpt(spec.name)));
   if (!name.empty() && (find_robot(name) || find_body(name)))
-    fail("the name '{}' is taken in this world", name);
+    fail("the name '{}' is taken in this world", excerpt(name));
 
   Robot robot;
   robot.name = name.empty() ? unique_name(spec.name) : name;
@@ -213,16 +216,20 @@ void World::mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB
   const std::string& name = robot(child).name;
   const Robot& carrier = robot(parent);
   if (robot(child).mounting)
-    fail("robot '{}' is already carried by '{}'", name, robot(robot(child).mounting->parent).name);
+    fail("robot '{}' is already carried by '{}'", excerpt(name),
+         excerpt(robot(robot(child).mounting->parent).name));
   if (chain < 0 || chain >= static_cast<int>(carrier.chains.size()))
-    fail("robot '{}': wanted a chain of '{}', 0 to {}, got {}", name, carrier.name,
-         static_cast<int>(carrier.chains.size()) - 1, chain);
+    fail("robot '{}': wanted a chain of '{}', 0 to {}, got {}", excerpt(name),
+         excerpt(carrier.name), static_cast<int>(carrier.chains.size()) - 1, chain);
   if (carrier.chains[chain].links.empty())
-    fail("robot '{}': chain {} of '{}' has no link to carry it", name, chain, carrier.name);
-  check_place(X_LB, fmt::format("robot '{}': its pose on '{}'", name, carrier.name));
+    fail("robot '{}': chain {} of '{}' has no link to carry it", excerpt(name), chain,
+         excerpt(carrier.name));
+  check_place(X_LB,
+              fmt::format("robot '{}': its pose on '{}'", excerpt(name), excerpt(carrier.name)));
   for (auto up = parent;;) {
     if (up == child)
-      fail("robot '{}' cannot be carried by '{}', which it carries itself", name, carrier.name);
+      fail("robot '{}' cannot be carried by '{}', which it carries itself", excerpt(name),
+           excerpt(carrier.name));
     if (!robot(up).mounting) break;
     up = robot(up).mounting->parent;
   }
@@ -265,7 +272,8 @@ void World::erase(Id<Body> id) {
 void World::remove(Id<Body> id) {
   const Body& gone = body(id);
   if (gone.robot)
-    fail("body '{}' is a part of robot '{}': remove the robot", gone.name, robot(gone.robot).name);
+    fail("body '{}' is a part of robot '{}': remove the robot", excerpt(gone.name),
+         excerpt(robot(gone.robot).name));
   erase(id);
 }
 
@@ -293,17 +301,17 @@ std::vector<Id<Body>> World::bodies_of(Id<Robot> id) const {
 
 void World::set_pose(Id<Body> id, const Pose& X_WB) {
   if (body(id).robot)
-    fail("body '{}' is a part of robot '{}': move the robot", body(id).name,
-         robot(body(id).robot).name);
+    fail("body '{}' is a part of robot '{}': move the robot", excerpt(body(id).name),
+         excerpt(robot(body(id).robot).name));
   check_place(X_WB, the_body(body(id).name));
   edit(id).X_WB = X_WB;
 }
 
 void World::set_pose(Id<Robot> id, const Pose& X_WB) {
   if (robot(id).mounting)
-    fail("robot '{}' is carried by '{}': move that one", robot(id).name,
-         robot(robot(id).mounting->parent).name);
-  check_place(X_WB, fmt::format("robot '{}'", robot(id).name));
+    fail("robot '{}' is carried by '{}': move that one", excerpt(robot(id).name),
+         excerpt(robot(robot(id).mounting->parent).name));
+  check_place(X_WB, fmt::format("robot '{}'", excerpt(robot(id).name)));
   place(id, X_WB);
 }
 
@@ -333,16 +341,17 @@ void World::place(Id<Robot> id, const Pose& X_WB) {
 void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
   const Robot& r = robot(id);
   if (q.size() != r.q.size())
-    fail("robot '{}': wanted {} DOF values, got {}", r.name, r.q.size(), q.size());
+    fail("robot '{}': wanted {} DOF values, got {}", excerpt(r.name), r.q.size(), q.size());
   Eigen::VectorXd inside = q;
   for (int i = 0; i < q.size(); ++i) {
     const auto [low, high] = r.limits[i];
     if (!std::isfinite(q[i]))
-      fail("robot '{}': DOF {} must be finite, got {}", r.name, i + 1, q[i]);
+      fail("robot '{}': DOF {} must be finite, got {}", excerpt(r.name), i + 1, q[i]);
     // a limit that went through degrees and back is still the limit
     const double slack = 1e-9 * std::max(1.0, std::max(std::abs(low), std::abs(high)));
     if (q[i] < low - slack || q[i] > high + slack)
-      fail("robot '{}': DOF {} must lie in [{}, {}], got {}", r.name, i + 1, low, high, q[i]);
+      fail("robot '{}': DOF {} must lie in [{}, {}], got {}", excerpt(r.name), i + 1, low, high,
+           q[i]);
     inside[i] = std::clamp(q[i], low, high);
   }
   // a value set by hand re-engages every joint
@@ -373,7 +382,7 @@ void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
 void World::set_eigengrasps(Id<Robot> id, std::shared_ptr<const EigengraspSet> set) {
   const Robot& r = robot(id);
   if (set) {
-    const std::string subject = fmt::format("eigengrasps of robot '{}'", r.name);
+    const std::string subject = fmt::format("eigengrasps of robot '{}'", excerpt(r.name));
     if (set->dofs != r.q.size())
       fail("{}: wanted a set for {} DOFs, got one for {}", subject, r.q.size(), set->dofs);
     check_eigengrasps(*set, subject);
@@ -387,7 +396,8 @@ void World::set_virtual_contacts(Id<Robot> id,
   const int chains = static_cast<int>(r.chains.size());
   for (size_t i = 0; contacts && i < contacts->size(); ++i) {
     const VirtualContactSpec& c = (*contacts)[i];
-    const std::string subject = fmt::format("virtual contact {} of robot '{}'", i + 1, r.name);
+    const std::string subject =
+        fmt::format("virtual contact {} of robot '{}'", i + 1, excerpt(r.name));
     check_virtual_contact(c, subject);
     const bool on_base = c.chain == -1 && c.link == 0;
     const bool on_link = c.chain >= 0 && c.chain < chains && c.link >= 0 &&

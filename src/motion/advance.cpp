@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace clench {
 
@@ -62,7 +63,7 @@ void check_precision(const World& world, const std::vector<Watch>& watches) {
         fail(
             "moving near '{}': {} m from the origin, a contact threshold of {} m is lost in "
             "rounding",
-            world.body(id).name, far, threshold);
+            excerpt(world.body(id).name), far, threshold);
     }
 }
 

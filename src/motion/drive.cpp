@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "motion/move.h"
 #include "motion/settle.h"
 #include "motion/springs.h"
@@ -121,20 +122,20 @@ Advance follow(Drive& drive, const Eigen::VectorXd& rates, int& queries) {
 
 void check(const Robot& robot, const DofMotion& motion) {
   if (motion.targets.size() != robot.q.size())
-    fail("driving '{}': wanted {} DOF values, got {}", robot.name, robot.q.size(),
+    fail("driving '{}': wanted {} DOF values, got {}", excerpt(robot.name), robot.q.size(),
          motion.targets.size());
   if (motion.rates.size() != motion.targets.size())
-    fail("driving '{}': wanted {} paces, got {}", robot.name, motion.targets.size(),
+    fail("driving '{}': wanted {} paces, got {}", excerpt(robot.name), motion.targets.size(),
          motion.rates.size());
   for (int i = 0; i < motion.targets.size(); ++i) {
     const auto [low, high] = robot.limits[i];
     // a limit that went through degrees and back is still the limit
     const double slack = 1e-9 * std::max({1.0, std::abs(low), std::abs(high)});
     if (!(motion.targets[i] >= low - slack && motion.targets[i] <= high + slack))
-      fail("driving '{}': DOF {} must lie in [{}, {}], got {}", robot.name, i + 1, low, high,
-           motion.targets[i]);
+      fail("driving '{}': DOF {} must lie in [{}, {}], got {}", excerpt(robot.name), i + 1, low,
+           high, motion.targets[i]);
     if (!std::isfinite(motion.rates[i]))
-      fail("driving '{}': the pace of DOF {} must be finite, got {}", robot.name, i + 1,
+      fail("driving '{}': the pace of DOF {} must be finite, got {}", excerpt(robot.name), i + 1,
            motion.rates[i]);
   }
 }
@@ -211,7 +212,7 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
   drive.targets = motion.targets;
   for (size_t i = 0; i < robot.limits.size(); ++i)
     drive.targets[i] = std::clamp(drive.targets[i], robot.limits[i][0], robot.limits[i][1]);
-  refuse_collision(world, drive.moving, fmt::format("driving '{}'", robot.name));
+  refuse_collision(world, drive.moving, fmt::format("driving '{}'", excerpt(robot.name)));
 
   // the path does not depend on the pace: the fastest DOF counts as 1
   const double fastest = motion.rates.lpNorm<Eigen::Infinity>();
@@ -229,7 +230,8 @@ DriveResult drive_to(World& world, Id<Robot> id, const Eigen::VectorXd& targets,
                      const DriveOptions& options) {
   const Robot& robot = world.robot(id);
   if (targets.size() != robot.q.size())
-    fail("driving '{}': wanted {} DOF values, got {}", robot.name, robot.q.size(), targets.size());
+    fail("driving '{}': wanted {} DOF values, got {}", excerpt(robot.name), robot.q.size(),
+         targets.size());
   return drive(world, id, {.targets = targets, .rates = targets - robot.q}, options);
 }
 

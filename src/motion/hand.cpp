@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "motion/blocked_joints.h"
 #include "motion/drive.h"
 
@@ -10,7 +11,8 @@ namespace clench {
 DriveResult autograsp(World& world, Id<Robot> id, double speed, const DriveOptions& options) {
   const Robot& robot = world.robot(id);
   if (!std::isfinite(speed) || speed == 0)
-    fail("autograsp of '{}': the speed must be finite and not 0, got {}", robot.name, speed);
+    fail("autograsp of '{}': the speed must be finite and not 0, got {}", excerpt(robot.name),
+         speed);
   DofMotion motion{robot.q, Eigen::VectorXd::Zero(robot.q.size())};
   for (int i = 0; i < robot.q.size(); ++i) {
     motion.rates[i] = robot.dofs[i].default_velocity * speed;
@@ -35,7 +37,7 @@ static void open_until_free(World& world, Id<Robot> id) {
     if (step == steps) {
       const auto pairs = colliding_pairs(world, moving, world.bodies());
       const std::string sentence = fmt::format("opening '{}': it is never free of collision: {}",
-                                               robot.name, describe(world, pairs));
+                                               excerpt(robot.name), describe(world, pairs));
       world.restore(before);
       throw Error(sentence);
     }

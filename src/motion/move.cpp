@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "motion/advance.h"
 #include "motion/blocked_joints.h"
 
@@ -106,7 +107,7 @@ MoveResult move_body(World& world, Id<Body> body, const Pose& X_WB) {
   world.set_pose(body, X_WB);  // refuses a part of a robot and a pose that is not finite
   world.set_pose(body, from);
   Way way{from, X_WB, {body}, [&](const Pose& X) { world.set_pose(body, X); }};
-  refuse_collision(world, way.moving, fmt::format("moving '{}'", world.body(body).name));
+  refuse_collision(world, way.moving, fmt::format("moving '{}'", excerpt(world.body(body).name)));
   return move(world, way);
 }
 
@@ -122,7 +123,7 @@ MoveResult move_robot(World& world, Id<Robot> robot, const Pose& X_WB) {
     if (std::find(way.moving.begin(), way.moving.end(), b) == way.moving.end()) others.push_back(b);
   const auto pairs = colliding_pairs(world, way.moving, others);
   if (!pairs.empty())
-    fail("moving '{}': the motion starts in collision: {}", world.robot(robot).name,
+    fail("moving '{}': the motion starts in collision: {}", excerpt(world.robot(robot).name),
          describe(world, pairs));
   return move(world, way);
 }
@@ -130,7 +131,7 @@ MoveResult move_robot(World& world, Id<Robot> robot, const Pose& X_WB) {
 MoveResult approach(World& world, Id<Robot> robot, double reach) {
   const Robot& hand = world.robot(robot);
   if (!(reach >= 0) || !std::isfinite(reach))
-    fail("approach of '{}': the reach must be >= 0 [m], got {}", hand.name, reach);
+    fail("approach of '{}': the reach must be >= 0 [m], got {}", excerpt(hand.name), reach);
   const Pose X_WB = world.body(hand.base).X_WB;
   const Eigen::Vector3d direction = X_WB.rotation * (hand.X_BA.rotation * Eigen::Vector3d::UnitZ());
   return move_robot(world, robot, Pose{X_WB.rotation, X_WB.position + reach * direction});

@@ -4,6 +4,7 @@
 
 #include "base/convert.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "contact/cone.h"
 #include "contact/friction_edges.h"
 #include "math/decompositions.h"
@@ -258,7 +259,8 @@ VirtualContactSpec marked(const World& world, Id<Robot> id, const Contact& conta
             contact.friction.statics, friction_edges()};
   }
   fail("virtual contacts: the contact of '{}' and '{}' is on no link of '{}'",
-       world.body(contact.other).name, world.body(contact.body).name, world.robot(id).name);
+       excerpt(world.body(contact.other).name), excerpt(world.body(contact.body).name),
+       excerpt(world.robot(id).name));
 }
 
 }  // namespace clench

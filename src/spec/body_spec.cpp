@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "spec/inertia.h"
 
 namespace clench {
@@ -12,7 +13,7 @@ static constexpr double point_inertia = 1e-6;
 
 void check_body(const BodySpec& spec, std::string_view what) {
   check_name(spec.name, what);
-  const std::string subject = fmt::format("{} '{}'", what, spec.name);
+  const std::string subject = fmt::format("{} '{}'", what, excerpt(spec.name));
   check(mass_rule, spec.mass, subject);
   if (spec.com) check(coordinate_rule.called("com"), *spec.com, subject);
   if (spec.inertia_per_mass) check_inertia(*spec.inertia_per_mass, subject);

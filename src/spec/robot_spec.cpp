@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace clench {
 
@@ -89,13 +90,14 @@ static bool has_part(const RobotSpec& robot, const RobotPart& part) {
 
 static void check_part(const RobotSpec& robot, const RobotPart& part, const char* subject) {
   if (!has_part(robot, part))
-    fail("{}: {}: no link {} of chain {}", robot.name, subject, part.link, part.chain);
+    fail("{}: {}: no link {} of chain {}", excerpt(robot.name), subject, part.link, part.chain);
 }
 
 static void check_tendons(const RobotSpec& robot) {
   for (const TendonSpec& tendon : robot.tendons) {
-    check_name(tendon.name, robot.name + ": tendon");
-    const std::string subject = fmt::format("{}: tendon '{}'", robot.name, tendon.name);
+    check_name(tendon.name, excerpt(robot.name) + ": tendon");
+    const std::string subject =
+        fmt::format("{}: tendon '{}'", excerpt(robot.name), excerpt(tendon.name));
     check(not_negative_rule.called("stiffness"), tendon.stiffness, subject);
     for (const auto& length : {tendon.rest_length, tendon.pre_tension_length})
       check(not_negative_rule.called("length"), length.value_or(0), subject);
@@ -106,7 +108,7 @@ static void check_tendons(const RobotSpec& robot) {
   }
   for (size_t i = 0; i < robot.wrappers.size(); ++i) {
     const TendonWrapper& wrapper = robot.wrappers[i];
-    const std::string subject = fmt::format("{}: tendon wrapper {}", robot.name, i);
+    const std::string subject = fmt::format("{}: tendon wrapper {}", excerpt(robot.name), i);
     check(coordinate_rule, wrapper.p_L, subject);
     check(coordinate_rule.called("axis"), wrapper.axis_L, subject);
     check(not_negative_rule.called("radius"), wrapper.radius, subject);
@@ -122,8 +124,8 @@ static void check_parts(const RobotSpec& robot) {
     for (const auto& part : pair) check_part(robot, part, "collision rule");
   for (const auto& sensor : robot.tactile) {
     check_part(robot, sensor.part, "tactile sensor");
-    check(coordinate_rule, sensor.low_L, robot.name + ": tactile sensor");
-    check(coordinate_rule, sensor.high_L, robot.name + ": tactile sensor");
+    check(coordinate_rule, sensor.low_L, excerpt(robot.name) + ": tactile sensor");
+    check(coordinate_rule, sensor.high_L, excerpt(robot.name) + ": tactile sensor");
   }
   for (const auto& wrapper : robot.wrappers) check_part(robot, wrapper.part, "tendon wrapper");
   for (const auto& tendon : robot.tendons)
@@ -132,7 +134,7 @@ static void check_parts(const RobotSpec& robot) {
 
 void check_fit(const RobotSpec& robot, const EigengraspSet& set) {
   if (set.dofs != static_cast<int>(robot.dofs.size()))
-    fail("eigengrasps of {} DOFs do not fit '{}', which has {}", set.dofs, robot.name,
+    fail("eigengrasps of {} DOFs do not fit '{}', which has {}", set.dofs, excerpt(robot.name),
          robot.dofs.size());
 }
 
@@ -142,9 +144,9 @@ void check_fit(const RobotSpec& robot, const VirtualContactSet& set) {
     const auto& [chain, link, pose, mu, edges] = set.contacts[i];
     if (chain == -1 && link == 0) continue;
     if (chain < 0 || chain >= chains)
-      fail("contact {}: '{}' has no chain {}", i + 1, robot.name, chain);
+      fail("contact {}: '{}' has no chain {}", i + 1, excerpt(robot.name), chain);
     if (link < 0 || link >= static_cast<int>(robot.chains[chain].links.size()))
-      fail("contact {}: chain {} of '{}' has no link {}", i + 1, chain, robot.name, link);
+      fail("contact {}: chain {} of '{}' has no link {}", i + 1, chain, excerpt(robot.name), link);
   }
 }
 
@@ -152,47 +154,48 @@ void check_fit(const RobotSpec& robot, const GloveCalibration& glove) {
   const int dofs = static_cast<int>(robot.dofs.size());
   if (glove.slopes.rows() != dofs || glove.intercepts.size() != dofs)
     fail("a glove's calibration for {} DOFs does not fit '{}', which has {}", glove.slopes.rows(),
-         robot.name, dofs);
+         excerpt(robot.name), dofs);
 }
 
-static void check_sets(const RobotSpec& robot) {
+static void check_sets(const RobotSpec& robot, const std::string& name) {
   if (robot.eigengrasps) {
     check_fit(robot, *robot.eigengrasps);
-    check_eigengrasps(*robot.eigengrasps, robot.name);
+    check_eigengrasps(*robot.eigengrasps, name);
   }
   if (robot.virtual_contacts) {
     check_fit(robot, *robot.virtual_contacts);
     for (size_t i = 0; i < robot.virtual_contacts->contacts.size(); ++i)
       check_virtual_contact(robot.virtual_contacts->contacts[i],
-                            fmt::format("{}: virtual contact {}", robot.name, i + 1));
+                            fmt::format("{}: virtual contact {}", name, i + 1));
   }
   if (!robot.glove) return;
   check_fit(robot, *robot.glove);
-  const std::string glove = robot.name + ": glove";
+  const std::string glove = name + ": glove";
   for (const double x : robot.glove->slopes.reshaped())
     check(number_rule.called("slope"), x, glove);
   for (const double x : robot.glove->intercepts) check(number_rule.called("intercept"), x, glove);
 }
 
-static void check_bodies(const RobotSpec& robot) {
-  for (const std::string* name : {&robot.class_name, &robot.database_name})
-    check_name(*name, robot.name);
-  check_body(robot.base, robot.name + ": base");
+static void check_bodies(const RobotSpec& robot, const std::string& name) {
+  for (const std::string* other : {&robot.class_name, &robot.database_name})
+    check_name(*other, name);
+  check_body(robot.base, name + ": base");
   for (const ChainSpec& chain : robot.chains)
-    for (const LinkSpec& link : chain.links) check_body(link.body, robot.name + ": link");
-  if (robot.X_BA) check_place(*robot.X_BA, robot.name + ": approach");
-  if (robot.tracker) check_place(robot.tracker->X_BS, robot.name + ": tracker");
+    for (const LinkSpec& link : chain.links) check_body(link.body, name + ": link");
+  if (robot.X_BA) check_place(*robot.X_BA, name + ": approach");
+  if (robot.tracker) check_place(robot.tracker->X_BS, name + ": tracker");
 }
 
 void check_robot(const RobotSpec& robot) {
   check_name(robot.name, "robot");
-  check_sets(robot);
-  check_bodies(robot);
+  const std::string name = excerpt(robot.name);
+  check_sets(robot, name);
+  check_bodies(robot, name);
   for (size_t i = 0; i < robot.dofs.size(); ++i)
-    check_dof(robot.dofs[i], fmt::format("{}: DOF {}", robot.name, i));
+    check_dof(robot.dofs[i], fmt::format("{}: DOF {}", name, i));
   for (size_t c = 0; c < robot.chains.size(); ++c) {
     const ChainSpec& chain = robot.chains[c];
-    const std::string place = fmt::format("{}: chain {}", robot.name, c);
+    const std::string place = fmt::format("{}: chain {}", name, c);
     check_place(chain.X_BC, place);
     if (chain.parent_chain < -1 || chain.parent_chain >= static_cast<int>(c))
       fail("{}: wanted to begin on the base or on a chain before it, got chain {}", place,
@@ -215,7 +218,7 @@ void check_robot(const RobotSpec& robot) {
   }
   for (size_t i = 0; i < robot.dofs.size(); ++i)
     if (const auto range = dof_range(robot, static_cast<int>(i)); range[0] > range[1])
-      fail("{}: DOF {}: {}", robot.name, i, no_range(range));
+      fail("{}: DOF {}: {}", name, i, no_range(range));
   check_parts(robot);
   check_tendons(robot);
 }

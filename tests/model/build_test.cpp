@@ -140,3 +140,27 @@ TEST_CASE("links that overlap as a robot is loaded are switched off, and said to
         "gripper_base and "
         "gripper_chain0_link1");
 }
+
+TEST_CASE("of long names a file's messages show 40 characters") {
+  WorldSpec spec = arm_and_hand(0.01);
+  const std::string word = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+  for (PlacedRobot& placed : spec.robots) {
+    placed.robot.name = placed.robot.base.name = word;
+    for (ChainSpec& chain : placed.robot.chains) chain.links[1].body.name = word;
+    placed.dofs = {-1, 0};
+  }
+  std::vector<std::string> told;
+  const auto listen = [&](const std::string& sentence) { told.push_back(sentence); };
+  build_world(spec, {.warn = listen, .note = listen});
+  spec.robots[1].dofs = {0};
+  try {
+    build_world(spec);
+  } catch (const Error& error) {
+    told.emplace_back(error.what());
+  }
+  REQUIRE(told.size() == 4);
+  for (const std::string& sentence : told) {
+    CHECK(sentence.find(word.substr(0, 40) + "...") != std::string::npos);
+    CHECK_MESSAGE(sentence.find(word.substr(0, 41)) == std::string::npos, sentence);
+  }
+}

@@ -99,3 +99,26 @@ TEST_CASE("what is out of order in a robot is told by place") {
   refused([](RobotSpec& r) { r.chains[0].joints[1].min = 0.9, r.chains[0].joints[0].min = 1.5; },
           "arm: DOF 0: wanted a range that all of its joints allow, got from 1.5 to -1.8");
 }
+
+TEST_CASE("of a robot's long name messages show 40 characters") {
+  const std::string word = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+  const auto cut = [&](auto change) {
+    RobotSpec robot = two_joints();
+    robot.name = word;
+    change(robot);
+    try {
+      check_robot(robot);
+    } catch (const Error& error) {
+      CHECK_MESSAGE(std::string(error.what()).starts_with(word.substr(0, 40) + "...: "),
+                    error.what());
+      return;
+    }
+    CHECK_MESSAGE(false, "nothing was wrong");
+  };
+  cut([](RobotSpec& r) { r.dofs[0].kp = NAN; });
+  cut([](RobotSpec& r) { r.chains[0].joints[0].ratio = 0; });
+  cut([](RobotSpec& r) { r.chains[0].parent_chain = 3; });
+  cut([](RobotSpec& r) { r.base.mass = 0; });
+  cut([](RobotSpec& r) { r.tactile.push_back({.part = {5, 5}}); });
+  cut([&](RobotSpec& r) { r.tendons.emplace_back().stiffness = -1; });
+}
