@@ -138,7 +138,7 @@ function world:restore(snapshot) end
 
 ---Writes the world: as .wld or .xml for GraspIt!, as a .lua script that holds everything. The old file stays until the new one has been read again; what the format cannot hold is told in a warning.
 ---@param path string # .wld, .xml or .lua
----@param options? {root?: string} # names of files below the root are written from there on
+---@param options? {root?: string, confine?: string} # names of files below the root are written from there on; files of bodies and robots are read again, but for those that do not lie below `confine`
 function world:save(path, options) end
 
 ---Fingerprint of the state: equal bits, equal text.

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "base/hash.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "io/world_parts.h"
 #include "io/write_mesh.h"
@@ -25,7 +26,8 @@ static fs::path absolute_folder(const fs::path& folder) {
 SavedFiles::SavedFiles(const fs::path& path, const WriteOptions& options)
     : path_(fs::absolute(path).lexically_normal()),
       folder_(path_.parent_path()),
-      reading_{absolute_folder(options.root)},
+      root_(absolute_folder(options.root)),
+      reading_{.root = root_, .confine = options.confine},
       library_(reading_),
       warn_(options.warn) {}
 
@@ -49,15 +51,13 @@ bool SavedFiles::finds(const std::string& name, const std::string& file) const {
   if (name.empty()) return false;
   try {
     std::error_code code;
-    return fs::equivalent(find_file(name, path_, reading_), file, code) && !code;
+    return fs::equivalent(find_file(name, path_, {.root = root_}), file, code) && !code;
   } catch (const Error&) {
     return false;
   }
 }
 
-std::string SavedFiles::below_root(const std::string& file) const {
-  return below(file, reading_.root);
-}
+std::string SavedFiles::below_root(const std::string& file) const { return below(file, root_); }
 
 std::string SavedFiles::name(const std::string& file) const {
   for (const std::string& near : {below_root(file), below(file, folder_)})
@@ -81,13 +81,13 @@ const BodySpec* SavedFiles::again(const BodySpec& body) {
   }
   if (warned_.insert(body.name).second)
     warn(fmt::format("{}: '{}' is saved with its triangles, for {}", path_.filename().string(),
-                     body.name, reason));
+                     excerpt(body.name), reason));
   return nullptr;
 }
 
 const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
   if (robot.file.empty())
-    fail("robot '{}' cannot be saved: it does not come from a file", robot.name);
+    fail("robot '{}' cannot be saved: it does not come from a file", excerpt(robot.name));
   const RobotSpec* read = nullptr;
   try {
     if (robot.files.folder.empty() && robot.files.packages.empty()) {
@@ -99,7 +99,7 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
       read = &(given_[robot.name] = Library(options).robot(robot.file));
     }
   } catch (const Error& error) {
-    fail("robot '{}' cannot be saved: {}", robot.name, error.what());
+    fail("robot '{}' cannot be saved: {}", excerpt(robot.name), error.what());
   }
   bool same = read->dofs.size() == robot.dofs.size() && read->chains.size() == robot.chains.size();
   for (size_t c = 0; same && c < robot.chains.size(); ++c)
@@ -107,7 +107,7 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
            read->chains[c].links.size() == robot.chains[c].links.size();
   if (!same)
     fail("robot '{}' cannot be saved: its file gives another robot when it is read again: {}",
-         robot.name, robot.file);
+         excerpt(robot.name), robot.file);
   return *read;
 }
 
@@ -119,7 +119,7 @@ void SavedFiles::warn_of_folders(const RobotSpec& robot) const {
                    folder && packages ? "the options 'folder' and 'package'"
                    : folder           ? "the option 'folder'"
                                       : "the option 'package'",
-                   robot.name));
+                   excerpt(robot.name)));
 }
 
 // --- what is written beside ---

@@ -19,8 +19,8 @@ class SavedFiles {
   std::string name(const std::string& file) const;
   /// The file from the root on, when it lies below that; else empty.
   std::string below_root(const std::string& file) const;
-  const std::filesystem::path& root() const { return reading_.root; }  ///< absolute, or empty
-  const std::filesystem::path& folder() const { return folder_; }      ///< of the world, absolute
+  const std::filesystem::path& root() const { return root_; }      ///< absolute, or empty
+  const std::filesystem::path& folder() const { return folder_; }  ///< of the world, absolute
 
   /// What the body's file gives when it is read again; null when it has none, or it is gone or holds
   /// another surface, which is warned of.
@@ -51,8 +51,8 @@ class SavedFiles {
  private:
   bool finds(const std::string& name, const std::string& file) const;
 
-  std::filesystem::path path_, folder_;
-  ReadOptions reading_;
+  std::filesystem::path path_, folder_, root_;
+  ReadOptions reading_;  // of what is read again
   Library library_;
   std::function<void(const std::string&)> warn_;
   std::map<std::string, RobotSpec> given_;  // robots whose reading was given folders, by name

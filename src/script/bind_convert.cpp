@@ -24,9 +24,11 @@ static int convert(lua_State* L) {
   if (kind == FileKind::robot) read_robot_options(L, options, reading);
   options.done();
   if (kind == FileKind::world)  // built on the way, which tells what the new file does not hold
-    save_world(L, *push_world_of(L, found, reading), to, reading.root);
+    save_world(L, *push_world_of(L, found, reading), to,
+               {.root = reading.root, .confine = reading.confine});
   else
-    convert_file(kind, found, to, reading, {.root = reading.root, .warn = reading.warn});
+    convert_file(kind, found, to, reading, 
+                 {.root = reading.root, .confine = reading.confine, .warn = reading.warn});
   return push(L, kind_name(kind));
 }
 

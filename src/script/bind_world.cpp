@@ -385,7 +385,7 @@ Back to a snapshot of this world: what was removed since is back, what was added
 Writes the world: as .wld or .xml for GraspIt!, as a .lua script that holds everything. The old file stays until the
 new one has been read again; what the format cannot hold is told in a warning.
 @param path string  .wld, .xml or .lua
-@param options? {root?: string}  names of files below the root are written from there on
+@param options? {root?: string, confine?: string}  names of files below the root are written from there on; files of bodies and robots are read again, but for those that do not lie below `confine`
 > path = os.tmpname()
 > world:save(path .. ".lua")
 > clench.load(path .. ".lua"):hash() == world:hash()  --> true

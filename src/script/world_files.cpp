@@ -1,6 +1,7 @@
 #include "script/world_files.h"
 
 #include "base/text.h"
+#include "io/confine.h"
 #include "io/write_world.h"
 #include "model/build.h"
 #include "model/compare_worlds.h"
@@ -74,8 +75,7 @@ static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& r
   const Running running(L, path);
   const std::string folder = fs::absolute(path).parent_path().lexically_normal().generic_string();
   const ScopedSetting modules(L, Setting::modules, folder);
-  if (load_text_file(L, path.string().c_str()) != LUA_OK)
-    fail("{}", string_at(L, -1));
+  if (load_text_file(L, path.string().c_str()) != LUA_OK) fail("{}", string_at(L, -1));
   lua_createtable(L, 0, 1);
   if (!root.empty()) set_field(L, "root", root.generic_string());
   push(L, folder);
@@ -88,9 +88,11 @@ static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& r
 WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& reading) {
   if (is_script(path)) {
     if (!reading.confine.empty())
-      fail("{}: a world in Lua is a program, which reads what it likes; wanted one of another format "
-           "where reading is confined",
-           path.filename().string());
+      fail(
+          "{}: a world in Lua is a program, which reads what it likes; wanted one of another "
+          "format "
+          "where reading is confined",
+          path.filename().string());
     WorldPtr world = run_script(L, path, reading.root);
     if (world->source().empty()) world->set_source(path.generic_string());
     return world;
@@ -131,16 +133,14 @@ class Silence {
 
 }  // namespace
 
-static World read_again(lua_State* L, const fs::path& path, const fs::path& root) {
-  if (!is_script(path)) {
-    ReadOptions reading;
-    reading.root = root;
-    return build_world(read_world(path, reading));
-  }
+static World read_again(lua_State* L, const fs::path& path, const SavingOptions& saving) {
+  if (!is_script(path))
+    return build_world(read_world(path, {.root = saving.root, .confine = saving.confine}));
   const Silence silence(L);
-  const ScopedSetting own_text(L, Setting::confine, "");  // it was written by us
+  // the script itself was written by us
+  const ScopedSetting models(L, Setting::confine, saving.confine.string());
   const int top = lua_gettop(L);
-  World world = *run_script(L, path, root);
+  World world = *run_script(L, path, saving.root);
   lua_settop(L, top);
   return world;
 }
@@ -152,12 +152,18 @@ static void warn_of_losses(lua_State* L, const World& world, const World& again,
   if (!lost.empty()) log_warning(L, fmt::format("{} does not hold {}", file, name_list(lost)));
 }
 
-void save_world(lua_State* L, const World& world, const fs::path& path, const fs::path& root) {
-  WriteOptions writing;
-  writing.root = root;
+void save_world(lua_State* L, const World& world, const fs::path& path,
+                const SavingOptions& saving) {
+  WriteOptions writing{.root = saving.root, .confine = saving.confine};
   writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
+  const std::string file = path.filename().string();
   writing.check = [&](const fs::path& written) {
-    warn_of_losses(L, world, read_again(L, written, writing.root), path.filename().string());
+    if (is_script(written) || lies_within(written, saving.confine))
+      warn_of_losses(L, world, read_again(L, written, saving), file);
+    else
+      log_warning(L, fmt::format("{} lies outside of {}, to which reading is confined: what it "
+                                 "does not hold is not told",
+                                 file, saving.confine.generic_string()));
   };
   write_world(describe_world(world), path, writing);
 }
@@ -167,9 +173,10 @@ int save_world(lua_State* L) {
   const WorldPtr world = self<WorldHandle>(L).world;
   const fs::path path = check_string(L, 2, "path");
   Table options(L, 3);
-  const fs::path root = options.string("root", "");
+  const SavingOptions saving{.root = options.string("root", ""),
+                             .confine = read_confine(L, options)};
   options.done();
-  save_world(L, *world, path, root);
+  save_world(L, *world, path, saving);
   return 0;
 }
 

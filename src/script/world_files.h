@@ -9,9 +9,12 @@ namespace clench {
 
 /// The world in a file, a script or not, left on the stack. `path` as find_file gives it.
 WorldPtr push_world_of(lua_State* L, const std::filesystem::path& path, const ReadOptions& reading);
+struct SavingOptions {
+  std::filesystem::path root, confine;  ///< as in WriteOptions
+};
 /// Writes it, reads it again, and warns of what the file does not hold.
 void save_world(lua_State* L, const World& world, const std::filesystem::path& path,
-                const std::filesystem::path& root);
+                const SavingOptions& saving);
 
 /// (path, options) -> world
 int load_world(lua_State* L);

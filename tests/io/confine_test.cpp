@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "io/inventor_primitives.h"
+#include "io/write_world.h"
 #include "read_any.h"
 #include "support/meshes.h"
 #include "temporary.h"
@@ -238,4 +239,24 @@ TEST_CASE("pipes, devices and folders are never opened") {
   CHECK(refusal([&] { read_body(pipe, {}); }) ==
         "wanted a file, got a special file: " + pipe.string());
   CHECK_THROWS_AS(read_body("/proc/self/mem", {}), Error);
+}
+
+TEST_CASE("what is read again to be saved is confined as it was") {
+  const Fences fences;
+  fences.folder.write("inside/hand.cfg",
+                      "Hand\npart.iv\n1\nr 1 1e9 1e9 1e7 20\n1\n1\n1\nt 0 0 0\nd0 0 10 0 -10 90\n"
+                      "Revolute\npart.iv 0\nEigenGrasps\n../outside/part.egr\n");
+  WorldSpec world;
+  world.robots.emplace_back().robot = read_robot(fences.inside() / "hand.cfg", fences.options);
+  world.order = {{WorldEntry::Kind::robot, 0}};
+  for (const char* file : {"w.xml", "w.lua"}) {
+    WriteOptions options;
+    // the eigengrasps outside hold something else
+    CHECK(refusal([&] {
+            write_world(world, fences.folder.path() / file, options);
+          }).find("part.egr:") != std::string::npos);
+    options.confine = fences.inside();
+    CHECK(refusal([&] { write_world(world, fences.folder.path() / file, options); }).empty());
+    CHECK(fs::exists(fences.folder.path() / file));
+  }
 }
