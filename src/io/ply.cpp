@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/convert.h"
 #include "io/byte_reader.h"
 #include "io/ply_header.h"
 
@@ -163,7 +164,7 @@ int PlyReader::read_count(const PlyProperty& list) {
   // every item of a list is a byte at least, so the file's size bounds their number
   if (!(count >= 0 && count <= 1 << 30))
     values_.fail("wanted a count of {} from 0 on, got {}", excerpt(list.name), count);
-  return static_cast<int>(count);
+  return floor_int(count);
 }
 
 void PlyReader::read_vertices(const PlyElement& element) {
@@ -206,7 +207,7 @@ void PlyReader::read_indices(const PlyProperty& list) {
     const double v = values_.next(list.type);
     if (!(v >= -1 && v < vertices))
       values_.fail("wanted a vertex from 0 to {}, got {}", vertices - 1, v);
-    indices_.push_back(static_cast<int>(v));
+    indices_.push_back(floor_int(v));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/convert.h"
 #include "io/virtual_contacts.h"
 #include "motion/virtual_contacts.h"
 #include "script/bind_eigengrasps.h"
@@ -58,7 +59,7 @@ static Wanted wanted_posture(lua_State* L, const RobotHandle& robot, Table& opti
       if (!(x >= 1 && x <= grasps.size() && x == std::floor(x)))
         fail("{}: fixed: wanted one of {} eigengrasps, got {}", options.subject(), grasps.size(),
              x);
-      amplitudes[static_cast<int>(x) - 1] = now[static_cast<int>(x) - 1];
+      amplitudes[floor_int(x) - 1] = now[floor_int(x) - 1];
     }
   }
   options.done();

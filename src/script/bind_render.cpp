@@ -1,5 +1,6 @@
 #include "script/bind_render.h"
 
+#include "base/convert.h"
 #include "render/render.h"
 #include "scene/force_arrows.h"
 #include "script/bind_contact.h"
@@ -69,8 +70,8 @@ Picture draw_scene(Table& options, Scene scene) {
   for (const double n : size)
     if (n != std::floor(n) || !(n >= 1 && n <= 1e6))
       fail("{}: size: wanted whole numbers of pixels, at least 1, got {}", options.subject(), n);
-  rendering.width = static_cast<int>(size[0]);
-  rendering.height = static_cast<int>(size[1]);
+  rendering.width = floor_int(size[0]);
+  rendering.height = floor_int(size[1]);
   rendering.samples = options.integer("samples", rendering.samples);
   // a camera that is given in part begins from the one that frames everything
   const int parts =

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/convert.h"
 #include "base/suggest.h"
 #include "motion/drive.h"
 #include "script/bind_body.h"
@@ -109,7 +110,7 @@ static std::vector<std::vector<Apart>> check_apart(Table& options, const Robot& 
     const auto number = [&](double x, size_t count, const char* what) {
       if (!(x >= 1 && x <= static_cast<double>(count) && x == std::floor(x)))
         fail("{}: apart: wanted a {} from 1 to {}, got {}", options.subject(), what, count, x);
-      return static_cast<size_t>(x) - 1;
+      return floor_between(x, size_t{1}, count) - 1;
     };
     const size_t c = number(row[0], out.size(), "chain");
     const size_t j = number(row[1], out[c].size(), "joint");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/convert.h"
 #include "base/error.h"
 #include "script/bind_log.h"
 #include "script/setting.h"
@@ -68,7 +69,7 @@ static Mesh read_mesh(lua_State* L, int i, const ReadOptions& reading) {
       if (!(row[k] >= 1 && row[k] <= count && row[k] == std::floor(row[k])))
         fail("{}: triangle {}: wanted vertices from 1 to {}, got {}", table.subject(), number,
              count, row[k]);
-      t[k] = static_cast<int>(row[k]) - 1;
+      t[k] = floor_int(row[k]) - 1;
     }
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
   }
