@@ -38,7 +38,6 @@ std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
                                             const ReadOptions& options) {
   // three rows on the next three lines, each after a '#'
   Eigen::Matrix3d rows;
-  std::vector<std::string> texts;
   for (int i = 0; i < 3; ++i) {
     const Line line = lines.next();
     if (!line.text().starts_with('#') || line.number() == head.number())
