@@ -17,9 +17,8 @@ static int run_in_state(const std::string& verb, std::vector<std::string> argume
   if (!reading.confine.empty()) state.set_confine(reading.confine);
   catch_interrupts();
   const Interruptible running(state);
-  arguments.insert(arguments.begin(),
-                   {reading.root, reading.folder, reading.package, reading.unit,
-                    reading.strict ? "strict" : ""});
+  arguments.insert(arguments.begin(), {reading.root, reading.folder, reading.package, reading.unit,
+                                       reading.strict ? "strict" : ""});
   const auto result = state.call("host." + verb, "main", arguments);
   std::fflush(stdout);
   if (!result.ok) fmt::print(stderr, "clench {}: {}\n", verb, result.error);

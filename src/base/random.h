@@ -11,7 +11,8 @@ namespace clench {
 /// source  Steele, Lea & Flood (2014), SplitMix64
 class Random {
  public:
-  explicit Random(uint64_t seed, uint64_t item = 0) : state_(Hasher::mix(seed) ^ Hasher::mix(~item)) {}
+  explicit Random(uint64_t seed, uint64_t item = 0)
+      : state_(Hasher::mix(seed) ^ Hasher::mix(~item)) {}
 
   uint64_t bits() {
     const uint64_t out = Hasher::mix(state_);

@@ -50,7 +50,7 @@ struct EpsilonBounds {
   double lower = 0, upper = 0;
   bool converged =
       true;  ///< upper - lower is within the tolerance; else at_least was known before, or it is as near as it
-      ///< came
+             ///< came
 };
 
 /// lower <= volume <= upper: of the space with round cones replaced by pyramids within, and by the same

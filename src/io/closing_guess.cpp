@@ -89,10 +89,10 @@ struct Hand {
   const TreeModel& tree;
   int palm = -1;
   std::vector<Finger> fingers;
-  std::vector<int> dofs;     // joints that lead, and themselves move
-  Posture rest;              // at first
+  std::vector<int> dofs;  // joints that lead, and themselves move
+  Posture rest;           // at first
   std::vector<std::array<double, 2>>
-      ranges;  // one a joint; of leaders, with their followers' limits
+      ranges;                               // one a joint; of leaders, with their followers' limits
   std::vector<std::vector<int>> followers;  // one a joint: joints that it leads
   std::vector<int> link_of;                 // one a joint
 };

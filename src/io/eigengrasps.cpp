@@ -249,8 +249,7 @@ VectorXd EigengraspXml::read_values(const XmlElement& block, double missing) {
   const XmlElement list = block.wanted("DimVals");
   for (const std::string& name : list.attributes()) {
     const auto number = numbered_dof(name);
-    if (!number)
-      list.fail("DimVals: wanted d0 to d{}, got {}", set_.dofs - 1, in_quotes(name));
+    if (!number) list.fail("DimVals: wanted d0 to d{}, got {}", set_.dofs - 1, in_quotes(name));
     values[*number] = list.number_attribute(name);
   }
   return values;

@@ -21,9 +21,7 @@ Turn turn_of(std::span<const float> axis_angle) {
   return {x * sine, y * sine, z * sine, std::cos(half)};
 }
 
-float norm_of(const Turn& q) {
-  return std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-}
+float norm_of(const Turn& q) { return std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w); }
 
 Turn inverse(const Turn& q) {
   const float factor = 1.0f / norm_of(q);

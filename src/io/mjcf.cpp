@@ -249,13 +249,13 @@ void MjcfReader::set_range(const XmlValues& values, TreeJoint& joint) {
   // two zeros undo what a class says
   const bool has_range = given_range(values);
   if (limited == "auto" && has_range && !document_.autolimits())
-    document_.mends().add("autolimits",
-                          values.subject("range") +
-                              ": wanted limited=\"true\" beside it, as autolimits is off; the range "
-                              "is used");
+    document_.mends().add(
+        "autolimits", values.subject("range") +
+                          ": wanted limited=\"true\" beside it, as autolimits is off; the range "
+                          "is used");
   if (limited == "true" && !values.has("range"))
-    document_.mends().add("limited", values.subject("limited") +
-                                         ": wanted a range, got none; there are no limits");
+    document_.mends().add(
+        "limited", values.subject("limited") + ": wanted a range, got none; there are no limits");
   if (limited == "false" || !has_range) {
     const double endless = turns ? endless_turn : endless_slide;
     joint.min = joint.zero - endless, joint.max = joint.zero + endless;

@@ -31,9 +31,10 @@ void MjcfGeoms::read_assets() {
       std::string name = values.text("name", "");
       if (name.empty()) name = std::filesystem::path(values.text("file")).stem().string();
       if (!meshes_.emplace(name, Asset{element, values, nullptr}).second)
-        document_.mends().add("mesh", fmt::format("{}: mesh: there is another one of the name '{}'; "
-                                                  "the first one counts",
-                                                  element.place(), excerpt(name)));
+        document_.mends().add("mesh",
+                              fmt::format("{}: mesh: there is another one of the name '{}'; "
+                                          "the first one counts",
+                                          element.place(), excerpt(name)));
       document_.unused().attributes(element, {"name", "class", "file", "scale", "refpos", "refquat",
                                               "vertex", "face", "content_type"});
     } else if (node->name() == "material") {
@@ -158,8 +159,7 @@ void MjcfGeoms::set_primitive(const std::string& type, const XmlValues& values, 
   if (size.size() < wanted)
     values.fail("size", "wanted {} number{} for a {}, got {}", wanted, wanted > 1 ? "s" : "", type,
                 size.size());
-  for (double& length : size)
-    length = document_.mends().magnitude(length, values.subject("size"));
+  for (double& length : size) length = document_.mends().magnitude(length, values.subject("size"));
   for (size_t i = 0; i < wanted; ++i)
     if (!(size[i] > 0)) values.fail("size", "wanted lengths > 0, got {}", size[i]);
   std::string name = type;

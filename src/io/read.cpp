@@ -25,9 +25,8 @@ static void check_options(const ReadOptions& options) {
 }
 
 ReadOptions strict(ReadOptions options) {
-  options.warn = options.mend = options.doubt = [](const std::string& sentence) {
-    throw Error(sentence);
-  };
+  options.warn = options.mend =
+      options.doubt = [](const std::string& sentence) { throw Error(sentence); };
   return options;
 }
 

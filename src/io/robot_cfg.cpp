@@ -197,8 +197,8 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
   joint.max = high * unit;
   const auto loss = [&](int i, const char* what, double loss_unit) {
     if (line.size() <= i) return 0.0;
-    return loss_unit * mends_.magnitude(value(i, what),
-                                   fmt::format("{}: joint {}: {}", line.place(), number, what));
+    return loss_unit * mends_.magnitude(value(i, what), fmt::format("{}: joint {}: {}",
+                                                                    line.place(), number, what));
   };
   joint.viscous =
       loss(6, "viscous friction", revolute ? units::gram_square_millimetre : units::gram);

@@ -33,8 +33,7 @@ static std::string expression(const JointSpec& joint, double ratio_unit, double 
                               double unit) {
   std::string out = fmt::format("d{}", joint.dof);
   const double written = joint.pull != 0 ? joint.pull : joint.ratio;
-  if (const std::string ratio = number_in(written, ratio_unit); ratio != "1")
-    (out += '*') += ratio;
+  if (const std::string ratio = number_in(written, ratio_unit); ratio != "1") (out += '*') += ratio;
   // "+-5": the original loses what follows a bare minus
   if (offset != 0) (out += '+') += number_in(offset, unit);
   return out;

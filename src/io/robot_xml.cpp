@@ -138,7 +138,8 @@ double XmlRobotReader::magnitude(const XmlElement& element, const std::string& s
 double XmlRobotReader::number_or_zero(const XmlElement& parent, const char* name,
                                       const std::string& subject) {
   if (const XmlElement child = parent.child(name)) return bounded(child, subject);
-  mends_.add("missing", fmt::format("{}: {}: <{}> is missing; 0 is used", parent.place(), subject, name));
+  mends_.add("missing",
+             fmt::format("{}: {}: <{}> is missing; 0 is used", parent.place(), subject, name));
   return 0;
 }
 
@@ -178,8 +179,7 @@ void XmlRobotReader::read_dof(const XmlElement& element) {
   dof.kp = number("Kp", slides ? units::gram_per_square_second : units::gram_square_millimetre);
   dof.kd = number("Kd", slides ? units::gram : units::gram_square_millimetre);
   dof.dragger_scale = number("draggerScale", units::millimetre);
-  if (dof.kind == DofKind::breakaway)
-    dof.breakaway_torque = positive("breakAwayTorque", 1.0);
+  if (dof.kind == DofKind::breakaway) dof.breakaway_torque = positive("breakAwayTorque", 1.0);
   robot_.dofs.push_back(dof);
 }
 
@@ -215,8 +215,7 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
   robot_.chains.push_back(std::move(chain));
   read_tactile(
       element, static_cast<int>(robot_.chains.size()) - 1,
-      [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), mends_,
-      robot_);
+      [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), mends_, robot_);
 }
 
 void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
@@ -339,9 +338,10 @@ void XmlRobotReader::read_rule(const XmlElement& link, const RobotPart& part) {
     RobotPart target;
     const auto chain = link.attribute("targetChain");
     if (!chain)
-      mends_.add("target", fmt::format("{}: link {}: OverlappingPair without a targetChain; its own "
-                                       "chain, {}, is used",
-                                       link.place(), part.link, part.chain));
+      mends_.add("target",
+                 fmt::format("{}: link {}: OverlappingPair without a targetChain; its own "
+                             "chain, {}, is used",
+                             link.place(), part.link, part.chain));
     if (!chain || lower_case(*chain) != "base")
       target = {chain ? link.integer_attribute("targetChain", 0) : part.chain,
                 link.integer_attribute("targetLink", 0)};

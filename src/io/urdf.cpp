@@ -238,9 +238,10 @@ void UrdfReader::read_link(const XmlElement& element) {
   const auto [other, is_new] =
       link_numbers_.emplace(link.body.name, static_cast<int>(links_.size()));
   if (!is_new) {
-    mends_.add("link", fmt::format("{}: link '{}': there is another one of this name; the first one "
-                                   "counts",
-                                   element.place(), excerpt(link.body.name)));
+    mends_.add("link",
+               fmt::format("{}: link '{}': there is another one of this name; the first one "
+                           "counts",
+                           element.place(), excerpt(link.body.name)));
     return;
   }
   if (links_.size() >= most_links) element.fail("wanted at most {} links", most_links);
@@ -280,9 +281,10 @@ void UrdfReader::read_joint_names(const XmlElement& element) {
   if (joints_.size() >= most_joints) element.fail("wanted at most {} joints", most_joints);
   if (!names_.insert(joint.name).second) {
     const std::string own = unused_name(joint.name, names_);
-    mends_.add("joint", fmt::format("{}: joint '{}': there is another one of this name; it is called "
-                                    "'{}'",
-                                    element.place(), excerpt(joint.name), excerpt(own)));
+    mends_.add("joint",
+               fmt::format("{}: joint '{}': there is another one of this name; it is called "
+                           "'{}'",
+                           element.place(), excerpt(joint.name), excerpt(own)));
     names_.insert(joint.name = own);
   }
   element.wanted_attribute("type");

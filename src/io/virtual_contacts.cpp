@@ -97,7 +97,7 @@ VirtualContactSet read_vgr(const std::string& file, std::string text, const Tell
   set.robot = lines.next_full("the robot's name").text();
   NumberReader numbers(lines);
   const int count = numbers.integer("number of contacts", 0);
-  for (int i = 0; i < count; ++i) 
+  for (int i = 0; i < count; ++i)
     set.contacts.push_back(read_vgr_contact(numbers, i + 1, warn, mends));
   numbers.finish(warn);
   return set;
@@ -108,9 +108,9 @@ VirtualContactSet read_vgr(const std::string& file, std::string text, const Tell
 /// What is there counts, not what is declared.
 void check_count(const XmlElement& declared, int given, const char* what, Mends& mends) {
   if (const std::string text = declared.text(); parse_integer(text) != given)
-    mends.add("count", fmt::format("{}: {}: wanted {}, as there are as many {}, got {}; those count",
-                                   declared.place(), declared.name(), given, what,
-                                   in_quotes(text)));
+    mends.add("count",
+              fmt::format("{}: {}: wanted {}, as there are as many {}, got {}; those count",
+                          declared.place(), declared.name(), given, what, in_quotes(text)));
 }
 
 VirtualContactSpec read_xml_contact(const XmlElement& e, const Tell& warn, Mends& mends) {
@@ -265,8 +265,7 @@ void write_virtual_contacts(const VirtualContactSet& set, const fs::path& path) 
 
 // --- contacts on objects ---
 
-static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed,
-                                            Mends* mends) {
+static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed, Mends* mends) {
   const int count = numbers.integer("number of contacts", 0);
   std::vector<ObjectContact> contacts;
   for (int i = 0; i < count; ++i) {

@@ -52,8 +52,8 @@ void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& lis
       least += robot.dofs[joint.dof].kind == DofKind::breakaway;
   const auto mend = [&](int wanted, const char* made) {
     tell(listeners.mend, listeners.warn,
-         fmt::format("{}: wanted {} numbers for the {} DOFs of {}, got {}; {}", line.place(), wanted,
-                     dofs, robot.name, line.size(), made));
+         fmt::format("{}: wanted {} numbers for the {} DOFs of {}, got {}; {}", line.place(),
+                     wanted, dofs, robot.name, line.size(), made));
   };
   // with joints that may break away nobody knows which numbers lack
   const bool short_line = line.size() < dofs && least == dofs;
@@ -123,8 +123,7 @@ void check_connections(const WorldSpec& world, const std::vector<std::string>& p
            world.robots[c.parent].robot.name, c.chain);
     if (chains[c.chain].links.empty())
       fail("{}: parent chain: chain {} has no link to carry a robot", place, c.chain);
-    if (carrier[c.child] >= 0)
-      fail("{}: child robot: robot {} is carried already", place, c.child);
+    if (carrier[c.child] >= 0) fail("{}: child robot: robot {} is carried already", place, c.child);
     for (int robot = c.parent; robot >= 0; robot = carrier[robot])
       if (robot == c.child)
         fail("{}: child robot: wanted one that does not carry robot {} already, got {}", place,

@@ -57,8 +57,7 @@ std::string robot_cfg_text(const RobotSpec& robot, RobotFolder& folder) {
       fmt::format("{}\n{}\n{}\n", class_word(robot),
                   folder.body(robot.base, part_name(robot.base, robot)), robot.dofs.size());
   const auto to = std::back_inserter(out);
-  for (size_t d = 0; d < robot.dofs.size(); ++d)
-    out += dof_line(robot, static_cast<int>(d));
+  for (size_t d = 0; d < robot.dofs.size(); ++d) out += dof_line(robot, static_cast<int>(d));
   fmt::format_to(to, "\n{}\n", robot.chains.size());
   for (const ChainSpec& chain : robot.chains) out += chain_block(robot, chain, folder);
   out += '\n';

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/read.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "io/read.h"
 #include "io/robot_numbers.h"
 #include "io/urdf_plan.h"
 #include "io/write_robot_texts.h"

@@ -27,7 +27,7 @@ static int convert(lua_State* L) {
     save_world(L, *push_world_of(L, found, reading), to,
                {.root = reading.root, .confine = reading.confine});
   else
-    convert_file(kind, found, to, reading, 
+    convert_file(kind, found, to, reading,
                  {.root = reading.root, .confine = reading.confine, .warn = reading.warn});
   return push(L, kind_name(kind));
 }

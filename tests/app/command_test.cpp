@@ -187,8 +187,9 @@ TEST_CASE("check says what a file is, and fails with 1 when one cannot be read")
 TEST_CASE("strictly read, what is mended, not used or doubtful is wrong") {
   const Folder folder;
   const std::string body = folder.file("b.xml", "<root>\n<mass>-300</mass></root>"),
-                    world = folder.file("w.lua", "local world = clench.world()\nworld:add_object('" +
-                                                     body + "')\nreturn world"),
+                    world =
+                        folder.file("w.lua", "local world = clench.world()\nworld:add_object('" +
+                                                 body + "')\nreturn world"),
                     out = folder / "out.xml";
   CHECK(run("check " + body).code == 0);
   for (const std::string& file : {body, world}) {

@@ -80,9 +80,9 @@ TEST_CASE("what cannot be written is told with its reason, and the old file stay
   CHECK_THROWS_WITH_AS(write_file(folder.path(), "x"),
                        (base + ": wanted a file to write, got a folder").c_str(), Error);
   const fs::path path = folder.write("a.txt", "old");
-  CHECK_THROWS_WITH_AS(
-      write_file(path / "b.txt", "x"),
-      (base + "/a.txt/b.txt: the file cannot be written: Not a directory").c_str(), Error);
+  CHECK_THROWS_WITH_AS(write_file(path / "b.txt", "x"),
+                       (base + "/a.txt/b.txt: the file cannot be written: Not a directory").c_str(),
+                       Error);
   const fs::path long_name = folder.path() / std::string(300, 'a');
   CHECK_THROWS_WITH_AS(
       write_file(long_name, "x"),
@@ -132,13 +132,13 @@ TEST_CASE("what permissions forbid is told as such") {
   std::vector<std::string> faults, wanted;
   {
     const test::PlainUser user;
-    const auto check = [&](const fs::path& path, const char* what, const std::function<void()>& run) {
+    const auto check = [&](const fs::path& path, const char* what,
+                           const std::function<void()>& run) {
       faults.push_back(fault_of(run));
       wanted.push_back(
           fmt::format("{}: the file cannot be {}: Permission denied", path.string(), what));
     };
-    for (const fs::path& path : {shut, secret})
-      check(path, "read", [&] { read_bytes(path); });
+    for (const fs::path& path : {shut, secret}) check(path, "read", [&] { read_bytes(path); });
     for (const fs::path& path : {shut, closed / "new", fixed / "new", old, secret, kept})
       check(path, "written", [&] { write_file(path, "new"); });
   }
@@ -159,9 +159,9 @@ TEST_CASE("what is no regular file is neither read nor replaced") {
   CHECK_THROWS_WITH_AS(read_bytes(pipe),
                        (pipe.generic_string() + ": wanted a file, got a special file").c_str(),
                        Error);
-  CHECK_THROWS_WITH_AS(
-      read_bytes(folder.path()),
-      (folder.path().generic_string() + ": wanted a file, got a folder").c_str(), Error);
+  CHECK_THROWS_WITH_AS(read_bytes(folder.path()),
+                       (folder.path().generic_string() + ": wanted a file, got a folder").c_str(),
+                       Error);
   CHECK(fs::is_fifo(pipe));
   const std::string base = folder.path().generic_string();
   CHECK_THROWS_WITH_AS(read_bytes(folder.path() / "no"), ("no such file: " + base + "/no").c_str(),

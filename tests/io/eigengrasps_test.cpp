@@ -79,7 +79,8 @@ TEST_CASE("blank lines, comments, CR LF and values over several lines are read")
 
 TEST_CASE("what belongs to no block, and words behind numbers, are warnings") {
   Warnings warnings;
-  read_set("DIMENSIONS 2\nEG\n0.5\n1 0 7 8\nEG\n0.5\n0 1\n1.57 1.22\n  R MCP\nORGIN\n", warnings.options());
+  read_set("DIMENSIONS 2\nEG\n0.5\n1 0 7 8\nEG\n0.5\n0 1\n1.57 1.22\n  R MCP\nORGIN\n",
+           warnings.options());
   CHECK(warnings.list == std::vector<std::string>{
                              "a.egr:4: 2 surplus words are not used",
                              "a.egr:8: the line '1.57 1.22' and 2 more belong to no block and are "

@@ -82,11 +82,10 @@ TEST_CASE("what may be there and cannot be seen is told with the reason") {
   }
   fs::permissions(closed, fs::perms(0777));
   CHECK(fault == "closed/a.iv: the file cannot be read: Permission denied");
-  CHECK_THROWS_WITH_AS(find_file(std::string(300, 'a'), world, {}),
-                       (excerpt(std::string(300, 'a')) +
-                        ": the file cannot be read: File name too long")
-                           .c_str(),
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      find_file(std::string(300, 'a'), world, {}),
+      (excerpt(std::string(300, 'a')) + ": the file cannot be read: File name too long").c_str(),
+      Error);
   folder.write("plain", "");
   CHECK_THROWS_WITH_AS(find_file("plain/a.iv", world, {}), "no such file: plain/a.iv", Error);
 }

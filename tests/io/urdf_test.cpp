@@ -235,7 +235,8 @@ TEST_CASE("a wrong inertia is told and does not keep the robot from its work") {
   CHECK(impossible.warned("inertia that no body has"));
   const ToldRobot weightless(folder.write("a.urdf", inertial("0", "1")));
   CHECK(
-      weightless.warned("a.urdf:1: mass: value: wanted a number from 1e-12 to 1e+12 [kg], got 0; the inertial of link "
+      weightless.warned("a.urdf:1: mass: value: wanted a number from 1e-12 to 1e+12 [kg], got 0; "
+                        "the inertial of link "
                         "'a' is not used"));
   CHECK(weightless.robot.base.mass == doctest::Approx(1));
   const ToldRobot nonsense(folder.write("a.urdf", inertial("1", "nan")));

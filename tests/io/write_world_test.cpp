@@ -287,9 +287,9 @@ TEST_CASE("a save that fails leaves nothing behind, and what was there as it was
     }
     CHECK(read_text(older) == "older");
     const auto failing = [](const fs::path&) { fail("no"); };
-    CHECK_THROWS_AS(write_world(world, folder.path() / ("new_" + std::string(name)),
-                                {.check = failing}),
-                    Error);
+    CHECK_THROWS_AS(
+        write_world(world, folder.path() / ("new_" + std::string(name)), {.check = failing}),
+        Error);
   }
   CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 3);
 }

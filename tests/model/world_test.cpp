@@ -262,40 +262,48 @@ TEST_CASE("properties refuse what is no mass, inertia, modulus, threshold, mater
   World world;
   const auto a = add_box(world, "a", {0, 0, 0});
   add_box(world, "b", {1, 0, 0});
-  CHECK_THROWS_WITH_AS(world.set_mass(a, -1), "body 'a': mass: wanted a number from 1e-12 to 1e+12 [kg], got -1", Error);
-  CHECK_THROWS_WITH_AS(world.set_com(a, {NAN, 0, 0}), "body 'a': com: wanted a number from -1e+09 to 1e+09 [m], got nan",
-                       Error);
-  CHECK_THROWS_WITH_AS(world.set_inertia(a, Eigen::Vector3d(1, 1, -1).asDiagonal()),
-                       "body 'a': inertia: wanted a positive definite matrix with moments of 1e-24 to "
-                       "1e+20 m^2 a kilogram, got another",
-                       Error);
+  CHECK_THROWS_WITH_AS(world.set_mass(a, -1),
+                       "body 'a': mass: wanted a number from 1e-12 to 1e+12 [kg], got -1", Error);
+  CHECK_THROWS_WITH_AS(world.set_com(a, {NAN, 0, 0}),
+                       "body 'a': com: wanted a number from -1e+09 to 1e+09 [m], got nan", Error);
+  CHECK_THROWS_WITH_AS(
+      world.set_inertia(a, Eigen::Vector3d(1, 1, -1).asDiagonal()),
+      "body 'a': inertia: wanted a positive definite matrix with moments of 1e-24 to "
+      "1e+20 m^2 a kilogram, got another",
+      Error);
   CHECK_THROWS_WITH_AS(world.set_elastic_modulus(a, 0),
-                       "body 'a': elastic modulus: wanted a number from 0.001 to 1e+15 [Pa], got 0", Error);
+                       "body 'a': elastic modulus: wanted a number from 0.001 to 1e+15 [Pa], got 0",
+                       Error);
   CHECK_THROWS_WITH_AS(world.set_soft_layer(a, -1),
-                       "body 'a': soft layer: wanted a number from 1e-09 to 1e+09 [m], got -1", Error);
+                       "body 'a': soft layer: wanted a number from 1e-09 to 1e+09 [m], got -1",
+                       Error);
   CHECK_THROWS_WITH_AS(world.set_poisson_ratio(a, 0.5),
-                       "body 'a': Poisson's ratio: wanted a number from 0 to 0.499999, got 0.5", Error);
+                       "body 'a': Poisson's ratio: wanted a number from 0 to 0.499999, got 0.5",
+                       Error);
   CHECK_THROWS_WITH_AS(world.set_contact_threshold(0),
-                       "world: contact threshold: wanted a number from 1e-09 to 0.01 [m], got 0", Error);
+                       "world: contact threshold: wanted a number from 1e-09 to 0.01 [m], got 0",
+                       Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, "b"), "the name 'b' is taken in this world", Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, ""), "body 'a': a name may not be empty", Error);
   CHECK_THROWS_AS(world.set_material(a, "woood"), Error);
   CHECK_THROWS_WITH_AS(world.set_pose(a, Pose::translation({NAN, 0, 0})),
-                       "body 'a': wanted a position within 1e+09 m of the origin, got (nan, 0, 0)", Error);
+                       "body 'a': wanted a position within 1e+09 m of the origin, got (nan, 0, 0)",
+                       Error);
 }
 
 TEST_CASE("a body may not stand where rounding leaves nothing of it, nor take a robot's name") {
   World world;
   const auto a = add_box(world, "a", {0, 0, 0});
   world.add_robot(two_finger(), Pose::translation({1, 0, 0}));
-  CHECK_THROWS_WITH_AS(world.set_pose(a, Pose::translation({0, 1e300, 0})),
-                       "body 'a': wanted a position within 1e+09 m of the origin, got (0, 1e+300, 0)",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      world.set_pose(a, Pose::translation({0, 1e300, 0})),
+      "body 'a': wanted a position within 1e+09 m of the origin, got (0, 1e+300, 0)", Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, "gripper"), "the name 'gripper' is taken in this world",
                        Error);
 }
 
-TEST_CASE("a robot of which a link would stand too far out is not added, moved, driven or mounted") {
+TEST_CASE(
+    "a robot of which a link would stand too far out is not added, moved, driven or mounted") {
   RobotSpec far = two_finger();
   far.chains[0].X_BC.position.z() = 1e9;
   World world;
@@ -329,7 +337,9 @@ TEST_CASE("a robot of which a link would stand too far out is not added, moved, 
   CHECK(slides.hash() == before);
 }
 
-TEST_CASE("an inertia that no body has, a name with control characters and a camera nowhere are refused") {
+TEST_CASE(
+    "an inertia that no body has, a name with control characters and a camera nowhere are "
+    "refused") {
   World world;
   const auto a = add_box(world, "a", {0, 0, 0});
   CHECK_THROWS_WITH_AS(world.set_inertia(a, Eigen::Vector3d(1, 1, 100).asDiagonal()),

@@ -17,8 +17,8 @@ inline std::filesystem::path shared() {
 }  // namespace clench::test
 
 /// Ends the test case, as skipped, where the third-party data is absent.
-#define REQUIRE_SHARED()                                                               \
-  if (clench::test::shared().empty()) {                                                \
-    clench::test::skip("no third-party data at ../shared or CLENCH_SHARED");           \
-    return;                                                                            \
+#define REQUIRE_SHARED()                                                     \
+  if (clench::test::shared().empty()) {                                      \
+    clench::test::skip("no third-party data at ../shared or CLENCH_SHARED"); \
+    return;                                                                  \
   }
