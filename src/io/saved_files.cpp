@@ -8,6 +8,7 @@
 #include "base/hash.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "io/confine.h"
 #include "io/world_parts.h"
 #include "io/write_mesh.h"
 #include "io/xml.h"
@@ -67,10 +68,15 @@ std::string SavedFiles::name(const std::string& file) const {
 
 // --- what files hold ---
 
+void SavedFiles::check_within(const std::string& file) const {
+  if (!lies_within(file, reading_.confine)) fail_outside(file, reading_);
+}
+
 const BodySpec* SavedFiles::again(const BodySpec& body) {
   if (body.file.empty()) return nullptr;
   std::string reason;
   try {
+    check_within(body.file);
     const BodySpec& read = library_.body(body.file);
     const bool same = (!read.shape && !body.shape) ||
                       (read.shape && body.shape && read.shape->hash() == body.shape->hash());
@@ -90,6 +96,7 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
     fail("robot '{}' cannot be saved: it does not come from a file", excerpt(robot.name));
   const RobotSpec* read = nullptr;
   try {
+    check_within(robot.file);
     if (robot.files.folder.empty() && robot.files.packages.empty()) {
       read = &library_.robot(robot.file);
     } else {

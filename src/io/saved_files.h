@@ -50,6 +50,7 @@ class SavedFiles {
 
  private:
   bool finds(const std::string& name, const std::string& file) const;
+  void check_within(const std::string& file) const;
 
   std::filesystem::path path_, folder_, root_;
   ReadOptions reading_;  // of what is read again

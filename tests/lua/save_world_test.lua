@@ -245,6 +245,18 @@ test("joints that broke away are set by chain, joint and value", function(t)
   end
 end)
 
+test("files outside of the folder of confine are not read again to save a world", function(t)
+  local world = clench.world()
+  world:add_object "models/objects/flask.iv"
+  local told = warnings(function() world:save(folder .. "/confined.xml", {confine = "worlds"}) end)
+  t.ok(told:find("'flask' is saved with its triangles, for '", 1, true) and told:find("lies outside of worlds", 1, true), told)
+  t.ok(told:find("confined.xml lies outside of worlds, to which reading is confined: what it does not hold is not told", 1, true), told)
+  t.equal(clench.load(folder .. "/confined.xml").objects[1].mass, world.objects[1].mass)
+  t.equal(warnings(function() world:save(folder .. "/confined.lua", {confine = "models"}) end), "")
+  t.equal(clench.load(folder .. "/confined.lua"):hash(), world:hash())
+  t.fails(function() world:save(folder .. "/confined.lua", {confine = "no such"}) end, "world:save: confine: wanted a folder, got 'no such'")
+end)
+
 test("worlds of the original come back from every format, and are the same in both of its generations", function(t)
   local shared = os.getenv "CLENCH_SHARED" or "../shared"
   local file = io.open(shared .. "/data/README.md")
