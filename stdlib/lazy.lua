@@ -4,6 +4,7 @@
 ---@param names string[]  in order
 ---@param home? table  in which file a name lies, unless in one of its own
 local name_list = require "clench.name_list"
+local raise = require "clench.raise"
 
 return function(subject, names, home)
   local known = {}
@@ -11,7 +12,7 @@ return function(subject, names, home)
 
   local function load(module, name)
     if not known[name] then
-      error(("%s: there is no '%s', only %s"):format(subject, tostring(name), name_list(names)), 2)
+      raise(("%s: there is no '%s', only %s"):format(subject, tostring(name), name_list(names)))
     end
     local file = home and home[name]
     local unit = require("clench." .. subject .. "." .. (file or name))

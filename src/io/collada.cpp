@@ -188,7 +188,7 @@ ColladaLook ColladaReader::look(const XmlElement& instance, const std::string& s
 bool ColladaReader::read() {
   const XmlElement root = xml_.root();
   if (root.name() != "COLLADA")
-    root.fail("wanted an element <COLLADA>, got <{}>", std::string(root.name()).substr(0, 40));
+    root.fail("wanted an element <COLLADA>, got <{}>", excerpt(root.name()));
   read_asset(root);
   if (const XmlElement shown = scene(root)) {
     for (const XmlElement& node : shown.children("node")) read_node(node, Affine3d::Identity(), 0);

@@ -188,7 +188,7 @@ class EigengraspXml {
 EigengraspSet EigengraspXml::read() {
   const XmlElement root = file_.root();
   if (root.name() != "EigenGrasps")
-    root.fail("wanted an element <EigenGrasps>, got <{}>", root.name().substr(0, 40));
+    root.fail("wanted an element <EigenGrasps>, got <{}>", excerpt(root.name()));
   root.check({.once = {"ORIGIN", "NORM"}, .many = {"EG"}, .attributes = {"dimensions"}},
              options_.warn);
   count_dofs(root);

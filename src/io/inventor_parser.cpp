@@ -24,7 +24,7 @@ constexpr size_t max_suggested = 40;  // letters of a name, and names
 void InventorParser::open(const InventorToken& bracket, std::string_view type) {
   if (brackets_.size() >= max_brackets)
     tokens_.refuse(bracket.line, "wanted brackets nested at most {} deep", max_brackets);
-  brackets_.push_back({bracket.text[0], bracket.line, std::string(type.substr(0, 40))});
+  brackets_.push_back({bracket.text[0], bracket.line, excerpt(type)});
 }
 
 void InventorParser::close(const InventorToken& bracket) {

@@ -96,9 +96,8 @@ std::optional<int> Couplings::joint(const XmlValues& values, const char* attribu
   const auto found = numbers_.find(name);
   if (found != numbers_.end()) return found->second;
   if (const std::string why = why_not(name); !why.empty()) {
-    warn(values.element(),
-         fmt::format("{}: joint {} {}; this is not used", values.element().name().substr(0, 40),
-                     in_quotes(name), why));
+    warn(values.element(), fmt::format("{}: joint {} {}; this is not used",
+                                       excerpt(values.element().name()), in_quotes(name), why));
     // what moves it does move it
     for (const char* axis : {"_x", "_y", "_z"})
       if (const auto turn = numbers_.find(name + axis); turn != numbers_.end())
@@ -218,8 +217,7 @@ void Couplings::tie_tendon(const XmlElement& element, const XmlValues& values) {
 void Couplings::read_equality(const XmlElement& element) {
   const XmlValues values = document_.values(element, "", "equality");
   if (!values.boolean("active", true)) {
-    warn(element,
-         fmt::format("equality: <{}> is not active; not used", element.name().substr(0, 40)));
+    warn(element, fmt::format("equality: <{}> is not active; not used", excerpt(element.name())));
     return;
   }
   if (element.name() == "joint")
@@ -228,7 +226,7 @@ void Couplings::read_equality(const XmlElement& element) {
     tie_tendon(element, values);
   else
     warn(element, fmt::format("equality: <{}> would close a loop of bodies; it is left open",
-                              element.name().substr(0, 40)));
+                              excerpt(element.name())));
 }
 
 // --- actuators ---
@@ -280,7 +278,7 @@ void Couplings::drive_joint(const XmlElement& element, const XmlValues& values, 
 /// so each takes its part in proportion to its coefficient.
 void Couplings::drive_tendon(const XmlElement& element, const Tendon& tendon) {
   if (tendon.joints.empty()) {
-    warn(element, fmt::format("{}: drives a tendon that is not used", element.name()));
+    warn(element, fmt::format("{}: drives a tendon that is not used", excerpt(element.name())));
     return;
   }
   const auto [first, c_first] = tendon.joints.front();

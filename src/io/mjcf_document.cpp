@@ -24,7 +24,7 @@ MjcfDocument::MjcfDocument(const fs::path& path, Library& library)
   open_.push_back(fs::weakly_canonical(path));
   const XmlElement root = files_.back()->root();
   if (root.name() != "mujoco")
-    root.fail("wanted an element <mujoco>, got <{}>", root.name().substr(0, 40));
+    root.fail("wanted an element <mujoco>, got <{}>", excerpt(root.name()));
   root_ = load(root, 0);
   for (const auto& node : root_.children)
     if (node.name() == "compiler") read_compiler(node);
@@ -134,7 +134,7 @@ void MjcfDocument::check_class(const XmlElement& element, const std::string& nam
   if (name.empty() || class_numbers_.contains(name)) return;
   std::vector<std::string> known;
   for (const auto& [other, number] : class_numbers_) known.push_back(other);
-  element.fail("{}: no default class {}{}", element.name(), in_quotes(name),
+  element.fail("{}: no default class {}{}", excerpt(element.name()), in_quotes(name),
                did_you_mean(name, known));
 }
 

@@ -27,7 +27,7 @@ std::optional<std::string> XmlValues::find(const char* name) const {
 
 std::string XmlValues::subject(const char* name) const {
   const XmlElement& at = giver(name);
-  return fmt::format("{}: {}: {}", at.place(), at.name(), name);
+  return fmt::format("{}: {}: {}", at.place(), excerpt(at.name()), name);
 }
 
 void XmlValues::refuse(const char* name, const std::string& what) const {
@@ -36,7 +36,8 @@ void XmlValues::refuse(const char* name, const std::string& what) const {
 
 std::string XmlValues::text(const char* name) const {
   const auto value = find(name);
-  if (!value) element().fail("{}: wanted an attribute '{}', got none", element().name(), name);
+  if (!value)
+    element().fail("{}: wanted an attribute '{}', got none", excerpt(element().name()), name);
   if (value->empty()) fail(name, "wanted a word, got nothing");
   return *value;
 }
@@ -46,7 +47,8 @@ std::string XmlValues::text(const char* name, const std::string& fallback) const
 }
 
 double XmlValues::number(const char* name) const {
-  if (!has(name)) element().fail("{}: wanted an attribute '{}', got none", element().name(), name);
+  if (!has(name))
+    element().fail("{}: wanted an attribute '{}', got none", excerpt(element().name()), name);
   return numbers(name, 1, 1).front();
 }
 
@@ -143,7 +145,7 @@ void UnusedXml::attributes(const XmlElement& element,
 
 std::vector<std::string> UnusedXml::sentences() const {
   // names of a hostile file are cut: the sentence stays one
-  const auto shown = [](const std::string& name) { return name.substr(0, 40); };
+  const auto shown = [](const std::string& name) { return excerpt(name); };
   std::vector<std::string> out;
   for (const Kind& kind : elements_)
     out.push_back(fmt::format("{}: <{}> is not used{}", kind.place, shown(kind.name),

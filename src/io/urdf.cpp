@@ -86,8 +86,8 @@ void UrdfReader::refuse_xacro(const XmlElement& element) const {
     raw = raw || element.attribute(name)->find("${") != std::string::npos ||
           element.attribute(name)->find("$(") != std::string::npos;
   if (raw)
-    element.fail("<{}> is xacro; expand it first: xacro {} > robot.urdf",
-                 element.name().substr(0, 40), file_);
+    element.fail("<{}> is xacro; expand it first: xacro {} > robot.urdf", excerpt(element.name()),
+                 file_);
   for (const auto& child : element.children()) refuse_xacro(child);
 }
 
@@ -435,7 +435,7 @@ void UrdfReader::read_mimics() {
 RobotSpec UrdfReader::read() {
   const XmlElement root = xml_.root();
   if (root.name() != "robot")
-    root.fail("wanted an element <robot>, got <{}>", root.name().substr(0, 40));
+    root.fail("wanted an element <robot>, got <{}>", excerpt(root.name()));
   refuse_xacro(root);
   tree_.name = root.attribute("name").value_or("");
   tree_.class_name = tree_.name;

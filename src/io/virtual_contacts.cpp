@@ -156,7 +156,7 @@ VirtualContactSet read_xml(const std::string& name, const std::string& text, con
   const XmlFile file(name, text);
   const XmlElement root = file.root();
   if (root.name() != "virtual_contacts")
-    root.fail("wanted an element <virtual_contacts>, got <{}>", root.name().substr(0, 40));
+    root.fail("wanted an element <virtual_contacts>, got <{}>", excerpt(root.name()));
   root.check({.once = {"robot_name", "num_contacts"}, .many = {"virtual_contact"}}, warn);
   VirtualContactSet set;
   if (const XmlElement robot = root.child("robot_name")) set.robot = robot.text();

@@ -104,7 +104,7 @@ XmlElement XmlElement::child(std::string_view name) const {
 
 XmlElement XmlElement::wanted(std::string_view name) const {
   if (const XmlElement found = child(name)) return found;
-  fail("{}: wanted an element <{}>, got none", this->name(), excerpt(name));
+  fail("{}: wanted an element <{}>, got none", excerpt(this->name()), excerpt(name));
 }
 
 std::vector<XmlElement> XmlElement::children(std::string_view name) const {
@@ -118,14 +118,14 @@ std::string XmlElement::loose_text() const { return own_text(*element_); }
 
 std::string XmlElement::text() const {
   if (auto* inner = element_->FirstChildElement())
-    fail("{}: wanted text, got an element <{}>", name(), excerpt(inner->Name()));
+    fail("{}: wanted text, got an element <{}>", excerpt(name()), excerpt(inner->Name()));
   return own_text(*element_);
 }
 
 double XmlElement::number() const {
   const std::string word = text();
   const auto value = parse_number(word);
-  if (!value) fail("{}: wanted a number, got {}", name(), in_quotes(word));
+  if (!value) fail("{}: wanted a number, got {}", excerpt(name()), in_quotes(word));
   return *value;
 }
 
@@ -143,14 +143,16 @@ static int whole(const XmlElement& element, std::string_view what, const std::st
   return floor_int(*value);
 }
 
-int XmlElement::integer(int low, int high) const { return whole(*this, name(), text(), low, high); }
+int XmlElement::integer(int low, int high) const {
+  return whole(*this, excerpt(name()), text(), low, high);
+}
 
 std::vector<double> XmlElement::numbers() const {
   std::vector<double> out;
   const std::string all = text();
   for (const auto word : split_words(all, ",")) {
     const auto value = parse_number(word);
-    if (!value) fail("{}: wanted a number, got {}", name(), in_quotes(word));
+    if (!value) fail("{}: wanted a number, got {}", excerpt(name()), in_quotes(word));
     out.push_back(*value);
   }
   return out;
@@ -159,7 +161,7 @@ std::vector<double> XmlElement::numbers() const {
 std::vector<double> XmlElement::numbers(int count) const {
   auto out = numbers();
   if (static_cast<int>(out.size()) != count)
-    fail("{}: wanted {} numbers, got {}", name(), count, out.size());
+    fail("{}: wanted {} numbers, got {}", excerpt(name()), count, out.size());
   return out;
 }
 
@@ -176,7 +178,7 @@ std::optional<std::string> XmlElement::attribute(std::string_view name) const {
 
 std::string XmlElement::wanted_attribute(std::string_view name) const {
   if (auto value = attribute(name)) return *value;
-  fail("{}: wanted an attribute '{}', got none", this->name(), excerpt(name));
+  fail("{}: wanted an attribute '{}', got none", excerpt(this->name()), excerpt(name));
 }
 
 std::vector<std::string> XmlElement::attributes() const {
@@ -188,12 +190,13 @@ std::vector<std::string> XmlElement::attributes() const {
 double XmlElement::number_attribute(std::string_view name) const {
   const std::string word = wanted_attribute(name);
   const auto value = parse_number(word);
-  if (!value) fail("{}: {}: wanted a number, got {}", this->name(), name, in_quotes(word));
+  if (!value) fail("{}: {}: wanted a number, got {}", excerpt(this->name()), name, in_quotes(word));
   return *value;
 }
 
 int XmlElement::integer_attribute(std::string_view name, int low, int high) const {
-  return whole(*this, fmt::format("{}: {}", this->name(), name), wanted_attribute(name), low, high);
+  return whole(*this, fmt::format("{}: {}", excerpt(this->name()), name), wanted_attribute(name),
+               low, high);
 }
 
 void XmlElement::check(const XmlKnown& known,
@@ -204,8 +207,8 @@ void XmlElement::check(const XmlKnown& known,
   for (const XmlElement& e : children()) {
     const std::string child(e.name());
     if (!contains(names, child))
-      warn(fmt::format("{}: unknown element <{}> in <{}> is not used{}", e.place(),
-                       child.substr(0, 40), excerpt(name()), did_you_mean(child, names)));
+      warn(fmt::format("{}: unknown element <{}> in <{}> is not used{}", e.place(), excerpt(child),
+                       excerpt(name()), did_you_mean(child, names)));
     else if (contains(seen, child))
       warn(fmt::format("{}: <{}> stands in <{}> again; the first one counts", e.place(),
                        excerpt(child), excerpt(name())));
@@ -214,7 +217,7 @@ void XmlElement::check(const XmlKnown& known,
   for (const std::string& attribute : attributes())
     if (!contains(known.attributes, attribute))
       warn(fmt::format("{}: unknown attribute '{}' of <{}> is not used{}", place(),
-                       attribute.substr(0, 40), excerpt(name()),
+                       excerpt(attribute), excerpt(name()),
                        did_you_mean(attribute, known.attributes)));
   if (const std::string own = own_text(*element_); !own.empty() && !names.empty())
     warn(fmt::format("{}: text {} in <{}> is not used", place(), in_quotes(own), excerpt(name())));

@@ -107,22 +107,22 @@ bool FaultFinder::closing() {
   const auto name = word(" \t\r\n>/<");
   skip_blanks();
   if (at_ >= text_.size() || text_[at_] != '>')
-    return fault("wanted '>' after </{}, got {}", name.substr(0, 40), got());
-  if (open_.empty()) return fault("</{}> closes nothing", name.substr(0, 40));
+    return fault("wanted '>' after </{}, got {}", excerpt(name), got());
+  if (open_.empty()) return fault("</{}> closes nothing", excerpt(name));
   if (open_.back().name != name)
     return fault("wanted </{}>, which closes the <{}> of line {}, got </{}>",
-                 open_.back().name.substr(0, 40), open_.back().name.substr(0, 40),
-                 open_.back().line, name.substr(0, 40));
+                 excerpt(open_.back().name), excerpt(open_.back().name), open_.back().line,
+                 excerpt(name));
   open_.pop_back();
   ++at_;
   return true;
 }
 
 bool FaultFinder::attribute(const Open& tag, std::vector<std::string_view>& names) {
-  const auto element = tag.name.substr(0, 40);
+  const auto element = excerpt(tag.name);
   const auto name = word(" \t\r\n=>/<\"'");
   if (name.empty()) return fault("<{}>: wanted an attribute or '>', got {}", element, got());
-  const auto shown = name.substr(0, 40);
+  const auto shown = excerpt(name);
   skip_blanks();
   if (at_ >= text_.size() || text_[at_] != '=')
     return fault("<{}>: wanted '=' and a value after the attribute '{}', got {}", element, shown,
@@ -151,7 +151,7 @@ bool FaultFinder::opening() {
     skip_blanks();
     if (at_ >= text_.size())
       return fault("wanted the end of the tag <{} that begins in line {}, got the end of the file",
-                   tag.name.substr(0, 40), tag.line);
+                   excerpt(tag.name), tag.line);
     if (text_[at_] == '>') break;
     if (text_.substr(at_).starts_with("/>")) {
       at_ += 2;
@@ -183,7 +183,7 @@ std::optional<XmlFault> FaultFinder::find() {
   }
   if (open_.empty()) return {};
   fault("wanted </{}>, which closes the <{}> of line {}, got the end of the file",
-        open_.back().name.substr(0, 40), open_.back().name.substr(0, 40), open_.back().line);
+        excerpt(open_.back().name), excerpt(open_.back().name), open_.back().line);
   return fault_;
 }
 

@@ -1,5 +1,6 @@
 #include "script/guard.h"
 
+#include <algorithm>
 #include <cstring>
 #include <new>
 #include <stdexcept>
@@ -18,14 +19,30 @@ void protected_call(lua_State* L, int arguments, int results) {
   throw Raised();
 }
 
-// what an exception said, in memory that needs no destructor
-struct Message {
-  char text[2000];
+// `at`, or a little less where a character of UTF-8 would be cut
+static size_t character_at(std::string_view text, size_t at) {
+  for (int back = 0; back < 3 && at > 0 && (text[at] & 0xC0) == 0x80; ++back) --at;
+  return at;
+}
 
+// what an exception said, as people read it, in memory that needs no destructor
+struct Message {
+  // more is a name or a word that nobody reads to its end
+  static constexpr size_t longest = 1000, kept_end = 250;
+  char text[longest + 1];
+
+  // without control characters, which a terminal would obey, and of a long text both ends
   void copy(std::string_view what) {
-    const size_t size = what.copy(text, sizeof text - 1);
-    text[size] = 0;
-    if (size < what.size()) std::strcpy(text + sizeof text - 4, "...");
+    std::string_view first = what, last;
+    if (what.size() > longest) {
+      first = what.substr(0, character_at(what, longest - kept_end - 3));
+      last = what.substr(character_at(what, what.size() - kept_end + 3));
+    }
+    char* end = std::ranges::copy(first, text).out;
+    if (!last.empty()) end = std::ranges::copy(last, std::strcpy(end, "...") + 3).out;
+    std::replace_if(
+        text, end, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }, '?');
+    *end = 0;
   }
   // of what is no sentence of ours, such as the standard library's
   void copy(lua_State* L, std::string_view what) {

@@ -50,9 +50,11 @@ TEST_CASE("what is wrong with anything but tags is left to the parser") {
   CHECK(fault_of("mass 3").empty());
 }
 
-TEST_CASE("a long name is cut short in a message") {
+TEST_CASE("a long name is cut short in a message and has no control characters") {
   const std::string name(1000, 'x');
   CHECK(fault_of("<" + name + "></a>") ==
         fmt::format("1: wanted </{0}>, which closes the <{0}> of line 1, got </a>",
-                    std::string(40, 'x')));
+                    std::string(40, 'x') + "..."));
+  CHECK(fault_of("<a\x1B[2J></b>") ==
+        "1: wanted </a?[2J>, which closes the <a?[2J> of line 1, got </b>");
 }
