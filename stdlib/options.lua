@@ -4,16 +4,17 @@
 local raise = require "clench.raise"
 local described = require "clench.described"
 local name_list = require "clench.name_list"
+local within = require "clench.within"
 local Options = {}
 Options.__index = Options
 
-local function is_number(x) return type(x) == "number" and x == x and math.abs(x) < math.huge end
+local function is_number(x) return type(x) == "number" and -math.huge < x and x < math.huge end
 
 --- is this {number, number, ...} with `least` to `most` finite numbers, each up to `largest`?
 local function is_point(value, least, most, largest)
   if type(value) ~= "table" or #value < least or #value > most then return false end
   for i = 1, #value do
-    if not is_number(value[i]) or math.abs(value[i]) > largest then return false end
+    if not (is_number(value[i]) and within(value[i], largest)) then return false end
   end
   return true
 end
@@ -40,7 +41,7 @@ local function read_number(self, name, default, what, fits)
   local value = self:raw(name)
   if value == nil then value = default end
   if not (is_number(value) and fits(value)) then self:wanted(name, what, value) end
-  if math.abs(value) > self.largest then self:wanted(name, ("a number of at most %g"):format(self.largest), value) end
+  if not within(value, self.largest) then self:wanted(name, ("a number of at most %g"):format(self.largest), value) end
   return value
 end
 

@@ -1,4 +1,5 @@
 -- stdlib/shapes/loft.lua
+local within = require "clench.within"
 local options = require "clench.shapes.options"
 local skin = require "clench.shapes.skin"
 
@@ -20,7 +21,7 @@ return function(given)
       local p = ring[k]
       for axis = 1, 3 do
         local x = type(p) == "table" and p[axis]
-        if type(x) ~= "number" or not (math.abs(x) <= o.largest) then
+        if not within(x, o.largest) then
           o:wanted(("%s[%d]"):format(name, k), "a point {x, y, z}", p)
         end
       end

@@ -4,16 +4,21 @@
 local raise = require "clench.raise"
 local described = require "clench.described"
 local vector = require "clench.shapes.vector"
+local within = require "clench.within"
 local mesh = {}
+
+--- of all coordinates [m]
+mesh.largest = 1e9
 
 local function fail(subject, format, ...) raise(subject .. ": " .. format:format(...)) end
 
 local function check_vertex(subject, i, p)
+  local wanted = ("three numbers of at most %g"):format(mesh.largest)
+  if type(p) ~= "table" then fail(subject, "vertex %d must be %s, got %s", i, wanted, described(p)) end
   for k = 1, 3 do
-    local x = p
-    if type(p) == "table" then x = p[k] end
-    if type(x) ~= "number" or x ~= x or math.abs(x) == math.huge then
-      fail(subject, "vertex %d must be three finite numbers, got %s", i, described(x))
+    local x = p[k]
+    if not within(x, mesh.largest) then
+      fail(subject, "vertex %d must be %s, got %s", i, wanted, described(x))
     end
   end
 end

@@ -1,4 +1,5 @@
 -- stdlib/shapes/outline.lua
+local within = require "clench.within"
 local options = require "clench.shapes.options"
 local polygon = require "clench.shapes.polygon"
 
@@ -31,7 +32,7 @@ return function(given)
     local p = o:raw(i)
     for k = 1, 3 do
       local x = type(p) == "table" and (p[k] or k == 3 and rounding)
-      if type(x) ~= "number" or not (math.abs(x) <= o.largest) or (k == 3 and x < 0) then
+      if not within(x, o.largest) or (k == 3 and x < 0) then
         o:wanted("corner " .. i, "{x, y} or {x, y, radius >= 0}", p)
       end
     end

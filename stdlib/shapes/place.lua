@@ -4,15 +4,16 @@ local raise = require "clench.raise"
 local described = require "clench.described"
 local mesh = require "clench.shapes.mesh"
 local vector = require "clench.shapes.vector"
+local within = require "clench.within"
 local place = {}
 
 local function check_vector(subject, what, v)
+  local function wanted(got)
+    raise(("%s: %s must be {x, y, z} of at most %g, got %s"):format(subject, what, mesh.largest, described(got)))
+  end
+  if type(v) ~= "table" then wanted(v) end
   for k = 1, 3 do
-    local x = v
-    if type(v) == "table" then x = v[k] end
-    if type(x) ~= "number" or x ~= x or math.abs(x) == math.huge then
-      raise(("%s: %s must be {x, y, z}, got %s"):format(subject, what, described(x)))
-    end
+    if not within(v[k], mesh.largest) then wanted(v[k]) end
   end
   return v
 end

@@ -3,7 +3,8 @@
 local vector = {}
 
 function vector.add(a, b) return {a[1] + b[1], a[2] + b[2], a[3] + b[3]} end
-function vector.sub(a, b) return {a[1] - b[1], a[2] - b[2], a[3] - b[3]} end
+--- with a point: integers would go round in products
+function vector.sub(a, b) return {a[1] - b[1] + 0.0, a[2] - b[2] + 0.0, a[3] - b[3] + 0.0} end
 function vector.scale(a, k) return {k * a[1], k * a[2], k * a[3]} end
 function vector.dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
 function vector.norm(a) return math.sqrt(vector.dot(a, a)) end

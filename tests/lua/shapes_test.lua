@@ -257,7 +257,7 @@ test("bad outlines, profiles, sections and paths are refused", function(t)
   t.fails(function() shapes.tube {{{0, 0, 0}, {1, 0, nil, 4}}, radius = 1} end, "path[2] must be a point {x, y, z}")
   local square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}
   t.fails(function() shapes.loft {square, {{0, 0, 1}, nil, {1, 1, 1}, {0, 1, 1}}} end, "ring 2[2] must be a point {x, y, z}, got nothing")
-  t.fails(function() shapes.union {{vertices = {{0, 0, 0}, nil, {1, 1, 0}}, triangles = {{1, 2, 3}}}} end, "vertex 2 must be three finite numbers")
+  t.fails(function() shapes.union {{vertices = {{0, 0, 0}, nil, {1, 1, 0}}, triangles = {{1, 2, 3}}}} end, "vertex 2 must be three numbers of at most 1e+09")
   t.fails(function() shapes.union {{vertices = square, triangles = {{1, 2, 3}, nil, {1, 3, 4}}}} end, "triangle 2 must name vertices 1 to 4, got nothing")
   t.fails(function() shapes.prism {letter_u, 1, chamfer = 0.5} end, "less than half the height, 0.5, got 0.5")
   t.fails(function() shapes.prism {letter_u, 2, chamfer = 0.5} end, "leave some of every edge, got 0.5")
@@ -288,7 +288,7 @@ test("what is no mesh is refused by name and number", function(t)
   t.fails(function() shapes.union {shapes.box {1, 1, 1}, 7} end, "part 2", "got 7")
   t.fails(function() shapes.volume {vertices = {{0, 0, 0}}, triangles = {{1, 2, 3}}} end,
           "triangle 1 must name vertices 1 to 1, got 2")
-  t.fails(function() shapes.volume {vertices = {{0, 0}}, triangles = {}} end, "vertex 1 must be three finite numbers")
+  t.fails(function() shapes.volume {vertices = {{0, 0}}, triangles = {}} end, "vertex 1 must be three numbers of at most 1e+09")
   t.fails(function() shapes.volume {vertices = {}, triangles = {}} end, "at least one triangle, got none")
   t.fails(function() shapes.mass {vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, triangles = {{1, 2, 3}}} end,
           "without volume")
@@ -297,4 +297,37 @@ test("what is no mesh is refused by name and number", function(t)
   t.fails(function() shapes.turn(shapes.box {1, 1, 1}, {0, 0, 1}, "a") end, "the angle must be a finite number, got 'a'")
   t.fails(function() shapes.scale(shapes.box {1, 1, 1}, -1) end, "the factor must be > 0, got -1")
   t.fails(function() shapes.mirror(shapes.box {1, 1, 1}, "w") end, "'x', 'y' or 'z', got 'w'")
+end)
+
+test("vectors and vertices that are numbers, or beyond what a mesh may reach, are refused", function(t)
+  local box = shapes.box {1, 1, 1}
+  t.fails(function() shapes.move(box, 5) end, "shapes.move: the offset must be {x, y, z} of at most 1e+09, got 5")
+  t.fails(function() shapes.turn(box, 1, 1) end, "the axis must be {x, y, z} of at most 1e+09, got 1")
+  t.fails(function() shapes.turn(box, {1e200, 0, 0}, 1) end, "the axis must be {x, y, z} of at most 1e+09, got 1e+200")
+  t.fails(function() shapes.turn(box, {0, 0, 1}, 1, {math.mininteger, 0, 0}) end, "the point must be {x, y, z}")
+  t.fails(function() shapes.move(box, {1e9, 0, 0}) end, "vertex 2 must be three numbers of at most 1e+09")
+  local function flat(x) return {vertices = {x, {1, 0, 0}, {0, 1, 0}}, triangles = {{1, 2, 3}}} end
+  for _, measure in ipairs {"volume", "area", "bounds", "closed", "mass"} do
+    t.fails(function() shapes[measure](flat(7)) end, "shapes." .. measure .. ": vertex 1 must be three numbers")
+    t.fails(function() shapes[measure](flat {1e300, 0, 0}) end, "vertex 1 must be three numbers of at most 1e+09, got 1e+300")
+  end
+  t.fails(function() shapes.box {math.mininteger, 1, 1} end, "x must be a number > 0")
+  t.fails(function() shapes.loft {{{math.mininteger, 0, 0}}, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}} end, "must be a point {x, y, z}")
+  t.fails(function() shapes.mass(shapes.scale(box, 1e-107)) end, "wanted a solid, got a shape without volume")
+end)
+
+test("whole coordinates do not go round where products of them would", function(t)
+  local far = 10^9 // 1 | 0
+  local solid = {vertices = {{0, 0, 0}, {far, 0, 0}, {0, far, 0}, {0, 0, far}},
+                 triangles = {{1, 3, 2}, {1, 2, 4}, {1, 4, 3}, {2, 3, 4}}}
+  t.close(shapes.volume(solid) / (1e27 / 6), 1, 1e-12)
+  t.close(shapes.mass(solid).volume / (1e27 / 6), 1, 1e-12)
+end)
+
+test("messages of the standard library have no control characters, and of long names both ends", function(t)
+  t.fails(function() shapes.ring {radius = 1, ["a\27[2J\0"] = 1} end, "shapes.ring: unknown key 'a?[2J\\0', wanted any of")
+  local ok, message = pcall(function() shapes.ring {radius = 1, [("\u{fc}"):rep(5000)] = 1} end)
+  t.equal(ok, false)
+  t.ok(#message < 1100 and utf8.len(message), message)
+  t.ok(message:find("wanted any of radius, segments", 1, true), message)
 end)

@@ -206,5 +206,16 @@ test("shapes of sizes that no mesh has are refused", function(t)
   t.fails(function() shapes.torus {1e308, 1e307} end, "shapes.torus: radius must be a number of at most 1e+09")
   t.fails(function() shapes.cylinder {1, from = {0, 0, 0}, to = {0, 0, 1e300}} end, "shapes.cylinder: to must be a point {x, y, z}")
   t.fails(function() shapes.scale(shapes.scale(shapes.box {1, 1, 1}, 1e308), 1e308) end,
-          "shapes.scale: vertex 1 must be three finite numbers")
+          "shapes.scale: vertex 1 must be three numbers of at most 1e+09")
+end)
+
+test("messages of the engine have no control characters, and of long names both ends", function(t)
+  local world = clench.world()
+  t.fails(function() world:body "a\27[2J\r" end, "no body 'a?[2J?' in this world")
+  for shift = 0, 1 do
+    local ok, message = pcall(function() world:body(("a"):rep(shift) .. ("\u{fc}"):rep(5000)) end)
+    t.equal(ok, false)
+    t.ok(#message < 1100 and utf8.len(message), message)
+    t.ok(message:find("' in this world", 1, true), message)
+  end
 end)
