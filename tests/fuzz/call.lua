@@ -1,11 +1,11 @@
--- Runs one statement of the API's fuzzer, and judges what came of it: a message that is no sentence, a number that is not
--- finite, seconds. What is wrong is printed as `FINDING <statement> <signature>`, once.
+-- Runs one statement of the API's fuzzer, and judges what came of it: a message or a warning that is no sentence, a number
+-- that is not finite, seconds. What is wrong is printed as `FINDING <statement> <signature>`, once.
 local here = debug.getinfo(1, "S").source:match "^@(.*/)" or ""
 local judge = dofile(here .. "judge.lua")
 local env = dofile(here .. "values.lua").environment()
 
--- seconds of one call that are too many under sanitizers, of any values
-local max_seconds = 20
+-- seconds of one call that are too many under sanitizers, which make a call ten times as long, of any values
+local max_seconds = 60
 
 local call = {findings = 0, number = 0, v = env.v}
 local said = {}
@@ -18,6 +18,15 @@ local function finding(what, text)
   print(("FINDING %d %s"):format(call.number, signature))
 end
 
+-- what the engine logs is judged; a script's own messages are the script's
+local function listen(name)
+  clench.log.level "info"
+  clench.log.sink(function(_, text, about)
+    local bad = about and judge.text(text)
+    if bad then finding("message", name .. ": " .. bad) end
+  end)
+end
+
 ---@param text string
 ---@param name string  of what it calls
 ---@param target? integer  which of v it sets
@@ -27,9 +36,11 @@ end
 function call.run(text, name, target, sensible)
   call.number = call.number + 1
   local chunk = assert(load(text, "=fuzz", "t", env))
+  listen(name)
   local began = os.clock()
   local ok, message = pcall(chunk)
   if os.clock() - began > max_seconds then finding("slow", name) end
+  clench.log.sink()
   if not ok then
     local bad = judge.message(message)
     if bad then finding("message", name .. ": " .. bad) end

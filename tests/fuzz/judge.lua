@@ -5,25 +5,35 @@ local judge = {}
 local forbidden = {"std::", "bad_alloc", "vector::", "basic_string", "unprotected", "stack traceback", "terminate",
                    "not enough memory", "Assertion"}
 
+-- characters of a sentence: those of the engine end after 1000, and a place stands before them
+local longest = 1200
+
+--- Why a text is none for people; nil when it is one.
+function judge.text(text)
+  for _, word in ipairs(forbidden) do
+    if text:find(word, 1, true) then return text end
+  end
+  if text:find "%c" then return "a control character: " .. text:gsub("%c", "?") end
+  if #text > longest then return ("a text of %d characters: %s"):format(#text, text) end
+end
+
 --- Why an error's message is no sentence with a subject; nil when it is one.
 function judge.message(message)
   if type(message) ~= "string" then
     -- a script's own error object
     return type(message) ~= "table" and "an error that is a " .. type(message) or nil
   end
-  for _, word in ipairs(forbidden) do
-    if message:find(word, 1, true) then return message end
-  end
   -- what the statement itself did wrong, such as to call a table, Lua tells; but not of the standard library's own code
   if message:find "attempt to" or message:find "bad argument" then return message:find "^fuzz:" == nil and message or nil end
-  if #message > 4000 then return "a message of " .. #message .. " characters" end
-  return not message:find ": " and message ~= "mine" and message ~= "never asked" and message or nil
+  return judge.text(message)
+    or not message:find ": " and message ~= "mine" and message ~= "never asked" and message or nil
 end
 
 -- infinite where there is no limit, or nothing to measure, as the docs say
 local endless = {
   ["patch.radii"] = true, ["patch.relative_radii"] = true, ["robot.dof_limits"] = true, ["eigengrasps.limits"] = true,
-  ["eigengrasps.range"] = true, ["grasp:quality"] = true, ["world:distance"] = true,
+  ["eigengrasps.range"] = true,
+  ["measures:quality"] = true, ["world:distance"] = true,
 }
 
 local function is_odd(value, may_be_infinite)
@@ -52,7 +62,7 @@ function judge.value(value, name) return has_odd(value, endless[name], 4, {}) an
 
 --- What two findings of one cause have in common.
 function judge.signature(what, text)
-  local short = text:gsub("^fuzz:%d+: ", ""):gsub("'.-'", "'...'"):gsub("%-?%d[%w.+-]*", "N"):gsub("[\r\n].*", ""):sub(1, 160)
+  local short = text:gsub("^fuzz:%d+: ", ""):gsub("'.-'", "'...'"):gsub("<.->", "<...>"):gsub("%-?%d[%w.+-]*", "N"):gsub("[\r\n].*", ""):sub(1, 160)
   return what .. ": " .. short
 end
 

@@ -20,7 +20,7 @@ local hostile_texts = {
   "('('):rep(3000)", "('[1,'):rep(2000)", "'#'", "'name with blanks'", "'base'", "'con'", "'\\\\'", "';'",
 }
 local hostile_anything = {
-  "nil", "true", "false", "{}", "print", "cyclic", "deep", "many", "texts", "clench", "v", "angry", "lying", "closed",
+  "nil", "true", "false", "{}", "print", "cyclic", "deep", "many", "texts", "clench", "v", "angry", "lying",
   "{{}}", "{1}", "{'x'}", "{nil, 1}", "{x = 1}", "{1, 2, 3}", "{1, 2, '3'}", "{0/0, 0, 0}", "{[2^53] = 1}", "{{1}, {2, 3}}",
   "function() end", "function() error {} end", "coroutine.create(print)", "io.stdout", "clench.json.null",
 }
@@ -62,8 +62,10 @@ end
 --- From now on each part of a value is hostile with this probability; `hostile` counts those that were.
 function Maker:begin(hostility) self.hostility, self.hostile = hostility, 0 end
 
-local function hostile_value(self, name)
+--- Something hostile in the place of `part`, of a number mostly another.
+function Maker:hostile_value(name, part)
   self.hostile = self.hostile + 1
+  if part and tonumber(part) and random(4) > 1 then return one_of(hostile_numbers) end
   local kind = random(10)
   if kind <= 5 then return one_of(hostile_numbers) end
   if kind <= 7 then return one_of(hostile_texts) end
@@ -85,15 +87,17 @@ end
 function Maker:text(name)
   local api = self.api
   local files = known.files[self.entry]
-  if files and (name == "path" or name == "body") and random(6) > 1 then return quoted(one_of(files)) end
+  if files and (name == "path" or name == "body" or name == "from") and random(6) > 1 then return quoted(one_of(files)) end
+  local endings = known.endings[self.entry]
+  if name == "to" and endings and random(8) > 1 then return quoted("x" .. random(5) .. one_of(endings)) end
   if name == "path" or name == "from" or name == "piece" then return quoted(one_of(api.files)) end
-  if name == "to" then return quoted("x" .. random(5) .. (random(3) > 1 and known.endings[self.entry] or one_of(api.endings))) end
+  if name == "to" then return quoted("x" .. random(5) .. one_of(api.endings)) end
   if name == "root" or name == "folder" then return one_of {"'models'", "'.'"} end
   if name == "material" or name == "a" or name == "b" then return quoted(one_of(api.materials)) end
   if name == "measure" then return quoted(one_of(api.measures)) end
-  if name == "name" or name == "link" then return quoted(one_of(#api.names > 0 and api.names or api.words)) end
+  if name == "name" or name == "link" then return quoted(one_of(#api.names_of_things > 0 and api.names_of_things or api.words)) end
   if random(5) > 1 and #self.words > 0 then return quoted(one_of(self.words)) end
-  return quoted(one_of(random(3) == 1 and #api.names > 0 and api.names or api.words))
+  return quoted(one_of(random(3) == 1 and #api.names_of_things > 0 and api.names_of_things or api.words))
 end
 
 function Maker:object(class)
@@ -134,20 +138,19 @@ end
 makers["nil"] = function() return "nil" end
 makers["false"] = function() return "false" end
 makers["true"] = function() return "true" end
-function makers.robot(self) return self:object "robot" end
-makers.hand = makers.robot
 
 local function record(self, kind)
   local parts = {}
-  local all = random(6) == 1
-  for _, field in ipairs(kind.fields) do
-    if not field.optional or all or field.name == "size" or random(3) == 1 then
+  -- all that may be given, some of it, or one thing alone
+  local way, only = random(6), random(#kind.fields + 1)
+  for i, field in ipairs(kind.fields) do
+    if not field.optional or way == 1 or way <= 3 and random(3) == 1 or way > 3 and i == only or field.name == "size" then
       local value = self:make(field.type, field.name)
       parts[#parts + 1] = field.name and ("%s = %s"):format(field.name, value) or value
     end
   end
   if random() < self.hostility / 3 then
-    parts[#parts + 1] = ("%s = %s"):format(one_of {"nosuch", "['\\0']", "[1]", "[0]", "[-1]"}, hostile_value(self))
+    parts[#parts + 1] = ("%s = %s"):format(one_of {"nosuch", "['\\0']", "[1]", "[0]", "[-1]"}, self:hostile_value())
   end
   return "{" .. table.concat(parts, ", ") .. "}"
 end
@@ -167,12 +170,12 @@ local function field_of_type(self, kind)
 end
 
 -- lists that are as long as something has parts
-local lists_of = {values = "dofs", amplitudes = "amplitudes"}
+local lists_of = {values = "dofs", dofs = "dofs", amplitudes = "amplitudes"}
 
 --- Source of a value of the type, for the parameter or field `name`.
 function Maker:make(kind, name)
-  if random() < self.hostility then return hostile_value(self, name) end
-  local source = known.sources[name]
+  if random() < self.hostility then return self:hostile_value(name) end
+  local source = known.sources[self.entry .. " " .. (name or "")] or known.sources[name]
   if source and random(8) > 1 and not (name == "body" and kind.kind == "name") then return source(self) end
   if kind.kind == "union" then return self:make(one_of(kind.of), name) end
   if kind.kind == "literal" then return quoted(kind.text) end

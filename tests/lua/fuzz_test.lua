@@ -5,6 +5,17 @@ local judge = dofile "tests/fuzz/judge.lua"
 local mutate = dofile "tests/fuzz/mutate.lua"
 local values = dofile "tests/fuzz/values.lua"
 local crash = dofile "tests/fuzz/crash.lua"
+local statements = dofile "tests/fuzz/statements.lua"
+local spoil = dofile "tests/fuzz/spoil.lua"
+
+-- what api.lua lists before it begins, with one object of each class
+local function prepared_api()
+  local api = dofile "tests/fuzz/entries.lua" ()
+  api.names_of_things, api.materials, api.measures, api.files, api.endings = {"cube"}, {"wood"}, {"epsilon"}, {"cube.iv"}, {".obj"}
+  local pool = {}
+  for _, class in ipairs(api.classes) do pool[class] = {"v[1]"} end
+  return api, values.maker(pool, api)
+end
 
 test("a type of the docs becomes a tree", function(t)
   local kind = parse '{a: number, b?: vec3[], c?: "x"|"y"}|string'
@@ -19,30 +30,61 @@ test("a type of the docs becomes a tree", function(t)
   t.equal(parse "fun(level: string, text: string)".name, "function")
 end)
 
-test("every type in the docs makes a value that Lua reads", function(t)
-  local doc = require "clench.host.doc"
-  local api = {classes = {"vec3"}, words = {"L1"}, names = {"cube"}, materials = {"wood"}, types = {parse "number"}, fields_by_type = {},
-               files = {"cube.iv"}, measures = {"epsilon"}, endings = {".obj"}, key = function() return "" end}
-  local maker = values.maker({vec3 = {"v[1]"}}, api)
-  local count = 0
-  for _, class in ipairs(clench.entries().classes) do
-    for _, entry in ipairs(class.methods) do
-      for _, param in ipairs(doc.parse(entry.doc).params) do
-        maker:begin(count % 3 * 0.2)
-        local text = maker:make(parse(param.type), (param.name:gsub("%?", "")))
-        t.ok(load("return " .. text), text)
-        count = count + 1
-      end
+test("the fuzzer knows every entry of the API, and the standard library's", function(t)
+  local api, all, known = prepared_api(), clench.entries(), {}
+  for _, name in ipairs(api.names) do known[name] = true end
+  for _, library in ipairs(all.libraries) do
+    for _, kind in ipairs {"functions", "fields"} do
+      for _, entry in ipairs(library[kind]) do t.ok(known[library.name .. "." .. entry.name], entry.name) end
     end
   end
-  t.ok(count > 50)
+  for _, class in ipairs(all.classes) do
+    for _, entry in ipairs(class.methods) do t.ok(known[class.name .. ":" .. entry.name], entry.name) end
+    for _, entry in ipairs(class.operators) do t.ok(known[class.name .. " " .. entry.name], entry.name) end
+    for _, entry in ipairs(class.fields) do
+      t.ok(known[class.name .. "." .. entry.name], entry.name)
+      t.equal(known[class.name .. "." .. entry.name .. " ="], entry.settable or nil)
+    end
+  end
+  for name in pairs(clench.shapes) do t.ok(known["clench.shapes." .. name], name) end
+  t.ok(known["clench.wrench_space{contacts}"] and known["world:add_object{mass}"] and known["world.camera ={eye}"])
+end)
+
+test("statements reach every entry and every key, and Lua reads them", function(t)
+  local api, maker = prepared_api()
+  math.randomseed(1)
+  local made, left = statements.new(api, maker, true), {}
+  for _, name in ipairs(api.names) do left[name] = true end
+  for n = 1, 100000 do
+    local text, step = made:make(n)
+    if n % 10 == 0 then t.ok(load(text), text) end
+    for _, name in ipairs(statements.reached(text, step)) do left[name] = nil end
+    if n % 1000 == 0 and not next(left) then break end
+  end
+  for name in pairs(left) do t.ok(false, name .. " is never reached") end
+end)
+
+test("a spoilt list of arguments has one part exchanged, and no key's name", function(t)
+  math.randomseed(1)
+  local seen = {}
+  for _ = 1, 200 do seen[spoil("{radius = 0.1, from = {1, v[2].x}}, 'a', true", function() return "HOSTILE" end)] = true end
+  for _, text in ipairs {"{radius = HOSTILE, from = {1, v[2].x}}, 'a', true", "{radius = 0.1, from = HOSTILE}, 'a', true",
+                         "{radius = 0.1, from = {HOSTILE, v[2].x}}, 'a', true", "{radius = 0.1, from = {1, HOSTILE}}, 'a', true",
+                         "{radius = 0.1, from = {1, v[2].x}}, HOSTILE, true", "{radius = 0.1, from = {1, v[2].x}}, 'a', HOSTILE",
+                         "HOSTILE, 'a', true"} do
+    t.ok(seen[text], text)
+    seen[text] = nil
+  end
+  t.equal(next(seen), nil)
+  t.equal(spoil("", error), "")
 end)
 
 test("a message of a library, of Lua or without a subject is found, a sentence is not", function(t)
   t.equal(judge.message "fuzz:1: hand:autograsp: speed: wanted a number, got nil", nil)
   t.equal(judge.message "no such file: cube.iv", nil)
   for _, text in ipairs {"std::bad_alloc", "clench.load: vector::_M_range_check", "not enough memory", "it failed",
-                         "stdlib/report.lua:7: attempt to index a nil value", ("x: "):rep(5000)} do
+                         "stdlib/report.lua:7: attempt to index a nil value", ("x: "):rep(500), "no body: 'a\27[2J'",
+                         "a.xml:3:\nno"} do
     t.ok(judge.message(text), text)
   end
   t.equal(judge.message "fuzz:1: attempt to call a nil value", nil)
@@ -52,8 +94,8 @@ test("a value that is not finite is found, wherever it stands", function(t)
   t.equal(judge.value({1, {x = 2, y = {3, clench.vec3(1, 2, 3)}}}, "f"), nil)
   t.equal(judge.value({1, {x = 0 / 0}}, "f"), "f")
   t.equal(judge.value({{-math.huge}}, "f"), "f")
-  t.equal(judge.value(math.huge, "grasp:quality"), nil)
-  t.equal(judge.value(0 / 0, "grasp:quality"), "grasp:quality")
+  t.equal(judge.value(math.huge, "measures:quality"), nil)
+  t.equal(judge.value(0 / 0, "measures:quality"), "measures:quality")
 end)
 
 test("findings of one cause have one signature", function(t)

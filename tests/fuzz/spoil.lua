@@ -1,0 +1,37 @@
+-- One part of a list of arguments, given as Lua source, exchanged for something hostile.
+local random = math.random
+
+-- where numbers, strings, tables and names of values stand; not the names of keys
+local function parts(text)
+  local list, at = {}, 1
+  while at <= #text do
+    local rest = text:sub(at)
+    local word = rest:match '^"[^"\\]*"' or rest:match "^'[^'\\]*'" or rest:match "^[%a_][%w_.]*" or rest:match "^%-?%.?%d[%w.]*[+-]?%w*"
+    if word then
+      -- v[3].links[1]
+      local more = word:find "^[%a_]" and rest:match("^[%w_.%[%]:]*", #word + 1)
+      if more then word = word .. more end
+      if not rest:find("^%s*=", #word + 1) then list[#list + 1] = {at, at + #word - 1} end
+      at = at + #word
+    else
+      local inner = rest:match "^%b{}"
+      if inner then list[#list + 1] = {at, at + #inner - 1} end
+      at = at + 1
+    end
+  end
+  return list
+end
+
+--- Other text that Lua still reads as arguments, or the same when it has no parts.
+---@param text string  arguments, as between the brackets of a call
+---@param hostile fun(part: string): string  what stands in the place of a part
+---@return string
+return function(text, hostile)
+  local list = parts(text)
+  for _ = 1, #list > 0 and 6 or 0 do
+    local part = list[random(#list)]
+    local spoilt = text:sub(1, part[1] - 1) .. hostile(text:sub(part[1], part[2])) .. text:sub(part[2] + 1)
+    if load("f(" .. spoilt .. ")") then return spoilt end
+  end
+  return text
+end
