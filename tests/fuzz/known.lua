@@ -130,6 +130,8 @@ known.sources = {
   confine = source_of {"'.'"}, root = source_of {"'.'", "'models'"}, folder = source_of {"'.'"}, package = source_of {"'.'"},
   camera = source_of {"{eye = {1, 1, 1}, target = {0, 0, 0}, up = {0, 0, 1}, field_of_view = math.pi / 4}", "nil"},
   ["robot:mount_on carrier"] = function(self) return (self:object "world" or "nil") .. ".robots[2]" end,
+  ["hand:set_amplitudes fixed"] = source_of {"{1}", "{}"}, ["hand:move_amplitudes fixed"] = source_of {"{1}", "{}"},
+  close = source_of {"{[1] = 1}", "{[1] = -1, [2] = 0}"}, labels = source_of {"{'one'}", "{'one', 'two'}"},
   piece = text_of {"models/objects/cube.iv"},
   ["world:add_robot eigengrasps"] = text_of {"models/hands/barrett/barrett.egr"}, ["world:add_robot virtual_contacts"] = text_of {"models/hands/barrett/barrett.vgr"},
   size = source_of {"{16, 16}", "{64, 48}"},
@@ -155,6 +157,8 @@ known.arguments = {
     "{path = {{0, 0, 0}, {0, 0, 0.1}, {0, 0.1, 0.1}}, radius = 0.01, ends = 'round', sides = 7, steps = 2}",
     "{path = {{0, 0, 0}, {0, 0, 0.1}, {0, 0.1, 0.1}}, radius = {0.01, 0.02, 0.01}, up = {1, 0, 0}}",
     "{path = {{0, 0, 0}, {0, 0, 0.1}, {0, 0.1, 0.1}}, profile = {{-0.01, -0.01}, {0.01, -0.01}, {0, 0.01}}, closed = true}"},
+  ["wrench_space:project"] = source_of {"{fixed = {tx = 0, ty = 0, tz = 0}, tolerance = 0.01}", "{projected = {'tx', 'ty', 'tz'}}",
+                                        "{fixed = {tx = 0}, projected = {'ty', 'tz'}}"},
   ["clench.chart"] = source_of {
     "{series = {{name = 'a', values = {1, 2, false}}, {name = 'b', values = {-1, 1e-3, 4}, least_is_best = true}}, labels = {'x', 'y', 'z'}, title = 't', width = 200, height = 150}",
     "{series = {{name = 'a', values = {0}}}}"},
