@@ -19,7 +19,7 @@ ulimit -c 0
 case $mode in
   api)
     folder=build/fuzz/api/$seed
-    rm -rf "$folder" && mkdir -p "$folder" && cp -r build/fuzz/api-tree/* "$folder" && cd "$folder" || exit 1
+    rm -rf "$folder" && mkdir -p "$folder" && cp -r build/fuzz/api-tree/. "$folder" && cd "$folder" || exit 1
     "${limited[@]}" "$program" -q run "$root/tests/fuzz/api.lua" "$seed" "$calls" >"out" 2>&1
     ;;
   files)
