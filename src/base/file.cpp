@@ -152,10 +152,11 @@ void Draft::move_to(const fs::path& target) {
   path_.clear();
 }
 
-/// As move_to, with the permissions of what stands there, which the text has from the beginning.
+/// As move_to, with the permissions of what stands there, which the text has from the beginning, but for those to run
+/// it as its owner: they were given to another text.
 static void write_over(const fs::path& target, std::string_view text, mode_t mode) {
   Draft draft(target, text, mode & 0777);
-  ::chmod(draft.path().c_str(), mode & 07777);
+  ::chmod(draft.path().c_str(), mode & 0777);
   draft.move_to(target);
 }
 
@@ -227,14 +228,15 @@ void FileSet::write(const fs::path& path, std::string_view text) {
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (!exists) {
     write_file(path, text);
-    undo_.push_back({path, nullptr});
+    // a link that led nowhere stays
+    undo_.push_back({fs::weakly_canonical(path), nullptr});
     return;
   }
   const std::string old = read_bytes(path);
   if (old == text) return;
   const fs::path target = fs::weakly_canonical(path);
   auto before = std::make_unique<Draft>(target, old, status.st_mode & 0777);
-  ::chmod(before->path().c_str(), status.st_mode & 07777);
+  ::chmod(before->path().c_str(), status.st_mode & 0777);
   write_file(path, text);
   undo_.push_back({target, std::move(before)});
 }

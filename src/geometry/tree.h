@@ -43,8 +43,6 @@ class Tree {
       __builtin_prefetch(static_cast<const char*>(at) + 128 * line);
   }
   const Casing& casing() const { return casing_; }
-  int box_count() const { return static_cast<int>(boxes_.size()); }
-  int leaf_count() const { return static_cast<int>(leaves_.size()); }
   const double* centre() const { return centre_; }  ///< in the mesh's frame [m]
   double radius() const { return radius_; }         ///< no vertex is farther from the centre [m]
   std::size_t bytes() const;

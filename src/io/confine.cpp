@@ -41,7 +41,9 @@ static fs::path resolved(const fs::path& path) {
 bool lies_within(const fs::path& path, const fs::path& folder) {
   if (folder.empty()) return true;
   const fs::path at = resolved(path), home = resolved(folder);
-  return std::mismatch(home.begin(), home.end(), at.begin(), at.end()).first == home.end();
+  // of a folder that cannot be told nothing is known to lie in
+  return !home.empty() &&
+         std::mismatch(home.begin(), home.end(), at.begin(), at.end()).first == home.end();
 }
 
 }  // namespace clench

@@ -31,10 +31,6 @@ Eigen::Vector3d eigenvalues(const Matrix3d& symmetric) {
   return SelfAdjointEigenSolver<Matrix3d>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-bool is_positive_definite(const Matrix3d& m) {
-  return Eigen::LLT<Matrix3d>(m).info() == Eigen::Success;
-}
-
 MatrixXd solve_symmetric(const MatrixXd& m, const MatrixXd& right) { return m.ldlt().solve(right); }
 
 Eigen::VectorXd least_squares(const MatrixXd& m, const Eigen::VectorXd& right) {

@@ -29,9 +29,6 @@ Eigensystem<Eigen::Matrix3d, Eigen::Vector3d> eigensystem(const Eigen::Matrix3d&
 /// ascending
 Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& symmetric);
 
-/// Is it beyond rounding?   m  symmetric; its lower triangle counts
-bool is_positive_definite(const Eigen::Matrix3d& m);
-
 /// x of m x = right.   m  symmetric and positive definite
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& m, const Eigen::MatrixXd& right);
 

@@ -178,6 +178,10 @@ TEST_CASE("a file keeps its permissions, and a new one has those of the user's m
   fs::permissions(secret, fs::perms::owner_read | fs::perms::owner_write);
   write_file(secret, "new");
   CHECK(fs::status(secret).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+  // what runs as its owner, whoever that is, was another text
+  fs::permissions(secret, fs::perms(04755));
+  write_file(secret, "newer");
+  CHECK(fs::status(secret).permissions() == fs::perms(0755));
   const mode_t before = umask(027);
   write_file(folder.path() / "new", "new");
   umask(before);
@@ -214,6 +218,16 @@ TEST_CASE("of files that belong together none stays when one cannot be written")
   CHECK(read_bytes(old) == "old");
   CHECK(fs::status(old).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
   CHECK(read_bytes(same) == "same");
+  CHECK(entries(folder.path()) == 2);
+  const fs::path link = folder.path() / "link";
+  fs::create_symlink("nowhere", link);
+  {
+    FileSet files;
+    files.write(link, "1");
+    CHECK(entries(folder.path()) == 4);
+  }
+  CHECK(fs::is_symlink(link));
+  fs::remove(link);
   CHECK(entries(folder.path()) == 2);
   {
     FileSet files;

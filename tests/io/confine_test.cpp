@@ -124,6 +124,8 @@ TEST_CASE("a path lies within a folder when it leads there, by links and dots, o
     CAPTURE(out);
     CHECK_FALSE(lies_within(out, in));
   }
+  // of a folder that nobody can tell nothing lies within
+  CHECK_FALSE(lies_within(in / "part.off", in / "circle.off"));
   // the folder may be reached by a link itself
   fs::create_symlink(in, fences.folder.path() / "name");
   CHECK(lies_within(fences.folder.path() / "name/part.off", in));

@@ -64,7 +64,7 @@ TEST_CASE("decompositions multiply to what they were made of") {
   }
 }
 
-TEST_CASE("eigenvalues of small matrices, definiteness and solutions agree with the definitions") {
+TEST_CASE("eigenvalues of small matrices and solutions agree with the definitions") {
   Random random(4);
   for (int i = 0; i < 50; ++i) {
     const Matrix3d a = random_matrix(random, 3, 3), even = a * a.transpose();
@@ -72,8 +72,6 @@ TEST_CASE("eigenvalues of small matrices, definiteness and solutions agree with 
     CHECK((eigensystem(even).values - values).norm() < 10 * rounding);
     for (const double value : values)
       CHECK(std::abs((even - value * Matrix3d::Identity()).determinant()) < 1e-10);  // of order 1e3
-    CHECK(is_positive_definite(even + 1e-3 * Matrix3d::Identity()));
-    CHECK_FALSE(is_positive_definite(even - 2 * values[2] * Matrix3d::Identity()));
     const MatrixXd right = random_matrix(random, 3, 2);
     const MatrixXd m = even + Matrix3d::Identity();
     CHECK((m * solve_symmetric(m, right) - right).cwiseAbs().maxCoeff() < 10 * rounding);
