@@ -130,6 +130,7 @@ void InventorWalker::visit_choice(const InventorNode& node, InventorState& state
 void InventorWalker::visit_array(const InventorNode& node, const InventorState& state) {
   const int counts[] = {node.integer("numElements1"), node.integer("numElements2"),
                         node.integer("numElements3")};
+  if (std::ranges::min(counts) <= 0) return;  // or rows without copies turn on and on
   const auto &first = node.numbers("separation1"), &second = node.numbers("separation2"),
              &third = node.numbers("separation3");
   const std::string& origin = node.word("origin");

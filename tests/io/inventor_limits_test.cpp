@@ -113,6 +113,17 @@ TEST_CASE("copies count as nodes that are visited") {
                 repeated(1500, "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n") + "] } }") == limit);
 }
 
+TEST_CASE("rows without copies end at once, however many there are") {
+  const std::string many = " 2000000000 ";
+  for (const std::string& counts :
+       {"numElements1 0 numElements2" + many + "numElements3" + many,
+        "numElements1" + many + "numElements2 -1 numElements3" + many}) {
+    const Outcome out = read_text_as_body(iv + "Array { " + counts + " Cube { } }\nCube { }");
+    CHECK(out.sentence == "");
+    CHECK(out.triangles == 12);
+  }
+}
+
 TEST_CASE("a file has at most a million nodes, and ten million values") {
   CHECK(refusal(iv + repeated(1'000'000, "Group{}")) == "a.iv:2: wanted at most 1000000 nodes");
   CHECK(refusal(iv + "Normal { }\nIndexedFaceSet { coordIndex [\n" + repeated(10'000'001, "0,") +
