@@ -33,6 +33,16 @@ InventorMatrix matrix_from(std::span<const float> sixteen) {
   return out;
 }
 
+/// Numbers that a node lists itself. Points are left out: they cost nothing until an index names
+/// them.
+size_t listed_by(const InventorNode& node) {
+  size_t count = 0;
+  for (const auto& [field, value] : node.values)
+    if (field->name != "point" && field->name != "vertex")
+      count += std::visit([](const auto& list) { return list.size(); }, value);
+  return count;
+}
+
 class InventorWalker {
  public:
   InventorWalker(const InventorGraph& graph, InventorWalk& walk) : graph_(graph), walk_(walk) {}
@@ -40,6 +50,7 @@ class InventorWalker {
 
  private:
   void count_visit();
+  void count_listed(const InventorNode& shape);
   void visit_children(const InventorNode& node, InventorState& state);
   void visit_apart(const InventorNode& node, InventorState state) { visit_children(node, state); }
   void visit_choice(const InventorNode& node, InventorState& state);
@@ -55,12 +66,24 @@ class InventorWalker {
   const InventorGraph& graph_;
   InventorWalk& walk_;
   int visits_ = 0;
+  size_t listed_ = 0;
 };
 
 void InventorWalker::count_visit() {
   if (++visits_ > walk_.max_visits)
     fail("{}: wanted at most {} nodes, shared ones counted each time", graph_.files[0],
          walk_.max_visits);
+}
+
+// what gives no triangle costs time, too
+void InventorWalker::count_listed(const InventorNode& shape) {
+  listed_ += listed_by(shape);
+  for (const auto& [field, value] : shape.values)
+    if (const auto* nodes = std::get_if<std::vector<const InventorNode*>>(&value))
+      for (const auto* below : *nodes) listed_ += listed_by(*below);
+  if (listed_ > walk_.max_listed)
+    fail("wanted shapes that list at most {} numbers, shared ones counted each time",
+         walk_.max_listed);
 }
 
 void InventorWalker::visit_children(const InventorNode& node, InventorState& state) {
@@ -167,6 +190,7 @@ void InventorWalker::visit_copies(const InventorNode& node, const InventorState&
 void InventorWalker::visit_shape(const InventorNode& node, InventorState state) {
   visit_children(node, state);
   try {
+    count_listed(node);
     walk_.shape(node, state);
   } catch (const Error& error) {
     fail("{}: {}", graph_.place(node), error.what());

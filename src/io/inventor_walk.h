@@ -38,6 +38,8 @@ Eigen::Vector3f unpacked_color(int32_t rgba);
 
 struct InventorWalk {
   int max_visits = 2'000'000;  ///< nodes, shared ones and copies each time
+  /// Indices, coordinates and colours that shapes list, shared ones each time.
+  size_t max_listed = 50'000'000;
   /// Called at each shape; what it throws gets the place of the shape.
   std::function<void(const InventorNode&, const InventorState&)> shape;
   bool colors_given = false;            ///< out: was a node of colours passed?
@@ -45,7 +47,8 @@ struct InventorWalk {
   std::set<std::string> warnings = {};  ///< out
 };
 
-/// throws Error  "box.iv: wanted at most ..." of visits, and what `shape` throws
+/// throws Error  "box.iv: wanted at most ..." of visits or of what shapes list, and what
+/// `shape` throws
 void walk_inventor(const InventorGraph& graph, const InventorState& start, InventorWalk& walk);
 
 /// Tells the listeners of all that was found on the way, and of what reading the files found.

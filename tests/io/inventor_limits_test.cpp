@@ -124,6 +124,37 @@ TEST_CASE("rows without copies end at once, however many there are") {
   }
 }
 
+TEST_CASE("triangles without area count as those with one do") {
+  const std::string limit = "wanted at most 2000000 triangles";
+  const std::string copies = "Array { numElements1 999000 ";
+  CHECK(refusal(iv + "Complexity { value 1 } " + copies + "Sphere { radius 0 } }") ==
+        "a.iv:2: " + limit);
+  const std::string extrusion = "geometry DEF e Extrusion { spine [ " + repeated(1000, "0 0 0,") +
+                                " ] crossSection [ " + repeated(1000, "0 0,") + " ] }";
+  CHECK(refusal(wrl + "Shape { " + extrusion + " }\n" + repeated(2000, "Shape { geometry USE e }")) ==
+        "a.iv:2: " + limit);
+}
+
+TEST_CASE("what shapes list has an end, shared or not, with triangles or without") {
+  const std::string limit =
+      "a.iv:2: wanted shapes that list at most 50000000 numbers, shared ones counted each time";
+  const auto copies = [](const std::string& shape) {
+    return iv + "Array { numElements1 999000 " + shape + " }";
+  };
+  const std::string nothing = repeated(200'000, "-1,");
+  CHECK(refusal(copies("IndexedFaceSet { coordIndex [ " + nothing + " ] }")) == limit);
+  // colours are copied for each shape
+  CHECK(refusal(copies("IndexedFaceSet { vertexProperty VertexProperty { orderedRGBA [ " +
+                       repeated(200'000, "0,") + " ] } }")) == limit);
+  CHECK(refusal(wrl + "DEF s Shape { geometry Extrusion { crossSection [ ] spine [ " +
+                repeated(100'000, "0 0 0,") + " ] } }\n" + repeated(999, "USE s ")) == limit);
+  // shapes may share as many points as they like
+  CHECK(read_text_as_body(wrl + "DEF s Shape { geometry IndexedFaceSet { coordIndex [ 0 1 2 ] " +
+                          "coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 " +
+                          repeated(60'000, "0 0 0,") + " ] } } }\n" + repeated(499, "USE s "))
+            .triangles == 500);
+}
+
 TEST_CASE("a file has at most a million nodes, and ten million values") {
   CHECK(refusal(iv + repeated(1'000'000, "Group{}")) == "a.iv:2: wanted at most 1000000 nodes");
   CHECK(refusal(iv + "Normal { }\nIndexedFaceSet { coordIndex [\n" + repeated(10'000'001, "0,") +
