@@ -11,7 +11,8 @@ namespace clench {
 namespace {
 
 constexpr size_t max_brackets = 250;      // nested in one file; the parser goes down by recursion
-constexpr int max_inventor_depth = 1000;  // nodes above one another, in all files; so does the walk
+// nodes above one another, in all files; a level takes up to 9 kB of the stack, with sanitizers
+constexpr int max_inventor_depth = 500;
 constexpr size_t max_inventor_nodes = 1'000'000;
 constexpr size_t max_inventor_names = 1'000'000;
 constexpr size_t max_proto_names = 100'000;
@@ -189,6 +190,8 @@ const InventorNode* InventorParser::node(const InventorToken& first, const Inven
   if (bracket.text != "{" || bracket.kind != InventorToken::open)
     tokens_.refuse(bracket.line, "wanted '{{' after {}, got {}", in_quotes(type_word.text),
                    bracket.told());
+  if (++budget_.open_nodes > max_inventor_depth)
+    tokens_.refuse(type_word.line, "wanted nodes at most {} deep", max_inventor_depth);
   const bool named = name.kind == InventorToken::word;
   if (named) defining_.emplace_back(name.text, first.line);
   const InventorNode* made = nullptr;
@@ -221,13 +224,12 @@ const InventorNode* InventorParser::node(const InventorToken& first, const Inven
     defining_.pop_back();
     define(name, made);
   }
+  --budget_.open_nodes;
   return made;
 }
 
 void InventorParser::body(InventorNode& node) {
   const InventorType& type = *node.type;
-  if (++budget_.open_nodes > max_inventor_depth)
-    tokens_.refuse(node.line, "wanted nodes at most {} deep", max_inventor_depth);
   const bool takes_nodes = type.takes_children() || (type.is_shape() && !tokens_.vrml2());
   for (;;) {
     const InventorToken token = tokens_.next(), behind = tokens_.peek();
@@ -254,7 +256,6 @@ void InventorParser::body(InventorNode& node) {
                      did_you_mean(token.text.substr(0, 40), names));
     }
   }
-  --budget_.open_nodes;
 }
 
 void InventorParser::include(InventorNode& node) {

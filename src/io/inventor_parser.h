@@ -11,7 +11,7 @@ namespace clench {
 
 /// What the files of one graph share.
 struct InventorBudget {
-  int open_nodes = 0;      ///< at the place that is read, in all files that include one another
+  int open_nodes = 0;      ///< around the place that is read, in all files and PROTOs
   size_t values = 0;       ///< of fields, read so far
   size_t names = 0;        ///< of nodes
   size_t proto_names = 0;  ///< of PROTOs and their fields

@@ -204,6 +204,20 @@ TEST_CASE("PROTOs are read again for each instance, with an end") {
         "a.iv:2: a PROTO inside a PROTO is not read");
 }
 
+TEST_CASE("files whose PROTOs stand for one another do not run out of the stack") {
+  const TemporaryFolder folder;
+  for (int file = 0; file < 31; ++file) {
+    std::string text = wrl;
+    for (int i = 0; i < 247; ++i)
+      text += fmt::format("PROTO P{} [ ] {{ P{} {{ }} }}\n", i, i + 1);
+    text += fmt::format("PROTO P247 [ ] {{ Inline {{ url \"f{}.wrl\" }} }}\nP0 {{ }}\n", file + 1);
+    folder.write(fmt::format("f{}.wrl", file), text);
+  }
+  folder.write("f31.wrl", wrl + "Shape { geometry Box { } }\n");
+  CHECK_THROWS_WITH_AS(read_body(folder.path() / "f0.wrl"),
+                       "f0.wrl:249: f2.wrl:3: wanted nodes at most 500 deep", Error);
+}
+
 TEST_CASE("an extrusion has an end") {
   const auto extrusion = [](int spine, int section) {
     std::string points, outline;
