@@ -11,6 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr size_t max_inventor_warnings = 1000;
 constexpr size_t max_nested_files = 32;  // files that include files
 
 /// Files to nodes, each read once.
@@ -109,6 +110,13 @@ const InventorNode* InventorNode::node(std::string_view field) const {
 std::string InventorGraph::place(const InventorNode& node) const {
   const std::string within = fmt::format("{}:{}", files[node.file], node.line);
   return node.file == 0 ? within : files[0] + ": " + within;
+}
+
+void InventorWarnings::add(const std::string& file, const std::string& sentence) {
+  if (list_.size() > max_inventor_warnings || !told_.insert(sentence).second) return;
+  list_.push_back(list_.size() < max_inventor_warnings
+                      ? sentence
+                      : fmt::format("{}: further warnings are left out", file));
 }
 
 InventorGraph read_inventor_graph(const fs::path& path, const std::string& text,

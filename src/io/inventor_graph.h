@@ -2,6 +2,7 @@
 #pragma once
 #include <deque>
 #include <filesystem>
+#include <set>
 
 #include "io/inventor_types.h"
 #include "io/read.h"
@@ -28,11 +29,23 @@ struct InventorNode {
   const InventorNode* node(std::string_view field) const;  ///< null when there is none
 };
 
+/// Sentences for whoever listens, each once, up to a limit.
+class InventorWarnings {
+ public:
+  /// `file`: the one whose further warnings are said to be left out
+  void add(const std::string& file, const std::string& sentence);
+  const std::vector<std::string>& list() const { return list_; }
+
+ private:
+  std::vector<std::string> list_;
+  std::set<std::string> told_;
+};
+
 struct InventorGraph {
   std::deque<InventorNode> nodes;
   const InventorNode* root = nullptr;
   std::deque<std::string> files;      ///< names, the first that of the file itself
-  std::vector<std::string> warnings;  ///< of what is not used
+  InventorWarnings warnings;          ///< of what is not used
   std::vector<std::string> mendings;  ///< of what was wrong and is read all the same
 
   /// For a sentence on a node: "box.iv:31", or "box.iv: part.iv:31" of one in an included file.

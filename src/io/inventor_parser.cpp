@@ -17,7 +17,6 @@ constexpr size_t max_inventor_nodes = 1'000'000;
 constexpr size_t max_inventor_names = 1'000'000;
 constexpr size_t max_proto_names = 100'000;
 constexpr size_t max_proto_bytes = 20'000'000;
-constexpr size_t max_graph_warnings = 1000;
 constexpr size_t max_suggested = 40;  // letters of a name, and names
 
 }  // namespace
@@ -170,11 +169,8 @@ void InventorParser::define(const InventorToken& name, const InventorNode* node)
 }
 
 void InventorParser::warn(int line, const std::string& sentence) {
-  auto& list = graph_.warnings;
-  if (list.size() < max_graph_warnings)
-    list.push_back(fmt::format("{}:{}: {}", graph_.files[file_], line, sentence));
-  else if (list.size() == max_graph_warnings)
-    list.push_back(fmt::format("{}: further warnings are left out", graph_.files[file_]));
+  const std::string& file = graph_.files[file_];
+  graph_.warnings.add(file, fmt::format("{}:{}: {}", file, line, sentence));
 }
 
 const InventorNode* InventorParser::node(const InventorToken& first, const InventorType* around) {

@@ -1,7 +1,5 @@
 #include "io/inventor_primitives.h"
 
-#include <set>
-
 #include "base/text.h"
 #include "base/units.h"
 #include "io/body_xml.h"
@@ -57,7 +55,7 @@ const char* name_of(PrimitiveKind kind) {
 }
 
 Primitive placed(const Solid& shape, const InventorMatrix& X, const std::string& file,
-                 std::set<std::string>& warnings) {
+                 InventorWarnings& warnings) {
   const char* name = name_of(shape.kind);
   const bool box = shape.kind == PrimitiveKind::box, ball = shape.kind == PrimitiveKind::sphere;
   const double least =
@@ -82,7 +80,7 @@ Primitive placed(const Solid& shape, const InventorMatrix& X, const std::string&
   const bool oval = ball ? scale.maxCoeff() - scale.minCoeff() > digits * scale.maxCoeff()
                          : std::abs(scale.x() - scale.z()) > digits * across;
   if (!box && oval)
-    warnings.insert(fmt::format("{}: {}: it is oval; the largest radius is used", file, name));
+    warnings.add(file, fmt::format("{}: {}: it is oval; the largest radius is used", file, name));
 
   Primitive out{.kind = shape.kind,
                 .X_OP = {Eigen::Quaterniond(axes).normalized(), position * units::millimetre}};
@@ -141,8 +139,8 @@ std::vector<Primitive> read_primitives(const fs::path& path, const ReadOptions& 
     if (const auto solid = primitive_of(shape))
       found.push_back(placed(*solid, state.X, file, walk.warnings));
     else
-      walk.warnings.insert(
-          fmt::format("{}: {} is no primitive and is not used", file, shape.type->name));
+      walk.warnings.add(
+          file, fmt::format("{}: {} is no primitive and is not used", file, shape.type->name));
   };
   InventorState start;
   start.X = placement_of(source);

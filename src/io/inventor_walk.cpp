@@ -271,8 +271,9 @@ bool InventorWalker::set_property(const InventorNode& node, InventorState& state
     case K::complexity:
       state.complexity = node.number("value");
       if (node.word("type") != "OBJECT_SPACE")
-        walk_.warnings.insert(fmt::format("{}: Complexity: {} is read as OBJECT_SPACE",
-                                          graph_.place(node), node.word("type")));
+        walk_.warnings.add(graph_.files[0],
+                           fmt::format("{}: Complexity: {} is read as OBJECT_SPACE",
+                                       graph_.place(node), node.word("type")));
       return true;
     default:
       return false;
@@ -321,8 +322,8 @@ void tell_inventor_warnings(const InventorGraph& graph, const InventorWalk& walk
                             const ReadOptions& options) {
   for (const auto& sentence : graph.mendings) options.mended(sentence);
   if (!options.warn) return;
-  for (const auto& sentence : graph.warnings) options.warn(sentence);
-  for (const auto& sentence : walk.warnings) options.warn(sentence);
+  for (const auto& sentence : graph.warnings.list()) options.warn(sentence);
+  for (const auto& sentence : walk.warnings.list()) options.warn(sentence);
 }
 
 }  // namespace clench

@@ -44,7 +44,7 @@ struct InventorWalk {
   std::function<void(const InventorNode&, const InventorState&)> shape;
   bool colors_given = false;            ///< out: was a node of colours passed?
   std::set<std::string> units = {};     ///< out: named by nodes, METERS left out
-  std::set<std::string> warnings = {};  ///< out
+  InventorWarnings warnings = {};       ///< out
 };
 
 /// throws Error  "box.iv: wanted at most ..." of visits or of what shapes list, and what

@@ -170,6 +170,12 @@ TEST_CASE("names, warnings and PROTOs of a file have an end") {
       told.find("a.iv:1001: unknown node 'X' is skipped\na.iv: further warnings are left out\n") !=
       std::string::npos);
   CHECK(told.find("a.iv:1002:") == std::string::npos);
+  // those that the walk finds
+  const std::string found =
+      read_text_as_body(iv + repeated(1500, "Complexity{type SCREEN_SPACE}\n")).warnings;
+  CHECK(found.find("a.iv:1001: Complexity: SCREEN_SPACE is read as OBJECT_SPACE\n"
+                   "a.iv: further warnings are left out\n") != std::string::npos);
+  CHECK(found.find("a.iv:1002:") == std::string::npos);
   // a suggestion is not looked for among long names
   std::string named = iv;
   for (int i = 0; i < 50; ++i)
