@@ -41,7 +41,7 @@ void InventorParser::skip_connection(const InventorType& type, const InventorFie
   if (first.is("USE")) {
     word("a name after USE");
   } else {
-    if (first.is("DEF")) define(word("a name after DEF"), nullptr);
+    if (first.is("DEF")) define(word("a name after DEF"), {});
     if (first.is("DEF")) word("a node type after DEF and a name");
     if (tokens_.peek().text != "{")
       tokens_.refuse(sign.line, "wanted '{{' after the node type, got {}", tokens_.peek().told());

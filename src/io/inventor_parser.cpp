@@ -63,7 +63,7 @@ void InventorParser::skip_brackets() {
     } else if (token.kind == InventorToken::close) {
       close(token);
     } else if (last.is("DEF") && !in_proto_) {
-      define(token, nullptr);
+      define(token, {});
     }
     last = token;
   } while (brackets_.size() > before);
@@ -150,22 +150,22 @@ void InventorParser::statement(const InventorToken& token, std::vector<const Inv
 const InventorNode* InventorParser::use(int line) {
   count_value();
   const std::string name(word("a name after USE").text);
-  for (const auto& [defined, at] : defining_)
-    if (defined == name)
+  if (const auto found = names().find(name); found != names().end()) {
+    if (const int at = found->second.open_line)
       tokens_.refuse(line, "USE of {} inside itself, which line {} defines", in_quotes(name), at);
-  const auto found = names().find(name);
-  if (found != names().end()) return found->second;
+    return found->second.node;
+  }
   std::vector<std::string> known;
-  for (const auto& [other, node] : names())
+  for (const auto& [other, named] : names())
     if (other.size() <= max_suggested && known.size() < 1000) known.push_back(other);
   tokens_.refuse(line, "USE of {}, which nothing above defines{}", in_quotes(name),
                  did_you_mean(name.substr(0, max_suggested), known));
 }
 
-void InventorParser::define(const InventorToken& name, const InventorNode* node) {
+InventorParser::Named& InventorParser::define(const InventorToken& name, const Named& named) {
   if (++budget_.names > max_inventor_names)
     tokens_.refuse(name.line, "wanted at most {} names", max_inventor_names);
-  names().insert_or_assign(std::string(name.text), node);
+  return names()[std::string(name.text)] = named;
 }
 
 void InventorParser::warn(int line, const std::string& sentence) {
@@ -188,8 +188,8 @@ const InventorNode* InventorParser::node(const InventorToken& first, const Inven
                    bracket.told());
   if (++budget_.open_nodes > max_inventor_depth)
     tokens_.refuse(type_word.line, "wanted nodes at most {} deep", max_inventor_depth);
-  const bool named = name.kind == InventorToken::word;
-  if (named) defining_.emplace_back(name.text, first.line);
+  Named* named = nullptr;
+  if (name.kind == InventorToken::word) named = &define(name, {.open_line = first.line});
   const InventorNode* made = nullptr;
   const InventorType& type = inventor_type(type_word.text, tokens_.vrml2());
   if (const auto found = protos_.find(type_word.text); found != protos_.end()) {
@@ -216,10 +216,7 @@ const InventorNode* InventorParser::node(const InventorToken& first, const Inven
     finish(node);
     made = &node;
   }
-  if (named) {
-    defining_.pop_back();
-    define(name, made);
-  }
+  if (named) *named = {.node = made};
   --budget_.open_nodes;
   return made;
 }

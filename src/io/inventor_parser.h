@@ -36,7 +36,11 @@ class InventorParser {
 
  private:
   using Part = InventorTokens::Part;
-  using Names = std::map<std::string, const InventorNode*, std::less<>>;  // null: it was skipped
+  struct Named {
+    const InventorNode* node = nullptr;  // null: it was skipped, or is being read
+    int open_line = 0;                   // of its DEF, while it is being read
+  };
+  using Names = std::map<std::string, Named, std::less<>>;
   struct Bracket {
     char text;
     int line;
@@ -61,7 +65,7 @@ class InventorParser {
            (token.text == "DEF" || token.text == "USE" || behind.text == "{");
   }
   void warn(int line, const std::string& sentence);
-  void define(const InventorToken& name, const InventorNode* node);
+  Named& define(const InventorToken& name, const Named& named);
   Names& names() { return instance_ ? instance_->names : names_; }
 
   void statement(const InventorToken& token, std::vector<const InventorNode*>& out);
@@ -105,7 +109,6 @@ class InventorParser {
   InventorTokens tokens_;
   Include include_;
   std::vector<Bracket> brackets_;
-  std::vector<std::pair<std::string, int>> defining_;  // names of the nodes around, lines
   Names names_;
   std::map<std::string, Proto, std::less<>> protos_;
   bool in_proto_ = false;         // is a PROTO stepped over?

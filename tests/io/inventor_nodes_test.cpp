@@ -178,6 +178,20 @@ TEST_CASE("a PROTO's instance has its own values, or those of the PROTO") {
                {-2, -2, -2}, {2, 2, 2});
 }
 
+TEST_CASE("USE names the nearest node above in its own scope, one inside another of that name too") {
+  CHECK(triangles_of(read_nodes("DEF A Separator { DEF A Cube { } USE A }")) == 24);
+  CHECK(triangles_of(read_nodes(
+            "DEF A Separator { DEF A Separator { DEF A Cube { } } USE A } USE A")) == 48);
+  CHECK_THROWS_WITH_AS(read_nodes("DEF A Separator {\nDEF A Separator { USE A } }"),
+                       "a.iv:3: USE of 'A' inside itself, which line 3 defines", Error);
+  const std::string proto =
+      "PROTO P [ field SFNode x NULL ] { Group { children [\n"
+      "DEF A Shape { geometry Box { } } USE A Group { children IS x } ] } }\n";
+  CHECK(triangles_of(read_vrml_nodes(proto + "DEF A Group { children [ P { } ] }")) == 24);
+  CHECK_THROWS_WITH_AS(read_vrml_nodes(proto + "DEF A Group { children [ P { x USE A } ] }"),
+                       "a.iv:4: USE of 'A' inside itself, which line 4 defines", Error);
+}
+
 TEST_CASE("points that lines share with faces are read with them") {
   CHECK(triangles_of(read_vrml_nodes("Shape { geometry IndexedLineSet { coord DEF c Coordinate { "
                                      "point [ 0 0 0, 1 0 0, 0 1 0 ] } "
