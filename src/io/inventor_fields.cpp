@@ -43,11 +43,14 @@ void InventorParser::skip_connection(const InventorType& type, const InventorFie
   } else {
     if (first.is("DEF")) define(word("a name after DEF"), {});
     if (first.is("DEF")) word("a node type after DEF and a name");
-    if (tokens_.peek().text != "{")
+    if (!tokens_.peek().opens('{'))
       tokens_.refuse(sign.line, "wanted '{{' after the node type, got {}", tokens_.peek().told());
     skip_brackets();
   }
-  if (tokens_.peek().text.starts_with('.') && tokens_.next().text == ".") word("a field after '.'");
+  const InventorToken behind = tokens_.peek();
+  if (behind.kind == InventorToken::word && behind.text.starts_with('.') &&
+      tokens_.next().text == ".")
+    word("a field after '.'");
   if (field.content != InventorField::unused)
     warn(sign.line, fmt::format("{}: {} is connected, which is not used", type.name, field.name));
 }
@@ -62,7 +65,7 @@ InventorValue InventorParser::value(const InventorType& type, const InventorFiel
         node(tokens_.next());
       else
         skip_value([&](const InventorToken& token) {
-          return type.field(token.text) || starts_node(token, tokens_.peek_second());
+          return field_of(type, token) || starts_node(token, tokens_.peek_second());
         });
       break;
     }
@@ -87,9 +90,7 @@ InventorValue InventorParser::value(const InventorType& type, const InventorFiel
 
 template <class Take>
 void InventorParser::list(const InventorField& field, Take take) {
-  const InventorToken bracket = tokens_.peek();
-  if (!field.many || bracket.kind != InventorToken::open || bracket.text != "[")
-    return take(tokens_.next());
+  if (!field.many || !tokens_.peek().opens('[')) return take(tokens_.next());
   open(tokens_.next(), "");
   for (;;) {
     const InventorToken token = tokens_.next();

@@ -59,7 +59,7 @@ void InventorParser::skip_brackets() {
     if (token.kind == InventorToken::end) refuse_end();
     if (token.kind == InventorToken::open) {
       check_nested(last, token);
-      open(token, token.text == "{" ? last.text : "");
+      open(token, token.opens('{') ? last.text : "");
     } else if (token.kind == InventorToken::close) {
       close(token);
     } else if (last.is("DEF") && !in_proto_) {
@@ -183,7 +183,7 @@ const InventorNode* InventorParser::node(const InventorToken& first, const Inven
   const InventorToken bracket = tokens_.peek();
   if (type_word.kind != InventorToken::word)
     tokens_.refuse(first.line, "wanted a node, got {}", first.told());
-  if (bracket.text != "{" || bracket.kind != InventorToken::open)
+  if (!bracket.opens('{'))
     tokens_.refuse(bracket.line, "wanted '{{' after {}, got {}", in_quotes(type_word.text),
                    bracket.told());
   if (++budget_.open_nodes > max_inventor_depth)
@@ -233,10 +233,10 @@ void InventorParser::body(InventorNode& node) {
     }
     if (token.kind == InventorToken::open)
       tokens_.refuse(token.line, "wanted a node type before '{}', got nothing", token.text);
-    const InventorField* known = behind.text == "{" ? nullptr : type.field(token.text);
+    const InventorField* known = behind.opens('{') ? nullptr : field_of(type, token);
     if (known) {
       field(node, *known);
-    } else if ((token.is("fields") || token.is("isA")) && behind.text == "[") {
+    } else if ((token.is("fields") || token.is("isA")) && behind.opens('[')) {
       skip_brackets();
     } else if (token.is("ROUTE") || token.is("PROTO") || token.is("EXTERNPROTO")) {
       statement(token, node.children);
@@ -265,7 +265,7 @@ void InventorParser::include(InventorNode& node) {
 // --- PROTOs: text that stands for nodes, with names in place of some values ---
 
 void InventorParser::check_nested(const InventorToken& type, const InventorToken& bracket) const {
-  if (in_proto_ && bracket.text == "{" && protos_.contains(type.text))
+  if (in_proto_ && bracket.opens('{') && protos_.contains(type.text))
     tokens_.refuse(type.line, "PROTO {} is used inside a PROTO, which is not read",
                    in_quotes(type.text));
 }
@@ -286,7 +286,7 @@ void InventorParser::proto(int line) {
     return t.is("field") || t.is("exposedField") || t.is("eventIn") || t.is("eventOut");
   };
   InventorToken token = tokens_.next();
-  if (token.text != "[")
+  if (!token.opens('['))
     tokens_.refuse(token.line, "wanted '[' after PROTO {}, got {}", in_quotes(name), token.told());
   open(token, "");
   for (token = tokens_.next(); token.kind != InventorToken::close; token = tokens_.next()) {
@@ -301,7 +301,7 @@ void InventorParser::proto(int line) {
   }
   close(token);
   token = tokens_.peek();
-  if (token.text != "{")
+  if (!token.opens('{'))
     tokens_.refuse(token.line, "wanted '{{' after PROTO {} and its fields, got {}", in_quotes(name),
                    token.told());
   made.body = {token.start + 1, 0, token.line};
@@ -331,10 +331,10 @@ const InventorNode* InventorParser::instance(const Proto& proto, const InventorT
   InventorToken token = tokens_.next();
   for (; token.kind != InventorToken::close; token = tokens_.next()) {
     if (token.kind == InventorToken::end) refuse_end();
-    if (!proto.fields.contains(token.text))
+    if (!proto.has_field(token))
       tokens_.refuse(token.line, "PROTO {} has no field {}", in_quotes(name.text), token.told());
     scope.values[std::string(token.text)] =
-        skip_value([&](const InventorToken& t) { return proto.fields.contains(t.text); });
+        skip_value([&](const InventorToken& t) { return proto.has_field(t); });
   }
   InventorNode& group = add_node(inventor_type("Group", false), name.line);
   read_part(proto.body, &scope, [&] {

@@ -49,6 +49,10 @@ class InventorParser {
   struct Proto {
     std::map<std::string, std::optional<Part>, std::less<>> fields = {};  // with their defaults
     Part body = {};
+
+    bool has_field(const InventorToken& token) const {
+      return token.kind == InventorToken::word && fields.contains(token.text);
+    }
   };
   struct Instance {
     const Proto* proto;
@@ -62,7 +66,10 @@ class InventorParser {
   InventorToken word(std::string_view what);
   static bool starts_node(const InventorToken& token, const InventorToken& behind) {
     return token.kind == InventorToken::word &&
-           (token.text == "DEF" || token.text == "USE" || behind.text == "{");
+           (token.text == "DEF" || token.text == "USE" || behind.opens('{'));
+  }
+  static const InventorField* field_of(const InventorType& type, const InventorToken& token) {
+    return token.kind == InventorToken::word ? type.field(token.text) : nullptr;
   }
   void warn(int line, const std::string& sentence);
   Named& define(const InventorToken& name, const Named& named);

@@ -15,7 +15,9 @@ struct InventorToken {
 
   /// For a sentence: in quotes, "the end of the file".
   std::string told() const;
+  // strings have text, too, which is neither word nor bracket
   bool is(std::string_view what) const { return kind == word && text == what; }
+  bool opens(char bracket) const { return kind == open && text[0] == bracket; }
 };
 
 class InventorTokens {

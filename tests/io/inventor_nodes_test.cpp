@@ -192,6 +192,15 @@ TEST_CASE("USE names the nearest node above in its own scope, one inside another
                        "a.iv:4: USE of 'A' inside itself, which line 4 defines", Error);
 }
 
+TEST_CASE("brackets and names in strings are text") {
+  for (const std::string text : {"{", "[", "}", "]", "map", "DEF", "Cube"})
+    CHECK(triangles_of(read_nodes("WWWAnchor { description \"" + text + "\" Cube { } }")) == 12);
+  const std::string proto = "PROTO P [ field SFString s \"\" field SFNode x NULL ] { Group { } }\n";
+  for (const std::string text : {"{", "[", "x"})
+    CHECK(triangles_of(read_vrml_nodes(proto + "P { s \"" + text +
+                                       "\" x NULL } Shape { geometry Box { } }")) == 12);
+}
+
 TEST_CASE("points that lines share with faces are read with them") {
   CHECK(triangles_of(read_vrml_nodes("Shape { geometry IndexedLineSet { coord DEF c Coordinate { "
                                      "point [ 0 0 0, 1 0 0, 0 1 0 ] } "
@@ -255,5 +264,13 @@ TEST_CASE("what cannot be understood is told by line, wanted and got") {
         "a.iv:2: wanted field, exposedField, eventIn, eventOut or ']', got 'fild'");
   CHECK(refusal("PROTO P [ ] Cube { }") ==
         "a.iv:2: wanted '{' after PROTO 'P' and its fields, got 'Cube'");
+  CHECK(refusal("Cube \"{\" }") == "a.iv:2: wanted '{' after 'Cube', got '{'");
+  CHECK(refusal("PROTO P \"[\" ] { }") == "a.iv:2: wanted '[' after PROTO 'P', got '['");
+  CHECK(refusal("PROTO P [ ] \"{\" }") ==
+        "a.iv:2: wanted '{' after PROTO 'P' and its fields, got '{'");
+  CHECK(refusal("Cube { width 1 = Engine \"{\" }") ==
+        "a.iv:2: wanted '{' after the node type, got '{'");
+  CHECK(refusal("Cube { width 1 = USE a \".b\" }") == "a.iv:2: Cube: unknown field '.b'");
+  CHECK(refusal("Cube { \"width\" 1 }") == "a.iv:2: Cube: unknown field 'width'");
   CHECK(refusal("File { name [ ] ] }") == "a.iv:2: wanted '}' for the '{' of line 2, got ']'");
 }
