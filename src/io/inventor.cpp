@@ -87,8 +87,8 @@ Geometry read_inventor(const std::filesystem::path& path, const std::string& tex
   walk.shape = [&](const InventorNode& shape, const InventorState& state) {
     ShapeTriangles triangles(shape, state, unit, builder);
     if (!triangles.gather() && shape.type->kind == InventorKind::odd_shape)
-      walk.warnings.add(
-          file, fmt::format("{}: {} is not used as geometry", file, shape.type->name));
+      walk.warnings.add(file,
+                        fmt::format("{}: {} is not used as geometry", file, shape.type->name));
     own_colors = own_colors || triangles.has_colors();
   };
   walk_inventor(graph, {}, walk);

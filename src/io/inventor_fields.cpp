@@ -172,9 +172,11 @@ void InventorParser::words(const InventorType& type, const InventorField& field,
       tokens_.refuse(token.line, "{}: {}: wanted one of {}, got {}", type.name, field.name,
                      fmt::join(field.choices, ", "), in_quotes(text));
     count_value();
-    out.emplace_back(text);
+    // each choice once, however often a file says it
+    if (!names || std::ranges::count(out, text) == 0) out.emplace_back(text);
   };
-  if (!names || !tokens_.peek().text.starts_with('(')) {
+  const InventorToken first = tokens_.peek();
+  if (!names || !field.many || first.kind != InventorToken::word || !first.text.starts_with('(')) {
     list(field, [&](const InventorToken& token) { take(token, token.text); });
     return;
   }

@@ -10,7 +10,7 @@ namespace clench {
 
 namespace {
 
-constexpr size_t max_brackets = 250;      // nested in one file; the parser goes down by recursion
+constexpr size_t max_brackets = 250;  // nested in one file; the parser goes down by recursion
 // nodes above one another, in all files; a level takes up to 9 kB of the stack, with sanitizers
 constexpr int max_inventor_depth = 500;
 constexpr size_t max_inventor_nodes = 1'000'000;

@@ -11,8 +11,9 @@ namespace {
 struct TypeText {
   InventorKind kind;
   std::string_view names;  // a VRML 2 node's begins with VRML
-  std::string_view
-      fields;  // name[:content[=absent]]: f3 three numbers, F lists; i I b w(A|B) S n N, C colours
+  // name[:content[=absent]]: f3 three numbers, F lists; i I b S n N, C colours; w(A|B) one of these
+  // words, W any of them
+  std::string_view fields;
 };
 
 using K = InventorKind;
@@ -62,7 +63,7 @@ constexpr TypeText read_types[] = {
     {K::rotation_xyz, "RotationXYZ", "axis:w(X|Y|Z)=X angle:f1=0"},
     {K::scale, "Scale", "scaleFactor:f3=1,1,1"},
     {K::matrix, "MatrixTransform", "matrix:f16=1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1"},
-    {K::reset, "ResetTransform", "whatToReset:w(TRANSFORM|BBOX)=TRANSFORM"},
+    {K::reset, "ResetTransform", "whatToReset:W(TRANSFORM|BBOX)=TRANSFORM"},
     {K::units, "Units",
      "units:w(METERS|CENTIMETERS|MILLIMETERS|MICROMETERS|MICRONS|NANOMETERS|ANGSTROMS|KILOMETERS|"
      "FEET|INCHES|POINTS|YARDS|MILES|NAUTICAL_MILES)=METERS"},

@@ -42,9 +42,9 @@ struct InventorWalk {
   size_t max_listed = 50'000'000;
   /// Called at each shape; what it throws gets the place of the shape.
   std::function<void(const InventorNode&, const InventorState&)> shape;
-  bool colors_given = false;            ///< out: was a node of colours passed?
-  std::set<std::string> units = {};     ///< out: named by nodes, METERS left out
-  InventorWarnings warnings = {};       ///< out
+  bool colors_given = false;         ///< out: was a node of colours passed?
+  std::set<std::string> units = {};  ///< out: named by nodes, METERS left out
+  InventorWarnings warnings = {};    ///< out
 };
 
 /// throws Error  "box.iv: wanted at most ..." of visits or of what shapes list, and what

@@ -131,8 +131,8 @@ TEST_CASE("triangles without area count as those with one do") {
         "a.iv:2: " + limit);
   const std::string extrusion = "geometry DEF e Extrusion { spine [ " + repeated(1000, "0 0 0,") +
                                 " ] crossSection [ " + repeated(1000, "0 0,") + " ] }";
-  CHECK(refusal(wrl + "Shape { " + extrusion + " }\n" + repeated(2000, "Shape { geometry USE e }")) ==
-        "a.iv:2: " + limit);
+  CHECK(refusal(wrl + "Shape { " + extrusion + " }\n" +
+                repeated(2000, "Shape { geometry USE e }")) == "a.iv:2: " + limit);
 }
 
 TEST_CASE("what shapes list has an end, shared or not, with triangles or without") {
@@ -148,6 +148,10 @@ TEST_CASE("what shapes list has an end, shared or not, with triangles or without
                        repeated(200'000, "0,") + " ] } }")) == limit);
   CHECK(refusal(wrl + "DEF s Shape { geometry Extrusion { crossSection [ ] spine [ " +
                 repeated(100'000, "0 0 0,") + " ] } }\n" + repeated(999, "USE s ")) == limit);
+  // the same word again and again is said once
+  CHECK(read_text_as_body(copies("ResetTransform { whatToReset (" +
+                                 repeated(200'000, "TRANSFORM |") + " BBOX) }"))
+            .sentence == "");
   // shapes may share as many points as they like
   CHECK(read_text_as_body(wrl + "DEF s Shape { geometry IndexedFaceSet { coordIndex [ 0 1 2 ] " +
                           "coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 " +
@@ -214,8 +218,7 @@ TEST_CASE("files whose PROTOs stand for one another do not run out of the stack"
   const TemporaryFolder folder;
   for (int file = 0; file < 31; ++file) {
     std::string text = wrl;
-    for (int i = 0; i < 247; ++i)
-      text += fmt::format("PROTO P{} [ ] {{ P{} {{ }} }}\n", i, i + 1);
+    for (int i = 0; i < 247; ++i) text += fmt::format("PROTO P{} [ ] {{ P{} {{ }} }}\n", i, i + 1);
     text += fmt::format("PROTO P247 [ ] {{ Inline {{ url \"f{}.wrl\" }} }}\nP0 {{ }}\n", file + 1);
     folder.write(fmt::format("f{}.wrl", file), text);
   }

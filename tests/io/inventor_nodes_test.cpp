@@ -178,7 +178,8 @@ TEST_CASE("a PROTO's instance has its own values, or those of the PROTO") {
                {-2, -2, -2}, {2, 2, 2});
 }
 
-TEST_CASE("USE names the nearest node above in its own scope, one inside another of that name too") {
+TEST_CASE(
+    "USE names the nearest node above in its own scope, one inside another of that name too") {
   CHECK(triangles_of(read_nodes("DEF A Separator { DEF A Cube { } USE A }")) == 24);
   CHECK(triangles_of(read_nodes(
             "DEF A Separator { DEF A Separator { DEF A Cube { } } USE A } USE A")) == 48);
@@ -255,6 +256,8 @@ TEST_CASE("what cannot be understood is told by line, wanted and got") {
             .starts_with("a.iv:2: Units: units: wanted one of METERS, "));
   CHECK(refusal("Cylinder { parts (SIDES | LID) }") ==
         "a.iv:2: Cylinder: parts: wanted one of SIDES, TOP, BOTTOM, ALL, got 'LID'");
+  CHECK(refusal("RotationXYZ { axis (|) }") ==
+        "a.iv:2: RotationXYZ: axis: wanted one of X, Y, Z, got '(|)'");
   CHECK(refusal("FaceSet { vertexProperty Cube { } }") ==
         "a.iv:2: FaceSet: vertexProperty: wanted a VertexProperty, got Cube");
   CHECK(refusal("Cube { width IS w }") ==
