@@ -174,7 +174,10 @@ static int main_of(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return clench::main_of(argc, argv);
+    const int code = clench::main_of(argc, argv);
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+    std::fputs("clench: the output could not be written whole: is the disk full?\n", stderr);
+    return code == 0 ? 1 : code;
   } catch (const std::bad_alloc&) {
     std::fputs("clench: not enough memory\n", stderr);
   } catch (const std::exception& e) {

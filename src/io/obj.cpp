@@ -1,5 +1,7 @@
 #include "io/obj.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <set>
 
@@ -14,7 +16,7 @@ struct Material {
   float transparency = 0;
 };
 
-constexpr size_t max_material_files = 1000;  // named in one line
+constexpr size_t max_material_files = 1000;  // looked for
 
 /// What a face needs when all points are known.
 struct Face {
@@ -48,6 +50,7 @@ class ObjReader {
   int material_ = -1;
   std::map<std::string, int> material_numbers_;  // by the names that faces use
   std::map<std::string, Material> materials_;    // by the names that MTL files define
+  size_t material_files_ = 0;                    // that were looked for
   std::set<std::string> told_;
   std::vector<std::string> warnings_;
 };
@@ -132,6 +135,11 @@ void ObjReader::read_materials(const std::string& names) {
   // one name, with blanks in it perhaps, or several
   std::vector<std::string> candidates = {names};
   for (const auto word : split_words(names, "", max_material_files)) candidates.emplace_back(word);
+  material_files_ += candidates.size();
+  if (material_files_ > max_material_files)
+    return warn_once("mtllib", fmt::format("wanted at most {} files of materials; this one and "
+                                           "what follows are not read",
+                                           max_material_files));
   std::string missing;
   bool found = false;
   for (const auto& name : candidates) {

@@ -126,9 +126,14 @@ void XmlValues::tell_unused(UnusedXml& unused, std::initializer_list<std::string
 // --- what is not used ---
 
 UnusedXml::Kind& UnusedXml::kind_of(std::vector<Kind>& kinds, const XmlElement& element) {
+  // what is more is told together, without names
+  constexpr size_t max_named = 100;
   for (Kind& kind : kinds)
     if (kind.name == element.name()) return kind;
-  kinds.push_back({std::string(element.name()), element.place(), 0, {}, {}});
+  if (kinds.size() <= max_named) {
+    const bool named = kinds.size() < max_named;
+    kinds.push_back({named ? std::string(element.name()) : "", element.place(), 0, {}, {}});
+  }
   return kinds.back();
 }
 
@@ -146,20 +151,28 @@ void UnusedXml::attributes(const XmlElement& element,
 std::vector<std::string> UnusedXml::sentences() const {
   // names of a hostile file are cut: the sentence stays one
   const auto shown = [](const std::string& name) { return excerpt(name); };
+  const auto element = [&](const Kind& kind) {
+    return kind.name.empty() ? "elements of other names" : '<' + shown(kind.name) + '>';
+  };
   std::vector<std::string> out;
-  for (const Kind& kind : elements_)
-    out.push_back(fmt::format("{}: <{}> is not used{}", kind.place, shown(kind.name),
-                              kind.count > 2    ? fmt::format(", nor are {} more", kind.count - 1)
-                              : kind.count == 2 ? ", nor is another one"
-                                                : ""));
+  for (const Kind& kind : elements_) {
+    if (kind.name.empty())
+      out.push_back(fmt::format("{}: from here on, {} elements of other names are not used",
+                                kind.place, kind.count));
+    else
+      out.push_back(fmt::format("{}: {} is not used{}", kind.place, element(kind),
+                                kind.count > 2    ? fmt::format(", nor are {} more", kind.count - 1)
+                                : kind.count == 2 ? ", nor is another one"
+                                                  : ""));
+  }
   for (const Kind& kind : attributes_) {
     std::vector<std::string> names;
     for (const auto& entry : kind.attributes) names.push_back(shown(entry.first));
-    out.push_back(fmt::format("{}: of <{}>, here and further on, not used: {}", kind.place,
-                              shown(kind.name), name_list(names)));
+    out.push_back(fmt::format("{}: of {}, here and further on, not used: {}", kind.place,
+                              element(kind), name_list(names)));
   }
   for (const Kind& kind : texts_)
-    out.push_back(fmt::format("{}: text in <{}> is not used: {}", kind.place, shown(kind.name),
+    out.push_back(fmt::format("{}: text in {} is not used: {}", kind.place, element(kind),
                               in_quotes(kind.text)));
   return out;
 }

@@ -71,7 +71,7 @@ class UnusedXml {
 
  private:
   struct Kind {
-    std::string name;
+    std::string name;   // empty: of all that came when there were a hundred
     std::string place;  // of the first
     int count = 0;
     std::map<std::string, int> attributes;

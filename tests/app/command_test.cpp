@@ -156,6 +156,14 @@ TEST_CASE("doc writes pages, and --check finds one that is not what the bindings
   CHECK(has(run("doc " + file).out, "the file cannot be written: Not a directory"));
 }
 
+TEST_CASE("output that cannot be written is an error") {
+  for (const char* arguments : {"check --json models/objects/flask.iv", "--help", "-e 'print(1)'"}) {
+    const auto outcome = run(std::string(arguments) + " 4>&1 > /dev/full 2>&4; exit $?");
+    CHECK(outcome.code == 1);
+    CHECK(has(outcome.out, "clench: the output could not be written whole"));
+  }
+}
+
 TEST_CASE("check says what a file is, and fails with 1 when one cannot be read") {
   const auto flask = run("check models/objects/flask.iv models/hands/barrett/barrett.cfg");
   CHECK(flask.code == 0);

@@ -50,6 +50,16 @@ TEST_CASE("an OBJ face that is not convex is cut along its own inside") {
   CHECK(arrow.area() == doctest::Approx(1));
 }
 
+TEST_CASE("files of materials without end are not looked for without end") {
+  const TemporaryFolder folder;
+  std::string text = cube_points + cube_faces;
+  for (int i = 0; i < 5000; ++i) text += "mtllib nowhere.mtl\n";
+  Warnings warnings;
+  CHECK(read_body(folder.write("cube.obj", text), warnings.options()).shape->closed());
+  REQUIRE(warnings.list.size() == 1);
+  CHECK(warnings.list[0].find("wanted at most 1000 files of materials") != std::string::npos);
+}
+
 TEST_CASE("the colours of an OBJ come from its material file and it loads without that too") {
   const TemporaryFolder folder;
   const std::string text = "mtllib my cube.mtl\n" + cube_points + "usemtl red\n" + cube_faces;

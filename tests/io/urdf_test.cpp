@@ -1,6 +1,8 @@
 // Robots from URDF as specs.
 #include "io/urdf.h"
 
+#include <fmt/format.h>
+
 #include <numbers>
 
 #include "base/text.h"
@@ -103,6 +105,16 @@ TEST_CASE("elements that are not used are told once for each kind") {
   CHECK(gripper.warned("<gazebo> is not used, nor is another one"));
   CHECK(gripper.warned("<transmission> is not used"));
   CHECK(gripper.warnings.size() == 2);
+}
+
+TEST_CASE("of elements of thousands of names a hundred are told and the rest together") {
+  TemporaryFolder folder;
+  std::string text = "<robot name='r'><link name='a'/>";
+  for (int i = 0; i < 20'000; ++i) text += fmt::format("<k{}/>", i);
+  const ToldRobot robot(folder.write("r.urdf", text + "</robot>"), {});
+  CHECK(robot.warned("<k99> is not used"));
+  CHECK(robot.warned("from here on, 19900 elements of other names are not used"));
+  CHECK(robot.warnings.size() == 101);
 }
 
 TEST_CASE("a joint that mimics is of its leader's DOF, its offset a constant part") {
