@@ -207,7 +207,8 @@ namespace {
 struct RingPiece {
   double radius, width;  // of the ring that it stands for
   int in_a, in_b;
-  double depth;  // that the gap may widen by twice from one end to the other, or by a half
+  double
+      depth;  // a piece along which the gap widens by more than twice this, and by a half, is halved
 };
 
 }  // namespace

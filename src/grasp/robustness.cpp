@@ -95,8 +95,8 @@ Springs springs_of(const MatrixXd& G, const VectorXd& stiffness, const Vector6d&
 }
 
 // of the contact force nearest to its bounds, or farthest outside
-double least_margin(const RobustnessProblem& p, const std::vector<ContactHold>& states,
-                    const VectorXd& f) {
+double min_margin(const RobustnessProblem& p, const std::vector<ContactHold>& states,
+                  const VectorXd& f) {
   double least = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < states.size(); ++i) {
     if (states[i] == ContactHold::detached) continue;
@@ -215,7 +215,7 @@ Robustness robustness_of(const EvenProblem& p, const std::vector<ContactHold>& s
   // what is not sure bounds nothing, and its forces keep the margin that they keep
   if (best.status != ConeStatus::optimal) out.most = p.max_force / 2 / springs.stretch;
   const VectorXd forces = start + span * best.x.tail(span.cols());
-  const double margin = least_margin(p, states, forces);
+  const double margin = min_margin(p, states, forces);
   // what is far below the data is rounding
   if (!(margin > 1e-9 * best.units[0])) return out;
   out.margin = margin;

@@ -46,7 +46,7 @@ struct InventorGraph {
   const InventorNode* root = nullptr;
   std::deque<std::string> files;      ///< names, the first that of the file itself
   InventorWarnings warnings;          ///< of what is not used
-  std::vector<std::string> mendings;  ///< of what was wrong and is read all the same
+  InventorWarnings mendings;          ///< of what was wrong and is read all the same
 
   /// For a sentence on a node: "box.iv:31", or "box.iv: part.iv:31" of one in an included file.
   std::string place(const InventorNode& node) const;

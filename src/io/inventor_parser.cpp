@@ -1,6 +1,7 @@
 #include "io/inventor_parser.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/suggest.h"
@@ -125,7 +126,8 @@ const InventorNode* InventorParser::read() {
     if (++stray == 1) stray_line = token.line;
   }
   if (stray > 0)
-    graph_.mendings.push_back(
+    graph_.mendings.add(
+        graph_.files[file_],
         fmt::format("{}:{}: '}}' closes nothing; it is left out{}", graph_.files[file_], stray_line,
                     stray > 1 ? fmt::format(" ({} more alike)", stray - 1) : ""));
   finish(root);
@@ -229,6 +231,7 @@ void InventorParser::body(InventorNode& node) {
     if (token.kind == InventorToken::end) refuse_end();
     if (token.kind == InventorToken::close) {
       close(token);
+      mend_sizes(node);
       break;
     }
     if (token.kind == InventorToken::open)
@@ -249,6 +252,22 @@ void InventorParser::body(InventorNode& node) {
                      did_you_mean(token.text.substr(0, 40), names));
     }
   }
+}
+
+// all numbers of these shapes are lengths
+void InventorParser::mend_sizes(InventorNode& node) {
+  using K = InventorKind;
+  const K kind = node.type->kind;
+  if (kind != K::cube && kind != K::sphere && kind != K::cylinder && kind != K::cone) return;
+  const std::string& file = graph_.files[file_];
+  for (auto& [field, value] : node.values)
+    if (auto* numbers = std::get_if<std::vector<float>>(&value))
+      for (float& x : *numbers) {
+        if (x < 0)
+          graph_.mendings.add(file, fmt::format("{}:{}: {}: {}: {} is negative; {} is used", file,
+                                                node.line, node.type->name, field->name, x, -x));
+        x = std::abs(x);
+      }
 }
 
 void InventorParser::include(InventorNode& node) {

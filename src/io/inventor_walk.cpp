@@ -320,7 +320,7 @@ void walk_inventor(const InventorGraph& graph, const InventorState& start, Inven
 
 void tell_inventor_warnings(const InventorGraph& graph, const InventorWalk& walk,
                             const ReadOptions& options) {
-  for (const auto& sentence : graph.mendings) options.mended(sentence);
+  for (const auto& sentence : graph.mendings.list()) options.mended(sentence);
   if (!options.warn) return;
   for (const auto& sentence : graph.warnings.list()) options.warn(sentence);
   for (const auto& sentence : walk.warnings.list()) options.warn(sentence);

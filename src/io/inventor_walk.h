@@ -38,7 +38,7 @@ Eigen::Vector3f unpacked_color(int32_t rgba);
 
 struct InventorWalk {
   int max_visits = 2'000'000;  ///< nodes, shared ones and copies each time
-  /// Indices, coordinates and colours that shapes list, shared ones each time.
+  /// Indices, colours, heights and spines that shapes list, shared ones each time.
   size_t max_listed = 50'000'000;
   /// Called at each shape; what it throws gets the place of the shape.
   std::function<void(const InventorNode&, const InventorState&)> shape;

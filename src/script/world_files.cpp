@@ -90,8 +90,7 @@ WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& re
     if (!reading.confine.empty())
       fail(
           "{}: a world in Lua is a program, which reads what it likes; wanted one of another "
-          "format "
-          "where reading is confined",
+          "format where reading is confined",
           path.filename().string());
     WorldPtr world = run_script(L, path, reading.root);
     if (world->source().empty()) world->set_source(path.generic_string());

@@ -46,6 +46,27 @@ TEST_CASE("copies stand in their rows, from the first, about the middle, or back
       {-2, -2, -2}, {6, 2, 2});
 }
 
+TEST_CASE("negative sizes of shapes count by their magnitude and are told with their line") {
+  const auto volume = [](const BodySpec& body) { return body.shape->solid().volume; };
+  for (const char* shape :
+       {"Cube { width -8 depth 3 }", "Sphere { radius -10 }", "Cylinder { radius -3 height -5 }",
+        "Cone { bottomRadius -3 height 5 }"}) {
+    CAPTURE(shape);
+    Warnings warnings;
+    const BodySpec body = read_nodes(shape, warnings.options());
+    std::string positive = shape;
+    std::erase(positive, '-');
+    CHECK(volume(body) == volume(read_nodes(positive)));
+    REQUIRE(!warnings.list.empty());
+    CHECK(warnings.list[0].starts_with("a.iv:2: "));
+    CHECK(warnings.list[0].find("is negative; ") != std::string::npos);
+  }
+  Warnings warnings;
+  const std::string box = "Shape { geometry Box { size -4 4 -4 } }";
+  CHECK(volume(read_nodes(box, warnings.options(), "#VRML V2.0 utf8")) > 0);
+  CHECK(warnings.list.size() == 1);
+}
+
 TEST_CASE("a transform ends with its separator, a reset takes back those before") {
   const std::string move = "Translation { translation 100 0 0 } ";
   check_bounds(read_nodes("TransformSeparator { " + move + "} Cube { }"), {-1, -1, -1}, {1, 1, 1});
