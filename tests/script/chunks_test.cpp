@@ -5,6 +5,7 @@
 
 #include "script/state.h"
 #include "script_state.h"
+#include "support/folder.h"
 
 using clench::State;
 using clench::test::Script;
@@ -15,21 +16,18 @@ namespace {
 /// A compiled chunk in a file, gone afterwards.
 class Compiled {
  public:
-  Compiled() : path_(fs::temp_directory_path() / "clench_compiled_chunk.lua") {
+  Compiled() {
     Script lua;
     const std::string bytes = lua.text("string.dump(load 'return 42')");
     std::ofstream(path_, std::ios::binary) << bytes;
     std::ofstream(marked(), std::ios::binary) << "#!/usr/bin/lua\n" << bytes;
   }
-  ~Compiled() {
-    fs::remove(path_);
-    fs::remove(marked());
-  }
   std::string name() const { return path_.string(); }
   std::string marked() const { return path_.string() + ".marked"; }
 
  private:
-  fs::path path_;
+  clench::test::TemporaryFolder folder_;
+  fs::path path_ = folder_.path() / "chunk.lua";
 };
 
 // the claims about load and its kin, as a chunk that fails where one does not hold

@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "script_state.h"
+#include "support/folder.h"
 
 using clench::test::Script;
 namespace fs = std::filesystem;
@@ -85,7 +86,8 @@ TEST_CASE("the log goes where it is told, from the level it is told") {
 }
 
 TEST_CASE("the catalogue lists what lies below the folder that CLENCH_MODELS names, sorted") {
-  const fs::path home = fs::temp_directory_path() / "clench_catalog_test";
+  const clench::test::TemporaryFolder folder;
+  const fs::path home = folder.path();
   for (const char* name :
        {"models/hands/b/b.cfg", "models/hands/a.cfg", "models/hands/a.iv", "models/objects/mug.iv",
         "models/obstacles/table.iv", "models/objects/primitives/mug.iv", "worlds/w.wld",
@@ -105,5 +107,4 @@ TEST_CASE("the catalogue lists what lies below the folder that CLENCH_MODELS nam
     return table.concat(text, " "))");
   CHECK(list == "hands:a.cfg,b.cfg arms: objects:mug.iv obstacles:table.iv worlds:w.wld");
   unsetenv("CLENCH_MODELS");
-  fs::remove_all(home);
 }

@@ -1,4 +1,5 @@
 #include "script/state.h"
+#include "support/folder.h"
 
 #include <doctest/doctest.h>
 
@@ -76,7 +77,8 @@ TEST_CASE("a finalizer that runs as the state closes may fail") {
 }
 
 TEST_CASE("a file gets its arguments as arg and as ...") {
-  const fs::path path = fs::temp_directory_path() / "clench_state_test.lua";
+  const clench::test::TemporaryFolder folder;
+  const fs::path path = folder.path() / "state_test.lua";
   std::ofstream(path) << "local a, b = ... return arg[0], arg[1], arg[2], #arg, a, b";
   State state;
   const auto result = state.run_file(path.string(), {"one", "--two"});
@@ -88,7 +90,8 @@ TEST_CASE("a file gets its arguments as arg and as ...") {
 }
 
 TEST_CASE("a file that is no Lua is refused, compiled chunks too") {
-  const fs::path path = fs::temp_directory_path() / "clench_state_binary.lua";
+  const clench::test::TemporaryFolder folder;
+  const fs::path path = folder.path() / "state_binary.lua";
   std::ofstream(path, std::ios::binary) << "\x1bLua rubbish";
   State state;
   CHECK(says(state.run_file(path.string(), {}).error, "bytecode is not run; wanted Lua text"));
