@@ -101,16 +101,33 @@ local function of_robot(robot)
           eigengrasps = #robot.eigengrasps, virtual_contacts = #robot.virtual_contacts, kept = of_kept(robot)}
 end
 
+-- body by body, since a crowded world has millions of pairs
+local most_overlaps = 100
+local function overlaps_of(world)
+  local overlaps, before = {}, {}
+  for _, body in ipairs(world.bodies) do
+    before[body.name] = true
+    for _, pair in ipairs(world:colliding(body)) do
+      local other = (pair[1] == body and pair[2] or pair[1]).name
+      if not before[other] then
+        if #overlaps == most_overlaps then return overlaps, true end
+        overlaps[#overlaps + 1] = {body.name, other}
+      end
+    end
+  end
+  return overlaps
+end
+
 local function of_world(world)
-  local objects, obstacles, robots, overlaps = {}, {}, {}, {}
+  local objects, obstacles, robots = {}, {}, {}
   for i, body in ipairs(world.objects) do objects[i] = of_body(body) end
   for i, body in ipairs(world.obstacles) do obstacles[i] = of_body(body) end
   for i, robot in ipairs(world.robots) do
     robots[i] = of_robot(robot)
     robots[i].carried_by = robot.carrier and robot.carrier.name
   end
-  for i, pair in ipairs(world:colliding()) do overlaps[i] = {pair[1].name, pair[2].name} end
-  return {objects = objects, obstacles = obstacles, robots = robots, overlaps = overlaps}
+  local overlaps, more = overlaps_of(world)
+  return {objects = objects, obstacles = obstacles, robots = robots, overlaps = overlaps, more_overlaps = more}
 end
 
 local readers = {

@@ -38,6 +38,7 @@ class MeshReader {
   // of the primitive at hand
   Points at_;
   int offset_ = 0, stride_ = 1;
+  size_t faces_ = 0;
 };
 
 void spend(const XmlElement& e, size_t count, ColladaWork& work) {
@@ -51,6 +52,13 @@ std::vector<double> read_numbers(const XmlElement& e, ColladaWork& work) {
   auto numbers = e.numbers();
   spend(e, 1 + numbers.size(), work);
   return numbers;
+}
+
+/// What an element says of how much stands in it, and does not decide.
+void check_count(const XmlElement& e, size_t got, ColladaWork& work) {
+  if (!e.attribute("count") || static_cast<size_t>(e.integer_attribute("count", 0)) == got) return;
+  work.warnings.insert(
+      fmt::format("counts of <{}> that differ from what stands there are not used", e.name()));
 }
 
 /// Rows of three numbers, as a <source> and its accessor say.
@@ -73,6 +81,7 @@ std::vector<Vector3d> read_source(const XmlElement& source, ColladaWork& work) {
   }
   if (!array) source.fail("source: wanted a float_array, got none");
   const auto numbers = read_numbers(array, work);
+  check_count(array, numbers.size(), work);
   std::vector<Vector3d> out;
   const size_t last = static_cast<size_t>(std::max({at[0], at[1], at[2]}));
   for (size_t row = static_cast<size_t>(offset); row + last < numbers.size();
@@ -82,6 +91,8 @@ std::vector<Vector3d> read_source(const XmlElement& source, ColladaWork& work) {
     const int count = accessor.integer_attribute("count", 0);
     if (static_cast<size_t>(count) > out.size())
       accessor.fail("accessor: wanted {} points, got {}", count, out.size());
+    if (static_cast<size_t>(count) < out.size())
+      work.warnings.insert("points beyond an accessor's count are not used");
     out.resize(static_cast<size_t>(count));
   }
   return out;
@@ -94,8 +105,9 @@ Points MeshReader::points(const XmlElement& input) {
   for (const XmlElement& inner : vertices.children("input")) {
     if (inner.attribute("semantic") != "POSITION") continue;
     found->second.first = static_cast<int>(work_.builder.vertex_count());
-    for (const Vector3d& p : read_source(work_.ids.find(inner, "source"), work_))
-      work_.builder.add_vertex(X_ * p);
+    const XmlElement source = work_.ids.find(inner, "source");
+    for (const Vector3d& p : read_source(source, work_))
+      work_.builder.add_vertex(X_ * p, source.line());
     found->second.count = static_cast<int>(work_.builder.vertex_count()) - found->second.first;
     return found->second;
   }
@@ -121,6 +133,7 @@ std::vector<int> MeshReader::corners(const XmlElement& p) {
 
 void MeshReader::add(const XmlElement& at, std::vector<int> face, const ColladaLook& look) {
   if (mirrored_) std::reverse(face.begin(), face.end());
+  ++faces_;
   try {
     work_.builder.add_face(face, look.color, 0);
   } catch (const Error& error) {
@@ -166,6 +179,7 @@ void MeshReader::add_strip(const XmlElement& p, bool fan, const ColladaLook& loo
 void MeshReader::read_primitive(const XmlElement& primitive, const ColladaLook& look) {
   bool found = false;
   stride_ = 1;
+  faces_ = 0;
   for (const XmlElement& input : primitive.children("input")) {
     const int offset = input.integer_attribute("offset", 0, most_inputs);
     stride_ = std::max(stride_, offset + 1);
@@ -180,10 +194,11 @@ void MeshReader::read_primitive(const XmlElement& primitive, const ColladaLook& 
   if (!found) primitive.fail("{}: wanted an input VERTEX, got none", primitive.name());
 
   const auto kind = primitive.name();
+  const bool strips = kind == "tristrips" || kind == "trifans";
   for (const XmlElement& p : lists) {
     if (kind == "polygons")
       add(p, corners(p), look);
-    else if (kind == "tristrips" || kind == "trifans")
+    else if (strips)
       add_strip(p, kind == "trifans", look);
     else
       add_polygons(primitive, corners(p), look);
@@ -192,6 +207,7 @@ void MeshReader::read_primitive(const XmlElement& primitive, const ColladaLook& 
     work_.warnings.insert("holes in polygons are not used");
     add(ph, corners(ph.wanted("p")), look);
   }
+  check_count(primitive, strips ? lists.size() : faces_, work_);
 }
 
 void MeshReader::read(const std::function<ColladaLook(const std::string&)>& look) {

@@ -203,11 +203,17 @@ void GeometryBuilder::add_face(std::span<const int> corners, const Eigen::Vector
   }
   std::vector<Vector3d> points;
   for (const int v : corners) points.push_back(mesh_.vertices[v]);
-  for (const Triangle& t : triangulate(points)) {
+  for (const Triangle& t : cut(points)) {
     ++report.triangles_read;
     const Triangle named = {corners[t[0]], corners[t[1]], corners[t[2]]};
     if (!repeats_a_vertex(named)) add_triangle(named, color, transparency);
   }
+}
+
+std::vector<Triangle> GeometryBuilder::cut(const std::vector<Vector3d>& outline, bool convex) {
+  constexpr size_t most_work = 1'000'000'000;  // some seconds
+  if (cutting_work_ > most_work) fail("wanted fewer faces of many corners that are not convex");
+  return triangulate(outline, convex, &cutting_work_);
 }
 
 // files go beyond what can be shown

@@ -31,6 +31,10 @@ class GeometryBuilder {
   /// throws  Error when it has too many corners, or the file too many triangles
   void add_face(std::span<const int> corners, const Eigen::Vector3f& color, float transparency);
 
+  /// The triangles of a face's outline, numbers of its corners.
+  /// throws  Error when it has too many corners, or all faces so far take too long
+  std::vector<Triangle> cut(const std::vector<Eigen::Vector3d>& outline, bool convex = false);
+
   size_t triangle_count() const { return mesh_.triangles.size(); }
   size_t vertex_count() const { return mesh_.vertices.size(); }
   const Eigen::Vector3d& vertex(int i) const { return mesh_.vertices[i]; }
@@ -60,6 +64,7 @@ class GeometryBuilder {
 
   Mesh mesh_;
   size_t faces_ = 0;
+  size_t cutting_work_ = 0;
   bool loose_ = false;            // are there triangles that share no vertex by number?
   std::map<int, int> far_lines_;  // of vertices that may lie too far out
   std::vector<Eigen::Vector3f> colors_;

@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "io/inventor_shapes.h"
-#include "io/triangulate.h"
 
 namespace clench {
 
@@ -42,7 +41,7 @@ void ShapeTriangles::add(std::span<const InventorVector> face, int color) {
   if (face.size() == 3) return add_triangle({face[0], face[1], face[2]}, color);
   corners_.clear();
   for (const auto& p : face) corners_.emplace_back(p[0], p[1], p[2]);
-  for (const auto& t : triangulate(corners_, surface_.convex))
+  for (const auto& t : builder_.cut(corners_, surface_.convex))
     add_triangle({face[t[0]], face[t[1]], face[t[2]]}, color);
 }
 
@@ -65,7 +64,7 @@ void ShapeTriangles::add_triangle(const std::array<InventorVector, 3>& corners, 
                                     ? state_.color(color)
                                     : own[std::clamp(color, 0, static_cast<int>(own.size()) - 1)];
   builder_.add(points, given.cwiseMax(0.0f).cwiseMin(1.0f),
-               std::clamp(state_.alpha(color), 0.0f, 1.0f));
+               std::clamp(state_.alpha(color), 0.0f, 1.0f), shape_.file == 0 ? shape_.line : 0);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "base/suggest.h"
 #include "base/text.h"
+#include "io/inventor_values.h"
 
 namespace clench {
 
@@ -231,7 +232,7 @@ void InventorParser::body(InventorNode& node) {
     if (token.kind == InventorToken::end) refuse_end();
     if (token.kind == InventorToken::close) {
       close(token);
-      mend_sizes(node);
+      mend_values(node, graph_);
       break;
     }
     if (token.kind == InventorToken::open)
@@ -252,22 +253,6 @@ void InventorParser::body(InventorNode& node) {
                      did_you_mean(token.text.substr(0, 40), names));
     }
   }
-}
-
-// all numbers of these shapes are lengths
-void InventorParser::mend_sizes(InventorNode& node) {
-  using K = InventorKind;
-  const K kind = node.type->kind;
-  if (kind != K::cube && kind != K::sphere && kind != K::cylinder && kind != K::cone) return;
-  const std::string& file = graph_.files[file_];
-  for (auto& [field, value] : node.values)
-    if (auto* numbers = std::get_if<std::vector<float>>(&value))
-      for (float& x : *numbers) {
-        if (x < 0)
-          graph_.mendings.add(file, fmt::format("{}:{}: {}: {}: {} is negative; {} is used", file,
-                                                node.line, node.type->name, field->name, x, -x));
-        x = std::abs(x);
-      }
 }
 
 void InventorParser::include(InventorNode& node) {

@@ -80,7 +80,6 @@ class InventorParser {
   const InventorNode* use(int line);
   InventorNode& add_node(const InventorType& type, int line);
   void body(InventorNode& node);
-  void mend_sizes(InventorNode& node);
   void include(InventorNode& node);
   void finish(InventorNode& node);
 

@@ -18,8 +18,7 @@ constexpr size_t max_extrusion_points = 1'000'000;  // of all cross sections tog
 
 /// Slices of a round shape; at a complexity of 1 it has `finest` of them.
 int slices_of(float complexity, int finest, int least) {
-  const float bounded = std::clamp(complexity, 0.0f, 1.0f);
-  return std::max(floor_int(bounded * static_cast<float>(finest)), least);
+  return std::max(floor_int(complexity * static_cast<float>(finest)), least);
 }
 
 void add_triangle(InventorSurface& surface, const InventorVector& a, const InventorVector& b,

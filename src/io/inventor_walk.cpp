@@ -49,7 +49,7 @@ class InventorWalker {
   void visit(const InventorNode& node, InventorState& state);
 
  private:
-  void count_visit();
+  void count_visit(const InventorNode& node);
   void count_listed(const InventorNode& shape);
   void visit_children(const InventorNode& node, InventorState& state);
   void visit_apart(const InventorNode& node, InventorState state) { visit_children(node, state); }
@@ -69,9 +69,9 @@ class InventorWalker {
   size_t listed_ = 0;
 };
 
-void InventorWalker::count_visit() {
+void InventorWalker::count_visit(const InventorNode& node) {
   if (++visits_ > walk_.max_visits)
-    fail("{}: wanted at most {} nodes, shared ones counted each time", graph_.files[0],
+    fail("{}: wanted at most {} nodes, shared ones counted each time", graph_.place(node),
          walk_.max_visits);
 }
 
@@ -91,7 +91,7 @@ void InventorWalker::visit_children(const InventorNode& node, InventorState& sta
 }
 
 void InventorWalker::visit(const InventorNode& node, InventorState& state) {
-  count_visit();
+  count_visit(node);
   switch (node.type->kind) {
     case K::group:
     case K::include:
@@ -165,7 +165,7 @@ void InventorWalker::visit_array(const InventorNode& node, const InventorState& 
   for (int k = 0; k < counts[2]; ++k)
     for (int j = 0; j < counts[1]; ++j)
       for (int i = 0; i < counts[0]; ++i) {
-        count_visit();
+        count_visit(node);
         InventorVector at;
         for (int x = 0; x < 3; ++x)
           at[x] = third[x] * step(2, k) + second[x] * step(1, j) + first[x] * step(0, i);
@@ -179,7 +179,7 @@ void InventorWalker::visit_array(const InventorNode& node, const InventorState& 
 void InventorWalker::visit_copies(const InventorNode& node, const InventorState& state) {
   const std::span<const float> matrices = node.numbers("matrix");
   for (size_t i = 0; i < matrices.size(); i += 16) {
-    count_visit();
+    count_visit(node);
     InventorState inside = state;
     inside.X = matrix_from(matrices.subspan(i, 16)) * state.X;
     inside.choice = static_cast<int>(i / 16);

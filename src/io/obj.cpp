@@ -25,6 +25,11 @@ struct Face {
   int material;  // number of its name, or -1
 };
 
+struct UsedMaterial {
+  int number;
+  std::string place;  // where it is used first
+};
+
 class ObjReader {
  public:
   ObjReader(const MeshInput& input, const std::string& text, GeometryBuilder& builder)
@@ -39,7 +44,10 @@ class ObjReader {
   void read_materials(const std::string& names);
   void read_material_file(const std::filesystem::path& path);
   void add_faces();
-  void warn_once(const std::string& about, const std::string& sentence);
+  void warn_once(const std::string& about, const std::string& sentence) {
+    warn_once(about, words_.place(), sentence);
+  }
+  void warn_once(const std::string& about, const std::string& place, const std::string& sentence);
 
   const MeshInput& input_;
   GeometryBuilder& builder_;
@@ -48,17 +56,18 @@ class ObjReader {
   std::vector<int> corners_;
   std::vector<Face> faces_;
   int material_ = -1;
-  std::map<std::string, int> material_numbers_;  // by the names that faces use
-  std::map<std::string, Material> materials_;    // by the names that MTL files define
-  size_t material_files_ = 0;                    // that were looked for
+  std::map<std::string, UsedMaterial> used_materials_;  // by the names that faces use
+  std::map<std::string, Material> materials_;           // by the names that MTL files define
+  size_t material_files_ = 0;                           // that were looked for
   std::set<std::string> told_;
   std::vector<std::string> warnings_;
 };
 
-void ObjReader::warn_once(const std::string& about, const std::string& sentence) {
+void ObjReader::warn_once(const std::string& about, const std::string& place,
+                          const std::string& sentence) {
   constexpr size_t most_warnings = 10;
   if (told_.size() < most_warnings && told_.insert(about).second)
-    warnings_.push_back(words_.place() + ": " + sentence);
+    warnings_.push_back(place + ": " + sentence);
 }
 
 void ObjReader::read_point() {
@@ -107,8 +116,8 @@ void ObjReader::read_face() {
 }
 
 void ObjReader::use_material(const std::string& name) {
-  material_ =
-      material_numbers_.emplace(name, static_cast<int>(material_numbers_.size())).first->second;
+  const UsedMaterial next{static_cast<int>(used_materials_.size()), words_.place()};
+  material_ = used_materials_.emplace(name, next).first->second.number;
 }
 
 void ObjReader::read_other(std::string_view keyword) {
@@ -181,10 +190,13 @@ void ObjReader::read_material_file(const std::filesystem::path& path) {
 }
 
 void ObjReader::add_faces() {
-  std::vector<Material> by_number(material_numbers_.size());
-  for (const auto& [name, number] : material_numbers_)
+  std::vector<Material> by_number(used_materials_.size());
+  for (const auto& [name, used] : used_materials_)
     if (const auto found = materials_.find(name); found != materials_.end())
-      by_number[number] = found->second;
+      by_number[used.number] = found->second;
+    else if (!materials_.empty())
+      warn_once("usemtl" + name, used.place,
+                fmt::format("usemtl: no material {} is defined", in_quotes(name)));
   const int points = static_cast<int>(builder_.vertex_count());
   const bool colored = !point_colors_.empty() && point_colors_.size() == builder_.vertex_count();
   for (size_t f = 0; f < faces_.size(); ++f) {
@@ -222,7 +234,7 @@ bool ObjReader::read() {
   add_faces();
   for (const auto& warning : warnings_) input_.warn(warning);
   if (!point_colors_.empty()) return point_colors_.size() == builder_.vertex_count();
-  for (const auto& [name, number] : material_numbers_)
+  for (const auto& [name, used] : used_materials_)
     if (materials_.contains(name)) return true;
   return false;
 }

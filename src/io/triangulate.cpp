@@ -61,7 +61,8 @@ bool is_ear(const Corners& p, const std::vector<int>& rest, size_t i) {
 
 }  // namespace
 
-std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, bool convex) {
+std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, bool convex,
+                                  size_t* work) {
   std::vector<Triangle> out;
   const int n = static_cast<int>(corners.size());
   if (n < 3) return out;
@@ -86,6 +87,7 @@ std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, b
     while (failures < most_failures && looked < left &&
            !is_ear(flat, rest, (start + looked) % left))
       ++looked;
+    if (work) *work += (looked + 1) * left;
     if (looked < left)
       ear = (start + looked) % left;
     else

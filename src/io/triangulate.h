@@ -14,8 +14,10 @@ inline constexpr int most_concave_corners = 1000;
 /// it is convex, ears cut off one by one when it is not. Crooked ones give n - 2 triangles of some
 /// kind.
 /// `convex`: take the file's word for it, as the original does.
+/// `work`: counts the corners that are looked at to find ears
 /// returns  none for fewer than 3 corners
 /// throws   Error when it is not convex and has more than most_concave_corners
-std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, bool convex = false);
+std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, bool convex = false,
+                                  size_t* work = nullptr);
 
 }  // namespace clench

@@ -3,6 +3,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "base/convert.h"
@@ -16,20 +17,46 @@ namespace {
 constexpr int deepest_nesting = 64;    // the parser calls itself for each
 constexpr int most_attributes = 1000;  // the parser compares each with all
 
-/// What would make the parser recurse without end or take the square of the file's length.
-void check_limits(const std::string& file, std::string_view text, size_t most_bytes) {
+/// Where '&' stands alone, which the parser garbles behind an entity. Those that a file declares itself
+/// it leaves as they stand: "&name;" would be a text.
+void check_entities(const std::string& file, std::string_view text, size_t from, size_t end,
+                    std::vector<size_t>& alone) {
+  constexpr std::string_view read[] = {"amp", "lt", "gt", "quot", "apos"};
+  const auto is_letter = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.';
+  };
+  for (size_t at = from; (at = text.find('&', at)) < end; ++at) {
+    const auto rest = text.substr(at + 1, end - at - 1);
+    if (rest.starts_with('#')) continue;
+    const auto name = rest.substr(0, std::ranges::find_if_not(rest, is_letter) - rest.begin());
+    if (name.empty() || !rest.substr(name.size()).starts_with(';'))
+      alone.push_back(at);
+    else if (!std::ranges::count(read, name))
+      fail("{}:{}: the entity '&{};' is not read; wanted &amp; &lt; &gt; &quot; or &apos;", file,
+           line_at(text, at), excerpt(name));
+  }
+}
+
+/// Refuses what would make the parser recurse without end or take the square of the file's length.
+/// returns  where '&' stands alone
+std::vector<size_t> check_limits(const std::string& file, std::string_view text,
+                                 size_t most_bytes) {
   if (text.size() > most_bytes)
     fail("{}: wanted at most {} MB of XML, got {}", file, most_bytes >> 20, text.size() >> 20);
   if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
     fail("{}:{}: wanted text, got a zero byte", file, line_at(text, zero));
+  std::vector<size_t> alone;
   int depth = 0;
-  size_t at = 0;
+  size_t at = 0, behind = 0;  // the last tag
   while ((at = text.find('<', at)) != std::string_view::npos) {
     if (const size_t next = skip_other(text, at)) {
-      at = next;
+      check_entities(file, text, behind, at, alone);
+      at = behind = next;
       continue;
     }
     const Tag tag = scan_tag(text, at);
+    check_entities(file, text, behind, tag.end, alone);
+    behind = tag.end;
     if (tag.attributes > most_attributes)
       fail("{}:{}: wanted at most {} attributes, got {}", file, line_at(text, at), most_attributes,
            tag.attributes);
@@ -42,6 +69,7 @@ void check_limits(const std::string& file, std::string_view text, size_t most_by
            deepest_nesting);
     at = tag.end;
   }
+  return alone;
 }
 
 const char* broken_part(tinyxml2::XMLError error) {
@@ -230,8 +258,14 @@ XmlFile::XmlFile(const std::filesystem::path& path)
 
 XmlFile::XmlFile(std::string file, const std::string& text, size_t most_bytes)
     : file_(std::move(file)), document_(std::make_unique<tinyxml2::XMLDocument>()) {
-  check_limits(file_, text, most_bytes);
-  document_->Parse(text.data(), text.size());
+  std::string whole;
+  size_t from = 0;
+  for (const size_t at : check_limits(file_, text, most_bytes)) {
+    whole.append(text, from, at - from) += "&amp;";
+    from = at + 1;
+  }
+  whole.append(text, from);
+  document_->Parse(whole.data(), whole.size());
   if (document_->Error()) fail_parse(file_, text, *document_);
   const auto* root = document_->RootElement();
   if (!root) fail("{}: wanted an XML element, got none", file_);

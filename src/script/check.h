@@ -36,11 +36,11 @@ inline std::vector<double> check_numbers(lua_State* L, int i, const char* name =
 }
 
 /// A userdata of one class.
-/// throws  Error "...: wanted a robot, got a table"
+/// throws  Error "...: wanted a robot, got a table"  "...: wanted a snapshot, got one that was closed"
 template <class T>
 T& check_object(lua_State* L, int i, const char* name = "") {
   if (T* object = to<T>(L, i)) return *object;
-  fail_wanted({L, {}, name}, with_article(class_of<T>().name), i);
+  fail_object({L, {}, name}, class_of<T>(), i);
 }
 
 /// throws  Error "...: wanted at most 2 arguments, got 3"; self does not count

@@ -61,6 +61,13 @@ void fail_self(lua_State* L, const Class& kind) {
        method ? " before the colon" : "", described(L, 1), method ? "; use " + name + "(...)" : "");
 }
 
+void fail_object(const What& what, const Class& kind, int index) {
+  const std::string wanted = with_article(kind.name);
+  if (has_class(what.L, index, kind))
+    fail("{}: wanted {}, got one that was closed", what.text(), wanted);
+  fail_wanted(what, wanted, index);
+}
+
 void check_count(lua_State* L, int most) {
   const int self = running_class(L) ? 1 : 0;
   const int count = lua_gettop(L) - self;

@@ -119,6 +119,11 @@ int push_object(lua_State* L, T value) {
 ///         use hand:autograsp(...)"
 [[noreturn]] void fail_self(lua_State* L, const Class& kind);
 
+struct What;
+/// throws  Error "subject: wanted a snapshot, got nil"
+///         "subject: wanted a snapshot, got one that was closed"
+[[noreturn]] void fail_object(const What& what, const Class& kind, int index);
+
 /// The object that a method or field belongs to.
 template <class T>
 T& self(lua_State* L) {

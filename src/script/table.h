@@ -66,7 +66,7 @@ T* Table::object(const char* key) {
   T* found = nullptr;
   if (push(key) != LUA_TNIL) {
     found = to<T>(L_, -1);
-    if (!found) fail_wanted(what(key), with_article(class_of<T>().name), -1);
+    if (!found) fail_object(what(key), class_of<T>(), -1);
   }
   lua_pop(L_, 1);  // the table keeps it alive
   return found;

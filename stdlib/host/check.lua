@@ -126,6 +126,7 @@ function print_kind.world(world)
     if robot.kept then print(("  %s: kept, without effect yet: %s"):format(robot.name, kept_words(robot.kept))) end
   end
   for _, pair in ipairs(world.overlaps) do print(("  %s and %s overlap"):format(pair[1], pair[2])) end
+  if world.more_overlaps then print "  more bodies overlap" end
 end
 
 function print_kind.eigengrasps(set) print(("  %d of %d DOFs"):format(set.count, set.dofs)) end

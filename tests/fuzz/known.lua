@@ -123,6 +123,7 @@ known.sources = {
   edges = source_of {"8", "4", "12", "'exact'"}, rho = source_of {"0.1", "1", "'gyration'"}, samples = source_of {"1", "2"},
   ["hand:add_virtual_contact edges"] = source_of {"{{0, 0, 1, 0, 0, 0}, {0.5, 0, 1, 0, 0, 0}, {0, 0.5, 1, 0, 0, 0}}"},
   ["clench.files.save_object_contacts edges"] = source_of {"{{0, 0, 1, 0, 0, 0}}"},
+  ["robot:set_dofs apart"] = source_of {"{}", "{{1, 1, 0}}", "{{1, 2, 0.1}}"},
   quat = source_of {"{1, 0, 0, 0}", "{0.6, 0, 0.8, 0}"},
   ["clench.shapes.turn axis"] = source_of {"{0, 0, 1}", "{1, 1, 0}"},
   matrix = source_of {"{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}", "{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}"},

@@ -44,6 +44,22 @@ TEST_CASE("the transformations of a COLLADA node multiply in their order") {
                   .report.turned);
 }
 
+TEST_CASE("counts of a COLLADA file that are not what stands there are told") {
+  const auto told = [](const std::string& was, const std::string& is) {
+    Warnings warnings;
+    const std::string text = collada_text(box(1, 1, 1));
+    REQUIRE(text.find(was) != std::string::npos);
+    CHECK(read_collada(replaced(text, was, is), warnings.options()).mesh.triangles.size() == 12);
+    return warnings.list;
+  };
+  const auto unused = [](const char* name) {
+    return std::vector<std::string>{std::string("q.dae: counts of <") + name +
+                                    "> that differ from what stands there are not used"};
+  };
+  CHECK(told("count=\"24\"", "count=\"23\"") == unused("float_array"));
+  CHECK(told("count=\"12\"", "count=\"7\"") == unused("triangles"));
+}
+
 TEST_CASE("polygons of every kind of COLLADA element are cut alike") {
   const std::string good = collada_text(box(1, 1, 1));
   const size_t first = good.find("<triangles"), last = good.find("</triangles>") + 12;

@@ -321,7 +321,7 @@ TEST_CASE("nodes shared a hundred thousand fold have a limit") {
     text += "DEF g" + std::to_string(i) + " Group { " + below + below + " }\n";
   }
   CHECK_THROWS_WITH_AS(
-      body(text), "body.iv: wanted at most 2000000 nodes, shared ones counted each time", Error);
+      body(text), "body.iv:2: wanted at most 2000000 nodes, shared ones counted each time", Error);
 }
 
 TEST_CASE("one colour is the body's, several are one a triangle") {

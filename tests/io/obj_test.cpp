@@ -84,6 +84,18 @@ TEST_CASE("the colours of an OBJ come from its material file and it loads withou
                                  "my cube.mtl:3: wanted a number after Tr; not used"});
 }
 
+TEST_CASE("a material that no file of an OBJ defines is told once") {
+  const TemporaryFolder folder;
+  folder.write("red.mtl", "newmtl red\nKd 1 0 0\n");
+  Warnings warnings;
+  read_body(
+      folder.write("cube.obj", "mtllib red.mtl\n" + cube_points +
+                                   "usemtl rde\nf 1 2 3\nusemtl red\nusemtl rde\n" + cube_faces),
+      warnings.options());
+  CHECK(warnings.list ==
+        std::vector<std::string>{"cube.obj:10: usemtl: no material 'rde' is defined"});
+}
+
 TEST_CASE("colours of the points of an OBJ are those of its triangles") {
   const TemporaryFolder folder;
   const Appearance look =

@@ -76,6 +76,18 @@ TEST_CASE("files beyond all measure are refused before the parser sees them") {
                        "a.xml:2: wanted text, got a zero byte", Error);
 }
 
+TEST_CASE("entities of a file's own are refused, for they would stand in names as they are") {
+  const std::string own = "<!DOCTYPE a [<!ENTITY who 'x'>]>\n";
+  const std::string sentence =
+      ": the entity '&who;' is not read; wanted &amp; &lt; &gt; &quot; or &apos;";
+  CHECK_THROWS_WITH_AS(XmlFile("a.xml", own + "<a>\n&who;</a>"), ("a.xml:3" + sentence).c_str(),
+                       Error);
+  CHECK_THROWS_WITH_AS(XmlFile("a.xml", own + "<a b='&who;'/>"), ("a.xml:2" + sentence).c_str(),
+                       Error);
+  CHECK(XmlFile("a.xml", own + "<a><!-- &who; -->&amp;&#65; & co; <b/></a>").root().loose_text() ==
+        "&A & co;");
+}
+
 TEST_CASE("as many elements as one needs are no matter") {
   std::string text = "<a>";
   for (int i = 0; i < 20000; ++i) text += "<b x='1'>2</b>\n";

@@ -30,6 +30,21 @@ test("a world is told with what it holds", function(t)
   t.equal(#r.understood.overlaps, 0)
 end)
 
+test("of a crowded world some bodies that overlap are named", function(t)
+  local path = os.tmpname() .. ".lua"
+  local file = assert(io.open(path, "w"))
+  file:write([[local world = clench.world()
+for i = 1, 40 do world:add_obstacle("models/objects/cube.iv", {name = "c" .. i}) end
+return world]])
+  file:close()
+  local r = report.of(path)
+  os.remove(path)
+  t.equal(r.wrong, nil)
+  t.equal(#r.understood.overlaps, 100)
+  t.ok(r.understood.more_overlaps)
+  t.equal(table.concat(r.understood.overlaps[40], " "), "c2 c3")
+end)
+
 test("what is wrong is one sentence, and the log is as it was", function(t)
   local r = report.of "no/such.wld"
   t.equal(r.understood, nil)

@@ -129,6 +129,9 @@ TEST_CASE("values are destroyed once: by the collector, by <close>, or never aga
     CHECK(lua.run("kept = nil do local p <close> = probe(1) kept = p end return pcall(function() "
                   "return kept.number end)")
               .find("tip.number: the probe was closed") != std::string::npos);
+    CHECK(lua.run("local w, s = clench.world() do local t <close> = w:snapshot() s = t end "
+                  "return pcall(w.restore, w, s)") ==
+          "false, test:1: world:restore: snapshot: wanted a snapshot, got one that was closed");
     CHECK(living == 0);
     // the finalizer, called by hand, twice and with strangers
     CHECK(lua.run("local p = probe(1) local gc = debug.getmetatable(p).__gc gc(p) gc(p) gc(1) gc() "
