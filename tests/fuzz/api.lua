@@ -125,7 +125,7 @@ local next_beginning = 0
 while call.number < calls and os.clock() < stop do
   if call.number >= next_beginning then
     begin()
-    next_beginning = call.number + random(15, 90)
+    next_beginning = call.number + random(30, 150)
   end
   run(made:make(count + 1))
 end

@@ -183,12 +183,12 @@ known.stale = {grasp = grasp, measures = grasp, forces = grasp}
 
 --- they take long; none is left out, but each is rarer by so much
 known.heavy = {
-  ["clench.render"] = 10, ["projection:render"] = 10, ["measures:quality_all"] = 30, ["wrench_space:volume"] = 5,
-  ["wrench_space:volume_bounds"] = 5, ["wrench_space:project"] = 5, ["hand:find_virtual_contacts"] = 5, ["body:move_to"] = 3,
-  ["robot:move_to"] = 3, ["robot:approach_object"] = 5, ["clench.study.robustness"] = 8, ["clench.study.compare"] = 8,
-  ["clench.catalog"] = 5, ["clench.entries"] = 5,
+  ["clench.render"] = 60, ["projection:render"] = 60, ["measures:quality_all"] = 30, ["wrench_space:volume"] = 30,
+  ["wrench_space:volume_bounds"] = 30, ["wrench_space:project"] = 10, ["hand:find_virtual_contacts"] = 5, ["body:move_to"] = 10,
+  ["robot:move_to"] = 10, ["robot:approach_object"] = 40, ["robot:open"] = 5, ["clench.study.robustness"] = 8,
+  ["clench.study.compare"] = 8, ["clench.catalog"] = 5, ["clench.entries"] = 5, ["clench.report.of"] = 5,
 }
 --- and so does all that needs one of these
-known.heavy_classes = {picture = 20}
+known.heavy_classes = {picture = 80, projection = 10, virtual_contact = 3}
 
 return known
