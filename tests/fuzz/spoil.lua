@@ -7,7 +7,11 @@ local function parts(text)
   while at <= #text do
     local rest = text:sub(at)
     local word = rest:match '^"[^"\\]*"' or rest:match "^'[^'\\]*'" or rest:match "^[%a_][%w_.]*" or rest:match "^%-?%.?%d[%w.]*[+-]?%w*"
-    if word then
+    local long = rest:match "^:rep%(%d+%)"
+    if long then
+      -- a text of 2 GB is the script's own doing
+      at = at + #long
+    elseif word then
       -- v[3].links[1]
       local more = word:find "^[%a_]" and rest:match("^[%w_.%[%]:]*", #word + 1)
       if more then word = word .. more end
