@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "io/eigengrasps.h"
-#include "io/saved_files.h"
 #include "io/virtual_contacts.h"
 
 namespace clench {
@@ -57,47 +56,6 @@ std::string RobotFolder::add(const std::string& folder, const std::string& part,
 }
 
 // --- surfaces ---
-
-/// A share of a colour, with the point that tells it from a byte.
-static std::string share(float x) {
-  std::string out = fmt::format("{}", within_one(x));
-  if (out.find_first_of(".e") == std::string::npos) out += ".0";
-  return out;
-}
-
-static bool has_triangle_colors(const Appearance& looks, const Mesh& mesh) {
-  return looks.given && !looks.visual && looks.triangle_colors.size() == mesh.triangles.size();
-}
-
-static std::string off_text(const Mesh& mesh, const Appearance& looks) {
-  std::string out = fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
-  const auto to = std::back_inserter(out);
-  for (const auto& p : mesh.vertices) fmt::format_to(to, "{} {} {}\n", p.x(), p.y(), p.z());
-  const bool each = has_triangle_colors(looks, mesh);
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Triangle& t = mesh.triangles[i];
-    fmt::format_to(to, "3 {} {} {}", t[0], t[1], t[2]);
-    if (looks.given) {
-      const Eigen::Vector3f& c = each ? looks.triangle_colors[i] : looks.color;
-      fmt::format_to(to, " {} {} {}", share(c.x()), share(c.y()), share(c.z()));
-      if (looks.transparency > 0)
-        fmt::format_to(to, " {}", 1 - double{within_one(looks.transparency)});
-    }
-    out += '\n';
-  }
-  return out;
-}
-
-std::string RobotFolder::body(const BodySpec& body, const std::string& part) {
-  const std::string folder = "iv/" + own_ + "/";
-  std::string surface;
-  if (body.shape)
-    surface = add(folder, part, ".off", off_text(body.shape->mesh(), body.appearance));
-  return own_ + "/" +
-         add(folder, part, ".xml",
-             "<?xml version=\"1.0\" ?>\n<root>\n" + body_elements(body, surface, "  ") +
-                 "</root>\n");
-}
 
 /// Materials of a surface of several colours, by their numbers.
 struct ObjMaterials {

@@ -21,17 +21,14 @@ class RobotFolder {
   void warn(const std::string& sentence) const {
     if (warn_) warn_(sentence);
   }
-  /// "hand.cfg does not hold ..."
+  /// "hand.urdf does not hold ..."
   void lost(const std::string& what) const { warn(file_ + " does not hold " + what); }
 
-  /// A body as iv/HAND_cfg/PART.xml (HAND_xml for hand.xml), so that robots side by side share no file; its surface and its colours beside as .off. Equal ones share a
+  /// Triangles as HAND_files/PART.obj, in metres, with their colours when these differ. Equal ones share a
   /// file.
-  /// returns  its name as robots call it: HAND_cfg/PART.xml
-  std::string body(const BodySpec& body, const std::string& part);
-  /// Triangles as HAND_files/PART.obj, in metres, with their colours when these differ.
   /// returns  the name from the robot's folder on
   std::string mesh(const Mesh& mesh, const Appearance& looks, const std::string& part);
-  /// eigen/HAND_cfg.egr, or .xml where amplitudes have limits; virtual/HAND_cfg.vgr; glove/HAND_cfg.txt.
+  /// eigen/HAND_urdf.egr, or .xml where amplitudes have limits; virtual/HAND_urdf.vgr; glove/HAND_urdf.txt.
   /// returns  the name from the robot's folder on
   std::string eigengrasps(const EigengraspSet& set);
   std::string virtual_contacts(const VirtualContactSet& set);

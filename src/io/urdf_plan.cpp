@@ -5,7 +5,6 @@
 #include <set>
 
 #include "base/text.h"
-#include "io/denavit_hartenberg.h"
 #include "io/tree_chains.h"
 
 namespace clench {
@@ -44,6 +43,12 @@ class Planner {
   std::vector<const JointSpec*> leaders_;  // by DOF
   std::set<std::string> link_names_, joint_names_;
 };
+
+/// Rz(theta) Tz(d) Tx(a) Rx(alpha)
+Pose dh_pose(double theta, double d, double a, double alpha) {
+  return Pose::turn(theta, Eigen::Vector3d::UnitZ()) * Pose::translation({a, 0, d}) *
+         Pose::turn(alpha, Eigen::Vector3d::UnitX());
+}
 
 /// A name that readers take as it stands: XML trims it, and xacro would look into it.
 std::string cleaned(const std::string& name) {

@@ -4,9 +4,9 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "io/read.h"
-#include "io/robot_numbers.h"
+#include "io/urdf_losses.h"
 #include "io/urdf_plan.h"
-#include "io/write_robot_texts.h"
+#include "io/write_robot.h"
 #include "io/xml.h"
 
 namespace clench {
@@ -14,6 +14,11 @@ namespace clench {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// "x y z", in the unit of v.
+std::string words(const Eigen::Vector3d& v) {
+  return fmt::format("{} {} {}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+}
 
 /// Angles about the fixed axes x, then y, then z. The first and the last are found one after the
 /// other, so that they fit together where the second is near a quarter turn, too.
@@ -240,13 +245,32 @@ void UrdfText::write_beside(const std::string& text) {
   beside_contacts(text);
 }
 
+/// Products of numbers that are in order may not be.
+void check_writable(const RobotSpec& robot, const std::string& file) {
+  try {
+    check_robot(robot);
+  } catch (const Error& error) {
+    fail("{} cannot be written: {}", file, error.what());
+  }
+}
+
 }  // namespace
 
-std::string robot_urdf_text(const RobotSpec& robot, RobotFolder& folder) {
+void write_robot(const RobotSpec& robot, const fs::path& path, const WriteOptions& options) {
+  const std::string ending = lower_case(path.extension().string());
+  const std::string file = path.filename().string();
+  if (ending != ".urdf") fail("{}: wanted a robot to .urdf, got {}", file, in_quotes(ending));
+  check_folder_of(path);
+  std::error_code code;
+  if (fs::is_directory(path, code))
+    fail("{}: wanted a file to write, got a folder", path.generic_string());
+  check_writable(robot, file);
+  RobotFolder folder(path, options);
   UrdfText urdf(robot, folder);
-  std::string text = urdf.text();
+  const std::string text = urdf.text();
   urdf.write_beside(text);
-  return text;
+  tell_lost_in_urdf(robot, folder);
+  folder.write(text);
 }
 
 }  // namespace clench

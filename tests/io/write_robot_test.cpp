@@ -96,33 +96,6 @@ fs::path full_robot(const TemporaryFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("every hand and arm of ours comes back from a .cfg as it was, and by way of an .xml") {
-  int count = 0;
-  for (const char* kind : {"models/hands", "models/arms"})
-    for (const fs::path& file : files_below(kind, {".cfg"})) {
-      INFO(file.string());
-      const TemporaryFolder folder;
-      const RobotSpec robot = read_robot(file);
-      // link 3 of the Puma was measured, and its inertia is none that a body can have
-      const auto without_doubt = [](std::vector<std::string> warnings) {
-        std::erase_if(warnings, [](const auto& w) { return w.ends_with("used as it stands"); });
-        return warnings;
-      };
-      const auto cfg = written(robot, folder.path() / "hand.cfg");
-      CHECK(cfg.lost.empty());
-      CHECK(without_doubt(cfg.warnings).empty());
-      check_equal_cfg(robot, cfg.robot);
-      const auto xml = written(robot, folder.path() / "other.xml");
-      CHECK(xml.lost ==
-            std::vector<std::string>{"other.xml does not hold that parts which are near "
-                                     "each other as it is loaded can collide"});
-      CHECK(without_doubt(xml.warnings).empty());
-      check_equal_cfg(robot, xml.robot);
-      ++count;
-    }
-  CHECK(count >= 11);
-}
-
 TEST_CASE("every hand and arm of ours stands in a .urdf as it did, whatever its DOFs") {
   for (const char* kind : {"models/hands", "models/arms"})
     for (const fs::path& file : files_below(kind, {".cfg"})) {
@@ -142,7 +115,7 @@ TEST_CASE("every hand and arm of ours stands in a .urdf as it did, whatever its 
       }
       // the inertia of an arm's link holds that of its motor, and no body has it
       if (std::string(kind) == "models/hands") CHECK(urdf.warnings.empty());
-      CHECK(largest_gap(robot, urdf.robot, By::name) < 1e-12);
+      CHECK(largest_gap(robot, urdf.robot) < 1e-12);
       if (fs::exists(egr)) reading.eigengrasps = egr.string();
       if (fs::exists(vgr)) reading.virtual_contacts = vgr.string();
       CHECK(fs::exists(egr) == robot.eigengrasps.has_value());
@@ -151,41 +124,13 @@ TEST_CASE("every hand and arm of ours stands in a .urdf as it did, whatever its 
     }
 }
 
-TEST_CASE("a robot with all that an .xml holds comes back from one, and by way of a .cfg") {
-  const TemporaryFolder folder, out;
-  const RobotSpec robot = read_robot(full_robot(folder));
-  REQUIRE(robot.tendons.size() == 1);
-  REQUIRE(robot.virtual_contacts);
-  REQUIRE(robot.eigengrasps);
-  REQUIRE(robot.glove);
-  const auto xml = written(robot, out.path() / "hand.xml");
-  CHECK(xml.lost.empty());
-  check_equal_xml(robot, xml.robot);
-  CHECK(xml.robot.chains[0].links[0].body.appearance.transparency == 0.25f);
-
-  const auto cfg = written(robot, out.path() / "hand.cfg");
-  check_equal_cfg(robot, cfg.robot);
-  CHECK(cfg.lost ==
-        std::vector<std::string>{
-            "hand.cfg does not hold the default values of DOFs",
-            "hand.cfg does not hold the 1 pairs of links that never collide",
-            "hand.cfg does not hold the 1 parts that never collide",
-            "hand.cfg does not hold that parts which are near each other as it is loaded never "
-            "collide",
-            "hand.cfg does not hold the 1 tactile sensors",
-            "hand.cfg does not hold the 1 tendons and 1 wrappers",
-            "hand.cfg does not hold the name in a database of grasps, 'TOY & co'"});
-}
-
-TEST_CASE("that no file of a robot holds soft layers and Poisson's ratios is told") {
+TEST_CASE("that a .urdf holds no soft layers and Poisson's ratios is told") {
   const TemporaryFolder folder, out;
   RobotSpec robot = read_robot(full_robot(folder));
   robot.base.soft_layer = 0.004;
   robot.chains[0].links[0].body.poisson_ratio = 0.3;
-  for (const char* file : {"hand.cfg", "hand.xml", "hand.urdf"})
-    CHECK(written(robot, out.path() / file)
-              .told(std::string(file) +
-                    " does not hold the soft layers and Poisson's ratios of 2 parts"));
+  CHECK(written(robot, out.path() / "hand.urdf")
+            .told("hand.urdf does not hold the soft layers and Poisson's ratios of 2 parts"));
 }
 
 TEST_CASE("what a .urdf does not hold is told, a sentence each") {
@@ -245,37 +190,6 @@ static std::vector<std::pair<fs::path, RobotSpec>> robots_of_the_original(size_t
   return out;
 }
 
-static void check_originals(size_t first) {
-  const auto robots = robots_of_the_original(first);
-  CHECK(robots.size() >= 5);
-  for (const auto& [file, robot] : robots) {
-    INFO(file.string());
-    const TemporaryFolder out;
-    const bool text = file.extension() == ".cfg";
-    const auto same = written(robot, out.path() / ("hand" + file.extension().string()));
-    CHECK(same.lost.empty());
-    if (text)
-      check_equal_cfg(robot, same.robot);
-    else
-      check_equal_xml(robot, same.robot);
-  }
-}
-
-TEST_CASE("robots of the original come back from their formats as they were, first third") {
-  REQUIRE_SHARED();
-  check_originals(0);
-}
-
-TEST_CASE("robots of the original come back from their formats as they were, second third") {
-  REQUIRE_SHARED();
-  check_originals(1);
-}
-
-TEST_CASE("robots of the original come back from their formats as they were, last third") {
-  REQUIRE_SHARED();
-  check_originals(2);
-}
-
 TEST_CASE("robots of the original stand in a .urdf as they did") {
   REQUIRE_SHARED();
   for (const auto& [file, robot] : robots_of_the_original(1)) {
@@ -287,7 +201,7 @@ TEST_CASE("robots of the original stand in a .urdf as they did") {
       return sentence.find("moves no joint") != std::string::npos ||
              sentence.find("times as far") != std::string::npos;
     });
-    if (same) CHECK(largest_gap(robot, urdf.robot, By::name, 3) < 1e-12);
+    if (same) CHECK(largest_gap(robot, urdf.robot, 3) < 1e-12);
   }
 }
 
@@ -326,37 +240,29 @@ std::map<std::string, std::string> contents_below(const fs::path& folder) {
 
 }  // namespace
 
-TEST_CASE("a base and links without surfaces come back as frames from every format") {
+TEST_CASE("a base and links without surfaces come back as frames") {
   const TemporaryFolder folder;
   const RobotSpec robot = bare_hand();
-  for (const char* name : {"any.cfg", "any.xml", "any.urdf"}) {
-    INFO(name);
-    const auto again = written(robot, folder.path() / name);
-    CHECK(!again.robot.base.shape);
-    CHECK(!again.robot.chains.at(0).links.at(0).body.shape);
-    CHECK(again.robot.base.mass == robot.base.mass);
-  }
+  const auto again = written(robot, folder.path() / "any.urdf");
+  CHECK(!again.robot.base.shape);
+  CHECK(!again.robot.chains.at(0).links.at(0).body.shape);
+  CHECK(again.robot.base.mass == robot.base.mass);
 }
 
 TEST_CASE("robots that cannot be written are refused in one sentence, and leave nothing behind") {
   RobotSpec robot = bare_hand();
-  check_refused(robot, "hand.sdf", "hand.sdf: wanted a robot to .cfg, .xml or .urdf, got '.sdf'");
+  check_refused(robot, "hand.sdf", "hand.sdf: wanted a robot to .urdf, got '.sdf'");
+  check_refused(robot, "hand.cfg", "hand.cfg: wanted a robot to .urdf, got '.cfg'");
   robot.base.mass = 0;
   check_refused(robot, "hand.urdf",
                 "hand.urdf cannot be written: any: base 'any_base': mass: wanted a number from "
                 "1e-12 to 1e+12 [kg], got 0");
   robot = bare_hand();
   robot.chains[0].joints[0].max = -1;
-  check_refused(robot, "hand.cfg",
-                "hand.cfg cannot be written: any: chain 0 joint 0: min 0 exceeds max -1 [rad]");
+  check_refused(robot, "hand.urdf",
+                "hand.urdf cannot be written: any: chain 0 joint 0: min 0 exceeds max -1 [rad]");
   robot = bare_hand();
   robot.dofs[0].max_effort = HUGE_VAL;
-  check_refused(robot, "hand.cfg",
-                "hand.cfg cannot be written: any: DOF 0: max effort: wanted a number from 0 to "
-                "1e+30, got inf");
-  check_refused(robot, "hand.xml",
-                "hand.xml cannot be written: any: DOF 0: max effort: wanted a number from 0 to "
-                "1e+30, got inf");
   check_refused(robot, "hand.urdf",
                 "hand.urdf cannot be written: any: DOF 0: max effort: wanted a number from 0 to "
                 "1e+30, got inf");
@@ -370,37 +276,27 @@ TEST_CASE("robots that cannot be written are refused in one sentence, and leave 
       robot, "hand.urdf",
       "hand.urdf: joint 'chain0_joint1': wanted a position within 1e+09 m of the origin, got "
       "(1600000000, 1600000000, 0)");
-  check_refused(
-      robot, "hand.cfg",
-      "hand.cfg cannot be written: any: chain 0 joint 0: a: wanted a number from -1e+09 to "
-      "1e+09 [m], got 2262741699.7969522");
-  robot = bare_hand();
-  robot.chains[0].joints.resize(5, robot.chains[0].joints[0]);
-  robot.chains[0].links[0].last_joint = 4;
-  check_refused(
-      robot, "hand.xml",
-      "hand.xml: link 0 of chain 0 is moved by joint 4 and the one before it by joint -1; "
-      ".xml holds only links that follow by 0 to 3 joints, .cfg all");
 }
 
 TEST_CASE("a robot whose file cannot be written keeps the older one") {
   const TemporaryFolder folder;
-  const RobotSpec robot = bare_hand();
-  const fs::path absent = folder.path() / "absent/hand.cfg";
+  RobotSpec robot = bare_hand();
+  const fs::path absent = folder.path() / "absent/hand.urdf";
   CHECK_THROWS_WITH_AS(write_robot(robot, absent),
                        fmt::format("{}: the file cannot be written: no such folder: {}",
                                    absent.string(), absent.parent_path().string())
                            .c_str(),
                        Error);
-  fs::create_directory(folder.path() / "hand.xml");
-  CHECK_THROWS_WITH_AS(
-      write_robot(robot, folder.path() / "hand.xml"),
-      fmt::format("{}: wanted a file to write, got a folder", (folder.path() / "hand.xml").string())
-          .c_str(),
-      Error);
+  fs::create_directory(folder.path() / "folder.urdf");
+  CHECK_THROWS_WITH_AS(write_robot(robot, folder.path() / "folder.urdf"),
+                       fmt::format("{}: wanted a file to write, got a folder",
+                                   (folder.path() / "folder.urdf").string())
+                           .c_str(),
+                       Error);
   // a file where the folder of the links should be
-  folder.write("iv", "");
-  const fs::path older = folder.write("hand.cfg", "older");
+  robot.base.shape = Shape::make(box(1, 1, 1));
+  folder.write("hand_files", "");
+  const fs::path older = folder.write("hand.urdf", "older");
   CHECK_THROWS_AS(write_robot(robot, older), Error);
   CHECK(read_bytes(older) == "older");
   CHECK(contents_below(folder.path()).size() == 3);
@@ -411,101 +307,21 @@ TEST_CASE("of a robot that cannot be written whole no part is, and older parts s
   RobotSpec robot = bare_hand();
   robot.base.shape = Shape::make(box(1, 1, 1));
   fs::permissions(folder.path(), fs::perms(0777));
-  for (const char* name : {"hand.cfg", "hand.xml", "hand.urdf"}) {
-    write_robot(robot, folder.path() / name);
-    fs::permissions(folder.path() / name, fs::perms(0444));
-  }
+  const fs::path file = folder.path() / "hand.urdf";
+  write_robot(robot, file);
   for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
     fs::permissions(entry, entry.is_directory() ? fs::perms(0777) : fs::perms(0666));
-  for (const char* name : {"hand.cfg", "hand.xml", "hand.urdf"})
-    fs::permissions(folder.path() / name, fs::perms(0444));
+  fs::permissions(file, fs::perms(0444));
   const auto before = contents_below(folder.path());
   robot.base.shape = Shape::make(box(2, 1, 1));
   robot.chains[0].links[0].body.shape = Shape::make(box(3, 1, 1));
-  for (const char* name : {"hand.cfg", "hand.xml", "hand.urdf"}) {
+  {
     const test::PlainUser user;
     CHECK_THROWS_WITH_AS(
-        write_robot(robot, folder.path() / name),
-        ((folder.path() / name).string() + ": the file cannot be written: Permission denied")
-            .c_str(),
-        Error);
+        write_robot(robot, file),
+        (file.string() + ": the file cannot be written: Permission denied").c_str(), Error);
   }
   CHECK(contents_below(folder.path()) == before);
-}
-
-TEST_CASE("what neither .cfg nor .xml holds is told, a sentence each") {
-  const TemporaryFolder folder;
-  RobotSpec robot = bare_hand();
-  robot.class_name = "no word";
-  robot.base.material = "felt";
-  robot.chains[0].links[0].joint = LinkJoint::ball;
-  robot.chains[0].links[0].body.appearance.visual = Shape::make(box(1, 1, 1));
-  robot.X_BA = Pose::turn(0.3, Eigen::Vector3d::UnitZ());
-  robot.collision_rules.parts_off = {RobotPart{}};
-  robot.tactile.push_back({});
-  robot.dofs[0].max_velocity = 1;
-  robot.dofs[0].name = "first";
-  const auto xml = written(robot, folder.path() / "hand.xml");
-  const std::vector<std::string> wanted = {
-      "hand.xml: link 0 of chain 0 becomes Revolute, as the number of its joints has it",
-      "hand.xml does not hold the names of DOFs, joints and links",
-      "hand.xml does not hold the name 'any'; the robot is called 'hand' as its file",
-      "hand.xml does not hold the class 'no word'; it is Hand",
-      "hand.xml does not hold the largest velocities of DOFs",
-      "hand.xml does not hold materials of the user's own: felt",
-      "hand.xml does not hold the surfaces that pictures show of 1 links",
-      "hand.xml does not hold how far the approach frame is turned about its direction",
-      "hand.xml does not hold that the base never collides",
-      "hand.xml does not hold that parts which are near each other as it is loaded can collide",
-      "hand.xml does not hold the tactile sensors of the base"};
-  CHECK(xml.lost == wanted);
-}
-
-TEST_CASE("sensors, tendons and contacts stand where they did when their link gets another frame") {
-  const TemporaryFolder folder;
-  RobotSpec robot = bare_hand();
-  const Pose moved{Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d(0, 0.6, 0.8))),
-                   {0.1, 0.2, 0.3}};
-  LinkSpec& link = robot.chains[0].links[0];
-  link.X_JL = moved;
-  link.body.com = Eigen::Vector3d(0.01, 0, 0);
-  link.body.inertia_per_mass = Eigen::Vector3d(1e-4, 2e-4, 2.5e-4).asDiagonal();
-  const Eigen::Vector3d p(0.01, 0.02, 0.03);
-  robot.tactile.push_back({{0, 0}, p, p});
-  robot.tendons.push_back({"t", 1, {}, {}, {{{0, 0}, p, 0}, {{}, p, 0}}});
-  robot.wrappers.push_back({{0, 0}, p, Eigen::Vector3d::UnitX(), 0.01, 0.01, 0, {}, {}});
-  VirtualContactSpec contact;
-  contact.chain = 0;
-  contact.X_LC = Pose::translation(p);
-  robot.virtual_contacts = VirtualContactSet{"any", {contact}};
-  const auto xml = written(robot, folder.path() / "any.xml");
-  const BodySpec& body = xml.robot.chains[0].links[0].body;
-  CHECK((*body.com - moved * *link.body.com).norm() < rounding);
-  const Eigen::Matrix3d R = moved.matrix();
-  CHECK((*body.inertia_per_mass - R * *link.body.inertia_per_mass * R.transpose()).norm() < 1e-17);
-  CHECK((xml.robot.tendons[0].points[0].p_L - moved * p).norm() < rounding);
-  CHECK(xml.robot.tendons[0].points[1].p_L == p);
-  CHECK((xml.robot.wrappers[0].axis_L - R.col(0)).norm() < rounding);
-  CHECK(near(xml.robot.virtual_contacts->contacts[0].X_LC, moved * contact.X_LC));
-  CHECK(xml.told("any.xml does not hold 1 tactile sensors: their links have other axes in it"));
-
-  robot.chains[0].links[0].X_JL = Pose::translation({0.1, 0, 0});
-  const auto shifted = written(robot, folder.path() / "any.xml");
-  CHECK((shifted.robot.tactile.at(0).low_L - p).norm() == doctest::Approx(0.1));
-}
-
-TEST_CASE("axes that lean by a file's digits are told to have a common normal far away") {
-  const TemporaryFolder folder;
-  RobotSpec robot = bare_hand();
-  robot.chains[0].joints.push_back(robot.chains[0].joints[0]);
-  JointSpec& second = robot.chains[0].joints[1];
-  second.placed_freely = true;
-  second.X_before =
-      Pose{Eigen::Quaterniond(Eigen::AngleAxisd(4e-6, Eigen::Vector3d::UnitY())), {0.04, 0, 0}};
-  const auto cfg = written(robot, folder.path() / "any.cfg");
-  CHECK(
-      cfg.told("any.cfg: chain 0: two of its axes are so nearly parallel that their common normal "
-               "lies 1e+04 m away"));
 }
 
 TEST_CASE("a DOF without joints has no place in a .urdf, nor has what counts it") {
@@ -524,34 +340,20 @@ TEST_CASE("a DOF without joints has no place in a .urdf, nor has what counts it"
   CHECK(!fs::exists(folder.path() / "eigen"));
 }
 
-TEST_CASE("what a robot loses with its place and its name in a .cfg is told") {
-  const TemporaryFolder folder;
-  RobotSpec robot = bare_hand();
-  robot.chains[0].links[0].X_JL = Pose::translation({0, 0, 0.1});
-  const auto cfg = written(robot, folder.path() / "other.cfg");
-  CHECK(cfg.lost ==
-        std::vector<std::string>{
-            "other.cfg does not hold where links without a surface have their frames: "
-            "'any_chain0_link0'",
-            "other.cfg does not hold the name 'any'; the robot is called 'other' as its "
-            "file"});
-  CHECK(*cfg.robot.chains[0].links[0].body.com == Eigen::Vector3d(0, 0, 0.1));
-}
-
 TEST_CASE("robots of one name, or of names alike, that are written into one folder share no file") {
   const TemporaryFolder folder;
-  const auto of_mass = [](double mass) {
+  const auto of_size = [](double size) {
     RobotSpec robot = bare_hand();
-    robot.chains[0].links[0].body.mass = mass;
+    robot.base.shape = Shape::make(box(size, size, size));
     return robot;
   };
-  const std::vector<std::string> files = {"any.cfg", "any.xml", "any hand.xml", "any_hand.xml"};
+  const std::vector<std::string> files = {"any.urdf", "any hand.urdf", "any_hand.urdf"};
   for (size_t i = 0; i < files.size(); ++i)
-    write_robot(of_mass(1.0 + static_cast<double>(i)), folder.path() / files[i]);
+    write_robot(of_size(1.0 + static_cast<double>(i)), folder.path() / files[i]);
   for (size_t i = 0; i < files.size(); ++i) {
     INFO(files[i]);
     const RobotSpec again = read_robot(folder.path() / files[i]);
-    CHECK(again.chains[0].links[0].body.mass == 1.0 + static_cast<double>(i));
+    CHECK(again.base.shape->bounds().size().x() == 1.0 + static_cast<double>(i));
   }
 }
 
@@ -562,27 +364,11 @@ TEST_CASE("parts that are equal share their files, and others of one name have t
   link.body.shape = Shape::make(box(1, 1, 1));
   link.body.file = "/elsewhere/link.iv";
   robot.chains[0].links.assign(3, link);
-  robot.chains[0].links[2].body.mass = 7;
-  const auto cfg = written(robot, folder.path() / "any.cfg");
-  for (const char* name : {"link.xml", "link.off", "link_2.xml", "base.xml"})
-    CHECK(fs::exists(folder.path() / "iv/any_cfg" / name));
-  CHECK(!fs::exists(folder.path() / "iv/any_cfg/link_3.xml"));
-  CHECK(!fs::exists(folder.path() / "iv/any_cfg/link_2.off"));
-  CHECK(cfg.robot.chains[0].links[2].body.mass == 7);
-}
-
-TEST_CASE("a .cfg of joints of both kinds on one DOF keeps their ratios") {
-  const TemporaryFolder folder;
-  RobotSpec robot = bare_hand();
-  JointSpec slide = robot.chains[0].joints[0];
-  slide.kind = JointKind::prismatic;
-  slide.ratio = 0.037;
-  slide.d = -0.0059;
-  robot.chains[0].joints.push_back(slide);
-  for (const char* name : {"any.cfg", "any.xml"}) {
-    const auto again = written(robot, folder.path() / name);
-    check_equal(robot.chains[0].joints[1], again.robot.chains.at(0).joints.at(1));
-  }
+  robot.chains[0].links[2].body.shape = Shape::make(box(2, 1, 1));
+  write_robot(robot, folder.path() / "any.urdf");
+  for (const char* name : {"link.obj", "link_2.obj"})
+    CHECK(fs::exists(folder.path() / "any_files" / name));
+  CHECK(!fs::exists(folder.path() / "any_files/link_3.obj"));
 }
 
 TEST_CASE("colours beyond what files hold do not make a robot unreadable") {
@@ -593,9 +379,7 @@ TEST_CASE("colours beyond what files hold do not make a robot unreadable") {
   looks.given = true;
   looks.color = {2, -1, std::nanf("")};
   looks.transparency = 3;
-  for (const char* name : {"any.cfg", "any.xml", "any.urdf"}) {
-    const auto again = written(robot, folder.path() / name);
-    CHECK(again.robot.base.appearance.color == Eigen::Vector3f(1, 0, 0));
-    CHECK(again.robot.base.appearance.transparency == 1);
-  }
+  const auto again = written(robot, folder.path() / "any.urdf");
+  CHECK(again.robot.base.appearance.color == Eigen::Vector3f(1, 0, 0));
+  CHECK(again.robot.base.appearance.transparency == 1);
 }

@@ -1,20 +1,10 @@
+#include "io/urdf_losses.h"
 
 #include <algorithm>
-#include <cctype>
-
-#include "base/text.h"
-#include "io/write_robot_texts.h"
-#include "spec/material_names.h"
 
 namespace clench {
 
 namespace {
-
-bool is_word(const std::string& text) {
-  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
-    return std::isalnum(c) || c == '_' || c == '-';
-  });
-}
 
 /// Base and links, in their order.
 std::vector<const BodySpec*> bodies_of(const RobotSpec& robot) {
@@ -34,18 +24,6 @@ bool any_joint(const RobotSpec& robot, Predicate predicate) {
   return std::ranges::any_of(robot.chains, [&](const ChainSpec& chain) {
     return std::ranges::any_of(chain.joints, predicate);
   });
-}
-
-/// Not what the format's reader calls it.
-bool has_names(const RobotSpec& robot) {
-  const auto named = [](const auto& x) { return !x.name.empty(); };
-  bool out = any_dof(robot, named) || any_joint(robot, named);
-  out = out || robot.base.name != robot.name + "_base";
-  for (size_t c = 0; c < robot.chains.size(); ++c)
-    for (size_t l = 0; l < robot.chains[c].links.size(); ++l)
-      out = out || robot.chains[c].links[l].body.name !=
-                       fmt::format("{}_chain{}_link{}", robot.name, c, l);
-  return out;
 }
 
 double start_at_zero(const RobotSpec& robot, size_t dof) {
@@ -98,62 +76,7 @@ void tell_softness(const RobotSpec& robot, const RobotFolder& folder) {
   if (soft) folder.lost(fmt::format("the soft layers and Poisson's ratios of {} parts", soft));
 }
 
-void tell_matter(const RobotSpec& robot, const RobotFolder& folder) {
-  std::vector<std::string> materials;
-  for (const BodySpec* body : bodies_of(robot))
-    if (!std::ranges::count(material_names, body->material) &&
-        !std::ranges::count(materials, body->material))
-      materials.push_back(body->material);
-  if (!materials.empty())
-    folder.lost(fmt::format("materials of the user's own: {}", name_list(materials)));
-  const auto drawn = std::ranges::count_if(
-      bodies_of(robot), [](const BodySpec* body) { return body->appearance.visual != nullptr; });
-  if (drawn) folder.lost(fmt::format("the surfaces that pictures show of {} links", drawn));
-}
-
 }  // namespace
-
-std::string class_word(const RobotSpec& robot) {
-  // robots of today have their own name for one
-  return is_word(robot.class_name) && !robot.chain_links_collide ? robot.class_name : "Hand";
-}
-
-void tell_lost_in_both(const RobotSpec& robot, const RobotFolder& folder) {
-  if (has_names(robot)) folder.lost("the names of DOFs, joints and links");
-  // one that its file alone gives it is no loss
-  const std::string stem = folder.path().stem().string();
-  if (robot.name != stem && robot.name != std::filesystem::path(robot.file).stem())
-    folder.lost(fmt::format("the name '{}'; the robot is called '{}' as its file",
-                            excerpt(robot.name), stem));
-  if (const std::string word = class_word(robot);
-      word != robot.class_name && !robot.chain_links_collide)
-    folder.lost(fmt::format("the class '{}'; it is {}", excerpt(robot.class_name), word));
-  if (any_dof(robot, [](const DofSpec& dof) { return dof.max_velocity != 0; }))
-    folder.lost("the largest velocities of DOFs");
-  if (robot.chain_links_collide) folder.lost("that links of one chain can collide with each other");
-  tell_matter(robot, folder);
-  tell_softness(robot, folder);
-  if (!robot.X_BA) return;
-  const Pose made =
-      approach_frame(robot.X_BA->position, robot.X_BA->rotation * Eigen::Vector3d::UnitZ());
-  if ((made.inverse() * *robot.X_BA).angle() > 1e-9)
-    folder.lost("how far the approach frame is turned about its direction");
-}
-
-void tell_lost_in_cfg(const RobotSpec& robot, const RobotFolder& folder) {
-  if (has_default_values(robot)) folder.lost("the default values of DOFs");
-  tell_rules(robot, folder);
-  tell_sensors(robot, folder);
-}
-
-void tell_lost_in_xml(const RobotSpec& robot, const RobotFolder& folder) {
-  if (std::ranges::count(robot.collision_rules.parts_off, RobotPart{}))
-    folder.lost("that the base never collides");
-  if (!robot.collision_rules.near_pairs_off)
-    folder.lost("that parts which are near each other as it is loaded can collide");
-  if (std::ranges::any_of(robot.tactile, [](const auto& s) { return s.part.chain < 0; }))
-    folder.lost("the tactile sensors of the base");
-}
 
 static void tell_control(const RobotSpec& robot, const RobotFolder& folder) {
   const auto dof_has = [&](auto predicate, const char* what) {

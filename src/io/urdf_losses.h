@@ -1,0 +1,10 @@
+// What a URDF cannot hold of a robot.
+#pragma once
+#include "io/robot_folder.h"
+
+namespace clench {
+
+/// Tells of it, a sentence each.
+void tell_lost_in_urdf(const RobotSpec& robot, const RobotFolder& folder);
+
+}  // namespace clench
