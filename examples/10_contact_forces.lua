@@ -17,7 +17,7 @@ for _, f in ipairs(held.forces) do
 end
 
 -- how much of it could be held, and which motor ends it
-local most = grasp:largest_load {direction = weight, torque_limits = true}
+local most = grasp:max_load {direction = weight, torque_limits = true}
 print(("%.1f times the weight could be held; then DOF %d gives way"):format(most.load, most.certificate.dof))
 
 -- contacts that may press with 0.2 N each do not suffice: the proof is a motion of the flask
@@ -27,7 +27,7 @@ print(("with 0.2 N a contact: %s, %.3f W against %.3f W, %s gives way"):format(w
   proof.contact.link.name))
 
 -- forces well inside the cones, drawn as arrows
-local firm = grasp:contact_forces {load = weight, objective = "interior", max_force = 5}
+local firm = grasp:contact_forces {load = weight, objective = "max_margin", max_force = 5}
 clench.render(world, {
   size = {960, 720}, samples = 4, eye = {0.42, -0.42, 0.38}, target = {-0.02, 0, 0.1}, field_of_view = 0.45,
   forces = firm.forces,

@@ -24,7 +24,7 @@ assert(proximal[1] < proximal[2] and proximal[2] < proximal[3])
 -- what contacts hold winds the springs up, and that presses
 gripper:autograsp()
 for _, joint in ipairs(gripper.chains[1].joints) do
-  print(("wound up by %.3f rad: %.2f N mm"):format(joint.wound, 1000 * joint.spring * joint.wound))
+  print(("wound up by %.3f rad: %.2f N mm"):format(joint.spring_deflection, 1000 * joint.spring * joint.spring_deflection))
 end
 local held = clench.grasp(gripper, cylinder):equilibrium {torques = "springs"}
 local pressed = 0

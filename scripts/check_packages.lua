@@ -26,7 +26,7 @@ local function read_list(path)
   each_line(path, function(line, text)
     local purpose, package, asked = text:match "^(%S+)%s+(%S+)%s+(%S+)%s+%S"
     if purpose ~= "build" and purpose ~= "test" and purpose ~= "bench" then
-      fault(path, line, "wanted 'build', 'test' or 'bench', a package, how CMake asks for it, what for; got '%s'", text)
+      fault(path, line, "expected 'build', 'test' or 'bench', a package, how CMake asks for it, what for; got '%s'", text)
     elseif seen[package] then
       fault(path, line, "package %s is listed twice", package)
     else
@@ -58,8 +58,8 @@ end
 --- the CMake files: the root's, those of src/, those of tests/ and below, in this order
 local function cmake_files()
   local quoted = "'" .. root:gsub("'", "'\\''") .. "'"
-  local wanted = "\\( -name CMakeLists.txt -o -name '*.cmake' \\) -not -path 'tests/data/*'"
-  local found = assert(io.popen(("cd %s && find src tests %s | LC_ALL=C sort"):format(quoted, wanted)))
+  local expected = "\\( -name CMakeLists.txt -o -name '*.cmake' \\) -not -path 'tests/data/*'"
+  local found = assert(io.popen(("cd %s && find src tests %s | LC_ALL=C sort"):format(quoted, expected)))
   local files = {"CMakeLists.txt"}
   for path in found:lines() do files[#files + 1] = path end
   found:close()

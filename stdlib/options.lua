@@ -35,13 +35,13 @@ function Options:raw(name)
   return self.given[name]
 end
 
-function Options:wanted(name, what, value) self:fail("%s must be %s, got %s", name, what, described(value)) end
+function Options:expected(name, what, value) self:fail("%s must be %s, got %s", name, what, described(value)) end
 
 local function read_number(self, name, default, what, fits)
   local value = self:raw(name)
   if value == nil then value = default end
-  if not (is_number(value) and fits(value)) then self:wanted(name, what, value) end
-  if not within(value, self.largest) then self:wanted(name, ("a number of at most %g"):format(self.largest), value) end
+  if not (is_number(value) and fits(value)) then self:expected(name, what, value) end
+  if not within(value, self.largest) then self:expected(name, ("a number of at most %g"):format(self.largest), value) end
   return value
 end
 
@@ -69,7 +69,7 @@ end
 function Options:point(name, default)
   local value = self:raw(name)
   if value == nil then return default end
-  if not is_point(value, 3, 3, self.largest) then self:wanted(name, "a point {x, y, z}", value) end
+  if not is_point(value, 3, 3, self.largest) then self:expected(name, "a point {x, y, z}", value) end
   return value
 end
 
@@ -80,13 +80,13 @@ function Options:points(name, least, size)
   local value = self:raw(name)
   local form = size == 2 and "{x, y}" or "{x, y, z}"
   if type(value) ~= "table" or #value < least then
-    self:wanted(name, ("a list of at least %d points %s"):format(least, form), value)
+    self:expected(name, ("a list of at least %d points %s"):format(least, form), value)
   end
-  if #value > max_points then self:wanted(name, ("a list of at most %d points"):format(max_points), value) end
+  if #value > max_points then self:expected(name, ("a list of at most %d points"):format(max_points), value) end
   -- a hole in the list is a point that is missing
   for i = 1, #value do
     if not is_point(value[i], size, size, self.largest) then
-      self:wanted(name .. "[" .. i .. "]", "a point " .. form, value[i])
+      self:expected(name .. "[" .. i .. "]", "a point " .. form, value[i])
     end
   end
   return value
@@ -99,13 +99,13 @@ function Options:choice(name, words)
   for _, word in ipairs(words) do
     if value == word then return word end
   end
-  self:wanted(name, "'" .. table.concat(words, "' or '") .. "'", value)
+  self:expected(name, "'" .. table.concat(words, "' or '") .. "'", value)
 end
 
 --- true or false; false when it was not given
 function Options:flag(name)
   local value = self:raw(name)
-  if value ~= nil and type(value) ~= "boolean" then self:wanted(name, "true or false", value) end
+  if value ~= nil and type(value) ~= "boolean" then self:expected(name, "true or false", value) end
   return value == true
 end
 
@@ -117,7 +117,7 @@ function Options:done()
   end
   if #strange == 0 then return end
   table.sort(strange)
-  self:fail("unknown key '%s', wanted any of %s", strange[1], name_list(self.known))
+  self:fail("unknown key '%s', expected any of %s", strange[1], name_list(self.known))
 end
 
 ---@param subject string  the function's name, for messages
@@ -129,7 +129,7 @@ return function(subject, given, places, largest)
                              largest = largest or math.huge}, Options)
   for place, name in ipairs(places or {}) do self.places[name] = place end
   if type(given) ~= "table" then
-    self:fail("wanted one table of options, as in %s {...}, got %s", subject, described(given))
+    self:fail("expected one table of options, as in %s {...}, got %s", subject, described(given))
   end
   return self
 end

@@ -13,9 +13,9 @@ end
 
 -- what is logged while a file is read, by what it is about; a script's own messages by their level
 local function listen(run)
-  local heard = {guessed = {}, ignored = {}, mended = {}, doubtful = {}}
+  local heard = {inferred = {}, ignored = {}, repaired = {}, suspicious = {}}
   clench.log.sink(function(level, text, about)
-    local list = heard[about] or level == "info" and heard.guessed or level == "warning" and heard.ignored
+    local list = heard[about] or level == "info" and heard.inferred or level == "warning" and heard.ignored
     if list then list[#list + 1] = text end
   end)
   local ok, result = pcall(run)
@@ -102,7 +102,7 @@ local function of_robot(robot)
 end
 
 -- body by body, since a crowded world has millions of pairs
-local most_overlaps = 100
+local max_overlaps = 100
 local function overlaps_of(world)
   local overlaps, before = {}, {}
   for _, body in ipairs(world.bodies) do
@@ -110,7 +110,7 @@ local function overlaps_of(world)
     for _, pair in ipairs(world:colliding(body)) do
       local other = (pair[1] == body and pair[2] or pair[1]).name
       if not before[other] then
-        if #overlaps == most_overlaps then return overlaps, true end
+        if #overlaps == max_overlaps then return overlaps, true end
         overlaps[#overlaps + 1] = {body.name, other}
       end
     end
@@ -124,7 +124,7 @@ local function of_world(world)
   for i, body in ipairs(world.obstacles) do obstacles[i] = of_body(body) end
   for i, robot in ipairs(world.robots) do
     robots[i] = of_robot(robot)
-    robots[i].carried_by = robot.carrier and robot.carrier.name
+    robots[i].parent = robot.parent and robot.parent.name
   end
   local overlaps, more = overlaps_of(world)
   return {objects = objects, obstacles = obstacles, robots = robots, overlaps = overlaps, more_overlaps = more}
@@ -171,14 +171,14 @@ local readers = {
 }
 
 --- One file, understood: what `clench check` says of it. Loaded by require "clench.report" or as clench.report.
---- `understood` is a table of what its kind holds, all in metres, kilograms and radians; without it `wrong` says why.
---- With `strict` so does the first sentence of what was mended, not used or doubtful.
+--- `parsed` is a table of what its kind holds, all in metres, kilograms and radians; without it `error` says why.
+--- With `strict` so does the first sentence of what was repaired, not used or suspicious.
 ---@param path string
 ---@param options? {root?: string, confine?: string, folder?: string, package?: string, unit?: string, strict?: boolean}  those that its kind takes are used
----@return {file: string, kind: string?, understood: table?, guessed: string[], mended: string[], ignored: string[], doubtful: string[], wrong: string?}
+---@return {file: string, kind: string?, parsed: table?, inferred: string[], repaired: string[], ignored: string[], suspicious: string[], error: string?}
 --- > r = clench.report.of "models/hands/barrett/barrett.cfg"
---- > r.kind, #r.understood.dofs, r.understood.dofs[2].unit  --> robot, 4, rad
---- > clench.report.of("no/such.urdf").wrong  --> no such file: no/such.urdf
+--- > r.kind, #r.parsed.dofs, r.parsed.dofs[2].unit  --> robot, 4, rad
+--- > clench.report.of("no/such.urdf").error  --> no such file: no/such.urdf
 function report.of(path, options)
   local kind
   options = options or {}
@@ -187,11 +187,11 @@ function report.of(path, options)
     return readers[kind](path, reading(kind, options))
   end)
   -- a world in Lua tells what its own files have wrong
-  local told = ok and options.strict and (heard.mended[1] or heard.ignored[1] or heard.doubtful[1])
+  local told = ok and options.strict and (heard.repaired[1] or heard.ignored[1] or heard.suspicious[1])
   if told then ok, result = false, told end
-  return {file = path, kind = kind, understood = ok and result or nil, guessed = heard.guessed, mended = heard.mended,
-          ignored = heard.ignored, doubtful = heard.doubtful,
-          wrong = not ok and error_text(result):gsub("^stdlib/report.lua:%d+: ", "") or nil}
+  return {file = path, kind = kind, parsed = ok and result or nil, inferred = heard.inferred, repaired = heard.repaired,
+          ignored = heard.ignored, suspicious = heard.suspicious,
+          error = not ok and error_text(result):gsub("^stdlib/report.lua:%d+: ", "") or nil}
 end
 
 return report

@@ -28,7 +28,7 @@ local function difference(a, b)
     return math.abs(a - b)
   end
   local lists = (type(a) == "table" or type(a) == "userdata") and (type(b) == "table" or type(b) == "userdata")
-  if not lists or #a ~= #b then fail("wanted numbers or lists of one length, got %s and %s", show(a), show(b)) end
+  if not lists or #a ~= #b then fail("expected numbers or lists of one length, got %s and %s", show(a), show(b)) end
   local worst = 0
   for i = 1, #a do
     local d = difference(a[i], b[i])
@@ -45,30 +45,30 @@ local t = {}
 ---@param ok any
 ---@param message? string
 function t.ok(ok, message)
-  if not ok then fail("%s", message or "wanted true, got " .. show(ok)) end
+  if not ok then fail("%s", message or "expected true, got " .. show(ok)) end
 end
 
 --- the same value; tables with the same contents
 function t.equal(got, want)
-  if not equal(got, want) then fail("wanted %s, got %s", show(want), show(got)) end
+  if not equal(got, want) then fail("expected %s, got %s", show(want), show(got)) end
 end
 
 --- numbers, vectors or lists of numbers, nowhere further apart than tolerance
 function t.close(got, want, tolerance)
-  if type(tolerance) ~= "number" then fail("close: wanted a tolerance, got %s", show(tolerance)) end
+  if type(tolerance) ~= "number" then fail("close: expected a tolerance, got %s", show(tolerance)) end
   local off = difference(got, want)
   if not (off <= tolerance) then
-    fail("wanted %s within %.3g, got %s, off by %.3g", show(want), tolerance, show(got), off)
+    fail("expected %s within %.3g, got %s, off by %.3g", show(want), tolerance, show(got), off)
   end
 end
 
 --- fn must raise an error whose message contains each of the texts; returns the message
 function t.fails(fn, ...)
   local ok, message = pcall(fn)
-  if ok then fail("wanted an error, got none") end
+  if ok then fail("expected an error, got none") end
   message = tostring(message)
   for _, text in ipairs {...} do
-    if not message:find(text, 1, true) then fail("wanted an error with '%s', got '%s'", text, message) end
+    if not message:find(text, 1, true) then fail("expected an error with '%s', got '%s'", text, message) end
   end
   return message
 end
@@ -94,7 +94,7 @@ end
 ---@param claim string  what holds
 ---@param fn fun(t: table)
 local function run(_, claim, fn)
-  if type(claim) ~= "string" or type(fn) ~= "function" then error("test: wanted a claim and a function", 2) end
+  if type(claim) ~= "string" or type(fn) ~= "function" then error("test: expected a claim and a function", 2) end
   local ok, message = xpcall(fn, explain, t)
   if ok then
     test.passed = test.passed + 1
@@ -115,7 +115,7 @@ function test.run_file(path)
   local chunk, message = loadfile(path, "t")
   local ok = chunk ~= nil
   if chunk then ok, message = xpcall(chunk, explain) end
-  if ok and test.passed + test.failed + test.skipped == 0 then ok, message = false, "wanted a test in it, got none" end
+  if ok and test.passed + test.failed + test.skipped == 0 then ok, message = false, "expected a test in it, got none" end
   if not ok then
     test.failed = test.failed + 1
     print(("  FAILED   %s: the file itself\n           %s"):format(path, (tostring(message):gsub("\n", "\n           "))))

@@ -35,7 +35,7 @@ return function(e, slides)
   for i, x in ipairs(e.origin) do origin[i] = slides and slides[i] and x * 1e-3 or math.rad(x) end
   local out = {"DIMENSIONS " .. #origin}
   for i, direction in ipairs(orthonormal(e)) do
-    if #e[i] ~= #origin then error(("eigengrasp %d: wanted %d numbers, got %d"):format(i, #origin, #e[i]), 0) end
+    if #e[i] ~= #origin then error(("eigengrasp %d: expected %d numbers, got %d"):format(i, #origin, #e[i]), 0) end
     table.move({"EG", ("%g"):format(e[i].value or 1), line(direction)}, 1, 3, #out + 1, out)
   end
   table.move({"ORIGIN", "0", line(origin), ""}, 1, 4, #out + 1, out)

@@ -22,12 +22,12 @@ end
 --- what a file must not hold: openings, triangles without area
 local function check(mesh, subject)
   local closed, why = shapes.closed(mesh)
-  if not closed then error(subject .. ": wanted a closed part, but " .. why, 0) end
+  if not closed then error(subject .. ": expected a closed part, but " .. why, 0) end
   for i, t in ipairs(mesh.triangles) do
     local corners = {mesh.vertices[t[1]], mesh.vertices[t[2]], mesh.vertices[t[3]]}
     local area = shapes.area {vertices = corners, triangles = {{1, 2, 3}}}
     if area < 1e-4 then
-      error(("%s: triangle %d has an area of %.3g mm^2, wanted at least 1e-4"):format(subject, i, area), 0)
+      error(("%s: triangle %d has an area of %.3g mm^2, expected at least 1e-4"):format(subject, i, area), 0)
     end
   end
 end

@@ -115,7 +115,7 @@ static int main_of(int argc, char** argv) {
   check_verb->footer(
       "Examples:\n  clench check hand.urdf\n  clench check --json mug.stl worlds/dlr_flask.wld\n\n"
       "Exit code: 1 when a file could not be read; with --strict also when something in one was "
-      "mended, is not used or looks wrong." +
+      "repaired, is not used or looks wrong." +
       trust);
   ConvertOptions converting;
   auto* convert_verb = app.add_subcommand("convert", "write what a file holds as another format");

@@ -1,4 +1,4 @@
-// The one exception of the engine: a sentence that says where, what was wanted and what was got.
+// The one exception of the engine: a sentence that says where, what was expected and what was got.
 #pragma once
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 namespace clench {
 
-/// Bad input. what() is one sentence: place, subject, wanted, got.
+/// Bad input. what() is one sentence: place, subject, expected, got.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& text) : std::runtime_error(without_zeros(text)) {}

@@ -51,7 +51,7 @@ constexpr size_t max_bytes = size_t{1} << 30;
 
 void check_regular(const fs::path& path, const struct stat& status) {
   if (!S_ISREG(status.st_mode))
-    fail("{}: wanted a file, got a {}", path.generic_string(),
+    fail("{}: expected a file, got a {}", path.generic_string(),
          S_ISDIR(status.st_mode) ? "folder" : "special file");
 }
 
@@ -81,7 +81,8 @@ std::string read_bytes(const fs::path& path) {
   struct stat status;
   std::string out = read_at_most(path, max_bytes, status);
   if (static_cast<size_t>(status.st_size) > max_bytes)
-    fail("{}: wanted a file of at most 1 GB, got {} bytes", path.generic_string(), status.st_size);
+    fail("{}: expected a file of at most 1 GB, got {} bytes", path.generic_string(),
+         status.st_size);
   return out;
 }
 
@@ -179,9 +180,9 @@ void check_folder_of(const fs::path& file) {
 
 void write_file(const fs::path& path, std::string_view text) {
   struct stat before;
-  if (path.empty()) fail("wanted the name of a file, got nothing");
+  if (path.empty()) fail("expected the name of a file, got nothing");
   if (path.filename().empty() || (::stat(path.c_str(), &before) == 0 && S_ISDIR(before.st_mode)))
-    fail("{}: wanted a file to write, got a folder", path.generic_string());
+    fail("{}: expected a file to write, got a folder", path.generic_string());
   check_folder_of(path);
   try {
     const fs::path target = target_of(path);
@@ -191,7 +192,7 @@ void write_file(const fs::path& path, std::string_view text) {
       return;
     }
     if (!S_ISREG(before.st_mode))
-      fail("{}: wanted a file to write, got a special file", path.generic_string());
+      fail("{}: expected a file to write, got a special file", path.generic_string());
     if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) fail_write(path, errno);
     write_over(target, text, before.st_mode);
   } catch (const fs::filesystem_error& error) {

@@ -9,10 +9,10 @@ using Listener = std::function<void(const std::string&)>;
 
 /// Each may be empty.
 struct Listeners {
-  Listener warn = {};  ///< of what it contains and we do not use
-  Listener note = {};  ///< of what it leaves open and we guess
-  Listener mend = {};  ///< of what it has wrong and we put right; when empty, `warn` is told
-  Listener doubt =
+  Listener warn = {};    ///< of what it contains and we do not use
+  Listener note = {};    ///< of what it leaves open and we guess
+  Listener repair = {};  ///< of what it has wrong and we put right; when empty, `warn` is told
+  Listener suspect =
       {};  ///< of what is used as it stands, and looks wrong; when empty, `warn` is told
 };
 

@@ -37,7 +37,7 @@ std::string read_text(const std::filesystem::path& path) {
   std::error_code code;
   const auto size = std::filesystem::file_size(path, code);
   if (!code && size > most)
-    fail("{}: wanted a text file of at most 256 MB, got {} bytes", path.generic_string(), size);
+    fail("{}: expected a text file of at most 256 MB, got {} bytes", path.generic_string(), size);
   return plain_text(read_bytes(path));
 }
 
@@ -74,14 +74,14 @@ std::string integer_fault(std::string_view word, int low, int high) {
   const size_t sign = !word.empty() && (word[0] == '+' || word[0] == '-');
   const bool whole =
       word.size() > sign && word.find_first_not_of("0123456789", sign) == std::string_view::npos;
-  if (!whole) return "wanted a whole number, got " + in_quotes(word);
+  if (!whole) return "expected a whole number, got " + in_quotes(word);
   const auto value = parse_integer(word);
   if (value && *value >= low && *value <= high) return "";
   const std::string got = value ? fmt::format("{}", *value) : in_quotes(word);
   const bool below = value ? *value < low : word[0] == '-';
   if (below && high == std::numeric_limits<int>::max() && low > std::numeric_limits<int>::min())
-    return fmt::format("wanted a whole number from {} on, got {}", low, got);
-  return fmt::format("wanted a whole number from {} to {}, got {}", low, high, got);
+    return fmt::format("expected a whole number from {} on, got {}", low, got);
+  return fmt::format("expected a whole number from {} to {}, got {}", low, high, got);
 }
 
 std::string_view trim(std::string_view text) {
@@ -185,7 +185,7 @@ std::string Line::surplus(int used) const {
 
 double Line::number(int i, std::string_view what) const {
   const auto value = parse_number(word(i));
-  if (!value) fail("{}: wanted a number, got {}", what, in_quotes(word(i)));
+  if (!value) fail("{}: expected a number, got {}", what, in_quotes(word(i)));
   return *value;
 }
 
@@ -229,7 +229,7 @@ bool LineReader::skip_to_full() {
 }
 
 Line LineReader::next_full(std::string_view what) {
-  if (!skip_to_full()) peek().fail("wanted {}, got the end of the file", what);
+  if (!skip_to_full()) peek().fail("expected {}, got the end of the file", what);
   return next();
 }
 

@@ -1,5 +1,5 @@
 // Text files taken apart: lines, words, and numbers that are numbers. Whatever is wrong is told
-// with the place "file:line", what was wanted and what was got.
+// with the place "file:line", what was expected and what was got.
 #pragma once
 #include <filesystem>
 #include <initializer_list>
@@ -23,7 +23,7 @@ std::string read_text(const std::filesystem::path& path);
 /// A finite decimal number, an explicit '+' allowed, nothing before or after it; else empty.
 std::optional<double> parse_number(std::string_view text);
 std::optional<int> parse_integer(std::string_view text);
-/// Why a word is no whole number from `low` to `high`: "wanted a whole number from 1 to 9, got 12";
+/// Why a word is no whole number from `low` to `high`: "expected a whole number from 1 to 9, got 12";
 /// empty when it is one.
 std::string integer_fault(std::string_view word, int low, int high);
 
@@ -76,7 +76,7 @@ class Line {
   /// used"; empty when there are no more, but for a comment that begins with '#'.
   std::string surplus(int used) const;
 
-  /// throws Error  "Barrett.cfg:31: Kp: wanted a number, got 'x'"
+  /// throws Error  "Barrett.cfg:31: Kp: expected a number, got 'x'"
   double number(int i, std::string_view what) const;
   /// throws Error as number does, or when out of [low, high]
   int integer(int i, std::string_view what, int low = std::numeric_limits<int>::min(),
@@ -112,7 +112,7 @@ class LineReader {
   Line peek() const;
   Line next();
   /// As next(), but steps over blank lines and lines that begin with '#'.
-  /// throws Error  "Barrett.cfg:31: wanted `what`, got the end of the file"
+  /// throws Error  "Barrett.cfg:31: expected `what`, got the end of the file"
   Line next_full(std::string_view what);
   /// Steps over blank lines and comments; is there another line?
   bool skip_to_full();

@@ -41,8 +41,8 @@ Eigen::Matrix3d contact_frame(const Eigen::Vector3d& normal) {
 
 Wrenches cone_wrenches(const PointContact& contact, const ConeOptions& options) {
   check_cone(contact, options);
-  if (options.edges < 3 || options.edges > most_edges)
-    fail("contact cone: edges must be 3 to {}, got {}", most_edges, options.edges);
+  if (options.edges < 3 || options.edges > max_edges)
+    fail("contact cone: edges must be 3 to {}, got {}", max_edges, options.edges);
   const Eigen::Matrix3d frame = contact_frame(contact.n_O);
   const Eigen::Vector3d lever = (contact.p_O - options.p_OM) / options.rho;
   if (contact.mu > 0 && contact.torsion_radius > 0) {

@@ -9,12 +9,12 @@ struct PointContact {
   Eigen::Vector3d p_O = Eigen::Vector3d::Zero();   ///< contact point [m]
   Eigen::Vector3d n_O = Eigen::Vector3d::UnitZ();  ///< unit normal, into the object
   double mu = 1.0;                                 ///< Coulomb coefficient, >= 0
-  /// how far a soft contact resists a turn about its normal, 0 for a point [m]: with forces f and
+  /// of torsional friction of a soft contact, 0 for a point [m]: with forces f and
   /// torque t, |f_tangential|^2 + (t / torsion_radius)^2 <= (mu f_normal)^2
   double torsion_radius = 0;
 };
 
-inline constexpr int most_edges = 1000;  ///< far beyond what a hull in six dimensions can use
+inline constexpr int max_edges = 1000;  ///< far beyond what a hull in six dimensions can use
 /// edges of the cone itself, round, where a pyramid or a cone may be asked for
 inline constexpr int round_edges = 0;
 
@@ -22,7 +22,7 @@ using Wrenches =
     Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< a column a wrench (force; torque / rho)
 
 struct ConeOptions {
-  int edges = 8;     ///< of the pyramid about the normal, 3 to most_edges
+  int edges = 8;     ///< of the pyramid about the normal, 3 to max_edges
   double rho = 1.0;  ///< torque length scale, > 0 [m]
   /// torques are about this point, usually the centre of mass [m]
   Eigen::Vector3d p_OM = Eigen::Vector3d::Zero();

@@ -31,8 +31,8 @@ static void check(const TouchOptions& options) {
   };
   length("threshold", options.threshold);
   length("merge_radius", options.merge_radius);
-  if (options.most_per_patch < 1)
-    fail("contact set: most_per_patch must be >= 1, got {}", options.most_per_patch);
+  if (options.max_per_patch < 1)
+    fail("contact set: max_per_patch must be >= 1, got {}", options.max_per_patch);
 }
 
 // Are both surfaces seen from outside where they are nearest? The triangle that looks most squarely
@@ -171,7 +171,7 @@ std::vector<Touch> contact_set(const Shape& a, const Shape& b, const Pose& X_AB,
   join_neighbours(points, std::min(options.threshold, crack_part * merge));
   Indices kept;
   for (const Indices& patch : find_patches(points)) {
-    const Indices some = reduce(points, patch, merge, options.most_per_patch, rounding);
+    const Indices some = reduce(points, patch, merge, options.max_per_patch, rounding);
     kept.insert(kept.end(), some.begin(), some.end());
   }
   std::sort(kept.begin(), kept.end());

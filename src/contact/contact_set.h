@@ -19,7 +19,7 @@ struct TouchOptions {
   double threshold = 1e-4;  ///< surfaces closer than this touch [m]
   /// points of a patch nearer than this are one; at most 1/10 of the smaller radius [m]
   double merge_radius = 1e-3;
-  int most_per_patch = 8;  ///< a longer outline is thinned, the closest pair kept
+  int max_per_patch = 8;  ///< a longer outline is thinned, the closest pair kept
 };
 
 /// Contact set of two shapes that do not intersect. A patch is where near points with one normal
@@ -30,7 +30,7 @@ struct TouchOptions {
 ///
 /// returns  nothing when they are farther apart than the threshold, intersect, or one holds the
 ///          other
-/// throws   Error when an option is negative or not finite, or most_per_patch < 1
+/// throws   Error when an option is negative or not finite, or max_per_patch < 1
 std::vector<Touch> contact_set(const Shape& a, const Shape& b, const Pose& X_AB,
                                const TouchOptions& options = {});
 

@@ -13,8 +13,8 @@ namespace clench {
 
 FrictionEdges friction_edges(double torsion_radius, int directions, double even_in) {
   if (!(torsion_radius >= 0) || !std::isfinite(torsion_radius))
-    fail("friction edges: wanted a torsion radius >= 0 [m], got {}", torsion_radius);
-  if (directions < 3) fail("friction edges: wanted 3 directions or more, got {}", directions);
+    fail("friction edges: expected a torsion radius >= 0 [m], got {}", torsion_radius);
+  if (directions < 3) fail("friction edges: expected 3 directions or more, got {}", directions);
   constexpr double pi = std::numbers::pi;
   const bool soft = torsion_radius > 0;
   const int rings = soft ? std::clamp((directions + 2) / 4, 1, 16) : 0;

@@ -1,4 +1,4 @@
-// What bodies are made of, and how much each pair of materials rubs.
+// What bodies are made of, and the friction of each pair of materials.
 #pragma once
 #include <string>
 #include <string_view>

@@ -7,8 +7,8 @@ namespace clench {
 
 using Eigen::Vector3d;
 
-static constexpr double most_slope = 1.0 / 30;  // forgiven by is_summit
-static constexpr double on_boundary = 1e-9;     // of a triangle's size: nearer is on its edge
+static constexpr double max_slope = 1.0 / 30;  // forgiven by is_summit
+static constexpr double on_boundary = 1e-9;    // of a triangle's size: nearer is on its edge
 
 // members of the groups 0 to count - 1, in the order of the slots
 NearSurface::Groups NearSurface::group(std::vector<int> of, int count) {
@@ -111,7 +111,7 @@ bool NearSurface::is_summit(std::span<const int> slots, const Vector3d& p,
       if (length > 0) step = std::min(step, length);
     }
     const double shift = (point_triangle(p + step * direction, c).q - p).norm();
-    if (shift > most_slope * step + rounding) return false;
+    if (shift > max_slope * step + rounding) return false;
   }
   return true;
 }

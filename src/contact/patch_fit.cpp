@@ -15,13 +15,13 @@ using PointSpan = std::span<const Vector3d>;
 
 namespace {
 
-constexpr int most_fit_rounds = 40;
+constexpr int max_fit_rounds = 40;
 constexpr double settled = 1e-12;  // change of curvatures times the scale
 // Of the mean of squared columns, which are about 0.1: what no point tells stays flat, what the
 // points tell changes by 1e-10 of itself.
 constexpr double ridge = 1e-12;
 // z - m/2 z^2 must rise with z
-constexpr double most_bend = 0.9;
+constexpr double max_bend = 0.9;
 constexpr double tiny = 1e-300;
 
 // of z - m/2 z^2 = c0 + c1 x + c2 y + (k11 x^2 + 2 k12 xy + k22 y^2) / 2
@@ -72,7 +72,7 @@ void move_into(const Matrix3d& axes, const Vector3d& origin, double scale, Point
 // what each adds to the height.
 Column rounding_up(const Principal& k, const Columns& at) {
   const double highest = at.z.abs().maxCoeff();
-  const double most = highest > 0 ? most_bend / highest : 0;
+  const double most = highest > 0 ? max_bend / highest : 0;
   const Column first =
       std::abs(k.values[0]) * (k.vectors(0, 0) * at.x + k.vectors(1, 0) * at.y).square();
   const Column second =
@@ -133,7 +133,7 @@ SurfaceFit fit_quadric(PointSpan points, double scale, std::span<const double> w
   Principal now = principal(0, 0, 0);
   const Column w = weight_column(weights, points.size());
   Columns local(points.size());
-  for (int round = 0; round < most_fit_rounds; ++round) {
+  for (int round = 0; round < max_fit_rounds; ++round) {
     move_into(axes, origin, scale, points, local);
     const Coefficients c = solve_quadric(local, w, now);
     const Vector2d before = now.values;
@@ -143,7 +143,7 @@ SurfaceFit fit_quadric(PointSpan points, double scale, std::span<const double> w
     // the next tangent frame: at the foot of the fit, along its normal
     origin += axes.col(2) * c[0] * scale;
     const Vector3d normal = axes * Vector3d(-c[1], -c[2], 1).normalized();
-    axes = least_turn(axes.col(2), normal).toRotationMatrix() * axes;
+    axes = shortest_rotation(axes.col(2), normal).toRotationMatrix() * axes;
   }
   SurfaceFit fit;
   fit.curvatures = now.values / scale;

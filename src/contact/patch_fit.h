@@ -11,7 +11,7 @@ struct SurfaceFit {
   /// principal curvatures, descending; positive where the surface falls away from what touches it,
   /// as a ball's, negative where it rises, as a socket's [1/m]
   Eigen::Vector2d curvatures = Eigen::Vector2d::Zero();
-  /// unit, one a column, orthogonal to each other and to the normal
+  /// unit, one per column, orthogonal to each other and to the normal
   Eigen::Matrix<double, 3, 2> directions = Eigen::Matrix<double, 3, 2>::Identity();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, into the body
   double residual = 0;  ///< how far the points lie from the fit, root of the mean square [m]
@@ -30,7 +30,7 @@ enum class PatchFit {
 ///
 /// points   surface points around (0, 0), at least 3, +z into the body [m]
 /// scale    of their distances, > 0 [m]
-/// weights  of the squares, one a point, >= 0; none: all 1
+/// weights  of the squares, one per point, >= 0; none: all 1
 /// throws   Error for less than 3 points
 SurfaceFit fit_quadric(std::span<const Eigen::Vector3d> points, double scale,
                        std::span<const double> weights = {});

@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 
 static constexpr double nowhere = std::numeric_limits<double>::infinity();
 static constexpr double whole_turn = 2 * std::numbers::pi;
-static constexpr double full_facing = 0.7;   // cosine: what leans less counts wholly
-static constexpr double least_width = 1e-6;  // of the radius: rings narrower than this are none
+static constexpr double full_facing = 0.7;  // cosine: what leans less counts wholly
+static constexpr double min_width = 1e-6;   // of the radius: rings narrower than this are none
 static constexpr double longest_piece = whole_turn / 8, shortest_piece = 0.02;
 
 namespace {
@@ -194,9 +194,8 @@ static Vector3d point_over(const SeenSheet& side, int triangle, const Vector2d& 
 static void add_point(const SeenSheet& side, int triangle, const Vector3d& point, double area,
                       RingPoints& out) {
   if (triangle < 0) return;
-  constexpr double range = full_facing - PatchSheet::least_facing;
-  const double part =
-      std::min(1.0, (side.sheet.facing(triangle) - PatchSheet::least_facing) / range);
+  constexpr double range = full_facing - PatchSheet::min_facing;
+  const double part = std::min(1.0, (side.sheet.facing(triangle) - PatchSheet::min_facing) / range);
   out.points.push_back(point);
   out.weights.push_back(area * part * part);
 }
@@ -278,10 +277,10 @@ static std::vector<double> radial_cuts(const PatchSheet& a, const PatchSheet& b,
       farthest = std::max({farthest, p.norm(), (p + along).norm()});
     }
     for (const double cut : {nearest, farthest})
-      if (cut > least_width * radius && cut < (1 - least_width) * radius) out.push_back(cut);
+      if (cut > min_width * radius && cut < (1 - min_width) * radius) out.push_back(cut);
   }
   std::sort(out.begin(), out.end());
-  const auto same = [&](double x, double y) { return y - x < least_width * radius; };
+  const auto same = [&](double x, double y) { return y - x < min_width * radius; };
   out.erase(std::unique(out.begin(), out.end(), same), out.end());
   return out;
 }
@@ -331,7 +330,7 @@ Matrix2d meeting_moments(const std::vector<GapPlace>& gap, double depth) {
 std::vector<GapPlace> round_gap(std::vector<GapPlace> places, const Vector2d& curvatures,
                                 const Matrix2d& axes) {
   static const double steepest =
-      std::sqrt(1 - PatchSheet::least_facing * PatchSheet::least_facing);  // sine, where sheets end
+      std::sqrt(1 - PatchSheet::min_facing * PatchSheet::min_facing);  // sine, where sheets end
   for (GapPlace& g : places) {
     const double r = g.place.norm();
     const Vector2d along = axes.transpose() * g.place / r;

@@ -13,12 +13,11 @@ namespace clench {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-static const double least_smooth = std::cos(40 * std::numbers::pi / 180);  // between neighbours
-static const double least_round =
-    std::cos(60 * std::numbers::pi / 180);  // around a corner: no spike
+static const double min_smooth = std::cos(40 * std::numbers::pi / 180);  // between neighbours
+static const double min_round = std::cos(60 * std::numbers::pi / 180);  // around a corner: no spike
 // Of two neighbours, one that goes on so much farther from their edge is flat beside a rounded edge,
 // not a chord of a curve.
-static constexpr double most_height_ratio = 3;
+static constexpr double max_height_ratio = 3;
 static constexpr double seed_distance = 1e-3;  // of the radius: triangles as near as the nearest
 
 namespace {
@@ -76,7 +75,7 @@ PatchSheet::PatchSheet(const Shape& shape, const Pose& X_PB, std::span<const Vec
   // from the seeds on, across corners
   std::vector<char> inside(count, 0);
   const auto take = [&](int t) {
-    if (inside[t] || facing(t) <= least_facing) return;
+    if (inside[t] || facing(t) <= min_facing) return;
     inside[t] = 1, triangles_.push_back(t);
   };
   for (const int seed : all.seeds) take(near_.find(seed));
@@ -151,9 +150,9 @@ bool PatchSheet::linked(const Blade& a, const Blade& b) const {
   const double cosine = a.normal.dot(b.normal);
   const bool beside = a.ends[0] == b.ends[0] || a.ends[0] == b.ends[1] || a.ends[1] == b.ends[0] ||
                       a.ends[1] == b.ends[1];
-  return beside && (shape_.closed() ? cosine : std::abs(cosine)) > least_smooth &&
-         most_height_ratio * a.twice_area > b.twice_area &&
-         most_height_ratio * b.twice_area > a.twice_area;
+  return beside && (shape_.closed() ? cosine : std::abs(cosine)) > min_smooth &&
+         max_height_ratio * a.twice_area > b.twice_area &&
+         max_height_ratio * b.twice_area > a.twice_area;
 }
 
 // Weighted over the triangles that one comes to from this one around the corner, across edges that
@@ -169,7 +168,7 @@ Vector3d PatchSheet::make_corner_normal(int triangle, int k) {
   const Vector3d& normal = normals_[triangle];
   for (Blade& blade : blades) {
     const double cosine = blade.normal.dot(normal);
-    blade.round = (shape_.closed() ? cosine : std::abs(cosine)) > least_round;
+    blade.round = (shape_.closed() ? cosine : std::abs(cosine)) > min_round;
     blade.reached = blade.triangle == known_[triangle];
   }
   for (bool changed = true; changed;) {
@@ -213,10 +212,10 @@ std::vector<std::array<Vector3d, 2>> PatchSheet::rim() const {
   for (const int t : triangles_)
     for (int k = 0; k < 3; ++k) {
       const auto slots = near_.at_edge(near_.edge(t, k));
-      const bool goes_on = std::any_of(slots.begin(), slots.end(), [&](int slot) {
+      const bool dof_can_advance = std::any_of(slots.begin(), slots.end(), [&](int slot) {
         return slot / 3 != t && std::binary_search(triangles_.begin(), triangles_.end(), slot / 3);
       });
-      if (!goes_on) out.push_back({corners(t)[k], corners(t)[(k + 1) % 3]});
+      if (!dof_can_advance) out.push_back({corners(t)[k], corners(t)[(k + 1) % 3]});
     }
   return out;
 }
@@ -243,11 +242,10 @@ static double length_near(const Vector2d& from, const Vector2d& to, double radiu
 }
 
 double PatchSheet::crease_length() const {
-  const auto goes_on = [&](int t, int k) {
+  const auto dof_can_advance = [&](int t, int k) {
     for (const int slot : near_.at_edge(near_.edge(t, k))) {
       const double cosine = normals_[t].dot(normals_[slot / 3]);
-      if (slot / 3 != t && (shape_.closed() ? cosine : std::abs(cosine)) > least_smooth)
-        return true;
+      if (slot / 3 != t && (shape_.closed() ? cosine : std::abs(cosine)) > min_smooth) return true;
     }
     return false;
   };
@@ -255,7 +253,7 @@ double PatchSheet::crease_length() const {
   std::vector<char> seen(near_.edge_count(), 0);
   for (const int t : triangles_)
     for (int k = 0; k < 3; ++k) {
-      if (seen[near_.edge(t, k)]++ || goes_on(t, k)) continue;
+      if (seen[near_.edge(t, k)]++ || dof_can_advance(t, k)) continue;
       for (size_t i = 0; i < sites_.size(); ++i)
         lengths[i] += length_near((corners(t)[k] - sites_[i]).head<2>(),
                                   (corners(t)[(k + 1) % 3] - sites_[i]).head<2>(), radius_);

@@ -22,7 +22,7 @@ namespace clench {
 ///        second order); Max (1999), Weights for computing vertex normals from facet normals
 class PatchSheet {
  public:
-  static constexpr double least_facing = 0.3;  ///< cosine: what leans more belongs to the flank
+  static constexpr double min_facing = 0.3;  ///< cosine: what leans more belongs to the flank
   /// of the radius: a sphere around a site holds what lies over its disc, slopes of 45 degrees on the
   /// whole. So far around the sites all is known.
   static constexpr double reach = std::numbers::sqrt2;

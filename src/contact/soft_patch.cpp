@@ -19,8 +19,8 @@ using Eigen::Vector3d;
 
 static const double one_side = std::cos(40 * std::numbers::pi / 180);  // normals of one site
 static constexpr double alike = 0.05;  // difference of curvatures over their mean: as of a ball
-static constexpr double least_relief = 1e-4;  // of the radius: flat, whatever noise there is
-static constexpr double least_share = 0.07;   // of the disc: with less of a surface there is no fit
+static constexpr double min_relief = 1e-4;  // of the radius: flat, whatever noise there is
+static constexpr double min_share = 0.07;   // of the disc: with less of a surface there is no fit
 
 double neighbourhood_radius(double modulus) {
   const double radius = 0.4 / std::cbrt(modulus);
@@ -88,7 +88,7 @@ static void check(const PatchOptions& options) {
     if (!(std::isfinite(x) && x > 0)) fail("contact patch: {} must be > 0 [m], got {}", name, x);
   };
   if (options.radius) length("radius", *options.radius);
-  length("flat_radius", options.flat_radius);
+  length("max_radius", options.max_radius);
 }
 
 // 0 to 1 between two values, either of which may be the larger
@@ -127,7 +127,7 @@ static PatchSheet sheet_of(const SoftSite& site, const PatchFrames& frames, int 
 }
 
 static double crease_of(const PatchSheet& sheet, const SurfaceFit& fit, double radius) {
-  if (fit.relief <= least_relief * radius) return 0;
+  if (fit.relief <= min_relief * radius) return 0;
   return std::min(ramp(fit.residual / fit.relief, 0.1, 0.2),
                   ramp(sheet.crease_length() / radius, 0.2, 0.6));
 }
@@ -135,7 +135,7 @@ static double crease_of(const PatchSheet& sheet, const SurfaceFit& fit, double r
 // curvatures as a form on the plane across `normal`, whose axes are `plane`
 static Matrix2d curvature_form(const SurfaceFit& fit, const Vector3d& normal,
                                const Eigen::Matrix<double, 3, 2>& plane) {
-  const Matrix3d turn = least_turn(fit.normal, normal).toRotationMatrix();
+  const Matrix3d turn = shortest_rotation(fit.normal, normal).toRotationMatrix();
   const Eigen::Matrix2d directions = plane.transpose() * turn * fit.directions;
   return directions * fit.curvatures.asDiagonal() * directions.transpose();
 }
@@ -147,10 +147,10 @@ static SurfaceFit turned(SurfaceFit fit, const Pose& X) {
 }
 
 // beyond flattest_radius none is left by and by: that of flat surfaces stands for it
-static double relative_radius(double curvature, double flat_radius) {
+static double relative_radius(double curvature, double max_radius) {
   const double flatness = ramp(curvature * flattest_radius, 1, 0.5);
   if (flatness == 0) return 1 / curvature;
-  return std::pow(flat_radius, flatness) * std::pow(flattest_radius, 1 - flatness);
+  return std::pow(max_radius, flatness) * std::pow(flattest_radius, 1 - flatness);
 }
 
 namespace {
@@ -182,7 +182,7 @@ static Meeting meeting(const SoftPatch& patch, double depth) {
 // Less deep the facets of a mesh would tell: from there on the shape stays. A flat ellipse then is
 // some 0.7 of the radius wide.
 static double shallowest(const SoftPatch& patch) {
-  return patch.radius * patch.radius / (4 * patch.flat_radius);
+  return patch.radius * patch.radius / (4 * patch.max_radius);
 }
 
 // with the first one at an angle in the plane
@@ -195,7 +195,7 @@ static void set_directions(double angle, const PatchFrames& frames, SoftPatch& p
 static void set_radii(const std::array<double, 2>& curvatures, SoftPatch& patch) {
   for (int i = 0; i < 2; ++i) {
     patch.flat[i] = !(curvatures[i] > 1 / flattest_radius);
-    patch.relative_radii[i] = relative_radius(curvatures[i], patch.flat_radius);
+    patch.relative_radii[i] = relative_radius(curvatures[i], patch.max_radius);
   }
   patch.relative_radii[1] = std::max(patch.relative_radii[0], patch.relative_radii[1]);
 }
@@ -205,10 +205,10 @@ static double main_axis(const Matrix2d& form) {
   return 0.5 * std::atan2(2 * form(0, 1), form(0, 0) - form(1, 1));
 }
 
-static bool same_all_round(const Matrix2d& form, double least_mean) {
+static bool same_all_round(const Matrix2d& form, double min_mean) {
   const double mean = 0.5 * form.trace();
   return std::hypot(0.5 * (form(0, 0) - form(1, 1)), form(0, 1)) <=
-         alike * std::max(mean, least_mean);
+         alike * std::max(mean, min_mean);
 }
 
 // Leaves the fits of both surfaces.   returns how the gap between them bends, the sum of both
@@ -219,7 +219,7 @@ static Matrix2d fit_surfaces(const std::array<PatchSheet, 2>& sheets, const Patc
   for (int i = 0; i < 2; ++i) {
     const auto& [points, weights] = rings.surfaces[i];
     SurfaceFit fit;
-    const bool enough = rings.shares[i] >= least_share;
+    const bool enough = rings.shares[i] >= min_share;
     if (enough)
       fit = kind == PatchFit::jet ? fit_jet(points, radius) : fit_quadric(points, radius, weights);
     patch.crease = std::max(patch.crease, enough ? crease_of(sheets[i], fit, radius) : 1);
@@ -245,14 +245,15 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
   const double reach = std::max(patch.radius, frames.spread);
   std::array<PatchSheet, 2> sheets = {sheet_of(site, frames, 0, reach),
                                       sheet_of(site, frames, 1, reach)};
-  patch.flat_radius = options.flat_radius;
+  patch.max_radius = options.max_radius;
   const PatchRings rings = patch_rings(sheets[0], sheets[1], reach, shallowest(patch));
   patch.gap = rings.gap;
   patch.room = patch_room(sheets[0], sheets[1]);
   const Matrix2d form = fit_surfaces(sheets, rings, frames, reach, options.fit, patch);
-  if (options.radius && std::min(rings.shares[0], rings.shares[1]) < least_share)
+  if (options.radius && std::min(rings.shares[0], rings.shares[1]) < min_share)
     fail(
-        "contact patch: within radius {} [m] there is too little of a surface to fit; wanted more "
+        "contact patch: within radius {} [m] there is too little of a surface to fit; expected "
+        "more "
         "than the gap, and no more than the bodies",
         patch.radius);
 
@@ -265,7 +266,7 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
     set_directions(main_axis(region), frames, patch);
     patch.directed = !same_all_round(region, 0);
   }
-  patch.sharp = meeting(patch, shallowest(patch)).unlike > 0.5;
+  patch.at_edge = meeting(patch, shallowest(patch)).unlike > 0.5;
   return patch;
 }
 
@@ -315,7 +316,7 @@ static void press_sharp(const SoftPatch& patch, double force, double c, ContactE
     if (area > 0) out.indentation = 2 * force * c / area;
   }
   // what is sure to touch, and is within the neighbourhood
-  const double flat = std::sqrt(force * c / (std::numbers::pi * patch.flat_radius));
+  const double flat = std::sqrt(force * c / (std::numbers::pi * patch.max_radius));
   const double depth = std::max(flat, shallowest(patch));
   const auto [moments, unlike] = meeting(patch, depth);
   if (unlike == 0) return;
@@ -344,7 +345,7 @@ ContactEllipse contact_ellipse(const SoftPatch& patch, double force, ModulusRule
   for (int i = 0; i < 2; ++i) out.semi_axes[i] = std::sqrt(2 * out.indentation * R[i]);
   if (!patch.gap.empty()) press_sharp(patch, force, c, out);
   out.pressure = out.indentation / c;
-  out.beyond_layer = out.indentation > soft_height(patch, rule);
+  out.exceeds_layer = out.indentation > soft_height(patch, rule);
   return out;
 }
 

@@ -48,7 +48,7 @@ std::vector<SoftSitePtr> soft_sites(const ShapePtr& a, const ShapePtr& b, const 
 struct PatchOptions {
   std::optional<double> radius = {};  ///< instead of the site's, of the bodies' size, > 0 [m]
   /// stands for the relative radius of a direction along which the surfaces do not part, > 0 [m]
-  double flat_radius = 0.02;
+  double max_radius = 0.02;
   PatchFit fit = PatchFit::quadric;
 };
 
@@ -63,7 +63,7 @@ struct SoftPatch {
   std::array<SurfaceFit, 2> surfaces;
   std::array<std::vector<Eigen::Vector3d>, 2> points;  ///< that the fits are of
   /// Of the gap between the surfaces along `directions`, the more curved one first [m]. Where they
-  /// part slower than a ball of twice flattest_radius from a plane, or not at all: flat_radius, but no
+  /// part slower than a ball of twice flattest_radius from a plane, or not at all: max_radius, but no
   /// less than the first. From flattest_radius on the one goes over into the other.
   std::array<double, 2> relative_radii = {};
   std::array<bool, 2> flat = {};
@@ -71,7 +71,7 @@ struct SoftPatch {
   /// 5 %, they are those of the region where the surfaces meet.
   Eigen::Matrix<double, 3, 2> directions;
   bool directed = true;       ///< false where that is alike in all directions, too: they are any
-  double flat_radius = 0.02;  ///< as it was asked for [m]
+  double max_radius = 0.02;   ///< as it was asked for [m]
   std::vector<GapPlace> gap;  ///< as it is; none: as the radii have it
   PatchRoom room;             ///< as far as the surfaces are known
   SoftSite site;              ///< what it is of: larger patches look farther for room
@@ -83,7 +83,7 @@ struct SoftPatch {
   double residual = 0;
   /// Is there a corner or an edge? The weight w of contact_ellipse is above 0.5 where the indentation
   /// is small.
-  bool sharp = false;
+  bool at_edge = false;
   Elasticity elastic_a, elastic_b;
 };
 
@@ -103,7 +103,7 @@ struct ContactEllipse {
   double indentation = 0;                ///< in the middle [m]
   double pressure = 0;                   ///< in the middle, indentation / c [Pa]
   /// Is the indentation larger than the soft layers together are high? Then a thin layer is no model.
-  bool beyond_layer = false;
+  bool exceeds_layer = false;
 };
 
 /// Mattress of springs: indentation = sqrt(F c / (pi sqrt(R1 R2))) with the compliance c, layer over
@@ -115,7 +115,7 @@ struct ContactEllipse {
 ///
 /// Where the surfaces do not meet over such an ellipse, as at a corner or an edge, only what is sure to
 /// touch counts: where the gap is no wider than the indentation of flat surfaces under that force,
-/// that is, of R1 = R2 = flat_radius. What is sharper goes deeper. How wide that is its moments tell.
+/// that is, of R1 = R2 = max_radius. What is sharper goes deeper. How wide that is its moments tell.
 /// From the one rule to the other it goes by the weight w, as a^(1 - w) b^w, the larger of two: the patch's
 /// crease, and how much narrower the surfaces meet than the fitted ones, 0 where the mean semi-axis
 /// is 85 % of theirs, 1 at 65 %. The indentation

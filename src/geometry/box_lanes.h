@@ -12,7 +12,7 @@
 
 namespace clench {
 
-/// Boxes: one alone (F a number), or one a lane.
+/// Boxes: one alone (F a number), or one per lane.
 template <class F>
 struct BoxOf {
   Triple<F> axis[3];
@@ -89,7 +89,7 @@ CLENCH_INLINE F box_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& o
   // along[j]: what of the eight lies along axis j of the one
   F along[3] = {zero, zero, zero};
   F squared_eight = zero, squared_one = zero,
-    least_deep = F::all(std::numeric_limits<Real>::lowest());
+    min_deep = F::all(std::numeric_limits<Real>::lowest());
   for (int k = 0; k < 3; ++k) {
     F reach = eight.half[k];
     for (int j = 0; j < 3; ++j) {
@@ -98,18 +98,18 @@ CLENCH_INLINE F box_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& o
       along[j] = along[j] + turn * eight.half[k];
     }
     const F gap = abs(dot(eight.axis[k], between)) - reach;
-    least_deep = max(gap, least_deep);
+    min_deep = max(gap, min_deep);
     const F apart = max(gap, zero);
     squared_eight = squared_eight + apart * apart;
   }
   for (int j = 0; j < 3; ++j) {
     const F gap = abs(dot(between, one.axis[j])) - along[j] - one.half[j];
-    least_deep = max(gap, least_deep);
+    min_deep = max(gap, min_deep);
     const F apart = max(gap, zero);
     squared_one = squared_one + apart * apart;
   }
   const F squared = max(squared_eight, squared_one);
-  return select(squared > Real{0}, sqrt(squared), least_deep);
+  return select(squared > Real{0}, sqrt(squared), min_deep);
 }
 
 /// The largest gap along any axis of the two, or the least depth where all of them show an overlap: a

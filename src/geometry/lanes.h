@@ -177,11 +177,11 @@ struct Lanes {
   /// different place for each, whatever the numbers. The other lanes come right behind.
   CLENCH_INLINE void places(unsigned set, Int* to) const {
     constexpr Int size = ~(Int{1} << (8 * sizeof(Real) - 1));
-    const Mask wanted = lanes_of(set);
+    const Mask expected = lanes_of(set);
     Bits keys[chunks];
     // sizes are in the order of their bits; the last ones give way to the lane
     for (int i = 0; i < chunks; ++i)
-      keys[i] = wanted.bits[i]
+      keys[i] = expected.bits[i]
                     ? (reinterpret_cast<Bits>(chunk[i]) & (size & ~Int{7})) | lane_numbers(i)
                     : Bits{} - 1;
     Int all[lane_count];
@@ -200,7 +200,7 @@ struct Lanes {
 };
 
 template <class F>
-CLENCH_INLINE typename F::Real least_of(const F& x) {
+CLENCH_INLINE typename F::Real min_of(const F& x) {
   typename F::Real values[lane_count];
   x.store(values);
   for (int step = lane_count / 2; step > 0; step /= 2)

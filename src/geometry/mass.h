@@ -20,7 +20,7 @@ MassProperties solid_mass(const Mesh& mesh);
 /// Turns a closed mesh that is inside out: its triangles then face outward.   returns  was it?
 bool turn_outward(Mesh& mesh);
 /// What is told of one, behind its name.
-inline constexpr const char* inside_out = ": its triangles face inward; turned to face outward";
+inline constexpr const char* inside_out = ": its triangles face inward; flipped to face outward";
 
 /// Area-weighted centroid of the surface [m].
 Eigen::Vector3d surface_centroid(const Mesh& mesh);

@@ -187,7 +187,7 @@ Mesh weld(const Mesh& mesh, double tolerance, int* dropped) {
 }
 
 void check_mesh(const Mesh& mesh, const std::string& subject) {
-  if (mesh.triangles.empty()) fail("{}: at least one triangle wanted, got none", subject);
+  if (mesh.triangles.empty()) fail("{}: at least one triangle expected, got none", subject);
   for (size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vector3d& p = mesh.vertices[i];
     if (!p.allFinite() || p.cwiseAbs().maxCoeff() > largest_coordinate)

@@ -97,7 +97,7 @@ void near_point(const Tree& tree, const double at[3], double extent, double roun
   Real limit = at_least<Real>(reach) + slack;
   const auto judge = [&](const TriangleBundle& leaf) {
     const PointBounds<F> bounds = point_bounds(load_triangles<F>(leaf), p);
-    if (nearest_only) limit = std::min(limit, least_of(bounds.high) + 2 * slack);
+    if (nearest_only) limit = std::min(limit, min_of(bounds.high) + 2 * slack);
     Real low[8];
     bounds.low.store(low);
     for (unsigned left = used_lanes(leaf.triangle) & ~(bounds.low > limit).set(); left;

@@ -140,7 +140,7 @@ class ReachWalk {
   }
 
   // which of b's triangles are in reach of triangle i of a, by the axes of a's frame and the planes of both
-  CLENCH_INLINE unsigned near_row(int i, unsigned wanted) const {
+  CLENCH_INLINE unsigned near_row(int i, unsigned expected) const {
     const Side &a = side_a_, &b = side_b_;
     F squared = F::all(0);
     for (int m = 0; m < 3; ++m) {
@@ -150,8 +150,8 @@ class ReachWalk {
               F::all(0));
       squared = squared + apart * apart;
     }
-    wanted &= ~(squared > squared_limit_).set();
-    if (!wanted) return 0;
+    expected &= ~(squared > squared_limit_).set();
+    if (!expected) return 0;
     const Triple<Real> n = {a.normal[0][i], a.normal[1][i], a.normal[2][i]};
     F s[3];
     for (int k = 0; k < 3; ++k)
@@ -165,7 +165,7 @@ class ReachWalk {
     for (int k = 0; k < 3; ++k) s[k] = dot(normal, one(a.corners, k, i));
     const auto off_b = (min(min(s[0], s[1]), s[2]) - F::stored(b.above) > limit_) |
                        (max(max(s[0], s[1]), s[2]) - F::stored(b.below) < -limit_);
-    return wanted & ~(off_a | off_b).set();
+    return expected & ~(off_a | off_b).set();
   }
 
   // Pairs of two leaves in reach wait until eight are there to be judged at once.

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/casing.h"
+#include "geometry/bounding_polytope.h"
 #include "geometry/precision.h"
 #include "geometry/tree_pair.h"
 #include "geometry/walk.h"
@@ -10,14 +10,16 @@ namespace clench {
 
 namespace {
 
-// Two casings and a direction n, from a to b: where each lies nearest to the other along it. Rounding,
-// as in box_lanes.h: of radii r the mesh lies 16 u r beyond its casing, the corner chosen 11 u r before
+// Two polytopes and a direction n, from a to b: where each lies nearest to the other along it. Rounding,
+// as in box_lanes.h: of radii r the mesh lies 16 u r beyond its bounding_polytope, the corner chosen 11 u r before
 // the farthest, n in the frame of b off by 9 u r; a corner of b in the frame of a, and its difference
 // along n, off by 14 u l. The query's slack of 64 u (l + r) covers it.
-class Casings {
+class PolytopePair {
  public:
-  explicit Casings(const TreePair& pair)
-      : a_(pair.a->casing()), b_(pair.b->casing()), b_to_a_(move_of<float>(pair)) {}
+  explicit PolytopePair(const TreePair& pair)
+      : a_(pair.a->bounding_polytope()),
+        b_(pair.b->bounding_polytope()),
+        b_to_a_(move_of<float>(pair)) {}
 
   // from the farthest corner of a to that of b which is farthest back
   CLENCH_INLINE Triple<float> between(const Triple<float>& n) const {
@@ -28,11 +30,12 @@ class Casings {
   const Triple<float>& offset() const { return b_to_a_.offset; }
 
  private:
-  static CLENCH_INLINE Triple<float> corner(const Casing& casing, const Triple<float>& n) {
-    return farthest_point<FloatLanes>(casing.corners, Casing::bundles, n).at;
+  static CLENCH_INLINE Triple<float> corner(const BoundingPolytope& bounding_polytope,
+                                            const Triple<float>& n) {
+    return farthest_point<FloatLanes>(bounding_polytope.corners, BoundingPolytope::bundles, n).at;
   }
 
-  const Casing &a_, &b_;
+  const BoundingPolytope &a_, &b_;
   const Move<float> b_to_a_;
 };
 
@@ -42,13 +45,13 @@ class Casings {
 // source  Chung & Wang (1996), Quick collision detection of polytopes in virtual environments
 Separation find_separation(const TreePair& pair, double reach, const double start[3]) {
   // mirrored so often, a direction is still unit up to 2^-14
-  constexpr int most_mirrors = 8;
+  constexpr int max_mirrors = 8;
   Separation out;
   const double extent = extent_of(pair), sizes = pair.a->radius() + pair.b->radius();
   if (!single_is_enough(extent, sizes)) return out;
   const float limit =
       (at_least<float>(reach) + slack_of<float>(extent, sizes, pair.rounding)) * (1 + 0x1p-13f);
-  const Casings casings(pair);
+  const PolytopePair polytopes(pair);
   const auto parts = [&](const Triple<float>& n, float gap) {
     out = {gap > limit, {n.x, n.y, n.z}};
     return out.found;
@@ -59,15 +62,15 @@ Separation find_separation(const TreePair& pair, double reach, const double star
   float length = std::sqrt(dot(n, n));
   if (length > 0.5f && length < 2) {
     n = n.scaled(1 / length);
-    if (parts(n, dot(casings.between(n), n))) return out;
+    if (parts(n, dot(polytopes.between(n), n))) return out;
   }
-  n = casings.offset();
+  n = polytopes.offset();
   length = std::sqrt(dot(n, n));
   if (!(length > 0)) return out;
   n = n.scaled(1 / length);
   float best = std::numeric_limits<float>::lowest();
-  for (int i = 0; i <= most_mirrors; ++i) {
-    const Triple<float> between = casings.between(n);
+  for (int i = 0; i <= max_mirrors; ++i) {
+    const Triple<float> between = polytopes.between(n);
     const float gap = dot(between, n), squared = dot(between, between);
     if (!(gap > best) || parts(n, gap) || !(squared > 0)) break;
     best = gap;

@@ -8,7 +8,7 @@
 
 #include "base/convert.h"
 #include "geometry/lanes.h"
-#include "geometry/make_casing.h"
+#include "geometry/make_bounding_polytope.h"
 #include "geometry/mesh.h"
 #include "geometry/principal_axes.h"
 
@@ -86,7 +86,7 @@ class TreeBuilder {
     Matrix3d axes;
     for (int k = 0; k < 3; ++k)
       for (int m = 0; m < 3; ++m) axes(m, k) = tree_.boxes_[0].axes[3 * k + m][0];
-    tree_.casing_ = make_casing(points, axes);
+    tree_.bounding_polytope_ = make_bounding_polytope(points, axes);
   }
 
   // a bundle of the groups' boxes, then what is below

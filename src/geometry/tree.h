@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/casing.h"
+#include "geometry/bounding_polytope.h"
 
 namespace clench {
 
@@ -42,7 +42,7 @@ class Tree {
     for (int line = 0; line < 3; ++line)
       __builtin_prefetch(static_cast<const char*>(at) + 128 * line);
   }
-  const Casing& casing() const { return casing_; }
+  const BoundingPolytope& bounding_polytope() const { return bounding_polytope_; }
   const double* centre() const { return centre_; }  ///< in the mesh's frame [m]
   double radius() const { return radius_; }         ///< no vertex is farther from the centre [m]
   std::size_t bytes() const;
@@ -51,7 +51,7 @@ class Tree {
   friend class TreeBuilder;
   std::vector<BoxBundle> boxes_;
   std::vector<TriangleBundle> leaves_;
-  Casing casing_;
+  BoundingPolytope bounding_polytope_;
   double centre_[3] = {};
   double radius_ = 0;
 };

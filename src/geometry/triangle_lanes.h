@@ -155,27 +155,27 @@ CLENCH_INLINE typename F::Mask part(const TrianglesOf<F>& a, const TrianglesOf<F
 /// Lanes of those that may be as near as reach, >= 0, by the products of their edges.
 template <class F>
 CLENCH_INLINE unsigned edges_within_reach(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
-                                          typename F::Real reach, unsigned wanted) {
+                                          typename F::Real reach, unsigned expected) {
   const auto edge = [](const TrianglesOf<F>& t, int i) {
     return t.corner[(i + 1) % 3] - t.corner[i];
   };
   const Triple<F> edge_b[3] = {edge(b, 0), edge(b, 1), edge(b, 2)};
   for (int i = 0; i < 3; ++i) {
-    if (!wanted) return 0;
+    if (!expected) return 0;
     const Triple<F> edge_a = edge(a, i);
-    for (int j = 0; j < 3; ++j) wanted &= ~part(a, b, cross(edge_a, edge_b[j]), reach).set();
+    for (int j = 0; j < 3; ++j) expected &= ~part(a, b, cross(edge_a, edge_b[j]), reach).set();
   }
-  return wanted;
+  return expected;
 }
 
 /// The same by the usual separating axes: normals and products of edges. All that meet are among them.
 template <class F>
 CLENCH_INLINE unsigned within_reach(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
-                                    typename F::Real reach, unsigned wanted) {
+                                    typename F::Real reach, unsigned expected) {
   for (const auto* t : {&a, &b})
-    wanted &=
+    expected &=
         ~part(a, b, cross(t->corner[1] - t->corner[0], t->corner[2] - t->corner[1]), reach).set();
-  return edges_within_reach(a, b, reach, wanted);
+  return edges_within_reach(a, b, reach, expected);
 }
 
 /// What of the distances of a point from eight triangles is sure, up to slack.

@@ -105,10 +105,10 @@ void read_forces(const ForceProgram& p, const World& world, const Grasp& grasp,
   out.residual = sum.stableNorm();
   if (!std::isfinite(out.residual)) out.status = ForceStatus::inaccurate;
   out.efforts = read_efforts(p, world, grasp, options.joints.has_value());
-  const bool grows = options.objective == ForceObjective::interior ||
-                     options.objective == ForceObjective::interior_sum;
+  const bool grows = options.objective == ForceObjective::max_margin ||
+                     options.objective == ForceObjective::max_margin_sum;
   if (question == ForceQuestion::forces) out.objective = (grows ? -1 : 1) * p.solution.objective;
-  const bool interior = options.objective == ForceObjective::interior;
+  const bool interior = options.objective == ForceObjective::max_margin;
   read_margin(p, interior && question == ForceQuestion::forces, out);
 }
 
@@ -118,17 +118,17 @@ int largest_of(const std::vector<double>& values) {
 }
 
 void name_weakest(ForceCertificate& c) {
-  c.contact = largest_of(c.cap_shares);
-  const int dof = largest_of(c.effort_shares);
-  const double of_cap = c.contact < 0 ? 0 : c.cap_shares[c.contact];
-  const double of_dof = dof < 0 ? 0 : c.effort_shares[dof];
+  c.contact = largest_of(c.force_limit_power);
+  const int dof = largest_of(c.effort_limit_power);
+  const double of_cap = c.contact < 0 ? 0 : c.force_limit_power[c.contact];
+  const double of_dof = dof < 0 ? 0 : c.effort_limit_power[dof];
   // shares that are rounding are none: then friction alone is at its end
   const double least = 1e-9 * std::max(std::abs(c.power), std::abs(c.capacity));
   if (of_dof > of_cap && of_dof > least) c.dof = dof;
   if (of_cap <= least) {
     std::vector<double> moves;
-    for (size_t i = 0; i < c.opens.size(); ++i)
-      moves.push_back(std::hypot(c.opens[i], c.slides[i]));
+    for (size_t i = 0; i < c.separation_rates.size(); ++i)
+      moves.push_back(std::hypot(c.separation_rates[i], c.sliding_rates[i]));
     c.contact = largest_of(moves);
   }
 }
@@ -155,19 +155,19 @@ ForceCertificate read_certificate(const ForceProgram& p, const World& world, con
   for (int i = 0; i < p.map.contacts(); ++i) {
     const PointContact& contact = grasp.points[i];
     const VectorXd z = size * s.z.segment(cones + p.cones[i].start, p.cones[i].count);
-    out.opens.push_back((z.size() == 1 ? 1 : contact.mu) * z[0]);
-    out.slides.push_back(z.size() == 1 ? 0 : z.segment(1, 2).norm());
+    out.separation_rates.push_back((z.size() == 1 ? 1 : contact.mu) * z[0]);
+    out.sliding_rates.push_back(z.size() == 1 ? 0 : z.segment(1, 2).norm());
     const double cap = p.caps.empty() ? 0 : s.z[p.caps[i].start] * p.program.h[p.caps[i].start];
-    out.cap_shares.push_back(size * cap);
+    out.force_limit_power.push_back(size * cap);
   }
   const int dofs = static_cast<int>(world.robot(grasp.hand).dofs.size());
   for (int k = 0; k < dofs && !p.highs.empty(); ++k) {
     double share = 0;
     if (p.highs[k].count > 0) share += s.z[p.highs[k].start] * p.high[k];
     if (p.lows[k].count > 0) share -= s.z[p.lows[k].start] * p.low[k];
-    out.effort_shares.push_back(size * share);
+    out.effort_limit_power.push_back(size * share);
   }
-  out.effort_shares.resize(dofs);
+  out.effort_limit_power.resize(dofs);
   name_weakest(out);
   return out;
 }
@@ -211,7 +211,7 @@ void check_options(const World& world, const Grasp& grasp, const ForceOptions& o
   };
   const auto& caps = options.max_force.values;
   if (!options.max_force.fits(grasp.points.size()))
-    refuse(fmt::format("max_force: wanted one number or {}, one a contact, got {}",
+    refuse(fmt::format("max_force: expected one number or {}, one per contact, got {}",
                        grasp.points.size(), caps.size()));
   for (const double cap : caps) positive("max_force", cap, "N");
   positive("max_total_force", options.max_total_force, "N");
@@ -222,10 +222,10 @@ void check_options(const World& world, const Grasp& grasp, const ForceOptions& o
   const auto per_dof = [&](const char* name, const std::optional<VectorXd>& x, double least) {
     if (!x) return;
     if (x->size() != dofs)
-      refuse(fmt::format("{}: wanted {}, one a DOF, got {}", name, dofs, x->size()));
+      refuse(fmt::format("{}: expected {}, one per DOF, got {}", name, dofs, x->size()));
     for (const double effort : *x)
       if (!std::isfinite(effort) || effort < least)
-        refuse(fmt::format("{}: wanted {} [N m or N], got {}", name,
+        refuse(fmt::format("{}: expected {} [N m or N], got {}", name,
                            least == 0 ? "numbers >= 0" : "finite numbers", effort));
   };
   per_dof("torque limits", options.joints->limits, 0);
@@ -255,7 +255,7 @@ ForceResult contact_forces(const World& world, const Grasp& grasp, const ForceOp
                 options.nearest ? ForceQuestion::nearest : ForceQuestion::forces);
 }
 
-ForceResult largest_load(const World& world, const Grasp& grasp, const ForceOptions& options) {
+ForceResult max_load(const World& world, const Grasp& grasp, const ForceOptions& options) {
   check_unmoved(world, grasp);
   check_options(world, grasp, options);
   if (options.load.isZero(0)) fail("largest load: the direction must not be 0");

@@ -7,11 +7,11 @@ namespace clench {
 /// What is best among the forces that balance; f_n normal force, f_t the rest: tangential force and torsion over its
 /// radius.
 enum class ForceObjective {
-  least,  ///< least sum of normal forces   source  Han, Trinkle & Li (2000); Boyd & Wegbreit (2007)
-  squares,   ///< least sum of f_n^2 + |f_t|^2: the only one that is always unique
-  peak,      ///< least largest normal force
-  interior,  ///< largest distance that each force keeps from the edge of its cone, and from its cap
-  interior_sum,  ///< largest sum of the distances from the cones
+  min_sum,  ///< least sum of normal forces   source  Han, Trinkle & Li (2000); Boyd & Wegbreit (2007)
+  min_norm,    ///< least sum of f_n^2 + |f_t|^2: the only one that is always unique
+  min_max,     ///< least largest normal force
+  max_margin,  ///< largest distance that each force keeps from the edge of its cone, and from its cap
+  max_margin_sum,  ///< largest sum of the distances from the cones
 };
 
 /// What the joints ask of the forces.
@@ -24,7 +24,7 @@ struct JointDemand {
   bool springs_only = false;
   /// springs of compliant DOFs may be off their rest by springs_at_rest
   bool nearly_at_rest = false;
-  bool closing_only = false;  ///< efforts that open the hand are not allowed
+  bool unilateral = false;  ///< efforts that open the hand are not allowed
   std::optional<double>
       total_torque;           ///< sum of the hand's efforts, along which it closes [N m or N]
   bool arms = false;          ///< limits of the robots that carry the hand, too
@@ -34,7 +34,7 @@ struct JointDemand {
 struct ForceOptions {
   /// on the object from outside, world axes, torque about its centre of mass [N, N m]
   Vector6d load = Vector6d::Zero();
-  ForceObjective objective = ForceObjective::least;
+  ForceObjective objective = ForceObjective::min_sum;
   PerContact max_force = {};                   ///< caps of normal forces, > 0 [N]
   std::optional<double> max_total_force = {};  ///< of their sum, > 0 [N]
   std::optional<double> total_force = {};      ///< their sum is this, > 0 [N]
@@ -68,25 +68,25 @@ struct ForceCertificate {
       0;  ///< of the load along it, of the largest one where that was asked for [W at m/s]
   double capacity =
       0;  ///< most that caps, motors and springs give against it: less than the power; equal, of the largest load
-  std::vector<double> opens,
-      slides;  ///< a contact: how fast the object leaves it, and slides along it [m/s]
-  std::vector<double> cap_shares;     ///< a contact: what of the capacity its cap gives [W]
-  std::vector<double> effort_shares;  ///< a DOF of the hand: what its limits give [W]
-  int contact = -1;                   ///< that gives way most; -1: none
+  std::vector<double> separation_rates,
+      sliding_rates;  ///< a contact: how fast the object leaves it, and slides along it [m/s]
+  std::vector<double> force_limit_power;   ///< a contact: what of the capacity its cap gives [W]
+  std::vector<double> effort_limit_power;  ///< a DOF of the hand: what its limits give [W]
+  int contact = -1;                        ///< that gives way most; -1: none
   int dof = -1;  ///< whose motor does, when that is more than any contact; else -1
 };
 
 struct ForceResult {
   ForceStatus status = ForceStatus::inaccurate;
   double objective = 0;                    ///< what ForceObjective names [N or N^2]
-  std::vector<ContactForce> forces;        ///< one a contact of the grasp
+  std::vector<ContactForce> forces;        ///< one per contact of the grasp
   Vector6d unbalanced = Vector6d::Zero();  ///< load and forces together, world axes
   double residual = 0;                     ///< its length, torque over rho [N]
-  /// the least distance that a force keeps from the edge of its cone, and of `interior` from its cap; 0: some force lies
-  /// on its edge, and for `interior` no forces keep away from it, as without force closure [N]
+  /// the least distance that a force keeps from the edge of its cone, and of `max_margin` from its cap; 0: some force lies
+  /// on its edge, and for `max_margin` no forces keep away from it, as without force closure [N]
   double margin = 0;
   Eigen::VectorXd efforts;  ///< of the hand's motors; without `joints`: that fit best [N m or N]
-  double load_factor = 0;   ///< of largest_load
+  double load_factor = 0;   ///< of max_load
   std::optional<ForceCertificate> certificate = {};
 };
 
@@ -97,6 +97,6 @@ ForceResult contact_forces(const World& world, const Grasp& grasp, const ForceOp
 /// The largest multiple of the load's direction, options.load, that forces balance, as load_factor; the objective does
 /// not count. unbounded: any. The certificate says what gives way beyond it.
 /// throws  Error as above, and when the load is 0
-ForceResult largest_load(const World& world, const Grasp& grasp, const ForceOptions& options);
+ForceResult max_load(const World& world, const Grasp& grasp, const ForceOptions& options);
 
 }  // namespace clench

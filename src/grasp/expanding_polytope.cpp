@@ -180,8 +180,8 @@ Ball Growing<D>::ball(const BallOptions& options) {
       return ended(BallEnd::inside, std::min(lower, upper_));
     if (options.at_least > 0 && (lower - slack() >= options.at_least || upper_ < options.at_least))
       return ended(BallEnd::decided, lower);
-    if (complex_.point_count() >= options.most_points ||
-        complex_.alive_count() >= options.most_facets)
+    if (complex_.point_count() >= options.max_points ||
+        complex_.alive_count() >= options.max_facets)
       return ended(BallEnd::stopped, lower);
     // a shifted point may lie below what the set reaches
     if (!(std::min(reach, dot<D>(facet.plane.x, p)) - facet.offset() > 10 * seen))
@@ -225,7 +225,7 @@ Facets Growing<D>::hull(const FacetsOptions& options) {
       continue;
     }
     grow(next, p);
-    if (complex_.alive_count() > options.most_facets) {
+    if (complex_.alive_count() > options.max_facets) {
       out.end = FacetsEnd::too_many;
       return out;
     }

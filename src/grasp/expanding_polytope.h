@@ -23,9 +23,9 @@ struct BallOptions {
   double tolerance = 1e-12;  ///< upper - lower that is enough, >= 1e-12
   double zero =
       1e-12;  ///< a set that reaches no farther in some direction leaves the origin outside
-  double at_least = 0;          ///< > 0: enough to know whether the radius is below this
-  int most_points = 100000;     ///< of the polytope
-  int most_facets = 2'000'000;  ///< at once
+  double at_least = 0;         ///< > 0: enough to know whether the radius is below this
+  int max_points = 100000;     ///< of the polytope
+  int max_facets = 2'000'000;  ///< at once
 };
 
 enum class BallEnd {
@@ -33,18 +33,18 @@ enum class BallEnd {
   outside,  ///< the set reaches at most `zero` along the direction: no ball
   flat,     ///< the set lies in a hyperplane normal to the direction
   decided,  ///< at_least is below lower or above upper
-  stopped   ///< the bracket holds, and is wider than asked: most_points or most_facets, or rounding
+  stopped   ///< the bracket holds, and is wider than asked: max_points or max_facets, or rounding
 };
 
 struct Ball {
   BallEnd end = BallEnd::stopped;
   double lower = 0;  ///< a ball of this radius about the origin lies inside the set
   double upper = 0;  ///< how far the set reaches along the direction
-  double direction[most_dimensions] = {};  ///< unit, of the least support found
-  int points = 0;                          ///< of the polytope at the end
+  double direction[max_dimensions] = {};  ///< unit, of the least support found
+  int points = 0;                         ///< of the polytope at the end
 };
 
-/// set  of 2 to most_dimensions dimensions
+/// set  of 2 to max_dimensions dimensions
 Ball largest_ball(const SupportSet& set, const BallOptions& options = {});
 
 enum class FacetsEnd { complete, flat, too_many, failed };
@@ -59,8 +59,8 @@ struct Facets {
 };
 
 struct FacetsOptions {
-  double tolerance = 1e-12;     ///< how far the set may reach beyond a facet
-  int most_facets = 2'000'000;  ///< then it ends with too_many
+  double tolerance = 1e-12;    ///< how far the set may reach beyond a facet
+  int max_facets = 2'000'000;  ///< then it ends with too_many
 };
 
 /// Facets are simplices; one with more corners comes as several. `failed`: rounding broke the

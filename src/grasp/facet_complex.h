@@ -43,7 +43,7 @@ struct alignas(64) Eight {
   }
 };
 
-inline constexpr int behind = most_dimensions;
+inline constexpr int behind = max_dimensions;
 
 CLENCH_INLINE double dot(const DoubleLanes& a, const DoubleLanes& b) {
   const DoubleLanes c = a * b;

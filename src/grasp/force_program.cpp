@@ -35,10 +35,10 @@ void add_friction(ForceProgram& p, const Grasp& grasp, int i, int less, double b
 }
 
 void add_cones(ForceProgram& p, const Grasp& grasp, const ForceOptions& options, bool objective) {
-  const bool interior = objective && options.objective == ForceObjective::interior;
-  const bool sum = objective && options.objective == ForceObjective::interior_sum;
+  const bool interior = objective && options.objective == ForceObjective::max_margin;
+  const bool sum = objective && options.objective == ForceObjective::max_margin_sum;
   const int contacts = p.map.contacts();
-  // how far inside: one number for all, or one a contact
+  // how far inside: one number for all, or one per contact
   int depth = -1;
   if (interior && contacts > 0) depth = p.extra = p.builder.unknowns(1);
   if (sum && contacts > 0) depth = p.builder.unknowns(contacts);
@@ -75,16 +75,16 @@ void add_totals(ForceProgram& p, const ForceOptions& options) {
 
 void add_objective(ForceProgram& p, const Grasp& grasp, ForceObjective objective) {
   const int contacts = p.map.contacts();
-  if (objective == ForceObjective::least)
+  if (objective == ForceObjective::min_sum)
     for (int i = 0; i < contacts; ++i) p.builder.cost(p.normal(i), 1);
-  if (objective == ForceObjective::squares)
+  if (objective == ForceObjective::min_norm)
     for (int i = 0; i < contacts; ++i)
       for (int k = p.map.starts[i]; k < p.map.starts[i + 1]; ++k) {
         const bool torsion = k == p.map.starts[i] + 3;
         const double length = torsion ? grasp.points[i].torsion_radius : 1;
         p.builder.square(p.f + k, 2 / (length * length));
       }
-  if (objective == ForceObjective::peak && contacts > 0) {
+  if (objective == ForceObjective::min_max && contacts > 0) {
     const int most = p.builder.unknowns(1);
     p.builder.cost(most, 1);
     for (int i = 0; i < contacts; ++i)
@@ -114,8 +114,8 @@ void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
     if (ref.robot != grasp.hand) continue;
     if (demand.limits) p.high[k] = (*demand.limits)[ref.dof], p.low[k] = -p.high[k];
     const double sense = closing_sense(world, grasp, ref.dof);
-    if (demand.closing_only && sense > 0) p.low[k] = 0;
-    if (demand.closing_only && sense < 0) p.high[k] = 0;
+    if (demand.unilateral && sense > 0) p.low[k] = 0;
+    if (demand.unilateral && sense < 0) p.high[k] = 0;
     // a tendon pulls and cannot push
     if (demand.springs_only && dofs[ref.dof].kind == DofKind::compliant)
       p.low[k] = p.high[k] =

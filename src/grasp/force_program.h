@@ -15,11 +15,11 @@ struct ForceProgram {
   int extra = 0;      // what is left, the multiple of the load, or how far inside all forces are
   ConeRange balance;  // its torques over arm
   double arm = 1;     // about the longest of a contact, a power of two [m]
-  std::vector<ConeRange> cones, caps;  // one a contact; caps empty without
+  std::vector<ConeRange> cones, caps;  // one per contact; caps empty without
   Eigen::VectorXd low, high;           // of the efforts, as they are bounded here
   Eigen::VectorXd
       at_rest;  // efforts that springs and weights alone want: u is what is given beyond them
-  std::vector<ConeRange> lows, highs;  // one an effort; count 0: no bound
+  std::vector<ConeRange> lows, highs;  // one per effort; count 0: no bound
   ConeProgram program;
   ConeSolution solution;
 

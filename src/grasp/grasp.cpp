@@ -19,7 +19,7 @@ static void add_torsion(Grasp& grasp, const GraspOptions& options) {
     if (is_new) patch = soft_patch(*site);
     grasp.points[i].torsion_radius =
         torsion_radius(patch, options.normal_force.of(static_cast<int>(i)), options.modulus);
-    grasp.sharp_contacts += patch.sharp;
+    grasp.contacts_at_edges += patch.at_edge;
   }
 }
 
@@ -65,8 +65,8 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   };
   if (held.robot)
     refuse(fmt::format("{} is a part of {}", held.name, world.robot(held.robot).name));
-  if ((options.edges < 3 || options.edges > most_edges) && options.edges != round_edges)
-    refuse(fmt::format("edges must be 3 to {}, got {}", most_edges, options.edges));
+  if ((options.edges < 3 || options.edges > max_edges) && options.edges != round_edges)
+    refuse(fmt::format("edges must be 3 to {}, got {}", max_edges, options.edges));
   if (options.rho && !(std::isfinite(*options.rho) && *options.rho > 0))
     refuse(fmt::format("rho must be > 0 [m], got {}", *options.rho));
   // of many contacts some may carry nothing
@@ -97,7 +97,7 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
                             .n_O = (X_OW.rotation * contact.n_W).normalized(),
                             .mu = contact.friction.statics});
   if (forces.empty() || !options.normal_force.fits(grasp.contacts.size()))
-    refuse(fmt::format("normal_force: wanted one number or {}, one a contact, got {}",
+    refuse(fmt::format("normal_force: expected one number or {}, one per contact, got {}",
                        grasp.contacts.size(), forces.size()));
   if (options.soft) add_torsion(grasp, options);
   return grasp;

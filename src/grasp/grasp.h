@@ -16,8 +16,8 @@ struct GraspOptions {
   int edges = 8;                   ///< of the friction pyramids; round_edges: round cones
   std::optional<double> rho = {};  ///< torque length [m]; default: that of the object
   TorqueLength length = TorqueLength::largest_radius;
-  bool soft = true;  ///< soft contacts resist turns about their normals; else all are points
-  PerContact normal_force = 5;  ///< at which they are judged, > 0, one a contact >= 0 [N]
+  bool soft = true;             ///< soft contacts transmit torsional friction; else all are points
+  PerContact normal_force = 5;  ///< at which they are judged, > 0, one per contact >= 0 [N]
   ModulusRule modulus = ModulusRule::series;
 };
 
@@ -38,7 +38,7 @@ struct Grasp {
   int edges = 8;
   GraspOptions options = {};                 ///< that it was measured with
   std::optional<GraspPosture> posture = {};  ///< as measured; empty: put together by hand
-  int sharp_contacts = 0;  ///< soft ones on corners or edges, where their patch is but a guess
+  int contacts_at_edges = 0;  ///< soft ones on corners or edges, where their patch is but a guess
 
   double length(TorqueLength which) const {
     return which == TorqueLength::largest_radius ? largest_radius : gyration_radius;
@@ -46,7 +46,7 @@ struct Grasp {
 };
 
 /// The contacts of palm, links and mount with the object, now. None is no error: such a grasp resists nothing.
-/// throws Error when edges are neither 3 to most_edges nor round_edges, rho <= 0, normal forces are
+/// throws Error when edges are neither 3 to max_edges nor round_edges, rho <= 0, normal forces are
 ///        not > 0 or not as many as the contacts, or the object is a part of a robot
 Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
                     const GraspOptions& options = {});

@@ -16,8 +16,8 @@ struct EffortRef {
 /// leaves.
 inline constexpr double springs_at_rest = 1e-4;
 
-/// forces f = efforts u + springs, low <= u <= high: one row a rigid or breakaway DOF, by its coupling; one a joint that
-/// has broken away; one a joint of a compliant DOF, k ratio u / sum of k ratio^2 over its joints: in free air u holds
+/// forces f = efforts u + springs, low <= u <= high: one row a rigid or breakaway DOF, by its coupling; one per joint that
+/// has broken away; one per joint of a compliant DOF, k ratio u / sum of k ratio^2 over its joints: in free air u holds
 /// all springs of stiffness k at once. Where a joint has none, all k count as alike.
 struct JointBalance {
   Eigen::MatrixXd forces, efforts;

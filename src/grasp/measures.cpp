@@ -136,7 +136,7 @@ double polygon_irregularity(MeasuredGrasp& g) {
   return g.grasp().points.empty() ? 1 : g.polygon().irregularity;
 }
 
-double weight_effort(MeasuredGrasp& g) {
+double gravity_effort(MeasuredGrasp& g) {
   const ForceResult held =
       contact_forces(g.world(), g.grasp(), {.load = weight_of(g.world().body(g.grasp().object))});
   return held.status == ForceStatus::optimal ? held.objective : infinite;
@@ -205,7 +205,7 @@ double coplanarity(MeasuredGrasp& g) {
 
 // A contact that is off by d shifts its unit wrenches by d times their force, over rho: so much less
 // than before they reach in any direction.
-double position_margin(MeasuredGrasp& g) {
+double contact_position_tolerance(MeasuredGrasp& g) {
   double force = 1;
   for (const PointContact& c : g.grasp().points) force = std::max(force, std::hypot(1, c.mu));
   return g.space().epsilon() * g.grasp().rho / force;
@@ -240,7 +240,7 @@ const Measure all_measures[] = {
      }},
     {"volume", "of the hull of all unit wrenches in its six dimensions; 0 where it is flat", ">= 0",
      "1", true, "Miller and Allen (1999)", volume},
-    {"least_singular_value",
+    {"min_singular_value",
      "of the grasp map, torques over rho: how far the grasp is from losing a direction of wrenches",
      ">= 0", "1", true, "Li and Sastry (1988)",
      [](MeasuredGrasp& g) { return g.singular_values()[5]; }},
@@ -271,16 +271,16 @@ const Measure all_measures[] = {
      "of the contact normals: root mean square of the sines of their angles to the plane that fits "
      "them best; 0 in one plane",
      "0 to sqrt(1/3)", "1", false, "least singular value of the normals", coplanarity},
-    {"position_margin",
+    {"contact_position_tolerance",
      "how far all contact points may be off at once, normals as they are, and force closure is "
      "certain: epsilon rho / sqrt(1 + mu^2), of the largest mu",
      ">= 0", "m", true, "after Roa and Suarez (2009), independent contact regions",
-     position_margin},
-    {"weight_effort",
+     contact_position_tolerance},
+    {"gravity_effort",
      "least sum of normal forces that holds the object's weight, by round cones; infinite where "
      "none do",
-     "> 0", "N", false, "Han, Trinkle and Li (2000)", weight_effort},
-    {"hand_least_singular_value",
+     "> 0", "N", false, "Han, Trinkle and Li (2000)", gravity_effort},
+    {"hand_min_singular_value",
      "of the map from DOF velocities to the object's twist (v, rho omega): how far the hand is "
      "from "
      "losing a direction to move it; 0 with fewer than six DOFs",

@@ -59,7 +59,7 @@ struct Measure {
   std::string_view what;
   std::string_view range;
   std::string_view unit;  ///< "1": a bare number
-  bool larger_is_better;
+  bool higher_is_better;
   std::string_view source;
   /// finite, or infinite where there is nothing to measure
   double (*of)(MeasuredGrasp&);

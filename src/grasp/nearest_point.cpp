@@ -8,7 +8,7 @@ namespace clench {
 namespace {
 
 // far more steps than sets of six dimensions take, which is some dozens
-constexpr int most_steps = 2000;
+constexpr int max_steps = 2000;
 
 // Shares, summing to one, of the points that make up the point nearest to the origin of the flat
 // through them all.
@@ -69,21 +69,21 @@ struct Simplex {
   // Shares of the point nearest to the origin, without the corners that are not of it.
   // returns  false when rounding leaves no simplex: the last corner adds nothing
   bool settle() {
-    Eigen::VectorXd wanted;
-    while (nearest_shares(corners, wanted)) {
-      if (wanted.minCoeff() > 0) {
-        shares = wanted;
+    Eigen::VectorXd expected;
+    while (nearest_shares(corners, expected)) {
+      if (expected.minCoeff() > 0) {
+        shares = expected;
         return true;
       }
       // as far towards it as all shares stay
       double part = 2;  // all are at most 1
       int blocking = 0;
-      for (int i = 0; i < wanted.size(); ++i) {
-        if (wanted[i] > 0) continue;
-        const double ratio = std::max(0.0, shares[i] / (shares[i] - wanted[i]));
+      for (int i = 0; i < expected.size(); ++i) {
+        if (expected[i] > 0) continue;
+        const double ratio = std::max(0.0, shares[i] / (shares[i] - expected[i]));
         if (ratio < part) part = ratio, blocking = i;
       }
-      shares += part * (wanted - shares);
+      shares += part * (expected - shares);
       keep_where([&](int i) { return i != blocking; });
     }
     keep_where([&](int i) { return shares[i] > 0; });
@@ -103,7 +103,7 @@ NearestPoint nearest_point(const SupportSet& set, const Eigen::VectorXd& place, 
   Simplex simplex{reach(Eigen::VectorXd::Ones(d)), Eigen::VectorXd::Ones(1)};
   Eigen::VectorXd point = simplex.corners.col(0);
   int idle = 0;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const double distance = point.norm();
     if (distance <= noise) break;
     const Eigen::VectorXd next = reach(-point / distance);

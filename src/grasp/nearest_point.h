@@ -15,7 +15,7 @@ struct NearestPoint {
   std::vector<double> shares;
 };
 
-/// set     of 1 to most_dimensions dimensions and size about one
+/// set     of 1 to max_dimensions dimensions and size about one
 /// place   its dimension
 /// noise   a distance that counts as none, and by how much the answer's may be off
 /// source  Wolfe (1976), Finding the nearest point in a polytope

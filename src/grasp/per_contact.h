@@ -5,7 +5,7 @@
 
 namespace clench {
 
-/// None, one for all contacts, or one a contact.
+/// None, one for all contacts, or one per contact.
 struct PerContact {
   std::vector<double> values = {};
 

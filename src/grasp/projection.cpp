@@ -14,7 +14,7 @@ namespace {
 
 // Corners of slices come from linear programs, good to some 1e-11.
 constexpr double slice_tolerance = 1e-10;
-constexpr int most_faces = 500'000;
+constexpr int max_faces = 500'000;
 
 // the coordinates that options leave
 std::array<int, 3> free_coordinates(const WrenchSpace& space, const ProjectionOptions& options) {
@@ -38,7 +38,7 @@ std::array<int, 3> free_coordinates(const WrenchSpace& space, const ProjectionOp
     std::string names;
     for (const int coordinate : left)
       names += (names.empty() ? ": " : ", ") + std::string(coordinate_names[coordinate]);
-    fail("wrench space: project: wanted three free coordinates, got {}{}", left.size(), names);
+    fail("wrench space: project: expected three free coordinates, got {}{}", left.size(), names);
   }
   return {left[0], left[1], left[2]};
 }
@@ -104,8 +104,7 @@ Projection project(const WrenchSpace& space, const ProjectionOptions& options) {
     fail("wrench space: project: no wrench of it has {}", all);
   };
   const FacetsOptions facets_options{
-      .tolerance = space.is_round() ? options.tolerance : slice_tolerance,
-      .most_facets = most_faces};
+      .tolerance = space.is_round() ? options.tolerance : slice_tolerance, .max_facets = max_faces};
   Facets facets;
   if (seen.scaled_reach().empty()) {
     if (!values.isZero(0)) nothing();
@@ -119,7 +118,7 @@ Projection project(const WrenchSpace& space, const ProjectionOptions& options) {
     facets = all_facets(slice, facets_options);
   }
   if (facets.end == FacetsEnd::too_many)
-    fail("wrench space: project: it has more than {} faces", most_faces);
+    fail("wrench space: project: it has more than {} faces", max_faces);
   if (facets.end == FacetsEnd::failed) fail("wrench space: project: rounding broke its surface");
   if (facets.end == FacetsEnd::flat) return out;
   out.volume = std::ldexp(facets.volume, 3 * exponent);

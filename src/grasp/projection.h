@@ -13,8 +13,9 @@ namespace clench {
 inline constexpr std::array<const char*, 6> coordinate_names = {"fx", "fy", "fz", "tx", "ty", "tz"};
 
 struct ProjectionOptions {
-  std::vector<std::pair<int, double>> fixed = {};  ///< coordinates at a value: the space is cut
-  std::vector<int> projected = {};                 ///< coordinates that may be anything: its shadow
+  std::vector<std::pair<int, double>> fixed =
+      {};                           ///< coordinates at a value: a section of the space
+  std::vector<int> projected = {};  ///< coordinates that may be anything: its projection
   /// how far the space may reach beyond the mesh, as a part of its size, when a contact has a round cone
   double tolerance = 1e-3;
 };

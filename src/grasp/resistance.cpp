@@ -16,7 +16,7 @@ double resistance(const World& world, const Grasp& grasp, const Vector6d& wrench
     forces.max_total_force = 1;
   else
     forces.max_force = 1;
-  const ForceResult most = largest_load(world, grasp, forces);
+  const ForceResult most = max_load(world, grasp, forces);
   if (most.status == ForceStatus::infeasible) return 0;
   if (most.status != ForceStatus::optimal)
     fail("resistance: the solver stopped short of an answer for this wrench");

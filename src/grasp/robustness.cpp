@@ -24,13 +24,15 @@ void check_robustness_problem(const RobustnessProblem& p) {
   for (size_t i = 1; rising && i < p.starts.size(); ++i) rising = p.starts[i] > p.starts[i - 1];
   if (!rising)
     fail(
-        "robustness of {} contacts: wanted the starts of their forces and the end, rising from 0, "
+        "robustness of {} contacts: expected the starts of their forces and the end, rising from "
+        "0, "
         "got {}",
         contacts, name_list(p.starts));
   if (p.G.rows() != 6 || p.G.cols() != forces || p.J.rows() != forces ||
       p.compliance.size() != forces)
     fail(
-        "robustness: wanted G of 6 x {}, J of {} rows and as many compliances, got {} x {}, {} and "
+        "robustness: expected G of 6 x {}, J of {} rows and as many compliances, got {} x {}, {} "
+        "and "
         "{}",
         forces, forces, p.G.rows(), p.G.cols(), p.J.rows(), p.compliance.size());
   if (!p.G.allFinite() || !p.J.allFinite() || !p.load.allFinite())
@@ -328,7 +330,8 @@ Robustness contact_robustness(const RobustnessProblem& problem,
                               const std::vector<ContactHold>& states) {
   check_robustness_problem(problem);
   if (static_cast<Index>(states.size()) != problem.mu.size())
-    fail("robustness: wanted {} states, one a contact, got {}", problem.mu.size(), states.size());
+    fail("robustness: expected {} states, one per contact, got {}", problem.mu.size(),
+         states.size());
   return robustness_of(EvenProblem(problem), states);
 }
 
@@ -338,10 +341,10 @@ Robustness contact_robustness(const RobustnessProblem& problem) {
       std::vector<ContactHold>(static_cast<size_t>(problem.mu.size()), ContactHold::sticks));
 }
 
-Robustness grasp_robustness(const RobustnessProblem& problem, int most_steps) {
+Robustness grasp_robustness(const RobustnessProblem& problem, int max_steps) {
   check_robustness_problem(problem);
   const EvenProblem even(problem);
-  return RobustnessSearch(even, most_steps).best();
+  return RobustnessSearch(even, max_steps).best();
 }
 
 }  // namespace clench

@@ -13,9 +13,9 @@ namespace clench {
 struct RobustnessProblem {
   Eigen::MatrixXd G;        ///< 6 x forces: wrenches on the object of unit forces; torque over rho
   Eigen::MatrixXd J;        ///< forces x DOFs: how the hand's points move along them
-  std::vector<int> starts;  ///< one a contact, and at the end the number of forces
-  Eigen::VectorXd mu;       ///< one a contact, >= 0
-  Eigen::VectorXd compliance;  ///< one a force, > 0: how far the contact yields to it [m/N]
+  std::vector<int> starts;  ///< one per contact, and at the end the number of forces
+  Eigen::VectorXd mu;       ///< one per contact, >= 0
+  Eigen::VectorXd compliance;  ///< one per force, > 0: how far the contact yields to it [m/N]
   Vector6d load =
       Vector6d::Zero();   ///< wrench on the object that the contacts hold; torque over rho [N]
   double max_force = 10;  ///< of each contact along its normal, > 0 [N]
@@ -34,7 +34,7 @@ struct Robustness {
   double radius = 0;
   double margin = 0;       ///< of the contact force nearest to its bounds [N]
   Eigen::VectorXd forces;  ///< those that hold the load with that margin; empty at radius 0
-  std::vector<ContactHold> states;  ///< one a contact
+  std::vector<ContactHold> states;  ///< one per contact
   /// what no forces, of grasp_robustness no choice of states, exceed; the radius itself unless a search was cut short or
   /// a program could not be solved for certain [N]
   double most = 0;
@@ -53,6 +53,6 @@ Robustness contact_robustness(const RobustnessProblem& problem);
 /// The largest contact robustness over all states of the contacts, by branch and bound from the best that single changes
 /// of state lead to. Exact when the search ends within its steps, each a cone program; else the best found, and `most`.
 /// throws  Error as contact_robustness
-Robustness grasp_robustness(const RobustnessProblem& problem, int most_steps = 100000);
+Robustness grasp_robustness(const RobustnessProblem& problem, int max_steps = 100000);
 
 }  // namespace clench

@@ -15,7 +15,7 @@ constexpr double away_from_faces = 1e-11;
 constexpr double worth_a_step = 1e-12;
 constexpr double smallest_pivot = 1e-9;
 // far more than programs of four rows take
-constexpr int most_pivots = 500;
+constexpr int max_pivots = 500;
 
 }  // namespace
 
@@ -24,14 +24,15 @@ Slice::Slice(const SupportSet& set, const Eigen::VectorXd& values)
   const int d = set.dimension(), rows = fixed_ + 1;
   free_ = d - fixed_;
   Random random(1);
-  wanted_.resize(rows);
-  for (int i = 0; i < fixed_; ++i) wanted_[i] = values[i] + away_from_faces * random.uniform(-1, 1);
-  wanted_[fixed_] = 1;
+  expected_.resize(rows);
+  for (int i = 0; i < fixed_; ++i)
+    expected_[i] = values[i] + away_from_faces * random.uniform(-1, 1);
+  expected_[fixed_] = 1;
 
   // points that stand in at first, a simplex around the values, and have to leave
   corners_ = Eigen::MatrixXd::Zero(d, rows);
   for (int k = 0; k < rows; ++k) {
-    corners_.col(k).tail(fixed_) = wanted_.head(fixed_);
+    corners_.col(k).tail(fixed_) = expected_.head(fixed_);
     if (k < fixed_)
       corners_(free_ + k, k) += 1;
     else
@@ -45,7 +46,7 @@ Slice::Slice(const SupportSet& set, const Eigen::VectorXd& values)
     // weights that make up the column'th unit vector: x - v t, with t its last number
     Eigen::VectorXd x = Eigen::VectorXd::Unit(rows, column);
     const double t = x[fixed_];
-    const Eigen::VectorXd y = x.head(fixed_) - t * wanted_.head(fixed_);
+    const Eigen::VectorXd y = x.head(fixed_) - t * expected_.head(fixed_);
     const double last = (t - y.sum()) / rows;
     for (int k = 0; k < fixed_; ++k) inverse(k, column) = y[k] + last;
     inverse(fixed_, column) = last;
@@ -102,13 +103,13 @@ void Slice::enter(const Eigen::VectorXd& point, const Eigen::VectorXd& shares, i
   Eigen::MatrixXd basis(fixed_ + 1, fixed_ + 1);
   basis << corners_.bottomRows(fixed_), Eigen::RowVectorXd::Ones(fixed_ + 1);
   inverse_ = (2 * inverse_ - inverse_ * basis * inverse_).eval();
-  weights_ = inverse_ * wanted_;
+  weights_ = inverse_ * expected_;
 }
 
 double Slice::climb(const Eigen::VectorXd& goal, double stand_in) const {
   const int rows = fixed_ + 1;
   Eigen::VectorXd worth(rows), way(set_.dimension()), point(set_.dimension());
-  for (int pivot = 0; pivot < most_pivots; ++pivot) {
+  for (int pivot = 0; pivot < max_pivots; ++pivot) {
     for (int k = 0; k < rows; ++k) worth[k] = stands_in_[k] ? stand_in : goal.dot(corners_.col(k));
     // what a point must be worth to gain: prices of the fixed coordinates and of weight
     const Eigen::VectorXd prices = inverse_.transpose() * worth;

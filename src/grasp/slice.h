@@ -1,4 +1,4 @@
-// A convex set cut by planes: the points that have given values in some coordinates.
+// A section of a convex set: the points that have given values in some coordinates.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -12,7 +12,7 @@ namespace clench {
 /// answer before.
 class Slice final : public SupportSet {
  public:
-  /// set     of 2 to most_dimensions dimensions and size about one; must outlive this
+  /// set     of 2 to max_dimensions dimensions and size about one; must outlive this
   /// values  what its last coordinates are to be, fewer than it has. Taken to within 1e-11, so that
   ///         they lie on no face of the set by chance
   Slice(const SupportSet& set, const Eigen::VectorXd& values);
@@ -33,7 +33,7 @@ class Slice final : public SupportSet {
   const SupportSet& set_;
   int free_, fixed_;
   bool empty_ = false;
-  Eigen::VectorXd wanted_;  // the values, and that all weights sum to one
+  Eigen::VectorXd expected_;  // the values, and that all weights sum to one
   // points whose weighted mean is where the last support was; mutable as a memory of it
   mutable Eigen::MatrixXd corners_;  // of the set, a column each
   mutable Eigen::MatrixXd

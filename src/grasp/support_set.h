@@ -4,13 +4,13 @@
 
 namespace clench {
 
-inline constexpr int most_dimensions = 6;
+inline constexpr int max_dimensions = 6;
 
 class SupportSet {
  public:
   virtual ~SupportSet() = default;
 
-  virtual int dimension() const = 0;  ///< 1 to most_dimensions
+  virtual int dimension() const = 0;  ///< 1 to max_dimensions
   /// Leaves a farthest point of the set along the direction in `point`.
   /// returns  direction . point
   virtual double support(const double* direction, double* point) const = 0;

@@ -37,14 +37,14 @@ constexpr double poor = 3e-10;
 // How near to the most a contact's answer must come to count as it.
 constexpr double carries = 1e-9;
 
-constexpr int most_facets = 1'000'000;
+constexpr int max_facets = 1'000'000;
 
 // Cells of a sum take some 15 to 30 us each: a second or two at most.
 constexpr int max_cells = 60'000;
 
 // Around a curved set whose nearest points to the origin are many, brackets close slowly: so many facets take a
 // third of a second and 160 MB, and what they certify is what there is.
-constexpr int most_round_facets = 500'000;
+constexpr int max_round_facets = 500'000;
 
 // of the two unit vectors along a line the one whose largest component is positive
 Eigen::VectorXd upright(const Eigen::VectorXd& direction) {
@@ -64,7 +64,7 @@ void check_finite(const Eigen::Ref<const Wrenches>& wrenches, size_t contact) {
 
 void check_coordinates(const std::vector<int>& coordinates) {
   if (coordinates.size() < 2 || coordinates.size() > 6)
-    fail("wrench space: wanted 2 to 6 coordinates, got {}", coordinates.size());
+    fail("wrench space: expected 2 to 6 coordinates, got {}", coordinates.size());
   for (size_t i = 0; i < coordinates.size(); ++i) {
     if (coordinates[i] < 0 || coordinates[i] > 5)
       fail("wrench space: coordinates must be 0 to 5, got {}", coordinates[i]);
@@ -107,7 +107,7 @@ SpherePoints sphere_points(Eigen::Index dimension, int edges) {
   out.points.topRows(2) = on.topRows(2);
   if (dimension == 3) out.points.row(2) = on.row(5);
   const ContactPart part{.points = out.points.data(), .count = static_cast<int>(on.cols())};
-  const ContactReach reach(static_cast<int>(dimension), WrenchNorm::l1, std::span(&part, 1));
+  const WrenchSupport reach(static_cast<int>(dimension), WrenchNorm::l1, std::span(&part, 1));
   out.within = largest_ball(reach).lower;
   return out;
 }
@@ -194,7 +194,7 @@ const WrenchSpace::Prepared& WrenchSpace::prepared() const {
   return *prepared_;
 }
 
-ContactReach WrenchSpace::reach_in(WrenchNorm norm, int exponent) const {
+WrenchSupport WrenchSpace::reach_in(WrenchNorm norm, int exponent) const {
   const int d = dimension();
   size_t count = 0;
   for (const UnitWrenches& contact : contacts_)
@@ -226,7 +226,7 @@ ContactReach WrenchSpace::reach_in(WrenchNorm norm, int exponent) const {
     }
     parts.push_back(part);
   }
-  return ContactReach(d, norm, parts);
+  return WrenchSupport(d, norm, parts);
 }
 
 // the columns that span what all wrenches span, scaled
@@ -261,13 +261,13 @@ int WrenchSpace::rank() const {
   return rank_.emplace(static_cast<int>((values.array() > rank_tolerance * values[0]).count()));
 }
 
-WrenchSpace::Bracket WrenchSpace::bracket_of(const ContactReach& reach, double tolerance,
+WrenchSpace::Bracket WrenchSpace::bracket_of(const WrenchSupport& reach, double tolerance,
                                              double at_least) const {
-  const Ball ball = largest_ball(
-      reach, {.tolerance = std::max(tolerance, flat_tolerance),
-              .zero = prepared().zero,
-              .at_least = at_least,
-              .most_facets = is_round() ? most_round_facets : BallOptions().most_facets});
+  const Ball ball =
+      largest_ball(reach, {.tolerance = std::max(tolerance, flat_tolerance),
+                           .zero = prepared().zero,
+                           .at_least = at_least,
+                           .max_facets = is_round() ? max_round_facets : BallOptions().max_facets});
   Bracket out{ball.lower, ball.upper, tolerance,
               Eigen::Map<const Eigen::VectorXd>(ball.direction, dimension()),
               ball.end == BallEnd::outside || ball.end == BallEnd::flat};
@@ -367,7 +367,7 @@ Weakest WrenchSpace::unresisted() const {
     return out;
   }
   const int exponent = prepared().exponent;
-  const ContactReach l1 = reach_in(WrenchNorm::l1, exponent);
+  const WrenchSupport l1 = reach_in(WrenchNorm::l1, exponent);
   const NearestPoint nearest = nearest_point(l1, Eigen::VectorXd::Zero(dimension()));
   Eigen::VectorXd direction, far(dimension());
   if (nearest.distance > 10 * prepared().zero)
@@ -431,12 +431,12 @@ double WrenchSpace::volume() const {
 // of the space in L1, scaled
 double WrenchSpace::hull_volume() const {
   if (affine_rank(spanning(), rank_tolerance) < dimension()) return 0;
-  const Facets facets = all_facets(prepared().reach, {.most_facets = most_facets});
+  const Facets facets = all_facets(prepared().reach, {.max_facets = max_facets});
   if (facets.end == FacetsEnd::too_many)
     fail(
         "wrench space: volume: the hull of {} contact{} has more than {} facets; give fewer "
         "edges",
-        contacts_.size(), contacts_.size() == 1 ? "" : "s", most_facets);
+        contacts_.size(), contacts_.size() == 1 ? "" : "s", max_facets);
   if (facets.end == FacetsEnd::complete) return facets.volume;
   if (facets.end == FacetsEnd::flat) return 0;
   return std::ldexp(hull().volume, -dimension() * prepared().exponent);
@@ -465,8 +465,8 @@ double WrenchSpace::sum_of_hulls_volume() const {
 }
 
 VolumeBounds WrenchSpace::volume_bounds(int edges) const {
-  if (edges < 4 || edges > most_edges)
-    fail("wrench space: edges must be 4 to {}, got {}", most_edges, edges);
+  if (edges < 4 || edges > max_edges)
+    fail("wrench space: edges must be 4 to {}, got {}", max_edges, edges);
   if (!is_round()) return {volume(), volume()};
   if (volume_bounds_ && volume_bounds_->first == edges) return volume_bounds_->second;
   const auto replaced = [&](bool around) {

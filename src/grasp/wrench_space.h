@@ -5,7 +5,7 @@
 
 #include "contact/cone.h"
 #include "geometry/hull.h"
-#include "grasp/contact_reach.h"
+#include "grasp/wrench_support.h"
 #include "math/pose.h"
 
 namespace clench {
@@ -50,7 +50,7 @@ struct EpsilonBounds {
   double lower = 0, upper = 0;
   bool converged =
       true;  ///< upper - lower is within the tolerance; else at_least was known before, or it is as near as it
-             ///< came
+      ///< came
 };
 
 /// lower <= volume <= upper: of the space with round cones replaced by pyramids within, and by the same
@@ -83,7 +83,7 @@ class WrenchSpace {
   ///         60,000 cells, which is known within some two seconds: five hard contacts of eight edges or
   ///         three soft ones have fewer
   double volume() const;
-  /// edges   of the pyramids for round cones, 4 to most_edges; a soft contact's are those of
+  /// edges   of the pyramids for round cones, 4 to max_edges; a soft contact's are those of
   ///         friction_edges with half as many directions. Without round cones both bounds are the volume
   /// throws  Error as volume, or when edges are out of range
   VolumeBounds volume_bounds(int edges = 32) const;
@@ -102,7 +102,7 @@ class WrenchSpace {
   Hull hull() const;
 
   /// The space, times 2^-scale_exponent, so that it is of size about one.
-  const ContactReach& scaled_reach() const { return prepared().reach; }
+  const WrenchSupport& scaled_reach() const { return prepared().reach; }
   int scale_exponent() const { return prepared().exponent; }
 
  private:
@@ -110,7 +110,7 @@ class WrenchSpace {
   struct Prepared {
     int exponent;
     double zero;  // what is no farther from the origin goes through it
-    ContactReach reach;
+    WrenchSupport reach;
   };
   struct Bracket {
     double lower, upper, tolerance;
@@ -118,8 +118,8 @@ class WrenchSpace {
     bool outside;
   };
   const Prepared& prepared() const;
-  ContactReach reach_in(WrenchNorm norm, int exponent) const;
-  Bracket bracket_of(const ContactReach& reach, double tolerance, double at_least) const;
+  WrenchSupport reach_in(WrenchNorm norm, int exponent) const;
+  Bracket bracket_of(const WrenchSupport& reach, double tolerance, double at_least) const;
   const Bracket& final_bracket() const;
   Weakest unresisted() const;
   double hull_volume() const;

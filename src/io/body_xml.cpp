@@ -5,7 +5,7 @@
 
 #include "base/units.h"
 #include "io/inertia.h"
-#include "io/mends.h"
+#include "io/repairs.h"
 #include "io/transform_xml.h"
 #include "spec/material_names.h"
 
@@ -21,29 +21,30 @@ const XmlKnown known = {.once = {"material", "youngs", "normalCompliance", "shea
                                  "geometryOffset", "mass", "cog", "inertia_matrix"}};
 
 /// absent  what stands for 0; 0: nothing does
-double number_of(const XmlElement& element, const Quantity& quantity, Mends& mends,
+double number_of(const XmlElement& element, const Quantity& quantity, Repairs& repairs,
                  double absent = 0) {
   const std::string subject = fmt::format("{}: {}", element.place(), element.name());
-  double value = mends.magnitude(element.number(), subject);
-  if (absent > 0) value = mends.not_zero(value, absent, subject);
+  double value = repairs.magnitude(element.number(), subject);
+  if (absent > 0) value = repairs.not_zero(value, absent, subject);
   if (const auto wrong = fault(quantity, value); !wrong.empty())
     element.fail("{}: {}", element.name(), wrong);
   return value;
 }
 
 /// Factors along x, y and z.
-Eigen::Vector3d read_scaling(const XmlElement& body, Mends& mends) {
+Eigen::Vector3d read_scaling(const XmlElement& body, Repairs& repairs) {
   Eigen::Vector3d scaling = Eigen::Vector3d::Ones();
   const XmlElement all = body.child("geometryScaling");
-  if (all) scaling.setConstant(number_of(all, scale_rule, mends));
+  if (all) scaling.setConstant(number_of(all, scale_rule, repairs));
   constexpr const char* names[] = {"geometryScalingX", "geometryScalingY", "geometryScalingZ"};
   for (int i = 0; i < 3; ++i)
     if (const XmlElement one = body.child(names[i])) {
       if (all)
-        mends.add("scaling", fmt::format("{}: {} and geometryScaling are given; {} is used for its "
-                                         "axis",
-                                         one.place(), names[i], names[i]));
-      scaling[i] = number_of(one, scale_rule, mends);
+        repairs.add("scaling",
+                    fmt::format("{}: {} and geometryScaling are given; {} is used for its "
+                                "axis",
+                                one.place(), names[i], names[i]));
+      scaling[i] = number_of(one, scale_rule, repairs);
     }
   return scaling;
 }
@@ -57,7 +58,7 @@ GeometryFormat read_format(const XmlElement& file, const ReadOptions& options) {
   const GeometryFormat said =
       word == "inventor" ? GeometryFormat::inventor : geometry_format("." + word);
   if (format == GeometryFormat::none && said == GeometryFormat::none)
-    file.fail("geometryFile: wanted type Inventor, off, ply or that of another mesh, got {}",
+    file.fail("geometryFile: expected type Inventor, off, ply or that of another mesh, got {}",
               in_quotes(*type));
   if (format == GeometryFormat::none) return said;
   if (said != format && options.warn)
@@ -89,21 +90,21 @@ Geometry read_scaled(const XmlElement& element, const PlacedFile& file, Library&
   return geometry;
 }
 
-void read_compliance(const XmlElement& body, const Library& library, Mends& mends) {
+void read_compliance(const XmlElement& body, const Library& library, Repairs& repairs) {
   const std::array both = {body.child("normalCompliance"), body.child("shearCompliance")};
   for (int i = 0; i < 2; ++i) {
     if (!both[i]) continue;
-    number_of(both[i], positive_rule, mends);
+    number_of(both[i], positive_rule, repairs);
     if (i == 0 || !both[0])
       library.warn(
           fmt::format("{}: normalCompliance and shearCompliance are not used", both[i].place()));
   }
 }
 
-void read_mass(const XmlElement& body, const Library& library, Mends& mends, BodySpec& out) {
+void read_mass(const XmlElement& body, const Library& library, Repairs& repairs, BodySpec& out) {
   if (const XmlElement mass = body.child("mass"))
     out.mass =
-        number_of(mass, mass_rule.in("g", units::gram), mends, BodySpec().mass / units::gram) *
+        number_of(mass, mass_rule.in("g", units::gram), repairs, BodySpec().mass / units::gram) *
         units::gram;
   if (const XmlElement cog = body.child("cog")) {
     out.com = cog.vector() * units::millimetre;
@@ -117,7 +118,7 @@ void read_mass(const XmlElement& body, const Library& library, Mends& mends, Bod
   }
 }
 
-void read_matter(const XmlElement& body, const Library& library, Mends& mends, BodySpec& out) {
+void read_matter(const XmlElement& body, const Library& library, Repairs& repairs, BodySpec& out) {
   if (const XmlElement material = body.child("material")) {
     out.material = material.text();
     try {
@@ -127,14 +128,15 @@ void read_matter(const XmlElement& body, const Library& library, Mends& mends, B
     }
   }
   if (const XmlElement youngs = body.child("youngs")) {
-    out.elastic_modulus = number_of(youngs, elastic_modulus_rule, mends);
+    out.elastic_modulus = number_of(youngs, elastic_modulus_rule, repairs);
     if (*out.elastic_modulus < 1e4)
-      library.doubted(fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
-                                  youngs.place(), *out.elastic_modulus));
+      library.suspected(
+          fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
+                      youngs.place(), *out.elastic_modulus));
   }
   if (const XmlElement bird = body.child("useFlockOfBirds"))
-    out.tracker = mends.count(bird.text(), bird.place() + ": useFlockOfBirds");
-  read_compliance(body, library, mends);
+    out.tracker = repairs.count(bird.text(), bird.place() + ": useFlockOfBirds");
+  read_compliance(body, library, repairs);
 }
 
 }  // namespace
@@ -146,9 +148,9 @@ std::optional<PlacedFile> read_placed_file(const XmlElement& body, const fs::pat
   element.check({.attributes = {"type"}}, options.warn);
   PlacedFile out;
   out.format = read_format(element, options);
-  Mends mends(options.listeners());
-  out.scaling = read_scaling(body, mends);
-  mends.tell();
+  Repairs repairs(options.listeners());
+  out.scaling = read_scaling(body, repairs);
+  repairs.tell();
   try {
     out.path = find_file(element.text(), path, options);
   } catch (const Error& error) {
@@ -164,14 +166,14 @@ std::optional<PlacedFile> read_placed_file(const XmlElement& body, const fs::pat
 BodySpec read_body_element(const XmlElement& element, const fs::path& path, Library& library) {
   element.check(known, library.options().warn);
   BodySpec body;
-  Mends mends(library.options().listeners());
-  read_matter(element, library, mends, body);
-  read_mass(element, library, mends, body);
-  mends.tell();
+  Repairs repairs(library.options().listeners());
+  read_matter(element, library, repairs, body);
+  read_mass(element, library, repairs, body);
+  repairs.tell();
   const XmlElement file = element.child("geometryFile");
   if (!file) {
-    library.doubted(fmt::format("{}: no <geometryFile>: the body is a frame without a surface",
-                                element.place()));
+    library.suspected(fmt::format("{}: no <geometryFile>: the body is a frame without a surface",
+                                  element.place()));
     return body;
   }
   Geometry geometry =
@@ -179,8 +181,9 @@ BodySpec read_body_element(const XmlElement& element, const fs::path& path, Libr
   body.appearance = std::move(geometry.appearance);
   body.mesh_report = std::move(geometry.report);
   if (geometry.mesh.triangles.empty()) {
-    library.doubted(fmt::format("{}: no surface in {}: the body is a frame, which touches nothing",
-                                file.place(), in_quotes(file.text())));
+    library.suspected(
+        fmt::format("{}: no surface in {}: the body is a frame, which touches nothing",
+                    file.place(), in_quotes(file.text())));
     return body;
   }
   try {
@@ -194,11 +197,11 @@ BodySpec read_body_element(const XmlElement& element, const fs::path& path, Libr
 void check_body_root(const XmlFile& file) {
   for (const char* other : {"robot", "world", "mujoco", "EigenGrasps", "virtual_contacts"})
     if (file.root().name() == other)
-      file.root().fail("wanted a body, got <{}>", excerpt(file.root().name()));
+      file.root().fail("expected a body, got <{}>", excerpt(file.root().name()));
   const auto children = file.root().children();
   if (std::ranges::none_of(
           children, [](const XmlElement& e) { return std::ranges::count(known.once, e.name()); }))
-    file.root().fail("wanted a body with geometryFile, mass or the like, got <{}> without any",
+    file.root().fail("expected a body with geometryFile, mass or the like, got <{}> without any",
                      excerpt(file.root().name()));
 }
 

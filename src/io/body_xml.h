@@ -6,7 +6,7 @@
 namespace clench {
 
 /// A file whose outermost element, of any name, holds material, mass, geometryFile and the like.
-/// throws Error  "mug.xml:4: mass: wanted a number > 0 [g], got -2"
+/// throws Error  "mug.xml:4: mass: expected a number > 0 [g], got -2"
 BodySpec read_body_xml(const std::filesystem::path& path, Library& library);
 
 /// The file of a body's geometry, and where it stands: v_B = X_BG * (scaling .* v).
@@ -23,7 +23,7 @@ std::optional<PlacedFile> read_placed_file(const XmlElement& body,
                                            const std::filesystem::path& path,
                                            const ReadOptions& options);
 
-/// throws Error  "hand.xml:2: wanted a body, got <robot>"
+/// throws Error  "hand.xml:2: expected a body, got <robot>"
 void check_body_root(const XmlFile& file);
 
 /// An element with such children; geometry is looked for beside `path`. Leaves name, source and file

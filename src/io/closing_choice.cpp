@@ -30,10 +30,10 @@ void choose_closing(RobotSpec& robot, const std::string& file, const ReadOptions
     if (found == names.end() && number && *number >= 1 && *number <= static_cast<int>(names.size()))
       found = names.begin() + (*number - 1);
     if (found == names.end())
-      fail("{}: close: wanted the name of a DOF or a number from 1 to {}, got {}{}", file,
+      fail("{}: close: expected the name of a DOF or a number from 1 to {}, got {}{}", file,
            names.size(), in_quotes(key), did_you_mean(key, names));
     if (sense != 1 && sense != -1 && sense != 0)
-      fail("{}: close: {}: wanted 1, -1 or 0, got {}", file, key, sense);
+      fail("{}: close: {}: expected 1, -1 or 0, got {}", file, key, sense);
     set_closing(robot, static_cast<int>(found - names.begin()), sense);
   }
   if (options.approach) robot.X_BA = options.approach;

@@ -9,7 +9,7 @@ namespace clench {
 void set_closing(RobotSpec& robot, int dof, double sense);
 
 /// Follows options.closing and options.approach. `file` is the name shown in errors.
-/// throws  Error  "hand.urdf: close: wanted the name of a DOF or a number from 1 to 16, got 'x'"
+/// throws  Error  "hand.urdf: close: expected the name of a DOF or a number from 1 to 16, got 'x'"
 void choose_closing(RobotSpec& robot, const std::string& file, const ReadOptions& options);
 
 }  // namespace clench

@@ -67,13 +67,13 @@ const ShapePtr& drawn(const BodySpec& body) {
 std::vector<int> ends(const TreeModel& tree) {
   const bool any_shape = std::any_of(tree.links.begin(), tree.links.end(),
                                      [](const TreeLink& link) { return drawn(link.body); });
-  std::vector<bool> goes_on(tree.links.size());
+  std::vector<bool> dof_can_advance(tree.links.size());
   std::vector<int> out;
   for (int i = static_cast<int>(tree.links.size()) - 1; i >= 0; --i) {
     const bool counts = !any_shape || drawn(tree.links[i].body);
-    if (counts && !goes_on[i]) out.push_back(i);
+    if (counts && !dof_can_advance[i]) out.push_back(i);
     if (const int parent = tree.links[i].parent; parent >= 0)
-      goes_on[parent] = goes_on[parent] || goes_on[i] || counts;
+      dof_can_advance[parent] = dof_can_advance[parent] || dof_can_advance[i] || counts;
   }
   std::reverse(out.begin(), out.end());
   return out;
@@ -92,9 +92,9 @@ struct Hand {
   std::vector<int> dofs;  // joints that lead, and themselves move
   Posture rest;           // at first
   std::vector<std::array<double, 2>>
-      ranges;                               // one a joint; of leaders, with their followers' limits
-  std::vector<std::vector<int>> followers;  // one a joint: joints that it leads
-  std::vector<int> link_of;                 // one a joint
+      ranges;  // one per joint; of leaders, with their followers' limits
+  std::vector<std::vector<int>> followers;  // one per joint: joints that it leads
+  std::vector<int> link_of;                 // one per joint
 };
 
 std::array<double, 2> range_of(const Hand& hand, int leader) {

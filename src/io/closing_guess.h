@@ -15,7 +15,7 @@
 namespace clench {
 
 struct ClosingGuess {
-  std::vector<double> senses;  ///< one a joint: +1, -1, or 0 (it stays); of leaders only
+  std::vector<double> senses;  ///< one per joint: +1, -1, or 0 (it stays); of leaders only
   std::optional<Pose> X_BA;    ///< approach frame in the root
 };
 

@@ -10,15 +10,15 @@ namespace {
 using Eigen::Affine3d;
 using Eigen::Vector3d;
 
-constexpr size_t most_bytes = size_t{256} << 20;
-constexpr long most_tags = 8'000'000;  // each takes some 100 bytes when it is parsed
-constexpr int most_nodes = 200'000;    // those that are used several times count each time
+constexpr size_t max_bytes = size_t{256} << 20;
+constexpr long max_tags = 8'000'000;  // each takes some 100 bytes when it is parsed
+constexpr int max_nodes = 200'000;    // those that are used several times count each time
 constexpr int deepest_node = 200;
 
 class ColladaReader {
  public:
   ColladaReader(const std::string& file, const std::string& text, GeometryBuilder& builder)
-      : xml_(file, text, most_bytes), ids_(xml_.root()), work_{ids_, builder} {}
+      : xml_(file, text, max_bytes), ids_(xml_.root()), work_{ids_, builder} {}
   /// returns  are there colours?
   bool read();
   const std::set<std::string>& warnings() const { return work_.warnings; }
@@ -51,7 +51,7 @@ Affine3d looking(const XmlElement& e) {
   const auto v = e.numbers(9);
   const Vector3d eye(v[0], v[1], v[2]), up(v[6], v[7], v[8]);
   const Vector3d back = eye - Vector3d(v[3], v[4], v[5]), side = up.cross(back);
-  if (!(side.norm() > 0)) e.fail("lookat: wanted an upward direction across the view");
+  if (!(side.norm() > 0)) e.fail("lookat: expected an upward direction across the view");
   Affine3d X = Affine3d::Identity();
   X.linear().col(0) = side.normalized();
   X.linear().col(2) = back.normalized();
@@ -70,12 +70,12 @@ void ColladaReader::read_asset(const XmlElement& root) {
   if (const XmlElement unit = asset.child("unit"); unit && unit.attribute("meter")) {
     report.unit = unit.number_attribute("meter");
     report.unit_source = UnitSource::file;
-    if (!(report.unit > 0)) unit.fail("unit: wanted a length > 0 [m], got {}", report.unit);
+    if (!(report.unit > 0)) unit.fail("unit: expected a length > 0 [m], got {}", report.unit);
   }
   if (const XmlElement up = asset.child("up_axis")) {
     const std::string axis = up.text();
     if (axis != "X_UP" && axis != "Y_UP" && axis != "Z_UP")
-      up.fail("up_axis: wanted X_UP, Y_UP or Z_UP, got {}", in_quotes(axis));
+      up.fail("up_axis: expected X_UP, Y_UP or Z_UP, got {}", in_quotes(axis));
     report.up = static_cast<char>(axis[0] - 'X' + 'x');
   }
 }
@@ -107,7 +107,7 @@ Affine3d ColladaReader::placement(const XmlElement& node) {
     } else if (name == "lookat") {
       X = X * looking(e);
     } else if (name == "skew") {
-      e.fail("skew: wanted matrix, translate, rotate, scale or lookat");
+      e.fail("skew: expected matrix, translate, rotate, scale or lookat");
     }
   }
   return X;
@@ -115,10 +115,10 @@ Affine3d ColladaReader::placement(const XmlElement& node) {
 
 void ColladaReader::read_node(const XmlElement& node, const Affine3d& X_parent, int depth) {
   if (depth > deepest_node)
-    node.fail("node: wanted at most {} nodes in each other, and none in itself", deepest_node);
-  if (++nodes_ > most_nodes)
-    node.fail("node: wanted at most {} nodes, those used several times counted each time",
-              most_nodes);
+    node.fail("node: expected at most {} nodes in each other, and none in itself", deepest_node);
+  if (++nodes_ > max_nodes)
+    node.fail("node: expected at most {} nodes, those used several times counted each time",
+              max_nodes);
   const Affine3d X = X_parent * placement(node);
   for (const XmlElement& e : node.children()) {
     const auto name = e.name();
@@ -178,7 +178,7 @@ ColladaLook ColladaReader::look(const XmlElement& instance, const std::string& s
     for (const XmlElement& shading : technique.children())
       if (const XmlElement color = inner(shading, {"diffuse", "color"})) {
         const auto rgb = color.numbers();
-        if (rgb.size() < 3) color.fail("color: wanted three or four numbers, got {}", rgb.size());
+        if (rgb.size() < 3) color.fail("color: expected three or four numbers, got {}", rgb.size());
         return {Vector3d(rgb[0], rgb[1], rgb[2]).cwiseMax(0).cwiseMin(1).cast<float>(), true};
       }
   }
@@ -188,7 +188,7 @@ ColladaLook ColladaReader::look(const XmlElement& instance, const std::string& s
 bool ColladaReader::read() {
   const XmlElement root = xml_.root();
   if (root.name() != "COLLADA")
-    root.fail("wanted an element <COLLADA>, got <{}>", excerpt(root.name()));
+    root.fail("expected an element <COLLADA>, got <{}>", excerpt(root.name()));
   read_asset(root);
   if (const XmlElement shown = scene(root)) {
     for (const XmlElement& node : shown.children("node")) read_node(node, Affine3d::Identity(), 0);
@@ -206,7 +206,7 @@ bool ColladaReader::read() {
 bool read_collada(const MeshInput& input, GeometryBuilder& builder) {
   const std::string file = input.file(), text = plain_text(input.bytes);
   const auto tags = std::count(text.begin(), text.end(), '<');
-  if (tags > most_tags) fail("{}: wanted at most {} tags, got {}", file, most_tags, tags);
+  if (tags > max_tags) fail("{}: expected at most {} tags, got {}", file, max_tags, tags);
   return run_reader(input, [&] { return ColladaReader(file, text, builder); });
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int most_inputs = 64, most_stride = 64;
+constexpr int max_inputs = 64, max_stride = 64;
 
 /// Where the points of a <vertices> lie in the builder.
 struct Points {
@@ -44,7 +44,7 @@ class MeshReader {
 void spend(const XmlElement& e, size_t count, ColladaWork& work) {
   work.left -= static_cast<long>(count);
   if (work.left < 0)
-    e.fail("{}: wanted less to read, meshes that are used several times counted each time",
+    e.fail("{}: expected less to read, meshes that are used several times counted each time",
            e.name());
 }
 
@@ -69,7 +69,7 @@ std::vector<Vector3d> read_source(const XmlElement& source, ColladaWork& work) {
   int stride = 3, offset = 0, at[3] = {0, 1, 2};
   if (accessor) {
     if (accessor.attribute("source")) array = work.ids.find(accessor, "source");
-    if (accessor.attribute("stride")) stride = accessor.integer_attribute("stride", 1, most_stride);
+    if (accessor.attribute("stride")) stride = accessor.integer_attribute("stride", 1, max_stride);
     if (accessor.attribute("offset")) offset = accessor.integer_attribute("offset", 0);
     int i = 0;
     for (const XmlElement& param : accessor.children("param")) {
@@ -79,7 +79,7 @@ std::vector<Vector3d> read_source(const XmlElement& source, ColladaWork& work) {
       ++i;
     }
   }
-  if (!array) source.fail("source: wanted a float_array, got none");
+  if (!array) source.fail("source: expected a float_array, got none");
   const auto numbers = read_numbers(array, work);
   check_count(array, numbers.size(), work);
   std::vector<Vector3d> out;
@@ -90,7 +90,7 @@ std::vector<Vector3d> read_source(const XmlElement& source, ColladaWork& work) {
   if (accessor && accessor.attribute("count")) {
     const int count = accessor.integer_attribute("count", 0);
     if (static_cast<size_t>(count) > out.size())
-      accessor.fail("accessor: wanted {} points, got {}", count, out.size());
+      accessor.fail("accessor: expected {} points, got {}", count, out.size());
     if (static_cast<size_t>(count) < out.size())
       work.warnings.insert("points beyond an accessor's count are not used");
     out.resize(static_cast<size_t>(count));
@@ -100,7 +100,7 @@ std::vector<Vector3d> read_source(const XmlElement& source, ColladaWork& work) {
 
 Points MeshReader::points(const XmlElement& input) {
   const XmlElement vertices = work_.ids.find(input, "source");
-  const auto [found, added] = known_.emplace(input.wanted_attribute("source"), Points());
+  const auto [found, added] = known_.emplace(input.expected_attribute("source"), Points());
   if (!added) return found->second;
   for (const XmlElement& inner : vertices.children("input")) {
     if (inner.attribute("semantic") != "POSITION") continue;
@@ -111,21 +111,21 @@ Points MeshReader::points(const XmlElement& input) {
     found->second.count = static_cast<int>(work_.builder.vertex_count()) - found->second.first;
     return found->second;
   }
-  vertices.fail("vertices: wanted an input POSITION, got none");
+  vertices.fail("vertices: expected an input POSITION, got none");
 }
 
 /// The vertices that a <p> lists, as numbers of the builder.
 std::vector<int> MeshReader::corners(const XmlElement& p) {
   const auto numbers = read_numbers(p, work_);
   if (numbers.size() % static_cast<size_t>(stride_) != 0)
-    p.fail("p: wanted {} numbers a corner, got {} in all", stride_, numbers.size());
+    p.fail("p: expected {} numbers a corner, got {} in all", stride_, numbers.size());
   std::vector<int> out;
   out.reserve(numbers.size() / static_cast<size_t>(stride_));
   for (size_t i = static_cast<size_t>(offset_); i < numbers.size();
        i += static_cast<size_t>(stride_)) {
     const double v = numbers[i];
     if (!(v >= 0 && v < at_.count) || v != std::floor(v))
-      p.fail("p: wanted a vertex from 0 to {}, got {}", at_.count - 1, v);
+      p.fail("p: expected a vertex from 0 to {}, got {}", at_.count - 1, v);
     out.push_back(at_.first + static_cast<int>(v));
   }
   return out;
@@ -147,7 +147,7 @@ void MeshReader::add_polygons(const XmlElement& list, std::vector<int> all,
   size_t at = 0;
   const auto next = [&](size_t count) {
     if (count > all.size() - at)
-      list.fail("{}: wanted {} corners of a face, got {}", list.name(), count, all.size() - at);
+      list.fail("{}: expected {} corners of a face, got {}", list.name(), count, all.size() - at);
     const auto first = all.begin() + static_cast<long>(at);
     add(list, std::vector<int>(first, first + static_cast<long>(count)), look);
     at += count;
@@ -155,7 +155,7 @@ void MeshReader::add_polygons(const XmlElement& list, std::vector<int> all,
   if (const XmlElement counts = list.child("vcount"); counts && list.name() == "polylist") {
     for (const double count : read_numbers(counts, work_)) {
       if (!(count >= 0 && count <= 1 << 30) || count != std::floor(count))
-        counts.fail("vcount: wanted numbers of corners, got {}", count);
+        counts.fail("vcount: expected numbers of corners, got {}", count);
       next(static_cast<size_t>(count));
     }
     if (at < all.size()) work_.warnings.insert("corners beyond the last face are not used");
@@ -181,7 +181,7 @@ void MeshReader::read_primitive(const XmlElement& primitive, const ColladaLook& 
   stride_ = 1;
   faces_ = 0;
   for (const XmlElement& input : primitive.children("input")) {
-    const int offset = input.integer_attribute("offset", 0, most_inputs);
+    const int offset = input.integer_attribute("offset", 0, max_inputs);
     stride_ = std::max(stride_, offset + 1);
     if (input.attribute("semantic") != "VERTEX") continue;
     offset_ = offset;
@@ -191,7 +191,7 @@ void MeshReader::read_primitive(const XmlElement& primitive, const ColladaLook& 
   const auto lists = primitive.children("p");
   const auto holes = primitive.children("ph");
   if (!found && lists.empty() && holes.empty()) return;  // nothing to draw
-  if (!found) primitive.fail("{}: wanted an input VERTEX, got none", primitive.name());
+  if (!found) primitive.fail("{}: expected an input VERTEX, got none", primitive.name());
 
   const auto kind = primitive.name();
   const bool strips = kind == "tristrips" || kind == "trifans";
@@ -205,7 +205,7 @@ void MeshReader::read_primitive(const XmlElement& primitive, const ColladaLook& 
   }
   for (const XmlElement& ph : holes) {
     work_.warnings.insert("holes in polygons are not used");
-    add(ph, corners(ph.wanted("p")), look);
+    add(ph, corners(ph.expected("p")), look);
   }
   check_count(primitive, strips ? lists.size() : faces_, work_);
 }
@@ -237,13 +237,13 @@ ColladaIds::ColladaIds(const XmlElement& root) {
 }
 
 XmlElement ColladaIds::find(const XmlElement& from, const char* attribute) const {
-  const std::string url = from.wanted_attribute(attribute);
+  const std::string url = from.expected_attribute(attribute);
   if (!url.starts_with('#'))
-    from.fail("{}: wanted '#' and the id of an element of this file, got {}", from.name(),
+    from.fail("{}: expected '#' and the id of an element of this file, got {}", from.name(),
               in_quotes(url));
   const auto found = elements_.find(url.substr(1));
   if (found == elements_.end())
-    from.fail("{}: wanted an element with the id {}, got none", from.name(),
+    from.fail("{}: expected an element with the id {}, got none", from.name(),
               in_quotes(url.substr(1)));
   return found->second;
 }

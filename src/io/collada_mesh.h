@@ -16,7 +16,7 @@ class ColladaIds {
  public:
   explicit ColladaIds(const XmlElement& root);
   /// The element with the id that an attribute of `from` names.
-  /// throws Error  "part.dae:31: input: wanted an element with the id 'x', got none"
+  /// throws Error  "part.dae:31: input: expected an element with the id 'x', got none"
   XmlElement find(const XmlElement& from, const char* attribute) const;
 
  private:
@@ -39,7 +39,7 @@ struct ColladaWork {
 
 /// Adds the faces of a <mesh>, its points moved by X.
 /// `look`: what the faces with a material of that symbol look like
-/// throws  Error  "part.dae:31: p: wanted a vertex from 0 to 7, got 8"
+/// throws  Error  "part.dae:31: p: expected a vertex from 0 to 7, got 8"
 void add_collada_mesh(const XmlElement& mesh, const Eigen::Affine3d& X,
                       const std::function<ColladaLook(const std::string& symbol)>& look,
                       ColladaWork& work);

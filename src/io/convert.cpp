@@ -27,7 +27,7 @@ void convert_file(FileKind kind, const fs::path& from, const fs::path& to,
     case FileKind::virtual_contacts:
       return write_virtual_contacts(read_virtual_contacts(from, reading), to);
     default:
-      fail("{}: wanted a model, a world, eigengrasps or virtual contacts, got {}",
+      fail("{}: expected a model, a world, eigengrasps or virtual contacts, got {}",
            from.filename().string(), kind_name(kind));
   }
 }

@@ -4,7 +4,7 @@
 
 #include "base/file.h"
 #include "base/text.h"
-#include "io/mends.h"
+#include "io/repairs.h"
 #include "io/xml.h"
 
 namespace clench {
@@ -14,32 +14,35 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::VectorXd;
 
-constexpr int most_dofs = 1000;  // as of robots
+constexpr int max_dofs = 1000;  // as of robots
 
 void warn(const ReadOptions& options, const std::string& sentence) {
   if (options.warn && !sentence.empty()) options.warn(sentence);
 }
 
-void doubt_eigenvalues(const EigengraspSet& set, const EigengraspPlaces& places,
-                       const ReadOptions& options) {
+void check_plausible_eigenvalues(const EigengraspSet& set, const EigengraspPlaces& places,
+                                 const ReadOptions& options) {
   for (size_t i = 0; i < set.grasps.size(); ++i)
     if (const double x = set.grasps[i].eigenvalue; x < 0)
-      options.doubted(fmt::format("{}: eigengrasp {}: its eigenvalue is {}, and variances are >= 0",
-                                  places.grasps[i], i + 1, x));
+      options.suspected(
+          fmt::format("{}: eigengrasp {}: its eigenvalue is {}, and variances are >= 0",
+                      places.grasps[i], i + 1, x));
 }
 
-void tell_count(Mends& mends, const std::string& place, int declared, int given) {
-  mends.add("count", fmt::format("{}: {} DOF{} declared, and numbers of {} are given; {} are used",
-                                 place, declared, declared == 1 ? " is" : "s are", given, given));
+void tell_count(Repairs& repairs, const std::string& place, int declared, int given) {
+  repairs.add("count",
+              fmt::format("{}: {} DOF{} declared, and numbers of {} are given; {} are used", place,
+                          declared, declared == 1 ? " is" : "s are", given, given));
 }
 
 /// There are at most as many as DOFs.
 void add_grasp(EigengraspSpec grasp, const std::string& place, EigengraspSet& set,
-               EigengraspPlaces& places, Mends& mends) {
+               EigengraspPlaces& places, Repairs& repairs) {
   if (static_cast<int>(set.grasps.size()) >= set.dofs) {
-    mends.add("surplus", fmt::format("{}: wanted at most {} eigengrasps, one a DOF; this one is "
-                                     "not used",
-                                     place, set.dofs));
+    repairs.add("surplus",
+                fmt::format("{}: expected at most {} eigengrasps, one per DOF; this one is "
+                            "not used",
+                            place, set.dofs));
     return;
   }
   set.grasps.push_back(std::move(grasp));
@@ -72,7 +75,7 @@ class EgrReader {
  public:
   EgrReader(const std::string& file, std::string text, const ReadOptions& options)
       : options_(options),
-        mends_(options.listeners()),
+        repairs_(options.listeners()),
         given_(given_dofs(text)),
         lines_(file, std::move(text)) {}
   EigengraspSet read();
@@ -84,7 +87,7 @@ class EgrReader {
   void note_junk(const Line& line);
 
   const ReadOptions& options_;
-  Mends mends_;
+  Repairs repairs_;
   int given_;  // so many numbers every block begins with
   LineReader lines_;
   EigengraspSet set_;
@@ -96,12 +99,12 @@ class EgrReader {
 EigengraspSet EgrReader::read() {
   const Line head = lines_.next_full("DIMENSIONS and the number of DOFs");
   if (lower_case(head.word(0)) != "dimensions")
-    head.fail("wanted DIMENSIONS and the number of DOFs, got {}", in_quotes(head.word(0)));
-  set_.dofs = head.integer(1, "DIMENSIONS", 1, most_dofs);
+    head.fail("expected DIMENSIONS and the number of DOFs, got {}", in_quotes(head.word(0)));
+  set_.dofs = head.integer(1, "DIMENSIONS", 1, max_dofs);
   warn(options_, head.surplus(2));
   // what is declared counts for less than what all blocks have
-  if (given_ > set_.dofs && given_ <= most_dofs) {
-    tell_count(mends_, head.place(), set_.dofs, given_);
+  if (given_ > set_.dofs && given_ <= max_dofs) {
+    tell_count(repairs_, head.place(), set_.dofs, given_);
     set_.dofs = given_;
   }
   while (lines_.skip_to_full()) {
@@ -116,9 +119,9 @@ EigengraspSet EgrReader::read() {
   if (junk_lines_ > 1)
     warn(options_,
          fmt::format("{} and {} more belong to no block and are not used", junk_, junk_lines_ - 1));
-  mends_.tell();
+  repairs_.tell();
   check_eigengrasps(set_, lines_.file(), places_);
-  doubt_eigenvalues(set_, places_, options_);
+  check_plausible_eigenvalues(set_, places_, options_);
   return std::move(set_);
 }
 
@@ -153,7 +156,7 @@ void EgrReader::read_block(const std::string& keyword, const Line& line) {
     const std::string what = fmt::format("eigengrasp {}", set_.grasps.size() + 1);
     grasp.eigenvalue = read_eigenvalue(what);
     grasp.vector = read_values(what);
-    add_grasp(std::move(grasp), line.place(), set_, places_, mends_);
+    add_grasp(std::move(grasp), line.place(), set_, places_, repairs_);
     return;
   }
   auto& target = keyword == "norm" ? set_.norm : set_.origin;
@@ -170,7 +173,7 @@ void EgrReader::read_block(const std::string& keyword, const Line& line) {
 class EigengraspXml {
  public:
   EigengraspXml(const std::string& file, const std::string& text, const ReadOptions& options)
-      : file_(file, text), options_(options), mends_(options.listeners()) {}
+      : file_(file, text), options_(options), repairs_(options.listeners()) {}
   EigengraspSet read();
 
  private:
@@ -180,7 +183,7 @@ class EigengraspXml {
 
   XmlFile file_;
   const ReadOptions& options_;
-  Mends mends_;
+  Repairs repairs_;
   EigengraspSet set_;
   EigengraspPlaces places_;
 };
@@ -188,12 +191,12 @@ class EigengraspXml {
 EigengraspSet EigengraspXml::read() {
   const XmlElement root = file_.root();
   if (root.name() != "EigenGrasps")
-    root.fail("wanted an element <EigenGrasps>, got <{}>", excerpt(root.name()));
+    root.fail("expected an element <EigenGrasps>, got <{}>", excerpt(root.name()));
   root.check({.once = {"ORIGIN", "NORM"}, .many = {"EG"}, .attributes = {"dimensions"}},
              options_.warn);
   count_dofs(root);
   for (const XmlElement& block : root.children("EG"))
-    add_grasp(read_grasp(block), block.place(), set_, places_, mends_);
+    add_grasp(read_grasp(block), block.place(), set_, places_, repairs_);
   for (const auto& [name, target, missing] :
        {std::tuple("ORIGIN", &set_.origin, 0.0), {"NORM", &set_.norm, 1.0}})
     if (const XmlElement block = root.child(name)) {
@@ -201,28 +204,28 @@ EigengraspSet EigengraspXml::read() {
       *target = read_values(block, missing);
       (target == &set_.norm ? places_.norm : places_.origin) = block.place();
     }
-  mends_.tell();
+  repairs_.tell();
   check_eigengrasps(set_, file_.file(), places_);
-  doubt_eigenvalues(set_, places_, options_);
+  check_plausible_eigenvalues(set_, places_, options_);
   return std::move(set_);
 }
 
 /// The number of DOF that an attribute "d3" names; empty when it names none.
 std::optional<int> numbered_dof(const std::string& name) {
   const auto number = name.starts_with('d') ? parse_integer(name.substr(1)) : std::nullopt;
-  return number && *number >= 0 && *number < most_dofs ? number : std::nullopt;
+  return number && *number >= 0 && *number < max_dofs ? number : std::nullopt;
 }
 
 /// What is declared counts for less than what is given.
 void EigengraspXml::count_dofs(const XmlElement& root) {
-  set_.dofs = root.integer_attribute("dimensions", 1, most_dofs);
+  set_.dofs = root.integer_attribute("dimensions", 1, max_dofs);
   int given = set_.dofs;
   for (const char* kind : {"EG", "ORIGIN", "NORM"})
     for (const XmlElement& block : root.children(kind))
       if (const XmlElement list = block.child("DimVals"))
         for (const std::string& name : list.attributes())
           given = std::max(given, numbered_dof(name).value_or(-1) + 1);
-  if (given > set_.dofs) tell_count(mends_, root.place(), set_.dofs, given);
+  if (given > set_.dofs) tell_count(repairs_, root.place(), set_.dofs, given);
   set_.dofs = given;
 }
 
@@ -236,7 +239,7 @@ EigengraspSpec EigengraspXml::read_grasp(const XmlElement& block) {
   if (const XmlElement limits = block.child("Limits")) {
     limits.check({.attributes = {"min", "max"}}, options_.warn);
     double low = limits.number_attribute("min"), high = limits.number_attribute("max");
-    mends_.order(low, high, limits.place() + ": Limits");
+    repairs_.order(low, high, limits.place() + ": Limits");
     grasp.limits = {low, high};
   }
   grasp.vector = read_values(block, 0);
@@ -246,10 +249,10 @@ EigengraspSpec EigengraspXml::read_grasp(const XmlElement& block) {
 // values that are not there are `missing`
 VectorXd EigengraspXml::read_values(const XmlElement& block, double missing) {
   VectorXd values = VectorXd::Constant(set_.dofs, missing);
-  const XmlElement list = block.wanted("DimVals");
+  const XmlElement list = block.expected("DimVals");
   for (const std::string& name : list.attributes()) {
     const auto number = numbered_dof(name);
-    if (!number) list.fail("DimVals: wanted d0 to d{}, got {}", set_.dofs - 1, in_quotes(name));
+    if (!number) list.fail("DimVals: expected d0 to d{}, got {}", set_.dofs - 1, in_quotes(name));
     values[*number] = list.number_attribute(name);
   }
   return values;
@@ -303,7 +306,7 @@ std::string eigengrasps_text(const EigengraspSet& set, const fs::path& path) {
   const std::string ending = lower_case(path.extension().string());
   if (ending == ".xml") return eigengrasps_xml(set);
   if (ending != ".egr")
-    fail("{}: wanted a file of eigengrasps, .egr or .xml, got {}", file, in_quotes(ending));
+    fail("{}: expected a file of eigengrasps, .egr or .xml, got {}", file, in_quotes(ending));
   return text_of(set);
 }
 

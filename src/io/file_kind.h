@@ -23,7 +23,7 @@ enum class FileKind {
 };
 
 /// path  of a file that exists. One whose ending says nothing is known by how its numbers stand.
-/// throws Error  "notes.txt: wanted a model, a world, or a file that goes with one, got '.txt'"
+/// throws Error  "notes.txt: expected a model, a world, or a file that goes with one, got '.txt'"
 FileKind file_kind(const std::filesystem::path& path);
 
 /// What a text of nothing but numbers describes; empty when it is no such text, or fits none.

@@ -87,7 +87,7 @@ void fail_outside(const std::string& name, const ReadOptions& options) {
 fs::path find_file(const std::string& name, const fs::path& referrer, const ReadOptions& options) {
   std::string slashed = name;
   std::replace(slashed.begin(), slashed.end(), '\\', '/');
-  if (trim(name).empty()) fail("wanted the name of a file, got nothing");
+  if (trim(name).empty()) fail("expected the name of a file, got nothing");
   if (slashed.find('\0') != std::string::npos || slashed.size() > 4096)
     fail("no such file: {}", in_quotes(name));
 
@@ -105,8 +105,8 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
   for (const auto& place : places)
     if (const fs::path found = exact_or_case(place);
         !found.empty() && lies_within(found, options.confine))
-      fail("wanted a file, got a {}: {}", fs::is_directory(found, code) ? "folder" : "special file",
-           shown);
+      fail("expected a file, got a {}: {}",
+           fs::is_directory(found, code) ? "folder" : "special file", shown);
   // what the system does not let us see may be there
   for (const auto& place : places)
     if (fs::status(place, code).type() == fs::file_type::none)

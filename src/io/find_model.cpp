@@ -20,9 +20,9 @@ static fs::path try_endings(const std::string& name, const fs::path& referrer, M
   std::vector<std::string> names = {name};
   for (const auto& ending : endings_of(kind))
     names.push_back(fs::path(name).replace_extension(ending).generic_string());
-  for (const auto& wanted : names) {
+  for (const auto& expected : names) {
     try {
-      return find_file(wanted, referrer, options);
+      return find_file(expected, referrer, options);
     } catch (const Error&) {
       // the next one
     }
@@ -86,8 +86,8 @@ fs::path find_model(const std::string& name, const fs::path& referrer, ModelKind
     const fs::path root = options.root.empty() ? referrer.parent_path() / ".." : options.root;
     const fs::path found = rooted ? try_generations(name, root, kind, options) : fs::path();
     if (found.empty()) throw missing;
-    options.mended(fmt::format("{}: {} is not below the root; {} is taken", place, name,
-                               found.generic_string()));
+    options.repaired(fmt::format("{}: {} is not below the root; {} is taken", place, name,
+                                 found.generic_string()));
     return found;
   }
 }

@@ -81,7 +81,7 @@ void weld_places(Surface& s, bool always) {
   if (always || welded.faults.open_edges < s.faults.open_edges) s = std::move(welded);
 }
 
-/// Seams of round shapes end in points that differ in their last bits: joins them where that mends
+/// Seams of round shapes end in points that differ in their last bits: joins them where that repairs
 /// edges. The tolerance is a few units in the last place of the 32-bit numbers that the points
 /// were.
 void weld_seams(Surface& s) {
@@ -179,14 +179,14 @@ void GeometryBuilder::check_reach(const std::string& subject) const {
       const auto line = far_lines_.find(v);
       const std::string place =
           line == far_lines_.end() ? subject : fmt::format("{}:{}", subject, line->second);
-      fail("{}: vertex {}: wanted coordinates within {} m, got ({}, {}, {})", place, v,
+      fail("{}: vertex {}: expected coordinates within {} m, got ({}, {}, {})", place, v,
            largest_coordinate, p.x(), p.y(), p.z());
     }
 }
 
 int GeometryBuilder::add_vertex(const Vector3d& p, int line) {
-  if (mesh_.vertices.size() >= most_mesh_vertices)
-    fail("wanted at most {} vertices", most_mesh_vertices);
+  if (mesh_.vertices.size() >= max_mesh_vertices)
+    fail("expected at most {} vertices", max_mesh_vertices);
   mesh_.vertices.push_back(p);
   note_far(p, line);
   return static_cast<int>(mesh_.vertices.size()) - 1;
@@ -194,7 +194,7 @@ int GeometryBuilder::add_vertex(const Vector3d& p, int line) {
 
 void GeometryBuilder::add_face(std::span<const int> corners, const Eigen::Vector3f& color,
                                float transparency) {
-  if (++faces_ > most_mesh_faces) fail("wanted at most {} faces", most_mesh_faces);
+  if (++faces_ > max_mesh_faces) fail("expected at most {} faces", max_mesh_faces);
   if (corners.size() == 3) {
     ++report.triangles_read;
     const Triangle t = {corners[0], corners[1], corners[2]};
@@ -211,8 +211,8 @@ void GeometryBuilder::add_face(std::span<const int> corners, const Eigen::Vector
 }
 
 std::vector<Triangle> GeometryBuilder::cut(const std::vector<Vector3d>& outline, bool convex) {
-  constexpr size_t most_work = 1'000'000'000;  // some seconds
-  if (cutting_work_ > most_work) fail("wanted fewer faces of many corners that are not convex");
+  constexpr size_t max_work = 1'000'000'000;  // some seconds
+  if (cutting_work_ > max_work) fail("expected fewer faces of many corners that are not convex");
   return triangulate(outline, convex, &cutting_work_);
 }
 
@@ -222,8 +222,8 @@ static float clamped_share(float x) { return x >= 0 ? std::min(x, 1.0f) : 0.0f; 
 void GeometryBuilder::add_triangle(const Triangle& t, const Eigen::Vector3f& given,
                                    float transparency) {
   const Eigen::Vector3f color = given.unaryExpr(&clamped_share);
-  if (mesh_.triangles.size() >= most_mesh_triangles)
-    fail("wanted at most {} triangles", most_mesh_triangles);
+  if (mesh_.triangles.size() >= max_mesh_triangles)
+    fail("expected at most {} triangles", max_mesh_triangles);
   mesh_.triangles.push_back(t);
   colors_.push_back(color);
 
@@ -286,7 +286,7 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
   const size_t used = s.mesh.vertices.size();
   check_mesh(s.mesh, subject);
 
-  // mend what is open; a loose triangle has only open edges, so its file connects by place alone
+  // repair what is open; a loose triangle has only open edges, so its file connects by place alone
   if (!loose_) s.faults = find_faults(s.mesh);
   if (loose_ || !s.faults.closed()) weld_places(s, loose_);
   if (loose_ && s.mesh.vertices.size() == used) s.faults = find_faults(s.mesh);
@@ -299,8 +299,8 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
   out.report.dropped_triangles =
       out.report.triangles_read - static_cast<int>(s.mesh.triangles.size());
 
-  out.report.turned = turn_outward(s.mesh);
-  if (out.report.turned) options.mended(subject + inside_out);
+  out.report.flipped = turn_outward(s.mesh);
+  if (out.report.flipped) options.repaired(subject + inside_out);
   if (colors_given) out.appearance = mean_appearance(s.kept);
   out.mesh = std::move(s.mesh);
   return out;

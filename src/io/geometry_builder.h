@@ -9,11 +9,11 @@
 namespace clench {
 
 /// Beyond these a file is taken for hostile: some 2 GB of memory.
-inline constexpr size_t most_mesh_triangles = 10'000'000, most_mesh_vertices = 30'000'000,
-                        most_mesh_faces = 20'000'000;
+inline constexpr size_t max_mesh_triangles = 10'000'000, max_mesh_vertices = 30'000'000,
+                        max_mesh_faces = 20'000'000;
 
 struct Geometry {
-  Mesh mesh;  ///< mended where it can be; no triangle with a vertex twice; may be empty
+  Mesh mesh;  ///< repaired where it can be; no triangle with a vertex twice; may be empty
   Appearance appearance;
   MeshReport report;
 };
@@ -43,11 +43,11 @@ class GeometryBuilder {
   /// p becomes factor * turn * p, and loses no digits where the turn exchanges axes.
   void transform(double factor, const Eigen::Matrix3d& turn);
 
-  /// A surface with open edges is mended as far as that closes edges: vertices at the same place
+  /// A surface with open edges is repaired as far as that closes edges: vertices at the same place
   /// become one, then those that lie within rounding of each other; triangles without area go, and
   /// those that lie on each other.
   /// A closed mesh that is inside out is turned, with a warning. A closed one stays as its file
-  /// connects it. Colours are kept one a triangle when they differ.
+  /// connects it. Colours are kept one per triangle when they differ.
   /// `colors_given`: do the colours come from the file?
   /// throws  Error naming line and vertex that lie too far out, "huge.off:4: vertex 2: ..."
   Geometry finish(bool colors_given, const std::string& subject, const ReadOptions& options);

@@ -7,13 +7,13 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-static constexpr int most_entries = 1000;  // DOFs, sensors of a glove
+static constexpr int max_entries = 1000;  // DOFs, sensors of a glove
 
 GloveCalibration read_glove_calibration(const fs::path& path, const ReadOptions& options) {
   LineReader lines(path.filename().string(), read_text(path));
   NumberReader numbers(lines);
-  const int dofs = numbers.integer("number of DOFs", 1, most_entries);
-  const int sensors = numbers.integer("number of sensors", 1, most_entries);
+  const int dofs = numbers.integer("number of DOFs", 1, max_entries);
+  const int sensors = numbers.integer("number of sensors", 1, max_entries);
   std::vector<double> slopes;  // grows with the file, not with what it promises
   for (int d = 0; d < dofs; ++d)
     for (int s = 0; s < sensors; ++s)
@@ -40,7 +40,7 @@ static int read_whole(NumberReader& numbers, const std::string& what) {
   return numbers.integer(what);
 }
 static int read_dof(NumberReader& numbers, const std::string& what) {
-  return numbers.integer(what, -1, most_entries);
+  return numbers.integer(what, -1, max_entries);
 }
 static double read_real(NumberReader& numbers, const std::string& what) {
   return numbers.number(what);
@@ -48,7 +48,7 @@ static double read_real(NumberReader& numbers, const std::string& what) {
 
 static GlovePose read_pose(NumberReader& numbers, const std::string& what) {
   GlovePose pose;
-  const int n = numbers.integer(what + ": size", 0, most_entries);
+  const int n = numbers.integer(what + ": size", 0, max_entries);
   const double distance = numbers.number(what + ": distance") * units::millimetre;
   if (distance >= 0) pose.distance = distance;
   pose.sensors = optional_list(numbers, n, what + ": sensor", read_whole);
@@ -58,7 +58,7 @@ static GlovePose read_pose(NumberReader& numbers, const std::string& what) {
   const Eigen::VectorXd q = numbers.numbers(4, what + ": rotation");
   const auto unit = made_unit({q[3], q[0], q[1], q[2]});
   if (!unit)
-    numbers.line().fail("{}: rotation: wanted a quaternion of length 1, got ({} {} {} {})", what,
+    numbers.line().fail("{}: rotation: expected a quaternion of length 1, got ({} {} {} {})", what,
                         q[0], q[1], q[2], q[3]);
   pose.pose.rotation = *unit;
   pose.pose.position = numbers.vector(what + ": translation") * units::millimetre;

@@ -7,7 +7,7 @@
 namespace clench {
 
 /// Text: `DOFs sensors`, a row of slopes for each DOF, then the intercepts [rad].
-/// throws Error  "glove.txt:3: DOF 1: slope 4: wanted a number, got 'x'"
+/// throws Error  "glove.txt:3: DOF 1: slope 4: expected a number, got 'x'"
 GloveCalibration read_glove_calibration(const std::filesystem::path& path,
                                         const ReadOptions& options = {});
 

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Affine3d;
 using Eigen::Vector3d;
 
-constexpr size_t most_primitives = 1'000'000;
+constexpr size_t max_primitives = 1'000'000;
 
 class GltfReader {
  public:
@@ -51,7 +51,7 @@ std::vector<int> GltfReader::roots() const {
     const int shown = document_.integer(document_.root(), "scene", 0);
     const GltfValue scene = document_.item("scenes", shown, "scene");
     for (const GltfValue& node : document_.items(document_.member(scene, "nodes"))) {
-      if (!node.json->is_number_integer()) document_.fail("{}: wanted a number", node.name);
+      if (!node.json->is_number_integer()) document_.fail("{}: expected a number", node.name);
       out.push_back(static_cast<int>(std::clamp<int64_t>(node.json->get<int64_t>(), -1, 1 << 30)));
     }
     return out;
@@ -81,7 +81,7 @@ Affine3d GltfReader::placement(const GltfValue& node) const {
   if (const GltfValue r = document_.member(node, "rotation")) {
     const auto v = document_.numbers(r, 4);  // x y z w
     const Eigen::Quaterniond q(v[3], v[0], v[1], v[2]);
-    if (!(q.norm() > 1e-6)) document_.fail("{}: wanted a unit quaternion", r.name);
+    if (!(q.norm() > 1e-6)) document_.fail("{}: expected a unit quaternion", r.name);
     X.rotate(q.normalized());
   }
   if (const GltfValue s = document_.member(node, "scale")) {
@@ -94,17 +94,17 @@ Affine3d GltfReader::placement(const GltfValue& node) const {
 void GltfReader::read_node(int i, const std::string& named_by, const Affine3d& X_parent) {
   const GltfValue node = document_.item("nodes", i, named_by);
   if (!seen_.insert(i).second)
-    document_.fail("{}: wanted nodes to form a tree, got one with two parents or in a circle",
+    document_.fail("{}: expected nodes to form a tree, got one with two parents or in a circle",
                    node.name);
   const Affine3d X = X_parent * placement(node);
   if (document_.member(node, "skin"))
     warnings_.insert("its skins are not used: skinned meshes keep the shape they were drawn in");
   if (document_.member(node, "mesh"))
-    read_mesh(document_.item("meshes", document_.wanted_integer(node, "mesh"), node.name), X);
+    read_mesh(document_.item("meshes", document_.expected_integer(node, "mesh"), node.name), X);
   const auto children = document_.items(document_.member(node, "children"));
   // the first child comes off the stack first
   for (auto child = children.rbegin(); child != children.rend(); ++child) {
-    if (!child->json->is_number_integer()) document_.fail("{}: wanted a number", child->name);
+    if (!child->json->is_number_integer()) document_.fail("{}: expected a number", child->name);
     const auto number = std::clamp<int64_t>(child->json->get<int64_t>(), -1, 1 << 30);
     waiting_.emplace_back(static_cast<int>(number), X);
   }
@@ -115,17 +115,17 @@ void GltfReader::read_mesh(const GltfValue& mesh, const Affine3d& X) {
   const GltfValue primitives = document_.member(mesh, "primitives");
   if (!primitives) return;
   primitives_ += primitives.json->size();
-  if (primitives_ > most_primitives)
-    document_.fail("{}: wanted at most {} primitives, those used several times counted each time",
-                   mesh.name, most_primitives);
+  if (primitives_ > max_primitives)
+    document_.fail("{}: expected at most {} primitives, those used several times counted each time",
+                   mesh.name, max_primitives);
   for (const GltfValue& primitive : document_.items(primitives)) read_primitive(primitive, X);
 }
 
 GltfReader::Look GltfReader::look(const GltfValue& primitive) {
   Look out;
   if (!document_.member(primitive, "material")) return out;
-  const GltfValue material =
-      document_.item("materials", document_.wanted_integer(primitive, "material"), primitive.name);
+  const GltfValue material = document_.item(
+      "materials", document_.expected_integer(primitive, "material"), primitive.name);
   const GltfValue factor =
       document_.member(document_.member(material, "pbrMetallicRoughness"), "baseColorFactor");
   if (!factor) return out;
@@ -154,7 +154,7 @@ void GltfReader::read_primitive(const GltfValue& primitive, const Affine3d& X) {
     return;
   }
   const auto p = document_.read_floats(
-      document_.wanted_integer(document_.member(primitive, "attributes"), "POSITION"), 3,
+      document_.expected_integer(document_.member(primitive, "attributes"), "POSITION"), 3,
       position.name);
   const int first = static_cast<int>(builder_.vertex_count()),
             count = static_cast<int>(p.size() / 3);
@@ -163,11 +163,11 @@ void GltfReader::read_primitive(const GltfValue& primitive, const Affine3d& X) {
 
   std::vector<int> corners;
   if (document_.member(primitive, "indices")) {
-    corners = document_.read_indices(document_.wanted_integer(primitive, "indices"),
+    corners = document_.read_indices(document_.expected_integer(primitive, "indices"),
                                      primitive.name + ".indices");
     for (int& v : corners) {
       if (v >= count)
-        document_.fail("{}: wanted an index below {}, got {}", primitive.name, count, v);
+        document_.fail("{}: expected an index below {}, got {}", primitive.name, count, v);
       v += first;
     }
   } else {

@@ -8,7 +8,7 @@ namespace clench {
 /// Triangles of all meshes of the file's scene, where its nodes place them; in metres, y up. Skins,
 /// morph targets and animations are not used, with a warning.
 /// returns  do colours come from the file?
-/// throws   Error  "part.glb: accessors[3]: wanted 36 bytes of bufferViews[1], got 24"
+/// throws   Error  "part.glb: accessors[3]: expected 36 bytes of bufferViews[1], got 24"
 bool read_gltf(const MeshInput& input, GeometryBuilder& builder);
 
 }  // namespace clench

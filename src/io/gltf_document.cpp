@@ -16,7 +16,7 @@ using nlohmann::json;
 namespace {
 
 // parsed, it takes ten times as much memory
-constexpr size_t most_json_bytes = size_t{100} << 20;
+constexpr size_t max_json_bytes = size_t{100} << 20;
 
 /// source  RFC 4648; white space is stepped over
 std::optional<std::string> decode_base64(std::string_view text) {
@@ -106,18 +106,18 @@ GltfDocument::GltfDocument(const MeshInput& input) : input_(input), file_(input.
   std::string chunk;
   if (input.bytes.starts_with("glTF")) split_glb(input.bytes, chunk);
   const std::string& text = binary_ ? chunk : input.bytes;
-  if (text.size() > most_json_bytes)
-    fail("wanted at most {} MB of JSON, got {}", most_json_bytes >> 20, text.size() >> 20);
+  if (text.size() > max_json_bytes)
+    fail("expected at most {} MB of JSON, got {}", max_json_bytes >> 20, text.size() >> 20);
   try {
     json_ = json::parse(text);
   } catch (const json::parse_error& error) {
     const size_t at = std::min(error.byte, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
-    clench::fail("{}:{}: wanted JSON, got something else at byte {} of it", file_, line, at);
+    clench::fail("{}:{}: expected JSON, got something else at byte {} of it", file_, line, at);
   } catch (const json::out_of_range&) {
-    fail("wanted JSON with numbers of at most 1.8e308, got a larger one");
+    fail("expected JSON with numbers of at most 1.8e308, got a larger one");
   }
-  if (!json_.is_object()) fail("wanted a JSON object, got a JSON {}", json_.type_name());
+  if (!json_.is_object()) fail("expected a JSON object, got a JSON {}", json_.type_name());
   check_version();
 }
 
@@ -128,13 +128,13 @@ void GltfDocument::split_glb(const std::string& bytes, std::string& text) {
   ByteReader reader(bytes);
   reader.skip(4);
   const auto version = reader.next<uint32_t>();
-  if (version != 2) fail("wanted glTF of version 2, got version {}", version);
+  if (version != 2) fail("expected glTF of version 2, got version {}", version);
   reader.skip(4);
   bool any = false;
   while (reader.left() >= 8) {
     const auto length = reader.next<uint32_t>(), type = reader.next<uint32_t>();
     if (length > reader.left())
-      fail("wanted a chunk of {} bytes, got {} to the end of the file", length, reader.left());
+      fail("expected a chunk of {} bytes, got {} to the end of the file", length, reader.left());
     if (type == json_chunk && !any)
       text = bytes.substr(reader.position(), length);
     else if (type == binary_chunk && glb_buffer_.empty())
@@ -142,14 +142,14 @@ void GltfDocument::split_glb(const std::string& bytes, std::string& text) {
     any = any || type == json_chunk;
     reader.skip(length);
   }
-  if (!any) fail("wanted a chunk of JSON, got none");
+  if (!any) fail("expected a chunk of JSON, got none");
 }
 
 void GltfDocument::check_version() const {
   const GltfValue asset = member(root(), "asset"), version = member(asset, "version");
-  if (!version || !version.json->is_string()) fail("wanted asset.version 2.0, got none");
+  if (!version || !version.json->is_string()) fail("expected asset.version 2.0, got none");
   const auto& text = version.json->get_ref<const std::string&>();
-  if (!text.starts_with("2.")) fail("wanted glTF of version 2, got {}", in_quotes(text));
+  if (!text.starts_with("2.")) fail("expected glTF of version 2, got {}", in_quotes(text));
   for (const GltfValue& required : items(member(root(), "extensionsRequired"))) {
     const std::string name = required.json->is_string() ? required.json->get<std::string>() : "";
     // looks, and whole numbers as coordinates, which every accessor may have here
@@ -172,7 +172,7 @@ std::vector<GltfValue> GltfDocument::items(const GltfValue& array) const {
   std::vector<GltfValue> out;
   if (!array) return out;
   if (!array.json->is_array())
-    fail("{}: wanted an array, got a {}", array.name, array.json->type_name());
+    fail("{}: expected an array, got a {}", array.name, array.json->type_name());
   for (size_t i = 0; i < array.json->size(); ++i)
     out.push_back({&(*array.json)[i], fmt::format("{}[{}]", array.name, i)});
   return out;
@@ -183,10 +183,10 @@ int GltfDocument::count(const char* array) const {
   return found && found.json->is_array() ? static_cast<int>(found.json->size()) : 0;
 }
 
-GltfValue GltfDocument::item(const char* array, int i, const std::string& wanted_by) const {
+GltfValue GltfDocument::item(const char* array, int i, const std::string& expected_by) const {
   const int available = count(array);
   if (i < 0 || i >= available)
-    fail("{}: wanted one of {} {}, got {}", wanted_by, available, array, i);
+    fail("{}: expected one of {} {}, got {}", expected_by, available, array, i);
   return {&json_[array][static_cast<size_t>(i)], fmt::format("{}[{}]", array, i)};
 }
 
@@ -195,88 +195,89 @@ int GltfDocument::integer(const GltfValue& object, const char* key, int fallback
   if (!found) return fallback;
   const bool whole = found.json->is_number_integer();
   if (!whole || *found.json < low || *found.json > std::numeric_limits<int>::max())
-    fail("{}: wanted a whole number from {} on, got {}", found.name, low,
+    fail("{}: expected a whole number from {} on, got {}", found.name, low,
          found.json->dump().substr(0, 40));
   return found.json->get<int>();
 }
 
-int GltfDocument::wanted_integer(const GltfValue& object, const char* key, int low) const {
-  if (!member(object, key)) fail("{}: wanted '{}', got none", object.name, key);
+int GltfDocument::expected_integer(const GltfValue& object, const char* key, int low) const {
+  if (!member(object, key)) fail("{}: expected '{}', got none", object.name, key);
   return integer(object, key, 0, low);
 }
 
 std::vector<double> GltfDocument::numbers(const GltfValue& array, int count) const {
   std::vector<double> out;
   for (const GltfValue& item : items(array)) {
-    if (!item.json->is_number()) fail("{}: wanted a number", item.name);
+    if (!item.json->is_number()) fail("{}: expected a number", item.name);
     out.push_back(item.json->get<double>());
-    if (!std::isfinite(out.back())) fail("{}: wanted a finite number", item.name);
+    if (!std::isfinite(out.back())) fail("{}: expected a finite number", item.name);
   }
   if (static_cast<int>(out.size()) != count)
-    fail("{}: wanted {} numbers, got {}", array.name, count, out.size());
+    fail("{}: expected {} numbers, got {}", array.name, count, out.size());
   return out;
 }
 
-const std::string& GltfDocument::buffer(int i, const std::string& wanted_by) {
-  const GltfValue value = item("buffers", i, wanted_by), uri = member(value, "uri");
+const std::string& GltfDocument::buffer(int i, const std::string& expected_by) {
+  const GltfValue value = item("buffers", i, expected_by), uri = member(value, "uri");
   if (const auto found = buffers_.find(i); found != buffers_.end()) return found->second;
   std::string bytes;
   if (!uri) {
-    if (i != 0 || !binary_) fail("{}: wanted a uri, got none", value.name);
+    if (i != 0 || !binary_) fail("{}: expected a uri, got none", value.name);
     bytes = std::move(glb_buffer_);
   } else {
-    if (!uri.json->is_string()) fail("{}: wanted a name", uri.name);
+    if (!uri.json->is_string()) fail("{}: expected a name", uri.name);
     const auto& name = uri.json->get_ref<const std::string&>();
     if (name.starts_with("data:")) {
       const size_t comma = name.find(";base64,");
       auto decoded = comma == std::string::npos
                          ? std::nullopt
                          : decode_base64(std::string_view(name).substr(comma + 8));
-      if (!decoded) fail("{}: wanted data in base64", uri.name);
+      if (!decoded) fail("{}: expected data in base64", uri.name);
       bytes = std::move(*decoded);
     } else {
       bytes = read_bytes(find_file(decode_percent(name), input_.path, input_.options));
     }
   }
-  const int length = wanted_integer(value, "byteLength", 1);
+  const int length = expected_integer(value, "byteLength", 1);
   if (bytes.size() < static_cast<size_t>(length))
-    fail("{}: wanted {} bytes, got {}", value.name, length, bytes.size());
+    fail("{}: expected {} bytes, got {}", value.name, length, bytes.size());
   return buffers_.emplace(i, std::move(bytes)).first->second;
 }
 
 GltfDocument::Span GltfDocument::span(int accessor, const char* type, int components,
-                                      const std::string& wanted_by) {
-  const GltfValue value = item("accessors", accessor, wanted_by);
+                                      const std::string& expected_by) {
+  const GltfValue value = item("accessors", accessor, expected_by);
   if (member(value, "sparse")) fail("{}: sparse accessors are not supported", value.name);
   const GltfValue given = member(value, "type");
-  if (!given || *given.json != type) fail("{}: wanted the type {}", value.name, type);
+  if (!given || *given.json != type) fail("{}: expected the type {}", value.name, type);
   Span out;
   out.name = value.name;
-  out.count = wanted_integer(value, "count", 1);
-  out.component_type = wanted_integer(value, "componentType");
+  out.count = expected_integer(value, "count", 1);
+  out.component_type = expected_integer(value, "componentType");
   const int bytes = component_bytes(out.component_type) * components;
   if (bytes == 0) fail("{}: unknown componentType {}", value.name, out.component_type);
   const GltfValue normalized = member(value, "normalized");
   out.normalized = normalized && *normalized.json == true;
 
-  const GltfValue view = item("bufferViews", wanted_integer(value, "bufferView"), value.name);
-  const std::string& data = buffer(wanted_integer(view, "buffer"), view.name);
+  const GltfValue view = item("bufferViews", expected_integer(value, "bufferView"), value.name);
+  const std::string& data = buffer(expected_integer(view, "buffer"), view.name);
   out.stride = integer(view, "byteStride", bytes, bytes);
-  const int64_t start = integer(view, "byteOffset", 0), length = wanted_integer(view, "byteLength"),
+  const int64_t start = integer(view, "byteOffset", 0),
+                length = expected_integer(view, "byteLength"),
                 offset = integer(value, "byteOffset", 0);
   if (start + length > static_cast<int64_t>(data.size()))
-    fail("{}: wanted {} bytes of its buffer, got {}", view.name, start + length, data.size());
-  const int64_t wanted = offset + int64_t{out.stride} * (out.count - 1) + bytes;
-  if (wanted > length)
-    fail("{}: wanted {} bytes of {}, got {}", value.name, wanted, view.name, length);
+    fail("{}: expected {} bytes of its buffer, got {}", view.name, start + length, data.size());
+  const int64_t expected = offset + int64_t{out.stride} * (out.count - 1) + bytes;
+  if (expected > length)
+    fail("{}: expected {} bytes of {}, got {}", value.name, expected, view.name, length);
   out.first = data.data() + start + offset;
   return out;
 }
 
 std::vector<double> GltfDocument::read_floats(int accessor, int components,
-                                              const std::string& wanted_by) {
+                                              const std::string& expected_by) {
   static constexpr const char* types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
-  const Span s = span(accessor, types[components], components, wanted_by);
+  const Span s = span(accessor, types[components], components, expected_by);
   const int bytes = component_bytes(s.component_type) * components;
   std::vector<double> out;
   out.reserve(static_cast<size_t>(s.count) * static_cast<size_t>(components));
@@ -286,16 +287,16 @@ std::vector<double> GltfDocument::read_floats(int accessor, int components,
     for (int k = 0; k < components; ++k) {
       out.push_back(component(reader, s.component_type, s.normalized));
       if (!std::isfinite(out.back()))
-        fail("{}: item {}: wanted finite numbers, got {}", s.name, i, out.back());
+        fail("{}: item {}: expected finite numbers, got {}", s.name, i, out.back());
     }
   }
   return out;
 }
 
-std::vector<int> GltfDocument::read_indices(int accessor, const std::string& wanted_by) {
-  const Span s = span(accessor, "SCALAR", 1, wanted_by);
+std::vector<int> GltfDocument::read_indices(int accessor, const std::string& expected_by) {
+  const Span s = span(accessor, "SCALAR", 1, expected_by);
   if (s.component_type != 5121 && s.component_type != 5123 && s.component_type != 5125)
-    fail("{}: wanted indices of an unsigned componentType, got {}", s.name, s.component_type);
+    fail("{}: expected indices of an unsigned componentType, got {}", s.name, s.component_type);
   const auto bytes = static_cast<size_t>(component_bytes(s.component_type));
   std::vector<int> out;
   out.reserve(static_cast<size_t>(s.count));

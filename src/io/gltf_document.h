@@ -30,20 +30,20 @@ class GltfDocument {
   /// A member of an object, or none.
   GltfValue member(const GltfValue& object, const char* key) const;
   /// Item i of the file's array of that name, "meshes" say.   throws Error when there is none
-  GltfValue item(const char* array, int i, const std::string& wanted_by) const;
+  GltfValue item(const char* array, int i, const std::string& expected_by) const;
   int count(const char* array) const;  ///< 0 when there is no such array
   /// Items of an array; none when there is none.
   std::vector<GltfValue> items(const GltfValue& array) const;
   GltfValue root() const { return {&json_, ""}; }
 
   int integer(const GltfValue& object, const char* key, int fallback, int low = 0) const;
-  int wanted_integer(const GltfValue& object, const char* key, int low = 0) const;
+  int expected_integer(const GltfValue& object, const char* key, int low = 0) const;
   /// `count` finite numbers
   std::vector<double> numbers(const GltfValue& array, int count) const;
 
   /// What an accessor stands for: `components` finite numbers each, in order.
-  std::vector<double> read_floats(int accessor, int components, const std::string& wanted_by);
-  std::vector<int> read_indices(int accessor, const std::string& wanted_by);
+  std::vector<double> read_floats(int accessor, int components, const std::string& expected_by);
+  std::vector<int> read_indices(int accessor, const std::string& expected_by);
 
  private:
   struct Span {
@@ -52,8 +52,8 @@ class GltfDocument {
     bool normalized;
     std::string name;
   };
-  Span span(int accessor, const char* type, int components, const std::string& wanted_by);
-  const std::string& buffer(int i, const std::string& wanted_by);
+  Span span(int accessor, const char* type, int components, const std::string& expected_by);
+  const std::string& buffer(int i, const std::string& expected_by);
   void split_glb(const std::string& bytes, std::string& text);
   void check_version() const;
 

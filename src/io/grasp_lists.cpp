@@ -14,7 +14,7 @@ static Vector3d direction(const Line& line, const double* x, const char* what) {
   const Vector3d v(x[0], x[1], x[2]);
   const double length = v.stableNorm();
   if (!(length > 1e-9) || !std::isfinite(length))
-    line.fail("{}: wanted a direction, got ({}, {}, {})", what, x[0], x[1], x[2]);
+    line.fail("{}: expected a direction, got ({}, {}, {})", what, x[0], x[1], x[2]);
   return v / length;
 }
 
@@ -25,11 +25,11 @@ static Pregrasp read_pregrasp(const Line& line) {
     if (c == '[' || c == ']') shape += c;
   const auto words = split_words(line.text(), "[],", 11);
   if (shape != "[][][]" || words.size() != 10 || line.text().front() != '[')
-    line.fail("wanted [x y z][x y z][x y z] and a spread angle, got {}", in_quotes(line.text()));
+    line.fail("expected [x y z][x y z][x y z] and a spread angle, got {}", in_quotes(line.text()));
   double x[10];
   for (int i = 0; i < 10; ++i) {
     const auto value = parse_number(words[i]);
-    if (!value) line.fail("wanted a number, got {}", in_quotes(words[i]));
+    if (!value) line.fail("expected a number, got {}", in_quotes(words[i]));
     x[i] = *value;
   }
   return {.point = Vector3d(x[0], x[1], x[2]) * units::millimetre,
@@ -66,7 +66,7 @@ std::vector<PlannedGrasp> read_planned_grasps(const fs::path& path, const ReadOp
   while (lines.skip_to_full()) {
     const Line line = lines.next().before('#');
     if (line.size() < 9)
-      line.fail("wanted 9 numbers: x y z qw qx qy qz spread quality, got {}", line.size());
+      line.fail("expected 9 numbers: x y z qw qx qy qz spread quality, got {}", line.size());
     if (const std::string more = line.surplus(9); options.warn && !more.empty()) options.warn(more);
     constexpr const char* names[] = {"x", "y", "z", "qw", "qx", "qy", "qz", "spread", "quality"};
     double x[9];
@@ -76,7 +76,8 @@ std::vector<PlannedGrasp> read_planned_grasps(const fs::path& path, const ReadOp
       continue;
     }
     const auto q = made_unit({x[3], x[4], x[5], x[6]});
-    if (!q) line.fail("wanted a quaternion of length 1, got ({} {} {} {})", x[3], x[4], x[5], x[6]);
+    if (!q)
+      line.fail("expected a quaternion of length 1, got ({} {} {} {})", x[3], x[4], x[5], x[6]);
     out.push_back({.run = std::max(run, 0),
                    .X_OH = {*q, Vector3d(x[0], x[1], x[2]) * units::millimetre},
                    .spread = x[7] * units::degree,
@@ -90,7 +91,7 @@ void write_planned_grasps(const std::vector<PlannedGrasp>& grasps, const fs::pat
   std::string out;
   int run = -1;
   for (const PlannedGrasp& g : grasps) {
-    if (g.run < run) fail("{}: wanted runs in their order", path.filename().string());
+    if (g.run < run) fail("{}: expected runs in their order", path.filename().string());
     for (; run < g.run; ++run) out += fmt::format("{}\n", run_mark);
     const Vector3d p = g.X_OH.position / units::millimetre;
     const Eigen::Quaterniond& q = g.X_OH.rotation;

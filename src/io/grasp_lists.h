@@ -1,4 +1,4 @@
-// Lists of grasps as the primitive planner reads and writes them: one a line, as text.
+// Lists of grasps as the primitive planner reads and writes them: one per line, as text.
 #pragma once
 #include <filesystem>
 
@@ -15,7 +15,7 @@ struct Pregrasp {
 };
 
 /// Lines of `[point][direction][thumb]spread`, millimetres and degrees.
-/// throws Error  "list.txt:3: wanted [x y z][x y z][x y z] and a spread angle, got '...'"
+/// throws Error  "list.txt:3: expected [x y z][x y z][x y z] and a spread angle, got '...'"
 std::vector<Pregrasp> read_pregrasps(const std::filesystem::path& path,
                                      const ReadOptions& options = {});
 void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const std::filesystem::path& path);

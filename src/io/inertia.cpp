@@ -4,7 +4,7 @@
 
 namespace clench {
 
-Inertial mend_inertia(Eigen::Matrix3d& per_mass) {
+Inertial repair_inertia(Eigen::Matrix3d& per_mass) {
   switch (inertia_fault(per_mass)) {
     case InertiaFault::none:
       return Inertial::sound;
@@ -20,12 +20,12 @@ std::optional<Eigen::Matrix3d> checked_inertia(const Eigen::Matrix3d& rows,
                                                const std::string& place,
                                                const Listeners& listeners) {
   if (rows != rows.transpose())
-    tell(listeners.mend, listeners.warn,
+    tell(listeners.repair, listeners.warn,
          place + ": inertia_matrix is not symmetric; its symmetric part is used");
   Eigen::Matrix3d symmetric = 0.5 * (rows + rows.transpose());
-  const Inertial fault = mend_inertia(symmetric);
+  const Inertial fault = repair_inertia(symmetric);
   if (fault == Inertial::no_body)
-    tell(listeners.mend, listeners.warn, place + ": " + raised_moments);
+    tell(listeners.repair, listeners.warn, place + ": " + raised_moments);
   if (fault != Inertial::not_definite) return symmetric;
   if (listeners.warn)
     listeners.warn(place +

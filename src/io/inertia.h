@@ -18,13 +18,13 @@ enum class Inertial {
 };
 
 /// Makes a symmetric matrix the inertia of a body where that can be [m^2].
-Inertial mend_inertia(Eigen::Matrix3d& per_mass);
+Inertial repair_inertia(Eigen::Matrix3d& per_mass);
 
 /// What is told of an inertia whose other moments were raised.
 inline constexpr const char* raised_moments =
     "inertia that no body has, as one moment exceeds the sum of the others; these are raised to it";
 
-/// The symmetric part of `rows` [m^2], mended; empty when it is no inertia: the shape's is to be used.
+/// The symmetric part of `rows` [m^2], repaired; empty when it is no inertia: the shape's is to be used.
 /// They are told of all three, with `place` in front.
 std::optional<Eigen::Matrix3d> checked_inertia(const Eigen::Matrix3d& rows,
                                                const std::string& place,

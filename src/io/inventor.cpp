@@ -48,13 +48,14 @@ void ShapeTriangles::add(std::span<const InventorVector> face, int color) {
 void ShapeTriangles::add_triangle(const std::array<InventorVector, 3>& corners, int color) {
   // those that are dropped take as long
   if (builder_.report.triangles_read >= max_inventor_triangles)
-    fail("wanted at most {} triangles", max_inventor_triangles);
+    fail("expected at most {} triangles", max_inventor_triangles);
   std::array<Eigen::Vector3d, 3> points;
   for (int i = 0; i < 3; ++i) {
     const InventorVector p = state_.X.apply(corners[i]);
     points[i] = Eigen::Vector3d(p[0], p[1], p[2]) * unit_;
     if (!points[i].allFinite())
-      fail("{}: wanted finite coordinates, got ({}, {}, {})", shape_.type->name, p[0], p[1], p[2]);
+      fail("{}: expected finite coordinates, got ({}, {}, {})", shape_.type->name, p[0], p[1],
+           p[2]);
   }
   // a mirrored shape is inside out
   if (surface_.clockwise != state_.X.mirrors()) std::swap(points[1], points[2]);

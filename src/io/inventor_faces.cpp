@@ -45,7 +45,7 @@ class FaceLister {
 const InventorNode* FaceLister::part(const char* field, std::string_view type) const {
   const InventorNode* node = shape_.node(field);
   if (node && node->type->name != type)
-    refuse("{}: wanted a {}, got {}", field, type, node->type->name);
+    refuse("{}: expected a {}, got {}", field, type, node->type->name);
   return node;
 }
 
@@ -118,7 +118,7 @@ void FaceLister::list_indexed(const std::vector<int32_t>& color_indices) {
       continue;
     }
     if (index < 0 || index >= point_count_)
-      refuse("number {} of coordIndex: wanted -1 or one of {} points, got {}", i, point_count_,
+      refuse("number {} of coordIndex: expected -1 or one of {} points, got {}", i, point_count_,
              index);
     // a face has the colour of its first corner
     if (face.empty() && binding_ == ColorBinding::face)
@@ -133,16 +133,16 @@ void FaceLister::list_indexed(const std::vector<int32_t>& color_indices) {
 void FaceLister::list_counted() {
   const auto& counts = shape_.integers("numVertices");
   const int start = shape_.integer("startIndex");
-  if (start < 0) refuse("startIndex: wanted a number from 0, got {}", start);
+  if (start < 0) refuse("startIndex: expected a number from 0, got {}", start);
   int64_t used = start;
   std::vector<int> face;
   for (size_t i = 0; i < counts.size(); ++i) {
     // -1: all that are left
     const int64_t count = counts[i] == -1 ? std::max<int64_t>(0, point_count_ - used) : counts[i];
     if (counts[i] != -1 && count < 3)
-      refuse("number {} of numVertices: wanted at least 3, got {}", i, counts[i]);
+      refuse("number {} of numVertices: expected at least 3, got {}", i, counts[i]);
     if (used + count > point_count_)
-      refuse("number {} of numVertices: wanted {} points, got {}", i, used + count, point_count_);
+      refuse("number {} of numVertices: expected {} points, got {}", i, used + count, point_count_);
     face.clear();
     for (int64_t k = 0; k < count; ++k) face.push_back(static_cast<int>(used + k));
     add(face, binding_ == ColorBinding::face     ? static_cast<int>(i)
@@ -155,7 +155,7 @@ void FaceLister::list_counted() {
 void FaceLister::list_grid(int64_t rows, int64_t columns, int64_t start) {
   if (rows < 2 || columns < 2 || start < 0 || rows > point_count_ || columns > point_count_ ||
       start + rows * columns > point_count_)
-    refuse("wanted {} x {} points from {} on, got {}", rows, columns, start, point_count_);
+    refuse("expected {} x {} points from {} on, got {}", rows, columns, start, point_count_);
   for (int64_t r = 0; r + 1 < rows; ++r)
     for (int64_t c = 0; c + 1 < columns; ++c) {
       const int p = static_cast<int>(start + r * columns + c),
@@ -169,7 +169,7 @@ void FaceLister::list_heights() {
   const int64_t x = shape_.integer("xDimension"), z = shape_.integer("zDimension"),
                 count = static_cast<int64_t>(heights.size());
   if (x < 0 || z < 0 || x > count || z > count || x * z > count)
-    refuse("wanted {} x {} heights, got {}", x, z, count);
+    refuse("expected {} x {} heights, got {}", x, z, count);
   surface_.clockwise = !shape_.integer("ccw");
   if (x < 2 || z < 2) return;
   std::vector<float> points;

@@ -14,7 +14,7 @@ struct InventorSurface {
 };
 
 /// Gives the faces of a shape that lists its points.   returns  is it such a shape?
-/// throws Error  "IndexedFaceSet: number 7 of coordIndex: wanted -1 or one of 8 points, got 12"
+/// throws Error  "IndexedFaceSet: number 7 of coordIndex: expected -1 or one of 8 points, got 12"
 bool list_faces(const InventorNode& shape, const InventorState& state, InventorSurface& surface);
 
 }  // namespace clench

@@ -44,7 +44,7 @@ void InventorParser::skip_connection(const InventorType& type, const InventorFie
     if (first.is("DEF")) define(word("a name after DEF"), {});
     if (first.is("DEF")) word("a node type after DEF and a name");
     if (!tokens_.peek().opens('{'))
-      tokens_.refuse(sign.line, "wanted '{{' after the node type, got {}", tokens_.peek().told());
+      tokens_.refuse(sign.line, "expected '{{' after the node type, got {}", tokens_.peek().told());
     skip_brackets();
   }
   const InventorToken behind = tokens_.peek();
@@ -108,13 +108,13 @@ float InventorParser::number(const InventorType& type, const InventorField& fiel
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (token.kind != InventorToken::word || code == std::errc::invalid_argument ||
       end != text.data() + text.size())
-    tokens_.refuse(token.line, "{}: {}: wanted a number, got {}", type.name, field.name,
+    tokens_.refuse(token.line, "{}: {}: expected a number, got {}", type.name, field.name,
                    token.told());
   // too small to tell from zero, or too large
   if (code == std::errc::result_out_of_range)
     value = std::strtod(std::string(text).c_str(), nullptr);
   if (!std::isfinite(static_cast<float>(value)))
-    tokens_.refuse(token.line, "{}: {}: wanted a finite number that fits 32 bits, got {}",
+    tokens_.refuse(token.line, "{}: {}: expected a finite number that fits 32 bits, got {}",
                    type.name, field.name, token.told());
   return static_cast<float>(value);
 }
@@ -153,7 +153,7 @@ void InventorParser::integers(const InventorType& type, const InventorField& fie
     if (token.kind != InventorToken::word || code != std::errc() ||
         end != text.data() + text.size() || value < low || value > high)
       tokens_.refuse(
-          token.line, "{}: {}: wanted {}, got {}", type.name, field.name,
+          token.line, "{}: {}: expected {}, got {}", type.name, field.name,
           flag ? "TRUE or FALSE" : fmt::format("a whole number from {} to {}", low, high),
           token.told());
     out.push_back(static_cast<int32_t>(value));
@@ -166,10 +166,10 @@ void InventorParser::words(const InventorType& type, const InventorField& field,
   out.clear();
   const auto take = [&](const InventorToken& token, std::string_view text) {
     if (token.kind != InventorToken::word && (names || token.kind != InventorToken::string))
-      tokens_.refuse(token.line, "{}: {}: wanted a {}, got {}", type.name, field.name,
+      tokens_.refuse(token.line, "{}: {}: expected a {}, got {}", type.name, field.name,
                      names ? "word" : "string", token.told());
     if (names && std::ranges::count(field.choices, text) == 0)
-      tokens_.refuse(token.line, "{}: {}: wanted one of {}, got {}", type.name, field.name,
+      tokens_.refuse(token.line, "{}: {}: expected one of {}, got {}", type.name, field.name,
                      fmt::join(field.choices, ", "), in_quotes(text));
     count_value();
     // each choice once, however often a file says it
@@ -192,14 +192,15 @@ void InventorParser::nodes(const InventorField& field, std::vector<const Invento
   list(field, [&](const InventorToken& token) {
     if (token.is("NULL")) return;
     if (token.kind != InventorToken::word)
-      tokens_.refuse(token.line, "{}: wanted a node, got {}", field.name, token.told());
+      tokens_.refuse(token.line, "{}: expected a node, got {}", field.name, token.told());
     statement(token, out);
   });
 }
 
 void InventorParser::count_value() {
   if (++budget_.values > max_inventor_values)
-    tokens_.refuse(tokens_.rest().line, "wanted at most {} values of fields", max_inventor_values);
+    tokens_.refuse(tokens_.rest().line, "expected at most {} values of fields",
+                   max_inventor_values);
 }
 
 }  // namespace clench

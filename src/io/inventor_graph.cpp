@@ -50,7 +50,7 @@ const InventorNode* InventorLoader::include(const std::string& name, const fs::p
                                             int line) {
   const std::string place = fmt::format("{}:{}", referrer.filename().string(), line);
   if (++includes_ > max_includes)
-    fail("{}: wanted at most {} included files, each counted as often as it is named", place,
+    fail("{}: expected at most {} included files, each counted as often as it is named", place,
          max_includes);
   fs::path& path = found_[{referrer, name}];
   try {
@@ -61,7 +61,7 @@ const InventorNode* InventorLoader::include(const std::string& name, const fs::p
   for (const auto& above : open_)
     if (above == path) fail("{}: {} includes itself", place, in_quotes(name));
   if (open_.size() >= max_nested_files)
-    fail("{}: {}: wanted files that include one another at most {} deep", place, in_quotes(name),
+    fail("{}: {}: expected files that include one another at most {} deep", place, in_quotes(name),
          max_nested_files);
   const auto done = done_.find(path);
   return done != done_.end() ? done->second : done_[path] = load_part(path, place);

@@ -44,9 +44,9 @@ class InventorWarnings {
 struct InventorGraph {
   std::deque<InventorNode> nodes;
   const InventorNode* root = nullptr;
-  std::deque<std::string> files;      ///< names, the first that of the file itself
-  InventorWarnings warnings;          ///< of what is not used
-  InventorWarnings mendings;          ///< of what was wrong and is read all the same
+  std::deque<std::string> files;  ///< names, the first that of the file itself
+  InventorWarnings warnings;      ///< of what is not used
+  InventorWarnings repairs;       ///< of what was wrong and is read all the same
 
   /// For a sentence on a node: "box.iv:31", or "box.iv: part.iv:31" of one in an included file.
   std::string place(const InventorNode& node) const;

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "io/inertia.h"
-#include "io/mends.h"
+#include "io/repairs.h"
 #include "spec/material_names.h"
 
 namespace clench {
@@ -25,10 +25,10 @@ std::vector<bool> marked_lines(std::string_view text) {
 }
 
 /// absent  what stands for 0; 0: nothing does
-double number_of(const Line& line, const Quantity& quantity, Mends& mends, double absent = 0) {
+double number_of(const Line& line, const Quantity& quantity, Repairs& repairs, double absent = 0) {
   const std::string subject = fmt::format("{}: {}", line.place(), quantity.name);
-  double value = mends.magnitude(line.number(1, quantity.name), subject);
-  if (absent > 0) value = mends.not_zero(value, absent, subject);
+  double value = repairs.magnitude(line.number(1, quantity.name), subject);
+  if (absent > 0) value = repairs.not_zero(value, absent, subject);
   check(quantity, value, line.place());
   return value;
 }
@@ -41,14 +41,15 @@ std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
   for (int i = 0; i < 3; ++i) {
     const Line line = lines.next();
     if (!line.text().starts_with('#') || line.number() == head.number())
-      line.fail("inertia_matrix: wanted row {} of 3 as '#a b c', got {}", i + 1,
+      line.fail("inertia_matrix: expected row {} of 3 as '#a b c', got {}", i + 1,
                 in_quotes(line.text()));
     const Line row = Line(&lines.file(), line.number(), line.text().substr(1)).before('#');
-    if (row.size() > 3) line.fail("inertia_matrix: wanted 3 numbers in a row, got {}", row.size());
+    if (row.size() > 3)
+      line.fail("inertia_matrix: expected 3 numbers in a row, got {}", row.size());
     for (int j = 0; j < 3; ++j) {
       const auto value = parse_number(row.word(j));
       if (!value)
-        line.fail("inertia_matrix: wanted three numbers [mm^2], got {}", in_quotes(row.word(j)));
+        line.fail("inertia_matrix: expected three numbers [mm^2], got {}", in_quotes(row.word(j)));
       rows(i, j) = *value * units::square_millimetre;
     }
   }
@@ -61,7 +62,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
                           const ReadOptions& options, BodySpec& body) {
   const std::vector<bool> marked = marked_lines(text);
   LineReader lines(file, text);
-  Mends mends(options.listeners());
+  Repairs repairs(options.listeners());
   while (!lines.done()) {
     const Line line = lines.next();
     if (!line.text().starts_with('#')) continue;
@@ -80,16 +81,16 @@ void read_inventor_params(const std::string& text, const std::string& file,
       }
       body.material = line.word(1);
     } else if (key == "youngs") {
-      body.elastic_modulus = number_of(line, elastic_modulus_rule.called("youngs"), mends);
+      body.elastic_modulus = number_of(line, elastic_modulus_rule.called("youngs"), repairs);
       if (*body.elastic_modulus < 1e4 && options.warn)
-        options.doubted(
+        options.suspected(
             fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
                         line.place(), *body.elastic_modulus));
     } else if (key == "useFlockOfBirds") {
-      body.tracker = mends.count(line.word(1), line.place() + ": useFlockOfBirds");
+      body.tracker = repairs.count(line.word(1), line.place() + ": useFlockOfBirds");
     } else if (key == "mass") {
       body.mass =
-          number_of(line, mass_rule.in("g", units::gram), mends, BodySpec().mass / units::gram) *
+          number_of(line, mass_rule.in("g", units::gram), repairs, BodySpec().mass / units::gram) *
           units::gram;
     } else if (key == "cog") {
       body.com =
@@ -100,7 +101,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
       body.inertia_per_mass = inertia_rows(lines, line, options);
     }
   }
-  mends.tell();
+  repairs.tell();
 }
 
 }  // namespace clench

@@ -7,7 +7,7 @@ namespace clench {
 
 /// Reads material, youngs, useFlockOfBirds, mass, cog, inertia_matrix into the body; the last of a
 /// key counts. `text` is what the file holds, `file` its name in errors.
-/// throws Error  "box.iv:4: mass: wanted a number > 0 [g], got -2"
+/// throws Error  "box.iv:4: mass: expected a number > 0 [g], got -2"
 void read_inventor_params(const std::string& text, const std::string& file,
                           const ReadOptions& options, BodySpec& body);
 

@@ -25,23 +25,23 @@ constexpr size_t max_suggested = 40;  // letters of a name, and names
 
 void InventorParser::open(const InventorToken& bracket, std::string_view type) {
   if (brackets_.size() >= max_brackets)
-    tokens_.refuse(bracket.line, "wanted brackets nested at most {} deep", max_brackets);
+    tokens_.refuse(bracket.line, "expected brackets nested at most {} deep", max_brackets);
   brackets_.push_back({bracket.text[0], bracket.line, excerpt(type)});
 }
 
 void InventorParser::close(const InventorToken& bracket) {
   const Bracket& last = brackets_.back();
-  const std::string_view wanted = last.text == '{' ? "}" : "]";
-  if (bracket.text != wanted)
-    tokens_.refuse(bracket.line, "wanted '{}' for the '{}' of line {}, got '{}'", wanted, last.text,
-                   last.line, bracket.text);
+  const std::string_view expected = last.text == '{' ? "}" : "]";
+  if (bracket.text != expected)
+    tokens_.refuse(bracket.line, "expected '{}' for the '{}' of line {}, got '{}'", expected,
+                   last.text, last.line, bracket.text);
   brackets_.pop_back();
 }
 
 void InventorParser::refuse_end() const {
   const Bracket& last = brackets_.back();
   tokens_.refuse(tokens_.rest().line,
-                 "wanted '{}' for the '{}' of line {}, got the end of the file",
+                 "expected '{}' for the '{}' of line {}, got the end of the file",
                  last.text == '{' ? '}' : ']',
                  last.type.empty() ? std::string(1, last.text) : last.type + " {", last.line);
 }
@@ -49,7 +49,7 @@ void InventorParser::refuse_end() const {
 InventorToken InventorParser::word(std::string_view what) {
   const InventorToken token = tokens_.next();
   if (token.kind != InventorToken::word)
-    tokens_.refuse(token.line, "wanted {}, got {}", what, token.told());
+    tokens_.refuse(token.line, "expected {}, got {}", what, token.told());
   return token;
 }
 
@@ -96,7 +96,7 @@ InventorTokens::Part InventorParser::skip_value(
 
 InventorNode& InventorParser::add_node(const InventorType& type, int line) {
   if (graph_.nodes.size() >= max_inventor_nodes)
-    tokens_.refuse(line, "wanted at most {} nodes", max_inventor_nodes);
+    tokens_.refuse(line, "expected at most {} nodes", max_inventor_nodes);
   return graph_.nodes.emplace_back(InventorNode{.type = &type, .file = file_, .line = line});
 }
 
@@ -106,7 +106,7 @@ void InventorParser::finish(InventorNode& node) {
     if (const auto* nodes = std::get_if<std::vector<const InventorNode*>>(&value))
       for (const auto* below : *nodes) node.height = std::max(node.height, below->height + 1);
   if (node.height > max_inventor_depth)
-    tokens_.refuse(node.line, "wanted nodes at most {} deep", max_inventor_depth);
+    tokens_.refuse(node.line, "expected nodes at most {} deep", max_inventor_depth);
 }
 
 const InventorNode* InventorParser::read() {
@@ -119,15 +119,15 @@ const InventorNode* InventorParser::read() {
       continue;
     }
     if (token.kind == InventorToken::open)
-      tokens_.refuse(token.line, "wanted a node type before '{}', got nothing", token.text);
+      tokens_.refuse(token.line, "expected a node type before '{}', got nothing", token.text);
     if (token.kind == InventorToken::string)
-      tokens_.refuse(token.line, "wanted a node, got {}", token.told());
+      tokens_.refuse(token.line, "expected a node, got {}", token.told());
     // one brace too many closes what is closed already
     if (token.text != "}") tokens_.refuse(token.line, "'{}' closes nothing", token.text);
     if (++stray == 1) stray_line = token.line;
   }
   if (stray > 0)
-    graph_.mendings.add(
+    graph_.repairs.add(
         graph_.files[file_],
         fmt::format("{}:{}: '}}' closes nothing; it is left out{}", graph_.files[file_], stray_line,
                     stray > 1 ? fmt::format(" ({} more alike)", stray - 1) : ""));
@@ -137,13 +137,13 @@ const InventorNode* InventorParser::read() {
 
 void InventorParser::statement(const InventorToken& token, std::vector<const InventorNode*>& out) {
   if (token.is("EXTERNPROTO"))
-    tokens_.refuse(token.line, "EXTERNPROTO is not read; wanted nodes of the standard");
+    tokens_.refuse(token.line, "EXTERNPROTO is not read; expected nodes of the standard");
   if (token.is("PROTO")) {
     proto(token.line);
   } else if (token.is("ROUTE")) {
     word("a field's name after ROUTE");
     if (!word("TO after ROUTE and a field's name").is("TO"))
-      tokens_.refuse(token.line, "wanted ROUTE, a field's name, TO and another's name");
+      tokens_.refuse(token.line, "expected ROUTE, a field's name, TO and another's name");
     word("a field's name after TO");
   } else if (const InventorNode* found = node(token)) {
     out.push_back(found);
@@ -167,7 +167,7 @@ const InventorNode* InventorParser::use(int line) {
 
 InventorParser::Named& InventorParser::define(const InventorToken& name, const Named& named) {
   if (++budget_.names > max_inventor_names)
-    tokens_.refuse(name.line, "wanted at most {} names", max_inventor_names);
+    tokens_.refuse(name.line, "expected at most {} names", max_inventor_names);
   return names()[std::string(name.text)] = named;
 }
 
@@ -185,12 +185,12 @@ const InventorNode* InventorParser::node(const InventorToken& first, const Inven
   }
   const InventorToken bracket = tokens_.peek();
   if (type_word.kind != InventorToken::word)
-    tokens_.refuse(first.line, "wanted a node, got {}", first.told());
+    tokens_.refuse(first.line, "expected a node, got {}", first.told());
   if (!bracket.opens('{'))
-    tokens_.refuse(bracket.line, "wanted '{{' after {}, got {}", in_quotes(type_word.text),
+    tokens_.refuse(bracket.line, "expected '{{' after {}, got {}", in_quotes(type_word.text),
                    bracket.told());
   if (++budget_.open_nodes > max_inventor_depth)
-    tokens_.refuse(type_word.line, "wanted nodes at most {} deep", max_inventor_depth);
+    tokens_.refuse(type_word.line, "expected nodes at most {} deep", max_inventor_depth);
   Named* named = nullptr;
   if (name.kind == InventorToken::word) named = &define(name, {.open_line = first.line});
   const InventorNode* made = nullptr;
@@ -232,11 +232,11 @@ void InventorParser::body(InventorNode& node) {
     if (token.kind == InventorToken::end) refuse_end();
     if (token.kind == InventorToken::close) {
       close(token);
-      mend_values(node, graph_);
+      repair_values(node, graph_);
       break;
     }
     if (token.kind == InventorToken::open)
-      tokens_.refuse(token.line, "wanted a node type before '{}', got nothing", token.text);
+      tokens_.refuse(token.line, "expected a node type before '{}', got nothing", token.text);
     const InventorField* known = behind.opens('{') ? nullptr : field_of(type, token);
     if (known) {
       field(node, *known);
@@ -262,7 +262,7 @@ void InventorParser::include(InventorNode& node) {
     return;
   }
   if (trim(names[0]).empty())
-    tokens_.refuse(node.line, "{}: wanted the name of a file, got nothing", node.type->name);
+    tokens_.refuse(node.line, "{}: expected the name of a file, got nothing", node.type->name);
   if (const InventorNode* root = include_(names[0], node.line)) node.children.push_back(root);
 }
 
@@ -276,7 +276,7 @@ void InventorParser::check_nested(const InventorToken& type, const InventorToken
 
 void InventorParser::count_proto_name() {
   if (++budget_.proto_names > max_proto_names)
-    tokens_.refuse(tokens_.rest().line, "wanted at most {} PROTOs and fields of PROTOs",
+    tokens_.refuse(tokens_.rest().line, "expected at most {} PROTOs and fields of PROTOs",
                    max_proto_names);
 }
 
@@ -291,12 +291,13 @@ void InventorParser::proto(int line) {
   };
   InventorToken token = tokens_.next();
   if (!token.opens('['))
-    tokens_.refuse(token.line, "wanted '[' after PROTO {}, got {}", in_quotes(name), token.told());
+    tokens_.refuse(token.line, "expected '[' after PROTO {}, got {}", in_quotes(name),
+                   token.told());
   open(token, "");
   for (token = tokens_.next(); token.kind != InventorToken::close; token = tokens_.next()) {
     if (token.kind == InventorToken::end) refuse_end();
     if (!is_access(token))
-      tokens_.refuse(token.line, "wanted field, exposedField, eventIn, eventOut or ']', got {}",
+      tokens_.refuse(token.line, "expected field, exposedField, eventIn, eventOut or ']', got {}",
                      token.told());
     count_proto_name();
     word("the type of a field");
@@ -306,8 +307,8 @@ void InventorParser::proto(int line) {
   close(token);
   token = tokens_.peek();
   if (!token.opens('{'))
-    tokens_.refuse(token.line, "wanted '{{' after PROTO {} and its fields, got {}", in_quotes(name),
-                   token.told());
+    tokens_.refuse(token.line, "expected '{{' after PROTO {} and its fields, got {}",
+                   in_quotes(name), token.told());
   made.body = {token.start + 1, 0, token.line};
   skip_brackets();
   made.body.end = tokens_.rest().start - 1;
@@ -318,7 +319,7 @@ template <class Read>
 auto InventorParser::read_part(const Part& part, Instance* scope, Read read) {
   budget_.proto_bytes += part.end - part.start;
   if (budget_.proto_bytes > max_proto_bytes)
-    tokens_.refuse(tokens_.rest().line, "wanted PROTOs that stand for at most {} bytes of text",
+    tokens_.refuse(tokens_.rest().line, "expected PROTOs that stand for at most {} bytes of text",
                    max_proto_bytes);
   const Part here = tokens_.rest();
   tokens_.read_only(part);
@@ -358,7 +359,7 @@ InventorValue InventorParser::proto_value(const InventorType& type, const Invent
   const auto absent =
       known ? known->find(name.text) : std::map<std::string, std::optional<Part>>::const_iterator();
   if (!known || absent == known->end())
-    tokens_.refuse(name.line, "{}: {}: wanted a field of a PROTO around it after IS, got {}",
+    tokens_.refuse(name.line, "{}: {}: expected a field of a PROTO around it after IS, got {}",
                    type.name, field.name, in_quotes(name.text));
   const auto given = instance_->values.find(name.text);
   const auto part =

@@ -60,7 +60,7 @@ Primitive placed(const Solid& shape, const InventorMatrix& X, const std::string&
   const bool box = shape.kind == PrimitiveKind::box, ball = shape.kind == PrimitiveKind::sphere;
   const double least =
       box ? shape.size.minCoeff() : std::min(shape.radius, ball ? shape.radius : shape.height);
-  if (!(least > 0)) fail("{}: wanted sizes > 0, got {}", name, least);
+  if (!(least > 0)) fail("{}: expected sizes > 0, got {}", name, least);
 
   // turn and scale of each axis; rows are multiplied
   Matrix3d axes;
@@ -71,7 +71,7 @@ Primitive placed(const Solid& shape, const InventorMatrix& X, const std::string&
   }
   const Vector3d scale = axes.colwise().norm();
   if (!axes.allFinite() || !position.allFinite() || !(scale.minCoeff() > 0))
-    fail("{}: wanted a finite scale other than 0", name);
+    fail("{}: expected a finite scale other than 0", name);
   axes = axes * scale.cwiseInverse().asDiagonal();
   if ((axes.transpose() * axes - Matrix3d::Identity()).cwiseAbs().maxCoeff() > digits)
     fail("{}: it is skewed, and is none any more", name);
@@ -127,7 +127,7 @@ std::vector<Primitive> read_primitives(const fs::path& path, const ReadOptions& 
   const std::string file = source.path.filename().string(), ending = ending_of(source.path);
   if (source.format == GeometryFormat::none) source.format = geometry_format(ending);
   if (source.format != GeometryFormat::inventor)
-    fail("{}: wanted primitives from {}, got {}", file,
+    fail("{}: expected primitives from {}, got {}", file,
          one_of(endings_of(GeometryFormat::inventor)), in_quotes(ending));
 
   std::vector<Primitive> found;
@@ -135,7 +135,7 @@ std::vector<Primitive> read_primitives(const fs::path& path, const ReadOptions& 
   InventorWalk walk;
   walk.max_visits = max_primitive_visits;
   walk.shape = [&](const InventorNode& shape, const InventorState& state) {
-    if (found.size() >= max_primitives) fail("wanted at most {} primitives", max_primitives);
+    if (found.size() >= max_primitives) fail("expected at most {} primitives", max_primitives);
     if (const auto solid = primitive_of(shape))
       found.push_back(placed(*solid, state.X, file, walk.warnings));
     else

@@ -224,8 +224,10 @@ void cut_extrusion(const InventorNode& shape, InventorSurface& surface) {
   surface.convex = shape.integer("convex") != 0;
   if (spine.size() < 2 || section.size() < 4) return;
   if (spine.size() * section.size() > max_extrusion_points * 2)
-    fail("Extrusion: wanted a spine and a cross section of at most {} points together, got {} x {}",
-         max_extrusion_points, spine.size(), section.size() / 2);
+    fail(
+        "Extrusion: expected a spine and a cross section of at most {} points together, got {} x "
+        "{}",
+        max_extrusion_points, spine.size(), section.size() / 2);
   const SpineFrames frames(spine);
   std::vector<Ring> rings = extrusion_rings(shape, spine, frames);
   for (size_t i = 0; i + 1 < rings.size(); ++i)

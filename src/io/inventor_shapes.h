@@ -5,7 +5,7 @@
 namespace clench {
 
 /// Gives the triangles of a cube, sphere, cylinder, cone or extrusion.   returns  is it one?
-/// throws Error  "Extrusion: wanted at most ... triangles"
+/// throws Error  "Extrusion: expected at most ... triangles"
 bool cut_shape(const InventorNode& shape, const InventorState& state, InventorSurface& surface);
 
 }  // namespace clench

@@ -31,7 +31,7 @@ InventorTokens::InventorTokens(std::string_view text, const std::string& file)
     const std::string_view line = trim(text_.substr(at_, line_end - at_));
     if (first.empty()) first = line;
     if (line.starts_with("#Inventor") && line.find("binary") != std::string_view::npos)
-      refuse(line_, "binary Inventor files are not read; wanted '#Inventor V2.1 ascii'");
+      refuse(line_, "binary Inventor files are not read; expected '#Inventor V2.1 ascii'");
     for (const auto header : inventor_headers)
       if (line.starts_with(header)) {
         vrml2_ = header == "#VRML V2.0 utf8";
@@ -42,7 +42,7 @@ InventorTokens::InventorTokens(std::string_view text, const std::string& file)
     ++line_;
     at_ = std::min(line_end + 1, end_);
   }
-  refuse(1, "wanted a header such as '#Inventor V2.1 ascii' or '#VRML V2.0 utf8', got {}",
+  refuse(1, "expected a header such as '#Inventor V2.1 ascii' or '#VRML V2.0 utf8', got {}",
          in_quotes(first));
 }
 
@@ -65,7 +65,7 @@ InventorToken InventorTokens::next() {
   if (at_ >= end_) return token;
   const char c = text_[at_];
   if (c == '\0')
-    refuse(line_, "wanted text, got a byte of value 0; binary Inventor files are not read");
+    refuse(line_, "expected text, got a byte of value 0; binary Inventor files are not read");
   if (c == '{' || c == '[' || c == '}' || c == ']') {
     token.kind = c == '{' || c == '[' ? InventorToken::open : InventorToken::close;
     token.text = text_.substr(at_++, 1);

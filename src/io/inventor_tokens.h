@@ -24,7 +24,7 @@ class InventorTokens {
  public:
   /// Reads over the header, which stands on the first line or after comments. Both arguments
   /// must live on; `file` is the name shown in errors.
-  /// throws Error  "box.iv:1: wanted a header such as ..."
+  /// throws Error  "box.iv:1: expected a header such as ..."
   InventorTokens(std::string_view text, const std::string& file);
 
   bool vrml2() const { return vrml2_; }

@@ -211,9 +211,9 @@ TypeTable all_types() {
 
 }  // namespace
 
-const InventorField* InventorType::field(std::string_view wanted) const {
+const InventorField* InventorType::field(std::string_view expected) const {
   for (const auto& f : fields)
-    if (f.name == wanted) return &f;
+    if (f.name == expected) return &f;
   return nullptr;
 }
 

@@ -10,17 +10,17 @@ namespace {
 
 using K = InventorKind;
 
-class ValueMender {
+class ValueRepair {
  public:
-  ValueMender(InventorNode& node, InventorGraph& graph) : node_(node), graph_(graph) {}
-  void mend();
+  ValueRepair(InventorNode& node, InventorGraph& graph) : node_(node), graph_(graph) {}
+  void repair();
 
  private:
   template <class... Args>
   void tell(std::string_view field, fmt::format_string<Args...> format, Args&&... args) {
     const std::string& file = graph_.files[node_.file];
-    graph_.mendings.add(file, fmt::format("{}:{}: {}: {}: {}", file, node_.line, node_.type->name,
-                                          field, fmt::format(format, std::forward<Args>(args)...)));
+    graph_.repairs.add(file, fmt::format("{}:{}: {}: {}: {}", file, node_.line, node_.type->name,
+                                         field, fmt::format(format, std::forward<Args>(args)...)));
   }
   /// calls use(field, number) for each number that the node gives
   template <class Number, class Use>
@@ -29,7 +29,7 @@ class ValueMender {
       if (auto* numbers = std::get_if<std::vector<Number>>(&value))
         for (Number& x : *numbers) use(field->name, x);
   }
-  void mend_sizes();
+  void repair_sizes();
   void check_factors();
   void check_choice();
 
@@ -38,7 +38,7 @@ class ValueMender {
 };
 
 // all numbers of these shapes are lengths
-void ValueMender::mend_sizes() {
+void ValueRepair::repair_sizes() {
   each<float>([&](std::string_view field, float& x) {
     if (x == 0) tell(field, "0 leaves no volume");
     if (x < 0) tell(field, "{} is negative; {} is used", x, -x);
@@ -46,14 +46,14 @@ void ValueMender::mend_sizes() {
   });
 }
 
-void ValueMender::check_factors() {
+void ValueRepair::check_factors() {
   each<float>([&](std::string_view field, float x) {
     if (x == 0 && field.starts_with("scale") && field != "scaleOrientation")
       tell(field, "a factor of 0 makes flat what it scales");
   });
 }
 
-void ValueMender::check_choice() {
+void ValueRepair::check_choice() {
   constexpr int none = -1, inherited = -2, all = -3;
   const auto count = static_cast<int>(node_.children.size());
   each<int32_t>([&](std::string_view field, int32_t choice) {
@@ -62,13 +62,13 @@ void ValueMender::check_choice() {
   });
 }
 
-void ValueMender::mend() {
+void ValueRepair::repair() {
   switch (node_.type->kind) {
     case K::cube:
     case K::sphere:
     case K::cylinder:
     case K::cone:
-      return mend_sizes();
+      return repair_sizes();
     case K::scale:
     case K::transform:
     case K::vrml_transform:
@@ -92,6 +92,6 @@ void ValueMender::mend() {
 
 }  // namespace
 
-void mend_values(InventorNode& node, InventorGraph& graph) { ValueMender(node, graph).mend(); }
+void repair_values(InventorNode& node, InventorGraph& graph) { ValueRepair(node, graph).repair(); }
 
 }  // namespace clench

@@ -71,7 +71,7 @@ class InventorWalker {
 
 void InventorWalker::count_visit(const InventorNode& node) {
   if (++visits_ > walk_.max_visits)
-    fail("{}: wanted at most {} nodes, shared ones counted each time", graph_.place(node),
+    fail("{}: expected at most {} nodes, shared ones counted each time", graph_.place(node),
          walk_.max_visits);
 }
 
@@ -82,7 +82,7 @@ void InventorWalker::count_listed(const InventorNode& shape) {
     if (const auto* nodes = std::get_if<std::vector<const InventorNode*>>(&value))
       for (const auto* below : *nodes) listed_ += listed_by(*below);
   if (listed_ > walk_.max_listed)
-    fail("wanted shapes that list at most {} numbers, shared ones counted each time",
+    fail("expected shapes that list at most {} numbers, shared ones counted each time",
          walk_.max_listed);
 }
 
@@ -320,7 +320,7 @@ void walk_inventor(const InventorGraph& graph, const InventorState& start, Inven
 
 void tell_inventor_warnings(const InventorGraph& graph, const InventorWalk& walk,
                             const ReadOptions& options) {
-  for (const auto& sentence : graph.mendings.list()) options.mended(sentence);
+  for (const auto& sentence : graph.repairs.list()) options.repaired(sentence);
   if (!options.warn) return;
   for (const auto& sentence : graph.warnings.list()) options.warn(sentence);
   for (const auto& sentence : walk.warnings.list()) options.warn(sentence);

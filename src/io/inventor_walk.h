@@ -47,7 +47,7 @@ struct InventorWalk {
   InventorWarnings warnings = {};    ///< out
 };
 
-/// throws Error  "box.iv: wanted at most ..." of visits or of what shapes list, and what
+/// throws Error  "box.iv: expected at most ..." of visits or of what shapes list, and what
 /// `shape` throws
 void walk_inventor(const InventorGraph& graph, const InventorState& start, InventorWalk& walk);
 

@@ -3,11 +3,11 @@
 #include "base/text.h"
 #include "io/body_xml.h"
 #include "io/closing_choice.h"
-#include "io/doubts.h"
 #include "io/inventor.h"
 #include "io/inventor_params.h"
-#include "io/mend_names.h"
 #include "io/mesh_files.h"
+#include "io/plausibility.h"
+#include "io/repair_names.h"
 #include "io/robot_cfg.h"
 #include "io/robot_xml.h"
 #include "io/tree_files.h"
@@ -24,7 +24,7 @@ Geometry read_geometry(const fs::path& path, const ReadOptions& options, Geometr
                        const std::string* text) {
   if (format == GeometryFormat::none) format = geometry_format(ending_of(path));
   if (format == GeometryFormat::none)
-    fail("{}: wanted geometry from {}, got {}", path.filename().string(),
+    fail("{}: expected geometry from {}, got {}", path.filename().string(),
          one_of(geometry_endings()), in_quotes(ending_of(path)));
   if (format == GeometryFormat::inventor)
     return read_inventor(path, text ? *text : read_text(path), options);
@@ -38,7 +38,7 @@ static BodySpec load_body(const fs::path& path, Library& library) {
   if (ending_of(path) == ".xml") {
     body = read_body_xml(path, library);
   } else if (geometry_format(ending_of(path)) == GeometryFormat::none) {
-    fail("{}: wanted a body from {}, got {}", file, one_of(body_endings()),
+    fail("{}: expected a body from {}, got {}", file, one_of(body_endings()),
          in_quotes(ending_of(path)));
   } else {
     Geometry geometry;
@@ -52,12 +52,12 @@ static BodySpec load_body(const fs::path& path, Library& library) {
     body.appearance = std::move(geometry.appearance);
     body.mesh_report = std::move(geometry.report);
     if (geometry.mesh.triangles.empty())
-      options.doubted(file + ": no surface: the body is a frame, which touches nothing");
+      options.suspected(file + ": no surface: the body is a frame, which touches nothing");
     else
       body.shape = Shape::make(std::move(geometry.mesh), file);
   }
   body.name = path.stem().string();
-  mend_names(body, file, options);
+  repair_names(body, file, options);
   body.source = path.generic_string();
   body.file = absolute_name(path);
   return body;
@@ -73,11 +73,11 @@ static RobotSpec load_robot(const fs::path& path, Library& library) {
   else if (extension == ".xml")
     robot = read_robot_xml(path, library);
   else
-    fail("{}: wanted a robot from .cfg, .xml, .urdf or .mjcf, got {}", path.filename().string(),
+    fail("{}: expected a robot from .cfg, .xml, .urdf or .mjcf, got {}", path.filename().string(),
          in_quotes(extension));
   robot.file = absolute_name(path);
   const ReadOptions& options = library.options();
-  doubt_robot(robot, path.filename().string(), options.listeners());
+  check_plausible(robot, path.filename().string(), options.listeners());
   if (!is_robot_tree(path)) choose_closing(robot, path.filename().string(), options);
   if (!options.folder.empty()) robot.files.folder = absolute_name(options.folder);
   for (const auto& [name, folder] : options.packages)

@@ -18,8 +18,8 @@ class Library {
   void warn(const std::string& sentence) const {
     if (options_.warn) options_.warn(sentence);
   }
-  void mended(const std::string& sentence) const { options_.mended(sentence); }
-  void doubted(const std::string& sentence) const { options_.doubted(sentence); }
+  void repaired(const std::string& sentence) const { options_.repaired(sentence); }
+  void suspected(const std::string& sentence) const { options_.suspected(sentence); }
   void note(const std::string& sentence) const {
     if (options_.note) options_.note(sentence);
   }

@@ -17,8 +17,8 @@ double guess_mesh_unit(double largest_side) {
   // What hands grasp and stand beside measures between a nut's 1 cm and a room's 10 m. Of the two
   // units the one that brings the mesh nearer to the middle of that range, 0.32 m, by its ratio,
   // is metres up to 10 units.
-  constexpr double most_metres = 10;
-  return largest_side <= most_metres ? 1 : units::millimetre;
+  constexpr double max_metres = 10;
+  return largest_side <= max_metres ? 1 : units::millimetre;
 }
 
 static void set_unit(GeometryBuilder& builder, const std::string& file,
@@ -72,9 +72,9 @@ static bool read_triangles(const MeshInput& input, GeometryBuilder& builder) {
     case GeometryFormat::inventor:
       break;
   }
-  std::vector<std::string> wanted = geometry_endings();
-  std::erase_if(wanted, [](const auto& e) { return is_inventor(e); });
-  fail("{}: wanted a mesh from {}, got {}", input.file(), one_of(wanted), in_quotes(ending));
+  std::vector<std::string> expected = geometry_endings();
+  std::erase_if(expected, [](const auto& e) { return is_inventor(e); });
+  fail("{}: expected a mesh from {}, got {}", input.file(), one_of(expected), in_quotes(ending));
 }
 
 Geometry read_mesh(const MeshInput& input) {
@@ -83,7 +83,7 @@ Geometry read_mesh(const MeshInput& input) {
   GeometryBuilder builder;
   builder.report.unit_source = UnitSource::guess;  // until the file says it
   const bool colors_given = read_triangles(input, builder);
-  if (builder.triangle_count() == 0) fail("{}: wanted triangles, got none", file);
+  if (builder.triangle_count() == 0) fail("{}: expected triangles, got none", file);
   set_unit(builder, file, options);
   MeshReport& report = builder.report;
   if (!options.turn_mesh_up) report.up = 'z';

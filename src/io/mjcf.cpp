@@ -134,7 +134,7 @@ void MjcfReader::tell_lost(const MjcfNode& node, bool in_world) {
 /// The body with the most joints is the robot; others that move freely are things beside it. One
 /// body alone is the base, as long as it has no joints of its own; else the world is.
 void MjcfReader::choose_base(std::vector<TopBody> bodies) {
-  if (bodies.empty()) fail("{}: wanted bodies in <worldbody>, got none", document_.file());
+  if (bodies.empty()) fail("{}: expected bodies in <worldbody>, got none", document_.file());
   const auto robot =
       std::max_element(bodies.begin(), bodies.end(),
                        [](const TopBody& a, const TopBody& b) { return a.joints < b.joints; });
@@ -167,17 +167,17 @@ std::string MjcfReader::own_name(const XmlElement& element, const std::string& n
                                  const std::map<std::string, int>& taken) {
   if (!taken.contains(name)) return name;
   const std::string own = unused_name(name, taken);
-  document_.mends().add(std::string(element.name()),
-                        fmt::format("{}: {}: there is another one of the name '{}'; it is called "
-                                    "'{}'",
-                                    element.place(), element.name(), excerpt(name), own));
+  document_.repairs().add(std::string(element.name()),
+                          fmt::format("{}: {}: there is another one of the name '{}'; it is called "
+                                      "'{}'",
+                                      element.place(), element.name(), excerpt(name), own));
   return own;
 }
 
 int MjcfReader::add_link(const XmlElement& element, const std::string& name, int parent,
                          const Pose& X_PL) {
   const int number = static_cast<int>(tree_.links.size());
-  if (number >= most_links) element.fail("wanted at most {} bodies", most_links);
+  if (number >= max_links) element.fail("expected at most {} bodies", max_links);
   TreeLink link;
   link.parent = parent;
   link.X_PL = X_PL;
@@ -249,13 +249,13 @@ void MjcfReader::set_range(const XmlValues& values, TreeJoint& joint) {
   // two zeros undo what a class says
   const bool has_range = given_range(values);
   if (limited == "auto" && has_range && !document_.autolimits())
-    document_.mends().add(
+    document_.repairs().add(
         "autolimits", values.subject("range") +
-                          ": wanted limited=\"true\" beside it, as autolimits is off; the range "
+                          ": expected limited=\"true\" beside it, as autolimits is off; the range "
                           "is used");
   if (limited == "true" && !values.has("range"))
-    document_.mends().add(
-        "limited", values.subject("limited") + ": wanted a range, got none; there are no limits");
+    document_.repairs().add(
+        "limited", values.subject("limited") + ": expected a range, got none; there are no limits");
   if (limited == "false" || !has_range) {
     const double endless = turns ? endless_turn : endless_slide;
     joint.min = joint.zero - endless, joint.max = joint.zero + endless;
@@ -264,7 +264,7 @@ void MjcfReader::set_range(const XmlValues& values, TreeJoint& joint) {
                               turns ? "rad" : "m"));
     return;
   }
-  const auto range = values.range("range", document_.mends());
+  const auto range = values.range("range", document_.repairs());
   joint.min = range[0] * unit;
   joint.max = range[1] * unit;
   if (joint.min == joint.max)
@@ -273,7 +273,7 @@ void MjcfReader::set_range(const XmlValues& values, TreeJoint& joint) {
 }
 
 void MjcfReader::add_joint(TreeJoint joint, const XmlElement& element, int link) {
-  if (tree_.joints.size() >= most_joints) element.fail("wanted at most {} joints", most_joints);
+  if (tree_.joints.size() >= max_joints) element.fail("expected at most {} joints", max_joints);
   const int number = static_cast<int>(tree_.joints.size());
   joint.name = own_name(element, joint.name, joints_);
   joints_[joint.name] = number;
@@ -310,11 +310,11 @@ void MjcfReader::read_joint(const XmlElement& element, int link, const std::stri
   const double unit = type == "slide" ? 1 : document_.angle_unit();
   joint.anchor = X_frame * values.vec3("pos", {0, 0, 0});
   const Eigen::Vector3d axis = values.vec3("axis", {0, 0, 1});
-  if (!(axis.stableNorm() > 1e-9)) values.fail("axis", "wanted a direction, got none");
+  if (!(axis.stableNorm() > 1e-9)) values.fail("axis", "expected a direction, got none");
   joint.axis = (X_frame.rotation * axis.stableNormalized()).normalized();
-  joint.viscous = values.not_negative("damping", 0, document_.mends());
-  joint.coulomb = values.not_negative("frictionloss", 0, document_.mends());
-  joint.spring = values.not_negative("stiffness", 0, document_.mends());
+  joint.viscous = values.not_negative("damping", 0, document_.repairs());
+  joint.coulomb = values.not_negative("frictionloss", 0, document_.repairs());
+  joint.spring = values.not_negative("stiffness", 0, document_.repairs());
   joint.rest = values.number("springref", 0) * unit;
   if (type != "ball") {
     joint.zero = values.number("ref", 0) * unit;
@@ -326,7 +326,7 @@ void MjcfReader::read_joint(const XmlElement& element, int link, const std::stri
   double most = endless_turn / 2;
   if (given_range(values) && values.text("limited", "auto") != "false")
     most = std::min(most, values.numbers("range", 2, 2)[1] * unit);
-  if (!(most > 0)) values.fail("range", "wanted a largest angle > 0");
+  if (!(most > 0)) values.fail("range", "expected a largest angle > 0");
   library_.note(
       fmt::format("{}: joint '{}' is a ball; it becomes three turns of at most {:.4g} rad",
                   joint.place, excerpt(joint.name), most));
@@ -473,7 +473,7 @@ RobotSpec MjcfReader::read() {
   dress_links(tree_, pieces_, geoms_.geometry(), document_.file(), library_);
   RobotSpec robot = make_chains(std::move(tree_), document_.file(), library_);
   robot.source = document_.path().generic_string();
-  document_.mends().tell();
+  document_.repairs().tell();
   inertial_faults_.tell(library_);
   for (const auto& sentence : document_.unused().sentences()) library_.warn(sentence);
   return robot;

@@ -6,7 +6,7 @@
 
 namespace clench {
 
-/// throws Error  "hand.xml:31: joint: range: wanted 2 numbers, got 3"
+/// throws Error  "hand.xml:31: joint: range: expected 2 numbers, got 3"
 RobotSpec read_robot_mjcf(const std::filesystem::path& path, Library& library);
 
 }  // namespace clench

@@ -186,9 +186,9 @@ void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
   const auto second = joint(values, "joint2");
   if (!second) return;
   const int leader = *second;
-  if (leader == follower) values.fail("joint2", "wanted another joint than joint1");
+  if (leader == follower) values.fail("joint2", "expected another joint than joint1");
   if (c[1] == 0)
-    library_.doubted(
+    library_.suspected(
         fmt::format("{}: joint '{}': polycoef has no linear part: it stands still when "
                     "'{}' moves",
                     element.place(), excerpt(tied.name), excerpt(tree_.joints[leader].name)));
@@ -235,7 +235,7 @@ void Couplings::read_equality(const XmlElement& element) {
 void Couplings::take_control_range(const XmlElement& element, const XmlValues& values,
                                    TreeJoint& joint, double gear) {
   if (!values.has("ctrlrange") || values.text("ctrllimited", "auto") == "false") return;
-  const auto range = values.range("ctrlrange", document_.mends());
+  const auto range = values.range("ctrlrange", document_.repairs());
   // two zeros undo what a class says
   const bool zeros = range[0] == 0 && range[1] == 0;
   if (zeros && values.text("ctrllimited", "auto") != "true") return;

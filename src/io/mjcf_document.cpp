@@ -11,20 +11,20 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-static constexpr int most_files = 100;       // included; far above any robot
+static constexpr int max_files = 100;        // included; far above any robot
 static constexpr int deepest_element = 200;  // of elements, over all includes
 
 MjcfDocument::MjcfDocument(const fs::path& path, Library& library)
     : path_(path),
       file_(path.filename().string()),
       library_(library),
-      mends_(library.options().listeners()) {
+      repairs_(library.options().listeners()) {
   angle_unit_ = units::degree;
   files_.push_back(std::make_unique<XmlFile>(path));
   open_.push_back(fs::weakly_canonical(path));
   const XmlElement root = files_.back()->root();
   if (root.name() != "mujoco")
-    root.fail("wanted an element <mujoco>, got <{}>", excerpt(root.name()));
+    root.fail("expected an element <mujoco>, got <{}>", excerpt(root.name()));
   root_ = load(root, 0);
   for (const auto& node : root_.children)
     if (node.name() == "compiler") read_compiler(node);
@@ -38,7 +38,7 @@ MjcfDocument::MjcfDocument(const fs::path& path, Library& library)
 
 MjcfNode MjcfDocument::load(const XmlElement& element, int depth) {
   if (depth > deepest_element)
-    element.fail("wanted at most {} elements in each other", deepest_element);
+    element.fail("expected at most {} elements in each other", deepest_element);
   MjcfNode node{element, {}};
   for (const auto& child : element.children()) {
     if (child.name() == "include")
@@ -65,7 +65,7 @@ void MjcfDocument::include(const XmlElement& element, std::vector<MjcfNode>& int
   const fs::path canonical = fs::weakly_canonical(found);
   if (std::find(open_.begin(), open_.end(), canonical) != open_.end())
     element.fail("include: '{}' includes itself", excerpt(name));
-  if (files_.size() >= most_files) element.fail("wanted at most {} files", most_files);
+  if (files_.size() >= max_files) element.fail("expected at most {} files", max_files);
   files_.push_back(std::make_unique<XmlFile>(found));
   open_.push_back(canonical);
   // its outermost element only holds the others
@@ -90,10 +90,11 @@ void MjcfDocument::read_compiler(const MjcfNode& node) {
     angle_unit_ =
         values.word("angle", {"degree", "radian"}, "degree") == "degree" ? units::degree : 1;
   if (values.word("coordinate", {"local", "global"}, "local") == "global")
-    values.fail("coordinate", "wanted local, got 'global'; save the model again with MuJoCo 2.3.3");
+    values.fail("coordinate",
+                "expected local, got 'global'; save the model again with MuJoCo 2.3.3");
   euler_ = values.text("eulerseq", euler_);
   if (euler_.size() != 3 || euler_.find_first_not_of("xyzXYZ") != std::string::npos)
-    values.fail("eulerseq", "wanted three of xyzXYZ, got {}", in_quotes(euler_));
+    values.fail("eulerseq", "expected three of xyzXYZ, got {}", in_quotes(euler_));
   autolimits_ = values.boolean("autolimits", autolimits_);
   strip_path_ = values.boolean("strippath", strip_path_);
   mesh_dir_ = values.text("assetdir", mesh_dir_);
@@ -119,8 +120,8 @@ void MjcfDocument::read_defaults(const MjcfNode& node, int parent) {
     if (is_new)
       classes_.push_back({parent, {}});
     else
-      mends_.add("class", fmt::format("{}: default: there is another class {}; they count as one",
-                                      node.element.place(), in_quotes(name)));
+      repairs_.add("class", fmt::format("{}: default: there is another class {}; they count as one",
+                                        node.element.place(), in_quotes(name)));
   }
   for (const auto& child : node.children) {
     if (child.name() == "default")
@@ -161,12 +162,12 @@ static Eigen::Quaterniond about(char axis, double angle) {
 
 /// Turns z to a direction, about their common normal.
 static Eigen::Quaterniond z_to(const Eigen::Vector3d& direction) {
-  return least_turn(Eigen::Vector3d::UnitZ(), direction).normalized();
+  return shortest_rotation(Eigen::Vector3d::UnitZ(), direction).normalized();
 }
 
 Eigen::Quaterniond MjcfDocument::orientation(const XmlValues& values) const {
   const auto direction = [&](const char* name, const Eigen::Vector3d& v) {
-    if (!(v.stableNorm() > 1e-9)) values.fail(name, "wanted a direction, got none");
+    if (!(v.stableNorm() > 1e-9)) values.fail(name, "expected a direction, got none");
     return Eigen::Vector3d(v.stableNormalized());
   };
   if (values.has("axisangle")) {
@@ -196,7 +197,7 @@ Eigen::Quaterniond MjcfDocument::orientation(const XmlValues& values) const {
   if (!values.has("quat")) return Eigen::Quaterniond::Identity();
   const auto v = values.numbers("quat", 4, 4);
   const Eigen::Quaterniond q(v[0], v[1], v[2], v[3]);
-  if (!(q.coeffs().stableNorm() > 1e-9)) values.fail("quat", "wanted a quaternion, got zeros");
+  if (!(q.coeffs().stableNorm() > 1e-9)) values.fail("quat", "expected a quaternion, got zeros");
   Eigen::Quaterniond out;
   out.coeffs() = q.coeffs().stableNormalized();
   return out;

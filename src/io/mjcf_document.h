@@ -49,7 +49,7 @@ class MjcfDocument {
   std::filesystem::path mesh_file(const std::string& name, const ReadOptions& options) const;
 
   UnusedXml& unused() { return unused_; }
-  Mends& mends() { return mends_; }
+  Repairs& repairs() { return repairs_; }
 
  private:
   struct DefaultClass {
@@ -73,7 +73,7 @@ class MjcfDocument {
   bool autolimits_ = true, strip_path_ = false, inertia_from_geoms_ = false;
   std::string euler_ = "xyz", mesh_dir_;
   UnusedXml unused_;
-  Mends mends_;
+  Repairs repairs_;
 };
 
 }  // namespace clench

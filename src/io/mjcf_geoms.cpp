@@ -17,8 +17,8 @@ MjcfGeoms::MjcfGeoms(MjcfDocument& document, Library& library)
 
 // --- assets ---
 
-static PieceColor color_of(const XmlValues& values, Mends& mends) {
-  const auto rgba = values.color("rgba", 4, mends);
+static PieceColor color_of(const XmlValues& values, Repairs& repairs) {
+  const auto rgba = values.color("rgba", 4, repairs);
   return {Eigen::Vector3d(rgba[0], rgba[1], rgba[2]).cast<float>(),
           static_cast<float>(1 - rgba[3])};
 }
@@ -31,14 +31,15 @@ void MjcfGeoms::read_assets() {
       std::string name = values.text("name", "");
       if (name.empty()) name = std::filesystem::path(values.text("file")).stem().string();
       if (!meshes_.emplace(name, Asset{element, values, nullptr}).second)
-        document_.mends().add("mesh",
-                              fmt::format("{}: mesh: there is another one of the name '{}'; "
-                                          "the first one counts",
-                                          element.place(), excerpt(name)));
+        document_.repairs().add("mesh",
+                                fmt::format("{}: mesh: there is another one of the name '{}'; "
+                                            "the first one counts",
+                                            element.place(), excerpt(name)));
       document_.unused().attributes(element, {"name", "class", "file", "scale", "refpos", "refquat",
                                               "vertex", "face", "content_type"});
     } else if (node->name() == "material") {
-      if (values.has("rgba")) materials_[values.text("name")] = color_of(values, document_.mends());
+      if (values.has("rgba"))
+        materials_[values.text("name")] = color_of(values, document_.repairs());
       document_.unused().attributes(element, {"name", "class", "rgba"});
     } else {
       document_.unused().element(element);
@@ -60,14 +61,14 @@ std::shared_ptr<const Geometry> MjcfGeoms::inline_mesh(const Asset& asset) {
       for (int k = 0; k < 3; ++k)
         if (!(faces[i + k] >= 0 && faces[i + k] < count) ||
             faces[i + k] != std::floor(faces[i + k]))
-          asset.values.fail("face", "wanted vertices from 0 to {}, got {}", count - 1,
+          asset.values.fail("face", "expected vertices from 0 to {}, got {}", count - 1,
                             faces[i + k]);
       mesh.triangles.push_back(
           {floor_int(faces[i]), floor_int(faces[i + 1]), floor_int(faces[i + 2])});
     }
   } else {
     const Hull hull = convex_hull(Eigen::Map<const Eigen::MatrixXd>(numbers.data(), 3, count));
-    if (!hull.full()) asset.values.fail("vertex", "wanted points that span a solid");
+    if (!hull.full()) asset.values.fail("vertex", "expected points that span a solid");
     for (size_t f = 0; f < hull.facets.size(); ++f) {
       const auto& facet = hull.facets[f];
       for (size_t k = 2; k < facet.size(); ++k) {
@@ -93,12 +94,12 @@ std::shared_ptr<const Geometry> MjcfGeoms::read_mesh(Asset& asset) {
           : geometry_.file(document_.mesh_file(values.text("file"), library_.options()));
   const Eigen::Vector3d scale = values.vec3("scale", {1, 1, 1}),
                         origin = values.vec3("refpos", {0, 0, 0});
-  if (scale.cwiseAbs().minCoeff() == 0) values.fail("scale", "wanted factors other than 0");
+  if (scale.cwiseAbs().minCoeff() == 0) values.fail("scale", "expected factors other than 0");
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
   if (values.has("refquat")) {
     const auto q = values.numbers("refquat", 4, 4);
     turn = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
-    if (!(turn.norm() > 1e-9)) values.fail("refquat", "wanted a quaternion, got zeros");
+    if (!(turn.norm() > 1e-9)) values.fail("refquat", "expected a quaternion, got zeros");
     turn.normalize();
   }
   if (!values.has("scale") && !values.has("refpos") && !values.has("refquat"))
@@ -134,7 +135,7 @@ std::shared_ptr<const Geometry> MjcfGeoms::mesh(const XmlValues& geom, bool coll
 // --- geoms ---
 
 std::optional<PieceColor> MjcfGeoms::color(const XmlValues& geom) const {
-  if (geom.has("rgba")) return color_of(geom, document_.mends());
+  if (geom.has("rgba")) return color_of(geom, document_.repairs());
   const auto found = materials_.find(geom.text("material", ""));
   if (found == materials_.end()) return {};
   return found->second;
@@ -145,25 +146,26 @@ void MjcfGeoms::set_primitive(const std::string& type, const XmlValues& values, 
                               Pose& X) {
   auto size = values.has("size") ? values.numbers("size", 1, 3) : std::vector<double>();
   const bool round = type == "capsule" || type == "cylinder";
-  size_t wanted = type == "sphere" ? 1 : round ? 2 : 3;
+  size_t expected = type == "sphere" ? 1 : round ? 2 : 3;
   if (values.has("fromto") && type != "sphere") {
     const auto v = values.numbers("fromto", 6, 6);
     const Eigen::Vector3d from(v[0], v[1], v[2]), to(v[3], v[4], v[5]);
     const double length = (to - from).stableNorm();
-    if (!(length > 0)) values.fail("fromto", "wanted two points, got the same twice");
-    if (size.empty()) values.fail("size", "wanted a radius, got none");
-    X = {least_turn(Eigen::Vector3d::UnitZ(), (from - to).stableNormalized()).normalized(),
+    if (!(length > 0)) values.fail("fromto", "expected two points, got the same twice");
+    if (size.empty()) values.fail("size", "expected a radius, got none");
+    X = {shortest_rotation(Eigen::Vector3d::UnitZ(), (from - to).stableNormalized()).normalized(),
          0.5 * (from + to)};
     size = round ? std::vector{size[0], length / 2} : std::vector{size[0], size[0], length / 2};
   }
-  if (size.size() < wanted)
-    values.fail("size", "wanted {} number{} for a {}, got {}", wanted, wanted > 1 ? "s" : "", type,
-                size.size());
-  for (double& length : size) length = document_.mends().magnitude(length, values.subject("size"));
-  for (size_t i = 0; i < wanted; ++i)
-    if (!(size[i] > 0)) values.fail("size", "wanted lengths > 0, got {}", size[i]);
+  if (size.size() < expected)
+    values.fail("size", "expected {} number{} for a {}, got {}", expected, expected > 1 ? "s" : "",
+                type, size.size());
+  for (double& length : size)
+    length = document_.repairs().magnitude(length, values.subject("size"));
+  for (size_t i = 0; i < expected; ++i)
+    if (!(size[i] > 0)) values.fail("size", "expected lengths > 0, got {}", size[i]);
   std::string name = type;
-  for (size_t i = 0; i < wanted; ++i) name += fmt::format(" {}", size[i]);
+  for (size_t i = 0; i < expected; ++i) name += fmt::format(" {}", size[i]);
   Mesh mesh = type == "sphere"     ? capsule_mesh(size[0], 0)
               : type == "capsule"  ? capsule_mesh(size[0], 2 * size[1])
               : type == "cylinder" ? cylinder_mesh(size[0], 2 * size[1])
@@ -180,7 +182,7 @@ void MjcfGeoms::set_primitive(const std::string& type, const XmlValues& values, 
 
 std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::string& child_class,
                                         const Pose& X_frame) {
-  if (++count_ > most_pieces) element.fail("wanted at most {} geoms", most_pieces);
+  if (++count_ > max_pieces) element.fail("expected at most {} geoms", max_pieces);
   const XmlValues values = document_.values(element, child_class);
   values.tell_unused(
       document_.unused(),
@@ -214,8 +216,9 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
   geom.piece.X_LG = X_frame * X;
   geom.piece.color = color(values);
   const double volume = std::abs(solid_of(geom.piece).volume);
-  geom.mass = values.has("mass") ? values.not_negative("mass", 0, document_.mends())
-                                 : values.not_negative("density", 1000, document_.mends()) * volume;
+  geom.mass = values.has("mass")
+                  ? values.not_negative("mass", 0, document_.repairs())
+                  : values.not_negative("density", 1000, document_.repairs()) * volume;
   return geom;
 }
 

@@ -14,7 +14,7 @@ bool NumberReader::more() {
 int NumberReader::words_left() { return more() ? line_.size() - next_ : 0; }
 
 void NumberReader::to_word(std::string_view what) {
-  if (!more()) lines_.peek().fail("{}: wanted a number, got the end of the file", what);
+  if (!more()) lines_.peek().fail("{}: expected a number, got the end of the file", what);
 }
 
 double NumberReader::number(std::string_view what) {
@@ -37,7 +37,7 @@ Eigen::Quaterniond NumberReader::quaternion(std::string_view what) {
   const Eigen::Vector4d x = numbers(4, what);
   const auto q = made_unit(x);
   if (!q)
-    line_.fail("{}: wanted a quaternion of length 1, got ({} {} {} {})", what, x[0], x[1], x[2],
+    line_.fail("{}: expected a quaternion of length 1, got ({} {} {} {})", what, x[0], x[1], x[2],
                x[3]);
   return *q;
 }

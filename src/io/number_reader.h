@@ -12,7 +12,7 @@ class NumberReader {
   /// Goes on where `lines` is. Words from one that begins with '#' on are a comment.
   explicit NumberReader(LineReader& lines) : lines_(lines) {}
 
-  /// throws Error  "hand.vgr:7: mu: wanted a number, got 'x'" ("... got the end of the file")
+  /// throws Error  "hand.vgr:7: mu: expected a number, got 'x'" ("... got the end of the file")
   double number(std::string_view what);
   int integer(std::string_view what, int low = std::numeric_limits<int>::min(),
               int high = std::numeric_limits<int>::max());

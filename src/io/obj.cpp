@@ -65,8 +65,8 @@ class ObjReader {
 
 void ObjReader::warn_once(const std::string& about, const std::string& place,
                           const std::string& sentence) {
-  constexpr size_t most_warnings = 10;
-  if (told_.size() < most_warnings && told_.insert(about).second)
+  constexpr size_t max_warnings = 10;
+  if (told_.size() < max_warnings && told_.insert(about).second)
     warnings_.push_back(place + ": " + sentence);
 }
 
@@ -75,10 +75,10 @@ void ObjReader::read_point() {
   int count = 0;
   for (auto word = words_.word(); !word.empty() || count < 3; word = words_.word()) {
     const auto value = parse_number(word);
-    if (!value) words_.fail("wanted three numbers after v, got {}", in_quotes(word));
+    if (!value) words_.fail("expected three numbers after v, got {}", in_quotes(word));
     if (count == 7) {
       warn_once("point",
-                "wanted at most a point, a weight and a colour after v; only the point is "
+                "expected at most a point, a weight and a colour after v; only the point is "
                 "used");
       words_.rest();
       count = 3;
@@ -99,10 +99,10 @@ void ObjReader::read_face() {
   for (auto word = words_.word(); !word.empty(); word = words_.word()) {
     const auto number = parse_integer(word.substr(0, word.find('/')));
     if (!number || word.find_first_not_of("+-0123456789/") != std::string_view::npos)
-      words_.fail("wanted numbers of points after f, got {}", in_quotes(word));
+      words_.fail("expected numbers of points after f, got {}", in_quotes(word));
     // points that come later are counted when all are known
     if (*number == 0 || *number < -points)
-      words_.fail("wanted one of {} points after f, got {}", points, *number);
+      words_.fail("expected one of {} points after f, got {}", points, *number);
     corners_.push_back(*number > 0 ? *number - 1 : points + *number);
   }
   if (corners_.size() - first < 3) {
@@ -110,8 +110,8 @@ void ObjReader::read_face() {
     corners_.resize(first);
     return;
   }
-  if (faces_.size() >= most_mesh_triangles)
-    words_.fail("wanted at most {} faces", most_mesh_triangles);
+  if (faces_.size() >= max_mesh_triangles)
+    words_.fail("expected at most {} faces", max_mesh_triangles);
   faces_.push_back({first, words_.line(), material_});
 }
 
@@ -146,7 +146,7 @@ void ObjReader::read_materials(const std::string& names) {
   for (const auto word : split_words(names, "", max_material_files)) candidates.emplace_back(word);
   material_files_ += candidates.size();
   if (material_files_ > max_material_files)
-    return warn_once("mtllib", fmt::format("wanted at most {} files of materials; this one and "
+    return warn_once("mtllib", fmt::format("expected at most {} files of materials; this one and "
                                            "what follows are not read",
                                            max_material_files));
   std::string missing;
@@ -184,7 +184,7 @@ void ObjReader::read_material_file(const std::filesystem::path& path) {
     else if (!color && a)
       material->transparency = static_cast<float>(std::clamp(opaque ? 1 - *a : *a, 0.0, 1.0));
     else
-      input_.warn(fmt::format("{}: wanted {} after {}; not used", words.place(),
+      input_.warn(fmt::format("{}: expected {} after {}; not used", words.place(),
                               color ? "three numbers" : "a number", keyword));
   }
 }
@@ -205,7 +205,7 @@ void ObjReader::add_faces() {
     const std::span<const int> corners(corners_.data() + face.first, end - face.first);
     for (const int v : corners)
       if (v >= points)
-        fail("{}:{}: wanted one of {} points after f, got {}", words_.file(), face.line, points,
+        fail("{}:{}: expected one of {} points after f, got {}", words_.file(), face.line, points,
              int64_t{v} + 1);
     Material look = face.material < 0 ? Material() : by_number[face.material];
     if (colored) {

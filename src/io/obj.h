@@ -7,7 +7,7 @@ namespace clench {
 
 /// Faces over the file's own points, in its unit. Texture coordinates and normals are not read.
 /// returns  do colours come from the file?
-/// throws   Error  "part.obj:31: wanted one of 8 points after f, got 9"
+/// throws   Error  "part.obj:31: expected one of 8 points after f, got 9"
 bool read_obj(const MeshInput& input, GeometryBuilder& builder);
 
 }  // namespace clench

@@ -43,22 +43,22 @@ void OffReader::read_kind(std::string_view kind) {
     else if (kind[i] == 'N')
       normals_ = true;
     else
-      words_.fail("wanted OFF of three dimensions, got {}", in_quotes(std::string(kind) + "OFF"));
+      words_.fail("expected OFF of three dimensions, got {}", in_quotes(std::string(kind) + "OFF"));
   }
 }
 
 /// Counts follow the keyword or stand alone; "OFF8 6 12" is seen, too.
 void OffReader::read_header() {
-  if (!words_.next_line()) words_.fail("wanted 'OFF', got the end of the file");
+  if (!words_.next_line()) words_.fail("expected 'OFF', got the end of the file");
   std::string_view word = words_.word();
   if (const size_t end = word.find("OFF"); end != std::string_view::npos) {
     read_kind(word.substr(0, end));
     word.remove_prefix(end + 3);
   } else if (!parse_integer(word)) {
-    words_.fail("wanted 'OFF', got {}", in_quotes(word));
+    words_.fail("expected 'OFF', got {}", in_quotes(word));
   }
   if (word.empty()) word = words_.word_anywhere();
-  if (lower_case(word) == "binary") words_.fail("wanted OFF as text, got binary OFF");
+  if (lower_case(word) == "binary") words_.fail("expected OFF as text, got binary OFF");
   vertices_ = read_count(word, "number of vertices");
   faces_ = read_count(words_.word_anywhere(), "number of faces");
   words_.word();  // the number of edges is nobody's business, and often wrong or absent
@@ -73,7 +73,7 @@ int OffReader::read_count(std::string_view word, const char* what) {
 
 void OffReader::to_line(const char* what, int i, int count) {
   if (!words_.next_line())
-    words_.fail("wanted {} {} of {}, got the end of the file", what, i + 1, count);
+    words_.fail("expected {} {} of {}, got the end of the file", what, i + 1, count);
 }
 
 void OffReader::warn_once(const std::string& sentence) {
@@ -88,7 +88,7 @@ Eigen::Vector3f OffReader::read_color(int count, float* transparency) {
   for (int i = 0; i < count; ++i) {
     const auto word = words_.word();
     const auto value = parse_number(word);
-    if (!value) words_.fail("colour: wanted a number, got {}", in_quotes(word));
+    if (!value) words_.fail("colour: expected a number, got {}", in_quotes(word));
     whole = whole && word.find_first_of(".eE") == std::string_view::npos;
     color[i] = *value;
   }
@@ -116,13 +116,13 @@ void OffReader::read_faces() {
   for (int i = 0; i < faces_; ++i) {
     to_line("face", i, faces_);
     // every corner takes a character of the text and a blank, so its size bounds their number
-    const int count = words_.integer("corners of a face", 0, static_cast<int>(most_mesh_vertices));
+    const int count = words_.integer("corners of a face", 0, static_cast<int>(max_mesh_vertices));
     corners.clear();
     for (int k = 0; k < count; ++k) {
       const auto word = words_.word();
       const auto vertex = parse_integer(word);
       if (!vertex || *vertex < 0 || *vertex >= vertices_)
-        words_.fail("wanted {} vertices from 0 to {}, got {}", count, vertices_ - 1,
+        words_.fail("expected {} vertices from 0 to {}, got {}", count, vertices_ - 1,
                     in_quotes(word));
       corners.push_back(*vertex);
     }

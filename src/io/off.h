@@ -7,7 +7,7 @@ namespace clench {
 
 /// Faces over the file's own vertices, in its unit. Texture coordinates and normals are not read.
 /// returns  do colours come from the file?
-/// throws   Error  "part.off:31: wanted 3 vertices from 0 to 8, got '9'"
+/// throws   Error  "part.off:31: expected 3 vertices from 0 to 8, got '9'"
 bool read_off(const MeshInput& input, GeometryBuilder& builder);
 
 }  // namespace clench

@@ -36,7 +36,7 @@ class Values {
 
  private:
   void need(size_t bytes) const {
-    if (bytes_.left() < bytes) fail("wanted {} bytes, got the end of the file", bytes);
+    if (bytes_.left() < bytes) fail("expected {} bytes, got the end of the file", bytes);
   }
 
   WordReader words_;
@@ -58,7 +58,7 @@ void Values::begin(const std::string& name, int i, int count) {
   i_ = i;
   count_ = count;
   if (ascii_ && !words_.next_line())
-    words_.fail("wanted {} {} of {}, got the end of the file", excerpt(name), i + 1, count);
+    words_.fail("expected {} {} of {}, got the end of the file", excerpt(name), i + 1, count);
 }
 
 void Values::end() {
@@ -71,9 +71,9 @@ double Values::next(PlyType type) {
   if (ascii_) {
     const auto word = words_.word();
     const auto value = parse_number(word);
-    if (!value) words_.fail("wanted a number, got {}", in_quotes(word));
+    if (!value) words_.fail("expected a number, got {}", in_quotes(word));
     if (is_whole(type) && *value != std::floor(*value))
-      words_.fail("wanted a whole number, got {}", *value);
+      words_.fail("expected a whole number, got {}", *value);
     return *value;
   }
   need(static_cast<size_t>(ply_bytes(type)));
@@ -106,7 +106,7 @@ void Values::skip(PlyType type, int count) {
     return;
   }
   for (int i = 0; i < count; ++i)
-    if (words_.word().empty()) words_.fail("wanted a number, got nothing");
+    if (words_.word().empty()) words_.fail("expected a number, got nothing");
 }
 
 std::string Values::surplus() {
@@ -163,7 +163,7 @@ int PlyReader::read_count(const PlyProperty& list) {
   const double count = values_.next(list.count_type);
   // every item of a list is a byte at least, so the file's size bounds their number
   if (!(count >= 0 && count <= 1 << 30))
-    values_.fail("wanted a count of {} from 0 on, got {}", excerpt(list.name), count);
+    values_.fail("expected a count of {} from 0 on, got {}", excerpt(list.name), count);
   return floor_int(count);
 }
 
@@ -173,7 +173,7 @@ void PlyReader::read_vertices(const PlyElement& element) {
   int channels = 0;
   for (int i = 0; i < 3; ++i) {
     if (axes[i] < 0 || element.properties[axes[i]].list)
-      values_.fail("wanted x, y and z of every vertex, got none of '{}'", "xyz"[i]);
+      values_.fail("expected x, y and z of every vertex, got none of '{}'", "xyz"[i]);
     axis[axes[i]] = i;
   }
   for (size_t k = 0; k < paint.size(); ++k)
@@ -187,7 +187,7 @@ void PlyReader::read_vertices(const PlyElement& element) {
       const PlyProperty& property = element.properties[k];
       if (axis[k] >= 0) {
         const double x = p[axis[k]] = values_.next(property.type);
-        if (!std::isfinite(x)) values_.fail("wanted finite coordinates, got {}", x);
+        if (!std::isfinite(x)) values_.fail("expected finite coordinates, got {}", x);
       } else if (channels == 3 && paint[k] >= 0) {
         color[paint[k]] = channel_value(values_.next(property.type), property.type);
       } else {
@@ -206,7 +206,7 @@ void PlyReader::read_indices(const PlyProperty& list) {
   for (int k = 0; k < count; ++k) {
     const double v = values_.next(list.type);
     if (!(v >= -1 && v < vertices))
-      values_.fail("wanted a vertex from 0 to {}, got {}", vertices - 1, v);
+      values_.fail("expected a vertex from 0 to {}, got {}", vertices - 1, v);
     indices_.push_back(floor_int(v));
   }
 }
@@ -234,7 +234,7 @@ void PlyReader::read_faces(const PlyElement& element, bool strips) {
   int list = element.find("vertex_indices");
   if (list < 0) list = element.find("vertex_index");
   if (list < 0 || !element.properties[list].list)
-    values_.fail("wanted a list vertex_indices of every {}, got none", excerpt(element.name));
+    values_.fail("expected a list vertex_indices of every {}, got none", excerpt(element.name));
   std::vector<int> paint(element.properties.size(), -1);
   int channels = 0;
   for (size_t k = 0; k < paint.size(); ++k)
@@ -255,7 +255,7 @@ void PlyReader::read_faces(const PlyElement& element, bool strips) {
     values_.end();
     if (channels != 3) color = mean_color();
     for (const int v : indices_)
-      if (v < 0 && !strips) values_.fail("wanted a vertex from 0 on, got {}", v);
+      if (v < 0 && !strips) values_.fail("expected a vertex from 0 on, got {}", v);
     try {
       if (strips)
         add_strips(color);
@@ -314,11 +314,11 @@ bool read_ply(const MeshInput& input, GeometryBuilder& builder) {
     const bool faces = element.name == "face", strips = element.name == "tristrips";
     values.begin_all();
     if (element.name == "vertex") {
-      if (vertices) values.fail("wanted one element vertex, got two");
+      if (vertices) values.fail("expected one element vertex, got two");
       reader.read_vertices(element);
       vertices = true;
     } else if (faces || strips) {
-      if (!vertices) values.fail("wanted the vertices before the faces");
+      if (!vertices) values.fail("expected the vertices before the faces");
       reader.read_faces(element, strips);
     } else {
       reader.step_over(element);

@@ -17,7 +17,7 @@ static PlyType read_type(WordReader& words) {
   const auto word = words.word();
   for (const auto& [name, type] : names)
     if (word == name) return type;
-  words.fail("wanted a type of PLY such as float or uchar, got {}", in_quotes(word));
+  words.fail("expected a type of PLY such as float or uchar, got {}", in_quotes(word));
 }
 
 int ply_bytes(PlyType type) {
@@ -38,7 +38,7 @@ static PlyHeader::Format read_format(WordReader& words) {
   const auto word = words.word();
   for (int i = 0; i < 3; ++i)
     if (word == names[i]) return static_cast<PlyHeader::Format>(i);
-  words.fail("wanted ascii, binary_little_endian or binary_big_endian, got {}", in_quotes(word));
+  words.fail("expected ascii, binary_little_endian or binary_big_endian, got {}", in_quotes(word));
 }
 
 static PlyProperty read_property(WordReader& words) {
@@ -48,24 +48,24 @@ static PlyProperty read_property(WordReader& words) {
     words.word();
     p.list = true;
     p.count_type = read_type(words);
-    if (!is_whole(p.count_type)) words.fail("wanted a whole type for the count of a list");
+    if (!is_whole(p.count_type)) words.fail("expected a whole type for the count of a list");
   }
   p.type = read_type(words);
   p.name = words.word();
-  if (p.name.empty()) words.fail("wanted the name of a property, got nothing");
+  if (p.name.empty()) words.fail("expected the name of a property, got nothing");
   return p;
 }
 
 PlyHeader read_ply_header(WordReader& words) {
-  constexpr size_t most_elements = 100, most_properties = 1000;
+  constexpr size_t max_elements = 100, max_properties = 1000;
   PlyHeader header;
-  if (!words.next_line() || words.word() != "ply") words.fail("wanted 'ply' in the first line");
+  if (!words.next_line() || words.word() != "ply") words.fail("expected 'ply' in the first line");
   bool format = false;
   while (words.next_line()) {
     const auto keyword = words.word();
     if (keyword == "comment" || keyword == "obj_info") continue;
     if (keyword == "end_header") {
-      if (!format) words.fail("wanted a line 'format' before end_header");
+      if (!format) words.fail("expected a line 'format' before end_header");
       return header;
     }
     if (keyword == "format") {
@@ -76,20 +76,20 @@ PlyHeader read_ply_header(WordReader& words) {
       element.name = words.word();
       element.count = words.integer(fmt::format("number of elements {}", in_quotes(element.name)),
                                     0, std::numeric_limits<int>::max());
-      if (header.elements.size() == most_elements)
-        words.fail("wanted at most {} elements", most_elements);
+      if (header.elements.size() == max_elements)
+        words.fail("expected at most {} elements", max_elements);
       header.elements.push_back(std::move(element));
     } else if (keyword == "property") {
-      if (header.elements.empty()) words.fail("wanted an element before its properties");
+      if (header.elements.empty()) words.fail("expected an element before its properties");
       auto& properties = header.elements.back().properties;
-      if (properties.size() == most_properties)
-        words.fail("wanted at most {} properties", most_properties);
+      if (properties.size() == max_properties)
+        words.fail("expected at most {} properties", max_properties);
       properties.push_back(read_property(words));
     } else {
-      words.fail("wanted a line of a PLY header, got {}", in_quotes(keyword));
+      words.fail("expected a line of a PLY header, got {}", in_quotes(keyword));
     }
   }
-  words.fail("wanted end_header, got the end of the file");
+  words.fail("expected end_header, got the end of the file");
 }
 
 }  // namespace clench

@@ -32,7 +32,7 @@ int ply_bytes(PlyType type);
 bool is_whole(PlyType type);
 
 /// The lines from "ply" to "end_header".
-/// throws Error  "part.ply:3: wanted ascii, binary_little_endian or binary_big_endian, got 'x'"
+/// throws Error  "part.ply:3: expected ascii, binary_little_endian or binary_big_endian, got 'x'"
 PlyHeader read_ply_header(WordReader& words);
 
 }  // namespace clench

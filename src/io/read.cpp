@@ -6,8 +6,8 @@
 #include <set>
 
 #include "base/text.h"
-#include "io/doubts.h"
 #include "io/library.h"
+#include "io/plausibility.h"
 #include "io/robot_files.h"
 #include "io/tree_files.h"
 #include "io/world_wld.h"
@@ -18,15 +18,15 @@ namespace clench {
 static void check_options(const ReadOptions& options) {
   const auto check = [](const char* name, const std::optional<double>& length) {
     if (length && (!(*length > 0) || !std::isfinite(*length)))
-      fail("read options: {}: wanted a length > 0 [m], got {}", name, *length);
+      fail("read options: {}: expected a length > 0 [m], got {}", name, *length);
   };
   check("mesh_scale", options.mesh_scale);
   check("silent_mesh_unit", options.silent_mesh_unit);
 }
 
 ReadOptions strict(ReadOptions options) {
-  options.warn = options.mend =
-      options.doubt = [](const std::string& sentence) { throw Error(sentence); };
+  options.warn = options.repair =
+      options.suspect = [](const std::string& sentence) { throw Error(sentence); };
   return options;
 }
 
@@ -52,20 +52,21 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
   const std::string extension = lower_case(found.extension().string());
   WorldSpec world;
   if (is_robot_tree(found))
-    fail("{}: wanted a world, got a robot; world:add_robot loads it", found.filename().string());
+    fail("{}: expected a world, got a robot; world:add_robot loads it", found.filename().string());
   if (extension == ".wld")
     world = read_world_wld(found, library);
   else if (extension == ".xml")
     world = read_world_xml(found, library);
   else
-    fail("{}: wanted a world from .wld or .xml, got {}", found.filename().string(),
+    fail("{}: expected a world from .wld or .xml, got {}", found.filename().string(),
          in_quotes(extension));
   std::set<std::string> told;  // of what stands there more than once, one
   for (const PlacedBody& placed : world.bodies)
     if (placed.role == Role::object && told.insert(placed.body.file).second)
-      doubt_object(placed.body,
-                   fmt::format("{}: '{}'", found.filename().string(), excerpt(placed.body.name)),
-                   options.listeners());
+      check_plausible_object(
+          placed.body,
+          fmt::format("{}: '{}'", found.filename().string(), excerpt(placed.body.name)),
+          options.listeners());
   world.source = path.generic_string();
   return world;
 }

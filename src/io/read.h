@@ -21,9 +21,9 @@ struct ReadOptions {
   /// told of what a file leaves open and we guess
   std::function<void(const std::string&)> note = {};
   /// told of what a file has wrong and we put right; empty: warn is told
-  std::function<void(const std::string&)> mend = {};
+  std::function<void(const std::string&)> repair = {};
   /// told of what is used as it stands, and looks wrong; empty: warn is told
-  std::function<void(const std::string&)> doubt = {};
+  std::function<void(const std::string&)> suspect = {};
   /// geometry files: length of their unit, > 0 [m]; absent: what the format or the file says, else
   /// silent_mesh_unit
   std::optional<double> mesh_scale = {};
@@ -43,18 +43,18 @@ struct ReadOptions {
   /// .dae .gltf .glb: turn what the file calls up to z? (A URDF takes the axes as they stand.)
   bool turn_mesh_up = true;
 
-  Listeners listeners() const { return {warn, note, mend, doubt}; }
+  Listeners listeners() const { return {warn, note, repair, suspect}; }
   /// As these, but names count from the folder of their file alone.
   ReadOptions beside_only() const;
-  void mended(const std::string& sentence) const { tell(mend, warn, sentence); }
-  void doubted(const std::string& sentence) const { tell(doubt, warn, sentence); }
+  void repaired(const std::string& sentence) const { tell(repair, warn, sentence); }
+  void suspected(const std::string& sentence) const { tell(suspect, warn, sentence); }
 };
 
-/// The same, but what would be warned of is thrown: nothing is mended, left out or doubtful.
+/// The same, but what would be warned of is thrown: nothing is repaired, left out or suspicious.
 ReadOptions strict(ReadOptions options);
 
 /// A body from .xml, .iv .wrl .vrml (millimetres), .off .ply .obj .stl .gltf .glb .dae, in any case.
-/// throws Error  "flask.iv:31: ..." one sentence: place, subject, wanted, got
+/// throws Error  "flask.iv:31: ..." one sentence: place, subject, expected, got
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// A robot from .cfg or .xml of GraspIt!, .urdf, .mjcf, or .xml that holds one of these.
@@ -66,7 +66,7 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
 /// Where `name`, as written in `referrer` (empty: given by the user), is found: beside the
 /// referrer, below options.folder, below the root, below the referrer's parent folder. Back-slashes count as slashes, and
 /// a name that differs only in case is found.
-/// throws Error  "no such file: flsk.iv; did you mean 'flask.iv'?"  "wanted a file, got a folder: models"
+/// throws Error  "no such file: flsk.iv; did you mean 'flask.iv'?"  "expected a file, got a folder: models"
 ///               "'../flask.iv' lies outside of models, to which reading is confined"
 std::filesystem::path find_file(const std::string& name, const std::filesystem::path& referrer,
                                 const ReadOptions& options);

@@ -4,8 +4,8 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "io/joint_expression.h"
-#include "io/mend_names.h"
-#include "io/mends.h"
+#include "io/repair_names.h"
+#include "io/repairs.h"
 #include "io/robot_classes.h"
 #include "io/robot_files.h"
 #include "io/transform_list.h"
@@ -33,12 +33,12 @@ class CfgReader {
   CfgReader(const fs::path& path, Library& library)
       : path_(path),
         library_(library),
-        mends_(library.options().listeners()),
+        repairs_(library.options().listeners()),
         lines_(path.filename().string(), read_text(path)) {}
   RobotSpec read();
 
  private:
-  Line wanted(std::string_view what) { return lines_.next_full(what).before('#'); }
+  Line expected(std::string_view what) { return lines_.next_full(what).before('#'); }
   /// warns of words behind the first `used`
   void used_up(const Line& line, int used) {
     if (const std::string sentence = line.surplus(used); !sentence.empty()) library_.warn(sentence);
@@ -58,7 +58,7 @@ class CfgReader {
 
   const fs::path& path_;
   Library& library_;
-  Mends mends_;
+  Repairs repairs_;
   LineReader lines_;
   std::vector<DofLine> dof_lines_;
   std::vector<std::optional<JointKind>> dof_kinds_;  // of its first joint
@@ -67,7 +67,7 @@ class CfgReader {
 };
 
 int CfgReader::count(const char* what, int low) {
-  const Line line = wanted(what);
+  const Line line = expected(what);
   const int value = line.integer(0, what, low, most);
   used_up(line, 1);
   return value;
@@ -82,11 +82,11 @@ BodySpec CfgReader::body(const Line& line, const std::string& name) {
 RobotSpec CfgReader::read() {
   robot_.name = path_.stem().string();
   robot_.source = path_.generic_string();
-  const Line head = wanted("the robot's class");
+  const Line head = expected("the robot's class");
   robot_.class_name = head.word(0);
   check_class(robot_.class_name, head.place(), library_.options().warn);
   used_up(head, 1);
-  const Line palm = wanted("the palm's file");
+  const Line palm = expected("the palm's file");
   used_up(palm, 1);
   robot_.base = body(palm, robot_.name + "_base");
   read_dofs();
@@ -97,7 +97,7 @@ RobotSpec CfgReader::read() {
   check_ranges();
   read_optional_blocks();
   check_read_robot(robot_, head.place(), library_.options());
-  mends_.tell();
+  repairs_.tell();
   read_robot_files(robot_, named_, path_, library_.options());
   return std::move(robot_);
 }
@@ -111,7 +111,7 @@ void CfgReader::read_dofs() {
   const int dofs = count("number of DOFs", 0);
   for (int i = 0; i < dofs; ++i) {
     DofLine d;
-    d.line = wanted(fmt::format("the line of DOF {}", i));
+    d.line = expected(fmt::format("the line of DOF {}", i));
     const std::string_view kind = d.line.word(0);
     if (kind == "r")
       d.kind = DofKind::rigid;
@@ -120,11 +120,12 @@ void CfgReader::read_dofs() {
     else if (kind == "c")
       d.kind = DofKind::compliant;
     else
-      d.line.fail("DOF {}: wanted type r, b or c, got {}", i, in_quotes(kind));
+      d.line.fail("DOF {}: expected type r, b or c, got {}", i, in_quotes(kind));
     const auto number = [&](int k, const char* what) {
       const std::string subject = fmt::format("DOF {}: {}", i, what);
       if (k > 2 && k >= d.line.size()) {
-        mends_.add("missing", fmt::format("{}: {} is missing; 0 is used", d.line.place(), subject));
+        repairs_.add("missing",
+                     fmt::format("{}: {} is missing; 0 is used", d.line.place(), subject));
         return 0.0;
       }
       const double x = d.line.number(k, subject);
@@ -133,8 +134,8 @@ void CfgReader::read_dofs() {
     };
     d.velocity = number(1, "default velocity");
     const auto magnitude = [&](int k, const char* what) {
-      return mends_.magnitude(number(k, what),
-                              fmt::format("{}: DOF {}: {}", d.line.place(), i, what));
+      return repairs_.magnitude(number(k, what),
+                                fmt::format("{}: DOF {}: {}", d.line.place(), i, what));
     };
     d.effort = magnitude(2, "max effort");
     d.kp = number(3, "Kp");
@@ -158,7 +159,7 @@ void CfgReader::read_chain(int number) {
 }
 
 void CfgReader::read_joint(ChainSpec& chain, int number) {
-  const Line line = wanted(fmt::format("the line of joint {}", number));
+  const Line line = expected(fmt::format("the line of joint {}", number));
   const auto value = [&](int i, const char* what) {
     const double x = line.number(i, fmt::format("joint {}: {}", number, what));
     check_size(line, x, fmt::format("joint {}: {}", number, what));
@@ -173,14 +174,14 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
   const auto expression = parse_joint_expression(text);
   if (!expression) {
     if (!revolute) value(0, "theta");
-    line.fail("joint {}: wanted a joint expression such as d0*0.5+90 for {}, got {}", number,
+    line.fail("joint {}: expected a joint expression such as d0*0.5+90 for {}, got {}", number,
               revolute ? "theta" : "d", in_quotes(text));
   }
   joint.dof = expression->dof;
   if (joint.dof >= static_cast<int>(dof_lines_.size()))
-    line.fail("joint {}: wanted a DOF below {}, got d{}", number, dof_lines_.size(), joint.dof);
+    line.fail("joint {}: expected a DOF below {}, got d{}", number, dof_lines_.size(), joint.dof);
   if (expression->ratio == 0)
-    line.fail("joint {}: wanted a ratio other than 0, got {}", number, in_quotes(text));
+    line.fail("joint {}: expected a ratio other than 0, got {}", number, in_quotes(text));
 
   check_size(line, expression->offset, fmt::format("joint {}: offset", number));
   check_size(line, expression->ratio, fmt::format("joint {}: ratio", number));
@@ -192,13 +193,13 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
   joint.a = value(2, "a") * units::millimetre;
   joint.alpha = value(3, "alpha") * units::degree;
   double low = value(4, "min"), high = value(5, "max");
-  mends_.order(low, high, fmt::format("{}: joint {}", line.place(), number));
+  repairs_.order(low, high, fmt::format("{}: joint {}", line.place(), number));
   joint.min = low * unit;
   joint.max = high * unit;
   const auto loss = [&](int i, const char* what, double loss_unit) {
     if (line.size() <= i) return 0.0;
-    return loss_unit * mends_.magnitude(value(i, what), fmt::format("{}: joint {}: {}",
-                                                                    line.place(), number, what));
+    return loss_unit * repairs_.magnitude(value(i, what), fmt::format("{}: joint {}: {}",
+                                                                      line.place(), number, what));
   };
   joint.viscous =
       loss(6, "viscous friction", revolute ? units::gram_square_millimetre : units::gram);
@@ -223,7 +224,7 @@ void CfgReader::read_link(ChainSpec& chain, int number, const std::string& name)
                                                               {"Universal", LinkJoint::universal},
                                                               {"Ball", LinkJoint::ball},
                                                               {"Fixed", LinkJoint::fixed}};
-  const Line kind_line = wanted(fmt::format("the joint type of link {}", number));
+  const Line kind_line = expected(fmt::format("the joint type of link {}", number));
   LinkSpec link;
   std::vector<std::string> names;
   bool known = false;
@@ -232,11 +233,11 @@ void CfgReader::read_link(ChainSpec& chain, int number, const std::string& name)
     if (lower_case(word) == lower_case(kind_line.word(0))) link.joint = kind, known = true;
   }
   if (!known)
-    kind_line.fail("link {}: wanted Revolute, Prismatic, Universal, Ball or Fixed, got {}{}",
+    kind_line.fail("link {}: expected Revolute, Prismatic, Universal, Ball or Fixed, got {}{}",
                    number, in_quotes(kind_line.word(0)), did_you_mean(kind_line.word(0), names));
 
   used_up(kind_line, 1);
-  const Line line = wanted(fmt::format("the file of link {}", number));
+  const Line line = expected(fmt::format("the file of link {}", number));
   used_up(line, 2);
   const int before = chain.links.empty() ? -1 : chain.links.back().last_joint;
   const int joints = static_cast<int>(chain.joints.size());
@@ -248,7 +249,7 @@ void CfgReader::read_link(ChainSpec& chain, int number, const std::string& name)
                               line.place(), number, link.last_joint));
   }
   if (link.last_joint >= joints)
-    line.fail("link {}: wanted a joint to move it, got {} joints for {} links", number, joints,
+    line.fail("link {}: expected a joint to move it, got {} joints for {} links", number, joints,
               chain.links.size() + 1);
   link.body = body(line, name);
   chain.links.push_back(std::move(link));
@@ -259,7 +260,7 @@ void CfgReader::set_dof_units() {
     const DofLine& d = dof_lines_[i];
     const bool slides = dof_kinds_[i] == JointKind::prismatic;
     if (!dof_kinds_[i])
-      library_.doubted(fmt::format("{}: DOF {} moves no joint", d.line.place(), i));
+      library_.suspected(fmt::format("{}: DOF {} moves no joint", d.line.place(), i));
     DofSpec dof;
     dof.kind = d.kind;
     dof.default_velocity = d.velocity * (slides ? units::millimetre : 1.0);
@@ -280,7 +281,7 @@ void CfgReader::check_ranges() {
 }
 
 NamedFile CfgReader::named_file(const char* what) {
-  const Line line = wanted(fmt::format("the file of {}", what));
+  const Line line = expected(fmt::format("the file of {}", what));
   return {std::string(line.text()), fmt::format("{}: {}", line.place(), what)};
 }
 
@@ -291,8 +292,8 @@ void CfgReader::read_tracker() {
     library_.note(
         fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
   } else {
-    const Line line = wanted("a bird number");
-    tracker.number = mends_.count(line.word(0), line.place() + ": FlockOfBirds");
+    const Line line = expected("a bird number");
+    tracker.number = repairs_.count(line.word(0), line.place() + ": FlockOfBirds");
   }
   tracker.X_BS = read_transform_list(lines_, library_.options().listeners());
   robot_.tracker = tracker;
@@ -300,7 +301,7 @@ void CfgReader::read_tracker() {
 
 void CfgReader::read_approach() {
   const auto vector = [&](const char* what) {
-    const Line line = wanted(what);
+    const Line line = expected(what);
     used_up(line, 3);
     return std::pair(
         line, Eigen::Vector3d(line.number(0, what), line.number(1, what), line.number(2, what)));

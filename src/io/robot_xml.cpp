@@ -5,8 +5,8 @@
 #include "base/suggest.h"
 #include "base/units.h"
 #include "io/joint_expression.h"
-#include "io/mend_names.h"
-#include "io/mends.h"
+#include "io/repair_names.h"
+#include "io/repairs.h"
 #include "io/robot_classes.h"
 #include "io/robot_files.h"
 #include "io/tendons_xml.h"
@@ -20,12 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t most_parts = 1000;  // DOFs, chains, joints, links: far above any hand
+constexpr size_t max_parts = 1000;  // DOFs, chains, joints, links: far above any hand
 
 class XmlRobotReader {
  public:
   XmlRobotReader(const XmlElement& root, const fs::path& path, Library& library)
-      : root_(root), path_(path), library_(library), mends_(library.options().listeners()) {}
+      : root_(root), path_(path), library_(library), repairs_(library.options().listeners()) {}
   RobotSpec read();
 
  private:
@@ -52,7 +52,7 @@ class XmlRobotReader {
   const XmlElement root_;
   const fs::path& path_;
   Library& library_;
-  Mends mends_;
+  Repairs repairs_;
   std::vector<XmlElement> dofs_;
   std::vector<std::optional<JointKind>> dof_kinds_;            // of its first joint
   std::vector<std::pair<XmlElement, RobotPart>> named_parts_;  // to be looked at when all are known
@@ -69,14 +69,14 @@ RobotSpec XmlRobotReader::read() {
   robot_.source = path_.generic_string();
   read_type();
   robot_.database_name = root_.attribute("DBName").value_or("");
-  const XmlElement palm = root_.wanted("palm");
+  const XmlElement palm = root_.expected("palm");
   palm.check({}, warn());
   robot_.base = library_.part(palm.text(), path_, palm.place());
   robot_.base.name = robot_.name + "_base";
   dofs_ = root_.children("dof");
   const auto chains = root_.children("chain");
-  if (dofs_.size() > most_parts || chains.size() > most_parts)
-    root_.fail("wanted at most {} DOFs and chains, got {} and {}", most_parts, dofs_.size(),
+  if (dofs_.size() > max_parts || chains.size() > max_parts)
+    root_.fail("expected at most {} DOFs and chains, got {} and {}", max_parts, dofs_.size(),
                chains.size());
   dof_kinds_.resize(dofs_.size());
   for (const XmlElement& e : chains) read_chain(e);
@@ -87,12 +87,12 @@ RobotSpec XmlRobotReader::read() {
   for (const auto& [element, part] : named_parts_) check_part(element, part);
   robot_.collision_rules.near_pairs_off = true;
   read_tendons(
-      root_, [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), mends_,
+      root_, [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), repairs_,
       robot_);
   read_approach();
   read_tracker();
   check_read_robot(robot_, root_.place(), library_.options());
-  mends_.tell();
+  repairs_.tell();
   read_files();
   return std::move(robot_);
 }
@@ -111,10 +111,10 @@ void XmlRobotReader::check_part(const XmlElement& element, const RobotPart& part
   if (part.chain < 0) return;
   const int chains = static_cast<int>(robot_.chains.size());
   if (part.chain >= chains)
-    element.fail("{}: wanted one of {} chains, got {}", element.name(), chains, part.chain);
+    element.fail("{}: expected one of {} chains, got {}", element.name(), chains, part.chain);
   const int links = static_cast<int>(robot_.chains[part.chain].links.size());
   if (part.link < 0 || part.link >= links)
-    element.fail("{}: wanted one of {} links of chain {}, got {}", element.name(), links,
+    element.fail("{}: expected one of {} links of chain {}, got {}", element.name(), links,
                  part.chain, part.link);
 }
 
@@ -130,16 +130,16 @@ static double bounded(const XmlElement& element, const std::string& subject) {
 
 /// Of what is never negative.
 double XmlRobotReader::magnitude(const XmlElement& element, const std::string& subject) {
-  return mends_.magnitude(bounded(element, subject),
-                          fmt::format("{}: {}: {}", element.place(), subject, element.name()));
+  return repairs_.magnitude(bounded(element, subject),
+                            fmt::format("{}: {}: {}", element.place(), subject, element.name()));
 }
 
 /// Of what counts as 0 when it is missing.
 double XmlRobotReader::number_or_zero(const XmlElement& parent, const char* name,
                                       const std::string& subject) {
   if (const XmlElement child = parent.child(name)) return bounded(child, subject);
-  mends_.add("missing",
-             fmt::format("{}: {}: <{}> is missing; 0 is used", parent.place(), subject, name));
+  repairs_.add("missing",
+               fmt::format("{}: {}: <{}> is missing; 0 is used", parent.place(), subject, name));
   return 0;
 }
 
@@ -151,17 +151,17 @@ void XmlRobotReader::read_dof(const XmlElement& element) {
   const size_t i = robot_.dofs.size();
   const bool slides = dof_kinds_[i] == JointKind::prismatic;
   if (!dof_kinds_[i])
-    library_.doubted(fmt::format("{}: DOF {} moves no joint", element.place(), i));
+    library_.suspected(fmt::format("{}: DOF {} moves no joint", element.place(), i));
   DofSpec dof;
   const std::string kind = element.attribute("type").value_or("");
   if (kind.empty())
-    mends_.add("kind", fmt::format("{}: DOF {}: no type; it is taken for r", element.place(), i));
+    repairs_.add("kind", fmt::format("{}: DOF {}: no type; it is taken for r", element.place(), i));
   else if (kind == "b")
     dof.kind = DofKind::breakaway;
   else if (kind == "c")
     dof.kind = DofKind::compliant;
   else if (kind != "r")
-    element.fail("DOF {}: wanted type r, b or c, got {}", i, in_quotes(kind));
+    element.fail("DOF {}: expected type r, b or c, got {}", i, in_quotes(kind));
   const std::string subject = fmt::format("DOF {}", i);
   const auto number = [&](const char* name, double unit) {
     const XmlElement child = element.child(name);
@@ -192,7 +192,7 @@ void XmlRobotReader::set_dof_units() {
     if (dof.default_value < low || dof.default_value > high) {
       // 0 is only what nobody chose
       if (const XmlElement given = dofs_[i].child("defaultValue"))
-        library_.mended(
+        library_.repaired(
             fmt::format("{}: DOF {}: defaultValue {} is outside its range; moved to the limit",
                         given.place(), i, given.text()));
       dof.default_value = std::clamp(dof.default_value, low, high);
@@ -206,8 +206,8 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
   element.check({.once = {"transform"}, .many = {"joint", "link", "filter"}}, warn());
   ChainSpec chain;
   const auto joints = element.children("joint"), links = element.children("link");
-  if (joints.size() > most_parts || links.size() > most_parts)
-    element.fail("chain: wanted at most {} joints and links, got {} and {}", most_parts,
+  if (joints.size() > max_parts || links.size() > max_parts)
+    element.fail("chain: expected at most {} joints and links, got {} and {}", max_parts,
                  joints.size(), links.size());
   chain.X_BC = read_transform_of(element, library_.options().listeners());
   for (const XmlElement& e : joints) read_joint(e, chain);
@@ -215,7 +215,7 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
   robot_.chains.push_back(std::move(chain));
   read_tactile(
       element, static_cast<int>(robot_.chains.size()) - 1,
-      [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), mends_, robot_);
+      [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), repairs_, robot_);
 }
 
 void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
@@ -225,11 +225,11 @@ void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
                 warn());
   const std::string subject = fmt::format("joint {}", chain.joints.size());
   JointSpec joint;
-  const std::string type = element.wanted_attribute("type");
+  const std::string type = element.expected_attribute("type");
   if (lower_case(type) == "prismatic")
     joint.kind = JointKind::prismatic;
   else if (lower_case(type) != "revolute")
-    element.fail("{}: wanted type Revolute or Prismatic, got {}{}", subject, in_quotes(type),
+    element.fail("{}: expected type Revolute or Prismatic, got {}{}", subject, in_quotes(type),
                  did_you_mean(type, {"Revolute", "Prismatic"}));
   read_expression(element, joint, subject);
   joint.a = number_or_zero(element, "a", subject) * units::millimetre;
@@ -248,16 +248,16 @@ void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
 void XmlRobotReader::read_expression(const XmlElement& element, JointSpec& joint,
                                      const std::string& subject) {
   const bool revolute = joint.kind == JointKind::revolute;
-  const XmlElement moved = element.wanted(revolute ? "theta" : "d");
+  const XmlElement moved = element.expected(revolute ? "theta" : "d");
   const std::string text = moved.text();
   const auto expression = parse_joint_expression(text);
   if (!expression)
-    moved.fail("{}: wanted a joint expression such as d0*0.5+90 for {}, got {}", subject,
+    moved.fail("{}: expected a joint expression such as d0*0.5+90 for {}, got {}", subject,
                moved.name(), in_quotes(text));
   if (expression->dof >= static_cast<int>(dofs_.size()))
-    moved.fail("{}: wanted a DOF below {}, got d{}", subject, dofs_.size(), expression->dof);
+    moved.fail("{}: expected a DOF below {}, got d{}", subject, dofs_.size(), expression->dof);
   if (expression->ratio == 0)
-    moved.fail("{}: wanted a ratio other than 0, got {}", subject, in_quotes(text));
+    moved.fail("{}: expected a ratio other than 0, got {}", subject, in_quotes(text));
   joint.dof = expression->dof;
   joint.ratio = expression->ratio;
   const double other = number_or_zero(element, revolute ? "d" : "theta", subject);
@@ -267,10 +267,10 @@ void XmlRobotReader::read_expression(const XmlElement& element, JointSpec& joint
 
 void XmlRobotReader::read_limits(const XmlElement& element, JointSpec& joint,
                                  const std::string& subject) {
-  const XmlElement low = element.wanted("minValue"), high = element.wanted("maxValue");
+  const XmlElement low = element.expected("minValue"), high = element.expected("maxValue");
   double min = bounded(low, subject), max = bounded(high, subject);
   // some files write the limits in the direction of a DOF that the joint runs against
-  mends_.order(min, max, fmt::format("{}: {}", low.place(), subject), {"minValue", "maxValue"});
+  repairs_.order(min, max, fmt::format("{}: {}", low.place(), subject), {"minValue", "maxValue"});
   const double unit = joint.kind == JointKind::revolute ? units::degree : units::millimetre;
   joint.min = min * unit;
   joint.max = max * unit;
@@ -306,18 +306,18 @@ void XmlRobotReader::read_link(const XmlElement& element, ChainSpec& chain) {
   element.check({.attributes = {"dynamicJointType", "collisionRule", "targetChain", "targetLink"}},
                 warn());
   const int number = static_cast<int>(chain.links.size());
-  const std::string type = element.wanted_attribute("dynamicJointType");
+  const std::string type = element.expected_attribute("dynamicJointType");
   const auto kind = std::ranges::find_if(
       kinds, [&](const Kind& k) { return lower_case(k.name) == lower_case(type); });
   if (kind == std::end(kinds))
-    element.fail("link {}: wanted Revolute, Prismatic, Universal, Ball or Fixed, got {}{}", number,
-                 in_quotes(type),
+    element.fail("link {}: expected Revolute, Prismatic, Universal, Ball or Fixed, got {}{}",
+                 number, in_quotes(type),
                  did_you_mean(type, {"Revolute", "Prismatic", "Universal", "Ball", "Fixed"}));
   LinkSpec link;
   link.joint = kind->joint;
   link.last_joint = (chain.links.empty() ? -1 : chain.links.back().last_joint) + kind->joints;
   if (link.last_joint >= static_cast<int>(chain.joints.size()))
-    element.fail("link {}: wanted {} joints for the links up to it, got {}", number,
+    element.fail("link {}: expected {} joints for the links up to it, got {}", number,
                  link.last_joint + 1, chain.joints.size());
   const int own_chain = static_cast<int>(robot_.chains.size());
   link.body = library_.part(element.text(), path_, element.place());
@@ -338,21 +338,21 @@ void XmlRobotReader::read_rule(const XmlElement& link, const RobotPart& part) {
     RobotPart target;
     const auto chain = link.attribute("targetChain");
     if (!chain)
-      mends_.add("target",
-                 fmt::format("{}: link {}: OverlappingPair without a targetChain; its own "
-                             "chain, {}, is used",
-                             link.place(), part.link, part.chain));
+      repairs_.add("target",
+                   fmt::format("{}: link {}: OverlappingPair without a targetChain; its own "
+                               "chain, {}, is used",
+                               link.place(), part.link, part.chain));
     if (!chain || lower_case(*chain) != "base")
       target = {chain ? link.integer_attribute("targetChain", 0) : part.chain,
                 link.integer_attribute("targetLink", 0)};
     named_parts_.emplace_back(link, target);
     rules.pairs_off.push_back({part, target});
   } else {
-    mends_.add("rule",
-               fmt::format("{}: link {}: collisionRule {} is neither Off nor OverlappingPair, and "
-                           "not used{}",
-                           link.place(), part.link, in_quotes(*rule),
-                           did_you_mean(*rule, {"Off", "OverlappingPair"})));
+    repairs_.add(
+        "rule", fmt::format("{}: link {}: collisionRule {} is neither Off nor OverlappingPair, and "
+                            "not used{}",
+                            link.place(), part.link, in_quotes(*rule),
+                            did_you_mean(*rule, {"Off", "OverlappingPair"})));
   }
 }
 
@@ -374,8 +374,8 @@ void XmlRobotReader::read_approach() {
   const XmlElement element = root_.child("approachDirection");
   if (!element) return;
   element.check({.once = {"referenceLocation", "direction"}}, warn());
-  const Eigen::Vector3d point = element.wanted("referenceLocation").vector() * units::millimetre;
-  const XmlElement direction = element.wanted("direction");
+  const Eigen::Vector3d point = element.expected("referenceLocation").vector() * units::millimetre;
+  const XmlElement direction = element.expected("direction");
   const Eigen::Vector3d along = direction.vector();
   try {
     robot_.X_BA = approach_frame(point, along);
@@ -390,7 +390,7 @@ void XmlRobotReader::read_tracker() {
   element.check({.once = {"transform"}, .attributes = {"number"}}, warn());
   TrackerSpec tracker;
   if (const auto number = element.attribute("number"))
-    tracker.number = mends_.count(*number, element.place() + ": flockOfBirds: number");
+    tracker.number = repairs_.count(*number, element.place() + ": flockOfBirds: number");
   else
     library_.note(fmt::format("{}: flockOfBirds: no bird number, 0 is used", element.place()));
   tracker.X_BS = read_transform_of(element, library_.options().listeners());
@@ -414,7 +414,7 @@ void XmlRobotReader::read_files() {
 RobotSpec read_robot_xml(const fs::path& path, Library& library) {
   const XmlFile file(path);
   const XmlElement root = file.root();
-  if (root.name() != "robot") root.fail("wanted a <robot>, got <{}>", excerpt(root.name()));
+  if (root.name() != "robot") root.fail("expected a <robot>, got <{}>", excerpt(root.name()));
   return XmlRobotReader(root, path, library).read();
 }
 

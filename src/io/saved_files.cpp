@@ -165,12 +165,12 @@ std::string body_elements(const BodySpec& body, const std::string& surface,
   if (body.elastic_modulus) add("youngs", fmt::format("{}", *body.elastic_modulus));
   if (body.tracker) add("useFlockOfBirds", fmt::format("{}", *body.tracker));
   add("mass", number_in(body.mass, units::gram));
-  // what a reader mends has another centre and inertia
-  const bool mended = body.shape && !body.shape->closed() &&
-                      (body.shape->faults().duplicate_triangles > 0 ||
-                       body.shape->faults().degenerate_triangles > 0);
-  if (body.com || mended) add("cog", millimetres(com_of(body)));
-  if (body.inertia_per_mass || mended) {
+  // what a reader repairs has another centre and inertia
+  const bool repaired = body.shape && !body.shape->closed() &&
+                        (body.shape->faults().duplicate_triangles > 0 ||
+                         body.shape->faults().degenerate_triangles > 0);
+  if (body.com || repaired) add("cog", millimetres(com_of(body)));
+  if (body.inertia_per_mass || repaired) {
     const Eigen::Matrix3d inertia = inertia_of(body);
     const Eigen::Matrix3d even = 0.5 * (inertia + inertia.transpose());
     std::vector<std::string> rows;

@@ -29,21 +29,21 @@ bool is_ascii(std::string_view bytes) {
 
 void add_facet(GeometryBuilder& builder, const std::array<Eigen::Vector3d, 3>& corners,
                int line = 0) {
-  if (builder.triangle_count() >= most_mesh_triangles)
-    fail("wanted at most {} facets", most_mesh_triangles);
+  if (builder.triangle_count() >= max_mesh_triangles)
+    fail("expected at most {} facets", max_mesh_triangles);
   builder.add(corners, Appearance().color, 0, line);
 }
 
 /// A word, wherever the next one stands.
-std::string expect(WordReader& words, std::string_view wanted) {
+std::string expect(WordReader& words, std::string_view expected) {
   std::string word = lower_case(words.word_anywhere());
-  if (word.empty()) words.fail("wanted {}, got the end of the file", wanted);
+  if (word.empty()) words.fail("expected {}, got the end of the file", expected);
   return word;
 }
 
-void expect_word(WordReader& words, std::string_view wanted) {
-  const std::string word = expect(words, wanted);
-  if (word != wanted) words.fail("wanted '{}', got {}", wanted, in_quotes(word));
+void expect_word(WordReader& words, std::string_view expected) {
+  const std::string word = expect(words, expected);
+  if (word != expected) words.fail("expected '{}', got {}", expected, in_quotes(word));
 }
 
 void read_loop(WordReader& words, GeometryBuilder& builder) {
@@ -51,13 +51,13 @@ void read_loop(WordReader& words, GeometryBuilder& builder) {
   for (int count = 0;; ++count) {
     const std::string word = expect(words, "vertex or endloop");
     if (word == "endloop" && count == 3) break;
-    if (word == "endloop") words.fail("wanted three vertices a facet, got {}", count);
-    if (word != "vertex") words.fail("wanted 'vertex' or 'endloop', got {}", in_quotes(word));
-    if (count == 3) words.fail("wanted three vertices a facet, got more");
+    if (word == "endloop") words.fail("expected three vertices a facet, got {}", count);
+    if (word != "vertex") words.fail("expected 'vertex' or 'endloop', got {}", in_quotes(word));
+    if (count == 3) words.fail("expected three vertices a facet, got more");
     for (double& x : corners[count]) {
       const auto text = words.word_anywhere();
       const auto value = parse_number(text);
-      if (!value) words.fail("wanted three numbers after vertex, got {}", in_quotes(text));
+      if (!value) words.fail("expected three numbers after vertex, got {}", in_quotes(text));
       x = *value;
     }
   }
@@ -69,14 +69,15 @@ void read_ascii(WordReader& words, GeometryBuilder& builder) {
   for (bool first = true;; first = false) {
     const std::string word = lower_case(words.word_anywhere());
     if (word.empty() && !first) return;
-    if (word != "solid") words.fail("wanted 'solid', got {}", in_quotes(word));
+    if (word != "solid") words.fail("expected 'solid', got {}", in_quotes(word));
     words.rest();  // its name
     for (;;) {
       const std::string next = expect(words, "facet or endsolid");
       if (next == "endsolid") break;
-      if (next != "facet") words.fail("wanted 'facet' or 'endsolid', got {}", in_quotes(next));
+      if (next != "facet") words.fail("expected 'facet' or 'endsolid', got {}", in_quotes(next));
       // the normal, which some programs write as no number
-      if (lower_case(words.word_anywhere()) != "normal") words.fail("wanted 'normal' after facet");
+      if (lower_case(words.word_anywhere()) != "normal")
+        words.fail("expected 'normal' after facet");
       for (int i = 0; i < 3; ++i) expect(words, "a normal");
       expect_word(words, "outer");
       expect_word(words, "loop");
@@ -95,9 +96,9 @@ void read_binary(const MeshInput& input, GeometryBuilder& builder) {
                    bytes.size() < header_bytes ? 0 : (bytes.size() - header_bytes) / facet_bytes;
   const bool text = bytes.substr(0, 1000).find('\0') == std::string_view::npos;
   if (bytes.size() < header_bytes || (text && whole < count / 2))
-    fail("{}: wanted an ASCII or binary STL file, got something else", file);
+    fail("{}: expected an ASCII or binary STL file, got something else", file);
   if (whole < count)
-    fail("{}: facet {} of {}: wanted 50 bytes, got the end of the file", file, whole + 1, count);
+    fail("{}: facet {} of {}: expected 50 bytes, got the end of the file", file, whole + 1, count);
   ByteReader reader(bytes);
   reader.skip(header_bytes);
   size_t attributes = 0;
@@ -108,7 +109,7 @@ void read_binary(const MeshInput& input, GeometryBuilder& builder) {
       for (double& x : corner) {
         x = reader.next<float>();
         if (!std::isfinite(x))
-          fail("{}: facet {} of {}: wanted finite coordinates, got {}", file, i + 1, count, x);
+          fail("{}: facet {} of {}: expected finite coordinates, got {}", file, i + 1, count, x);
       }
     attributes += reader.next<uint16_t>() != 0;
     add_facet(builder, corners);

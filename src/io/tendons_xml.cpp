@@ -16,81 +16,82 @@ Eigen::Vector3d direction(const XmlElement& element) {
   const Eigen::Vector3d v = element.vector();
   const double length = v.stableNorm();
   if (!(length > 1e-9) || !std::isfinite(length))
-    element.fail("{}: wanted a direction, got ({}, {}, {})", element.name(), v.x(), v.y(), v.z());
+    element.fail("{}: expected a direction, got ({}, {}, {})", element.name(), v.x(), v.y(), v.z());
   return v / length;
 }
 
-double not_negative(const XmlElement& element, Mends& mends) {
-  return mends.magnitude(element.number(), fmt::format("{}: {}", element.place(), element.name()));
+double not_negative(const XmlElement& element, Repairs& repairs) {
+  return repairs.magnitude(element.number(),
+                           fmt::format("{}: {}", element.place(), element.name()));
 }
 
 /// <chain> and <link>, both -1 for the base.
 RobotPart part_of(const XmlElement& element, const PartCheck& check) {
-  RobotPart part{element.wanted("chain").integer(-1), element.wanted("link").integer(-1)};
+  RobotPart part{element.expected("chain").integer(-1), element.expected("link").integer(-1)};
   check(element, part);
   return part;
 }
 
-double friction_of(const XmlElement& element, Mends& mends) {
+double friction_of(const XmlElement& element, Repairs& repairs) {
   const XmlElement friction = element.child("friction");
-  return friction ? not_negative(friction, mends) : 0;
+  return friction ? not_negative(friction, repairs) : 0;
 }
 
 /// A length in metres; the original writes -1 for none.
-std::optional<double> length_of(const XmlElement& element, const char* name, Mends& mends) {
+std::optional<double> length_of(const XmlElement& element, const char* name, Repairs& repairs) {
   const XmlElement child = element.child(name);
   if (!child) return {};
   const double value = child.number();
   if (value == -1) return {};
-  return not_negative(child, mends) * units::millimetre;
+  return not_negative(child, repairs) * units::millimetre;
 }
 
 TendonSpec read_tendon(const XmlElement& element, const PartCheck& check, const Warn& warn,
-                       Mends& mends) {
+                       Repairs& repairs) {
   element.check({.once = {"stiffness", "restLength", "preTensionLength"},
                  .many = {"insertionPoint"},
                  .attributes = {"name"}},
                 warn);
   TendonSpec tendon;
-  tendon.name = element.wanted_attribute("name");
+  tendon.name = element.expected_attribute("name");
   if (const XmlElement stiffness = element.child("stiffness"))
-    tendon.stiffness = not_negative(stiffness, mends) * units::newton_per_millimetre;
-  tendon.rest_length = length_of(element, "restLength", mends);
-  tendon.pre_tension_length = length_of(element, "preTensionLength", mends);
+    tendon.stiffness = not_negative(stiffness, repairs) * units::newton_per_millimetre;
+  tendon.rest_length = length_of(element, "restLength", repairs);
+  tendon.pre_tension_length = length_of(element, "preTensionLength", repairs);
   for (const XmlElement& e : element.children("insertionPoint")) {
     e.check({.once = {"chain", "link", "position", "friction"}}, warn);
     TendonPoint point;
     point.part = part_of(e, check);
-    point.p_L = e.wanted("position").vector() * units::millimetre;
-    point.friction = friction_of(e, mends);
+    point.p_L = e.expected("position").vector() * units::millimetre;
+    point.friction = friction_of(e, repairs);
     tendon.points.push_back(point);
   }
   if (tendon.points.size() < 2)
-    element.fail("tendon: wanted at least 2 insertion points, got {}", tendon.points.size());
+    element.fail("tendon: expected at least 2 insertion points, got {}", tendon.points.size());
   return tendon;
 }
 
 TendonWrapper read_wrapper(const XmlElement& element, const PartCheck& check, const Warn& warn,
-                           Mends& mends) {
+                           Repairs& repairs) {
   element.check(
       {.once = {"chain", "link", "friction", "position", "orientation", "radius", "length"},
        .many = {"exemption", "wrapping_side"}},
       warn);
   TendonWrapper wrapper;
   wrapper.part = part_of(element, check);
-  wrapper.friction = friction_of(element, mends);
-  wrapper.p_L = element.wanted("position").vector() * units::millimetre;
-  wrapper.axis_L = direction(element.wanted("orientation"));
-  wrapper.radius = not_negative(element.wanted("radius"), mends) * units::millimetre;
+  wrapper.friction = friction_of(element, repairs);
+  wrapper.p_L = element.expected("position").vector() * units::millimetre;
+  wrapper.axis_L = direction(element.expected("orientation"));
+  wrapper.radius = not_negative(element.expected("radius"), repairs) * units::millimetre;
   if (const XmlElement length = element.child("length"))
-    wrapper.length = not_negative(length, mends) * units::millimetre;
+    wrapper.length = not_negative(length, repairs) * units::millimetre;
   for (const XmlElement& e : element.children("exemption")) {
     e.check({.attributes = {"tendon"}}, warn);
-    wrapper.exempt.push_back(e.wanted_attribute("tendon"));
+    wrapper.exempt.push_back(e.expected_attribute("tendon"));
   }
   for (const XmlElement& e : element.children("wrapping_side")) {
     e.check({.once = {"orientation"}, .attributes = {"tendon"}}, warn);
-    wrapper.sides.push_back({e.wanted_attribute("tendon"), direction(e.wanted("orientation"))});
+    wrapper.sides.push_back({e.expected_attribute("tendon"), direction(e.expected("orientation"))});
   }
   return wrapper;
 }
@@ -103,7 +104,7 @@ void check_names(const std::vector<XmlElement>& wrappers, const std::vector<Tend
   for (const XmlElement& wrapper : wrappers)
     for (const char* kind : {"exemption", "wrapping_side"})
       for (const XmlElement& e : wrapper.children(kind))
-        if (const std::string name = e.wanted_attribute("tendon");
+        if (const std::string name = e.expected_attribute("tendon");
             std::ranges::find(names, name) == names.end())
           warn(fmt::format("{}: {}: there is no tendon {}{}", e.place(), kind, in_quotes(name),
                            did_you_mean(name, names)));
@@ -111,11 +112,12 @@ void check_names(const std::vector<XmlElement>& wrappers, const std::vector<Tend
 
 }  // namespace
 
-void read_tendons(const XmlElement& robot, const PartCheck& check, const Warn& warn, Mends& mends,
-                  RobotSpec& out) {
+void read_tendons(const XmlElement& robot, const PartCheck& check, const Warn& warn,
+                  Repairs& repairs, RobotSpec& out) {
   const auto tendons = robot.children("tendon"), wrappers = robot.children("tendonWrapper");
-  for (const XmlElement& e : tendons) out.tendons.push_back(read_tendon(e, check, warn, mends));
-  for (const XmlElement& e : wrappers) out.wrappers.push_back(read_wrapper(e, check, warn, mends));
+  for (const XmlElement& e : tendons) out.tendons.push_back(read_tendon(e, check, warn, repairs));
+  for (const XmlElement& e : wrappers)
+    out.wrappers.push_back(read_wrapper(e, check, warn, repairs));
   if (warn) check_names(wrappers, out.tendons, warn);
   if (warn && !(tendons.empty() && wrappers.empty()))
     warn(fmt::format("{}: tendons and their wrappers are kept, {} and {}, but do not act yet",
@@ -124,26 +126,26 @@ void read_tendons(const XmlElement& robot, const PartCheck& check, const Warn& w
 }
 
 void read_tactile(const XmlElement& chain, int number, const PartCheck& check, const Warn& warn,
-                  Mends& mends, RobotSpec& out) {
+                  Repairs& repairs, RobotSpec& out) {
   for (const XmlElement& e : chain.children("filter")) {
     e.check({.attributes = {"params"}}, warn);
     TactileSpec sensor;
     sensor.part = {number, e.integer(0)};
     check(e, sensor.part);
-    const std::string params = e.wanted_attribute("params");
+    const std::string params = e.expected_attribute("params");
     const auto words = split_words(params, ",", 7);
     double x[6];
     for (size_t i = 0; i < 6; ++i) {
       const auto value = i < words.size() ? parse_number(words[i]) : std::nullopt;
       if (!value || words.size() != 6)
-        e.fail("filter: params: wanted 6 numbers x0,y0,z0,x1,y1,z1, got {}", in_quotes(params));
+        e.fail("filter: params: expected 6 numbers x0,y0,z0,x1,y1,z1, got {}", in_quotes(params));
       x[i] = *value * units::millimetre;
     }
     sensor.low_L = Eigen::Vector3d(x[0], x[1], x[2]);
     sensor.high_L = Eigen::Vector3d(x[3], x[4], x[5]);
     if ((sensor.low_L.array() > sensor.high_L.array()).any()) {
-      mends.add("corners", fmt::format("{}: filter: params: the corners {} are put in order",
-                                       e.place(), in_quotes(params)));
+      repairs.add("corners", fmt::format("{}: filter: params: the corners {} are put in order",
+                                         e.place(), in_quotes(params)));
       const Eigen::Vector3d low = sensor.low_L.cwiseMin(sensor.high_L);
       sensor.high_L = sensor.low_L.cwiseMax(sensor.high_L);
       sensor.low_L = low;

@@ -2,7 +2,7 @@
 #pragma once
 #include <functional>
 
-#include "io/mends.h"
+#include "io/repairs.h"
 #include "io/xml.h"
 #include "spec/robot_spec.h"
 
@@ -12,14 +12,14 @@ namespace clench {
 using PartCheck = std::function<void(const XmlElement& element, const RobotPart& part)>;
 
 /// <tendon> and <tendonWrapper>, millimetres; they are kept, and `warn` is told that they do not act.
-/// throws Error  "hand.xml:31: tendon: wanted at least 2 insertion points, got 1"
+/// throws Error  "hand.xml:31: tendon: expected at least 2 insertion points, got 1"
 void read_tendons(const XmlElement& robot, const PartCheck& check,
-                  const std::function<void(const std::string&)>& warn, Mends& mends,
+                  const std::function<void(const std::string&)>& warn, Repairs& repairs,
                   RobotSpec& out);
 
 /// The <filter> elements of a chain.
 void read_tactile(const XmlElement& chain, int number, const PartCheck& check,
-                  const std::function<void(const std::string&)>& warn, Mends& mends,
+                  const std::function<void(const std::string&)>& warn, Repairs& repairs,
                   RobotSpec& out);
 
 }  // namespace clench

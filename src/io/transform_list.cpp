@@ -21,20 +21,20 @@ Pose read_full_transform(const Line& line, std::string_view text, const Listener
     if (c == '(' || c == ')' || c == '[' || c == ']') shape += c;
   const auto words = split_words(text, "()[],", 8);
   if (shape != "()[]" || words.size() != 7 || text.front() != '(')
-    line.fail("transform: wanted '(w x y z)[x y z]', got {}", in_quotes(text));
+    line.fail("transform: expected '(w x y z)[x y z]', got {}", in_quotes(text));
   double x[7];
   for (int i = 0; i < 7; ++i) {
     const auto value = parse_number(words[i]);
-    if (!value) line.fail("transform: wanted a number, got {}", in_quotes(words[i]));
+    if (!value) line.fail("transform: expected a number, got {}", in_quotes(words[i]));
     x[i] = *value;
   }
   const Eigen::Vector4d wxyz(x[0], x[1], x[2], x[3]);
   const auto q = made_unit(wxyz);
   if (!q)
-    line.fail("transform: wanted a quaternion of length 1, got ({} {} {} {})", x[0], x[1], x[2],
+    line.fail("transform: expected a quaternion of length 1, got ({} {} {} {})", x[0], x[1], x[2],
               x[3]);
   if (std::abs(wxyz.stableNorm() - 1) > nearly_unit)
-    tell(listeners.mend, listeners.warn,
+    tell(listeners.repair, listeners.warn,
          fmt::format("{}: the quaternion ({} {} {} {}) is not of length 1; it is scaled to it",
                      line.place(), x[0], x[1], x[2], x[3]));
   return {*q, Eigen::Vector3d(x[4], x[5], x[6]) * units::millimetre};
@@ -44,7 +44,7 @@ static Eigen::Vector3d axis(const Line& line, int i) {
   const std::string_view word = line.word(i);
   if (word.size() == 1 && (word[0] | 32) >= 'x' && (word[0] | 32) <= 'z')
     return Eigen::Vector3d::Unit((word[0] | 32) - 'x');
-  line.fail("rotation: wanted an axis x, y or z, got {}", in_quotes(word));
+  line.fail("rotation: expected an axis x, y or z, got {}", in_quotes(word));
 }
 
 static void warn_of_surplus(const Line& line, int used, const Listeners& listeners) {
@@ -67,9 +67,9 @@ static Pose read_matrix(const Line& head, LineReader& lines, const Listeners& li
   warn_of_surplus(line, next, listeners);
   const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error < 1e-2))
-    head.fail("rotation matrix: wanted unit axes at right angles; they are off by {:.2g}", error);
+    head.fail("rotation matrix: expected unit axes at right angles; they are off by {:.2g}", error);
   if (!(R.determinant() > 0))
-    head.fail("rotation matrix: wanted right-handed axes, got left-handed ones");
+    head.fail("rotation matrix: expected right-handed axes, got left-handed ones");
   return Pose::turn(Eigen::Quaterniond(R).normalized());
 }
 
@@ -86,7 +86,7 @@ Pose read_transform(const Line& line, LineReader& lines, const Listeners& listen
                              units::millimetre);
   if (key == "r") return Pose::turn(line.number(1, "rotation") * units::degree, axis(line, 2));
   if (key == "rr") return Pose::turn(line.number(1, "rotation"), axis(line, 2));
-  line.fail("transform: wanted t, r, rr, T or R, got {}", in_quotes(key));
+  line.fail("transform: expected t, r, rr, T or R, got {}", in_quotes(key));
 }
 
 Pose read_transform_list(LineReader& lines, const Listeners& listeners) {

@@ -13,7 +13,7 @@ Pose read_transform_element(const Line& line, std::string_view tag, std::string_
                     : tag == "rotationMatrix" ? "R "
                                               : nullptr;
   if (!key)
-    line.fail("wanted translation, rotation, rotationMatrix or fullTransform, got <{}>",
+    line.fail("expected translation, rotation, rotationMatrix or fullTransform, got <{}>",
               excerpt(tag));
   const std::string file = line.place().substr(0, line.place().rfind(':'));
   LineReader one(file, std::string(line.number() - 1, '\n') + key + std::string(value));
@@ -28,7 +28,8 @@ Pose read_tagged_transform(const Line& line, LineReader& lines, const Listeners&
   const std::string closing = "</" + std::string(name) + ">";
   std::string text(line.text());
   while (text.find(closing) == std::string::npos) {
-    if (lines.done()) line.fail("wanted </{0}> for <{0}>, got the end of the file", excerpt(name));
+    if (lines.done())
+      line.fail("expected </{0}> for <{0}>, got the end of the file", excerpt(name));
     text += ' ';
     text += lines.next().text();
   }
@@ -42,12 +43,12 @@ Pose read_tagged_transform(const Line& line, LineReader& lines, const Listeners&
   while (!rest.empty()) {
     const size_t head = rest.find('>');
     if (rest.front() != '<' || head == std::string_view::npos || head < 2)
-      line.fail("transform: wanted an element such as <translation>, got {}", in_quotes(rest));
+      line.fail("transform: expected an element such as <translation>, got {}", in_quotes(rest));
     const std::string_view tag = trim(rest.substr(1, head - 1));
     const std::string end = "</" + std::string(tag) + ">";
     const size_t tail = rest.find(end, head);
     if (tail == std::string_view::npos)
-      line.fail("transform: wanted </{0}> for <{0}>", excerpt(tag));
+      line.fail("transform: expected </{0}> for <{0}>", excerpt(tag));
     const Pose next =
         read_transform_element(line, tag, rest.substr(head + 1, tail - head - 1), listeners);
     total = total ? *total * next : next;

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "io/closing_choice.h"
 #include "io/closing_guess.h"
-#include "io/mend_names.h"
+#include "io/repair_names.h"
 #include "math/decompositions.h"
 
 namespace clench {
@@ -17,7 +17,7 @@ namespace {
 /// Turns z to the axis: about their common normal.
 Pose axis_frame(const Eigen::Vector3d& axis) {
   if (axis == Eigen::Vector3d::UnitZ()) return {};
-  return Pose::turn(least_turn(Eigen::Vector3d::UnitZ(), axis).normalized());
+  return Pose::turn(shortest_rotation(Eigen::Vector3d::UnitZ(), axis).normalized());
 }
 
 class ChainMaker {
@@ -41,10 +41,11 @@ class ChainMaker {
   const std::string& file_;
   const Library& library_;
   RobotSpec robot_;
-  std::vector<int> dof_of_;  // one a joint: of the leader; -1 for followers and what never moves
-  std::vector<int> way_on_;  // one a link: the child that goes on in its chain; -1: none
-  std::vector<RobotPart> parts_;  // one a link
-  std::vector<Pose> pending_;  // one a chain: from the frame after its last joint to its last link
+  std::vector<int> dof_of_;  // one per joint: of the leader; -1 for followers and what never moves
+  std::vector<int> way_on_;  // one per link: the child that goes on in its chain; -1: none
+  std::vector<RobotPart> parts_;  // one per link
+  std::vector<Pose>
+      pending_;  // one per chain: from the frame after its last joint to its last link
 };
 
 void ChainMaker::number_dofs() {
@@ -90,7 +91,7 @@ void ChainMaker::widen_followers() {
     auto& range = ranges.try_emplace(joint.leader, leader.min, leader.max).first->second;
     const std::pair<double, double> narrower(std::max(range.first, std::min(c, d)),
                                              std::min(range.second, std::max(c, d)));
-    const bool slips = left < least_follower_range * (high - low);
+    const bool slips = left < min_follower_range * (high - low);
     if (!slips && narrower.first <= narrower.second) {
       range = narrower;
       continue;

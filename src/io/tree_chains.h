@@ -7,7 +7,7 @@
 namespace clench {
 
 /// A follower's limits that leave its leader less than this part of its range are taken for a slip.
-constexpr double least_follower_range = 0.1;
+constexpr double min_follower_range = 0.1;
 
 /// Guesses what closes the hand and how it approaches, as far as the options do not say it, and
 /// tells. `file` is the name shown in sentences.

@@ -104,8 +104,8 @@ TreeGeometry::Body TreeGeometry::merge(const std::vector<GeometryPiece>& pieces,
   std::vector<Eigen::Vector3f> colors;
   for (const GeometryPiece& piece : pieces) {
     triangles_ += piece.geometry->mesh.triangles.size();
-    if (triangles_ > most_mesh_triangles)
-      fail("{}: wanted at most {} triangles in all links", subject, most_mesh_triangles);
+    if (triangles_ > max_mesh_triangles)
+      fail("{}: expected at most {} triangles in all links", subject, max_mesh_triangles);
     append(mesh, colors, piece);
   }
   Body body;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "io/doubts.h"
+#include "io/plausibility.h"
 
 namespace clench {
 
@@ -17,7 +17,7 @@ Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
   body.com = X_LC.position;
   const Eigen::Matrix3d R = X_LC.matrix();
   Eigen::Matrix3d inertia = R * inertia_C * R.transpose() / mass;
-  const Inertial fault = mend_inertia(inertia);
+  const Inertial fault = repair_inertia(inertia);
   if (fault != Inertial::not_definite) body.inertia_per_mass = inertia;
   return fault;
 }
@@ -31,7 +31,7 @@ void InertialFaults::add(Inertial fault, const std::string& place, const std::st
 
 void InertialFaults::tell(const Library& library) const {
   if (!links_[0].empty())
-    library.mended(fmt::format("{}: {}: {}", places_[0], raised_moments, some_names(links_[0])));
+    library.repaired(fmt::format("{}: {}: {}", places_[0], raised_moments, some_names(links_[0])));
   if (!links_[1].empty())
     library.warn(
         fmt::format("{}: inertia that is not positive definite; it is computed from the "

@@ -17,7 +17,7 @@ struct LinkPieces {
 /// Gives each link its shape and looks. Bodies collide with the collision pieces alone; where no
 /// link of the robot has any, all collide with the visual ones. Links without mass in the file weigh
 /// what water of their volume does, frames without geometry and open surfaces a gram. Tells what it guesses.
-/// `pieces`  one a link
+/// `pieces`  one per link
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
                  const std::string& file, const Library& library);
 
@@ -37,6 +37,6 @@ class InertialFaults {
 };
 
 /// Largest numbers of a robot's parts, far above any robot.
-inline constexpr int most_links = 1000, most_joints = 1000, most_pieces = 20000;
+inline constexpr int max_links = 1000, max_joints = 1000, max_pieces = 20000;
 
 }  // namespace clench

@@ -59,7 +59,7 @@ void resolve_leaders(TreeModel& tree);
 /// branch stays there.   `tree`  each link after its parent, leaders resolved
 void order_branches(TreeModel& tree);
 
-/// Poses of the links in the root's frame.   q  one a joint [rad or m]
+/// Poses of the links in the root's frame.   q  one per joint [rad or m]
 std::vector<Pose> link_poses(const TreeModel& tree, const std::vector<double>& q);
 
 }  // namespace clench

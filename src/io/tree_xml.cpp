@@ -37,8 +37,8 @@ void XmlValues::refuse(const char* name, const std::string& what) const {
 std::string XmlValues::text(const char* name) const {
   const auto value = find(name);
   if (!value)
-    element().fail("{}: wanted an attribute '{}', got none", excerpt(element().name()), name);
-  if (value->empty()) fail(name, "wanted a word, got nothing");
+    element().fail("{}: expected an attribute '{}', got none", excerpt(element().name()), name);
+  if (value->empty()) fail(name, "expected a word, got nothing");
   return *value;
 }
 
@@ -48,7 +48,7 @@ std::string XmlValues::text(const char* name, const std::string& fallback) const
 
 double XmlValues::number(const char* name) const {
   if (!has(name))
-    element().fail("{}: wanted an attribute '{}', got none", excerpt(element().name()), name);
+    element().fail("{}: expected an attribute '{}', got none", excerpt(element().name()), name);
   return numbers(name, 1, 1).front();
 }
 
@@ -56,20 +56,20 @@ double XmlValues::number(const char* name, double fallback) const {
   return has(name) ? number(name) : fallback;
 }
 
-double XmlValues::not_negative(const char* name, double fallback, Mends& mends) const {
-  return has(name) ? mends.magnitude(number(name), subject(name)) : fallback;
+double XmlValues::not_negative(const char* name, double fallback, Repairs& repairs) const {
+  return has(name) ? repairs.magnitude(number(name), subject(name)) : fallback;
 }
 
-std::array<double, 2> XmlValues::range(const char* name, Mends& mends) const {
+std::array<double, 2> XmlValues::range(const char* name, Repairs& repairs) const {
   const auto x = numbers(name, 2, 2);
   double low = x[0], high = x[1];
-  mends.order(low, high, subject(name));
+  repairs.order(low, high, subject(name));
   return {low, high};
 }
 
-std::vector<double> XmlValues::color(const char* name, int least, Mends& mends) const {
+std::vector<double> XmlValues::color(const char* name, int least, Repairs& repairs) const {
   auto shares = numbers(name, least, 4);
-  for (double& share : shares) share = mends.within(share, 0, 1, subject(name));
+  for (double& share : shares) share = repairs.within(share, 0, 1, subject(name));
   return shares;
 }
 
@@ -90,16 +90,16 @@ std::vector<double> XmlValues::numbers(const char* name, int least, int most) co
   std::vector<double> out;
   for (const auto word : split_words(text)) {
     const auto value = parse_number(word);
-    if (!value) fail(name, "wanted a number, got {}", in_quotes(word));
+    if (!value) fail(name, "expected a number, got {}", in_quotes(word));
     if (std::abs(*value) > largest_attribute)
-      fail(name, "wanted a number of at most {:g}, got {}", largest_attribute, in_quotes(word));
+      fail(name, "expected a number of at most {:g}, got {}", largest_attribute, in_quotes(word));
     out.push_back(*value);
   }
   const int count = static_cast<int>(out.size());
   if (count >= least && count <= most) return out;
-  const std::string wanted =
+  const std::string expected =
       least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
-  fail(name, "wanted {} number{}, got {}", wanted, most == 1 ? "" : "s", count);
+  fail(name, "expected {} number{}, got {}", expected, most == 1 ? "" : "s", count);
 }
 
 Eigen::Vector3d XmlValues::vec3(const char* name, const Eigen::Vector3d& fallback) const {
@@ -116,7 +116,7 @@ std::string XmlValues::word(const char* name, std::initializer_list<const char*>
   std::string list;
   for (size_t i = 0; i < known.size(); ++i)
     list += (i == 0 ? "" : i + 1 == known.size() ? " or " : ", ") + known[i];
-  fail(name, "wanted {}, got {}{}", list, in_quotes(got), did_you_mean(got, known));
+  fail(name, "expected {}, got {}{}", list, in_quotes(got), did_you_mean(got, known));
 }
 
 void XmlValues::tell_unused(UnusedXml& unused, std::initializer_list<std::string_view> used) const {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/mends.h"
+#include "io/repairs.h"
 #include "io/xml.h"
 
 namespace clench {
@@ -18,7 +18,7 @@ namespace clench {
 class UnusedXml;
 
 /// Attributes of an element and, behind it, of others that say what it leaves open: the nearest
-/// that has an attribute gives it. All throw Error with place, element, attribute, wanted and got.
+/// that has an attribute gives it. All throw Error with place, element, attribute, expected and got.
 class XmlValues {
  public:
   XmlValues() = default;
@@ -26,15 +26,15 @@ class XmlValues {
 
   const XmlElement& element() const { return layers_.front(); }
   bool has(const char* name) const { return find(name).has_value(); }
-  std::string text(const char* name) const;  ///< wanted, not empty
+  std::string text(const char* name) const;  ///< expected, not empty
   std::string text(const char* name, const std::string& fallback) const;
-  double number(const char* name) const;  ///< wanted
+  double number(const char* name) const;  ///< expected
   double number(const char* name, double fallback) const;
-  double not_negative(const char* name, double fallback, Mends& mends) const;
+  double not_negative(const char* name, double fallback, Repairs& repairs) const;
   /// lower and upper, put in order   throws as numbers
-  std::array<double, 2> range(const char* name, Mends& mends) const;
+  std::array<double, 2> range(const char* name, Repairs& repairs) const;
   /// three or four shares of a colour in 0..1
-  std::vector<double> color(const char* name, int least, Mends& mends) const;
+  std::vector<double> color(const char* name, int least, Repairs& repairs) const;
   std::string subject(const char* name) const;  ///< "hand.xml:31: joint: range"
   int integer(const char* name, int fallback) const;
   bool boolean(const char* name, bool fallback) const;

@@ -72,11 +72,12 @@ std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, b
     for (int i = 1; i + 1 < n; ++i) out.push_back({0, i, i + 1});
     return out;
   }
-  if (n > most_concave_corners)
-    fail("wanted at most {} corners of a face that is not convex, got {}", most_concave_corners, n);
+  if (n > max_concave_corners)
+    fail("expected at most {} corners of a face that is not convex, got {}", max_concave_corners,
+         n);
 
   // cut off ears; where a crooked outline has none, any corner will do, and soon all of them
-  constexpr int most_failures = 8;
+  constexpr int max_failures = 8;
   std::vector<int> rest(n);
   std::iota(rest.begin(), rest.end(), 0);
   size_t start = 0;
@@ -84,8 +85,7 @@ std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, b
   while (rest.size() > 3) {
     const size_t left = rest.size();
     size_t ear = start % left, looked = 0;
-    while (failures < most_failures && looked < left &&
-           !is_ear(flat, rest, (start + looked) % left))
+    while (failures < max_failures && looked < left && !is_ear(flat, rest, (start + looked) % left))
       ++looked;
     if (work) *work += (looked + 1) * left;
     if (looked < left)

@@ -33,7 +33,7 @@ class UrdfReader {
         library_(library),
         xml_(path),
         geometry_(library.options()),
-        mends_(library.options().listeners()) {}
+        repairs_(library.options().listeners()) {}
   RobotSpec read();
 
  private:
@@ -65,7 +65,7 @@ class UrdfReader {
   Library& library_;
   XmlFile xml_;
   TreeGeometry geometry_;
-  Mends mends_;
+  Repairs repairs_;
   UnusedXml unused_;
   InertialFaults inertial_faults_;
   std::map<std::string, PieceColor> materials_;
@@ -116,7 +116,7 @@ std::optional<PieceColor> UrdfReader::read_color(const XmlElement& material) {
     if (found == materials_.end()) return {};
     return found->second;
   }
-  const auto rgba = XmlValues(color).color("rgba", 3, mends_);
+  const auto rgba = XmlValues(color).color("rgba", 3, repairs_);
   PieceColor out{Eigen::Vector3d(rgba[0], rgba[1], rgba[2]).cast<float>(), 0};
   if (rgba.size() == 4) out.transparency = static_cast<float>(1 - rgba[3]);
   return out;
@@ -131,7 +131,7 @@ void UrdfReader::read_materials() {
 void UrdfReader::read_inertial(const XmlElement& element, BodySpec& body, LinkPieces& pieces) {
   // a robot with a broken inertia can still be grasped with
   try {
-    const XmlElement mass = element.wanted("mass"), inertia = element.child("inertia");
+    const XmlElement mass = element.expected("mass"), inertia = element.child("inertia");
     Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
     if (inertia) {
       const XmlValues v(inertia);
@@ -157,8 +157,8 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
   const XmlValues values(shape);
   const std::string kind(shape.name());
   const auto positive = [&](const char* name) {
-    const double length = mends_.magnitude(values.number(name), values.subject(name));
-    if (!(length > 0)) values.fail(name, "wanted a length > 0, got {}", length);
+    const double length = repairs_.magnitude(values.number(name), values.subject(name));
+    if (!(length > 0)) values.fail(name, "expected a length > 0, got {}", length);
     return length;
   };
   GeometryPiece piece;
@@ -168,8 +168,8 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
   if (kind == "box") {
     auto s = values.numbers("size", 3, 3);
     for (double& x : s) {
-      x = mends_.magnitude(x, values.subject("size"));
-      if (!(x > 0)) values.fail("size", "wanted lengths > 0, got {}", x);
+      x = repairs_.magnitude(x, values.subject("size"));
+      if (!(x > 0)) values.fail("size", "expected lengths > 0, got {}", x);
     }
     made(fmt::format("box {} {} {}", s[0], s[1], s[2]), box_mesh({s[0], s[1], s[2]}));
   } else if (kind == "sphere") {
@@ -183,7 +183,8 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
     piece.solid = kind == "cylinder" ? cylinder_solid(r, l) : capsule_solid(r, l);
   } else {
     piece.scale = values.vec3("scale", {1, 1, 1});
-    if (piece.scale.cwiseAbs().minCoeff() == 0) values.fail("scale", "wanted factors other than 0");
+    if (piece.scale.cwiseAbs().minCoeff() == 0)
+      values.fail("scale", "expected factors other than 0");
     const std::string name = values.text("filename");
     try {
       piece.geometry = geometry_.file(find_robot_file(name, path_, library_.options()));
@@ -199,13 +200,13 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
 
 std::optional<GeometryPiece> UrdfReader::read_piece(const XmlElement& element,
                                                     const std::string& link, bool visual) {
-  if (++piece_count_ > most_pieces)
-    element.fail("wanted at most {} pieces of geometry", most_pieces);
+  if (++piece_count_ > max_pieces)
+    element.fail("expected at most {} pieces of geometry", max_pieces);
   unused_.attributes(element, {"name"});
   for (const auto& child : element.children())
     if (child.name() != "geometry" && child.name() != "origin" && child.name() != "material")
       unused_.element(child);
-  const XmlElement geometry = element.wanted("geometry");
+  const XmlElement geometry = element.expected("geometry");
   unused_.attributes(geometry, {"name"});
   constexpr std::string_view kinds[] = {"box", "sphere", "cylinder", "capsule", "mesh"};
   XmlElement shape;
@@ -213,13 +214,13 @@ std::optional<GeometryPiece> UrdfReader::read_piece(const XmlElement& element,
     if (std::find(std::begin(kinds), std::end(kinds), child.name()) == std::end(kinds))
       unused_.element(child);
     else if (shape)
-      child.fail("link '{}': wanted one shape in a geometry, got a second, <{}>", excerpt(link),
+      child.fail("link '{}': expected one shape in a geometry, got a second, <{}>", excerpt(link),
                  excerpt(child.name()));
     else
       shape = child;
   }
   if (!shape)
-    geometry.fail("link '{}': wanted a box, sphere, cylinder, capsule or mesh, got none",
+    geometry.fail("link '{}': expected a box, sphere, cylinder, capsule or mesh, got none",
                   excerpt(link));
   unused_.attributes(shape, {"size", "radius", "length", "filename", "scale"});
   auto piece = read_geometry_of(shape, visual);
@@ -232,19 +233,19 @@ std::optional<GeometryPiece> UrdfReader::read_piece(const XmlElement& element,
 
 void UrdfReader::read_link(const XmlElement& element) {
   TreeLink link;
-  link.body.name = element.wanted_attribute("name");
+  link.body.name = element.expected_attribute("name");
   link.body.source = path_.generic_string();
-  if (link.body.name.empty()) element.fail("link: wanted a name, got nothing");
+  if (link.body.name.empty()) element.fail("link: expected a name, got nothing");
   const auto [other, is_new] =
       link_numbers_.emplace(link.body.name, static_cast<int>(links_.size()));
   if (!is_new) {
-    mends_.add("link",
-               fmt::format("{}: link '{}': there is another one of this name; the first one "
-                           "counts",
-                           element.place(), excerpt(link.body.name)));
+    repairs_.add("link",
+                 fmt::format("{}: link '{}': there is another one of this name; the first one "
+                             "counts",
+                             element.place(), excerpt(link.body.name)));
     return;
   }
-  if (links_.size() >= most_links) element.fail("wanted at most {} links", most_links);
+  if (links_.size() >= max_links) element.fail("expected at most {} links", max_links);
   unused_.attributes(element, {"name"});
   LinkPieces pieces;
   pieces.place = element.place();
@@ -266,8 +267,8 @@ void UrdfReader::read_link(const XmlElement& element) {
 // --- joints ---
 
 int UrdfReader::link_of(const XmlElement& joint, const char* end) const {
-  const XmlElement element = joint.wanted(end);
-  const std::string name = element.wanted_attribute("link");
+  const XmlElement element = joint.expected(end);
+  const std::string name = element.expected_attribute("link");
   const auto found = link_numbers_.find(name);
   if (found != link_numbers_.end()) return found->second;
   std::vector<std::string> known;
@@ -276,18 +277,18 @@ int UrdfReader::link_of(const XmlElement& joint, const char* end) const {
 }
 
 void UrdfReader::read_joint_names(const XmlElement& element) {
-  FileJoint joint{element, element.wanted_attribute("name"), "", -1, -1};
-  if (joint.name.empty()) element.fail("joint: wanted a name, got nothing");
-  if (joints_.size() >= most_joints) element.fail("wanted at most {} joints", most_joints);
+  FileJoint joint{element, element.expected_attribute("name"), "", -1, -1};
+  if (joint.name.empty()) element.fail("joint: expected a name, got nothing");
+  if (joints_.size() >= max_joints) element.fail("expected at most {} joints", max_joints);
   if (!names_.insert(joint.name).second) {
     const std::string own = unused_name(joint.name, names_);
-    mends_.add("joint",
-               fmt::format("{}: joint '{}': there is another one of this name; it is called "
-                           "'{}'",
-                           element.place(), excerpt(joint.name), excerpt(own)));
+    repairs_.add("joint",
+                 fmt::format("{}: joint '{}': there is another one of this name; it is called "
+                             "'{}'",
+                             element.place(), excerpt(joint.name), excerpt(own)));
     names_.insert(joint.name = own);
   }
-  element.wanted_attribute("type");
+  element.expected_attribute("type");
   joint.type = XmlValues(element).word(
       "type", {"revolute", "continuous", "prismatic", "fixed", "floating", "planar"}, "");
   joint.parent = link_of(element, "parent");
@@ -297,7 +298,7 @@ void UrdfReader::read_joint_names(const XmlElement& element) {
                  excerpt(links_[joint.child].body.name),
                  excerpt(links_[links_[joint.child].parent].body.name));
   if (joint.parent == joint.child)
-    element.fail("joint '{}': wanted two links, got '{}' twice", excerpt(joint.name),
+    element.fail("joint '{}': expected two links, got '{}' twice", excerpt(joint.name),
                  excerpt(links_[joint.child].body.name));
   links_[joint.child].parent = joint.parent;
   unused_.attributes(element, {"name", "type"});
@@ -312,13 +313,13 @@ void UrdfReader::read_joint_names(const XmlElement& element) {
 
 /// Links from the root on, each after its parent, branches in the file's order.
 void UrdfReader::order_links() {
-  if (links_.empty()) xml_.root().fail("robot: wanted links, got none");
+  if (links_.empty()) xml_.root().fail("robot: expected links, got none");
   std::vector<int> roots;
   for (int i = 0; i < static_cast<int>(links_.size()); ++i)
     if (links_[i].parent < 0) roots.push_back(i);
   if (roots.empty()) xml_.root().fail("robot: every link has a parent: its joints run in a circle");
   if (roots.size() > 1)
-    xml_.root().fail("robot: wanted one link without a parent, got {}: '{}' and '{}'{}",
+    xml_.root().fail("robot: expected one link without a parent, got {}: '{}' and '{}'{}",
                      roots.size(), excerpt(links_[roots[0]].body.name),
                      excerpt(links_[roots[1]].body.name), roots.size() > 2 ? " among them" : "");
   std::vector<std::vector<const FileJoint*>> below(links_.size());
@@ -357,7 +358,7 @@ void UrdfReader::read_axis(const FileJoint& from, TreeJoint& joint) {
   const Eigen::Vector3d axis =
       element ? XmlValues(element).vec3("xyz", {1, 0, 0}) : Eigen::Vector3d(1, 0, 0);
   if (!(axis.stableNorm() > 1e-9))
-    element.fail("joint '{}': axis: wanted a direction, got ({}, {}, {})", excerpt(joint.name),
+    element.fail("joint '{}': axis: expected a direction, got ({}, {}, {})", excerpt(joint.name),
                  axis.x(), axis.y(), axis.z());
   joint.axis = axis.stableNormalized();
 }
@@ -371,14 +372,14 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
   if (element) {
     unused_.attributes(element, {"lower", "upper", "effort", "velocity"});
     const XmlValues values(element);
-    joint.effort = values.not_negative("effort", 0, mends_);
-    joint.velocity = values.not_negative("velocity", 0, mends_);
+    joint.effort = values.not_negative("effort", 0, repairs_);
+    joint.velocity = values.not_negative("velocity", 0, repairs_);
     if (from.type != "continuous" && (values.has("lower") || values.has("upper"))) {
       joint.min = values.number("lower", 0);
       joint.max = values.number("upper", 0);
-      mends_.order(joint.min, joint.max,
-                   fmt::format("{}: joint '{}'", element.place(), excerpt(joint.name)),
-                   {"lower", "upper"});
+      repairs_.order(joint.min, joint.max,
+                     fmt::format("{}: joint '{}'", element.place(), excerpt(joint.name)),
+                     {"lower", "upper"});
       return;
     }
   }
@@ -398,8 +399,8 @@ TreeJoint UrdfReader::read_joint(const FileJoint& from) {
   joint.start = std::clamp(0.0, joint.min, joint.max);
   if (const XmlElement dynamics = from.element.child("dynamics")) {
     unused_.attributes(dynamics, {"damping", "friction"});
-    joint.viscous = XmlValues(dynamics).not_negative("damping", 0, mends_);
-    joint.coulomb = XmlValues(dynamics).not_negative("friction", 0, mends_);
+    joint.viscous = XmlValues(dynamics).not_negative("damping", 0, repairs_);
+    joint.coulomb = XmlValues(dynamics).not_negative("friction", 0, repairs_);
   }
   return joint;
 }
@@ -435,7 +436,7 @@ void UrdfReader::read_mimics() {
 RobotSpec UrdfReader::read() {
   const XmlElement root = xml_.root();
   if (root.name() != "robot")
-    root.fail("wanted an element <robot>, got <{}>", excerpt(root.name()));
+    root.fail("expected an element <robot>, got <{}>", excerpt(root.name()));
   refuse_xacro(root);
   tree_.name = root.attribute("name").value_or("");
   tree_.class_name = tree_.name;
@@ -463,7 +464,7 @@ RobotSpec UrdfReader::read() {
   dress_links(tree_, pieces_, geometry_, file_, library_);
   RobotSpec robot = make_chains(std::move(tree_), file_, library_);
   robot.source = path_.generic_string();
-  mends_.tell();
+  repairs_.tell();
   inertial_faults_.tell(library_);
   for (const auto& sentence : unused_.sentences()) library_.warn(sentence);
   return robot;

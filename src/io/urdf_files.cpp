@@ -75,10 +75,10 @@ fs::path find_robot_file(const std::string& name, const fs::path& referrer,
   if (name.size() > 4096) fail("no such file: {}", in_quotes(name));
   if (scheme == "file") return find_file(rest, referrer, options);
   if (scheme != "package" && scheme != "model")
-    fail("wanted a file name, package:// or file://, got {}", in_quotes(name));
+    fail("expected a file name, package:// or file://, got {}", in_quotes(name));
   const size_t slash = rest.find('/');
   if (slash == std::string::npos || slash == 0 || slash + 1 == rest.size())
-    fail("wanted {}://PACKAGE/FILE, got {}", scheme, in_quotes(name));
+    fail("expected {}://PACKAGE/FILE, got {}", scheme, in_quotes(name));
   return find_in_package(rest.substr(0, slash), rest.substr(slash + 1), referrer, options);
 }
 

@@ -94,7 +94,7 @@ static void tell_control(const RobotSpec& robot, const RobotFolder& folder) {
     folder.lost("the springs of joints");
 }
 
-void tell_lost_in_urdf(const RobotSpec& robot, const RobotFolder& folder) {
+void report_losses(const RobotSpec& robot, const RobotFolder& folder) {
   tell_control(robot, folder);
   std::vector<char> moves(robot.dofs.size());
   for (const auto& chain : robot.chains)

@@ -5,6 +5,6 @@
 namespace clench {
 
 /// Tells of it, a sentence each.
-void tell_lost_in_urdf(const RobotSpec& robot, const RobotFolder& folder);
+void report_losses(const RobotSpec& robot, const RobotFolder& folder);
 
 }  // namespace clench

@@ -83,10 +83,10 @@ int Planner::add_link(const std::string& name, const BodySpec* body) {
 /// The joint whose value is nearest to the DOF's: its own, its opposite, or the first one.
 void Planner::choose_leaders() {
   leaders_.assign(robot_.dofs.size(), nullptr);
-  for (const double wanted : {1.0, -1.0, 0.0})
+  for (const double expected : {1.0, -1.0, 0.0})
     for (const ChainSpec& chain : robot_.chains)
       for (const JointSpec& joint : chain.joints)
-        if (!leaders_[joint.dof] && (joint.ratio == wanted || wanted == 0))
+        if (!leaders_[joint.dof] && (joint.ratio == expected || expected == 0))
           leaders_[joint.dof] = &joint;
   plan_.leader_of.assign(robot_.dofs.size(), -1);
 }
@@ -99,7 +99,7 @@ bool stops(const JointSpec& joint, const JointSpec& leader) {
   const double c = leader.min / leader.ratio, d = leader.max / leader.ratio;
   const double left =
       std::min(std::max(a, b), std::max(c, d)) - std::max(std::min(a, b), std::min(c, d));
-  return left < 1.01 * least_follower_range * std::abs(d - c);
+  return left < 1.01 * min_follower_range * std::abs(d - c);
 }
 
 void Planner::set_limits(UrdfJoint& joint) const {

@@ -3,8 +3,8 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "io/mends.h"
 #include "io/number_reader.h"
+#include "io/repairs.h"
 #include "io/xml.h"
 
 namespace clench {
@@ -16,7 +16,7 @@ using Tell = std::function<void(const std::string&)>;
 
 namespace {
 
-constexpr int most_chains = 1000;  // as of robots
+constexpr int max_chains = 1000;  // as of robots
 
 // forces have no unit, torques per force are lengths
 Vector6d edge_in_metres(Vector6d edge) {
@@ -46,14 +46,14 @@ Pose contact_pose(const Place& place, const std::string& subject, const Tell& wa
 }
 
 /// The palm has no links: files write -1 or anything.
-int least_link(const VirtualContactSpec& contact) {
+int min_link(const VirtualContactSpec& contact) {
   return contact.chain < 0 ? std::numeric_limits<int>::min() : 0;
 }
 
 // --- text ---
 
 FrictionEdges read_edges(NumberReader& numbers, const std::string& what) {
-  const int count = numbers.integer(what + ": number of friction edges", 0, most_friction_edges);
+  const int count = numbers.integer(what + ": number of friction edges", 0, max_friction_edges);
   FrictionEdges edges(6, count);
   for (int e = 0; e < count; ++e)
     edges.col(e) =
@@ -61,22 +61,22 @@ FrictionEdges read_edges(NumberReader& numbers, const std::string& what) {
   return edges;
 }
 
-/// `mends`: null where a number < 0 says that the file is another one
-double read_mu(NumberReader& numbers, const std::string& what, Mends* mends) {
+/// `repairs`: null where a number < 0 says that the file is another one
+double read_mu(NumberReader& numbers, const std::string& what, Repairs* repairs) {
   const double mu = numbers.number(what + ": friction coefficient");
-  if (mu < 0 && !mends)
-    numbers.line().fail("{}: friction coefficient: wanted >= 0, got {}", what, mu);
-  if (!mends) return mu;
-  return mends->magnitude(
+  if (mu < 0 && !repairs)
+    numbers.line().fail("{}: friction coefficient: expected >= 0, got {}", what, mu);
+  if (!repairs) return mu;
+  return repairs->magnitude(
       mu, fmt::format("{}: {}: friction coefficient", numbers.line().place(), what));
 }
 
 VirtualContactSpec read_vgr_contact(NumberReader& numbers, int number, const Tell& warn,
-                                    Mends& mends) {
+                                    Repairs& repairs) {
   const std::string what = fmt::format("contact {}", number);
   VirtualContactSpec contact;
-  contact.chain = numbers.integer(what + ": finger", -1, most_chains);
-  contact.link = numbers.integer(what + ": link", least_link(contact), most_chains);
+  contact.chain = numbers.integer(what + ": finger", -1, max_chains);
+  contact.link = numbers.integer(what + ": link", min_link(contact), max_chains);
   contact.edges = read_edges(numbers, what);
   Place place;
   place.location = numbers.vector(what + ": location");
@@ -84,21 +84,21 @@ VirtualContactSpec read_vgr_contact(NumberReader& numbers, int number, const Tel
   place.translation = numbers.vector(what + ": translation");
   place.normal = numbers.vector(what + ": normal");
   contact.X_LC = contact_pose(place, fmt::format("{}: {}", numbers.line().place(), what), warn);
-  contact.mu = read_mu(numbers, what, &mends);
+  contact.mu = read_mu(numbers, what, &repairs);
   if (contact.chain < 0) contact.link = 0;
   check_virtual_contact(contact, fmt::format("{}: {}", numbers.line().place(), what));
   return contact;
 }
 
 VirtualContactSet read_vgr(const std::string& file, std::string text, const Tell& warn,
-                           Mends& mends) {
+                           Repairs& repairs) {
   LineReader lines(file, std::move(text));
   VirtualContactSet set;
   set.robot = lines.next_full("the robot's name").text();
   NumberReader numbers(lines);
   const int count = numbers.integer("number of contacts", 0);
   for (int i = 0; i < count; ++i)
-    set.contacts.push_back(read_vgr_contact(numbers, i + 1, warn, mends));
+    set.contacts.push_back(read_vgr_contact(numbers, i + 1, warn, repairs));
   numbers.finish(warn);
   return set;
 }
@@ -106,64 +106,64 @@ VirtualContactSet read_vgr(const std::string& file, std::string text, const Tell
 // --- XML ---
 
 /// What is there counts, not what is declared.
-void check_count(const XmlElement& declared, int given, const char* what, Mends& mends) {
+void check_count(const XmlElement& declared, int given, const char* what, Repairs& repairs) {
   if (const std::string text = declared.text(); parse_integer(text) != given)
-    mends.add("count",
-              fmt::format("{}: {}: wanted {}, as there are as many {}, got {}; those count",
-                          declared.place(), declared.name(), given, what, in_quotes(text)));
+    repairs.add("count",
+                fmt::format("{}: {}: expected {}, as there are as many {}, got {}; those count",
+                            declared.place(), declared.name(), given, what, in_quotes(text)));
 }
 
-VirtualContactSpec read_xml_contact(const XmlElement& e, const Tell& warn, Mends& mends) {
+VirtualContactSpec read_xml_contact(const XmlElement& e, const Tell& warn, Repairs& repairs) {
   e.check({.once = {"finger_number", "link_number", "num_friction_edges", "friction_edges",
                     "location", "rotation", "translation", "normal", "sCof"}},
           warn);
   VirtualContactSpec contact;
-  contact.chain = e.wanted("finger_number").integer(-1, most_chains);
-  contact.link = e.wanted("link_number").integer(least_link(contact), most_chains);
+  contact.chain = e.expected("finger_number").integer(-1, max_chains);
+  contact.link = e.expected("link_number").integer(min_link(contact), max_chains);
   if (contact.chain < 0) contact.link = 0;
 
-  const XmlElement list = e.wanted("friction_edges");
+  const XmlElement list = e.expected("friction_edges");
   list.check({.many = {"friction_edge"}}, warn);
   const auto edges = list.children("friction_edge");
   const int count = static_cast<int>(edges.size());
-  if (count > most_friction_edges)
-    list.fail("wanted at most {} friction edges, got {}", most_friction_edges, count);
+  if (count > max_friction_edges)
+    list.fail("expected at most {} friction edges, got {}", max_friction_edges, count);
   if (const XmlElement said = e.child("num_friction_edges"))
-    check_count(said, count, "friction edges", mends);
+    check_count(said, count, "friction edges", repairs);
   contact.edges.resize(6, count);
   for (int i = 0; i < count; ++i)
     contact.edges.col(i) = edge_in_metres(Vector6d(edges[i].numbers(6).data()));
 
-  const XmlElement rotation = e.wanted("rotation");
+  const XmlElement rotation = e.expected("rotation");
   const auto x = rotation.numbers(4);
   const auto q = made_unit(Eigen::Vector4d(x.data()));
   if (!q)
-    rotation.fail("rotation: wanted a quaternion of length 1, got ({} {} {} {})", x[0], x[1], x[2],
-                  x[3]);
-  const Place place{.location = e.wanted("location").vector(),
-                    .translation = e.wanted("translation").vector(),
-                    .normal = e.wanted("normal").vector(),
+    rotation.fail("rotation: expected a quaternion of length 1, got ({} {} {} {})", x[0], x[1],
+                  x[2], x[3]);
+  const Place place{.location = e.expected("location").vector(),
+                    .translation = e.expected("translation").vector(),
+                    .normal = e.expected("normal").vector(),
                     .rotation = *q};
   contact.X_LC = contact_pose(place, e.place(), warn);
-  const XmlElement mu = e.wanted("sCof");
-  contact.mu = mends.magnitude(mu.number(), mu.place() + ": sCof");
+  const XmlElement mu = e.expected("sCof");
+  contact.mu = repairs.magnitude(mu.number(), mu.place() + ": sCof");
   check_virtual_contact(contact, e.place());
   return contact;
 }
 
 VirtualContactSet read_xml(const std::string& name, const std::string& text, const Tell& warn,
-                           Mends& mends) {
+                           Repairs& repairs) {
   const XmlFile file(name, text);
   const XmlElement root = file.root();
   if (root.name() != "virtual_contacts")
-    root.fail("wanted an element <virtual_contacts>, got <{}>", excerpt(root.name()));
+    root.fail("expected an element <virtual_contacts>, got <{}>", excerpt(root.name()));
   root.check({.once = {"robot_name", "num_contacts"}, .many = {"virtual_contact"}}, warn);
   VirtualContactSet set;
   if (const XmlElement robot = root.child("robot_name")) set.robot = robot.text();
   for (const XmlElement& e : root.children("virtual_contact"))
-    set.contacts.push_back(read_xml_contact(e, warn, mends));
+    set.contacts.push_back(read_xml_contact(e, warn, repairs));
   if (const XmlElement count = root.child("num_contacts"))
-    check_count(count, static_cast<int>(set.contacts.size()), "contacts", mends);
+    check_count(count, static_cast<int>(set.contacts.size()), "contacts", repairs);
   return set;
 }
 
@@ -241,11 +241,11 @@ std::string virtual_contacts_xml(const VirtualContactSet& set) {
 VirtualContactSet read_virtual_contacts(const fs::path& path, const ReadOptions& options) {
   std::string text = read_text(path);
   const std::string file = path.filename().string();
-  Mends mends(options.listeners());
+  Repairs repairs(options.listeners());
   VirtualContactSet set = trim(text).starts_with('<')
-                              ? read_xml(file, text, options.warn, mends)
-                              : read_vgr(file, std::move(text), options.warn, mends);
-  mends.tell();
+                              ? read_xml(file, text, options.warn, repairs)
+                              : read_vgr(file, std::move(text), options.warn, repairs);
+  repairs.tell();
   return set;
 }
 
@@ -255,7 +255,7 @@ std::string virtual_contacts_text(const VirtualContactSet& set, const fs::path& 
     check_virtual_contact(set.contacts[i], fmt::format("{}: contact {}", file, i + 1));
   const std::string ending = lower_case(path.extension().string());
   if (ending != ".vgr" && ending != ".xml")
-    fail("{}: wanted a file of virtual contacts, .vgr or .xml, got {}", file, in_quotes(ending));
+    fail("{}: expected a file of virtual contacts, .vgr or .xml, got {}", file, in_quotes(ending));
   return ending == ".xml" ? virtual_contacts_xml(set) : text_of(set);
 }
 
@@ -265,7 +265,7 @@ void write_virtual_contacts(const VirtualContactSet& set, const fs::path& path) 
 
 // --- contacts on objects ---
 
-static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed, Mends* mends) {
+static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed, Repairs* repairs) {
   const int count = numbers.integer("number of contacts", 0);
   std::vector<ObjectContact> contacts;
   for (int i = 0; i < count; ++i) {
@@ -277,9 +277,9 @@ static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed, 
     if (placed) c.X_OC.position = numbers.vector(what + ": translation") * units::millimetre;
     const Vector3d normal = numbers.vector(what + ": normal");
     const double length = normal.stableNorm();
-    if (!(length > 1e-6)) numbers.line().fail("{}: normal: wanted a direction, got zero", what);
+    if (!(length > 1e-6)) numbers.line().fail("{}: normal: expected a direction, got zero", what);
     c.n_O = normal / length;
-    c.mu = read_mu(numbers, what, mends);
+    c.mu = read_mu(numbers, what, repairs);
     check_virtual_contact({.X_LC = c.X_OC, .mu = c.mu, .edges = c.edges},
                           fmt::format("{}: {}", numbers.line().place(), what));
     contacts.push_back(std::move(c));
@@ -302,9 +302,9 @@ std::vector<ObjectContact> read_object_contacts(const fs::path& path, const Read
   } catch (const Error&) {
     // then it is the other one, whose errors are told
   }
-  Mends mends(options.listeners());
-  auto contacts = read_list(numbers, true, &mends);
-  mends.tell();
+  Repairs repairs(options.listeners());
+  auto contacts = read_list(numbers, true, &repairs);
+  repairs.tell();
   numbers.finish(options.warn);
   return contacts;
 }
@@ -314,7 +314,7 @@ void write_object_contacts(const std::vector<ObjectContact>& contacts, const fs:
   for (size_t i = 0; i < contacts.size(); ++i) {
     const ObjectContact& c = contacts[i];
     const std::string subject = fmt::format("{}: contact {}", path.filename().string(), i + 1);
-    if (!c.placed) fail("{}: wanted a contact with a point", subject);
+    if (!c.placed) fail("{}: expected a contact with a point", subject);
     check_virtual_contact({.X_LC = c.X_OC, .mu = c.mu, .edges = c.edges}, subject);
     const Written w(c.X_OC, c.edges);
     out += fmt::format("{}\n", w.edges.size());

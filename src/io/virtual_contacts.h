@@ -7,7 +7,7 @@
 namespace clench {
 
 /// `path` as find_file gives it; text or XML, by what stands in it.
-/// throws Error  "hand.vgr:7: contact 1: friction edge 3: wanted a number, got 'x'"
+/// throws Error  "hand.vgr:7: contact 1: friction edge 3: expected a number, got 'x'"
 VirtualContactSet read_virtual_contacts(const std::filesystem::path& path,
                                         const ReadOptions& options = {});
 

@@ -74,7 +74,7 @@ std::string_view WordReader::word_anywhere() {
 double WordReader::number(std::string_view what) {
   const auto text = word();
   const auto value = parse_number(text);
-  if (!value) fail("{}: wanted a number, got {}", what, in_quotes(text));
+  if (!value) fail("{}: expected a number, got {}", what, in_quotes(text));
   return *value;
 }
 

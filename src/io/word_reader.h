@@ -28,7 +28,7 @@ class WordReader {
   int line() const { return line_; }  ///< from 1
   const std::string& file() const { return file_; }
   std::string place() const { return fmt::format("{}:{}", file_, line_ > 0 ? line_ : 1); }
-  /// throws Error  "part.off:31: x: wanted a number, got 'abc'"
+  /// throws Error  "part.off:31: x: expected a number, got 'abc'"
   double number(std::string_view what);
   int integer(std::string_view what, int low, int high);
   template <class... Args>

@@ -50,15 +50,15 @@ void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& lis
   for (const auto& chain : robot.chains)
     for (const auto& joint : chain.joints)
       least += robot.dofs[joint.dof].kind == DofKind::breakaway;
-  const auto mend = [&](int wanted, const char* made) {
-    tell(listeners.mend, listeners.warn,
-         fmt::format("{}: wanted {} numbers for the {} DOFs of {}, got {}; {}", line.place(),
-                     wanted, dofs, robot.name, line.size(), made));
+  const auto repair = [&](int expected, const char* made) {
+    tell(listeners.repair, listeners.warn,
+         fmt::format("{}: expected {} numbers for the {} DOFs of {}, got {}; {}", line.place(),
+                     expected, dofs, robot.name, line.size(), made));
   };
   // with joints that may break away nobody knows which numbers lack
   const bool short_line = line.size() < dofs && least == dofs;
   if (!plain && !short_line && line.size() < least)
-    line.fail("wanted {} numbers for the {} DOFs of {}, got {}", least, dofs, robot.name,
+    line.fail("expected {} numbers for the {} DOFs of {}, got {}", least, dofs, robot.name,
               line.size());
   for (const auto& chain : robot.chains) placed.apart.emplace_back(chain.joints.size());
   int next = 0;
@@ -79,8 +79,8 @@ void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& lis
           line.number(next++, what) * unit * joint_at(robot, at).ratio;
     }
   }
-  if (short_line) mend(dofs, "the others start at their defaults");
-  if (next < line.size()) mend(next, "what follows is not used");
+  if (short_line) repair(dofs, "the others start at their defaults");
+  if (next < line.size()) repair(next, "what follows is not used");
 }
 
 std::string dof_values(const PlacedRobot& placed) {
@@ -111,22 +111,22 @@ void check_connections(const WorldSpec& world, const std::vector<std::string>& p
     const std::string& place = places[i];
     for (const auto& [who, index] : {std::pair("parent", c.parent), {"child", c.child}})
       if (index >= robots)
-        fail("{}: {} robot: wanted {}, got {}", place, who,
+        fail("{}: {} robot: expected {}, got {}", place, who,
              robots ? fmt::format("one of the file's {} robots, from 0", robots)
                     : "a robot of the file, which has none",
              index);
     if (c.parent == c.child)
-      fail("{}: child robot: wanted another robot than the parent, got {}", place, c.child);
+      fail("{}: child robot: expected another robot than the parent, got {}", place, c.child);
     const auto& chains = world.robots[c.parent].robot.chains;
     if (c.chain >= static_cast<int>(chains.size()))
-      fail("{}: parent chain: wanted one of {} chains of {}, got {}", place, chains.size(),
+      fail("{}: parent chain: expected one of {} chains of {}, got {}", place, chains.size(),
            world.robots[c.parent].robot.name, c.chain);
     if (chains[c.chain].links.empty())
       fail("{}: parent chain: chain {} has no link to carry a robot", place, c.chain);
     if (carrier[c.child] >= 0) fail("{}: child robot: robot {} is carried already", place, c.child);
     for (int robot = c.parent; robot >= 0; robot = carrier[robot])
       if (robot == c.child)
-        fail("{}: child robot: wanted one that does not carry robot {} already, got {}", place,
+        fail("{}: child robot: expected one that does not carry robot {} already, got {}", place,
              c.parent, c.child);
     carrier[c.child] = c.parent;
   }
@@ -142,7 +142,7 @@ std::optional<Camera> checked_camera(const Camera& camera, const std::string& pl
     check_camera(camera, place + ": camera");
     return camera;
   } catch (const Error& error) {
-    options.mended(fmt::format("{}; the camera is not used", error.what()));
+    options.repaired(fmt::format("{}; the camera is not used", error.what()));
     return {};
   }
 }

@@ -75,7 +75,7 @@ Pose WldReader::any_pose() {
   if (line.text().starts_with('<'))
     return read_tagged_transform(line, lines_, library_.options().listeners());
   if (!begins_pose(line))
-    line.fail("wanted a transform 'T (w x y z)[x y z]', got {}", in_quotes(line.text()));
+    line.fail("expected a transform 'T (w x y z)[x y z]', got {}", in_quotes(line.text()));
   const std::string_view text = line.text();
   return read_full_transform(line, trim(text.substr(text.front() == 'T' ? 1 : 0)),
                              library_.options().listeners());
@@ -86,9 +86,9 @@ void WldReader::read_header() {
   const Line first = lines_.peek();
   const bool named = lower_case(first.text()).starts_with("#graspit!");
   if (!named && !lines_.skip_to_full())
-    first.fail("wanted '#GraspIt! version ...', got {}", in_quotes(first.text()));
+    first.fail("expected '#GraspIt! version ...', got {}", in_quotes(first.text()));
   if (!named)
-    library_.doubted(first.place() + ": the first line '#GraspIt! version ...' is missing");
+    library_.suspected(first.place() + ": the first line '#GraspIt! version ...' is missing");
 }
 
 static constexpr const char* block_names[] = {"Obstacle",   "GraspableBody", "Robot",
@@ -102,7 +102,7 @@ WorldSpec WldReader::read() {
     const std::string_view key = line.word(0);
     const bool known = std::ranges::find(block_names, key) != std::end(block_names);
     if (known && line.before('#').size() > 1)
-      line.fail("wanted {} alone on its line, got {}", key, in_quotes(line.text()));
+      line.fail("expected {} alone on its line, got {}", key, in_quotes(line.text()));
     if (key == "Obstacle")
       read_body(Role::obstacle);
     else if (key == "GraspableBody")
@@ -116,9 +116,10 @@ WorldSpec WldReader::read() {
     else if (key == "CameraFull")
       read_camera(true);
     else
-      line.fail("wanted Obstacle, GraspableBody, Robot, Connection, Camera or CameraFull, got {}{}",
-                in_quotes(line.text()),
-                did_you_mean(key, {std::begin(block_names), std::end(block_names)}));
+      line.fail(
+          "expected Obstacle, GraspableBody, Robot, Connection, Camera or CameraFull, got {}{}",
+          in_quotes(line.text()),
+          did_you_mean(key, {std::begin(block_names), std::end(block_names)}));
   }
   check_connections(world_, connection_places_);
   return std::move(world_);
@@ -183,10 +184,10 @@ void WldReader::read_camera(bool focal_distance) {
     x[i] = line.number(i, i < 3 ? "camera position" : "camera orientation (x y z w)");
   const auto q = camera_orientation(x[3], x[4], x[5], x[6]);
   if (!q) {
-    library_.mended(
-        fmt::format("{}: camera orientation: wanted a quaternion of length 1, got {} {} {} {}; the "
-                    "camera is not used",
-                    line.place(), x[3], x[4], x[5], x[6]));
+    library_.repaired(fmt::format(
+        "{}: camera orientation: expected a quaternion of length 1, got {} {} {} {}; the "
+        "camera is not used",
+        line.place(), x[3], x[4], x[5], x[6]));
     return;
   }
   used_up(line, focal_distance ? 8 : 7);

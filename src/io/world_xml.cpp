@@ -2,7 +2,7 @@
 
 #include "base/units.h"
 #include "io/body_xml.h"
-#include "io/mend_names.h"
+#include "io/repair_names.h"
 #include "io/transform_xml.h"
 #include "io/world_parts.h"
 
@@ -68,7 +68,7 @@ BodySpec XmlWorldReader::inline_body(const XmlElement& element) {
   BodySpec body = read_body_element(element, path_, library_);
   const XmlElement geometry = element.child("geometryFile");
   body.name = geometry ? fs::path(geometry.text()).stem().string() : "body";
-  mend_names(body, element.place(), library_.options());
+  repair_names(body, element.place(), library_.options());
   return body;
 }
 
@@ -79,11 +79,12 @@ void XmlWorldReader::read_body(const XmlElement& element, Role role) {
   const XmlElement own = element.child("body"), name = element.child("filename");
   if (own) {
     if (name && lower_case(name.text()) != "unspecified")
-      library_.mended(fmt::format("{}: {}: wanted <filename> or <body>, got both; <body> is used",
-                                  name.place(), element.name()));
+      library_.repaired(
+          fmt::format("{}: {}: expected <filename> or <body>, got both; <body> is used",
+                      name.place(), element.name()));
     placed.body = inline_body(own);
   } else {
-    const XmlElement file = element.wanted("filename");
+    const XmlElement file = element.expected("filename");
     file.check({}, warn());
     placed.body = library_.named_body(file.text(), path_, file.place());
   }
@@ -95,7 +96,7 @@ void XmlWorldReader::read_body(const XmlElement& element, Role role) {
 void XmlWorldReader::read_robot(const XmlElement& element) {
   element.check({.once = {"filename", "dofValues", "transform"}}, warn());
   PlacedRobot placed;
-  const XmlElement file = element.wanted("filename");
+  const XmlElement file = element.expected("filename");
   file.check({}, warn());
   placed.robot = library_.named_robot(file.text(), path_, file.place());
   const XmlElement values = element.child("dofValues");
@@ -115,9 +116,9 @@ void XmlWorldReader::read_connection(const XmlElement& element) {
   element.check(
       {.once = {"parentRobot", "parentChain", "childRobot", "mountFilename", "transform"}}, warn());
   Connection c;
-  c.parent = element.wanted("parentRobot").integer(0);
-  c.chain = element.wanted("parentChain").integer(0);
-  c.child = element.wanted("childRobot").integer(0);
+  c.parent = element.expected("parentRobot").integer(0);
+  c.chain = element.expected("parentChain").integer(0);
+  c.child = element.expected("childRobot").integer(0);
   if (const XmlElement mount = element.child("mountFilename"); mount && !mount.text().empty())
     c.mount = library_.named_body(mount.text(), path_, mount.place());
   c.X_LB = pose(element);
@@ -127,18 +128,18 @@ void XmlWorldReader::read_connection(const XmlElement& element) {
 
 void XmlWorldReader::read_camera(const XmlElement& element) {
   element.check({.once = {"position", "orientation", "focalDistance"}}, warn());
-  const XmlElement turn = element.wanted("orientation");
+  const XmlElement turn = element.expected("orientation");
   const auto x = turn.numbers(4);
   const auto q = camera_orientation(x[0], x[1], x[2], x[3]);
   if (!q) {
-    library_.mended(
-        fmt::format("{}: orientation: wanted a quaternion of length 1, got {} {} {} {}; the camera "
-                    "is not used",
-                    turn.place(), x[0], x[1], x[2], x[3]));
+    library_.repaired(fmt::format(
+        "{}: orientation: expected a quaternion of length 1, got {} {} {} {}; the camera "
+        "is not used",
+        turn.place(), x[0], x[1], x[2], x[3]));
     return;
   }
   Camera camera;
-  camera.X_WC = {*q, element.wanted("position").vector() * units::millimetre};
+  camera.X_WC = {*q, element.expected("position").vector() * units::millimetre};
   if (const XmlElement focus = element.child("focalDistance"))
     camera.focal_distance = focus.number() * units::millimetre;
   world_.camera = checked_camera(camera, element.place(), library_.options());
@@ -150,8 +151,8 @@ WorldSpec read_world_xml(const fs::path& path, Library& library) {
   const XmlFile file(path);
   const XmlElement root = file.root();
   if (root.name() == "robot")
-    root.fail("wanted a <world>, got a <robot>: a robot is added to a world");
-  if (root.name() != "world") root.fail("wanted a <world>, got <{}>", excerpt(root.name()));
+    root.fail("expected a <world>, got a <robot>: a robot is added to a world");
+  if (root.name() != "world") root.fail("expected a <world>, got <{}>", excerpt(root.name()));
   return XmlWorldReader(root, path, library).read();
 }
 

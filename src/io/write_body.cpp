@@ -156,7 +156,7 @@ void write_body(const BodySpec& body, const fs::path& path, const WriteOptions& 
     if (!body.shape) fail("{}: '{}' has no surface to write", file, excerpt(body.name));
     write_mesh(body.shape->mesh(), path);
   } else {
-    fail("{}: wanted a body to .xml, .iv, .obj, .off, .ply or .stl, got {}", file,
+    fail("{}: expected a body to .xml, .iv, .obj, .off, .ply or .stl, got {}", file,
          in_quotes(ending));
   }
   tell(body, path, ending, options);

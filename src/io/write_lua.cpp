@@ -245,7 +245,7 @@ void LuaWriter::set_dofs(const PlacedRobot& placed, int index) {
         apart +=
             fmt::format("{}{{{}, {}, {}}}", apart.empty() ? "" : ", ", c + 1, j + 1, number(*q));
   line(fmt::format("robots[{}]:set_dofs({}{})", index + 1, list(placed.dofs),
-                   apart.empty() ? "" : ", {apart = {" + apart + "}}"));
+                   apart.empty() ? "" : ", {joint_positions = {" + apart + "}}"));
 }
 
 static bool same_vectors(const std::optional<Eigen::VectorXd>& a,
@@ -328,11 +328,11 @@ void LuaWriter::add_robot(int index) {
 }
 
 void LuaWriter::add_connection(const Connection& c) {
-  std::string piece, after;
+  std::string adapter, after;
   if (c.mount) {
     const BodySpec* read = files_.again(*c.mount);
     const std::string path = read ? c.mount->file : files_.write_body(*c.mount).generic_string();
-    piece = ", piece = " + file(path) + root_option();
+    adapter = ", adapter = " + file(path) + root_option();
     const std::string usual = world_.robots[c.child].robot.name + "_mount";
     if (c.mount->name != usual)
       after += fmt::format("world:body({}).name = {}\n", as_lua(usual), as_lua(c.mount->name));
@@ -342,7 +342,7 @@ void LuaWriter::add_connection(const Connection& c) {
         after += fmt::format("world:body({}).{} = {}\n", as_lua(c.mount->name), key, value);
   }
   line(fmt::format("robots[{}]:mount_on(robots[{}], {{chain = {}, pose = {}{}}})", c.child + 1,
-                   c.parent + 1, c.chain + 1, pose(c.X_LB), piece));
+                   c.parent + 1, c.chain + 1, pose(c.X_LB), adapter));
   out_ += after;
 }
 

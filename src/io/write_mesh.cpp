@@ -52,7 +52,7 @@ std::string stl_bytes(const Mesh& mesh, const std::string& file) {
   constexpr double largest = std::numeric_limits<float>::max();
   for (const auto& p : mesh.vertices)
     if (p.cwiseAbs().maxCoeff() > largest)
-      fail("{}: wanted coordinates within {:.4g} m, as .stl holds them, got {}", file, largest,
+      fail("{}: expected coordinates within {:.4g} m, as .stl holds them, got {}", file, largest,
            p.cwiseAbs().maxCoeff());
   std::string out = "metres, by clench";  // a header that begins with "solid" would be text
   out.resize(80, ' ');
@@ -94,7 +94,7 @@ void write_mesh(const Mesh& mesh, const fs::path& path) {
   else if (ending == ".stl")
     write_file(path, stl_bytes(mesh, file));
   else
-    fail("{}: wanted a mesh to .obj, .off, .ply or .stl, got {}", file, in_quotes(ending));
+    fail("{}: expected a mesh to .obj, .off, .ply or .stl, got {}", file, in_quotes(ending));
 }
 
 }  // namespace clench

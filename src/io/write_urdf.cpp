@@ -259,17 +259,17 @@ void check_writable(const RobotSpec& robot, const std::string& file) {
 void write_robot(const RobotSpec& robot, const fs::path& path, const WriteOptions& options) {
   const std::string ending = lower_case(path.extension().string());
   const std::string file = path.filename().string();
-  if (ending != ".urdf") fail("{}: wanted a robot to .urdf, got {}", file, in_quotes(ending));
+  if (ending != ".urdf") fail("{}: expected a robot to .urdf, got {}", file, in_quotes(ending));
   check_folder_of(path);
   std::error_code code;
   if (fs::is_directory(path, code))
-    fail("{}: wanted a file to write, got a folder", path.generic_string());
+    fail("{}: expected a file to write, got a folder", path.generic_string());
   check_writable(robot, file);
   RobotFolder folder(path, options);
   UrdfText urdf(robot, folder);
   const std::string text = urdf.text();
   urdf.write_beside(text);
-  tell_lost_in_urdf(robot, folder);
+  report_losses(robot, folder);
   folder.write(text);
 }
 

@@ -14,8 +14,8 @@ namespace clench {
 
 namespace {
 
-constexpr int deepest_nesting = 64;    // the parser calls itself for each
-constexpr int most_attributes = 1000;  // the parser compares each with all
+constexpr int deepest_nesting = 64;   // the parser calls itself for each
+constexpr int max_attributes = 1000;  // the parser compares each with all
 
 /// Where '&' stands alone, which the parser garbles behind an entity. Those that a file declares itself
 /// it leaves as they stand: "&name;" would be a text.
@@ -32,19 +32,18 @@ void check_entities(const std::string& file, std::string_view text, size_t from,
     if (name.empty() || !rest.substr(name.size()).starts_with(';'))
       alone.push_back(at);
     else if (!std::ranges::count(read, name))
-      fail("{}:{}: the entity '&{};' is not read; wanted &amp; &lt; &gt; &quot; or &apos;", file,
+      fail("{}:{}: the entity '&{};' is not read; expected &amp; &lt; &gt; &quot; or &apos;", file,
            line_at(text, at), excerpt(name));
   }
 }
 
 /// Refuses what would make the parser recurse without end or take the square of the file's length.
 /// returns  where '&' stands alone
-std::vector<size_t> check_limits(const std::string& file, std::string_view text,
-                                 size_t most_bytes) {
-  if (text.size() > most_bytes)
-    fail("{}: wanted at most {} MB of XML, got {}", file, most_bytes >> 20, text.size() >> 20);
+std::vector<size_t> check_limits(const std::string& file, std::string_view text, size_t max_bytes) {
+  if (text.size() > max_bytes)
+    fail("{}: expected at most {} MB of XML, got {}", file, max_bytes >> 20, text.size() >> 20);
   if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
-    fail("{}:{}: wanted text, got a zero byte", file, line_at(text, zero));
+    fail("{}:{}: expected text, got a zero byte", file, line_at(text, zero));
   std::vector<size_t> alone;
   int depth = 0;
   size_t at = 0, behind = 0;  // the last tag
@@ -57,15 +56,15 @@ std::vector<size_t> check_limits(const std::string& file, std::string_view text,
     const Tag tag = scan_tag(text, at);
     check_entities(file, text, behind, tag.end, alone);
     behind = tag.end;
-    if (tag.attributes > most_attributes)
-      fail("{}:{}: wanted at most {} attributes, got {}", file, line_at(text, at), most_attributes,
+    if (tag.attributes > max_attributes)
+      fail("{}:{}: expected at most {} attributes, got {}", file, line_at(text, at), max_attributes,
            tag.attributes);
     if (text.substr(at).starts_with("</"))
       --depth;
     else if (!tag.closed)
       ++depth;
     if (depth > deepest_nesting)
-      fail("{}:{}: wanted at most {} elements in each other", file, line_at(text, at),
+      fail("{}:{}: expected at most {} elements in each other", file, line_at(text, at),
            deepest_nesting);
     at = tag.end;
   }
@@ -96,12 +95,12 @@ const char* broken_part(tinyxml2::XMLError error) {
   const int line = std::max(document.ErrorLineNum(), 1);
   const auto error = document.ErrorID();
   if (error == tinyxml2::XML_ERROR_EMPTY_DOCUMENT)
-    fail("{}:{}: wanted an XML element, got nothing", file, line);
+    fail("{}:{}: expected an XML element, got nothing", file, line);
   if (const auto fault = find_xml_fault(text))
     fail("{}:{}: {}", file, fault->line, fault->sentence);
   if (error == tinyxml2::XML_ERROR_PARSING_ELEMENT)
-    fail("{}:{}: wanted an XML element, got something else", file, line);
-  fail("{}:{}: wanted well-formed XML, got {}", file, line, broken_part(error));
+    fail("{}:{}: expected an XML element, got something else", file, line);
+  fail("{}:{}: expected well-formed XML, got {}", file, line, broken_part(error));
 }
 
 bool contains(const std::vector<std::string>& list, std::string_view name) {
@@ -130,9 +129,9 @@ XmlElement XmlElement::child(std::string_view name) const {
   return {};
 }
 
-XmlElement XmlElement::wanted(std::string_view name) const {
+XmlElement XmlElement::expected(std::string_view name) const {
   if (const XmlElement found = child(name)) return found;
-  fail("{}: wanted an element <{}>, got none", excerpt(this->name()), excerpt(name));
+  fail("{}: expected an element <{}>, got none", excerpt(this->name()), excerpt(name));
 }
 
 std::vector<XmlElement> XmlElement::children(std::string_view name) const {
@@ -146,14 +145,14 @@ std::string XmlElement::loose_text() const { return own_text(*element_); }
 
 std::string XmlElement::text() const {
   if (auto* inner = element_->FirstChildElement())
-    fail("{}: wanted text, got an element <{}>", excerpt(name()), excerpt(inner->Name()));
+    fail("{}: expected text, got an element <{}>", excerpt(name()), excerpt(inner->Name()));
   return own_text(*element_);
 }
 
 double XmlElement::number() const {
   const std::string word = text();
   const auto value = parse_number(word);
-  if (!value) fail("{}: wanted a number, got {}", excerpt(name()), in_quotes(word));
+  if (!value) fail("{}: expected a number, got {}", excerpt(name()), in_quotes(word));
   return *value;
 }
 
@@ -161,11 +160,11 @@ static int whole(const XmlElement& element, std::string_view what, const std::st
                  int high) {
   const auto value = parse_number(word);
   if (!value || *value != std::floor(*value))
-    element.fail("{}: wanted a whole number, got {}", what, in_quotes(word));
+    element.fail("{}: expected a whole number, got {}", what, in_quotes(word));
   if (!(*value >= low && *value <= high)) {
     if (high == std::numeric_limits<int>::max())
-      element.fail("{}: wanted a whole number >= {}, got {}", what, low, in_quotes(word));
-    element.fail("{}: wanted a whole number from {} to {}, got {}", what, low, high,
+      element.fail("{}: expected a whole number >= {}, got {}", what, low, in_quotes(word));
+    element.fail("{}: expected a whole number from {} to {}, got {}", what, low, high,
                  in_quotes(word));
   }
   return floor_int(*value);
@@ -180,7 +179,7 @@ std::vector<double> XmlElement::numbers() const {
   const std::string all = text();
   for (const auto word : split_words(all, ",")) {
     const auto value = parse_number(word);
-    if (!value) fail("{}: wanted a number, got {}", excerpt(name()), in_quotes(word));
+    if (!value) fail("{}: expected a number, got {}", excerpt(name()), in_quotes(word));
     out.push_back(*value);
   }
   return out;
@@ -189,7 +188,7 @@ std::vector<double> XmlElement::numbers() const {
 std::vector<double> XmlElement::numbers(int count) const {
   auto out = numbers();
   if (static_cast<int>(out.size()) != count)
-    fail("{}: wanted {} numbers, got {}", excerpt(name()), count, out.size());
+    fail("{}: expected {} numbers, got {}", excerpt(name()), count, out.size());
   return out;
 }
 
@@ -204,9 +203,9 @@ std::optional<std::string> XmlElement::attribute(std::string_view name) const {
   return {};
 }
 
-std::string XmlElement::wanted_attribute(std::string_view name) const {
+std::string XmlElement::expected_attribute(std::string_view name) const {
   if (auto value = attribute(name)) return *value;
-  fail("{}: wanted an attribute '{}', got none", excerpt(this->name()), excerpt(name));
+  fail("{}: expected an attribute '{}', got none", excerpt(this->name()), excerpt(name));
 }
 
 std::vector<std::string> XmlElement::attributes() const {
@@ -216,14 +215,15 @@ std::vector<std::string> XmlElement::attributes() const {
 }
 
 double XmlElement::number_attribute(std::string_view name) const {
-  const std::string word = wanted_attribute(name);
+  const std::string word = expected_attribute(name);
   const auto value = parse_number(word);
-  if (!value) fail("{}: {}: wanted a number, got {}", excerpt(this->name()), name, in_quotes(word));
+  if (!value)
+    fail("{}: {}: expected a number, got {}", excerpt(this->name()), name, in_quotes(word));
   return *value;
 }
 
 int XmlElement::integer_attribute(std::string_view name, int low, int high) const {
-  return whole(*this, fmt::format("{}: {}", excerpt(this->name()), name), wanted_attribute(name),
+  return whole(*this, fmt::format("{}: {}", excerpt(this->name()), name), expected_attribute(name),
                low, high);
 }
 
@@ -256,11 +256,11 @@ void XmlElement::check(const XmlKnown& known,
 XmlFile::XmlFile(const std::filesystem::path& path)
     : XmlFile(path.filename().string(), read_text(path)) {}
 
-XmlFile::XmlFile(std::string file, const std::string& text, size_t most_bytes)
+XmlFile::XmlFile(std::string file, const std::string& text, size_t max_bytes)
     : file_(std::move(file)), document_(std::make_unique<tinyxml2::XMLDocument>()) {
   std::string whole;
   size_t from = 0;
-  for (const size_t at : check_limits(file_, text, most_bytes)) {
+  for (const size_t at : check_limits(file_, text, max_bytes)) {
     whole.append(text, from, at - from) += "&amp;";
     from = at + 1;
   }
@@ -268,9 +268,9 @@ XmlFile::XmlFile(std::string file, const std::string& text, size_t most_bytes)
   document_->Parse(whole.data(), whole.size());
   if (document_->Error()) fail_parse(file_, text, *document_);
   const auto* root = document_->RootElement();
-  if (!root) fail("{}: wanted an XML element, got none", file_);
+  if (!root) fail("{}: expected an XML element, got none", file_);
   if (const auto* second = root->NextSiblingElement())
-    fail("{}:{}: wanted one outermost element, got a second, <{}>", file_, second->GetLineNum(),
+    fail("{}:{}: expected one outermost element, got a second, <{}>", file_, second->GetLineNum(),
          excerpt(second->Name()));
 }
 

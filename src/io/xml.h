@@ -1,5 +1,5 @@
 // XML files taken apart: elements, what stands in them, and numbers that are numbers. Whatever is wrong
-// is told with the place "file:line", what was wanted and what was got.
+// is told with the place "file:line", what was expected and what was got.
 #pragma once
 #include <Eigen/Core>
 #include <filesystem>
@@ -44,15 +44,15 @@ class XmlElement {
 
   /// The first child of that name, or none.
   XmlElement child(std::string_view name) const;
-  /// throws Error  "Barrett.xml:3: robot: wanted an element <palm>, got none"
-  XmlElement wanted(std::string_view name) const;
+  /// throws Error  "Barrett.xml:3: robot: expected an element <palm>, got none"
+  XmlElement expected(std::string_view name) const;
   /// All children in their order, or those of one name.
   std::vector<XmlElement> children(std::string_view name = {}) const;
 
   /// What stands between its tags, without comments and blanks at the ends.
   /// throws Error when elements stand in it
   std::string text() const;
-  /// throws Error  "Barrett.xml:31: Kp: wanted a number, got 'x'", as the next ones do
+  /// throws Error  "Barrett.xml:31: Kp: expected a number, got 'x'", as the next ones do
   double number() const;
   int integer(int low = std::numeric_limits<int>::min(),
               int high = std::numeric_limits<int>::max()) const;  ///< 1.0 is one, too
@@ -64,8 +64,8 @@ class XmlElement {
   std::string loose_text() const;
 
   std::optional<std::string> attribute(std::string_view name) const;
-  /// throws Error  "Barrett.xml:3: dof: wanted an attribute 'type', got none"
-  std::string wanted_attribute(std::string_view name) const;
+  /// throws Error  "Barrett.xml:3: dof: expected an attribute 'type', got none"
+  std::string expected_attribute(std::string_view name) const;
   std::vector<std::string> attributes() const;  ///< their names, in order
   double number_attribute(std::string_view name) const;
   int integer_attribute(std::string_view name, int low = std::numeric_limits<int>::min(),
@@ -90,8 +90,8 @@ class XmlFile {
   /// throws Error when it cannot be read, is no well-formed XML, or is beyond what any model needs:
   /// 16 MB, 64 elements in each other, 1000 attributes of one element
   explicit XmlFile(const std::filesystem::path& path);
-  /// `file` is the name shown in errors; `most_bytes`: what to allow instead of 16 MB
-  XmlFile(std::string file, const std::string& text, size_t most_bytes = size_t{16} << 20);
+  /// `file` is the name shown in errors; `max_bytes`: what to allow instead of 16 MB
+  XmlFile(std::string file, const std::string& text, size_t max_bytes = size_t{16} << 20);
   ~XmlFile();
   XmlFile(const XmlFile&) = delete;
   XmlFile& operator=(const XmlFile&) = delete;

@@ -107,10 +107,10 @@ bool FaultFinder::closing() {
   const auto name = word(" \t\r\n>/<");
   skip_blanks();
   if (at_ >= text_.size() || text_[at_] != '>')
-    return fault("wanted '>' after </{}, got {}", excerpt(name), got());
+    return fault("expected '>' after </{}, got {}", excerpt(name), got());
   if (open_.empty()) return fault("</{}> closes nothing", excerpt(name));
   if (open_.back().name != name)
-    return fault("wanted </{}>, which closes the <{}> of line {}, got </{}>",
+    return fault("expected </{}>, which closes the <{}> of line {}, got </{}>",
                  excerpt(open_.back().name), excerpt(open_.back().name), open_.back().line,
                  excerpt(name));
   open_.pop_back();
@@ -121,17 +121,17 @@ bool FaultFinder::closing() {
 bool FaultFinder::attribute(const Open& tag, std::vector<std::string_view>& names) {
   const auto element = excerpt(tag.name);
   const auto name = word(" \t\r\n=>/<\"'");
-  if (name.empty()) return fault("<{}>: wanted an attribute or '>', got {}", element, got());
+  if (name.empty()) return fault("<{}>: expected an attribute or '>', got {}", element, got());
   const auto shown = excerpt(name);
   skip_blanks();
   if (at_ >= text_.size() || text_[at_] != '=')
-    return fault("<{}>: wanted '=' and a value after the attribute '{}', got {}", element, shown,
+    return fault("<{}>: expected '=' and a value after the attribute '{}', got {}", element, shown,
                  got());
   ++at_;
   skip_blanks();
   const char quote = at_ < text_.size() ? text_[at_] : 0;
   if (quote != '"' && quote != '\'')
-    return fault("<{}>: attribute '{}': wanted a value in quotes, got {}", element, shown, got());
+    return fault("<{}>: attribute '{}': expected a value in quotes, got {}", element, shown, got());
   const size_t end = text_.find(quote, at_ + 1);
   if (end == std::string_view::npos)
     return fault("<{}>: attribute '{}': its value does not end", element, shown);
@@ -146,12 +146,13 @@ bool FaultFinder::opening() {
   const int begin = line();
   ++at_;
   const Open tag{word(" \t\r\n/><\"'="), begin};
-  if (tag.name.empty()) return fault("wanted the name of an element after '<', got {}", got());
+  if (tag.name.empty()) return fault("expected the name of an element after '<', got {}", got());
   for (std::vector<std::string_view> names;;) {
     skip_blanks();
     if (at_ >= text_.size())
-      return fault("wanted the end of the tag <{} that begins in line {}, got the end of the file",
-                   excerpt(tag.name), tag.line);
+      return fault(
+          "expected the end of the tag <{} that begins in line {}, got the end of the file",
+          excerpt(tag.name), tag.line);
     if (text_[at_] == '>') break;
     if (text_.substr(at_).starts_with("/>")) {
       at_ += 2;
@@ -182,7 +183,7 @@ std::optional<XmlFault> FaultFinder::find() {
     if (at_ < text_.size() && !step()) return fault_;
   }
   if (open_.empty()) return {};
-  fault("wanted </{}>, which closes the <{}> of line {}, got the end of the file",
+  fault("expected </{}>, which closes the <{}> of line {}, got the end of the file",
         excerpt(open_.back().name), excerpt(open_.back().name), open_.back().line);
   return fault_;
 }

@@ -22,7 +22,7 @@ Tag scan_tag(std::string_view text, size_t at);
 
 struct XmlFault {
   int line = 1;
-  std::string sentence;  ///< "wanted </mass>, which closes the <mass> of line 2, got </mess>"
+  std::string sentence;  ///< "expected </mass>, which closes the <mass> of line 2, got </mess>"
 };
 
 /// What is wrong first with the tags of a text that is no well-formed XML; empty when that is

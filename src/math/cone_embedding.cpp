@@ -8,11 +8,11 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double accepted = 1e-9;  // residuals of an optimum, as the header promises
-constexpr double wanted = 1e-11;   // it goes on until here, while that succeeds
-constexpr double certain = 1e-9;   // residuals of a proof that there is no solution, or no bound
-constexpr double proved = 1e-14;   // it goes on until here, while that succeeds
-constexpr int most_iterations = 100;
+constexpr double accepted = 1e-9;   // residuals of an optimum, as the header promises
+constexpr double expected = 1e-11;  // it goes on until here, while that succeeds
+constexpr double certain = 1e-9;    // residuals of a proof that there is no solution, or no bound
+constexpr double proved = 1e-14;    // it goes on until here, while that succeeds
+constexpr int max_iterations = 100;
 constexpr double step_back = 0.99;  // part of the way to the boundary
 
 double size_of(const VectorXd& v) { return v.size() == 0 ? 0 : v.lpNorm<Eigen::Infinity>(); }
@@ -102,7 +102,7 @@ struct Newton {
     d.x = both.head(n);
     d.z = both.tail(rows.count());
     d.z.tail(m) = scaling.apply_inverse(d.z.tail(m));
-    // from the rows, not from z: so that rounding is left to the products, which the next step mends
+    // from the rows, not from z: so that rounding is left to the products, which the next step repairs
     d.s = (d.tau * rows.b - part * missing.z - rows.A * d.x).tail(m);
     d.kappa = -(product + at.kappa * d.tau) / at.tau;
     return d;
@@ -213,8 +213,8 @@ EmbeddingEnd solve_embedding(const ConeRows& rows) {
       without_progress = 0;
     }
     const bool enough = best.quality.worst() <= accepted || proof.quality.proof() <= certain;
-    if (best.quality.worst() <= wanted || proof.quality.proof() <= proved) break;
-    if ((enough && without_progress > 1) || i == most_iterations) break;
+    if (best.quality.worst() <= expected || proof.quality.proof() <= proved) break;
+    if ((enough && without_progress > 1) || i == max_iterations) break;
     if (!advance_point(rows, kkt, p)) break;
   }
   if (best.quality.worst() <= accepted) best.status = ConeStatus::optimal;

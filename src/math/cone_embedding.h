@@ -9,8 +9,8 @@ namespace clench {
 
 /// Where the embedding is: x / tau solves the program when tau > 0, x or z proves that nothing does when kappa > 0
 struct ConePoint {
-  Eigen::VectorXd x, z;  // z: one a row
-  Eigen::VectorXd s;     // one a row of the cones
+  Eigen::VectorXd x, z;  // z: one per row
+  Eigen::VectorXd s;     // one per row of the cones
   double tau = 1, kappa = 1;
 };
 

@@ -18,17 +18,17 @@ constexpr double no_end = std::numeric_limits<double>::infinity();
 void check_program(const ConeProgram& program) {
   const auto n = program.c.size();
   const auto wrong = [](const std::string& why) { fail("cone program: {}", why); };
-  const auto wanted_size = [&](const char* name, Eigen::Index got, Eigen::Index want) {
-    if (got != want) wrong(fmt::format("{}: wanted {}, got {}", name, want, got));
+  const auto expected_size = [&](const char* name, Eigen::Index got, Eigen::Index want) {
+    if (got != want) wrong(fmt::format("{}: expected {}, got {}", name, want, got));
   };
   if (program.P.size() > 0 || program.P.rows() > 0) {
-    wanted_size("rows of P", program.P.rows(), n);
-    wanted_size("columns of P", program.P.cols(), n);
+    expected_size("rows of P", program.P.rows(), n);
+    expected_size("columns of P", program.P.cols(), n);
   }
-  wanted_size("rows of A", program.A.rows(), program.b.size());
-  if (program.A.rows() > 0) wanted_size("columns of A", program.A.cols(), n);
-  wanted_size("rows of G", program.G.rows(), program.h.size());
-  if (program.G.rows() > 0) wanted_size("columns of G", program.G.cols(), n);
+  expected_size("rows of A", program.A.rows(), program.b.size());
+  if (program.A.rows() > 0) expected_size("columns of A", program.A.cols(), n);
+  expected_size("rows of G", program.G.rows(), program.h.size());
+  if (program.G.rows() > 0) expected_size("columns of G", program.G.cols(), n);
   Eigen::Index rows = program.nonnegative;
   if (program.nonnegative < 0)
     wrong(fmt::format("nonnegative must be >= 0, got {}", program.nonnegative));
@@ -36,7 +36,7 @@ void check_program(const ConeProgram& program) {
     if (size < 1) wrong(fmt::format("a cone's size must be >= 1, got {}", size));
     rows += size;
   }
-  wanted_size("rows of the cones", rows, program.h.size());
+  expected_size("rows of the cones", rows, program.h.size());
   const std::pair<const char*, bool> finite[] = {
       {"P", program.P.allFinite()}, {"c", program.c.allFinite()}, {"A", program.A.allFinite()},
       {"b", program.b.allFinite()}, {"G", program.G.allFinite()}, {"h", program.h.allFinite()}};

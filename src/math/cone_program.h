@@ -9,7 +9,7 @@ namespace clench {
 /// are >= 0, then come second-order cones (t, u), |u| <= t, of the sizes given. P, A or G may be empty.
 struct ConeProgram {
   Eigen::MatrixXd P;  ///< symmetric, positive semidefinite
-  Eigen::VectorXd c;  ///< one an unknown
+  Eigen::VectorXd c;  ///< one per unknown
   Eigen::MatrixXd A;
   Eigen::VectorXd b;
   Eigen::MatrixXd G;

@@ -42,7 +42,7 @@ class NesterovTodd {
 
   ConeSizes cones_;
   Eigen::VectorXd w_, lambda_;  // w: t^2 - |u|^2 = 1
-  std::vector<double> eta_;     // one a cone
+  std::vector<double> eta_;     // one per cone
 };
 
 }  // namespace clench

@@ -75,7 +75,7 @@ IndependentRows independent_rows(const MatrixXd& m, double tolerance) {
   return out;
 }
 
-Eigen::Quaterniond least_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+Eigen::Quaterniond shortest_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d a = from.normalized(), b = to.normalized();
   const double twice_cosine = (a + b).norm();  // of half the angle
   Eigen::Quaterniond turn;

@@ -57,6 +57,6 @@ struct IndependentRows {
 IndependentRows independent_rows(const Eigen::MatrixXd& m, double tolerance);
 
 /// The least turn that brings one direction to another; between opposite ones, any of the half turns.
-Eigen::Quaterniond least_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+Eigen::Quaterniond shortest_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace clench

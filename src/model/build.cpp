@@ -17,12 +17,12 @@ static std::vector<std::vector<Apart>> checked_apart(const Robot& robot, const E
                                                      const Listeners& listeners) {
   auto out = given;
   if (out.size() != robot.chains.size())
-    fail("robot '{}': wanted joint states of {} chains, got {}", excerpt(robot.name),
+    fail("robot '{}': expected joint states of {} chains, got {}", excerpt(robot.name),
          robot.chains.size(), out.size());
   for (size_t c = 0; c < out.size(); ++c) {
     const auto& joints = robot.chains[c].joints;
     if (out[c].size() != joints.size())
-      fail("robot '{}': wanted joint states of {} joints, got {}", excerpt(robot.name),
+      fail("robot '{}': expected joint states of {} joints, got {}", excerpt(robot.name),
            joints.size(), out[c].size());
     for (size_t j = 0; j < out[c].size(); ++j) {
       if (!out[c][j]) continue;
@@ -46,14 +46,14 @@ static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed
   const Robot& robot = world.robot(id);
   if (placed.dofs.empty()) return;
   if (placed.dofs.size() != robot.dofs.size())
-    fail("robot '{}': wanted {} DOF values, got {}", excerpt(robot.name), robot.dofs.size(),
+    fail("robot '{}': expected {} DOF values, got {}", excerpt(robot.name), robot.dofs.size(),
          placed.dofs.size());
   Eigen::VectorXd q(robot.q.size());
   for (int i = 0; i < q.size(); ++i) {
     const auto [low, high] = robot.limits[i];
     q[i] = std::clamp(placed.dofs[i], low, high);
     if (std::abs(q[i] - placed.dofs[i]) > digits)
-      tell(listeners.mend, listeners.warn,
+      tell(listeners.repair, listeners.warn,
            fmt::format("robot '{}': DOF {} starts at {}, outside [{}, {}]; moved to the limit",
                        excerpt(robot.name), i + 1, placed.dofs[i], low, high));
   }

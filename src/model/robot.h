@@ -16,9 +16,9 @@ struct Chain {
   int parent_link = -1;
   Pose X_BC;  ///< chain frame in the base, or in the parent link
   std::vector<JointSpec> joints;
-  std::vector<Apart> apart;      ///< one a joint: its own q, where it does not follow its DOF
-  std::vector<int> last_joints;  ///< one a link
-  std::vector<std::optional<Pose>> X_JL;  ///< one a link: in the frame after its last joint
+  std::vector<Apart> apart;      ///< one per joint: its own q, where it does not follow its DOF
+  std::vector<int> last_joints;  ///< one per link
+  std::vector<std::optional<Pose>> X_JL;  ///< one per link: in the frame after its last joint
   std::vector<LinkJoint> link_joints;
   std::vector<Id<Body>> links;
 };
@@ -38,8 +38,8 @@ struct Robot {
   std::string class_name;
   Id<Body> base;
   std::vector<DofSpec> dofs;
-  std::vector<std::array<double, 2>> limits;  ///< one a DOF [rad or m]
-  Eigen::VectorXd q;                          ///< one a DOF [rad or m]
+  std::vector<std::array<double, 2>> limits;  ///< one per DOF [rad or m]
+  Eigen::VectorXd q;                          ///< one per DOF [rad or m]
   std::vector<Chain> chains;
   Pose X_BA;  ///< approach frame: +z is the direction of approach
   std::optional<Mounting> mounting;
@@ -62,9 +62,9 @@ Pose joint_pose(const JointSpec& joint, double q);
 /// Where a chain's joints stand, in the base frame.
 struct ChainFrames {
   Pose start;               ///< the chain frame
-  std::vector<Pose> axes;   ///< one a joint: its axis is z
-  std::vector<Pose> after;  ///< one a joint: after its motion
-  std::vector<Pose> links;  ///< one a link
+  std::vector<Pose> axes;   ///< one per joint: its axis is z
+  std::vector<Pose> after;  ///< one per joint: after its motion
+  std::vector<Pose> links;  ///< one per link
 };
 
 /// One a chain.

@@ -57,8 +57,8 @@ Id<Robot> World::find_robot(std::string_view name) const {
   return {};
 }
 
-std::string World::unique_name(const std::string& wanted) {
-  const std::string stem = wanted.empty() ? "body" : wanted;
+std::string World::unique_name(const std::string& expected) {
+  const std::string stem = expected.empty() ? "body" : expected;
   std::string name = stem;
   // the count of a name is remembered, so that a thousand boxes are named in no time
   int& count = state_.counts[stem];
@@ -155,7 +155,7 @@ void World::add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB) {
   const std::string robot_name = robot(id).name;
   const auto add_part = [&](const BodySpec& part, BodyKind kind, int chain, int link) {
     BodySpec named = part;
-    named.name = mended_name(part_name(part.name, spec.name, robot_name));
+    named.name = repaired_name(part_name(part.name, spec.name, robot_name));
     const auto body = add_body(named, kind, X_WB);
     edit(body).robot = id;
     edit(body).chain = chain;
@@ -219,7 +219,7 @@ void World::mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB
     fail("robot '{}' is already carried by '{}'", excerpt(name),
          excerpt(robot(robot(child).mounting->parent).name));
   if (chain < 0 || chain >= static_cast<int>(carrier.chains.size()))
-    fail("robot '{}': wanted a chain of '{}', 0 to {}, got {}", excerpt(name),
+    fail("robot '{}': expected a chain of '{}', 0 to {}, got {}", excerpt(name),
          excerpt(carrier.name), static_cast<int>(carrier.chains.size()) - 1, chain);
   if (carrier.chains[chain].links.empty())
     fail("robot '{}': chain {} of '{}' has no link to carry it", excerpt(name), chain,
@@ -248,7 +248,7 @@ void World::mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB
   set_collision(false, last, base);
   if (piece) {
     BodySpec named = *piece;
-    named.name = mended_name(robot(child).name + "_mount");
+    named.name = repaired_name(robot(child).name + "_mount");
     const auto body = add_body(named, BodyKind::mount, X_WB);
     edit(body).robot = child;
     edit(child).mounting->piece = body;
@@ -341,7 +341,7 @@ void World::place(Id<Robot> id, const Pose& X_WB) {
 void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
   const Robot& r = robot(id);
   if (q.size() != r.q.size())
-    fail("robot '{}': wanted {} DOF values, got {}", excerpt(r.name), r.q.size(), q.size());
+    fail("robot '{}': expected {} DOF values, got {}", excerpt(r.name), r.q.size(), q.size());
   Eigen::VectorXd inside = q;
   for (int i = 0; i < q.size(); ++i) {
     const auto [low, high] = r.limits[i];
@@ -384,7 +384,7 @@ void World::set_eigengrasps(Id<Robot> id, std::shared_ptr<const EigengraspSet> s
   if (set) {
     const std::string subject = fmt::format("eigengrasps of robot '{}'", excerpt(r.name));
     if (set->dofs != r.q.size())
-      fail("{}: wanted a set for {} DOFs, got one for {}", subject, r.q.size(), set->dofs);
+      fail("{}: expected a set for {} DOFs, got one for {}", subject, r.q.size(), set->dofs);
     check_eigengrasps(*set, subject);
   }
   edit(id).eigengrasps = std::move(set);

@@ -1,4 +1,4 @@
-// The World owns every mutable thing: bodies, robots, what may collide with what, how things rub.
+// The World owns every mutable thing: bodies, robots, what may collide with what, friction.
 // It is used by one thread; copy it for another. A copy shares the meshes and nothing else.
 #pragma once
 #include <map>
@@ -140,7 +140,7 @@ class World {
   Body& edit(Id<Body> id);
   Robot& edit(Id<Robot> id);
   Id<Body> insert(Body body, const std::string& name);
-  std::string unique_name(const std::string& wanted);
+  std::string unique_name(const std::string& expected);
   void switch_off_neighbours(const Robot& robot, bool chain_links_collide);
   void add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB);
   void erase(Id<Body> id);

@@ -25,12 +25,12 @@ struct Advancing {
   double threshold = world.contact_threshold();
 
   // the gap that a step must leave: a touching pair may use up half of what it has
-  double keep(const Watch& watch) const {
+  double keep(const PairBound& watch) const {
     return watch.touching ? std::min(aim * threshold, watch.gap / 2) : aim * threshold;
   }
 
   // a distance of the pair at s, or a lower bound of it that leaves the pair well apart [m]
-  double measure(const Watch& watch, double s, int& queries) const {
+  double measure(const PairBound& watch, double s, int& queries) const {
     const Body &a = world.body(watch.a), &b = world.body(watch.b);
     const double spheres = sphere_gap(a, b);
     if (spheres > 0.1 * (a.shape->radius() + b.shape->radius())) return spheres;
@@ -42,7 +42,7 @@ struct Advancing {
   }
 
   // measures the pair at s.   returns whether it stops the motion there
-  bool stops(Watch& watch, double s, int& queries) const {
+  bool stops(PairBound& watch, double s, int& queries) const {
     const double gap = measure(watch, s, queries);
     const bool first = watch.gap == 0;
     const bool closing = !first && gap < watch.gap;
@@ -54,9 +54,9 @@ struct Advancing {
   }
 };
 
-void check_precision(const World& world, const std::vector<Watch>& watches) {
+void check_precision(const World& world, const std::vector<PairBound>& watches) {
   const double threshold = world.contact_threshold();
-  for (const Watch& watch : watches)
+  for (const PairBound& watch : watches)
     for (const auto id : {watch.a, watch.b}) {
       const double far = world.body(id).X_WB.position.cwiseAbs().maxCoeff();
       if (far * std::numeric_limits<double>::epsilon() > precise * threshold)
@@ -69,13 +69,13 @@ void check_precision(const World& world, const std::vector<Watch>& watches) {
 
 }  // namespace
 
-Advance advance(const World& world, std::vector<Watch>& watches, double end,
-                const std::function<void(double)>& place, int& queries, int most_steps) {
+Advance advance(const World& world, std::vector<PairBound>& watches, double end,
+                const std::function<void(double)>& place, int& queries, int max_steps) {
   const Advancing run{world, end};
-  const auto later = [&](Watch& watch, double s) {
+  const auto later = [&](PairBound& watch, double s) {
     watch.safe = s + (watch.gap - run.keep(watch)) / watch.speed;
   };
-  for (Watch& watch : watches) {
+  for (PairBound& watch : watches) {
     watch.gap = 0;
     watch.touching = false;
     watch.safe =
@@ -87,23 +87,23 @@ Advance advance(const World& world, std::vector<Watch>& watches, double end,
     if (to != s) place(s = to);
   };
   // what is known of each pair where the motion stands
-  const auto arrive = [&](std::optional<Watch> stopped_by, bool gave_up = false) {
-    for (Watch& watch : watches) watch.clear = std::max(0.0, (watch.safe - s) * watch.speed);
-    return Advance{s, std::move(stopped_by), gave_up};
+  const auto arrive = [&](std::optional<PairBound> stopped_by, bool iteration_limit = false) {
+    for (PairBound& watch : watches) watch.clear = std::max(0.0, (watch.safe - s) * watch.speed);
+    return Advance{s, std::move(stopped_by), iteration_limit};
   };
   check_precision(world, watches);
   for (int step = 0; true; ++step) {
     // the pair that is known to be apart for the shortest while
     const auto next =
         std::min_element(watches.begin(), watches.end(),
-                         [](const Watch& x, const Watch& y) { return x.safe < y.safe; });
+                         [](const PairBound& x, const PairBound& y) { return x.safe < y.safe; });
     if (next == watches.end() || next->safe >= end) {
       go(end);
       return arrive(std::nullopt);
     }
     go(next->safe);
     const bool stop = run.stops(*next, s, queries);
-    if (stop || step == most_steps) return arrive(*next, !stop);
+    if (stop || step == max_steps) return arrive(*next, !stop);
     later(*next, s);
     next->safe = std::max(next->safe, std::nextafter(s, 2 * end));
   }

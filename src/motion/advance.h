@@ -10,7 +10,7 @@
 namespace clench {
 
 /// A pair under watch while a parameter s runs from 0 to the end of a motion.
-struct Watch {
+struct PairBound {
   Id<Body> a, b;
   double speed = 0;  ///< bound of the relative speed of any two of their points [m per unit of s]
   double clear =
@@ -22,9 +22,9 @@ struct Watch {
 };
 
 struct Advance {
-  double s = 0;                     ///< where the motion stands
-  std::optional<Watch> stopped_by;  ///< the pair that ended it
-  bool gave_up = false;  ///< it ended for the number of steps that it took, not for a touch
+  double s = 0;                         ///< where the motion stands
+  std::optional<PairBound> stopped_by;  ///< the pair that ended it
+  bool iteration_limit = false;  ///< it ended for the number of steps that it took, not for a touch
 };
 
 /// A gap below this part of the threshold was pushed in, not slid.
@@ -37,9 +37,9 @@ inline constexpr double nearly_closed = 1.0 / 64;
 /// watches  with a, b, speed and perhaps clear given; nothing collides at s = 0. On return `clear` holds at s,
 ///          the next start
 /// queries  counts the distance queries made
-/// most_steps  a motion that needs more grazes for metres within micrometres: it gives up where it is
+/// max_steps  a motion that needs more grazes for metres within micrometres: it gives up where it is
 /// throws   Error when the bodies stand so far out that rounding hides the threshold
-Advance advance(const World& world, std::vector<Watch>& watches, double end,
-                const std::function<void(double)>& place, int& queries, int most_steps = 1000000);
+Advance advance(const World& world, std::vector<PairBound>& watches, double end,
+                const std::function<void(double)>& place, int& queries, int max_steps = 1000000);
 
 }  // namespace clench

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "motion/move.h"
-#include "motion/settle.h"
+#include "motion/relax_springs.h"
 #include "motion/springs.h"
 
 namespace clench {
@@ -16,19 +16,19 @@ static constexpr double arrived = 1e-13;
 // changes below this are no motion [rad or m]
 static constexpr double no_motion = 1e-5;
 // fingers that slide along a surface stop and go; one that has not come to rest after so many contacts is stopped
-static constexpr int most_events = 2000;
+static constexpr int max_events = 2000;
 // once something holds a joint of a compliant DOF, its tendon is pulled in steps that would turn the joint by this,
 // and its springs come to rest after each [rad or m]
 static constexpr double pull_step = 0.02;
 // at its end it waits for springs that creep on, so often
-static constexpr int most_unrest = 20;
+static constexpr int max_unrest = 20;
 
 namespace {
 
 // may a compliant DOF go on? it leaves blocked joints behind, and winds up their springs until contacts and limits
 // would hold against whatever more it pulls
-bool pulls_on(Drive& drive, int dof, double rate, const BlockedJoints& blocked,
-              const SpringBalance& springs) {
+bool tendon_can_advance(Drive& drive, int dof, double rate, const BlockedJoints& blocked,
+                        const SpringBalance& springs) {
   bool free = false, unwinds = false;
   each_joint(drive.robot(), dof, [&](int c, int j, const JointSpec& joint) {
     Apart& own = drive.apart[c][j];
@@ -40,11 +40,11 @@ bool pulls_on(Drive& drive, int dof, double rate, const BlockedJoints& blocked,
     else
       unwinds = unwinds || (place - *own) * joint.ratio * rate < 0;
   });
-  return free || unwinds || !springs.takes_up(dof, rate < 0 ? -1 : 1);
+  return free || unwinds || !springs.balanced_by_contacts(dof, rate < 0 ? -1 : 1);
 }
 
 // may the DOF go on past its blocked joints? a breakaway DOF, closing, leaves them behind
-bool goes_on(Drive& drive, int dof, double rate, const BlockedJoints& blocked) {
+bool dof_can_advance(Drive& drive, int dof, double rate, const BlockedJoints& blocked) {
   int stopped = 0, free = 0;
   each_joint(drive.robot(), dof, [&](int c, int j, const JointSpec&) {
     if (blocked.joints.contains({c, j}))
@@ -74,8 +74,8 @@ std::vector<BodyPair> stop_blocked(Drive& drive, Eigen::VectorXd& rates, double 
         blocked_joints(drive.world, drive.id, joint_speeds(drive, rates, true), touching, closed);
     for (int i = 0; i < rates.size(); ++i) {
       if (rates[i] == 0) continue;
-      if (drive.sprung(i) ? pulls_on(drive, i, rates[i], blocked, springs)
-                          : goes_on(drive, i, rates[i], blocked))
+      if (drive.sprung(i) ? tendon_can_advance(drive, i, rates[i], blocked, springs)
+                          : dof_can_advance(drive, i, rates[i], blocked))
         continue;
       rates[i] = 0;
       stops[i] = DofStop::contact;
@@ -122,10 +122,10 @@ Advance follow(Drive& drive, const Eigen::VectorXd& rates, int& queries) {
 
 void check(const Robot& robot, const DofMotion& motion) {
   if (motion.targets.size() != robot.q.size())
-    fail("driving '{}': wanted {} DOF values, got {}", excerpt(robot.name), robot.q.size(),
+    fail("driving '{}': expected {} DOF values, got {}", excerpt(robot.name), robot.q.size(),
          motion.targets.size());
   if (motion.rates.size() != motion.targets.size())
-    fail("driving '{}': wanted {} paces, got {}", excerpt(robot.name), motion.targets.size(),
+    fail("driving '{}': expected {} paces, got {}", excerpt(robot.name), motion.targets.size(),
          motion.rates.size());
   for (int i = 0; i < motion.targets.size(); ++i) {
     const auto [low, high] = robot.limits[i];
@@ -176,7 +176,7 @@ void drive_on(Drive& drive, const Eigen::VectorXd& all_rates, const DriveOptions
   int unrest = 0;
   while (true) {
     re_engage(drive);
-    const Springs springs = sprung ? settle(drive, options, result) : Springs::at_rest;
+    const Springs springs = sprung ? relax_springs(drive, options, result) : Springs::at_rest;
     if (springs == Springs::stopped) return stop_all(result, all_rates, DofStop::contact);
     // who has somewhere to go, and is not blocked
     Eigen::VectorXd rates = all_rates;
@@ -184,15 +184,15 @@ void drive_on(Drive& drive, const Eigen::VectorXd& all_rates, const DriveOptions
     result.stopped_by = stop_blocked(drive, rates, closed, result.stops);
     if (rates.isZero(0)) {
       if (springs == Springs::at_rest) return;
-      if (++unrest <= most_unrest) continue;
+      if (++unrest <= max_unrest) continue;
       for (int i = 0; i < rates.size(); ++i)
-        if (drive.sprung(i)) result.stops[i] = DofStop::gave_up;
+        if (drive.sprung(i)) result.stops[i] = DofStop::iteration_limit;
       return;
     }
-    if (result.events >= most_events) return stop_all(result, rates, DofStop::gave_up);
+    if (result.events >= max_events) return stop_all(result, rates, DofStop::iteration_limit);
 
     const Advance end = follow(drive, rates, result.queries);
-    if (end.gave_up) return stop_all(result, rates, DofStop::gave_up);
+    if (end.iteration_limit) return stop_all(result, rates, DofStop::iteration_limit);
     if (!end.stopped_by) continue;
     ++result.events;
     if (options.stop_at_contact && !end.stopped_by->touching) {
@@ -219,7 +219,7 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
   const double pace = fastest > 0 ? fastest : 1;
   const Robot start = robot;
   DriveResult result;
-  result.stops.assign(robot.dofs.size(), DofStop::still);
+  result.stops.assign(robot.dofs.size(), DofStop::not_driven);
   drive_on(drive, motion.rates / pace, options, result);
   drive.place();
   result.moved = any_moved(start, drive.robot());
@@ -230,7 +230,7 @@ DriveResult drive_to(World& world, Id<Robot> id, const Eigen::VectorXd& targets,
                      const DriveOptions& options) {
   const Robot& robot = world.robot(id);
   if (targets.size() != robot.q.size())
-    fail("driving '{}': wanted {} DOF values, got {}", excerpt(robot.name), robot.q.size(),
+    fail("driving '{}': expected {} DOF values, got {}", excerpt(robot.name), robot.q.size(),
          targets.size());
   return drive(world, id, {.targets = targets, .rates = targets - robot.q}, options);
 }

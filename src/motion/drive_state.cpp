@@ -64,8 +64,8 @@ double pair_speed(const Drive& drive, const JointSpeeds& speeds, Id<Body> a, Id<
 }
 
 // pairs that some joint can bring together, nothing known of them yet
-std::vector<Watch> all_pairs(const Drive& drive) {
-  std::vector<Watch> pairs;
+std::vector<PairBound> all_pairs(const Drive& drive) {
+  std::vector<PairBound> pairs;
   std::set<Id<Body>> done;
   for (const auto a : drive.moving) {
     done.insert(a);
@@ -108,11 +108,11 @@ void re_engage(Drive& drive) {
 
 Advance follow_path(Drive& drive, const JointSpeeds& speeds, double length,
                     const std::function<void(double)>& place, int& queries) {
-  for (Watch& pair : drive.pairs) pair.speed = pair_speed(drive, speeds, pair.a, pair.b);
+  for (PairBound& pair : drive.pairs) pair.speed = pair_speed(drive, speeds, pair.a, pair.b);
   // what rests keeps what is known of it
   const auto moves = std::partition(drive.pairs.begin(), drive.pairs.end(),
-                                    [](const Watch& pair) { return pair.speed > 0; });
-  std::vector<Watch> watches(drive.pairs.begin(), moves);
+                                    [](const PairBound& pair) { return pair.speed > 0; });
+  std::vector<PairBound> watches(drive.pairs.begin(), moves);
   const Advance end = advance(drive.world, watches, length, place, queries);
   std::copy(watches.begin(), watches.end(), drive.pairs.begin());
   return end;

@@ -14,7 +14,7 @@ struct Drive {
   std::vector<Id<Body>> moving;
   Eigen::VectorXd q;
   std::vector<std::vector<Apart>> apart;
-  std::vector<Watch> pairs;
+  std::vector<PairBound> pairs;
   Eigen::VectorXd targets = {};  ///< of the DOFs, within their limits
 
   const Robot& robot() const { return world.robot(id); }

@@ -24,7 +24,7 @@ Eigengrasps::Eigengrasps(const EigengraspSet& set, const std::vector<Range>& lim
     : dof_limits_(limits) {
   check_eigengrasps(set, "eigengrasps");
   if (!limits.empty() && static_cast<int>(limits.size()) != set.dofs)
-    fail("eigengrasps: wanted a set for {} DOFs, got one for {}", limits.size(), set.dofs);
+    fail("eigengrasps: expected a set for {} DOFs, got one for {}", limits.size(), set.dofs);
   const int count = static_cast<int>(set.grasps.size());
   vectors_.resize(count, set.dofs);
   eigenvalues_.resize(count);
@@ -43,8 +43,8 @@ Eigengrasps::Eigengrasps(const EigengraspSet& set, const std::vector<Range>& lim
   }
 }
 
-static void check_size(const VectorXd& x, int wanted, const char* what) {
-  if (x.size() != wanted) fail("eigengrasps: wanted {} {}, got {}", wanted, what, x.size());
+static void check_size(const VectorXd& x, int expected, const char* what) {
+  if (x.size() != expected) fail("eigengrasps: expected {} {}, got {}", expected, what, x.size());
   for (int i = 0; i < x.size(); ++i)
     if (!number_rule.allows(x[i])) fail("eigengrasps: {}: {}", what, fault(number_rule, x[i]));
 }
@@ -113,13 +113,13 @@ std::vector<Range> Eigengrasps::range() const {
 
 static MatrixXd rows_of(const std::vector<VectorXd>& postures) {
   const int count = static_cast<int>(postures.size());
-  if (count < 2) fail("eigengrasps: wanted at least 2 postures, got {}", count);
+  if (count < 2) fail("eigengrasps: expected at least 2 postures, got {}", count);
   const int dofs = static_cast<int>(postures[0].size());
-  if (dofs < 1) fail("eigengrasps: posture 1: wanted DOF values, got none");
+  if (dofs < 1) fail("eigengrasps: posture 1: expected DOF values, got none");
   MatrixXd rows(count, dofs);
   for (int i = 0; i < count; ++i) {
     if (postures[i].size() != dofs)
-      fail("eigengrasps: posture {}: wanted {} DOF values, got {}", i + 1, dofs,
+      fail("eigengrasps: posture {}: expected {} DOF values, got {}", i + 1, dofs,
            postures[i].size());
     for (int d = 0; d < dofs; ++d)
       check(number_rule, postures[i][d], fmt::format("eigengrasps: posture {}", i + 1));
@@ -139,7 +139,7 @@ static VectorXd with_sign(const VectorXd& v) {
 EigengraspSet principal_eigengrasps(const std::vector<VectorXd>& postures, int count) {
   MatrixXd rows = rows_of(postures);
   const int dofs = static_cast<int>(rows.cols());
-  if (count < 0 || count > dofs) fail("eigengrasps: count: wanted 1 to {}, got {}", dofs, count);
+  if (count < 0 || count > dofs) fail("eigengrasps: count: expected 1 to {}, got {}", dofs, count);
   EigengraspSet set;
   set.dofs = dofs;
   set.origin = rows.colwise().mean();
@@ -153,9 +153,9 @@ EigengraspSet principal_eigengrasps(const std::vector<VectorXd>& postures, int c
   int varied = 0;
   while (varied < dofs && values[dofs - 1 - varied] > nothing) ++varied;
   if (varied == 0)
-    fail("eigengrasps: wanted postures that differ, got the same {} times", rows.rows());
+    fail("eigengrasps: expected postures that differ, got the same {} times", rows.rows());
   if (count > varied)
-    fail("eigengrasps: count: {} postures vary in {} directions only, wanted {}", rows.rows(),
+    fail("eigengrasps: count: {} postures vary in {} directions only, expected {}", rows.rows(),
          varied, count);
   for (int i = 0; i < (count ? count : varied); ++i)
     set.grasps.push_back(

@@ -32,9 +32,10 @@ double reach_from(const Body& body, const Eigen::Vector3d& origin) {
   return (body.X_WB * body.shape->centre() - origin).norm() + body.shape->radius();
 }
 
-std::vector<Watch> watch_pairs(const World& world, const Way& way, double length, double angle) {
+std::vector<PairBound> watch_pairs(const World& world, const Way& way, double length,
+                                   double angle) {
   const std::set<Id<Body>> mine(way.moving.begin(), way.moving.end());
-  std::vector<Watch> watches;
+  std::vector<PairBound> watches;
   for (const auto a : way.moving)
     for (const auto b : world.bodies())
       if (!mine.contains(b) && world.may_collide(a, b))
@@ -47,9 +48,9 @@ std::vector<Watch> watch_pairs(const World& world, const Way& way, double length
 // contacts that the very first motion would push into
 std::vector<BodyPair> blocked_pairs(const World& world, const Way& way,
                                     const Eigen::Vector3d& linear, const Eigen::Vector3d& angular,
-                                    const std::vector<Watch>& watches) {
+                                    const std::vector<PairBound>& watches) {
   std::vector<BodyPair> blocked;
-  for (const Watch& watch : watches) {
+  for (const PairBound& watch : watches) {
     const std::array a{watch.a}, b{watch.b};
     const auto touching = contacts(world, b, a);
     const bool pushed = std::any_of(touching.begin(), touching.end(), [&](const Contact& contact) {
@@ -72,7 +73,7 @@ MoveResult move(World& world, const Way& way) {
 
   MoveResult result;
   auto watches = watch_pairs(world, way, linear.norm(), angle);
-  std::erase_if(watches, [](const Watch& watch) { return watch.speed == 0; });
+  std::erase_if(watches, [](const PairBound& watch) { return watch.speed == 0; });
   result.stopped_by = blocked_pairs(world, way, linear, angular, watches);
   result.touched = !result.stopped_by.empty();
   if (result.touched) return result;
@@ -82,8 +83,8 @@ MoveResult move(World& world, const Way& way) {
   };
   const Advance end = advance(world, watches, 1, place, result.queries);
   result.fraction = end.s;
-  result.gave_up = end.gave_up;
-  result.touched = end.stopped_by && !end.gave_up;
+  result.iteration_limit = end.iteration_limit;
+  result.touched = end.stopped_by && !end.iteration_limit;
   if (result.touched) result.stopped_by.emplace_back(end.stopped_by->a, end.stopped_by->b);
   return result;
 }

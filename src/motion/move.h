@@ -10,7 +10,7 @@ struct MoveResult {
   double fraction = 0;               ///< of the way gone, in [0, 1]
   bool touched = false;              ///< did a contact end it?
   std::vector<BodyPair> stopped_by;  ///< moved body first
-  bool gave_up =
+  bool iteration_limit =
       false;        ///< did it end for its number of steps, sliding for metres within micrometres?
   int queries = 0;  ///< distance queries it took
 };

@@ -17,7 +17,7 @@ static constexpr double at_limit = 1e-9;
 // rounding of a way [rad or m]
 static constexpr double nowhere = 1e-12;
 // of the contact threshold: where closing stops anyhow
-static constexpr double least_gap = 0.2;
+static constexpr double min_gap = 0.2;
 
 namespace {
 
@@ -95,7 +95,7 @@ void SpringBalance::add_reactions(const World& world, Id<Robot> id,
     for (int i = 0; i < count; ++i)
       velocities.col(i) = contact_velocity(world, id, frames, joints_[i].place, contact);
     if (velocities.isZero(0)) continue;
-    const double open = std::max(0.0, least_gap * world.contact_threshold() - contact.gap);
+    const double open = std::max(0.0, min_gap * world.contact_threshold() - contact.gap);
     for (const Vector3d& edge : edges_of(contact, sliding))
       add(velocities.transpose() * edge, open);
   }
@@ -115,10 +115,10 @@ void SpringBalance::add_reactions(const World& world, Id<Robot> id,
   }
 }
 
-JointSpeeds SpringBalance::way() const {
+JointSpeeds SpringBalance::displacement() const {
   VectorXd drawn(static_cast<int>(joints_.size()));
   for (int i = 0; i < drawn.size(); ++i)
-    drawn[i] = std::sqrt(joints_[i].stiffness) * joints_[i].wound;
+    drawn[i] = std::sqrt(joints_[i].stiffness) * joints_[i].deflection;
   auto way = nearest_allowed(reactions_, opens_, drawn);
   // contacts on both sides that cannot all open
   if (!way) way = nearest_allowed(reactions_, VectorXd::Zero(opens_.size()), drawn);
@@ -130,7 +130,7 @@ JointSpeeds SpringBalance::way() const {
   return out;
 }
 
-bool SpringBalance::takes_up(int dof, double sense) const {
+bool SpringBalance::balanced_by_contacts(int dof, double sense) const {
   constexpr double rounding = 1e-9;  // of the torque
   VectorXd torques = VectorXd::Zero(static_cast<int>(joints_.size()));
   for (int i = 0; i < torques.size(); ++i)

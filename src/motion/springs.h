@@ -18,9 +18,9 @@ class SpringBalance {
 
   /// How far each joint has to go until springs and contacts are in balance, were they to stay as they are, and until
   /// no gap is below a fifth of the contact threshold; 0 for all joints of other DOFs [rad or m].
-  JointSpeeds way() const;
+  JointSpeeds displacement() const;
   /// Whatever the DOF's tendon adds, in the sense of +1 or -1: do contacts and limits take it up, so that no joint moves?
-  bool takes_up(int dof, double sense) const;
+  bool balanced_by_contacts(int dof, double sense) const;
 
  private:
   struct Joint {
@@ -28,7 +28,7 @@ class SpringBalance {
     int dof;
     double ratio;
     double stiffness;
-    double wound;  ///< ratio * q - joint
+    double deflection;  ///< ratio * q - joint
   };
   void add_reactions(const World& world, Id<Robot> id, std::span<const Contact> touching,
                      bool sliding);

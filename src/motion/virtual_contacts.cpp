@@ -205,9 +205,9 @@ const Still* palm_of(const std::vector<Still>& still) {
 
 std::vector<VirtualContactSpec> find_virtual_contacts(const World& world, Id<Robot> id,
                                                       const FindSitesOptions& options) {
-  if (options.per_link < 1 || options.per_link > 100)
-    fail("virtual contacts: per_link: wanted 1 to 100, got {}", options.per_link);
-  const int against = world.materials().index(options.against);
+  if (options.count_per_link < 1 || options.count_per_link > 100)
+    fail("virtual contacts: count_per_link: expected 1 to 100, got {}", options.count_per_link);
+  const int against = world.materials().index(options.object_material);
   const Robot robot = opened(world.robot(id));
   const auto frames = chain_frames(robot);
   const bool closes = std::any_of(robot.dofs.begin(), robot.dofs.end(),
@@ -229,7 +229,7 @@ std::vector<VirtualContactSpec> find_virtual_contacts(const World& world, Id<Rob
         still.push_back({c, l, &body, frames[c].links[l].inverse() * robot.X_BA});
         continue;
       }
-      for (const Pose& X_LC : link_sites(*body.shape, motion, options.per_link))
+      for (const Pose& X_LC : link_sites(*body.shape, motion, options.count_per_link))
         add(c, l, body, X_LC);
     }
   if (const Still* palm = closes && options.palm ? palm_of(still) : nullptr)

@@ -5,9 +5,10 @@
 namespace clench {
 
 struct FindSitesOptions {
-  int per_link = 1;              ///< places on each link, along its length, 1 to 100
-  bool palm = true;              ///< one on the palm, too
-  std::string against = "wood";  ///< material that is to be grasped: gives mu with the link's own
+  int count_per_link = 1;  ///< places on each link, along its length, 1 to 100
+  bool palm = true;        ///< one on the palm, too
+  std::string object_material =
+      "wood";  ///< material that is to be grasped: gives mu with the link's own
 };
 
 /// Where surfaces move forward when the hand closes. The hand is open and every DOF moves at its

@@ -21,15 +21,15 @@ namespace {
 
 constexpr float letter_height = 9, title_height = 13, margin = 16, axis_room = 72;
 constexpr float panel_height = 170, panel_gap = 56;  // with the gap above, which holds the name
-constexpr float least_gap = 0.6f;                    // part of a panel that the gap may take
+constexpr float min_gap = 0.6f;                      // part of a panel that the gap may take
 constexpr float value_room = 15;      // between a column and the panel's name [pixels]
 constexpr float panel_name = 24;      // its baseline above the panel [pixels]
-constexpr float least_lines = 13;     // from line to line of an axis [pixels]
-constexpr float least_column = 2;     // height of what is not 0 [pixels]
+constexpr float min_lines = 13;       // from line to line of an axis [pixels]
+constexpr float min_column = 2;       // height of what is not 0 [pixels]
 constexpr float turned_label = 150;   // length that an upright label may have [pixels]
 constexpr float turned_part = 0.25f;  // of the chart's height that it may have
 constexpr float level_label = 110;    // columns as wide keep their labels level [pixels]
-constexpr int least_size = 64, largest_size = 8192;
+constexpr int min_size = 64, largest_size = 8192;
 constexpr size_t max_items = largest_size, max_values = 1'000'000;  // a series, and in all
 constexpr size_t max_letters = 10'000'000;                          // of all texts [bytes]
 
@@ -38,31 +38,32 @@ const Canvas::Color column_color(0.45f, 0.66f, 0.84f), best_color(0.09f, 0.40f, 
 const Canvas::Color cross_color(0.80f, 0.25f, 0.15f);
 
 void check_chart(const Chart& chart, const ChartOptions& options) {
-  if (chart.series.empty()) fail("chart: wanted at least one series, got none");
+  if (chart.series.empty()) fail("chart: expected at least one series, got none");
   const size_t items = chart.series[0].values.size();
   if (items == 0)
-    fail("chart: series '{}': wanted at least one value, got none", chart.series[0].name);
+    fail("chart: series '{}': expected at least one value, got none", chart.series[0].name);
   for (const ChartSeries& series : chart.series)
     if (series.values.size() != items)
-      fail("chart: series '{}': wanted {} values, as the first has, got {}", series.name, items,
+      fail("chart: series '{}': expected {} values, as the first has, got {}", series.name, items,
            series.values.size());
-  if (items > max_items) fail("chart: wanted at most {} values a series, got {}", max_items, items);
+  if (items > max_items)
+    fail("chart: expected at most {} values a series, got {}", max_items, items);
   if (items * chart.series.size() > max_values)
-    fail("chart: wanted at most {} values in all, got {} series of {}", max_values,
+    fail("chart: expected at most {} values in all, got {} series of {}", max_values,
          chart.series.size(), items);
   size_t letters = chart.title.size();
   for (const std::string& label : chart.labels) letters += label.size();
   for (const ChartSeries& series : chart.series) letters += series.name.size();
   if (letters > max_letters)
-    fail("chart: wanted texts of at most {} bytes in all, got {}", max_letters, letters);
+    fail("chart: expected texts of at most {} bytes in all, got {}", max_letters, letters);
   if (!chart.labels.empty() && chart.labels.size() != items)
-    fail("chart: wanted {} label{}, one a value, got {}", items, items == 1 ? "" : "s",
+    fail("chart: expected {} label{}, one per value, got {}", items, items == 1 ? "" : "s",
          chart.labels.size());
-  if (options.width < least_size || options.width > largest_size)
-    fail("chart: wanted a width of {} to {} pixels, got {}", least_size, largest_size,
+  if (options.width < min_size || options.width > largest_size)
+    fail("chart: expected a width of {} to {} pixels, got {}", min_size, largest_size,
          options.width);
-  if (options.height != 0 && (options.height < least_size || options.height > largest_size))
-    fail("chart: wanted a height of {} to {} pixels, got {}", least_size, largest_size,
+  if (options.height != 0 && (options.height < min_size || options.height > largest_size))
+    fail("chart: expected a height of {} to {} pixels, got {}", min_size, largest_size,
          options.height);
 }
 
@@ -106,7 +107,7 @@ void draw_axis(Canvas& canvas, const ChartPanel& panel, const ChartScale& scale,
   const int first = floor_int(axis.low / axis.step + 0.5);
   const int last = floor_int(axis.high / axis.step + 0.5);
   const float apart = (scale.bottom - scale.top) / static_cast<float>(last - first);
-  const int every = floor_between(std::ceil(least_lines / apart), 1, last - first + 1);
+  const int every = floor_between(std::ceil(min_lines / apart), 1, last - first + 1);
   for (int i = first; i <= last; ++i) {
     const double value = i * axis.step;
     // the axis of the largest numbers ends at the largest there is
@@ -122,7 +123,7 @@ void draw_axis(Canvas& canvas, const ChartPanel& panel, const ChartScale& scale,
 
 // infinite when there is none
 double best_of(const ChartSeries& series) {
-  const double sign = series.least_is_best ? -1 : 1;
+  const double sign = series.higher_is_better ? 1 : -1;
   double best = -std::numeric_limits<double>::infinity();
   for (const double value : series.values)
     if (std::isfinite(value)) best = std::max(best, sign * value);
@@ -137,8 +138,8 @@ void draw_cross(Canvas& canvas, float x, float zero) {
 // a value's end of its column; what is not 0 can be told from it
 float end_of(const ChartScale& scale, double value) {
   const float zero = scale.height(0), y = scale.height(value);
-  if (value > 0) return std::min(y, zero - least_column);
-  if (value < 0) return std::max(y, zero + least_column);
+  if (value > 0) return std::min(y, zero - min_column);
+  if (value < 0) return std::max(y, zero + min_column);
   return zero;
 }
 
@@ -285,7 +286,7 @@ Picture draw_chart(const Chart& chart, const ChartOptions& options) {
   const auto panels = static_cast<float>(chart.series.size());
   const float needed = margin + above + panels * panel_height + below;
   const int height =
-      options.height > 0 ? options.height : floor_between(needed, least_size, largest_size);
+      options.height > 0 ? options.height : floor_between(needed, min_size, largest_size);
 
   Picture picture = blank_picture(options.width, height);
   Canvas canvas(picture);
@@ -293,7 +294,7 @@ Picture draw_chart(const Chart& chart, const ChartOptions& options) {
               {margin, margin + title_height}, title_height, ink);
   const float room = (static_cast<float>(height) - margin - above - below) / panels;
   // low panels leave less between them
-  const float gap = std::min(panel_gap, least_gap * room);
+  const float gap = std::min(panel_gap, min_gap * room);
   for (size_t i = 0; i < chart.series.size(); ++i) {
     const float top = margin + above + static_cast<float>(i) * room + gap;
     const float name = panel_name * gap / panel_gap;

@@ -9,13 +9,13 @@ namespace clench {
 
 struct ChartSeries {
   std::string name;            ///< with its unit
-  std::vector<double> values;  ///< one an item; what is not finite is marked by a cross
-  bool least_is_best = false;
+  std::vector<double> values;  ///< one per item; what is not finite is marked by a cross
+  bool higher_is_better = true;
 };
 
 struct Chart {
   std::string title = {};
-  std::vector<std::string> labels = {};  ///< one an item; empty: their numbers, from 1
+  std::vector<std::string> labels = {};  ///< one per item; empty: their numbers, from 1
   std::vector<ChartSeries> series = {};
 };
 

@@ -18,7 +18,7 @@ constexpr double crease = 35 * std::numbers::pi / 180;
 constexpr float solid_from = 0.999f;   // opacity above which nothing shines through
 constexpr float longest_edge = 0.07f;  // across which light is interpolated [scene units]
 // of one piece, by splitting; what comes with more keeps them
-constexpr size_t most_triangles = 200000;
+constexpr size_t max_triangles = 200000;
 
 std::array<uint8_t, 4> to_bytes(const Eigen::Vector3f& color, float opacity) {
   const auto byte = [](float x) {
@@ -52,7 +52,7 @@ Batch append(Piece& piece, DrawList& list) {
     for (int k = 0; k < 3; ++k)
       corners.push_back({piece.p_W[piece.triangles[i][k]].cast<float>(), normals[i][k], color});
   }
-  const auto fine = piece.mark ? corners : split_long_edges(corners, longest_edge, most_triangles);
+  const auto fine = piece.mark ? corners : split_long_edges(corners, longest_edge, max_triangles);
   Batch batch{.opacity = piece.opacity};
   batch.first_caster = static_cast<int>(list.indices.size());
   if (piece.mark || piece.background) corners.clear();

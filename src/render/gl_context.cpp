@@ -48,14 +48,14 @@ GlContext::GlContext() {
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
     refuse("EGL found no driver that draws without a display");
   eglBindAPI(EGL_OPENGL_API);
-  const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
-                           3,
-                           EGL_CONTEXT_MINOR_VERSION,
-                           3,
-                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                           EGL_NONE};
-  EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+  const EGLint expected[] = {EGL_CONTEXT_MAJOR_VERSION,
+                             3,
+                             EGL_CONTEXT_MINOR_VERSION,
+                             3,
+                             EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                             EGL_NONE};
+  EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, expected);
   display_ = display;
   if (context == EGL_NO_CONTEXT ||
       !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {

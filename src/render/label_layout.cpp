@@ -14,10 +14,10 @@ using Eigen::Vector2f;
 namespace {
 
 constexpr float label_part = 0.018f, caption_part = 0.022f;  // of the picture's height
-constexpr float least_letters = 9;                           // height [pixels]
-constexpr float least_picture = 120;  // in smaller ones words would hide all else [pixels]
-constexpr float arrow_air = 0.004f;   // half width of an arrow, part of the picture's height
-constexpr float air = 0.35f;          // about letters, part of their height
+constexpr float min_letters = 9;                             // height [pixels]
+constexpr float min_picture = 120;   // in smaller ones words would hide all else [pixels]
+constexpr float arrow_air = 0.004f;  // half width of an arrow, part of the picture's height
+constexpr float air = 0.35f;         // about letters, part of their height
 const Eigen::Vector3f caption_color(0.1f, 0.1f, 0.1f);
 
 // distances and directions in which a box looks for room: each ring has 16
@@ -33,16 +33,16 @@ PixelBox kept_inside(const PixelBox& box, const Vector2f& picture) {
   return moved(left, (-left.low).cwiseMax(0.0f));
 }
 
-std::optional<PixelBox> find_room(const PixelBox& wanted, const Vector2f& picture,
+std::optional<PixelBox> find_room(const PixelBox& expected, const Vector2f& picture,
                                   std::span<const PixelBox> taken) {
-  const float height = wanted.high.y() - wanted.low.y();
+  const float height = expected.high.y() - expected.low.y();
   for (int k = 0; k <= rings * ring_places; ++k) {
     const int ring = (k + ring_places - 1) / ring_places;
     const float turn = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / ring_places;
     const float distance = ring_step * height * static_cast<float>(ring);
     // wider than high: as far sideways as letters are wide would be too far
     const PixelBox tried = kept_inside(
-        moved(wanted, distance * Vector2f(2 * std::cos(turn), std::sin(turn))), picture);
+        moved(expected, distance * Vector2f(2 * std::cos(turn), std::sin(turn))), picture);
     const auto hits = [&](const PixelBox& other) { return tried.overlaps(other); };
     if (std::none_of(taken.begin(), taken.end(), hits)) return tried;
   }
@@ -88,7 +88,7 @@ std::vector<std::string> broken(const std::string& line, float height, float wid
 }
 
 void place_caption(const Scene& scene, const Vector2f& picture, std::vector<PlacedText>& out) {
-  const float height = std::max(least_letters, caption_part * picture.y());
+  const float height = std::max(min_letters, caption_part * picture.y());
   const float room = picture.x() - 2 * height;
   std::vector<std::string> lines;
   for (const std::string& line : scene.caption)
@@ -105,11 +105,11 @@ void place_caption(const Scene& scene, const Vector2f& picture, std::vector<Plac
 
 }  // namespace
 
-std::vector<std::optional<PixelBox>> spread_boxes(std::span<const PixelBox> wanted,
+std::vector<std::optional<PixelBox>> spread_boxes(std::span<const PixelBox> expected,
                                                   const Vector2f& picture,
                                                   std::vector<PixelBox> taken) {
   std::vector<std::optional<PixelBox>> places;
-  for (const PixelBox& box : wanted) {
+  for (const PixelBox& box : expected) {
     places.push_back(find_room(box, picture, taken));
     if (places.back()) taken.push_back(*places.back());
   }
@@ -118,13 +118,13 @@ std::vector<std::optional<PixelBox>> spread_boxes(std::span<const PixelBox> want
 
 std::vector<PlacedText> place_texts(const Scene& scene, const Eye& eye, const Vector2f& picture) {
   std::vector<PlacedText> texts;
-  if (picture.minCoeff() < least_picture) return texts;
+  if (picture.minCoeff() < min_picture) return texts;
   place_caption(scene, picture, texts);
-  std::vector<PixelBox> taken, wanted;
+  std::vector<PixelBox> taken, expected;
   for (const PlacedText& text : texts) taken.push_back(text.box);
   for (const DrawArrow& arrow : scene.arrows) take_arrow(arrow, eye, picture, taken);
 
-  const float height = std::max(least_letters, label_part * picture.y());
+  const float height = std::max(min_letters, label_part * picture.y());
   const Vector2f around(air * height, air * height);
   std::vector<PlacedText> labels;
   for (const DrawLabel& label : scene.labels) {
@@ -132,9 +132,9 @@ std::vector<PlacedText> place_texts(const Scene& scene, const Eye& eye, const Ve
     if (!at) continue;
     const Vector2f half(Canvas::text_width(label.text, height) / 2, height / 2);
     labels.push_back({{}, label.text, label.color, height});
-    wanted.push_back({*at - half - around, *at + half + around});
+    expected.push_back({*at - half - around, *at + half + around});
   }
-  const auto places = spread_boxes(wanted, picture, std::move(taken));
+  const auto places = spread_boxes(expected, picture, std::move(taken));
   for (size_t i = 0; i < labels.size(); ++i) {
     if (!places[i]) continue;
     labels[i].box = {places[i]->low + around, places[i]->high - around};

@@ -19,7 +19,7 @@ struct PixelBox {
 /// Boxes moved as little as need be, the first the least, until each lies within the picture and
 /// clear of `taken` and of those before it. Empty for one that finds no place within four of its
 /// heights up and down and eight sideways.
-std::vector<std::optional<PixelBox>> spread_boxes(std::span<const PixelBox> wanted,
+std::vector<std::optional<PixelBox>> spread_boxes(std::span<const PixelBox> expected,
                                                   const Eigen::Vector2f& picture,
                                                   std::vector<PixelBox> taken = {});
 

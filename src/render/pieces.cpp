@@ -29,7 +29,7 @@ void check(const Scene& scene) {
     if (!m.color.allFinite()) fail("picture: mesh {}: colour must be finite numbers", i + 1);
     if (!m.shape || m.triangle_colors.empty()) continue;
     if (m.triangle_colors.size() != m.shape->mesh().triangles.size())
-      fail("picture: mesh {}: wanted one colour for each of {} triangles, got {}", i + 1,
+      fail("picture: mesh {}: expected one colour for each of {} triangles, got {}", i + 1,
            m.shape->mesh().triangles.size(), m.triangle_colors.size());
     for (const auto& color : m.triangle_colors)
       if (!color.allFinite())

@@ -10,7 +10,7 @@ namespace clench {
 struct Piece {
   std::vector<Eigen::Vector3d> p_W = {};
   std::vector<Triangle> triangles = {};
-  std::vector<Eigen::Vector3f> colors = {};  ///< one, or one a triangle
+  std::vector<Eigen::Vector3f> colors = {};  ///< one, or one per triangle
   float opacity = 1;
   bool mark = false;        ///< drawn as it is, whatever the light
   bool background = false;  ///< throws no shadow, counts for no frame

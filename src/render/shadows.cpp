@@ -111,11 +111,11 @@ void Shadows::give(unsigned program) const {
 
 gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Light>& lights) {
   const int rows = std::max<int>(1, (list.corners.size() + gathered_width - 1) / gathered_width);
-  GLint most_rows = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_rows);
-  if (rows > most_rows)
+  GLint max_rows = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_rows);
+  if (rows > max_rows)
     fail("picture: {} corners of triangles are more than the {} that OpenGL takes here",
-         list.corners.size(), static_cast<size_t>(most_rows) * gathered_width);
+         list.corners.size(), static_cast<size_t>(max_rows) * gathered_width);
 
   // corners as textures, four numbers each
   std::vector<Eigen::Vector4f> p(static_cast<size_t>(rows) * gathered_width,

@@ -10,7 +10,7 @@ namespace clench {
 
 static constexpr double invisible = 1e-3;  // of the largest force
 static constexpr double beyond = 1.15;     // where its newtons stand, in lengths of an arrow
-static constexpr size_t most_labels = 8;   // more would hide what they tell about
+static constexpr size_t max_labels = 8;    // more would hide what they tell about
 static constexpr double slender = 0.035;   // radius of the longest arrow, part of its length
 
 static double largest_force(std::span<const PlacedForce> forces) {
@@ -41,7 +41,7 @@ std::vector<DrawArrow> force_arrows(std::span<const PlacedForce> forces, double 
 std::vector<DrawLabel> force_labels(std::span<const PlacedForce> forces, double metres_per_newton) {
   std::vector<PlacedForce> visible = visible_forces(forces);
   std::ranges::stable_sort(visible, std::greater(), [](const auto& f) { return f.f_W.norm(); });
-  visible.resize(std::min(visible.size(), most_labels));
+  visible.resize(std::min(visible.size(), max_labels));
   std::vector<DrawLabel> labels;
   for (const PlacedForce& force : visible)
     labels.push_back({.p_W = force.p_W - beyond * metres_per_newton * force.f_W,

@@ -14,7 +14,7 @@ struct DrawMesh {
   std::shared_ptr<const Shape> shape;  ///< null draws nothing
   Pose X_WM;
   Eigen::Vector3f color = Eigen::Vector3f(0.7f, 0.7f, 0.7f);
-  std::vector<Eigen::Vector3f> triangle_colors = {};  ///< one a triangle, or empty
+  std::vector<Eigen::Vector3f> triangle_colors = {};  ///< one per triangle, or empty
   float opacity = 1;                                  ///< 0 invisible .. 1 solid
   bool background = false;  ///< a floor: takes shadows, throws none, may leave the frame
 };

@@ -51,7 +51,7 @@ int push_move(lua_State* L, const WorldPtr& world, const MoveResult& result) {
   set_field(L, "touched", result.touched);
   push_pairs(L, world, result.stopped_by);
   lua_setfield(L, -2, "stopped_by");
-  set_field(L, "gave_up", result.gave_up);
+  set_field(L, "iteration_limit", result.iteration_limit);
   set_field(L, "queries", result.queries);
   return 1;
 }
@@ -110,7 +110,7 @@ static const Entry methods[] = {
 Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that
 remains is within the contact threshold. One that starts in contact may slide and leave, but is not pushed in.
 @param pose pose
-@return table result  `fraction` of the way gone, `touched`, `stopped_by` (pairs), `gave_up` (after a million steps), `queries`
+@return table result  `fraction` of the way gone, `touched`, `stopped_by` (pairs), `iteration_limit` (after a million steps), `queries`
 > cube = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {pose = {xyz = {0, 0, 9}}})
 > floor = world:add_obstacle(clench.shapes.box {1, 1, 1}, {pose = {xyz = {0, 0, 7}}})
 > cube:move_to{xyz = {0, 0, 7}}.touched  --> true
@@ -130,6 +130,6 @@ const Class body_class{.name = "body",
                        .fields = fields,
                        .methods = methods,
                        .operators = operators,
-                       .parent = &thing_class};
+                       .parent = &entity_class};
 
 }  // namespace clench

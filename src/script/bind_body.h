@@ -1,7 +1,7 @@
 // body: an object, an obstacle or a part of a robot.
 #pragma once
 #include "motion/move.h"
-#include "script/bind_thing.h"
+#include "script/bind_entity.h"
 #include "script/handles.h"
 
 namespace clench {

@@ -115,7 +115,7 @@ stand.
 @return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"object contacts"|"pre-grasps"|"planned grasps"|"glove calibration"|"glove poses"
 > clench.file_kind "models/objects/flask.iv"  --> body
 > clench.file_kind "worlds/dlr_flask.wld"  --> world
-> clench.file_kind "README.md"  --> error: wanted a model, a world, or a file that goes with one, got '.md')"},
+> clench.file_kind "README.md"  --> error: expected a model, a world, or a file that goes with one, got '.md')"},
     {"catalog", guarded<catalog>, R"(
 Paths of the models and worlds that come with Clench, sorted.
 @return {hands: string[], arms: string[], objects: string[], obstacles: string[], worlds: string[]}

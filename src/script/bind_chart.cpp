@@ -22,11 +22,11 @@ static void each_item(lua_State* L, const What& what, Read read) {
 }
 
 static ChartSeries read_series(lua_State* L, int index, const What& what) {
-  if (!lua_istable(L, index)) fail_wanted(what, "{name = ..., values = ...}", index);
+  if (!lua_istable(L, index)) fail_expected(what, "{name = ..., values = ...}", index);
   Table one(L, index, what.text());
   ChartSeries series;
   series.name = one.string("name");
-  series.least_is_best = one.boolean("least_is_best", false);
+  series.higher_is_better = one.boolean("higher_is_better", true);
   one.push("values");
   each_item(L, one.what("values"), [&](int i, const What& value) {
     const bool none = lua_isboolean(L, i) && !lua_toboolean(L, i);
@@ -72,12 +72,12 @@ static int draw(lua_State* L) {
 static const Entry functions[] = {
     {"chart", guarded<draw>, R"(
 Draws numbers as columns, one panel a series, each to its own scale, all over the same items, with its value where there is
-room; the best of a panel, the largest or with least_is_best the least, is the darkest. `false` is a value that is missing, and marked.
+room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked.
 Texts are UTF-8; letters that are neither Latin nor Greek are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
-@param options {series: {name: string, values: (number|false)[], least_is_best?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer}  labels: one an item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
+@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer}  labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
 @return picture
 > clench.chart{series = {{name = "epsilon", values = {0.1, 0.3, 0.2}}}, height = 200}  --> picture of 960 x 200 pixels
-> clench.chart{series = {}}  --> error: wanted at least one series)"},
+> clench.chart{series = {}}  --> error: expected at least one series)"},
 };
 
 const Library chart_library{.name = "clench", .doc = "", .functions = functions};

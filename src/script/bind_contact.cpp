@@ -68,7 +68,7 @@ static int push_patch(lua_State* L, const Contact& c, std::shared_ptr<const Soft
 }
 
 static void tell_sharp(lua_State* L, const ContactHandle& c, const SoftPatch& patch) {
-  if (!patch.sharp) return;
+  if (!patch.at_edge) return;
   const Eigen::Vector3d p = c.contact.X_WA * patch.centre_A;
   log_warning(L, fmt::format("soft contact of {} on {} at ({:.6g}, {:.6g}, {:.6g}): there is a "
                              "corner or an edge, whose patch is a guess",
@@ -95,7 +95,7 @@ static int fit_patch(lua_State* L) {
   Table table(L, 2);
   PatchOptions options;
   if (table.has("radius")) options.radius = table.positive("radius", 1);
-  options.flat_radius = table.positive("flat_radius", options.flat_radius);
+  options.max_radius = table.positive("max_radius", options.max_radius);
   if (table.choice("fit", {"quadric", "jet"}, "quadric") == "jet") options.fit = PatchFit::jet;
   table.done();
   if (!c.contact.site) {
@@ -175,7 +175,7 @@ neighbourhoods overlap have one patch. A corner or an edge is logged as a warnin
 static const Entry methods[] = {
     {"fit_patch", guarded<fit_patch>, R"(
 The patch of a soft contact by options of one's own; nil of others.
-@param options? {radius?: number, flat_radius?: number, fit?: string}  radius: how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm, an error where there is nothing to fit [m]; flat_radius: stands for a relative radius that is none, 0.02 [m]; fit: "quadric", our own, or "jet", CGAL's
+@param options? {radius?: number, max_radius?: number, fit?: string}  radius: how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm, an error where there is nothing to fit [m]; max_radius: stands for a relative radius that is none, 0.02 [m]; fit: "quadric", our own, or "jet", CGAL's
 @return patch?
 > flask.elastic_modulus = 1.5e6
 > world:contacts(hand, flask)[1]:fit_patch{radius = 0.002}.radius  --> 0.002

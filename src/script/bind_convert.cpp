@@ -19,7 +19,7 @@ static int convert(lua_State* L) {
   const auto found = find_file(from, {}, reading);
   std::error_code code;
   if (std::filesystem::equivalent(found, to, code))
-    fail("{}: wanted another file to write, got the same", to);
+    fail("{}: expected another file to write, got the same", to);
   const FileKind kind = file_kind(found);
   if (kind == FileKind::robot) read_robot_options(L, options, reading);
   options.done();
@@ -46,7 +46,7 @@ told in warnings.
 > world:add_object(path .. ".ply").mesh:is_watertight()  --> true
 > os.remove(path)
 > os.remove(path .. ".ply")
-> clench.convert("models/objects/flask.iv", "flask.egr")  --> error: wanted a body to .xml, .iv, .obj, .off, .ply or .stl, got '.egr')"},
+> clench.convert("models/objects/flask.iv", "flask.egr")  --> error: expected a body to .xml, .iv, .obj, .off, .ply or .stl, got '.egr')"},
 };
 
 const Library convert_library{.name = "clench", .doc = "", .functions = functions};

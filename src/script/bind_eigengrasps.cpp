@@ -23,14 +23,14 @@ static VectorXd vector_of(const std::vector<double>& x) {
 VectorXd check_amplitudes(lua_State* L, int i, const Eigengrasps& grasps) {
   const auto values = read_numbers(L, i, {L, {}, "amplitudes"});
   if (static_cast<int>(values.size()) != grasps.size())
-    fail("{}: wanted {} amplitudes, got {}", subject(L), grasps.size(), values.size());
+    fail("{}: expected {} amplitudes, got {}", subject(L), grasps.size(), values.size());
   return vector_of(values);
 }
 
 static VectorXd check_posture(const std::vector<double>& values, const std::string& subject,
                               const Eigengrasps& grasps) {
   if (static_cast<int>(values.size()) != grasps.dofs())
-    fail("{}: wanted {} DOF values, got {}", subject, grasps.dofs(), values.size());
+    fail("{}: expected {} DOF values, got {}", subject, grasps.dofs(), values.size());
   return vector_of(values);
 }
 
@@ -52,7 +52,7 @@ static EigengraspSet set_from_vectors(Table& options) {
   std::vector<std::optional<Range>> limits(rows.size());
   if (options.has("limits")) limits = read_limits(options);
   if (static_cast<int>(limits.size()) != count)
-    fail("{}: limits: wanted {} pairs, got {}", options.subject(), count, limits.size());
+    fail("{}: limits: expected {} pairs, got {}", options.subject(), count, limits.size());
   for (int i = 0; i < count; ++i) set.grasps.push_back({vector_of(rows[i]), values[i], limits[i]});
   if (options.has("origin")) set.origin = vector_of(options.numbers("origin"));
   if (options.has("norm")) set.norm = vector_of(options.numbers("norm"));
@@ -64,18 +64,18 @@ static int make(lua_State* L) {
   Table options(L, 1);
   EigengraspSet set;
   if (options.has("postures") && options.has("vectors"))
-    fail("{}: wanted postures or vectors, got both", subject(L));
+    fail("{}: expected postures or vectors, got both", subject(L));
   if (options.has("postures")) {
     std::vector<VectorXd> postures;
     for (const auto& row : options.rows("postures")) postures.push_back(vector_of(row));
     const int count = options.integer("count", 0);
     if (options.has("count") && count < 1)
-      fail("{}: count: wanted 1 or more, got {}", subject(L), count);
+      fail("{}: count: expected 1 or more, got {}", subject(L), count);
     set = principal_eigengrasps(postures, count);
   } else if (options.has("vectors")) {
     set = set_from_vectors(options);
   } else {
-    fail("{}: wanted postures or vectors", subject(L));
+    fail("{}: expected postures or vectors", subject(L));
   }
   options.done();
   check_eigengrasps(set, subject(L));
@@ -111,7 +111,7 @@ static int get_hand(lua_State* L) {
   return 1;
 }
 
-static int get_given(lua_State* L) {
+static int get_is_custom(lua_State* L) {
   const auto& handle = self<EigengraspsHandle>(L);
   return push(L, handle.set || handle.robot->eigengrasps);
 }
@@ -169,7 +169,7 @@ variance along it. `count` keeps the first ones. Give it to a hand: hand.eigengr
 > #set  --> 1
 > math.abs(set.vectors[1][2] / set.vectors[1][1] - 2) < 1e-12  --> true
 > set.origin  --> {1.0, 2.0}
-> clench.eigengrasps{postures = {{0, 0}}}  --> error: wanted at least 2 postures, got 1)"},
+> clench.eigengrasps{postures = {{0, 0}}}  --> error: expected at least 2 postures, got 1)"},
 };
 
 static const Entry fields[] = {
@@ -207,11 +207,11 @@ The hand whose set it is; nil for a set by itself.
 @type robot?
 > hand.eigengrasps.hand == hand  --> true
 > clench.eigengrasps{vectors = {{1}}}.hand  --> nil)"},
-    {"given", guarded<get_given>, R"(
-Does it come from a file or a script? A hand that was given none has one eigengrasp a DOF.
+    {"is_custom", guarded<get_is_custom>, R"(
+Does it come from a file or a script? A hand that was given none has one eigengrasp per DOF.
 @type boolean
 > hand.eigengrasps = nil
-> hand.eigengrasps.given  --> false
+> hand.eigengrasps.is_custom  --> false
 > #hand.eigengrasps  --> 12)"},
     {"count", guarded<get_count>, R"(
 How many there are; # says it, too.
@@ -226,7 +226,7 @@ Amplitudes of the posture of the set that is nearest to DOF values; without them
 @return number[]
 > set = clench.eigengrasps{vectors = {{1, 0, 0}, {0, 3, 4}}}
 > set:amplitudes{2, 3, 4}  --> {2.0, 5.0}
-> set:amplitudes{1}  --> error: wanted 3 DOF values, got 1)"},
+> set:amplitudes{1}  --> error: expected 3 DOF values, got 1)"},
     {"dofs", guarded<dofs>, R"(
 DOF values of amplitudes; they may lie outside the limits. With `from`, a posture, what it has besides its own
 amplitudes is kept.
@@ -236,11 +236,11 @@ amplitudes is kept.
 > set = clench.eigengrasps{vectors = {{1, 0, 0}, {0, 3, 4}}}
 > set:dofs{2, 5}  --> {2.0, 3.0, 4.0}
 > set:dofs({2, 5}, {from = {0, 4, -3}})  --> {2.0, 7.0, 1.0}
-> set:dofs{1}  --> error: wanted 2 amplitudes, got 1)"},
+> set:dofs{1}  --> error: expected 2 amplitudes, got 1)"},
     {"save", guarded<save>, R"(
 Writes the set to a file, .egr or .xml; clench.files.eigengrasps reads it.
 @param path string
-> hand.eigengrasps:save "eigengrasps.doc"  --> error: wanted a file of eigengrasps, .egr or .xml, got '.doc')"},
+> hand.eigengrasps:save "eigengrasps.doc"  --> error: expected a file of eigengrasps, .egr or .xml, got '.doc')"},
 };
 
 static const Entry operators[] = {

@@ -30,7 +30,7 @@ inline size_t owned_bytes(const EigengraspsHandle& handle) {
 }
 
 /// Amplitudes of an argument.
-/// throws  Error "hand:set_amplitudes: wanted 2 amplitudes, got 3"
+/// throws  Error "hand:set_amplitudes: expected 2 amplitudes, got 3"
 Eigen::VectorXd check_amplitudes(lua_State* L, int i, const Eigengrasps& grasps);
 
 }  // namespace clench

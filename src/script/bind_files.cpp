@@ -81,7 +81,7 @@ static void each_table(lua_State* L, Visit visit) {
 static Eigen::Vector3d read_direction(Table& item, const char* key) {
   const Eigen::Vector3d v = item.vec3(key);
   if (!(v.norm() > 1e-9) || !std::isfinite(v.norm()))
-    fail("{}: {}: wanted a direction", item.subject(), key);
+    fail("{}: {}: expected a direction", item.subject(), key);
   return v.normalized();
 }
 
@@ -165,7 +165,7 @@ static int save_planned_grasps(lua_State* L) {
   each_table(L, [&](Table& item) {
     const int run = item.integer("run", 1);
     if (run < 1 || run > 1'000'000)
-      fail("{}: run: wanted a number from 1 to 1000000, got {}", item.subject(), run);
+      fail("{}: run: expected a number from 1 to 1000000, got {}", item.subject(), run);
     list.push_back({.run = run - 1,
                     .X_OH = item.pose("pose"),
                     .spread = item.number("spread", 0),

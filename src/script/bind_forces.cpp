@@ -38,7 +38,7 @@ static bool read_limits(Table& options, bool fallback, JointDemand& joints) {
   if (type == LUA_TBOOLEAN) return options.boolean("torque_limits", fallback);
   if (type != LUA_TTABLE && type != LUA_TNIL) {
     options.push("torque_limits");
-    fail_wanted(options.what("torque_limits"), "true or a list of numbers", -1);
+    fail_expected(options.what("torque_limits"), "true or a list of numbers", -1);
   }
   joints.limits = vector_if(options, "torque_limits");
   return fallback || joints.limits;
@@ -56,26 +56,26 @@ static void read_joints(Table& options, ForceOptions& forces) {
   bool asked = read_limits(options, false, joints);
   joints.unlimited = !asked;
   joints.total_torque = positive_if(options, "total_torque");
-  joints.closing_only = options.boolean("closing_only", false);
+  joints.unilateral = options.boolean("unilateral", false);
   joints.arms = options.boolean("arms", false);
   joints.link_weights = options.boolean("link_weights", false);
-  asked = asked || joints.total_torque || joints.closing_only || joints.arms || joints.link_weights;
+  asked = asked || joints.total_torque || joints.unilateral || joints.arms || joints.link_weights;
   if (asked) forces.joints = joints;
 }
 
 static ForceObjective read_objective(Table& options) {
   const std::pair<const char*, ForceObjective> all[] = {
-      {"least", ForceObjective::least},
-      {"squares", ForceObjective::squares},
-      {"peak", ForceObjective::peak},
-      {"interior", ForceObjective::interior},
-      {"interior_sum", ForceObjective::interior_sum}};
+      {"min_sum", ForceObjective::min_sum},
+      {"min_norm", ForceObjective::min_norm},
+      {"min_max", ForceObjective::min_max},
+      {"max_margin", ForceObjective::max_margin},
+      {"max_margin_sum", ForceObjective::max_margin_sum}};
   std::vector<std::string> names;
   for (const auto& [name, objective] : all) names.push_back(name);
-  const std::string chosen = options.choice("objective", names, "least");
+  const std::string chosen = options.choice("objective", names, "min_sum");
   for (const auto& [name, objective] : all)
     if (chosen == name) return objective;
-  return ForceObjective::least;
+  return ForceObjective::min_sum;
 }
 
 // --- what is answered ---
@@ -130,10 +130,10 @@ static void set_certificate(lua_State* L, const GraspHandle& g, const ForceCerti
   lua_setfield(L, -2, "twist");
   set_field(L, "power", c.power);
   set_field(L, "capacity", c.capacity);
-  set_numbers(L, "opens", c.opens);
-  set_numbers(L, "slides", c.slides);
-  set_numbers(L, "cap_shares", c.cap_shares);
-  set_numbers(L, "effort_shares", c.effort_shares);
+  set_numbers(L, "separation_rates", c.separation_rates);
+  set_numbers(L, "sliding_rates", c.sliding_rates);
+  set_numbers(L, "force_limit_power", c.force_limit_power);
+  set_numbers(L, "effort_limit_power", c.effort_limit_power);
   if (c.dof >= 0) set_field(L, "dof", c.dof + 1);
   if (c.contact >= 0) {
     push_object(L, ContactHandle{g.world, g.grasp.contacts[c.contact]});
@@ -189,7 +189,7 @@ static int largest(lua_State* L) {
   read_caps(options, asked);
   read_joints(options, asked);
   options.done();
-  const ForceResult r = largest_load(*g.world, g.grasp, asked);
+  const ForceResult r = max_load(*g.world, g.grasp, asked);
   push_result(L, g, r, r.status == ForceStatus::unbounded ? "unlimited" : status_name(r.status));
   if (r.status == ForceStatus::optimal) set_field(L, "load", r.load_factor);
   return 1;
@@ -243,43 +243,43 @@ static const Entry methods[] = {
 Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench
 {fx, fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's centre of mass;
 its weight is {0, 0, -9.81 * mass, 0, 0, 0}.
-Objectives: "least" sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); least sum of "squares" of the forces, the only
-one that always has a single answer; least largest normal force ("peak"); "interior", as far from the edges of the cones and from max_force
-as all can be; "interior_sum", the largest sum of the distances from the edges.
+Objectives: "min_sum", the least sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); "min_norm", the least
+sum of squares of the forces, the only one that always has a single answer; "min_max", the least largest normal force; "max_margin", as far from the edges of the cones and from max_force
+as all can be; "max_margin_sum", the largest sum of the distances from the edges.
 `status`: "optimal"; "infeasible", with a `certificate`; "unbounded" when more force is always better; "inaccurate" when what was found
 does not pass its check: balance, cones, caps and optimum to 1e-9, and what is left of a load, to 1e-7 of it. A cap that does not bind changes nothing.
-`margin`: the least of the forces' margins, for "interior" of the distances from max_force, too; 0 when some force has to lie on an edge: then
-"interior" is optimal, but these contacts cannot keep inside their cones, as without force closure.
+`margin`: the least of the forces' margins, for "max_margin" of the distances from max_force, too; 0 when some force has to lie on an edge: then
+"max_margin" is optimal, but these contacts cannot keep inside their cones, as without force closure.
 `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in the
 world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho.
 `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of
-caps and motors; `opens` and `slides` of each contact along it; `cap_shares`, `effort_shares` of the capacity; `contact` or `dof`, whichever gives way.
-@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, or a list of one a contact, limit and value of their sum [N]; torque_limits: the motors' own, or one a DOF; without it motors give what they must; total_torque: of all motors, closing [N m or N]; closing_only: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
+caps and motors; `separation_rates` and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or `dof`, whichever gives way.
+@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: the motors' own, or one per DOF; without it motors give what they must; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
 @return table result  `status`, `forces`, `objective`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
 > held = grasp:contact_forces{load = weight}
 > held.status, held.residual < 1e-9  --> optimal, true
-> grasp:contact_forces{load = weight, objective = "interior", max_force = 10}.margin > 0  --> true
+> grasp:contact_forces{load = weight, objective = "max_margin", max_force = 10}.margin > 0  --> true
 > grasp:contact_forces{load = weight, max_force = 1e-3}.certificate.contact.body == flask  --> true
-> grasp:contact_forces{load = weight, objective = "lest"}  --> error: did you mean 'least'?
+> grasp:contact_forces{load = weight, objective = "min_sun"}  --> error: did you mean 'min_sum'?
 > grasp:contact_forces{load = {1, 2}}  --> error: 6)"},
-    {"largest_load", guarded<largest>, R"(
+    {"max_load", guarded<largest>, R"(
 The largest multiple `load` of a wrench on the object that forces at the contacts balance, its axes as in contact_forces.
 `status` "unlimited" when no cap and no torque ends it. The `certificate` says what gives way beyond it.
-@param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean}  as in contact_forces
+@param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean}  as in contact_forces
 @return table result  `status`, `load`, `forces`, `margin`, `joint_torques`, `certificate`
-> grasp:largest_load{direction = {0, 0, -1, 0, 0, 0}, max_force = 10}.load > 1  --> true
-> grasp:largest_load{direction = {0, 0, -1, 0, 0, 0}}.status  --> unlimited)"},
+> grasp:max_load{direction = {0, 0, -1, 0, 0, 0}, max_force = 10}.load > 1  --> true
+> grasp:max_load{direction = {0, 0, -1, 0, 0, 0}}.status  --> unlimited)"},
     {"equilibrium", guarded<balance>, R"(
 Can the hand as it stands hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their couplings, within
 their limits (max_effort of each DOF; none where that is 0), by springs, and by the clutches of joints that have broken away. The palm takes what it must.
 `status`: "stable"; "unstable", then `unbalanced` is the least wrench that is left and `certificate` says what gives way; "moving" when no contact
 forces balance the joints, so that a finger moves; "inaccurate".
-@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one a DOF, or false for none; torques: what the motors give, one a DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact, or one a contact [N]
+@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one per DOF, or false for none; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact, or one per contact [N]
 @return table result  `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > grasp:equilibrium{load = {0, 0, -0.1, 0, 0, 0}}.status  --> stable
 > grasp:equilibrium{load = {0, 0, -1e4, 0, 0, 0}}.status  --> unstable
-> grasp:equilibrium{torques = {1}}  --> error: wanted 12, one a DOF)"},
+> grasp:equilibrium{torques = {1}}  --> error: expected 12, one per DOF)"},
     {"grasp_map", guarded<map_rows>, R"(
 From contact forces to the wrench on the object: six rows, in the object's frame about its centre of mass, unscaled. Columns contact by contact:
 the normal force; with friction then the forces along x and y of contact.frame; of soft contacts then the torque about the normal.

@@ -19,7 +19,7 @@ PerContact read_per_contact(Table& options, const char* key) {
   if (type != LUA_TTABLE) return options.positive(key, 1);
   const auto each = options.numbers(key);
   if (each.empty())
-    fail("{}: {}: wanted a number for each contact, got none", options.subject(), key);
+    fail("{}: {}: expected a number for each contact, got none", options.subject(), key);
   return each;
 }
 
@@ -42,10 +42,10 @@ static int measure(lua_State* L) {
   grasp.modulus = read_modulus_rule(options);
   options.done();
   Grasp measured = measure_grasp(*hand.world, hand.id, object.id, grasp);
-  if (measured.sharp_contacts > 0)
+  if (measured.contacts_at_edges > 0)
     log_warning(L, fmt::format("grasp of {} by {}: {} of {} contacts are soft ones on corners or "
                                "edges, whose patch is a guess",
-                               object->name, hand->name, measured.sharp_contacts,
+                               object->name, hand->name, measured.contacts_at_edges,
                                measured.contacts.size()));
   return push_object(L, GraspHandle{hand.world, std::move(measured), {}});
 }
@@ -149,7 +149,7 @@ static const Entry functions[] = {
 The grasp of a hand on an object as it is now. No contact is no error: such a grasp resists nothing.
 @param hand robot
 @param object body
-@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N], or a list of one a contact; modulus: as of `patch:ellipse`
+@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
 @return grasp
 > clench.grasp(hand, flask):is_force_closure()  --> true)"},
 };

@@ -21,7 +21,7 @@ inline size_t owned_bytes(const GraspHandle& handle) {
   return handle.grasp.contacts.size() * (sizeof(Contact) + sizeof(PointContact));
 }
 
-/// A number > 0, or a list of one a contact, whose values whoever takes them checks; none when absent.
+/// A number > 0, or a list of one per contact, whose values whoever takes them checks; none when absent.
 PerContact read_per_contact(Table& options, const char* key);
 
 /// Made at the first call, and kept: the last max_kept_spaces of them.

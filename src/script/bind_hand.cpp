@@ -7,8 +7,8 @@
 #include "io/virtual_contacts.h"
 #include "motion/virtual_contacts.h"
 #include "script/bind_eigengrasps.h"
+#include "script/bind_entity.h"
 #include "script/bind_log.h"
-#include "script/bind_thing.h"
 #include "script/bind_virtual_contact.h"
 #include "script/guard.h"
 #include "script/push.h"
@@ -30,7 +30,7 @@ static int set_eigengrasps(lua_State* L) {
   std::shared_ptr<const EigengraspSet> set;
   if (given(L, 2)) {
     const auto* given_set = to<EigengraspsHandle>(L, 2);
-    if (!given_set) fail_wanted({L, {}, ""}, "eigengrasps", 2);
+    if (!given_set) fail_expected({L, {}, ""}, "eigengrasps", 2);
     set = std::make_shared<EigengraspSet>(given_set->value());
   }
   robot.world->set_eigengrasps(robot.id, std::move(set));
@@ -43,12 +43,12 @@ static int get_amplitudes(lua_State* L) {
 }
 
 // the posture that amplitudes stand for, each DOF brought to its nearest limit
-struct Wanted {
+struct Expected {
   VectorXd dofs;
   std::vector<int> clamped;
 };
 
-static Wanted wanted_posture(lua_State* L, const RobotHandle& robot, Table& options) {
+static Expected expected_posture(lua_State* L, const RobotHandle& robot, Table& options) {
   const Eigengrasps grasps(*robot);
   VectorXd amplitudes = check_amplitudes(L, 2, grasps);
   const bool keep = options.boolean("keep", false);
@@ -57,13 +57,13 @@ static Wanted wanted_posture(lua_State* L, const RobotHandle& robot, Table& opti
     const VectorXd now = grasps.amplitudes(robot->q);
     for (const double x : options.numbers("fixed")) {
       if (!(x >= 1 && x <= grasps.size() && x == std::floor(x)))
-        fail("{}: fixed: wanted one of {} eigengrasps, got {}", options.subject(), grasps.size(),
+        fail("{}: fixed: expected one of {} eigengrasps, got {}", options.subject(), grasps.size(),
              x);
       amplitudes[floor_int(x) - 1] = now[floor_int(x) - 1];
     }
   }
   options.done();
-  Wanted out{keep ? grasps.posture(amplitudes, robot->q) : grasps.posture(amplitudes), {}};
+  Expected out{keep ? grasps.posture(amplitudes, robot->q) : grasps.posture(amplitudes), {}};
   for (int d = 0; d < out.dofs.size(); ++d) {
     const auto [low, high] = robot->limits[d];
     const double inside = std::clamp(out.dofs[d], low, high);
@@ -75,14 +75,14 @@ static Wanted wanted_posture(lua_State* L, const RobotHandle& robot, Table& opti
   return out;
 }
 
-static int push_clamped(lua_State* L, const Wanted& wanted) {
-  return push_list_of(L, wanted.clamped, [L](int d) { push(L, d); });
+static int push_clamped(lua_State* L, const Expected& expected) {
+  return push_list_of(L, expected.clamped, [L](int d) { push(L, d); });
 }
 
 static int set_amplitudes_field(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   Table none(L, 3);
-  robot.world->set_dofs(robot.id, wanted_posture(L, robot, none).dofs);
+  robot.world->set_dofs(robot.id, expected_posture(L, robot, none).dofs);
   return 0;
 }
 
@@ -90,9 +90,9 @@ static int set_amplitudes(lua_State* L) {
   check_count(L, 2);
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 3);
-  const Wanted wanted = wanted_posture(L, robot, options);
-  robot.world->set_dofs(robot.id, wanted.dofs);
-  return push_clamped(L, wanted);
+  const Expected expected = expected_posture(L, robot, options);
+  robot.world->set_dofs(robot.id, expected.dofs);
+  return push_clamped(L, expected);
 }
 
 static int move_amplitudes(lua_State* L) {
@@ -100,9 +100,9 @@ static int move_amplitudes(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 3);
   const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
-  const Wanted wanted = wanted_posture(L, robot, options);
-  push_drive(L, robot.world, drive_to(*robot.world, robot.id, wanted.dofs, driving));
-  push_clamped(L, wanted);
+  const Expected expected = expected_posture(L, robot, options);
+  push_drive(L, robot.world, drive_to(*robot.world, robot.id, expected.dofs, driving));
+  push_clamped(L, expected);
   lua_setfield(L, -2, "clamped");
   return 1;
 }
@@ -123,12 +123,13 @@ static std::string source_stem(const Robot& robot) {
 }
 
 // tells when contacts were made for a hand of another file than this one
-static void doubt_other_hand(lua_State* L, const RobotHandle& robot, const std::string& made_for) {
+static void warn_of_other_hand(lua_State* L, const RobotHandle& robot,
+                               const std::string& made_for) {
   if (made_for.empty() || made_for == robot->name || made_for == source_stem(*robot)) return;
   log(L, LogLevel::warning,
       fmt::format("{}: virtual contacts made for '{}' are used for '{}'", subject(L), made_for,
                   robot->name),
-      "doubtful");
+      "suspicious");
 }
 
 static int set_virtual_contacts(lua_State* L) {
@@ -154,7 +155,7 @@ static int set_virtual_contacts(lua_State* L) {
     lua_pop(L, 1);
   }
   give(robot, std::move(contacts));
-  doubt_other_hand(L, robot, made_for);
+  warn_of_other_hand(L, robot, made_for);
   return 0;
 }
 
@@ -174,7 +175,7 @@ static int remove_virtual_contact(lua_State* L) {
   Contacts contacts = virtual_contacts(*robot.world, robot.id);
   const int number = check_int(L, 2, "number"), count = static_cast<int>(contacts.size());
   if (number < 1 || number > count)
-    fail("{}: number: wanted one of {} virtual contacts, got {}", subject(L), count, number);
+    fail("{}: number: expected one of {} virtual contacts, got {}", subject(L), count, number);
   contacts.erase(contacts.begin() + (number - 1));
   give(robot, std::move(contacts));
   return 0;
@@ -185,9 +186,9 @@ static int find_sites(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 2);
   FindSitesOptions finding;
-  finding.per_link = options.integer("per_link", finding.per_link);
+  finding.count_per_link = options.integer("count_per_link", finding.count_per_link);
   finding.palm = options.boolean("palm", finding.palm);
-  finding.against = options.string("against", finding.against);
+  finding.object_material = options.string("object_material", finding.object_material);
   options.done();
   return push_virtual_contacts(L, robot, find_virtual_contacts(*robot.world, robot.id, finding));
 }
@@ -296,11 +297,11 @@ static int get_tactile_sensors(lua_State* L) {
 
 static const Entry fields[] = {
     {"eigengrasps", guarded<get_eigengrasps>, R"(
-Its eigengrasps, as they are at any time: those of its file, or one a DOF. Setting copies a set; nil leaves one a DOF.
+Its eigengrasps, as they are at any time: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
 @type eigengrasps
 > hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
 > hand.eigengrasps  --> 1 eigengrasp of 12 DOFs
-> hand.eigengrasps = clench.eigengrasps{vectors = {{1, 1}}}  --> error: wanted a set for 12 DOFs, got one for 2)",
+> hand.eigengrasps = clench.eigengrasps{vectors = {{1, 1}}}  --> error: expected a set for 12 DOFs, got one for 2)",
      guarded<set_eigengrasps>},
     {"amplitudes", guarded<get_amplitudes>, R"(
 Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
@@ -354,8 +355,8 @@ Takes the posture that amplitudes of its eigengrasps stand for, whatever is in t
 > hand:set_amplitudes{0.1}  --> {}
 > hand:set_amplitudes{100}  --> {1, 4, 7, 10}
 > hand:set_amplitudes({0.1}, {fixed = {1}})  --> {}
-> hand:set_amplitudes({0.1}, {fixed = {2}})  --> error: fixed: wanted one of 1 eigengrasps, got 2
-> hand:set_amplitudes{1, 2}  --> error: wanted 1 amplitudes, got 2)"},
+> hand:set_amplitudes({0.1}, {fixed = {2}})  --> error: fixed: expected one of 1 eigengrasps, got 2
+> hand:set_amplitudes{1, 2}  --> error: expected 1 amplitudes, got 2)"},
     {"move_amplitudes", guarded<move_amplitudes>, R"(
 Drives the DOFs towards the posture of amplitudes, as move_dofs, until contact stops them.
 @param amplitudes number[]
@@ -376,18 +377,18 @@ Takes one out of its list.
 > count = #hand.virtual_contacts
 > hand:remove_virtual_contact(1)
 > #hand.virtual_contacts == count - 1  --> true
-> hand:remove_virtual_contact(1000)  --> error: number: wanted one of)"},
+> hand:remove_virtual_contact(1000)  --> error: number: expected one of)"},
     {"find_virtual_contacts", guarded<find_sites>, R"(
 Places on its surface where it moves forward when the hand closes: the centre of what each link sweeps, by area and
 speed along its normal, and one on the palm. Sets nothing.
-@param options? {per_link?: integer, palm?: boolean, against?: string}  against: material to be grasped, "wood" by default
+@param options? {count_per_link?: integer, palm?: boolean, object_material?: string}  object_material: material to be grasped, "wood" by default
 @return virtual_contact[]
 > #hand:find_virtual_contacts()  --> 13
-> #hand:find_virtual_contacts{per_link = 2, palm = false}  --> 24)"},
+> #hand:find_virtual_contacts{count_per_link = 2, palm = false}  --> 24)"},
     {"save_virtual_contacts", guarded<save_virtual_contacts>, R"(
 Writes its virtual contacts to a file, .vgr or .xml; clench.files.virtual_contacts reads it.
 @param path string
-> hand:save_virtual_contacts "sites.doc"  --> error: wanted a file of virtual contacts, .vgr or .xml, got '.doc')"},
+> hand:save_virtual_contacts "sites.doc"  --> error: expected a file of virtual contacts, .vgr or .xml, got '.doc')"},
 };
 
 const Class hand_class{.name = "hand",
@@ -397,6 +398,6 @@ const Class hand_class{.name = "hand",
                            "glove, a position sensor.",
                        .fields = fields,
                        .methods = methods,
-                       .parent = &thing_class};
+                       .parent = &entity_class};
 
 }  // namespace clench

@@ -40,15 +40,15 @@ static int encode(lua_State* L) {
   check_count(L, 2);
   Table t(L, 2);
   const int indent = t.integer("indent", 0);
-  if (indent < 0 || indent > 16) fail("{}: indent: wanted 0 to 16, got {}", subject(L), indent);
+  if (indent < 0 || indent > 16) fail("{}: indent: expected 0 to 16, got {}", subject(L), indent);
   t.done();
-  if (lua_isnone(L, 1)) fail_wanted({L, {}, "value"}, "a value", 1);
+  if (lua_isnone(L, 1)) fail_expected({L, {}, "value"}, "a value", 1);
   return push(L, write_json(L, 1, indent));
 }
 
 static int decode(lua_State* L) {
   check_count(L, 1);
-  if (lua_type(L, 1) != LUA_TSTRING) fail_wanted({L, {}, "text"}, "a string", 1);
+  if (lua_type(L, 1) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a string", 1);
   size_t size = 0;
   const char* text = lua_tolstring(L, 1, &size);
   read_json(L, {text, size});
@@ -68,13 +68,13 @@ A value as JSON. Keys are sorted and numbers come back to the bit, so equal valu
 @return string
 > clench.json.encode{name = "flask", mass = 0.3, size = {1, 2.0}}  --> {"mass":0.3,"name":"flask","size":[1,2.0]}
 > clench.json.encode{at = clench.vec3(0, 0.5, 1)}  --> {"at":[0.0,0.5,1.0]}
-> clench.json.encode{0 / 0}  --> error: value[1]: wanted a finite number)"},
+> clench.json.encode{0 / 0}  --> error: value[1]: expected a finite number)"},
     {"decode", guarded<decode>, R"(
 The value of a JSON text. A null in a list is `clench.json.null`; in an object it is absent.
 @param text string
 @return any
 > clench.json.decode '{"links": [1, 2.5, null]}'.links  --> {1, 2.5, null}
-> clench.json.decode '{"a": 1,}'  --> error: line 1, column 9: wanted a name in double quotes, got '}')"},
+> clench.json.decode '{"a": 1,}'  --> error: line 1, column 9: expected a name in double quotes, got '}')"},
 };
 
 static const Entry fields[] = {

@@ -77,7 +77,7 @@ static int level(lua_State* L) {
     const auto* found = std::find(std::begin(level_names), end, name);
     const std::vector<std::string> known(std::begin(level_names), end);
     if (found == end)
-      fail("{}: wanted one of {}, got '{}'{}", subject(L), name_list(known), name,
+      fail("{}: expected one of {}, got '{}'{}", subject(L), name_list(known), name,
            did_you_mean(name, known));
     set_log_level(L, static_cast<LogLevel>(found - level_names));
   }
@@ -86,7 +86,7 @@ static int level(lua_State* L) {
 
 static int sink(lua_State* L) {
   if (given(L, 1) && lua_type(L, 1) != LUA_TFUNCTION)
-    fail_wanted({L, {}, "fn"}, "a function or nil", 1);
+    fail_expected({L, {}, "fn"}, "a function or nil", 1);
   lua_settop(L, 1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &sink_key);
   return 0;
@@ -125,10 +125,10 @@ Says from which level on messages are shown, and sets it if one is given.
 @return string before
 > clench.log.level "quiet"  --> info
 > clench.log.level "info"  --> quiet
-> clench.log.level "loud"  --> error: wanted one of debug, info, warning, error, quiet)"},
+> clench.log.level "loud"  --> error: expected one of debug, info, warning, error, quiet)"},
     {"sink", guarded<sink>, R"(
 Sends messages to a function(level, text, about) instead of stderr; without one, to stderr again. `about` says of what
-the reader of a file tells: what is "guessed", "ignored", "mended" or "doubtful"; nil otherwise.
+the reader of a file tells: what is "inferred", "ignored", "repaired" or "suspicious"; nil otherwise.
 @param fn? fun(level: string, text: string, about: string?)
 > clench.log.sink(function(level, text) said = text end)
 > clench.log.info "hello"

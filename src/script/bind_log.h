@@ -12,7 +12,7 @@ enum class LogLevel { debug, info, warning, error, quiet };
 
 /// Tells the script's log, if its level lets the message through. May be called under the engine's
 /// functions.
-/// `about`  what a message of a file's reader tells: of what was "guessed", "ignored", "mended" or "doubtful"; null: of nothing such
+/// `about`  what a message of a file's reader tells: of what was "inferred", "ignored", "repaired" or "suspicious"; null: of nothing such
 /// throws  Raised when the script's own sink fails
 void log(lua_State* L, LogLevel level, const std::string& message, const char* about = nullptr);
 

@@ -64,17 +64,18 @@ static int resist(lua_State* L) {
   const bool one = options.has("wrench"), many = options.has("wrenches"),
              ellipsoid = options.has("ellipsoid");
   if (one + many + ellipsoid != 1)
-    fail("{}: wanted one of wrench, wrenches and ellipsoid, got {} of them", subject(L),
+    fail("{}: expected one of wrench, wrenches and ellipsoid, got {} of them", subject(L),
          one + many + ellipsoid);
   const auto times = [&](const Vector6d& wrench, const std::string& key) {
     if (wrench.isZero(0))
-      fail("{}: {}: wanted a wrench that is not zero: there is nothing to resist", subject(L), key);
+      fail("{}: {}: expected a wrench that is not zero: there is nothing to resist", subject(L),
+           key);
     return resistance(*g.world, g.grasp, wrench, resisting);
   };
   double least = INFINITY;
   if (one) least = times(vector6(options.numbers("wrench", 6)), "wrench");
   const auto rows = many ? options.rows("wrenches", 6) : std::vector<std::vector<double>>();
-  if (many && rows.empty()) fail("{}: wrenches: wanted at least one, got none", subject(L));
+  if (many && rows.empty()) fail("{}: wrenches: expected at least one, got none", subject(L));
   for (size_t i = 0; i < rows.size(); ++i)
     least = std::min(least, times(vector6(rows[i]), fmt::format("wrenches[{}]", i + 1)));
   if (ellipsoid)
@@ -92,7 +93,7 @@ static int list_measures(lua_State* L) {
     set_field(L, "what", m.what);
     set_field(L, "range", m.range);
     set_field(L, "unit", m.unit);
-    set_field(L, "larger_is_better", m.larger_is_better);
+    set_field(L, "higher_is_better", m.higher_is_better);
     set_field(L, "source", m.source);
   });
 }
@@ -100,7 +101,7 @@ static int list_measures(lua_State* L) {
 static const Entry functions[] = {
     {"measures", guarded<list_measures>, R"(
 The measures that grasp:quality knows, in the order of the guide.
-@return {name: string, what: string, range: string, unit: string, larger_is_better: boolean, source: string}[]
+@return {name: string, what: string, range: string, unit: string, higher_is_better: boolean, source: string}[]
 > clench.measures()[1].name, clench.measures()[1].source  --> epsilon, Ferrari and Canny (1992))"},
 };
 
@@ -129,8 +130,8 @@ largest that is resisted whole, by the friction cones of the grasp. World axes, 
 > grasp:resistance{wrench = weight} > 0  --> true
 > grasp:resistance{wrenches = {weight, {1, 0, 0, 0, 0, 0}}} <= grasp:resistance{wrench = weight}  --> true
 > grasp:resistance{ellipsoid = {1, 1, 1, 0.1, 0.1, 0.1}} > 0  --> true
-> grasp:resistance{wrench = {0, 0, 0, 0, 0, 0}}  --> error: wanted a wrench that is not zero
-> grasp:resistance{}  --> error: wanted one of wrench, wrenches and ellipsoid, got 0 of them)"},
+> grasp:resistance{wrench = {0, 0, 0, 0, 0, 0}}  --> error: expected a wrench that is not zero
+> grasp:resistance{}  --> error: expected one of wrench, wrenches and ellipsoid, got 0 of them)"},
 };
 
 const Library measures_library{.name = "clench", .doc = "", .functions = functions};

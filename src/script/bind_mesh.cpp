@@ -115,7 +115,7 @@ Writes the triangles, in metres. Numbers keep every digit, in .stl seven.
 > flask.mesh:save(path)
 > world:add_object(path).mesh.volume == flask.mesh.volume  --> true
 > os.remove(path)
-> flask.mesh:save "flask.glb"  --> error: flask.glb: wanted a mesh to .obj, .off, .ply or .stl, got '.glb')"},
+> flask.mesh:save "flask.glb"  --> error: flask.glb: expected a mesh to .obj, .off, .ply or .stl, got '.glb')"},
 };
 
 static const Entry operators[] = {

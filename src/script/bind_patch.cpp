@@ -70,14 +70,14 @@ static int get_points(lua_State* L) {
 
 static int get_radius(lua_State* L) { return push(L, patch_of(L).radius); }
 static int get_residual(lua_State* L) { return push(L, patch_of(L).residual); }
-static int get_sharp(lua_State* L) { return push(L, patch_of(L).sharp); }
+static int get_at_edge(lua_State* L) { return push(L, patch_of(L).at_edge); }
 
 // {force = 5, modulus = "series"}
 static std::pair<double, ModulusRule> read_pressing(lua_State* L) {
   check_count(L, 1);
   Table options(L, 2);
   const double force = options.number("force", 5);
-  if (force < 0) fail("{}: force: wanted a number >= 0, got {}", subject(L), force);
+  if (force < 0) fail("{}: force: expected a number >= 0, got {}", subject(L), force);
   const ModulusRule rule = read_modulus_rule(options);
   options.done();
   return {force, rule};
@@ -93,8 +93,8 @@ static int ellipse(lua_State* L) {
   set_field(L, "indentation", e.indentation);
   set_field(L, "pressure", e.pressure);
   set_field(L, "torsion_radius", torsion_radius(patch, force, rule));
-  push(L, e.beyond_layer);
-  lua_setfield(L, -2, "beyond_layer");
+  push(L, e.exceeds_layer);
+  lua_setfield(L, -2, "exceeds_layer");
   return 1;
 }
 
@@ -108,13 +108,13 @@ static int patch_text(lua_State* L) {
   const SoftPatch& patch = patch_of(L);
   return push(
       L, fmt::format("soft patch, relative radii {:.6g} and {:.6g} m{}", patch.relative_radii[0],
-                     patch.relative_radii[1], patch.sharp ? ", on a corner or an edge" : ""));
+                     patch.relative_radii[1], patch.at_edge ? ", on a corner or an edge" : ""));
 }
 
 static const Entry fields[] = {
     {"relative_radii", guarded<get_relative_radii>, R"(
 Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures.
-Where the surfaces part slower than a ball of 2 m from a plane, or not at all, the `flat_radius` of 20 mm stands for them,
+Where the surfaces part slower than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm stands for them,
 or the first radius when that is larger; between 1 m and 2 m the one goes over into the other.
 @type number[]  [m]
 > patch.relative_radii[1] <= patch.relative_radii[2]  --> true)"},
@@ -151,10 +151,10 @@ How far around the contact the surfaces were looked at.
 How far the points lie from the fit, root of the mean square; of the worse surface.
 @type number  [m]
 > patch.residual < patch.radius  --> true)"},
-    {"sharp", guarded<get_sharp>, R"(
+    {"at_edge", guarded<get_at_edge>, R"(
 Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that is sure to touch.
 @type boolean
-> patch.sharp  --> false)"},
+> patch.at_edge  --> false)"},
 };
 
 static const Entry methods[] = {
@@ -163,12 +163,12 @@ Where the bodies press on each other, after the mattress model: its semi-axes al
 the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. It is nowhere wider than the bodies.
 At a corner, an edge or a rim the semi-axes are those of what is sure to touch, where the gap is no wider than the indentation of
 flat surfaces; the indentation is where the springs under the gap as it is make up the force, as far as the neighbourhood goes.
-`beyond_layer` says that it is more than the soft layers are high, and the model holds no longer.
+`exceeds_layer` says that it is more than the soft layers are high, and the model holds no longer.
 @param options? {force?: number, modulus?: string}  normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
-@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, beyond_layer: boolean}  [m], [m], [Pa], [m]
+@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, exceeds_layer: boolean}  [m], [m], [Pa], [m]
 > e = patch:ellipse{force = 5}
 > math.abs(e.pressure - 1.5e6 * e.indentation / 0.003) < 1e-3  --> true
-> e.beyond_layer, patch:ellipse{force = 1000}.beyond_layer  --> false, true
+> e.exceeds_layer, patch:ellipse{force = 1000}.exceeds_layer  --> false, true
 > patch:ellipse{force = -1}  --> error: >= 0)"},
     {"torsion_limit", guarded<torsion_limit>, R"(
 The largest torque about the normal that the contact resists, at rest: mu F times the torsion radius.

@@ -23,8 +23,8 @@ static Quaterniond quat_of(Table& t) {
   const double length = quat.coeffs().stableNorm();
   // files hold six digits or so; what is already unit to the last bits stays as it is
   if (!(std::abs(length - 1) < 1e-3))
-    fail("{}: quat: wanted a unit quaternion {{w, x, y, z}}, got one of length {:.6g}", t.subject(),
-         length);
+    fail("{}: quat: expected a unit quaternion {{w, x, y, z}}, got one of length {:.6g}",
+         t.subject(), length);
   if (std::abs(length - 1) < 1e-15) return quat;
   return Quaterniond(quat.coeffs() / length);
 }
@@ -43,7 +43,8 @@ static Pose matrix_of(Table& t) {
   for (const auto& row : rows) even = even && row.size() == columns;
   if (!even || (columns != 3 && columns != 4))
     fail(
-        "{}: matrix: wanted 3 rows of 3 or 4 numbers, or 4 rows of 4, got {} rows, the first of {}",
+        "{}: matrix: expected 3 rows of 3 or 4 numbers, or 4 rows of 4, got {} rows, the first of "
+        "{}",
         t.subject(), rows.size(), columns);
   if (rows.size() == 4 && rows[3] != std::vector<double>{0, 0, 0, 1})
     fail("{}: matrix: the last row must be 0 0 0 1", t.subject());
@@ -56,19 +57,19 @@ static Pose matrix_of(Table& t) {
   }
   const double skew = (R.transpose() * R - Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(skew < 1e-3) || !(R.determinant() > 0))
-    fail("{}: matrix: wanted a rotation, got columns that are not orthonormal and right-handed",
+    fail("{}: matrix: expected a rotation, got columns that are not orthonormal and right-handed",
          t.subject());
   if (columns == 4 && t.has("xyz"))
-    fail("{}: wanted the position once, got it from matrix and xyz", t.subject());
+    fail("{}: expected the position once, got it from matrix and xyz", t.subject());
   return {Quaterniond(R).normalized(), p};
 }
 
 Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
   if (lua_istable(L, index) && lua_rawlen(L, index) > 0)
-    fail_wanted({L, subject, ""}, "a pose {xyz = {x, y, z}, rpy = ..}", index);
+    fail_expected({L, subject, ""}, "a pose {xyz = {x, y, z}, rpy = ..}", index);
   Table t(L, index, subject);
   const int rotations = t.has("rpy") + t.has("quat") + t.has("matrix");
-  if (rotations > 1) fail("{}: wanted one of rpy, quat, matrix, got {}", subject, rotations);
+  if (rotations > 1) fail("{}: expected one of rpy, quat, matrix, got {}", subject, rotations);
   Pose pose;
   if (t.has("matrix")) pose = matrix_of(t);
   if (t.has("quat")) pose.rotation = quat_of(t);
@@ -130,7 +131,7 @@ static int rotate(lua_State* L) {
 static int interpolate_to(lua_State* L) {
   check_count(L, 2);
   const double t = check_number(L, 3, "t");
-  if (t < 0 || t > 1) fail("{}: t: wanted a number from 0 to 1, got {}", subject(L), t);
+  if (t < 0 || t > 1) fail("{}: t: expected a number from 0 to 1, got {}", subject(L), t);
   return push(L, interpolate(self<Pose>(L), check_pose(L, 2, "other"), t));
 }
 
@@ -138,7 +139,7 @@ static int multiply(lua_State* L) {
   const Pose& left = check_object<Pose>(L, 1, "left of *");
   if (const Pose* right = to<Pose>(L, 2)) return push(L, left * *right);
   if (lua_type(L, 2) != LUA_TTABLE && !to<Vector3d>(L, 2))
-    fail_wanted({L, {}, "right of *"}, "a pose, a vec3 or {x, y, z}", 2);
+    fail_expected({L, {}, "right of *"}, "a pose, a vec3 or {x, y, z}", 2);
   return push(L, Vector3d(left * check_vec3(L, 2, "right of *")));
 }
 
@@ -175,8 +176,8 @@ A rigid transform: the pose of one frame in another, within 1e9 m of it. The rot
 @return pose
 > clench.pose{xyz = {1, 2, 3}}  --> pose{xyz = {1, 2, 3}, quat = {1, 0, 0, 0}}
 > clench.pose{rpy = {0, 0, clench.rad(90)}} * {1, 0, 0}  --> (2.22045e-16, 1, 0)
-> clench.pose{quat = {2, 0, 0, 0}}  --> error: wanted a unit quaternion
-> clench.pose{xyz = {0, 0, 1e308}}  --> error: wanted a position within 1e+09 m of the origin)"},
+> clench.pose{quat = {2, 0, 0, 0}}  --> error: expected a unit quaternion
+> clench.pose{xyz = {0, 0, 1e308}}  --> error: expected a position within 1e+09 m of the origin)"},
 };
 
 static const Entry fields[] = {
@@ -234,7 +235,7 @@ const Class pose_class{.name = "pose",
                        .doc =
                            "A rigid transform, which never changes. `a * b` chains two of them, `a "
                            "* v` takes a point along, `==` "
-                           "compares bit by bit. Wherever a pose is wanted, the table that "
+                           "compares bit by bit. Wherever a pose is expected, the table that "
                            "`clench.pose` takes will do.",
                        .fields = fields,
                        .methods = methods,

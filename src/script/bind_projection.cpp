@@ -25,7 +25,7 @@ int project_space(lua_State* L) {
         options.fixed.emplace_back(c, fixed.number(coordinate_names[c]));
     fixed.done();
   } else if (type != LUA_TNIL) {
-    fail_wanted(table.what("fixed"), "a table of coordinates and values", -1);
+    fail_expected(table.what("fixed"), "a table of coordinates and values", -1);
   }
   lua_pop(L, 1);
   if (auto projected = read_coordinates(table, "projected"))
@@ -80,7 +80,7 @@ static std::string title_of(const ProjectionHandle& handle) {
   return title;
 }
 
-// radius of what a cut leaves of the ball of epsilon
+// radius of what a section leaves of the ball of epsilon
 static double ball_of(const ProjectionHandle& handle) {
   double square = handle.space->epsilon() * handle.space->epsilon();
   for (const auto& [coordinate, value] : handle.projection->fixed) square -= value * value;

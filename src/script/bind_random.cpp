@@ -18,7 +18,7 @@ static int uniform(lua_State* L) {
   Random& random = self<Random>(L);
   const double low = given(L, 2) ? check_number(L, 2, "low") : 0;
   const double high = given(L, 3) ? check_number(L, 3, "high") : 1;
-  if (!(low <= high)) fail("{}: wanted low <= high, got {} and {}", subject(L), low, high);
+  if (!(low <= high)) fail("{}: expected low <= high, got {} and {}", subject(L), low, high);
   return push(L, random.uniform(low, high));
 }
 
@@ -32,7 +32,7 @@ static int integer(lua_State* L) {
   check_count(L, 2);
   Random& random = self<Random>(L);
   const int64_t low = check_integer(L, 2, "low"), high = check_integer(L, 3, "high");
-  if (low > high) fail("{}: wanted low <= high, got {} and {}", subject(L), low, high);
+  if (low > high) fail("{}: expected low <= high, got {} and {}", subject(L), low, high);
   const uint64_t range =
       static_cast<uint64_t>(high) - static_cast<uint64_t>(low) + 1;  // 0: all of them
   uint64_t bits = random.bits();
@@ -86,7 +86,7 @@ An integer from low to high, both included, each as likely.
 @param high integer
 @return integer
 > clench.random(7):integer(4, 4)  --> 4
-> clench.random(7):integer(5, 4)  --> error: wanted low <= high, got 5 and 4)"},
+> clench.random(7):integer(5, 4)  --> error: expected low <= high, got 5 and 4)"},
     {"direction", guarded<direction>, R"(
 A unit vector, each direction as likely.
 @return vec3

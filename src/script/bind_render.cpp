@@ -20,7 +20,7 @@ static Eye read_eye(Table& options, const Eye& from) {
   const Eigen::Vector3d back = eye.eye - eye.target;
   // an up that one does not ask for gives way
   if (options.has("up") && !(eye.up.cross(back).norm() > 1e-9 * back.norm() * eye.up.norm()))
-    fail("{}: wanted eye and target apart, and up not along the view", options.subject());
+    fail("{}: expected eye and target apart, and up not along the view", options.subject());
   return eye;
 }
 
@@ -36,13 +36,13 @@ struct GivenForces {
 static GivenForces read_forces(lua_State* L, Table& options) {
   GivenForces given;
   if (options.push("forces") != LUA_TNIL) {
-    if (!lua_istable(L, -1)) fail_wanted(options.what("forces"), "a list of forces", -1);
+    if (!lua_istable(L, -1)) fail_expected(options.what("forces"), "a list of forces", -1);
     const int list = lua_gettop(L), count = static_cast<int>(lua_rawlen(L, list));
     for (int i = 1; i <= count; ++i) {
       lua_rawgeti(L, list, i);
       Table item(L, lua_gettop(L), options.what("forces").item(i).text());
       const auto* contact = item.object<ContactHandle>("contact");
-      if (!contact) fail_wanted(item.what("contact"), "a contact", lua_gettop(L) + 1);
+      if (!contact) fail_expected(item.what("contact"), "a contact", lua_gettop(L) + 1);
       given.forces.push_back({contact->contact.p_W, item.vec3("force")});
       given.robots.push_back(contact->world->body(contact->contact.other).robot);
       const double radius = contact->world->body(contact->contact.body).max_radius();
@@ -69,7 +69,7 @@ Picture draw_scene(Table& options, Scene scene) {
       options.has("size") ? options.numbers("size", 2) : std::vector<double>{1280, 960};
   for (const double n : size)
     if (n != std::floor(n) || !(n >= 1 && n <= 1e6))
-      fail("{}: size: wanted whole numbers of pixels, at least 1, got {}", options.subject(), n);
+      fail("{}: size: expected whole numbers of pixels, at least 1, got {}", options.subject(), n);
   rendering.width = floor_int(size[0]);
   rendering.height = floor_int(size[1]);
   rendering.samples = options.integer("samples", rendering.samples);
@@ -105,7 +105,7 @@ static int save(lua_State* L) {
   check_count(L, 1);
   const std::string path = check_string(L, 2, "path");
   if (!path.ends_with(".png"))
-    fail("{}: wanted a name that ends in .png, got '{}'", subject(L), path);
+    fail("{}: expected a name that ends in .png, got '{}'", subject(L), path);
   save_png(self<Picture>(L), path);
   return 0;
 }
@@ -118,7 +118,7 @@ static int pixel(lua_State* L) {
   const Picture& p = self<Picture>(L);
   const int x = check_int(L, 2, "x"), y = check_int(L, 3, "y");
   if (x < 1 || x > p.width || y < 1 || y > p.height)
-    fail("{}: wanted 1..{}, 1..{}, got {}, {}", subject(L), p.width, p.height, x, y);
+    fail("{}: expected 1..{}, 1..{}, got {}, {}", subject(L), p.width, p.height, x, y);
   const size_t at = 3 * (static_cast<size_t>(y - 1) * p.width + (x - 1));
   for (int k = 0; k < 3; ++k) push(L, static_cast<int>(p.pixels[at + k]));
   return 3;
@@ -147,7 +147,7 @@ of all soft contacts, without the cones, which would cover them. The camera fram
 > clench.render(world, {size = {64, 48}, forces = held.forces}) == clench.render(world, {size = {64, 48}})  --> false
 > bare = clench.render(world, {size = {64, 48}, patches = true, contacts = false})
 > clench.render(world, {size = {64, 48}, patches = true}) == bare  --> true
-> clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: wanted a contact, got nothing)"},
+> clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: expected a contact, got nothing)"},
 };
 
 static const Entry fields[] = {

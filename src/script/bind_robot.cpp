@@ -62,7 +62,8 @@ static void push_joint(lua_State* L, const Robot& robot, int chain, int joint) {
   const bool apart = robot.chains[chain].apart[joint].has_value();
   const DofKind kind = robot.dofs[spec.dof].kind;
   set_field(L, "broken_away", apart && kind == DofKind::breakaway);
-  set_field(L, "wound", spec.ratio * robot.q[spec.dof] - joint_value(robot, chain, joint));
+  set_field(L, "spring_deflection",
+            spec.ratio * robot.q[spec.dof] - joint_value(robot, chain, joint));
   if (spec.spring > 0) set_field(L, "spring", spec.spring), set_field(L, "rest", spec.rest);
 }
 
@@ -97,7 +98,7 @@ static int get_dofs(lua_State* L) { return push_vector(L, self<RobotHandle>(L)->
 static Eigen::VectorXd check_dofs(lua_State* L, int i, const Robot& robot) {
   const auto values = read_numbers(L, i, {L, {}, "values"});
   if (static_cast<int>(values.size()) != robot.q.size())
-    fail("{}: robot '{}': wanted {} DOF values, got {}", subject(L), robot.name, robot.q.size(),
+    fail("{}: robot '{}': expected {} DOF values, got {}", subject(L), robot.name, robot.q.size(),
          values.size());
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<int>(values.size()));
 }
@@ -106,18 +107,19 @@ static Eigen::VectorXd check_dofs(lua_State* L, int i, const Robot& robot) {
 static std::vector<std::vector<Apart>> check_apart(Table& options, const Robot& robot) {
   std::vector<std::vector<Apart>> out;
   for (const Chain& chain : robot.chains) out.emplace_back(chain.joints.size());
-  for (const auto& row : options.rows("apart", 3)) {
+  for (const auto& row : options.rows("joint_positions", 3)) {
     const auto number = [&](double x, size_t count, const char* what) {
       if (!(x >= 1 && x <= static_cast<double>(count) && x == std::floor(x)))
-        fail("{}: apart: wanted a {} from 1 to {}, got {}", options.subject(), what, count, x);
+        fail("{}: joint_positions: expected a {} from 1 to {}, got {}", options.subject(), what,
+             count, x);
       return floor_between(x, size_t{1}, count) - 1;
     };
     const size_t c = number(row[0], out.size(), "chain");
     const size_t j = number(row[1], out[c].size(), "joint");
     const JointSpec& joint = robot.chains[c].joints[j];
     if (!(row[2] >= joint.min - 1e-9 && row[2] <= joint.max + 1e-9))
-      fail("{}: apart: joint {} of chain {}: wanted a value in [{}, {}], got {}", options.subject(),
-           j + 1, c + 1, joint.min, joint.max, row[2]);
+      fail("{}: joint_positions: joint {} of chain {}: expected a value in [{}, {}], got {}",
+           options.subject(), j + 1, c + 1, joint.min, joint.max, row[2]);
     out[c][j] = row[2];
   }
   return out;
@@ -129,7 +131,7 @@ static int set_dofs(lua_State* L) {
   const Eigen::VectorXd values = check_dofs(L, 2, *robot);
   Table options(L, 3);
   std::vector<std::vector<Apart>> apart;
-  if (options.has("apart")) apart = check_apart(options, *robot);
+  if (options.has("joint_positions")) apart = check_apart(options, *robot);
   options.done();
   robot.world->set_dofs(robot.id, values);
   if (!apart.empty()) {
@@ -181,7 +183,7 @@ static int get_approach(lua_State* L) {
   return 1;
 }
 
-static int get_carrier(lua_State* L) {
+static int get_parent(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   if (robot->mounting) return push(L, RobotHandle{robot.world, robot->mounting->parent});
   lua_pushnil(L);
@@ -221,7 +223,8 @@ static int link(lua_State* L) {
 }
 
 static const char* stop_name(DofStop stop) {
-  static constexpr const char* names[] = {"reached", "limit", "contact", "still", "gave up"};
+  static constexpr const char* names[] = {"reached", "limit", "contact", "not_driven",
+                                          "iteration_limit"};
   return names[static_cast<int>(stop)];
 }
 
@@ -283,19 +286,19 @@ static int approach_object(lua_State* L) {
 static int mount_on(lua_State* L) {
   check_count(L, 2);
   const auto& robot = self<RobotHandle>(L);
-  const auto& parent = check_object<RobotHandle>(L, 2, "carrier");
+  const auto& parent = check_object<RobotHandle>(L, 2, "parent");
   if (parent.world != robot.world)
     fail("{}: '{}' belongs to another world", subject(L), parent->name);
   Table options(L, 3);
   const ReadOptions reading = read_options(L, options);
   const int chain = options.integer("chain", 1);
   const Pose pose = options.pose("pose", Pose{});
-  const std::string piece = options.string("piece", "");
+  const std::string adapter = options.string("adapter", "");
   options.done();
   if (chain < 1 || chain > static_cast<int>(parent->chains.size()))
-    fail("{}: chain: wanted 1 to {}, got {}", subject(L), parent->chains.size(), chain);
+    fail("{}: chain: expected 1 to {}, got {}", subject(L), parent->chains.size(), chain);
   std::optional<BodySpec> spec;
-  if (!piece.empty()) spec = read_body(find_file(piece, {}, reading), reading);
+  if (!adapter.empty()) spec = read_body(find_file(adapter, {}, reading), reading);
   robot.world->mount(robot.id, parent.id, chain - 1, pose, spec ? &*spec : nullptr);
   return 0;
 }
@@ -362,10 +365,10 @@ Base, links, and mount if it has one.
 How it approaches what it grasps, in the world frame: `point` on the palm, `direction`, `frame` with +z along it.
 @type {point: vec3, direction: vec3, frame: pose}
 > math.abs(hand.approach.direction:norm() - 1) < 1e-12  --> true)"},
-    {"carrier", guarded<get_carrier>, R"(
+    {"parent", guarded<get_parent>, R"(
 The robot that carries it; nil when none does.
 @type robot?
-> hand.carrier  --> nil)"},
+> hand.parent  --> nil)"},
     {"class_name", guarded<get_class_name>, R"(
 What its file calls its kind.
 @type string
@@ -391,8 +394,8 @@ A link, or the base, by its name, whole or without the robot's.
 Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away, or were
 held against their springs, follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
 @param values number[]  within the limits [rad or m]
-@param options? {apart?: number[][]}  rows {chain, joint, value}
-> hand:set_dofs{1, 2, 3}  --> error: wanted 12 DOF values, got 3)"},
+@param options? {joint_positions?: number[][]}  rows {chain, joint, value}
+> hand:set_dofs{1, 2, 3}  --> error: expected 12 DOF values, got 3)"},
     {"move_dofs", guarded<move_dofs>, R"(
 Drives all DOFs in proportion towards values, until contact stops them.
 @param values number[]  within the limits [rad or m]
@@ -403,7 +406,7 @@ Drives all DOFs in proportion towards values, until contact stops them.
 Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway
 fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they give way and slide, until contacts take up whatever more it pulls. Negative speed opens.
 @param options? {speed?: number, stop_at_contact?: boolean}
-@return table result  `moved`, `stops` (a DOF each: "contact", "limit", "reached", "still", "gave up"), `stopped_by` (pairs), `queries`, `events`
+@return table result  `moved`, `stops` (a DOF each: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
 > hand:autograsp().moved  --> false
 > hand:autograsp{sped = 1}  --> error: did you mean 'speed'?)"},
     {"open", guarded<open>, R"(
@@ -415,17 +418,17 @@ Opens the hand as far as it goes. One that overlaps something is opened without 
     {"move_to", guarded<move_to>, R"(
 Moves the whole robot until it first touches something, as a body's move_to.
 @param pose pose
-@return table result  `fraction`, `touched`, `stopped_by`, `gave_up`, `queries`
+@return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 > hand:move_to(hand.pose).fraction  --> 1.0)"},
     {"approach_object", guarded<approach_object>, R"(
 Moves the hand along its approach direction until it touches something.
 @param options? {reach?: number}  at most this far, 1 by default [m]
-@return table result  `fraction`, `touched`, `stopped_by`, `gave_up`, `queries`
+@return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 > hand:approach_object{reach = -1}  --> error: reach)"},
     {"mount_on", guarded<mount_on>, R"(
 Fixes the robot to the last link of another one's chain. It follows from now on.
-@param carrier robot
-@param options? {chain?: integer, pose?: pose, piece?: string, root?: string, confine?: string, strict?: boolean}  chain 1 by default; pose of the base in the link; file of an adapter
+@param parent robot
+@param options? {chain?: integer, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean}  chain 1 by default; pose of the base in the link; file of an adapter
 > hand:mount_on(hand)  --> error: which it carries itself)"},
 };
 

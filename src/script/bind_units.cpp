@@ -20,7 +20,7 @@ Degrees to radians.
 @param degrees number
 @return number  [rad]
 > clench.rad(180) == math.pi  --> true
-> clench.rad "90"  --> error: clench.rad: degrees: wanted a number, got '90')"},
+> clench.rad "90"  --> error: clench.rad: degrees: expected a number, got '90')"},
     {"deg", guarded<deg>, R"(
 Radians to degrees.
 @param radians number

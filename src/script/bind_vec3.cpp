@@ -100,14 +100,14 @@ static int as_json(lua_State* L) {
 
 static const Entry functions[] = {
     {"vec3", guarded<make_vec3>, R"(
-A vector of three finite numbers, from a list or one by one. Wherever a vec3 is wanted, {x, y, z} will do.
+A vector of three finite numbers, from a list or one by one. Wherever a vec3 is expected, {x, y, z} will do.
 @param x number[]|number
 @param y? number
 @param z? number
 @return vec3
 > clench.vec3(1, 2, 3)  --> (1, 2, 3)
 > clench.vec3{1, 2, 3} * 2 - {1, 1, 1}  --> (1, 3, 5)
-> clench.vec3{1, 2}  --> error: wanted 3 numbers, got 2
+> clench.vec3{1, 2}  --> error: expected 3 numbers, got 2
 > clench.vec3(1e308, 0, 0) * 10  --> error: vec3: the result is not finite, got (inf, 0, 0))"},
 };
 

@@ -1,4 +1,4 @@
-// vec3: three numbers with the operators of a vector. Wherever one is wanted, {x, y, z} will do.
+// vec3: three numbers with the operators of a vector. Wherever one is expected, {x, y, z} will do.
 #pragma once
 #include <Eigen/Core>
 

@@ -55,10 +55,10 @@ static std::pair<int, int> read_place(lua_State* L, Table& table, const RobotHan
   } else if (type == LUA_TNUMBER) {
     // numbers as lists from files have them; that they exist is checked with the whole
     const int chain = table.integer("chain", 0);
-    if (chain < 0) fail("{}: chain: wanted 0 or more, got {}", what.text(), chain);
+    if (chain < 0) fail("{}: chain: expected 0 or more, got {}", what.text(), chain);
     place = {chain - 1, chain == 0 ? 0 : std::max(read_int(L, -1, what), 0) - 1};
   } else {
-    fail_wanted(what, "a link, its name, or its number with that of its chain", -1);
+    fail_expected(what, "a link, its name, or its number with that of its chain", -1);
   }
   lua_pop(L, 1);
   return place;
@@ -76,11 +76,11 @@ static FrictionEdges read_edges(Table& table) {
 static Pose read_frame(Table& table) {
   const bool both = table.has("point") || table.has("normal");
   if (table.has("frame") && both)
-    fail("{}: wanted frame, or point and normal, got both", table.subject());
+    fail("{}: expected frame, or point and normal, got both", table.subject());
   if (table.has("frame")) return table.pose("frame");
   const Eigen::Vector3d normal = table.vec3("normal");
   if (!(normal.norm() > 1e-9) || !std::isfinite(normal.norm()))
-    fail("{}: normal: wanted a direction", table.subject());
+    fail("{}: normal: expected a direction", table.subject());
   return {Eigen::Quaterniond(contact_frame(normal.normalized())).normalized(), table.vec3("point")};
 }
 
@@ -93,7 +93,8 @@ VirtualContactSpec read_virtual_contact(lua_State* L, int i, const What& what,
     return marked(*robot.world, robot.id, real->contact);
   }
   if (!lua_istable(L, i))
-    fail_wanted(what, "a virtual contact, a contact, or a table such as {link, point, normal}", i);
+    fail_expected(what, "a virtual contact, a contact, or a table such as {link, point, normal}",
+                  i);
   Table table(L, i, what.text());
   VirtualContactSpec contact;
   std::tie(contact.chain, contact.link) = read_place(L, table, robot);

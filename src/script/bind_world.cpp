@@ -2,7 +2,7 @@
 #include <array>
 
 #include "base/suggest.h"
-#include "io/doubts.h"
+#include "io/plausibility.h"
 #include "model/build.h"
 #include "script/bind_contact.h"
 #include "script/camera.h"
@@ -37,7 +37,7 @@ static int add_body(lua_State* L, BodyKind kind) {
   const BodySpec spec = check_body_spec(L, 2, options, reading);
   if (kind == BodyKind::object) {
     const std::string file = std::filesystem::path(spec.file).filename().string();
-    doubt_object(spec, file.empty() ? subject(L) + ": mesh" : file, reading.listeners());
+    check_plausible_object(spec, file.empty() ? subject(L) + ": mesh" : file, reading.listeners());
   }
   const Pose pose = options.pose("pose", Pose{});
   const bool named = options.has("name");
@@ -69,7 +69,7 @@ static int add_robot(lua_State* L) {
 static int remove(lua_State* L) {
   check_count(L, 1);
   const auto& handle = self<WorldHandle>(L);
-  check_bodies(L, 2, "thing", handle.world);  // of this world, and alive
+  check_bodies(L, 2, "entity", handle.world);  // of this world, and alive
   if (const auto* robot = to<RobotHandle>(L, 2))
     handle.world->remove(robot->id);
   else
@@ -211,7 +211,7 @@ static int set_collision(lua_State* L) {
   return 0;
 }
 
-// --- how things rub ---
+// --- friction ---
 
 static int set_friction(lua_State* L) {
   check_count(L, 3);
@@ -361,7 +361,7 @@ Adds a robot from a file.
 > world:add_robot("nothing.cfg")  --> error: nothing.cfg)"},
     {"remove", guarded<remove>, R"(
 Removes an object, an obstacle or a whole robot. Whoever still holds it gets an error that names it.
-@param thing body|robot
+@param entity body|robot
 > world:remove(flask)
 > flask.pose  --> error: was removed)"},
     {"clone", guarded<clone>, R"(
@@ -391,13 +391,13 @@ new one has been read again; what the format cannot hold is told in a warning.
 > clench.load(path .. ".lua"):hash() == world:hash()  --> true
 > os.remove(path)
 > os.remove(path .. ".lua")
-> world:save "world.txt"  --> error: wanted a world to .wld, .xml or .lua, got '.txt')"},
+> world:save "world.txt"  --> error: expected a world to .wld, .xml or .lua, got '.txt')"},
     {"hash", guarded<hash>, R"(
 Fingerprint of the state: equal bits, equal text.
 @return string  16 hexadecimal digits
 > #world:hash()  --> 16)"},
     {"colliding", guarded<colliding>, R"(
-Pairs of bodies that collide, of the world, of one thing, or between two. A closed body inside another collides too.
+Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
 @param a? body|robot
 @param b? body|robot
 @return body[][]  pairs
@@ -411,13 +411,13 @@ Least distance of two things, 0 when they collide, with the closest points in th
 @return vec3 on_b
 > world:distance(hand, flask) <= world.contact_threshold  --> true)"},
     {"contacts", guarded<find_contacts>, R"(
-Where surfaces touch: everywhere, on one thing, or of `a` on `b`.
+Where surfaces touch: everywhere, on one entity, or of `a` on `b`.
 @param a? body|robot
 @param b? body|robot
 @return contact[]  on b; without arguments on the object of each pair
 > world:contacts(hand, flask)[1].body == flask  --> true)"},
     {"set_collision", guarded<set_collision>, R"(
-Switches collision on or off: for the whole world, for one thing against everything, or for a pair.
+Switches collision on or off: for the whole world, for one entity against everything, or for a pair.
 @param on boolean
 @param a? body|robot
 @param b? body|robot
@@ -454,7 +454,7 @@ const Class world_class{.name = "world",
                         .variable = "world",
                         .doc =
                             "Bodies and robots, what may collide with what, "
-                            "how things rub. Lists are in creation order.",
+                            "friction. Lists are in creation order.",
                         .fields = fields,
                         .methods = methods,
                         .operators = operators};

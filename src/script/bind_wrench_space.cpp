@@ -17,12 +17,12 @@ std::optional<int> read_edges(Table& options) {
   if (const int type = options.push("edges"); type == LUA_TSTRING) {
     const std::string word = read_string(what.L, -1, what);
     if (word != "exact")
-      fail("{}: edges must be 3 to {} or 'exact', got '{}'", options.subject(), most_edges, word);
+      fail("{}: edges must be 3 to {} or 'exact', got '{}'", options.subject(), max_edges, word);
     edges = round_edges;
   } else if (type != LUA_TNIL) {
     edges = read_int(what.L, lua_gettop(what.L), what);
-    if (*edges < 3 || *edges > most_edges)
-      fail("{}: edges must be 3 to {} or 'exact', got {}", options.subject(), most_edges, *edges);
+    if (*edges < 3 || *edges > max_edges)
+      fail("{}: edges must be 3 to {} or 'exact', got {}", options.subject(), max_edges, *edges);
   }
   lua_pop(what.L, 1);
   return edges;
@@ -43,7 +43,7 @@ bool is_gyration(Table& options) {
 static int coordinate_of(const std::string& name, const What& what) {
   const auto place = std::find(coordinate_names.begin(), coordinate_names.end(), name);
   if (place == coordinate_names.end())
-    fail("{}: unknown coordinate '{}', wanted fx, fy, fz, tx, ty or tz", what.text(), name);
+    fail("{}: unknown coordinate '{}', expected fx, fy, fz, tx, ty or tz", what.text(), name);
   return static_cast<int>(place - coordinate_names.begin());
 }
 
@@ -63,7 +63,7 @@ std::optional<std::vector<int>> read_coordinates(Table& options, const char* key
       lua_pop(L, 1);
     }
   } else if (type != LUA_TNIL) {
-    fail_wanted(what, "a list of coordinates", -1);
+    fail_expected(what, "a list of coordinates", -1);
   }
   lua_pop(L, 1);
   return out;
@@ -78,7 +78,7 @@ WrenchSpaceOptions read_space_options(Table& options) {
 
 // a contact of the list: {point, normal, mu, torsion_radius}, or a list of wrenches
 static UnitWrenches read_contact(lua_State* L, int i, const What& what, const ConeOptions& cone) {
-  if (!lua_istable(L, i)) fail_wanted(what, "a list of wrenches or {point, normal, mu}", i);
+  if (!lua_istable(L, i)) fail_expected(what, "a list of wrenches or {point, normal, mu}", i);
   // names, not numbers: a point and its cone
   bool is_point = false;
   for (const char* name : {"point", "normal", "mu", "torsion_radius"}) {
@@ -127,7 +127,7 @@ static int new_wrench_space(lua_State* L) {
     lua_pop(L, 1);
     edges += contacts.back().edges.cols();
     if (edges > max_space_edges)
-      fail("{}: contacts: wanted at most {} edges in all, got more", subject(L), max_space_edges);
+      fail("{}: contacts: expected at most {} edges in all, got more", subject(L), max_space_edges);
   }
   lua_pop(L, 1);
   options.done();
@@ -232,7 +232,7 @@ static const Entry functions[] = {
     {"wrench_space", guarded<new_wrench_space>, R"(
 All wrenches that contacts resist when their normal forces sum to one (norm "L1") or are each at most one ("Linf").
 A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in
-the object frame; torsion_radius, 0 for a hard finger, says how far a soft one resists a turn about its normal [m]. Nothing
+the object frame; torsion_radius, 0 for a hard finger, is that of torsional friction of a soft one [m]. Nothing
 is calculated before it is asked for.
 @param options {contacts: table[], norm?: string, edges?: integer|string, rho?: number, com?: vec3, coordinates?: string[]}  edges: of the friction pyramids, 8, or "exact" for round cones; rho: length that torques are divided by, 1 m unless given; com: the point of torques, the frame's origin unless given [m]; coordinates: those that count, of "fx" to "tz"
 @return wrench_space
@@ -302,14 +302,14 @@ The unit wrenches, contact by contact.
 > #grasp:wrench_space():wrenches() == #grasp.contacts  --> true
 > grasp:wrench_space{edges = "exact"}:wrenches()  --> error: round cones)"},
     {"project", guarded<project_space>, R"(
-The space in three coordinates. Of the others, `fixed` ones have a value, so that the space is cut, and `projected` ones may be
-anything, which gives its shadow.
+The space in three coordinates. Of the others, `fixed` ones have a value, which gives its section, and `projected` ones may be
+anything, which gives its projection.
 @param options? {fixed?: table<string, number>, projected?: string[], tolerance?: number}  tolerance: of round cones, as a part of the space's size, 1e-3
 @return projection
-> cut = grasp:wrench_space():project{fixed = {tx = 0, ty = 0, tz = 0}}
-> shadow = grasp:wrench_space():project{projected = {"tx", "ty", "tz"}}
-> cut.volume > 0 and cut.volume <= shadow.volume  --> true
-> grasp:wrench_space():project{fixed = {tx = 0}}  --> error: wanted three free coordinates, got 5)"},
+> section = grasp:wrench_space():project{fixed = {tx = 0, ty = 0, tz = 0}}
+> projection = grasp:wrench_space():project{projected = {"tx", "ty", "tz"}}
+> section.volume > 0 and section.volume <= projection.volume  --> true
+> grasp:wrench_space():project{fixed = {tx = 0}}  --> error: expected three free coordinates, got 5)"},
 };
 
 static const Entry space_operators[] = {

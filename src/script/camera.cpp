@@ -33,15 +33,15 @@ static Camera looking(Table& options) {
   const Eigen::Vector3d back = eye - target;
   const Eigen::Vector3d x = up.cross(back);
   if (!(back.norm() > 1e-9) || !(x.norm() > 1e-9 * back.norm() * up.norm()))
-    fail("{}: wanted eye and target apart, and up not along the view", options.subject());
+    fail("{}: expected eye and target apart, and up not along the view", options.subject());
   Eigen::Matrix3d axes;
   axes.col(0) = x.normalized();
   axes.col(2) = back.normalized();
   axes.col(1) = axes.col(2).cross(axes.col(0));
   const double angle = options.number("field_of_view", inventor_field_of_view);
   if (std::abs(angle - inventor_field_of_view) > 1e-9)
-    fail("{}: field_of_view: wanted {}, that of every camera of a world, got {}", options.subject(),
-         inventor_field_of_view, angle);
+    fail("{}: field_of_view: expected {}, that of every camera of a world, got {}",
+         options.subject(), inventor_field_of_view, angle);
   return {{Eigen::Quaterniond(axes).normalized(), eye}, back.norm()};
 }
 

@@ -1,5 +1,5 @@
 // Positional arguments of a running entry: check_number(L, 1, "degrees"). Messages name entry and
-// argument: "clench.rad: degrees: wanted a number, got 'abc'". In a setter the value is argument 2
+// argument: "clench.rad: degrees: expected a number, got 'abc'". In a setter the value is argument 2
 // and has no name of its own.
 #pragma once
 #include "script/object.h"
@@ -36,14 +36,14 @@ inline std::vector<double> check_numbers(lua_State* L, int i, const char* name =
 }
 
 /// A userdata of one class.
-/// throws  Error "...: wanted a robot, got a table"  "...: wanted a snapshot, got one that was closed"
+/// throws  Error "...: expected a robot, got a table"  "...: expected a snapshot, got one that was closed"
 template <class T>
 T& check_object(lua_State* L, int i, const char* name = "") {
   if (T* object = to<T>(L, i)) return *object;
   fail_object({L, {}, name}, class_of<T>(), i);
 }
 
-/// throws  Error "...: wanted at most 2 arguments, got 3"; self does not count
+/// throws  Error "...: expected at most 2 arguments, got 3"; self does not count
 void check_count(lua_State* L, int most);
 
 }  // namespace clench

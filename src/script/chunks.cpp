@@ -8,10 +8,10 @@
 namespace clench {
 
 static void push_refusal(lua_State* L, const char* name) {
-  lua_pushfstring(L, "%s: bytecode is not run; wanted Lua text", name);
+  lua_pushfstring(L, "%s: bytecode is not run; expected Lua text", name);
 }
 
-// Lua's own words name neither the file nor what is wanted
+// Lua's own words name neither the file nor what is expected
 static int in_our_words(lua_State* L, int status, const char* name) {
   static constexpr char said[] = "attempt to load a binary chunk";
   if (status != LUA_ERRSYNTAX || std::strncmp(lua_tostring(L, -1), said, sizeof said - 1))
@@ -135,7 +135,7 @@ static void replace_searcher(lua_State* L) {
     // ours may stand before them already
     const int first = lua_istable(L, -1) ? count_packed_searchers(L, package + 1) + 1 : 0;
     if (!first || lua_rawlen(L, package + 1) != static_cast<size_t>(first) + 3)
-      luaL_error(L, "clench_refuse_bytecode: wanted package.searchers as Lua makes them");
+      luaL_error(L, "clench_refuse_bytecode: expected package.searchers as Lua makes them");
     lua_pushvalue(L, package);
     lua_getfield(L, package, "searchpath");
     lua_pushcclosure(L, search_path, 2);

@@ -77,7 +77,7 @@ static std::vector<std::string> string_keys(lua_State* L, int upvalue) {
 static int no_such_member(lua_State* L) {
   const std::string name = lua_tostring(L, lua_upvalueindex(owner));
   if (lua_type(L, 2) != LUA_TSTRING)
-    fail("{}: wanted a name of a field or method, got a {}", name, luaL_typename(L, 2));
+    fail("{}: expected a name of a field or method, got a {}", name, luaL_typename(L, 2));
   const std::string key(string_at(L, 2));
   auto known = string_keys(L, in_fields);
   for (auto& method : string_keys(L, in_methods)) known.push_back(std::move(method));
@@ -87,7 +87,7 @@ static int no_such_member(lua_State* L) {
 static int no_such_setter(lua_State* L) {
   const std::string name = lua_tostring(L, lua_upvalueindex(owner));
   if (lua_type(L, 2) != LUA_TSTRING)
-    fail("{}: wanted a name of a field to set, got a {}", name, luaL_typename(L, 2));
+    fail("{}: expected a name of a field to set, got a {}", name, luaL_typename(L, 2));
   const std::string key(string_at(L, 2));
   const auto known = string_keys(L, in_methods);  // here: the getters
   for (const auto& getter : known)

@@ -46,7 +46,7 @@ std::vector<Id<Body>> check_bodies(lua_State* L, int i, const char* name, const 
     check_world(L, world, robot->world, (*robot)->name);
     return world->bodies_of(robot->id);
   }
-  fail_wanted({L, {}, name}, "a body or a robot", i);
+  fail_expected({L, {}, name}, "a body or a robot", i);
 }
 
 BodyHandle self_body(lua_State* L) {

@@ -9,13 +9,13 @@ namespace clench {
 
 /// Leaves the value of a JSON text on the stack. null is clench.json.null in a list and absent from
 /// an object; an empty object comes back as one when written again.
-/// throws  Error "clench.json.decode: line 3, column 14: wanted ',' or '}', got 'x'"
+/// throws  Error "clench.json.decode: line 3, column 14: expected ',' or '}', got 'x'"
 void read_json(lua_State* L, std::string_view text);
 
 /// The value at the index as JSON text; indent 0: on one line. A table with items 1..n is a list,
 /// one with names an object, an empty one a list unless read as an object. A metamethod __json
 /// gives a value to write instead.
-/// throws  Error "clench.json.encode: value.links[2]: wanted ..., got a function"
+/// throws  Error "clench.json.encode: value.links[2]: expected ..., got a function"
 std::string write_json(lua_State* L, int index, int indent = 0);
 
 /// Leaves clench.json.null.

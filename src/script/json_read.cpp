@@ -29,12 +29,12 @@ class Reader {
     fail("clench.json.decode: line {}, column {}: {}", line, column, what);
   }
 
-  [[noreturn]] void refuse(const std::string& wanted) const {
-    if (at_ >= text_.size()) complain(at_, "wanted " + wanted + ", got the end of the text");
+  [[noreturn]] void refuse(const std::string& expected) const {
+    if (at_ >= text_.size()) complain(at_, "expected " + expected + ", got the end of the text");
     const auto c = static_cast<unsigned char>(text_[at_]);
     const auto got =
         c >= 32 && c < 127 ? fmt::format("'{}'", text_[at_]) : fmt::format("byte {}", c);
-    complain(at_, "wanted " + wanted + ", got " + got);
+    complain(at_, "expected " + expected + ", got " + got);
   }
 
   char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
@@ -123,7 +123,7 @@ class Reader {
     const size_t start = at_;
     const bool negative = take('-');
     if (!take('0') && !digits()) refuse("a digit");
-    if (peek() >= '0' && peek() <= '9') complain(at_, "wanted a number without leading zeros");
+    if (peek() >= '0' && peek() <= '9') complain(at_, "expected a number without leading zeros");
     bool whole = true;
     if (take('.')) {
       whole = false;

@@ -43,8 +43,8 @@ class Writer {
   std::string out;
 
  private:
-  [[noreturn]] void refuse(const std::string& wanted, int index = 0) const {
-    fail("clench.json.encode: value{}: wanted {}{}", path_, wanted,
+  [[noreturn]] void refuse(const std::string& expected, int index = 0) const {
+    fail("clench.json.encode: value{}: expected {}{}", path_, expected,
          index ? ", got " + described(L_, index) : "");
   }
 

@@ -17,11 +17,11 @@ bool has_class(lua_State* L, int index, const Class& kind) {
 
 namespace {
 
-constexpr int64_t least_growth = 64 << 10;  // [KB]
+constexpr int64_t min_growth = 64 << 10;  // [KB]
 
 // of a state, in KB
 struct OwnedMemory {
-  int64_t now = 0, limit = least_growth;
+  int64_t now = 0, limit = min_growth;
 };
 
 const char owned_key = 0;  // its address names the state's
@@ -48,7 +48,7 @@ void collect_owned(lua_State* L) {
   if (memory.now < memory.limit || lua_gc(L, LUA_GCISRUNNING) != 1) return;
   lua_gc(L, LUA_GCCOLLECT);
   // a collection takes as long as Lua's own memory is large
-  const int64_t growth = std::max<int64_t>(least_growth, 2 * lua_gc(L, LUA_GCCOUNT));
+  const int64_t growth = std::max<int64_t>(min_growth, 2 * lua_gc(L, LUA_GCCOUNT));
   memory.limit = memory.now + growth;
 }
 
@@ -57,22 +57,23 @@ void fail_self(lua_State* L, const Class& kind) {
   const bool closed = has_class(L, 1, kind);
   if (closed) fail("{}: the {} was closed", name, kind.name);
   const bool method = name.find(':') != std::string::npos;
-  fail("{}: wanted {}{}, got {}{}", name, with_article(kind.name),
+  fail("{}: expected {}{}, got {}{}", name, with_article(kind.name),
        method ? " before the colon" : "", described(L, 1), method ? "; use " + name + "(...)" : "");
 }
 
 void fail_object(const What& what, const Class& kind, int index) {
-  const std::string wanted = with_article(kind.name);
+  const std::string expected = with_article(kind.name);
   if (has_class(what.L, index, kind))
-    fail("{}: wanted {}, got one that was closed", what.text(), wanted);
-  fail_wanted(what, wanted, index);
+    fail("{}: expected {}, got one that was closed", what.text(), expected);
+  fail_expected(what, expected, index);
 }
 
 void check_count(lua_State* L, int most) {
   const int self = running_class(L) ? 1 : 0;
   const int count = lua_gettop(L) - self;
   if (count > most)
-    fail("{}: wanted at most {} argument{}, got {}", subject(L), most, most == 1 ? "" : "s", count);
+    fail("{}: expected at most {} argument{}, got {}", subject(L), most, most == 1 ? "" : "s",
+         count);
 }
 
 }  // namespace clench

@@ -115,13 +115,13 @@ int push_object(lua_State* L, T value) {
   return 1;
 }
 
-/// throws  Error "hand:autograsp: wanted a robot before the colon, got a table;
+/// throws  Error "hand:autograsp: expected a robot before the colon, got a table;
 ///         use hand:autograsp(...)"
 [[noreturn]] void fail_self(lua_State* L, const Class& kind);
 
 struct What;
-/// throws  Error "subject: wanted a snapshot, got nil"
-///         "subject: wanted a snapshot, got one that was closed"
+/// throws  Error "subject: expected a snapshot, got nil"
+///         "subject: expected a snapshot, got one that was closed"
 [[noreturn]] void fail_object(const What& what, const Class& kind, int index);
 
 /// The object that a method or field belongs to.

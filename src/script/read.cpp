@@ -62,40 +62,40 @@ std::string described(lua_State* L, int index) {
   }
 }
 
-void fail_wanted(const What& what, std::string_view wanted, int index) {
-  fail("{}: wanted {}, got {}", what.text(), wanted, described(what.L, index));
+void fail_expected(const What& what, std::string_view expected, int index) {
+  fail("{}: expected {}, got {}", what.text(), expected, described(what.L, index));
 }
 
 double read_number(lua_State* L, int i, const What& what) {
-  if (lua_type(L, i) != LUA_TNUMBER) fail_wanted(what, "a number", i);
+  if (lua_type(L, i) != LUA_TNUMBER) fail_expected(what, "a number", i);
   const double x = lua_tonumber(L, i);
-  if (!std::isfinite(x)) fail_wanted(what, "a finite number", i);
+  if (!std::isfinite(x)) fail_expected(what, "a finite number", i);
   return x;
 }
 
 int64_t read_integer(lua_State* L, int i, const What& what) {
   int whole = 0;
   const int64_t n = lua_tointegerx(L, i, &whole);
-  if (lua_type(L, i) != LUA_TNUMBER || !whole) fail_wanted(what, "an integer", i);
+  if (lua_type(L, i) != LUA_TNUMBER || !whole) fail_expected(what, "an integer", i);
   return n;
 }
 
 int read_int(lua_State* L, int i, const What& what) {
   const int64_t n = read_integer(L, i, what);
-  if (n < INT_MIN || n > INT_MAX) fail_wanted(what, "an integer of 32 bits", i);
+  if (n < INT_MIN || n > INT_MAX) fail_expected(what, "an integer of 32 bits", i);
   return static_cast<int>(n);
 }
 
 bool read_boolean(lua_State* L, int i, const What& what) {
-  if (lua_type(L, i) != LUA_TBOOLEAN) fail_wanted(what, "true or false", i);
+  if (lua_type(L, i) != LUA_TBOOLEAN) fail_expected(what, "true or false", i);
   return lua_toboolean(L, i);
 }
 
 std::string read_string(lua_State* L, int i, const What& what) {
-  if (lua_type(L, i) != LUA_TSTRING) fail_wanted(what, "a string", i);
+  if (lua_type(L, i) != LUA_TSTRING) fail_expected(what, "a string", i);
   const std::string_view text = string_at(L, i);
   if (text.find('\0') != std::string_view::npos)
-    fail_wanted(what, "a string without zero bytes", i);
+    fail_expected(what, "a string without zero bytes", i);
   return std::string(text);
 }
 
@@ -123,15 +123,16 @@ static std::string foreign_key(lua_State* L, int table, lua_Integer size, const 
   return name.empty() ? other : name;
 }
 
-int read_list_size(lua_State* L, int i, const What& what, std::string_view wanted,
+int read_list_size(lua_State* L, int i, const What& what, std::string_view expected,
                    const char* extra) {
-  if (lua_type(L, i) != LUA_TTABLE) fail_wanted(what, wanted, i);
+  if (lua_type(L, i) != LUA_TTABLE) fail_expected(what, expected, i);
   i = lua_absindex(L, i);
   const auto size = lua_rawlen(L, i);
-  if (size > INT_MAX) fail_wanted(what, wanted, i);
+  if (size > INT_MAX) fail_expected(what, expected, i);
   if (!lua_checkstack(L, 4)) fail("too many values on the stack");
   const std::string key = foreign_key(L, i, static_cast<lua_Integer>(size), extra);
-  if (!key.empty()) fail("{}: wanted {}, got a table with the key {}", what.text(), wanted, key);
+  if (!key.empty())
+    fail("{}: expected {}, got a table with the key {}", what.text(), expected, key);
   return static_cast<int>(size);
 }
 
@@ -139,12 +140,12 @@ std::vector<double> read_numbers(lua_State* L, int i, const What& what, int coun
   i = lua_absindex(L, i);
   if (const auto* v = to<Eigen::Vector3d>(L, i); v && (count < 0 || count == 3))
     return {v->x(), v->y(), v->z()};
-  const std::string wanted =
+  const std::string expected =
       count < 0 ? "a list of numbers" : fmt::format("{} number{}", count, count == 1 ? "" : "s");
   // an item that is a number is no count of numbers
-  if (lua_type(L, i) != LUA_TTABLE && count >= 0) fail_wanted(what, "a list of " + wanted, i);
-  const int size = read_list_size(L, i, what, wanted);
-  if (count >= 0 && size != count) fail("{}: wanted {}, got {}", what.text(), wanted, size);
+  if (lua_type(L, i) != LUA_TTABLE && count >= 0) fail_expected(what, "a list of " + expected, i);
+  const int size = read_list_size(L, i, what, expected);
+  if (count >= 0 && size != count) fail("{}: expected {}, got {}", what.text(), expected, size);
   std::vector<double> numbers(static_cast<size_t>(size));
   for (int k = 1; k <= size; ++k) {
     push_item(L, i, k);
@@ -171,7 +172,7 @@ std::vector<std::vector<double>> read_rows(lua_State* L, int i, const What& what
 
 Eigen::Matrix3d read_matrix3(lua_State* L, int i, const What& what) {
   const auto rows = read_rows(L, i, what, 3);
-  if (rows.size() != 3) fail("{}: wanted 3 rows, got {}", what.text(), rows.size());
+  if (rows.size() != 3) fail("{}: expected 3 rows, got {}", what.text(), rows.size());
   Eigen::Matrix3d out;
   for (int r = 0; r < 3; ++r) out.row(r) = Eigen::Vector3d(rows[r][0], rows[r][1], rows[r][2]);
   return out;
@@ -179,14 +180,14 @@ Eigen::Matrix3d read_matrix3(lua_State* L, int i, const What& what) {
 
 Eigen::Vector3d read_vec3(lua_State* L, int i, const What& what) {
   if (const auto* v = to<Eigen::Vector3d>(L, i)) return *v;
-  if (lua_type(L, i) != LUA_TTABLE) fail_wanted(what, "a vec3 or {x, y, z}", i);
+  if (lua_type(L, i) != LUA_TTABLE) fail_expected(what, "a vec3 or {x, y, z}", i);
   const auto v = read_numbers(L, i, what, 3);
   return {v[0], v[1], v[2]};
 }
 
 Pose read_pose(lua_State* L, int i, const What& what) {
   if (const auto* pose = to<Pose>(L, i)) return *pose;
-  if (lua_type(L, i) != LUA_TTABLE) fail_wanted(what, "a pose", i);
+  if (lua_type(L, i) != LUA_TTABLE) fail_expected(what, "a pose", i);
   return pose_from_table(L, i, what.text());
 }
 

@@ -35,8 +35,8 @@ std::string with_article(std::string_view noun);
 /// A value in a message: "3", "'abc'", "a table of 2", "a robot", "nothing".
 std::string described(lua_State* L, int index);
 
-/// throws  Error "subject: key: wanted a number, got 'abc'"
-[[noreturn]] void fail_wanted(const What& what, std::string_view wanted, int index);
+/// throws  Error "subject: key: expected a number, got 'abc'"
+[[noreturn]] void fail_expected(const What& what, std::string_view expected, int index);
 
 // each throws Error as above; i is an index of the stack
 double read_number(lua_State* L, int i, const What& what);    ///< finite
@@ -48,11 +48,11 @@ Eigen::Vector3d read_vec3(lua_State* L, int i, const What& what);  ///< a vec3 o
 /// a pose, or the table that clench.pose takes
 Pose read_pose(lua_State* L, int i, const What& what);
 /// How many items a list has: a table of the keys 1, 2, ... and none else but `extra`.
-/// throws  Error "...: wanted a list of contacts, got a table with the key 'link'"
-int read_list_size(lua_State* L, int i, const What& what, std::string_view wanted,
+/// throws  Error "...: expected a list of contacts, got a table with the key 'link'"
+int read_list_size(lua_State* L, int i, const What& what, std::string_view expected,
                    const char* extra = nullptr);
 /// finite numbers; count < 0: any number of them
-/// throws  Error "...: wanted 12 numbers, got 3"
+/// throws  Error "...: expected 12 numbers, got 3"
 std::vector<double> read_numbers(lua_State* L, int i, const What& what, int count = -1);
 /// 3 rows of 3
 Eigen::Matrix3d read_matrix3(lua_State* L, int i, const What& what);

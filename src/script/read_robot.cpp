@@ -16,7 +16,7 @@ static void each_key(lua_State* L, const std::string& subject, Visit visit) {
     else if (lua_isinteger(L, -2))
       key = std::to_string(lua_tointeger(L, -2));
     else
-      fail("{}: wanted names or numbers as keys, got a {}", subject, luaL_typename(L, -2));
+      fail("{}: expected names or numbers as keys, got a {}", subject, luaL_typename(L, -2));
     visit(key);
     lua_pop(L, 1);
   }
@@ -25,7 +25,7 @@ static void each_key(lua_State* L, const std::string& subject, Visit visit) {
 static std::filesystem::path check_folder(const std::string& name, const std::string& subject) {
   std::error_code code;
   if (!std::filesystem::is_directory(name, code))
-    fail("{}: wanted a folder, got '{}'", subject, name);
+    fail("{}: expected a folder, got '{}'", subject, name);
   return name;
 }
 
@@ -38,12 +38,12 @@ static void read_packages(lua_State* L, Table& options, ReadOptions& reading) {
   } else if (type == LUA_TTABLE) {
     each_key(L, subject, [&](const std::string& key) {
       if (lua_type(L, -1) != LUA_TSTRING)
-        fail("{}: {}: wanted a folder, got a {}", subject, key, luaL_typename(L, -1));
+        fail("{}: {}: expected a folder, got a {}", subject, key, luaL_typename(L, -1));
       const std::string folder = read_string(L, -1, {L, subject, key});
       reading.packages[key] = check_folder(folder, subject + ": " + key);
     });
   } else if (type != LUA_TNIL) {
-    fail_wanted(options.what("package"), "a folder or a table of folders", -1);
+    fail_expected(options.what("package"), "a folder or a table of folders", -1);
   }
   lua_pop(L, 1);
 }
@@ -54,11 +54,11 @@ static void read_closing(lua_State* L, Table& options, ReadOptions& reading) {
   if (type == LUA_TTABLE) {
     each_key(L, subject, [&](const std::string& key) {
       if (lua_type(L, -1) != LUA_TNUMBER)
-        fail("{}: {}: wanted 1, -1 or 0, got a {}", subject, key, luaL_typename(L, -1));
+        fail("{}: {}: expected 1, -1 or 0, got a {}", subject, key, luaL_typename(L, -1));
       reading.closing[key] = lua_tonumber(L, -1);
     });
   } else if (type != LUA_TNIL) {
-    fail_wanted(options.what("close"), "a table such as {index = 1, [3] = -1}", -1);
+    fail_expected(options.what("close"), "a table such as {index = 1, [3] = -1}", -1);
   }
   lua_pop(L, 1);
 }
@@ -75,8 +75,8 @@ static void read_approach(lua_State* L, Table& options, ReadOptions& reading) {
     }
     table.done();
   } else if (type != LUA_TNIL) {
-    fail_wanted(options.what("approach"), "a table {point = ..., direction = ...} or {frame = ...}",
-                -1);
+    fail_expected(options.what("approach"),
+                  "a table {point = ..., direction = ...} or {frame = ...}", -1);
   }
   lua_pop(L, 1);
 }

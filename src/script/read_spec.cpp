@@ -15,7 +15,7 @@ static std::optional<double> read_unit(Table& options) {
   static const std::vector<std::string> names = {"mm", "cm", "m", "inch", "foot"};
   static constexpr double lengths[] = {1e-3, 1e-2, 1, 0.0254, 0.3048};
   const bool named = options.has("unit"), scaled = options.has("mesh_scale");
-  if (named && scaled) fail("{}: wanted unit or mesh_scale, got both", options.subject());
+  if (named && scaled) fail("{}: expected unit or mesh_scale, got both", options.subject());
   if (scaled) {
     const double scale = options.number("mesh_scale");
     check(scale_rule.called("mesh_scale"), scale, options.subject());
@@ -31,7 +31,7 @@ std::filesystem::path read_confine(lua_State* L, Table& options) {
   const std::string folder = options.string("confine", chosen);
   std::error_code code;
   if (options.has("confine") && !std::filesystem::is_directory(folder, code))
-    fail("{}: confine: wanted a folder, got '{}'", options.subject(), folder);
+    fail("{}: confine: expected a folder, got '{}'", options.subject(), folder);
   return folder;
 }
 
@@ -39,13 +39,15 @@ ReadOptions read_options(lua_State* L, Table& options) {
   ReadOptions out;
   out.root = options.string("root", "");
   if (!out.root.empty() && !std::filesystem::is_directory(out.root))
-    fail("{}: root: wanted a folder, got '{}'", options.subject(), out.root.string());
+    fail("{}: root: expected a folder, got '{}'", options.subject(), out.root.string());
   out.confine = read_confine(L, options);
   out.mesh_scale = read_unit(options);
   out.warn = [L](const std::string& message) { log(L, LogLevel::warning, message, "ignored"); };
-  out.note = [L](const std::string& message) { log(L, LogLevel::info, message, "guessed"); };
-  out.mend = [L](const std::string& message) { log(L, LogLevel::warning, message, "mended"); };
-  out.doubt = [L](const std::string& message) { log(L, LogLevel::warning, message, "doubtful"); };
+  out.note = [L](const std::string& message) { log(L, LogLevel::info, message, "inferred"); };
+  out.repair = [L](const std::string& message) { log(L, LogLevel::warning, message, "repaired"); };
+  out.suspect = [L](const std::string& message) {
+    log(L, LogLevel::warning, message, "suspicious");
+  };
   return options.boolean("strict", false) ? strict(std::move(out)) : out;
 }
 
@@ -67,29 +69,29 @@ static Mesh read_mesh(lua_State* L, int i, const ReadOptions& reading) {
     Triangle t;
     for (int k = 0; k < 3; ++k) {
       if (!(row[k] >= 1 && row[k] <= count && row[k] == std::floor(row[k])))
-        fail("{}: triangle {}: wanted vertices from 1 to {}, got {}", table.subject(), number,
+        fail("{}: triangle {}: expected vertices from 1 to {}, got {}", table.subject(), number,
              count, row[k]);
       t[k] = floor_int(row[k]) - 1;
     }
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
   }
   table.done();
-  if (number == 0) fail("{}: wanted at least one triangle, got none", table.subject());
+  if (number == 0) fail("{}: expected at least one triangle, got none", table.subject());
   const size_t left_out = static_cast<size_t>(number) - mesh.triangles.size();
   if (mesh.triangles.empty())
-    fail("{}: wanted a triangle of three different vertices, got none", table.subject());
+    fail("{}: expected a triangle of three different vertices, got none", table.subject());
   if (left_out > 0)
-    reading.mended(fmt::format("{}: {} of {} triangles name a vertex twice and are left out",
-                               table.subject(), left_out, number));
-  if (turn_outward(mesh)) reading.mended(table.subject() + inside_out);
+    reading.repaired(fmt::format("{}: {} of {} triangles name a vertex twice and are left out",
+                                 table.subject(), left_out, number));
+  if (turn_outward(mesh)) reading.repaired(table.subject() + inside_out);
   return mesh;
 }
 
 // of a solid of that density [kg/m^3]
 static double mass_of(lua_State* L, const BodySpec& spec, double density) {
-  if (!spec.shape) fail("{}: density: wanted a body with a mesh, got a frame", subject(L));
+  if (!spec.shape) fail("{}: density: expected a body with a mesh, got a frame", subject(L));
   if (!spec.shape->has_volume())
-    fail("{}: density: wanted a watertight mesh, got one with {}; give its mass", subject(L),
+    fail("{}: density: expected a watertight mesh, got one with {}; give its mass", subject(L),
          spec.shape->closed() ? "no volume" : spec.shape->faults().describe());
   return density * std::abs(spec.shape->solid().volume);
 }
@@ -98,7 +100,7 @@ static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
   spec.name = options.string("name", spec.name);
   spec.material = options.string("material", spec.material);
   if (options.has("density")) {
-    if (options.has("mass")) fail("{}: wanted mass or density, got both", subject(L));
+    if (options.has("mass")) fail("{}: expected mass or density, got both", subject(L));
     const double density = options.number("density");
     check(density_rule, density, options.subject());
     spec.mass = mass_of(L, spec, density);
@@ -134,7 +136,7 @@ BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions&
       for (auto& vertex : mesh.vertices) vertex *= *reading.mesh_scale;
     spec.shape = Shape::make(std::move(mesh), name);
   } else {
-    fail_wanted({L, {}, "body"}, "a file name or a mesh {vertices = ..., triangles = ...}", i);
+    fail_expected({L, {}, "body"}, "a file name or a mesh {vertices = ..., triangles = ...}", i);
   }
   override_spec(L, spec, options);
   return spec;

@@ -105,7 +105,7 @@ void State::set_confine(const std::string& folder) {
   std::error_code code;
   const auto path = std::filesystem::canonical(folder, code);
   if (code || !std::filesystem::is_directory(path, code))
-    fail("--confine: wanted a folder, got '{}'", folder);
+    fail("--confine: expected a folder, got '{}'", folder);
   set_setting(L_, Setting::confine, path.string());
 }
 

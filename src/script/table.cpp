@@ -10,7 +10,8 @@ namespace clench {
 Table::Table(lua_State* L, int index, std::string subject)
     : L_(L), index_(0), subject_(subject.empty() ? clench::subject(L) : std::move(subject)) {
   if (lua_isnoneornil(L, index)) return;
-  if (lua_type(L, index) != LUA_TTABLE) fail_wanted({L, subject_, ""}, "a table of options", index);
+  if (lua_type(L, index) != LUA_TTABLE)
+    fail_expected({L, subject_, ""}, "a table of options", index);
   index_ = lua_absindex(L, index);
 }
 
@@ -86,8 +87,8 @@ std::string Table::choice(const char* key, const std::vector<std::string>& names
                           const std::string& fallback) {
   const std::string name = string(key, fallback);
   if (std::find(names.begin(), names.end(), name) == names.end())
-    fail("{}: unknown {} {}, wanted one of {}{}", subject_, key, in_quotes(name), name_list(names),
-         did_you_mean(name, names));
+    fail("{}: unknown {} {}, expected one of {}{}", subject_, key, in_quotes(name),
+         name_list(names), did_you_mean(name, names));
   return name;
 }
 
@@ -127,7 +128,7 @@ std::vector<std::vector<double>> Table::rows(const char* key, int columns) {
 
 bool Table::push_function(const char* key) {
   const int type = push(key);
-  if (type != LUA_TNIL && type != LUA_TFUNCTION) fail_wanted(what(key), "a function", -1);
+  if (type != LUA_TNIL && type != LUA_TFUNCTION) fail_expected(what(key), "a function", -1);
   return type == LUA_TFUNCTION;
 }
 

@@ -7,13 +7,13 @@
 
 namespace clench {
 
-/// Messages: "hand:autograsp: speed: wanted a number, got 'fast'",
+/// Messages: "hand:autograsp: speed: expected a number, got 'fast'",
 /// "hand:autograsp: unknown key 'sped'; did you mean 'speed'?".
 class Table {
  public:
   /// The table at the index, which must stay on the stack; nothing or nil is the empty table.
   /// subject  default: the entry that runs
-  /// throws   Error "...: wanted a table of options, got 3"
+  /// throws   Error "...: expected a table of options, got 3"
   Table(lua_State* L, int index, std::string subject = "");
 
   bool has(const char* key);

@@ -81,7 +81,7 @@ static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& r
   push(L, folder);
   protected_call(L, 2, 1);
   const auto* handle = to<WorldHandle>(L, -1);
-  if (!handle) fail("{}: wanted a script that returns a world, got {}", file, described(L, -1));
+  if (!handle) fail("{}: expected a script that returns a world, got {}", file, described(L, -1));
   return handle->world;
 }
 
@@ -89,7 +89,7 @@ WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& re
   if (is_script(path)) {
     if (!reading.confine.empty())
       fail(
-          "{}: a world in Lua is a program, which reads what it likes; wanted one of another "
+          "{}: a world in Lua is a program, which reads what it likes; expected one of another "
           "format where reading is confined",
           path.filename().string());
     WorldPtr world = run_script(L, path, reading.root);

@@ -16,7 +16,7 @@ struct Appearance {
   Eigen::Vector3f color =
       Eigen::Vector3f(0.7f, 0.7f, 0.7f);         ///< linear part of the file's diffuse colour, 0..1
   float transparency = 0;                        ///< 0 opaque .. 1 invisible
-  std::vector<Eigen::Vector3f> triangle_colors;  ///< one a triangle, or empty
+  std::vector<Eigen::Vector3f> triangle_colors;  ///< one per triangle, or empty
   bool given = false;                            ///< does it come from the file?
   ShapePtr visual = {};  ///< drawn instead of the body's shape; null: that shape itself
 };
@@ -40,7 +40,7 @@ struct BodySpec {
 };
 
 /// what    it is, before its name
-/// throws  Error "body 'cup': mass: wanted a number from 1e-12 to 1e+12 [kg], got 0" for a name or
+/// throws  Error "body 'cup': mass: expected a number from 1e-12 to 1e+12 [kg], got 0" for a name or
 ///         number that its rule refuses
 void check_body(const BodySpec& spec, std::string_view what);
 void check_appearance(const Appearance& appearance, std::string_view subject);

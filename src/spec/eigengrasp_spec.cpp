@@ -19,7 +19,7 @@ EigengraspSet identity_eigengrasps(int dofs) {
 static constexpr double independent = 1e-9;
 
 static void check_numbers(const Eigen::VectorXd& x, int dofs, const std::string& subject) {
-  if (x.size() != dofs) fail("{}: wanted {} numbers, got {}", subject, dofs, x.size());
+  if (x.size() != dofs) fail("{}: expected {} numbers, got {}", subject, dofs, x.size());
   for (int i = 0; i < dofs; ++i)
     if (!number_rule.allows(x[i]))
       fail("{}: number {}: {}", subject, i + 1, fault(number_rule, x[i]));
@@ -33,7 +33,7 @@ static void check_limits(const std::array<double, 2>& limits, const std::string&
 
 void check_eigengrasps(const EigengraspSet& set, const std::string& subject,
                        const EigengraspPlaces& places) {
-  if (set.grasps.empty()) fail("{}: wanted at least one eigengrasp, got none", subject);
+  if (set.grasps.empty()) fail("{}: expected at least one eigengrasp, got none", subject);
   // each against an orthonormal basis of those before it: at most `dofs` can pass
   Eigen::MatrixXd basis(set.dofs, std::min<int>(set.dofs, static_cast<int>(set.grasps.size())));
   for (size_t i = 0; i < set.grasps.size(); ++i) {
@@ -45,7 +45,7 @@ void check_eigengrasps(const EigengraspSet& set, const std::string& subject,
     if (grasp.limits) check_limits(*grasp.limits, place);
     const double length = grasp.vector.stableNorm();
     if (!(length >= positive_rule.min))
-      fail("{}: wanted a vector other than zero, got one of length {}", place, length);
+      fail("{}: expected a vector other than zero, got one of length {}", place, length);
     Eigen::VectorXd rest = grasp.vector / length;
     const auto before = basis.leftCols(static_cast<int>(i));
     for (int pass = 0; pass < 2; ++pass) rest -= before * (before.transpose() * rest);
@@ -59,7 +59,7 @@ void check_eigengrasps(const EigengraspSet& set, const std::string& subject,
   check_numbers(*set.norm, set.dofs, at(places.norm) + ": norm");
   for (int i = 0; i < set.dofs; ++i)
     if (!(std::abs((*set.norm)[i]) >= positive_rule.min))
-      fail("{}: norm: number {}: wanted a scale other than 0, got {}", at(places.norm), i + 1,
+      fail("{}: norm: number {}: expected a scale other than 0, got {}", at(places.norm), i + 1,
            (*set.norm)[i]);
 }
 

@@ -9,7 +9,7 @@
 namespace clench {
 
 struct EigengraspSpec {
-  Eigen::VectorXd vector;                       ///< one a DOF, of any length but zero
+  Eigen::VectorXd vector;                       ///< one per DOF, of any length but zero
   double eigenvalue = 0.5;                      ///< weight of the principal component; told only
   std::optional<std::array<double, 2>> limits;  ///< of its amplitude; absent: from the DOFs'
 };
@@ -28,7 +28,7 @@ EigengraspSet identity_eigengrasps(int dofs);
 
 /// Where a file says what, "hand.egr:7"; empty: it is not known.
 struct EigengraspPlaces {
-  std::vector<std::string> grasps = {};  ///< one an eigengrasp
+  std::vector<std::string> grasps = {};  ///< one per eigengrasp
   std::string origin = {}, norm = {};
 };
 

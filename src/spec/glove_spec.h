@@ -7,7 +7,7 @@ namespace clench {
 /// dofs = intercepts + slopes * raw
 struct GloveCalibration {
   Eigen::MatrixXd slopes;      ///< DOFs x sensors [rad per count]
-  Eigen::VectorXd intercepts;  ///< one a DOF [rad]
+  Eigen::VectorXd intercepts;  ///< one per DOF [rad]
 };
 
 }  // namespace clench

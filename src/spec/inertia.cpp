@@ -30,16 +30,16 @@ void check_inertia(const Eigen::Matrix3d& per_mass, std::string_view subject) {
     case InertiaFault::none:
       return;
     case InertiaFault::not_symmetric:
-      fail("{}: inertia: wanted a symmetric matrix, got one that is not", subject);
+      fail("{}: inertia: expected a symmetric matrix, got one that is not", subject);
     case InertiaFault::not_definite:
       fail(
-          "{}: inertia: wanted a positive definite matrix with moments of {:g} to {:g} m^2 a "
+          "{}: inertia: expected a positive definite matrix with moments of {:g} to {:g} m^2 a "
           "kilogram, got another",
           subject, min_moment, max_moment);
     case InertiaFault::breaks_triangle: {
       const Eigen::Vector3d moments = eigenvalues(per_mass);
       fail(
-          "{}: inertia: wanted no moment above the sum of the others, got one of {:.4g} times "
+          "{}: inertia: expected no moment above the sum of the others, got one of {:.4g} times "
           "that sum",
           subject, moments[2] / (moments[0] + moments[1]));
     }

@@ -15,7 +15,7 @@ enum class InertiaFault {
 /// Of an inertia about the centre of mass, per mass [m^2].
 InertiaFault inertia_fault(const Eigen::Matrix3d& per_mass);
 
-/// throws Error  "body 'cup': inertia: wanted no moment above the sum of the others, got one of 50
+/// throws Error  "body 'cup': inertia: expected no moment above the sum of the others, got one of 50
 ///         times that sum"
 void check_inertia(const Eigen::Matrix3d& per_mass, std::string_view subject);
 

@@ -12,7 +12,7 @@ void check_material(std::string_view name) {
   if (std::find(material_names.begin(), material_names.end(), name) != material_names.end()) return;
   const std::string near = did_you_mean(name, {material_names.begin(), material_names.end()});
   if (!near.empty()) fail("unknown material '{}'{}", excerpt(name), near);
-  fail("unknown material '{}'; wanted one of {}", excerpt(name), name_list(material_names));
+  fail("unknown material '{}'; expected one of {}", excerpt(name), name_list(material_names));
 }
 
 }  // namespace clench

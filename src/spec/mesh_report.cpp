@@ -34,7 +34,7 @@ static std::string unit_sentence(const MeshReport& report) {
   return text;
 }
 
-static std::string mended_sentence(const MeshReport& report) {
+static std::string repaired_sentence(const MeshReport& report) {
   std::string text;
   const auto append = [&](int count, const char* one, const char* many) {
     if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, many);
@@ -42,7 +42,7 @@ static std::string mended_sentence(const MeshReport& report) {
   append(report.welded_vertices, "vertex welded", "vertices welded");
   append(report.dropped_triangles, "degenerate triangle dropped", "degenerate triangles dropped");
   append(report.unused_vertices, "unused vertex left out", "unused vertices left out");
-  if (report.turned) text += (text.empty() ? "" : ", ") + std::string("turned to face outward");
+  if (report.flipped) text += (text.empty() ? "" : ", ") + std::string("flipped to face outward");
   return text;
 }
 
@@ -58,7 +58,8 @@ std::vector<std::string> describe(const MeshReport& report, const Shape& shape) 
                             counted(report.triangles_read, "triangle", "triangles"),
                             counted(report.vertices_read, "vertex", "vertices")));
   out.push_back(unit_sentence(report));
-  if (auto mended = mended_sentence(report); !mended.empty()) out.push_back(std::move(mended));
+  if (auto repaired = repaired_sentence(report); !repaired.empty())
+    out.push_back(std::move(repaired));
 
   const Eigen::Vector3d size = shape.bounds().size();
   const std::string faults = shape.faults().describe();

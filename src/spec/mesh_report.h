@@ -17,7 +17,7 @@ struct MeshReport {
   int unused_vertices = 0;    ///< left out
   int welded_vertices = 0;    ///< became one with an earlier one
   int dropped_triangles = 0;  ///< without area, and of no use to close the surface
-  bool turned = false;        ///< was it inside out?
+  bool flipped = false;       ///< was it inside out?
   double unit = 1;            ///< length of the file's unit [m]
   UnitSource unit_source = UnitSource::format;
   char up = 'z';  ///< the axis of the file that became z
@@ -29,7 +29,7 @@ std::string unit_name(double length);
 /// "format", "file", "option", "guess"
 const char* source_name(UnitSource source);
 
-/// Lines for a reader: what was read, its unit, what was mended; and of the shape that came of it
+/// Lines for a reader: what was read, its unit, what was repaired; and of the shape that came of it
 /// whether it is watertight, its size and faults, volume, centre of mass and inertia.
 std::vector<std::string> describe(const MeshReport& report, const Shape& shape);
 

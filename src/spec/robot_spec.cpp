@@ -11,7 +11,7 @@ namespace clench {
 Pose approach_frame(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) {
   const double length = direction.stableNorm();
   if (!point.allFinite() || !std::isfinite(length) || length < 1e-9)
-    fail("approach direction: wanted a direction, got ({}, {}, {})", direction.x(), direction.y(),
+    fail("approach direction: expected a direction, got ({}, {}, {})", direction.x(), direction.y(),
          direction.z());
   const Eigen::Vector3d z = direction / length;
   const Eigen::Vector3d x0 =
@@ -37,7 +37,7 @@ std::array<double, 2> dof_range(const RobotSpec& robot, int dof) {
 }
 
 std::string no_range(const std::array<double, 2>& range) {
-  return fmt::format("wanted a range that all of its joints allow, got from {:.6g} to {:.6g}",
+  return fmt::format("expected a range that all of its joints allow, got from {:.6g} to {:.6g}",
                      range[0], range[1]);
 }
 
@@ -61,7 +61,7 @@ static void check_joint(const JointSpec& joint, const RobotSpec& robot,
                         const std::string& subject) {
   const int dofs = static_cast<int>(robot.dofs.size());
   if (joint.dof < 0 || joint.dof >= dofs)
-    fail("{}: wanted a DOF from 0 to {}, got {}", subject, dofs - 1, joint.dof);
+    fail("{}: expected a DOF from 0 to {}, got {}", subject, dofs - 1, joint.dof);
   check_name(joint.name, subject);
   check_each(angle_rule, {{"theta", joint.theta}, {"alpha", joint.alpha}}, subject);
   check_each(coordinate_rule, {{"d", joint.d}, {"a", joint.a}}, subject);
@@ -69,7 +69,7 @@ static void check_joint(const JointSpec& joint, const RobotSpec& robot,
              subject);
   check_place(joint.X_before, subject);
   check_place(joint.X_after, subject);
-  if (joint.ratio == 0) fail("{}: wanted a ratio other than 0, got 0", subject);
+  if (joint.ratio == 0) fail("{}: expected a ratio other than 0, got 0", subject);
   check(positive_rule.called("ratio"), std::abs(joint.ratio), subject);
   check(number_rule.called("pull"), joint.pull, subject);
   if (joint.min > joint.max)
@@ -198,12 +198,12 @@ void check_robot(const RobotSpec& robot) {
     const std::string place = fmt::format("{}: chain {}", name, c);
     check_place(chain.X_BC, place);
     if (chain.parent_chain < -1 || chain.parent_chain >= static_cast<int>(c))
-      fail("{}: wanted to begin on the base or on a chain before it, got chain {}", place,
+      fail("{}: expected to begin on the base or on a chain before it, got chain {}", place,
            chain.parent_chain);
     if (chain.parent_chain >= 0) {
       const int links = static_cast<int>(robot.chains[chain.parent_chain].links.size());
       if (chain.parent_link < 0 || chain.parent_link >= links)
-        fail("{}: wanted to begin on one of {} links of chain {}, got {}", place, links,
+        fail("{}: expected to begin on one of {} links of chain {}, got {}", place, links,
              chain.parent_chain, chain.parent_link);
     }
     for (size_t j = 0; j < chain.joints.size(); ++j)
@@ -211,7 +211,7 @@ void check_robot(const RobotSpec& robot) {
     const int joints = static_cast<int>(chain.joints.size());
     for (size_t l = 0; l < chain.links.size(); ++l) {
       if (const int last = chain.links[l].last_joint; last < -1 || last >= joints)
-        fail("{} link {}: wanted a last joint from -1 to {}, got {}", place, l, joints - 1, last);
+        fail("{} link {}: expected a last joint from -1 to {}, got {}", place, l, joints - 1, last);
       if (chain.links[l].X_JL)
         check_place(*chain.links[l].X_JL, fmt::format("{} link {}", place, l));
     }

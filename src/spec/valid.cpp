@@ -10,7 +10,7 @@ std::string fault(const Quantity& quantity, double x) {
   if (quantity.allows(x)) return "";
   const std::string unit = *quantity.unit ? fmt::format(" [{}]", quantity.unit) : "";
   // which of the two it is depends on how it was made
-  return fmt::format("wanted a number from {:g} to {:g}{}, got {}", quantity.min, quantity.max,
+  return fmt::format("expected a number from {:g} to {:g}{}, got {}", quantity.min, quantity.max,
                      unit, std::isnan(x) ? std::abs(x) : x);
 }
 
@@ -37,9 +37,9 @@ void check_place(const Pose& X, std::string_view subject) {
   if (is_place(X)) return;
   const Eigen::Vector3d& p = X.position;
   if (!(p.array().abs() <= largest_coordinate).all())
-    fail("{}: wanted a position within {:g} m of the origin, got ({}, {}, {})", subject,
+    fail("{}: expected a position within {:g} m of the origin, got ({}, {}, {})", subject,
          largest_coordinate, p.x(), p.y(), p.z());
-  fail("{}: wanted a unit quaternion, got one of length {}", subject, X.rotation.norm());
+  fail("{}: expected a unit quaternion, got one of length {}", subject, X.rotation.norm());
 }
 
 /// Bytes of the character at i that a name may have; 0: none that it may.
@@ -54,11 +54,11 @@ static size_t name_character(std::string_view text, size_t i) {
 
 std::string name_fault(std::string_view name) {
   if (name.size() > max_name_length)
-    return fmt::format("wanted at most {} bytes, got {}", max_name_length, name.size());
+    return fmt::format("expected at most {} bytes, got {}", max_name_length, name.size());
   for (size_t i = 0; i < name.size();) {
     const size_t size = name_character(name, i);
     if (size == 0)
-      return fmt::format("wanted {}, got {}",
+      return fmt::format("expected {}, got {}",
                          utf8_size(name, i) ? "no control characters" : "text in UTF-8",
                          in_quotes(name));
     i += size;
@@ -70,7 +70,7 @@ void check_name(std::string_view name, std::string_view subject) {
   if (const auto fault = name_fault(name); !fault.empty()) fail("{}: name: {}", subject, fault);
 }
 
-std::string mended_name(std::string_view name) {
+std::string repaired_name(std::string_view name) {
   std::string out;
   for (size_t i = 0; i < name.size();) {
     const size_t size = name_character(name, i), length = size ? size : 1;

@@ -52,10 +52,10 @@ inline constexpr Quantity number_rule{"number", "", -largest_number, largest_num
 inline constexpr Quantity positive_rule{"number", "", 1 / largest_number, largest_number};
 inline constexpr Quantity not_negative_rule{"number", "", 0, largest_number};
 
-/// "wanted a number from 1e-12 to 1e+12 [kg], got 0"; empty when it is allowed.
+/// "expected a number from 1e-12 to 1e+12 [kg], got 0"; empty when it is allowed.
 std::string fault(const Quantity& quantity, double x);
 
-/// throws Error  "body 'cup': mass: wanted a number from 1e-12 to 1e+12 [kg], got 0"
+/// throws Error  "body 'cup': mass: expected a number from 1e-12 to 1e+12 [kg], got 0"
 void check(const Quantity& quantity, double x, std::string_view subject);
 /// Each of three.
 void check(const Quantity& quantity, const Eigen::Vector3d& v, std::string_view subject);
@@ -70,7 +70,7 @@ void check_each(const Quantity& quantity, std::initializer_list<NamedNumber> num
 
 /// A position within the bounds of coordinates, and a unit quaternion.
 bool is_place(const Pose& X);
-/// throws Error  "robot 'arm': wanted a position within 1e+09 m of the origin, got (0, 0, 1e+308)"
+/// throws Error  "robot 'arm': expected a position within 1e+09 m of the origin, got (0, 0, 1e+308)"
 void check_place(const Pose& X, std::string_view subject);
 
 // --- names ---
@@ -80,9 +80,9 @@ inline constexpr size_t max_name_length = 250;  ///< bytes, as file systems have
 /// Why a text is no name of a body, robot, link, DOF or material: it is longer than max_name_length,
 /// has control characters or is not UTF-8; empty when it is one.
 std::string name_fault(std::string_view name);
-/// throws Error  "world:add_object: name: wanted no control characters, got 'a?b'"
+/// throws Error  "world:add_object: name: expected no control characters, got 'a?b'"
 void check_name(std::string_view name, std::string_view subject);
 /// The name with '?' in place of each byte that a name may not have, cut where it is too long.
-std::string mended_name(std::string_view name);
+std::string repaired_name(std::string_view name);
 
 }  // namespace clench

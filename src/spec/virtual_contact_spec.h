@@ -12,7 +12,7 @@ namespace clench {
 /// force / mu, and torque / mu [m]. Only x, y and the torque about z are used by contacts of fingers.
 using FrictionEdges = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-inline constexpr int most_friction_edges = 100;
+inline constexpr int max_friction_edges = 100;
 
 struct VirtualContactSpec {
   int chain = -1;       ///< -1: the base
@@ -28,7 +28,7 @@ struct VirtualContactSet {
 };
 
 /// throws Error with one sentence, begun by the subject, when a rule refuses a number or the frame, or
-/// there are more than most_friction_edges
+/// there are more than max_friction_edges
 void check_virtual_contact(const VirtualContactSpec& contact, const std::string& subject);
 
 }  // namespace clench

@@ -23,7 +23,7 @@ using Apart = std::optional<double>;
 struct PlacedRobot {
   RobotSpec robot;
   Pose X_WB;
-  std::vector<double> dofs;               ///< one a DOF [rad or m]
+  std::vector<double> dofs;               ///< one per DOF [rad or m]
   std::vector<std::vector<Apart>> apart;  ///< by chain, by joint; empty: all follow their DOFs
 };
 
@@ -41,7 +41,7 @@ struct Camera {
   double focal_distance = 0.1;  ///< [m]
 };
 
-/// throws Error  "camera: focal distance: wanted a number from 1e-12 to 1e+09 [m], got -1"
+/// throws Error  "camera: focal distance: expected a number from 1e-12 to 1e+09 [m], got -1"
 void check_camera(const Camera& camera, std::string_view subject = "camera");
 
 /// One entry of the file's order, so that bodies keep their numbering.

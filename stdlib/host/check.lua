@@ -119,7 +119,7 @@ function print_kind.world(world)
   for _, body in ipairs(world.obstacles) do rows[#rows + 1] = {"obstacle", table.unpack(body_row(body))} end
   for _, robot in ipairs(world.robots) do
     rows[#rows + 1] = {"robot", robot.name, several(#robot.dofs, "DOF"),
-                       robot.carried_by and "carried by " .. robot.carried_by or "stands by itself"}
+                       robot.parent and "mounted on " .. robot.parent or "stands by itself"}
   end
   columns(rows, "  ")
   for _, robot in ipairs(world.robots) do
@@ -153,12 +153,12 @@ local nouns = {body = "a body", robot = "a robot", world = "a world", ["glove ca
 
 local function print_report(r)
   local noun = nouns[r.kind] or r.kind
-  print(("%s: %s"):format(r.file, r.understood and noun or noun and ("not %s that can be read"):format(noun) or "not read"))
-  if r.understood then print_kind[r.kind](r.understood) end
-  for _, list in ipairs {"guessed", "mended", "ignored", "doubtful"} do
+  print(("%s: %s"):format(r.file, r.parsed and noun or noun and ("not %s that can be read"):format(noun) or "not read"))
+  if r.parsed then print_kind[r.kind](r.parsed) end
+  for _, list in ipairs {"inferred", "repaired", "ignored", "suspicious"} do
     for _, sentence in ipairs(r[list]) do print(("  %s: %s"):format(list, sentence)) end
   end
-  if r.wrong then print("  wrong: " .. r.wrong) end
+  if r.error then print("  error: " .. r.error) end
 end
 
 -- JSON is UTF-8: bytes of names and messages that are none stand as \xE9
@@ -189,7 +189,7 @@ function check.main(root, folder, package, unit, strict, form, ...)
   local all, code = {}, 0
   for i, path in ipairs {...} do
     all[i] = report.of(path, options)
-    if all[i].wrong then code = 1 end
+    if all[i].error then code = 1 end
     if form == "text" then print_report(all[i]) end
   end
   if form == "json" then print(clench.json.encode(in_utf8(all))) end

@@ -12,7 +12,7 @@ return function(o, size)
     for _, name in ipairs {size, "from", "to"} do
       if o:raw(name) ~= nil then got[#got + 1] = name end
     end
-    o:fail("wanted either %s or both from and to, got %s", size, #got > 0 and table.concat(got, " and ") or "neither")
+    o:fail("expected either %s or both from and to, got %s", size, #got > 0 and table.concat(got, " and ") or "neither")
   end
   if length ~= nil then
     length = o:positive(size)

@@ -14,7 +14,7 @@ return function(given)
   local chamfer, rounding = o:not_negative("chamfer", 0), o:not_negative("rounding", 0)
   local segments = o:count("segments", 4, 1, 64)
   o:done()
-  if chamfer > 0 and rounding > 0 then o:fail "wanted chamfer or rounding, got both" end
+  if chamfer > 0 and rounding > 0 then o:fail "expected chamfer or rounding, got both" end
   if chamfer + rounding > 0 then
     local least = math.min(x, y, z)
     if 2 * (chamfer + rounding) > least * (1 + 1e-12) then

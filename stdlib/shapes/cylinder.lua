@@ -15,7 +15,7 @@ return function(given)
   local chamfer, rounding = o:not_negative("chamfer", 0), o:not_negative("rounding", 0)
   local segments = o:count("segments", 48, 3, 4096)
   o:done()
-  if chamfer > 0 and rounding > 0 then o:fail "wanted chamfer or rounding, got both" end
+  if chamfer > 0 and rounding > 0 then o:fail "expected chamfer or rounding, got both" end
   local cut, steps = chamfer + rounding, chamfer > 0 and 1 or rounding > 0 and 4 or 0
   if cut > radius or 2 * cut > height then
     o:fail("%s must be at most the radius and half the height, %.6g, got %.6g", chamfer > 0 and "chamfer" or "rounding",

@@ -15,14 +15,14 @@ return function(given)
     local ring = o:raw(i)
     local least = (i == 1 or i == #given) and 1 or 3
     local name = "ring " .. i
-    if type(ring) ~= "table" then o:wanted(name, "a list of points", ring) end
-    if #ring < 3 and #ring ~= least then o:wanted(name, "a list of at least 3 points, or one at an end", ring) end
+    if type(ring) ~= "table" then o:expected(name, "a list of points", ring) end
+    if #ring < 3 and #ring ~= least then o:expected(name, "a list of at least 3 points, or one at an end", ring) end
     for k = 1, #ring do
       local p = ring[k]
       for axis = 1, 3 do
         local x = type(p) == "table" and p[axis]
         if not within(x, o.largest) then
-          o:wanted(("%s[%d]"):format(name, k), "a point {x, y, z}", p)
+          o:expected(("%s[%d]"):format(name, k), "a point {x, y, z}", p)
         end
       end
     end
@@ -32,7 +32,7 @@ return function(given)
     end
     rings[i] = ring
   end
-  if #rings < 2 or not count then o:fail("wanted two rings or more, one of them with an area, got %d", #rings) end
+  if #rings < 2 or not count then o:fail("expected two rings or more, one of them with an area, got %d", #rings) end
   o:done()
   return skin(rings, false, "shapes.loft")
 end

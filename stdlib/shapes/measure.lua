@@ -77,7 +77,7 @@ function measure.mass(shape)
     end
   end
   -- of less the quotient overflows
-  if math.abs(volume) < 1e-300 then raise("shapes.mass: wanted a solid, got a shape without volume") end
+  if math.abs(volume) < 1e-300 then raise("shapes.mass: expected a solid, got a shape without volume") end
   local centre, spread, inertia = vector.scale(first, 1 / volume), {}, {}
   for i = 1, 3 do
     spread[i] = {}

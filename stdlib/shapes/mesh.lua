@@ -13,12 +13,12 @@ mesh.largest = 1e9
 local function fail(subject, format, ...) raise(subject .. ": " .. format:format(...)) end
 
 local function check_vertex(subject, i, p)
-  local wanted = ("three numbers of at most %g"):format(mesh.largest)
-  if type(p) ~= "table" then fail(subject, "vertex %d must be %s, got %s", i, wanted, described(p)) end
+  local expected = ("three numbers of at most %g"):format(mesh.largest)
+  if type(p) ~= "table" then fail(subject, "vertex %d must be %s, got %s", i, expected, described(p)) end
   for k = 1, 3 do
     local x = p[k]
     if not within(x, mesh.largest) then
-      fail(subject, "vertex %d must be %s, got %s", i, wanted, described(x))
+      fail(subject, "vertex %d must be %s, got %s", i, expected, described(x))
     end
   end
 end
@@ -26,7 +26,7 @@ end
 --- throws one sentence when `shape` is not a mesh table; returns it
 function mesh.check(shape, subject)
   if type(shape) ~= "table" or type(shape.vertices) ~= "table" or type(shape.triangles) ~= "table" then
-    fail(subject, "wanted a shape {vertices = ..., triangles = ...}, got %s", described(shape))
+    fail(subject, "expected a shape {vertices = ..., triangles = ...}, got %s", described(shape))
   end
   for i = 1, #shape.vertices do check_vertex(subject, i, shape.vertices[i]) end
   local count = #shape.vertices
@@ -41,7 +41,7 @@ function mesh.check(shape, subject)
       end
     end
   end
-  if #shape.triangles == 0 then fail(subject, "wanted at least one triangle, got none") end
+  if #shape.triangles == 0 then fail(subject, "expected at least one triangle, got none") end
   return shape
 end
 
@@ -88,7 +88,7 @@ end
 --- turns a closed shape's triangles outward; throws one sentence when it encloses nothing
 function mesh.outward(shape, subject)
   local volume = #shape.triangles > 0 and mesh.volume6(shape) or 0
-  if volume == 0 then fail(subject, "wanted a solid, got a shape without volume") end
+  if volume == 0 then fail(subject, "expected a solid, got a shape without volume") end
   return volume > 0 and shape or mesh.flip(shape)
 end
 

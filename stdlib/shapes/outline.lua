@@ -33,12 +33,12 @@ return function(given)
     for k = 1, 3 do
       local x = type(p) == "table" and (p[k] or k == 3 and rounding)
       if not within(x, o.largest) or (k == 3 and x < 0) then
-        o:wanted("corner " .. i, "{x, y} or {x, y, radius >= 0}", p)
+        o:expected("corner " .. i, "{x, y} or {x, y, radius >= 0}", p)
       end
     end
     corners[i] = p
   end
-  if #corners < 3 then o:fail("wanted at least 3 corners, got %d", #corners) end
+  if #corners < 3 then o:fail("expected at least 3 corners, got %d", #corners) end
   o:done()
   corners = polygon.simple(corners, "shapes.outline: corners")
 

@@ -8,12 +8,12 @@ local within = require "clench.within"
 local place = {}
 
 local function check_vector(subject, what, v)
-  local function wanted(got)
+  local function expected(got)
     raise(("%s: %s must be {x, y, z} of at most %g, got %s"):format(subject, what, mesh.largest, described(got)))
   end
-  if type(v) ~= "table" then wanted(v) end
+  if type(v) ~= "table" then expected(v) end
   for k = 1, 3 do
-    if not within(v[k], mesh.largest) then wanted(v[k]) end
+    if not within(v[k], mesh.largest) then expected(v[k]) end
   end
   return v
 end

@@ -30,7 +30,7 @@ return function(given)
   local chamfer, rounding = o:not_negative("chamfer", 0), o:not_negative("rounding", 0)
   local segments = o:count("segments", 4, 1, 64)
   o:done()
-  if chamfer > 0 and rounding > 0 then o:fail "wanted chamfer or rounding, got both" end
+  if chamfer > 0 and rounding > 0 then o:fail "expected chamfer or rounding, got both" end
   outline = polygon.simple(outline, "shapes.prism: outline")
   local bevel, steps = chamfer + rounding, rounding > 0 and segments or 1
   if 2 * bevel >= height then

@@ -61,7 +61,7 @@ local function cap(triangles, ring, first, outward, subject)
   end
   if #distinct < 3 then return end
   local flat = flatten(distinct)
-  if not flat then raise(subject .. ": wanted end rings that bound an area, got one without") end
+  if not flat then raise(subject .. ": expected end rings that bound an area, got one without") end
   for _, t in ipairs(polygon.triangulate(flat, subject .. ": an end ring")) do
     local i, j, k = index[t[1]], index[t[2]], index[t[3]]
     triangles[#triangles + 1] = outward and {i, j, k} or {i, k, j}
@@ -75,7 +75,7 @@ end
 return function(rings, closed, subject)
   local vertices, triangles, starts, count = {}, {}, {}, 0
   for _, ring in ipairs(rings) do count = count + #ring end
-  if count > max_vertices then raise(("%s: wanted at most %d vertices, got %d"):format(subject, max_vertices, count)) end
+  if count > max_vertices then raise(("%s: expected at most %d vertices, got %d"):format(subject, max_vertices, count)) end
   for i, ring in ipairs(rings) do
     starts[i] = #vertices + 1
     for _, p in ipairs(ring) do vertices[#vertices + 1] = {p[1], p[2], p[3] or 0} end

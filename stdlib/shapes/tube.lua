@@ -86,7 +86,7 @@ end
 local function read_section(o, count)
   local radius, profile, sides = o:raw "radius", o:raw "profile", o:count("sides", 24, 3, 1024)
   if (radius == nil) == (profile == nil) then
-    o:fail("wanted either radius or profile, got %s", radius and "both" or "neither")
+    o:fail("expected either radius or profile, got %s", radius and "both" or "neither")
   end
   local radii, section = {}, {}
   if profile then
@@ -104,7 +104,7 @@ local function read_section(o, count)
   for i = 1, count do
     radii[i] = profile and 1 or list and radius[i] or radius
     if type(radii[i]) ~= "number" or not (radii[i] > 0 and radii[i] <= o.largest) then
-      o:wanted(list and "radius[" .. i .. "]" or "radius", "a number > 0", radii[i])
+      o:expected(list and "radius[" .. i .. "]" or "radius", "a number > 0", radii[i])
     end
   end
   return section, radii

@@ -9,7 +9,7 @@ local mesh = require "clench.shapes.mesh"
 ---@return table mesh
 return function(parts)
   if type(parts) ~= "table" or #parts == 0 then
-    raise("shapes.union: wanted a list of shapes, got " .. (type(parts) == "table" and "none" or described(parts)))
+    raise("shapes.union: expected a list of shapes, got " .. (type(parts) == "table" and "none" or described(parts)))
   end
   local vertices, triangles = {}, {}
   for i = 1, #parts do

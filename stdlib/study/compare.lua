@@ -5,31 +5,31 @@ local described = require "clench.described"
 
 local function check_grasps(grasps)
   local function fail(format, ...) raise(("study.compare: " .. format):format(...)) end
-  if type(grasps) ~= "table" then fail("wanted a list of grasps, got %s", described(grasps)) end
+  if type(grasps) ~= "table" then fail("expected a list of grasps, got %s", described(grasps)) end
   local count = 0
   for _ in pairs(grasps) do count = count + 1 end
-  if count == 0 then fail "wanted at least one grasp, got none" end
+  if count == 0 then fail "expected at least one grasp, got none" end
   for i = 1, count do
-    if grasps[i] == nil then fail("grasps: wanted a list without holes or names, got none as number %d", i) end
+    if grasps[i] == nil then fail("grasps: expected a list without holes or names, got none as number %d", i) end
   end
   for i, grasp in ipairs(grasps) do
-    if described(grasp) ~= "a grasp" then fail("grasps[%d]: wanted a grasp, got %s", i, described(grasp)) end
+    if described(grasp) ~= "a grasp" then fail("grasps[%d]: expected a grasp, got %s", i, described(grasp)) end
   end
 end
 
 -- the number of the best, by what counts as better; of equal ones the first
-local function best_of(values, larger_is_better)
+local function best_of(values, higher_is_better)
   local best = 1
   for i, value in ipairs(values) do
-    if larger_is_better and value > values[best] or not larger_is_better and value < values[best] then best = i end
+    if higher_is_better and value > values[best] or not higher_is_better and value < values[best] then best = i end
   end
   return best
 end
 
 -- which measures are better when larger, by name
-local function larger_is_better()
+local function higher_is_better()
   local by_name = {}
-  for _, measure in ipairs(clench.measures()) do by_name[measure.name] = measure.larger_is_better end
+  for _, measure in ipairs(clench.measures()) do by_name[measure.name] = measure.higher_is_better end
   return by_name
 end
 
@@ -38,12 +38,12 @@ Comparison.__index = Comparison
 
 --- one panel a measure, one column a grasp
 function Comparison:chart(given)
-  local series, larger = {}, larger_is_better()
+  local series, larger = {}, higher_is_better()
   for i, name in ipairs(self.measures) do
     local values = {}
     -- what is infinite has no height
     for k, value in ipairs(self.values[name]) do values[k] = math.abs(value) < math.huge and value end
-    series[i] = {name = name, values = values, least_is_best = not larger[name]}
+    series[i] = {name = name, values = values, higher_is_better = larger[name]}
   end
   local drawing = {series = series, labels = self.labels}
   for key, value in pairs(given or {}) do
@@ -57,7 +57,7 @@ end
 --- width and height of clench.chart.
 ---@param grasps grasp[]
 ---@param given? {measures?: string[], labels?: string[]}  names as grasp:quality takes them, "epsilon" and "volume" by default; one label a grasp
----@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: the number of the best grasp, that with the largest value, or with the least of measures like weight_effort
+---@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: the number of the best grasp, that with the largest value, or with the least of measures like gravity_effort
 --- > c = clench.study.compare({grasp, grasp}, {labels = {"one", "two"}})
 --- > c.values.epsilon[2] == grasp:quality "epsilon", c.best.epsilon  --> true, 1
 --- > c:chart {width = 300, height = 200}  --> picture of 300 x 200 pixels
@@ -65,14 +65,14 @@ return function(grasps, given)
   check_grasps(grasps)
   local read = options("study.compare", given or {})
   local measures = read:raw "measures" or {"epsilon", "volume"}
-  if type(measures) ~= "table" or #measures == 0 then read:wanted("measures", "a list of names", measures) end
+  if type(measures) ~= "table" or #measures == 0 then read:expected("measures", "a list of names", measures) end
   local labels = read:raw "labels"
-  if labels and type(labels) ~= "table" then read:wanted("labels", "a list of strings", labels) end
+  if labels and type(labels) ~= "table" then read:expected("labels", "a list of strings", labels) end
   if labels and #labels ~= #grasps then
-    read:fail("wanted %d label%s, one a grasp, got %d", #grasps, #grasps == 1 and "" or "s", #labels)
+    read:fail("expected %d label%s, one per grasp, got %d", #grasps, #grasps == 1 and "" or "s", #labels)
   end
   read:done()
-  local larger = larger_is_better()
+  local larger = higher_is_better()
   for i, name in ipairs(measures) do
     if larger[name] == nil then
       local _, message = pcall(grasps[1].quality, grasps[1], name)

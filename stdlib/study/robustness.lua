@@ -50,7 +50,7 @@ local function mean_of(numbers)
 end
 
 local function check_grasp(grasp)
-  if described(grasp) ~= "a grasp" then raise("study.robustness: wanted a grasp, got " .. described(grasp)) end
+  if described(grasp) ~= "a grasp" then raise("study.robustness: expected a grasp, got " .. described(grasp)) end
 end
 
 --- What a grasp is worth when things are not where and what they were thought to be. Each sample draws errors of the
@@ -59,9 +59,9 @@ end
 --- The same seed gives the same numbers, and sample i the same in longer runs.
 ---@param grasp grasp
 ---@param given {samples?: integer, seed?: integer, position?: number, angle?: number, friction?: number, normal?: number, close?: function, edges?: integer|string}  standard deviations, 0 unless given: of the object's position along each axis [m], its turn about any axis [rad], the factor on mu, the tilt of normals [rad]; samples: 100; close(hand, object) instead of autograsp
----@return {samples: number[], probability: number, interval: table, taken: integer, mean: number, deviation: number, least: number, low: number, median: number, high: number, largest: number} # epsilon of each sample; probability of force closure, with the interval that holds it at 95 %; taken: how often the object's place was taken by the opened hand or something else, which counts as no grasp; low and high: 5 and 95 % of the samples
+---@return {samples: number[], probability: number, interval: table, blocked: integer, mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number} # epsilon of each sample; probability of force closure, with the interval that holds it at 95 %; blocked: how often the opened hand or something else was in the way of the object, which counts as no grasp; p05 and p95: 5 and 95 % of the samples
 --- > r = clench.study.robustness(grasp, {samples = 20, friction = 0.2, normal = 0.05})
---- > #r.samples, r.low <= r.median, r.interval.low <= r.probability  --> 20, true, true
+--- > #r.samples, r.p05 <= r.median, r.interval.low <= r.probability  --> 20, true, true
 --- > clench.study.robustness(grasp, {frictoin = 0.2})  --> error: unknown key 'frictoin'
 return function(grasp, given)
   check_grasp(grasp)
@@ -72,7 +72,7 @@ return function(grasp, given)
   local friction, normal = read:not_negative("friction", 0), read:not_negative("normal", 0)
   local edges = read:raw "edges" or grasp.edges  -- as clench.wrench_space takes them
   local close = read:raw "close" or close_again
-  if type(close) ~= "function" then read:wanted("close", "a function", close) end
+  if type(close) ~= "function" then read:expected("close", "a function", close) end
   read:done()
 
   local moves = position > 0 or angle > 0
@@ -93,11 +93,11 @@ return function(grasp, given)
     return clench.grasp(hand, object, alike)
   end
 
-  local epsilons, closed, taken = {}, 0, 0
+  local epsilons, closed, blocked = {}, 0, 0
   for sample = 1, count do
     local now, epsilon = regrasped(sample), 0
     if not now then
-      taken = taken + 1
+      blocked = blocked + 1
     else
       local contacts = now.points
       local factor = math.max(0, 1 + friction * stream(seed, sample, "friction"):normal())
@@ -113,7 +113,7 @@ return function(grasp, given)
   end
 
   local result = spread.of(epsilons)
-  result.samples, result.taken = epsilons, taken
+  result.samples, result.blocked = epsilons, blocked
   result.probability, result.interval = closed / count, spread.interval(closed, count)
   return result
 end

@@ -1,5 +1,5 @@
 -- stdlib/study/spread.lua
---- What a list of measured numbers says: mean, deviation, least, largest, and any quantile.
+--- What a list of measured numbers says: mean, standard deviation, least, largest, and quantiles.
 local spread = {}
 
 --- the value below which a part of all lie, linear between neighbours
@@ -11,7 +11,7 @@ local function quantile(sorted, part)
 end
 
 ---@param values number[]  at least one
----@return {mean: number, deviation: number, least: number, low: number, median: number, high: number, largest: number}  deviation of the sample; low and high: 5 and 95 %
+---@return {mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number}  std of the sample; p05 and p95: 5 and 95 %
 function spread.of(values)
   local sorted = table.move(values, 1, #values, 1, {})
   table.sort(sorted)
@@ -19,9 +19,9 @@ function spread.of(values)
   for i, value in ipairs(values) do mean = mean + (value - mean) / i end
   local squares = 0
   for _, value in ipairs(values) do squares = squares + (value - mean) ^ 2 end
-  return {mean = mean, deviation = #values > 1 and math.sqrt(squares / (#values - 1)) or 0,
-          least = sorted[1], low = quantile(sorted, 0.05), median = quantile(sorted, 0.5),
-          high = quantile(sorted, 0.95), largest = sorted[#sorted]}
+  return {mean = mean, std = #values > 1 and math.sqrt(squares / (#values - 1)) or 0,
+          min = sorted[1], p05 = quantile(sorted, 0.05), median = quantile(sorted, 0.5),
+          p95 = quantile(sorted, 0.95), max = sorted[#sorted]}
 end
 
 --- The interval that holds a probability with 95 % confidence, after so many of so many trials.

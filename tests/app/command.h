@@ -46,7 +46,7 @@ class Folder {
 
 inline bool has(const std::string& text, const std::string& part) {
   const bool found = text.find(part) != std::string::npos;
-  if (!found) MESSAGE("wanted '", part, "' in: ", text.substr(0, 1000));
+  if (!found) MESSAGE("expected '", part, "' in: ", text.substr(0, 1000));
   return found;
 }
 

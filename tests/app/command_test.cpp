@@ -105,7 +105,7 @@ TEST_CASE("test runs every file, sorted, each for itself, and counts") {
   result = run("test " + (folder / "."));
   CHECK(result.code == 1);
   CHECK(has(result.out, "FAILED   c holds"));
-  CHECK(has(result.out, "c_test.lua:3: wanted 2, got 1"));
+  CHECK(has(result.out, "c_test.lua:3: expected 2, got 1"));
   CHECK(has(result.out, "d_test.lua: the file itself"));
   CHECK(has(result.out, "outside"));
   CHECK(result.out.ends_with("2 passed, 3 failed, 1 skipped\n"));
@@ -136,7 +136,7 @@ TEST_CASE("a file of tests that would end the run, or holds none, has failed") {
   CHECK(has(result.out, "a_test.lua:1: os.exit: a file of tests cannot end the run"));
   CHECK(has(result.out, "b_test.lua: the file itself"));
   CHECK(has(result.out, "b_test.lua:2: os.exit: "));
-  CHECK(has(result.out, "c_test.lua: the file itself\n           wanted a test in it, got none"));
+  CHECK(has(result.out, "c_test.lua: the file itself\n           expected a test in it, got none"));
   CHECK(has(result.out, "2 passed, 3 failed"));
 }
 
@@ -157,7 +157,8 @@ TEST_CASE("doc writes pages, and --check finds one that is not what the bindings
 }
 
 TEST_CASE("output that cannot be written is an error") {
-  for (const char* arguments : {"check --json models/objects/flask.iv", "--help", "-e 'print(1)'"}) {
+  for (const char* arguments :
+       {"check --json models/objects/flask.iv", "--help", "-e 'print(1)'"}) {
     const auto outcome = run(std::string(arguments) + " 4>&1 > /dev/full 2>&4; exit $?");
     CHECK(outcome.code == 1);
     CHECK(has(outcome.out, "clench: the output could not be written whole"));
@@ -171,7 +172,7 @@ TEST_CASE("check says what a file is, and fails with 1 when one cannot be read")
   CHECK(has(flask.out, "models/hands/barrett/barrett.cfg: a robot"));
   const auto bad = run("check tests/data/bad/wld/empty.wld models/objects/flask.iv");
   CHECK(bad.code == 1);
-  CHECK(has(bad.out, "wrong: "));
+  CHECK(has(bad.out, "error: "));
   CHECK(has(bad.out, "flask.iv: a body"));
   const auto json = run("check --json models/objects/flask.iv");
   CHECK(json.code == 0);
@@ -192,7 +193,7 @@ TEST_CASE("check says what a file is, and fails with 1 when one cannot be read")
   CHECK(run("check").code == 2);
 }
 
-TEST_CASE("strictly read, what is mended, not used or doubtful is wrong") {
+TEST_CASE("strictly read, what is repaired, not used or suspicious is wrong") {
   const Folder folder;
   const std::string body = folder.file("b.xml", "<root>\n<mass>-300</mass></root>"),
                     world =
@@ -203,7 +204,7 @@ TEST_CASE("strictly read, what is mended, not used or doubtful is wrong") {
   for (const std::string& file : {body, world}) {
     const auto checked = run("check --strict " + file);
     CHECK(checked.code == 1);
-    CHECK(has(checked.out, "wrong: b.xml:2: mass: -300 is negative; 300 is used"));
+    CHECK(has(checked.out, "error: b.xml:2: mass: -300 is negative; 300 is used"));
   }
   CHECK(run("check --strict models/objects/flask.iv").code == 0);
   const auto converted = run("convert --strict " + body + " " + out);
@@ -227,12 +228,12 @@ TEST_CASE("convert writes another format, says what is lost, and fails with 1") 
   const auto wrong = run("convert models/objects/flask.iv " + (folder / "flask.cfg"));
   CHECK(wrong.code == 1);
   CHECK(wrong.out ==
-        "clench convert: flask.cfg: wanted a body to .xml, .iv, .obj, .off, .ply or .stl, got "
+        "clench convert: flask.cfg: expected a body to .xml, .iv, .obj, .off, .ply or .stl, got "
         "'.cfg'\n");
   const auto same = run("convert models/objects/flask.iv models/objects/flask.iv");
   CHECK(same.code == 1);
-  CHECK(has(same.out, "wanted another file to write, got the same"));
+  CHECK(has(same.out, "expected another file to write, got the same"));
   CHECK(run("convert models/objects/flask.iv").code == 2);
   CHECK(has(run("convert --unit mile " + out + " " + (folder / "a.obj")).out,
-            "unknown unit 'mile', wanted one of mm, cm, m, inch, foot"));
+            "unknown unit 'mile', expected one of mm, cm, m, inch, foot"));
 }

@@ -37,7 +37,7 @@ TEST_CASE("a checked or converted file cannot end the program, however it asks f
     CHECK(check.code == 1);
     CHECK(has(check.out, "flask.iv: a body"));  // the others are checked
     const std::string text = code;
-    CHECK(has(check.out, text == "return os.exit" ? "wanted a script that returns a world"
+    CHECK(has(check.out, text == "return os.exit" ? "expected a script that returns a world"
                          : text.find("__tostring") != std::string::npos
                              ? "error object is a table whose __tostring fails"
                              : "os.exit: a file that is read cannot end the program"));
@@ -72,7 +72,7 @@ TEST_CASE("an error whose value cannot be printed is told by a sentence") {
     const std::string file = folder.file("world.lua", code);
     const auto check = run("check " + file + " models/objects/flask.iv");
     CHECK(check.code == 1);
-    CHECK(has(check.out, "world.lua: not a world that can be read\n  wrong: "));
+    CHECK(has(check.out, "world.lua: not a world that can be read\n  error: "));
     CHECK(check.out.find("traceback") == std::string::npos);
     CHECK(check.out.size() < 10000);
     for (const std::string verb : {"run ", "test ", "-i ", "convert "}) {
@@ -104,7 +104,7 @@ TEST_CASE("--confine keeps every verb's reading of models below a folder") {
   CHECK(run("check " + in + "/w.wld").code == 0);
   const auto check = run("check" + confined + in + "/w.wld");
   CHECK(check.code == 1);
-  CHECK(has(check.out, "wrong: w.wld:3: '../flask.iv' lies outside of "));
+  CHECK(has(check.out, "error: w.wld:3: '../flask.iv' lies outside of "));
   CHECK(run("check" + confined + in + "/good.wld " + in + "/flask.iv").code == 0);
   CHECK(has(run("check" + confined + (folder / "flask.iv")).out, "lies outside of"));
   CHECK(run("convert" + confined + in + "/flask.iv " + (folder / "out.obj")).code == 0);
@@ -125,7 +125,7 @@ TEST_CASE("--confine keeps every verb's reading of models below a folder") {
       "  function(...) w:add_robot(...) end, clench.load, clench.file_kind, "
       "clench.files.eigengrasps,\n"
       "  clench.files.primitives, clench.files.pregrasps,\n"
-      "  function(...) local r = clench.report.of(...) assert(not r.wrong, r.wrong) end,\n"
+      "  function(...) local r = clench.report.of(...) assert(not r.error, r.error) end,\n"
       "  function(f, o) clench.convert(f, in_ .. '/x.obj', o) end} do\n"
       "  local ok, message = pcall(f, out)\n  assert(not ok and message:find 'lies outside of', "
       "message)\n"
@@ -136,7 +136,7 @@ TEST_CASE("--confine keeps every verb's reading of models below a folder") {
   const std::string arguments = script + " " + in + " " + (folder / "flask.iv");
   const auto result = run("run" + confined + arguments);
   CHECK_MESSAGE(result.code == 0, result.out);
-  CHECK(has(result.out, "world:add_object: confine: wanted a folder, got '"));
+  CHECK(has(result.out, "world:add_object: confine: expected a folder, got '"));
   CHECK(run(confined + "run " + arguments).code == 0);
   const std::string load = "clench.world():add_object '" + (folder / "flask.iv") + "'";
   CHECK(has(run(confined + "-e \"" + load + "\"").out, "lies outside of"));

@@ -78,7 +78,7 @@ TEST_CASE("what cannot be written is told with its reason, and the old file stay
       (base + "/no/a.txt: the file cannot be written: no such folder: " + base + "/no").c_str(),
       Error);
   CHECK_THROWS_WITH_AS(write_file(folder.path(), "x"),
-                       (base + ": wanted a file to write, got a folder").c_str(), Error);
+                       (base + ": expected a file to write, got a folder").c_str(), Error);
   const fs::path path = folder.write("a.txt", "old");
   CHECK_THROWS_WITH_AS(write_file(path / "b.txt", "x"),
                        (base + "/a.txt/b.txt: the file cannot be written: Not a directory").c_str(),
@@ -114,7 +114,7 @@ TEST_CASE("a name as long as a folder takes is written") {
 TEST_CASE("a full disk is told as such") {
   // that special file takes nothing
   CHECK_THROWS_WITH_AS(write_file("/dev/full", "x"),
-                       "/dev/full: wanted a file to write, got a special file", Error);
+                       "/dev/full: expected a file to write, got a special file", Error);
   CHECK(system_reason(ENOSPC) == "No space left on device");
 }
 
@@ -129,20 +129,20 @@ TEST_CASE("what permissions forbid is told as such") {
   fs::permissions(old, fs::perms(0666));
   fs::permissions(secret, fs::perms::none);
   fs::permissions(kept, fs::perms(0444));
-  std::vector<std::string> faults, wanted;
+  std::vector<std::string> faults, expected;
   {
     const test::PlainUser user;
     const auto check = [&](const fs::path& path, const char* what,
                            const std::function<void()>& run) {
       faults.push_back(fault_of(run));
-      wanted.push_back(
+      expected.push_back(
           fmt::format("{}: the file cannot be {}: Permission denied", path.string(), what));
     };
     for (const fs::path& path : {shut, secret}) check(path, "read", [&] { read_bytes(path); });
     for (const fs::path& path : {shut, closed / "new", fixed / "new", old, secret, kept})
       check(path, "written", [&] { write_file(path, "new"); });
   }
-  CHECK(faults == wanted);
+  CHECK(faults == expected);
   fs::permissions(closed, fs::perms(0777));
   fs::permissions(fixed, fs::perms(0777));
   CHECK(read_bytes(old) == "old");
@@ -155,12 +155,12 @@ TEST_CASE("what is no regular file is neither read nor replaced") {
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   CHECK_THROWS_WITH_AS(
       write_file(pipe, "text"),
-      (pipe.generic_string() + ": wanted a file to write, got a special file").c_str(), Error);
+      (pipe.generic_string() + ": expected a file to write, got a special file").c_str(), Error);
   CHECK_THROWS_WITH_AS(read_bytes(pipe),
-                       (pipe.generic_string() + ": wanted a file, got a special file").c_str(),
+                       (pipe.generic_string() + ": expected a file, got a special file").c_str(),
                        Error);
   CHECK_THROWS_WITH_AS(read_bytes(folder.path()),
-                       (folder.path().generic_string() + ": wanted a file, got a folder").c_str(),
+                       (folder.path().generic_string() + ": expected a file, got a folder").c_str(),
                        Error);
   CHECK(fs::is_fifo(pipe));
   const std::string base = folder.path().generic_string();

@@ -52,7 +52,7 @@ TEST_CASE("a reader walks over blank lines and comments and knows where it stand
   CHECK(lines.peek().blank());
   CHECK(lines.next_full("a line").text() == "last");
   CHECK(lines.done());
-  CHECK_THROWS_WITH_AS(lines.next_full("more"), "a.cfg:5: wanted more, got the end of the file",
+  CHECK_THROWS_WITH_AS(lines.next_full("more"), "a.cfg:5: expected more, got the end of the file",
                        Error);
 }
 
@@ -63,20 +63,21 @@ TEST_CASE("an empty text has no lines, and its place is the first") {
   CHECK(lines.next().blank());
 }
 
-TEST_CASE("a wrong number is told with place, subject, wanted and got") {
+TEST_CASE("a wrong number is told with place, subject, expected and got") {
   LineReader lines("a.cfg", "x 3 2.5");
   const Line line = lines.next();
   CHECK(line.number(1, "a") == 3);
   CHECK(line.integer(1, "a", 0, 3) == 3);
-  CHECK_THROWS_WITH_AS(line.number(0, "mass"), "a.cfg:1: mass: wanted a number, got 'x'", Error);
-  CHECK_THROWS_WITH_AS(line.number(3, "mass"), "a.cfg:1: mass: wanted a number, got nothing",
+  CHECK_THROWS_WITH_AS(line.number(0, "mass"), "a.cfg:1: mass: expected a number, got 'x'", Error);
+  CHECK_THROWS_WITH_AS(line.number(3, "mass"), "a.cfg:1: mass: expected a number, got nothing",
                        Error);
-  CHECK_THROWS_WITH_AS(line.integer(2, "n"), "a.cfg:1: n: wanted a whole number, got '2.5'", Error);
+  CHECK_THROWS_WITH_AS(line.integer(2, "n"), "a.cfg:1: n: expected a whole number, got '2.5'",
+                       Error);
   CHECK_THROWS_WITH_AS(line.integer(1, "n", 4, 9),
-                       "a.cfg:1: n: wanted a whole number from 4 to 9, got 3", Error);
+                       "a.cfg:1: n: expected a whole number from 4 to 9, got 3", Error);
   CHECK_THROWS_WITH_AS(line.integer(1, "n", 4),
-                       "a.cfg:1: n: wanted a whole number from 4 on, got 3", Error);
-  CHECK_THROWS_WITH_AS(line.integer(0, "n", 0, 9), "a.cfg:1: n: wanted a whole number, got 'x'",
+                       "a.cfg:1: n: expected a whole number from 4 on, got 3", Error);
+  CHECK_THROWS_WITH_AS(line.integer(0, "n", 0, 9), "a.cfg:1: n: expected a whole number, got 'x'",
                        Error);
   CHECK_THROWS_WITH_AS(line.fail("min {} exceeds max {}", 2, 1), "a.cfg:1: min 2 exceeds max 1",
                        Error);
@@ -85,14 +86,16 @@ TEST_CASE("a wrong number is told with place, subject, wanted and got") {
 TEST_CASE("a whole number too large for its place is told with the range") {
   constexpr int most = std::numeric_limits<int>::max(), least = std::numeric_limits<int>::min();
   CHECK(integer_fault("3000000000", least, most) ==
-        "wanted a whole number from -2147483648 to 2147483647, got '3000000000'");
+        "expected a whole number from -2147483648 to 2147483647, got '3000000000'");
   CHECK(integer_fault("+99999999999999999999", 0, most) ==
-        "wanted a whole number from 0 to 2147483647, got '+99999999999999999999'");
+        "expected a whole number from 0 to 2147483647, got '+99999999999999999999'");
   CHECK(integer_fault("-3000000000", 0, most) ==
-        "wanted a whole number from 0 on, got '-3000000000'");
-  CHECK(integer_fault("3000000000", 1, 9) == "wanted a whole number from 1 to 9, got '3000000000'");
+        "expected a whole number from 0 on, got '-3000000000'");
+  CHECK(integer_fault("3000000000", 1, 9) ==
+        "expected a whole number from 1 to 9, got '3000000000'");
   for (const char* bad : {"", "-", "+", "1.0", "0x1", "1e3", "+-1", "--1"})
-    CHECK_MESSAGE(integer_fault(bad, least, most).starts_with("wanted a whole number, got "), bad);
+    CHECK_MESSAGE(integer_fault(bad, least, most).starts_with("expected a whole number, got "),
+                  bad);
   for (const char* good : {"0", "-0", "+7", "-2147483648", "2147483647"})
     CHECK_MESSAGE(integer_fault(good, least, most).empty(), good);
 }
@@ -111,7 +114,7 @@ TEST_CASE("every kind of line end reads as one") {
   CHECK(read_text(path) == "a\nb\nc\nd");
   std::filesystem::remove(path);
   CHECK_THROWS_WITH_AS(read_text(path), ("no such file: " + path.generic_string()).c_str(), Error);
-  CHECK_THROWS_WITH_AS(read_text("/"), "/: wanted a file, got a folder", Error);
+  CHECK_THROWS_WITH_AS(read_text("/"), "/: expected a file, got a folder", Error);
 }
 
 TEST_CASE("a list in a message ends after 300 characters and says how many are left") {

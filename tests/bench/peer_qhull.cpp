@@ -18,9 +18,9 @@ std::optional<QhullAnswer> ask_qhull(const Eigen::MatrixXd& points, const std::s
   if (qh_new_qhull(qh, static_cast<int>(copy.rows()), static_cast<int>(copy.cols()), copy.data(),
                    False, command.data(), nullptr, nowhere) == qh_ERRnone) {
     answer.emplace();
-    answer->least_offset = std::numeric_limits<double>::infinity();
+    answer->min_offset = std::numeric_limits<double>::infinity();
     facetT* facet;
-    FORALLfacets answer->least_offset = std::min(answer->least_offset, -facet->offset);
+    FORALLfacets answer->min_offset = std::min(answer->min_offset, -facet->offset);
     answer->volume = qh->totvol;
   }
   qh_freeqhull(qh, !qh_ALL);

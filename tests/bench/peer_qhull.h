@@ -7,8 +7,8 @@
 namespace clench::bench {
 
 struct QhullAnswer {
-  double least_offset = 0;  ///< of all facets from the origin; above 0: inside
-  double volume = 0;        ///< with option FA
+  double min_offset = 0;  ///< of all facets from the origin; above 0: inside
+  double volume = 0;      ///< with option FA
 };
 
 /// points   a column each

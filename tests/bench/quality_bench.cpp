@@ -172,7 +172,7 @@ void measure_epsilon(const std::string& query, const Named& named, int rounds, R
         epsilon = timed(times["ours"], [&] { return WrenchSpace(set).epsilon(); });
       for (const Way& way : ways) {
         const auto answer = timed(times[way.name], [&] { return ask_qhull(all, way.options); });
-        const double theirs = answer ? std::max(0.0, answer->least_offset) : -1;
+        const double theirs = answer ? std::max(0.0, answer->min_offset) : -1;
         const bool agrees = std::abs(theirs - epsilon) <= agreement * size_of(all);
         if (!agrees) wrong.insert(way.name);
         confirmed |= agrees;
@@ -206,7 +206,7 @@ void measure_volume(const Named& named, int rounds, Report& report, Fastest& fas
         const auto answer = timed(times[way.name],
                                   [&] { return ask_qhull(all, std::string(way.options) + " FA"); });
         const bool agrees = answer && std::abs(answer->volume - volume) <= agreement * volume &&
-                            std::abs(answer->least_offset - epsilon) <= agreement * size_of(all);
+                            std::abs(answer->min_offset - epsilon) <= agreement * size_of(all);
         if (!agrees) wrong.insert(way.name);
         if (std::string(way.name) == reference)
           report.check(agrees, fmt::format("volume, {}: qhull {}, ours {}", named.name,

@@ -48,7 +48,7 @@ told("load", seconds_of(load_world))
 local place = clench.world()
 local object = place:add_object(object_file)
 local human = place:add_robot(hand_file, {root = hand_file:match "^(.*)/models/" or "."})
-assert(#human.dofs == 20, "wanted a hand of 20 DOFs")
+assert(#human.dofs == 20, "expected a hand of 20 DOFs")
 local random = clench.random(7)
 local states = {}
 for i = 1, 400 do
@@ -73,7 +73,7 @@ for _, state in ipairs(states) do
   place_hand(state)
   table.insert(collides() and hits or misses, state)
 end
-assert(#hits >= 50 and #misses >= 50, "wanted states of both kinds")
+assert(#hits >= 50 and #misses >= 50, "expected states of both kinds")
 
 local function each(list, action) return seconds_of(function() for _, state in ipairs(list) do action(state) end end) / #list end
 told("kinematics", each(states, place_hand))

@@ -48,12 +48,12 @@ end
 print(("%-22s %12s %12s %8s %8s"):format("", "before [us]", "now [us]", "times", "asked"))
 local missed = 0
 for _, figure in ipairs(figures) do
-  local name, wanted = table.unpack(figure)
+  local name, expected = table.unpack(figure)
   local a, b = old[name], new[name]
   local ratio = a and b and b > 0 and a / b
-  if not (ratio and ratio >= wanted) then missed = missed + 1 end
+  if not (ratio and ratio >= expected) then missed = missed + 1 end
   print(("%-22s %12s %12s %8s %8g"):format(name, a and ("%.2f"):format(a * 1e6) or "none", b and ("%.2f"):format(b * 1e6) or "none",
-    ratio and ("%.2f"):format(ratio) or "none", wanted))
+    ratio and ("%.2f"):format(ratio) or "none", expected))
   if not ratio then asked["--check"] = true end  -- what measured nothing has failed
 end
 if asked["--check"] and missed > 0 then

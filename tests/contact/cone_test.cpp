@@ -42,10 +42,10 @@ TEST_CASE("every edge leans from the normal by the friction angle, counter-clock
       const Eigen::Vector3d f_C = frame.transpose() * wrenches.col(j).head<3>();
       CHECK(f_C.z() == doctest::Approx(1));
       CHECK(f_C.head<2>().norm() == doctest::Approx(0.5));
-      const double wanted = 2 * std::numbers::pi * j / 12;
+      const double expected = 2 * std::numbers::pi * j / 12;
       // the angle's sine and cosine, so that a full turn is no jump
-      CHECK(f_C.x() == doctest::Approx(0.5 * std::cos(wanted)).epsilon(1e-12));
-      CHECK(f_C.y() == doctest::Approx(0.5 * std::sin(wanted)).epsilon(1e-12));
+      CHECK(f_C.x() == doctest::Approx(0.5 * std::cos(expected)).epsilon(1e-12));
+      CHECK(f_C.y() == doctest::Approx(0.5 * std::sin(expected)).epsilon(1e-12));
     }
   }
 }
@@ -71,8 +71,8 @@ TEST_CASE("a bad contact or option is refused by name and value") {
   const auto refuse = [](const PointContact& contact, const ConeOptions& options, const char* why) {
     CHECK_THROWS_WITH_AS(cone_wrenches(contact, options), why, Error);
   };
-  refuse({.mu = -0.1}, {}, "contact cone: mu: wanted a number from 0 to 1e+06, got -0.1");
-  refuse({.mu = nan}, {}, "contact cone: mu: wanted a number from 0 to 1e+06, got nan");
+  refuse({.mu = -0.1}, {}, "contact cone: mu: expected a number from 0 to 1e+06, got -0.1");
+  refuse({.mu = nan}, {}, "contact cone: mu: expected a number from 0 to 1e+06, got nan");
   refuse({.torsion_radius = -1}, {}, "contact cone: torsion_radius must be >= 0, got -1");
   refuse({.n_O = {0, 0, 2}}, {}, "contact cone: the normal must be a unit vector, got length 2");
   refuse({.n_O = {0, 0, nan}}, {},
@@ -179,5 +179,5 @@ TEST_CASE("a round cone holds its pyramid's edges on its rim") {
   }
   CHECK(round_cone({.mu = 0}).spread.cols() == 0);
   CHECK_THROWS_WITH_AS(round_cone({.mu = -0.5}),
-                       "contact cone: mu: wanted a number from 0 to 1e+06, got -0.5", Error);
+                       "contact cone: mu: expected a number from 0 to 1e+06, got -0.5", Error);
 }

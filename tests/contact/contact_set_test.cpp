@@ -91,7 +91,7 @@ Pose random_pose(Random& random, double reach) {
           reach * Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))};
 }
 
-double least_gap(const Touches& touches) {
+double min_gap(const Touches& touches) {
   double least = std::numeric_limits<double>::infinity();
   for (const Touch& t : touches) least = std::min(least, t.gap);
   return least;
@@ -128,7 +128,7 @@ void check_sound(const Touches& touches, const Shape& a, const Shape& b, const P
     if (t.gap > 1e-9) CHECK(t.normal_b.dot(t.p_b - t.p_a) > 0.999 * t.gap);
   }
   const double d = distance(a, b, X_AB).distance;
-  if (d > 0 && d < threshold) CHECK(least_gap(touches) == d);
+  if (d > 0 && d < threshold) CHECK(min_gap(touches) == d);
 }
 
 const Mesh floor_mesh = moved(test::box(1, 1, 0.02), Pose::translation({0, 0, -0.01}));
@@ -249,10 +249,10 @@ TEST_CASE("every foot of a table stands") {
         for (const double dx : {-0.01, 0.01})
           for (const double dy : {-0.01, 0.01})
             CHECK(has_point(touches, {x + dx, y + dy, 0}, 1e-9));
-    // thinned to one a patch, each foot still has one
-    const auto few = contact_set(*plane, *stands, X_AB, {.most_per_patch = 1});
+    // thinned to one per patch, each foot still has one
+    const auto few = contact_set(*plane, *stands, X_AB, {.max_per_patch = 1});
     CHECK(few.size() == 4);
-    CHECK(least_gap(few) == distance(*plane, *stands, X_AB).distance);
+    CHECK(min_gap(few) == distance(*plane, *stands, X_AB).distance);
   }
 }
 
@@ -279,7 +279,7 @@ TEST_CASE("an edge on a face touches at its ends, a corner at one point") {
   const Pose on_edge{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitX())),
                      {0, 0, h + thin}};
   CHECK(contact_set(*plane, *box, on_edge).size() == 2);
-  const Eigen::Quaterniond tip = least_turn(Vector3d(1, 1, 1), -Vector3d::UnitZ());
+  const Eigen::Quaterniond tip = shortest_rotation(Vector3d(1, 1, 1), -Vector3d::UnitZ());
   const Pose on_corner{tip, {0, 0, 0.025 * std::sqrt(3.0) + thin}};
   CHECK(contact_set(*plane, *box, on_corner).size() == 1);
   // two edges crossed: their crossing only
@@ -447,7 +447,7 @@ TEST_CASE("a long outline is thinned to points that surround the patch") {
   const auto plane = shape(floor_mesh);
   const Pose X_AB = Pose::translation({0, 0, 0.005 + thin});
   for (const int most : {3, 8, 20}) {
-    const auto touches = contact_set(*plane, *disc, X_AB, {.most_per_patch = most});
+    const auto touches = contact_set(*plane, *disc, X_AB, {.max_per_patch = most});
     CHECK(static_cast<int>(touches.size()) == most);
     Vector3d middle = Vector3d::Zero();
     for (const Touch& t : touches) {
@@ -482,5 +482,5 @@ TEST_CASE("bad options are refused by name and value") {
   refuse({.threshold = -1}, "contact set: threshold must be >= 0 [m], got -1");
   refuse({.threshold = nan}, "contact set: threshold must be >= 0 [m], got nan");
   refuse({.merge_radius = -0.5}, "contact set: merge_radius must be >= 0 [m], got -0.5");
-  refuse({.most_per_patch = 0}, "contact set: most_per_patch must be >= 1, got 0");
+  refuse({.max_per_patch = 0}, "contact set: max_per_patch must be >= 1, got 0");
 }

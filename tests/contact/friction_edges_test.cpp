@@ -43,7 +43,7 @@ TEST_CASE("the edges of the Barrett hand's shipped contacts come out") {
 
 TEST_CASE("a torsion radius below zero is refused") {
   CHECK_THROWS_WITH_AS(friction_edges(-1),
-                       "friction edges: wanted a torsion radius >= 0 [m], got -1", Error);
+                       "friction edges: expected a torsion radius >= 0 [m], got -1", Error);
   CHECK_THROWS_AS(friction_edges(NAN), Error);
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("any number of directions: rings either side of the middle one, down t
       CHECK(e.head<2>().squaredNorm() + std::pow(e[5] / 0.003, 2) == doctest::Approx(1));
     CHECK(edges.row(5).maxCoeff() == doctest::Approx(0.003));
   }
-  CHECK_THROWS_WITH_AS(friction_edges(0, 2), "friction edges: wanted 3 directions or more, got 2",
+  CHECK_THROWS_WITH_AS(friction_edges(0, 2), "friction edges: expected 3 directions or more, got 2",
                        Error);
 }
 

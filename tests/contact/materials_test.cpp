@@ -73,13 +73,13 @@ TEST_CASE("bad coefficients and names are refused, and leave the table as it was
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   refuse("cork", "glass", {-0.5, 0},
-         "friction of cork and glass: static: wanted a number from 0 to 1e+06, got -0.5");
+         "friction of cork and glass: static: expected a number from 0 to 1e+06, got -0.5");
   refuse("cork", "glass", {nan, 0},
-         "friction of cork and glass: static: wanted a number from 0 to 1e+06, got nan");
+         "friction of cork and glass: static: expected a number from 0 to 1e+06, got nan");
   refuse("cork", "glass", {1e300, 0.5},
-         "friction of cork and glass: static: wanted a number from 0 to 1e+06, got 1e+300");
+         "friction of cork and glass: static: expected a number from 0 to 1e+06, got 1e+300");
   refuse("cork", "glass", {0.5, -1},
-         "friction of cork and glass: kinetic: wanted a number from 0 to 1e+06, got -1");
+         "friction of cork and glass: kinetic: expected a number from 0 to 1e+06, got -1");
   refuse("cork", "glass", {0.5, 0.6}, "friction of cork and glass: kinetic 0.6 exceeds static 0.5");
   refuse("", "glass", {0.5, 0.4}, "friction of '' and 'glass': a material needs a name");
   CHECK(table.names().size() == 7);
@@ -91,5 +91,5 @@ TEST_CASE("there are no more materials than a table can hold") {
   const auto add = [&] {
     for (int i = 0; i < 500; ++i) table.set_friction("wood", fmt::format("m{}", i), {});
   };
-  CHECK_THROWS_WITH_AS(add(), "material 'm493': wanted at most 500 materials", Error);
+  CHECK_THROWS_WITH_AS(add(), "material 'm493': expected at most 500 materials", Error);
 }

@@ -123,10 +123,10 @@ TEST_CASE("a square pad on a plane has a circle no wider than itself, however it
         for (const double force : {0.1, 5.0, 60.0}) {
           const Mesh pad = pad_of(rectangle(half, half, rings), 0.004, rings);
           const Vector2d axes = axes_of(patch_at(wide_floor(), pad, turn, {0, 0}), force);
-          const double wanted = std::min(half, blunt_axis(force));
-          CHECK(axes[1] <= 1.0001 * wanted);
+          const double expected = std::min(half, blunt_axis(force));
+          CHECK(axes[1] <= 1.0001 * expected);
           // a pad much smaller than the patch counts by its moments, which are larger
-          CHECK(axes[0] >= 0.985 * wanted);
+          CHECK(axes[0] >= 0.985 * expected);
         }
 }
 
@@ -182,11 +182,11 @@ TEST_CASE("a disc bounds its circle by its radius, in the middle and at its rim"
         for (const double force : {0.5, 5.0, 30.0}) {
           const Mesh pad = pad_of(circle(radius, segments), 0.004, 3);
           const SoftPatch patch = patch_at(wide_floor(), pad, 0.1, {off * radius, 0});
-          const double wanted = std::min(radius, blunt_axis(force));
-          CHECK(axes_of(patch, force)[1] <= 1.0001 * wanted);
+          const double expected = std::min(radius, blunt_axis(force));
+          CHECK(axes_of(patch, force)[1] <= 1.0001 * expected);
           CHECK(torsion_radius(patch, force) < 2 * radius / 3);
           // seen from aside rays miss where it is widest, and near the rim half is not there
-          if (off == 0) CHECK(axes_of(patch, force)[0] >= 0.98 * wanted);
+          if (off == 0) CHECK(axes_of(patch, force)[0] >= 0.98 * expected);
         }
 }
 
@@ -258,9 +258,9 @@ TEST_CASE("no ellipse is wider than a small ball, nor a wider body the worse for
     for (const double force : {0.1, 5.0}) {
       const Mesh plate =
           test::moved(test::box(0.2, 2 * half, 0.02), Pose::translation({0, half, -0.01}));
-      const double wanted = std::min(half, blunt_axis(force));
+      const double expected = std::min(half, blunt_axis(force));
       CHECK(axes_of(patch_at(plate, ball, 0, {0, 0}), force)[0] ==
-            doctest::Approx(wanted).epsilon(0.015));
+            doctest::Approx(expected).epsilon(0.015));
     }
 }
 
@@ -294,7 +294,7 @@ double wedge_volume(double depth, double radius) {
 
 /// a cube on the floor, touched at a point of its own frame that is lowest
 SoftPatch cube_at(const Vector3d& down, const Vector3d& place) {
-  const Pose turn = Pose::turn(least_turn(down, -Vector3d::UnitZ()));
+  const Pose turn = Pose::turn(shortest_rotation(down, -Vector3d::UnitZ()));
   const Mesh cube = test::moved(test::box(0.03, 0.03, 0.03), turn);
   const Vector3d foot = turn * place;
   return patch_at(wide_floor(), test::moved(cube, Pose::translation(-foot)), 0, {0, 0});
@@ -305,8 +305,8 @@ SoftPatch cube_at(const Vector3d& down, const Vector3d& place) {
 TEST_CASE("at a corner and an edge springs under the gap make up the force") {
   const SoftPatch corner = cube_at({1, 1, 1}, {0.015, 0.015, 0.015});
   const SoftPatch edge = cube_at({0, 1, 1}, {0.004, 0.015, 0.015});
-  REQUIRE(corner.sharp);
-  REQUIRE(edge.sharp);
+  REQUIRE(corner.at_edge);
+  REQUIRE(edge.at_edge);
   for (const double force : {0.05, 0.5, 5.0}) {
     const ContactEllipse at_corner = contact_ellipse(corner, force);
     // cut at a depth d, the corner of a cube is a triangle of 3 sqrt(3) / 2 d^2
@@ -337,12 +337,12 @@ TEST_CASE("a pad much smaller than its patch is pressed evenly") {
 TEST_CASE("a layer that is pressed in by more than its height is told") {
   const Mesh ball = test::moved(test::icosphere(0.02, 4), Pose::translation({0, 0, 0.02}));
   SoftPatch patch = patch_at(wide_floor(), ball, 0, {0, 0});
-  CHECK(!contact_ellipse(patch, 280).beyond_layer);
-  CHECK(contact_ellipse(patch, 290).beyond_layer);  // sqrt(283 c / (pi 0.02)) = 3 mm
+  CHECK(!contact_ellipse(patch, 280).exceeds_layer);
+  CHECK(contact_ellipse(patch, 290).exceeds_layer);  // sqrt(283 c / (pi 0.02)) = 3 mm
   // two of them are as high together; the original knows that of the stiffer alone
   patch.elastic_a = {.modulus = 0.5 * pad_modulus};
-  CHECK(!contact_ellipse(patch, 290).beyond_layer);
-  CHECK(contact_ellipse(patch, 290, ModulusRule::larger).beyond_layer);
+  CHECK(!contact_ellipse(patch, 290).exceeds_layer);
+  CHECK(contact_ellipse(patch, 290, ModulusRule::larger).exceeds_layer);
 }
 
 TEST_CASE("a radius within which there is nothing to fit is refused") {
@@ -354,7 +354,7 @@ TEST_CASE("a radius within which there is nothing to fit is refused") {
     CHECK_THROWS_WITH_AS(
         soft_patch(*site, {.radius = radius}),
         fmt::format("contact patch: within radius {} [m] there is too little of a surface to fit; "
-                    "wanted more than the gap, and no more than the bodies",
+                    "expected more than the gap, and no more than the bodies",
                     radius)
             .c_str(),
         Error);

@@ -46,12 +46,12 @@ TEST_CASE("places stand for the disc, those with a gap for where both surfaces a
       return test::moved(test::box(0.03, 0.03, 0.03), Pose::translation({x, y, 0.015}));
     };
     const double radius = 0.004, disc = pi * radius * radius;
-    const auto check = [&](const Mesh& body, double wanted) {
+    const auto check = [&](const Mesh& body, double expected) {
       const PatchRings rings = rings_of(floor_below(), body, turn, radius, 1e-4);
       CHECK(area_of(rings.gap, std::numeric_limits<double>::infinity()) ==
             doctest::Approx(disc).epsilon(1e-9));
-      CHECK(area_of(rings.gap, 1) == doctest::Approx(wanted * disc).epsilon(1e-9));
-      CHECK(rings.shares[1] == doctest::Approx(wanted).epsilon(1e-9));
+      CHECK(area_of(rings.gap, 1) == doctest::Approx(expected * disc).epsilon(1e-9));
+      CHECK(rings.shares[1] == doctest::Approx(expected).epsilon(1e-9));
       CHECK(rings.shares[0] == doctest::Approx(1).epsilon(1e-9));
     };
     check(box_at(0, 0), 1);

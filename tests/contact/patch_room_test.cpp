@@ -26,7 +26,8 @@ Matrix2d turned_axes(double turn) { return Rotation2Dd(turn).toRotationMatrix();
 
 TEST_CASE("an ellipse with room for it stays as it is, to the bit") {
   const std::array<double, 2> axes = {0.003, 0.004};
-  CHECK(make_room(room_of({0.005, 0.006}, std::numbers::pi / 2, 0.3), turned_axes(0.1), axes, true) == axes);
+  CHECK(make_room(room_of({0.005, 0.006}, std::numbers::pi / 2, 0.3), turned_axes(0.1), axes,
+                  true) == axes);
   CHECK(make_room({}, turned_axes(0.1), axes, true) == axes);
 }
 

@@ -67,7 +67,7 @@ TEST_CASE("a ball on a plane has its own radius, whatever its mesh and its turn"
     for (int trial = 0; trial < test::cases(10); ++trial) {
       const SoftPatch patch = drop(test::icosphere(0.02, subdivisions), test::random_turn(random));
       check_radii(patch, 0.02, 0.02, tolerance[subdivisions - 1]);
-      CHECK(!patch.sharp);
+      CHECK(!patch.at_edge);
       CHECK(!patch.flat[0]);
     }
   for (int trial = 0; trial < 10; ++trial)
@@ -160,7 +160,7 @@ TEST_CASE("faces are flat however they are cut, and a thin plate has no far side
   check_radii(block, 0.02, 0.02, 1e-12);
   CHECK(block.flat == std::array{true, true});
   check_radii(press(floor_mesh(), test::box(0.1, 0.1, 0.1), Pose::translation({0, 0, 0.05 + gap}),
-                    {.flat_radius = 0.05}),
+                    {.max_radius = 0.05}),
               0.05, 0.05, 1e-12);
 }
 
@@ -251,7 +251,7 @@ namespace {
 const Mesh cube = test::box(0.03, 0.03, 0.03);
 
 SoftPatch drop_edge(const Mesh& body) {
-  return drop(body, least_turn(Vector3d(0, 1, 1), -Vector3d::UnitZ()));
+  return drop(body, shortest_rotation(Vector3d(0, 1, 1), -Vector3d::UnitZ()));
 }
 
 // of flat surfaces on each other, rubber at 5 N
@@ -267,10 +267,10 @@ SoftPatch roll(double angle, const Mesh& ball) {
 
 TEST_CASE("a corner touches as wide as it is deep, an edge over a strip as wide") {
   const SoftPatch face = drop(cube), edge = drop_edge(cube);
-  const SoftPatch corner = drop(cube, least_turn(Vector3d(1, 1, 1), -Vector3d::UnitZ()));
-  CHECK(!face.sharp);
-  CHECK(edge.sharp);
-  CHECK(corner.sharp);
+  const SoftPatch corner = drop(cube, shortest_rotation(Vector3d(1, 1, 1), -Vector3d::UnitZ()));
+  CHECK(!face.at_edge);
+  CHECK(edge.at_edge);
+  CHECK(corner.at_edge);
   // cut at a depth d, the corner of a cube is a triangle of sides sqrt(6) d, whose ellipse has the
   // semi-axes d; the rays cut its three tips off
   const ContactEllipse at_corner = contact_ellipse(corner, 5), at_edge = contact_ellipse(edge, 5);
@@ -303,7 +303,7 @@ TEST_CASE(
     "sharp ones stay sharp at any force and stiffness, and resist more when they are pressed "
     "harder") {
   const Mesh edge =
-      test::moved(cube, Pose::turn(least_turn(Vector3d(0, 1, 1), -Vector3d::UnitZ())));
+      test::moved(cube, Pose::turn(shortest_rotation(Vector3d(0, 1, 1), -Vector3d::UnitZ())));
   const Pose X = Pose::translation({0, 0, gap + 0.015 * std::sqrt(2.0)});
   const auto a = Shape::make(floor_mesh()), b = Shape::make(edge),
              ball = Shape::make(test::icosphere(0.02, 4));
@@ -313,7 +313,7 @@ TEST_CASE(
     const Elasticity soft{.modulus = modulus};
     const SoftPatch sharp = soft_patch(*soft_sites(a, b, X, {}, soft, touches)[0]);
     const SoftPatch round = soft_patch(*soft_sites(a, ball, X_ball, {}, soft, touches_ball)[0]);
-    CHECK(sharp.sharp);
+    CHECK(sharp.at_edge);
     double before = 0;
     for (const double force : {0.0, 0.01, 0.1, 1.0, 10.0, 100.0}) {
       const double now = torsion_radius(sharp, force);
@@ -352,13 +352,13 @@ TEST_CASE("round bodies of coarse facets are not sharp, rounded edges are") {
   Random random(8);
   for (const int subdivisions : {1, 2})
     for (int trial = 0; trial < 20; ++trial)
-      CHECK(!drop(test::icosphere(0.02, subdivisions), test::random_turn(random)).sharp);
+      CHECK(!drop(test::icosphere(0.02, subdivisions), test::random_turn(random)).at_edge);
   // facets of 22 to 36 degrees, on one of them, on an edge between two, and between
   for (const int segments : {10, 12, 16})
     for (const double part : {0.0, 0.3, 0.5}) {
       const double angle = 2 * pi * part / segments;
       CHECK(!drop(test::rod(0.009, 0.06, segments), Pose::turn(angle, Vector3d::UnitX()).rotation)
-                 .sharp);
+                 .at_edge);
     }
   // an edge rounded by 0.3 mm is one, of 20 mm none
   const auto prism = [](double round) {
@@ -383,8 +383,8 @@ TEST_CASE("round bodies of coarse facets are not sharp, rounded edges are") {
     }
     return mesh;
   };
-  CHECK(drop(prism(0.0003)).sharp);
-  CHECK(!drop(prism(0.02)).sharp);
+  CHECK(drop(prism(0.0003)).at_edge);
+  CHECK(!drop(prism(0.02)).at_edge);
   CHECK(torsion_radius(drop(prism(0.0003)), 5) < 0.5 * torsion_radius(drop(prism(0.02)), 5));
 }
 
@@ -538,8 +538,8 @@ TEST_CASE("numbers that are none are refused") {
                       .normal_A = Vector3d::UnitZ()};
   CHECK_THROWS_WITH_AS(soft_patch(site, {.radius = -1}),
                        "contact patch: radius must be > 0 [m], got -1", Error);
-  CHECK_THROWS_WITH_AS(soft_patch(site, {.flat_radius = 0}),
-                       "contact patch: flat_radius must be > 0 [m], got 0", Error);
+  CHECK_THROWS_WITH_AS(soft_patch(site, {.max_radius = 0}),
+                       "contact patch: max_radius must be > 0 [m], got 0", Error);
   CHECK_THROWS_WITH_AS(contact_ellipse(paraboloid(1, 1, {}, {.modulus = 1}), -2),
                        "contact patch: the normal force must be >= 0 [N], got -2", Error);
 }
@@ -599,13 +599,13 @@ std::vector<PatchNumbers> numbers_of(const Mesh& a, const Mesh& b, const Pose& X
 
 // all are as one: sums over pieces of circles are integrals to some digits, and springs that just touch
 // leave a kink
-void check_alike(const std::vector<PatchNumbers>& some, const PatchNumbers& wanted, double sizes,
+void check_alike(const std::vector<PatchNumbers>& some, const PatchNumbers& expected, double sizes,
                  double depths) {
   REQUIRE(!some.empty());
   for (const PatchNumbers& numbers : some)
     for (size_t i = 0; i < numbers.sizes.size(); ++i) {
-      CHECK(numbers.sizes[i] == doctest::Approx(wanted.sizes[i]).epsilon(sizes));
-      CHECK(numbers.depths[i] == doctest::Approx(wanted.depths[i]).epsilon(depths));
+      CHECK(numbers.sizes[i] == doctest::Approx(expected.sizes[i]).epsilon(sizes));
+      CHECK(numbers.depths[i] == doctest::Approx(expected.depths[i]).epsilon(depths));
     }
 }
 
@@ -639,14 +639,14 @@ TEST_CASE(
 
 TEST_CASE("edges, rims, narrow pads and corners that stand have equal patches however they lie") {
   Random random(22);
-  const auto check = [](const std::vector<PatchNumbers>& some, const PatchNumbers& wanted) {
-    check_alike(some, wanted, 1e-5, 3e-3);
+  const auto check = [](const std::vector<PatchNumbers>& some, const PatchNumbers& expected) {
+    check_alike(some, expected, 1e-5, 3e-3);
   };
   const Mesh floor = floor_mesh();
   std::vector<Mesh> bodies = {test::box(0.004, 0.006, 0.01), test::box(0.06, 0.002, 0.03)};
   for (const Vector3d& down : {Vector3d(1, 1, 1), Vector3d(0, 1, 1), Vector3d(0.2, 0.5, 1)})
     bodies.push_back(
-        test::moved(cube, Pose::turn(least_turn(down.normalized(), -Vector3d::UnitZ()))));
+        test::moved(cube, Pose::turn(shortest_rotation(down.normalized(), -Vector3d::UnitZ()))));
   for (const Mesh& body : bodies) {
     const double height = gap - Shape::make(body)->bounds().low.z();
     const Pose X_AB = Pose::translation({0, 0, height});

@@ -73,10 +73,10 @@ struct Errors {
     radius = std::max(radius, e.radius), angle = std::max(angle, e.angle);
     torsion = std::max(torsion, e.torsion);
   }
-  void check(double most_radius, double most_angle, double most_torsion) const {
-    CHECK(radius < most_radius);
-    CHECK(angle < most_angle);
-    CHECK(torsion < most_torsion);
+  void check(double max_radius, double max_angle, double max_torsion) const {
+    CHECK(radius < max_radius);
+    CHECK(angle < max_angle);
+    CHECK(torsion < max_torsion);
   }
 };
 
@@ -94,7 +94,7 @@ Errors errors_of(const SoftPatch& patch, const Matrix3d& form, double force = 5)
       std::sqrt(force * 0.003 / (soft_modulus * std::numbers::pi * std::sqrt(first * second)));
   const double torsion = 8 * std::sqrt(2 * d * std::sqrt(first * second)) / 15;
   out.torsion = std::abs(torsion_radius(patch, force) / torsion - 1);
-  CHECK(!patch.sharp);
+  CHECK(!patch.at_edge);
   return out;
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("a tilted torus of an uneven mesh has the radii of its tube and of whe
     const double ring = 0.03, tube = random.uniform(0.008, 0.015), v = random.uniform(0, 1.2);
     const Mesh mesh = uneven_torus(random, ring, tube, 72, 36);
     // its axis leans until it touches at the height v on the tube
-    const Pose turn{least_turn(Vector3d(std::cos(v), 0, std::sin(v)), -Vector3d::UnitZ()),
+    const Pose turn{shortest_rotation(Vector3d(std::cos(v), 0, std::sin(v)), -Vector3d::UnitZ()),
                     Vector3d::Zero()};
     const Vector3d along(-std::sin(v), 0, std::cos(v));
     const Matrix3d form =
@@ -213,7 +213,7 @@ TEST_CASE("a box rounded by 12 mm touches with balls at its corners and cylinder
     n.normalize();
     // the neighbourhood reaches 17 degrees around, which is to be on one ball or cylinder
     if ((corner ? n.minCoeff() : std::min(n.y(), n.z())) < 0.35) continue;
-    const Pose turn{least_turn(n, -Vector3d::UnitZ()), Vector3d::Zero()};
+    const Pose turn{shortest_rotation(n, -Vector3d::UnitZ()), Vector3d::Zero()};
     const Matrix3d round_form = (Matrix3d::Identity() - n * n.transpose()) / round;
     if (corner) {
       corners.add(errors_of(land(mesh, turn), turned_form(turn, round_form)));

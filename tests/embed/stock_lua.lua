@@ -6,7 +6,7 @@ assert(clench.vec3(1, 2, 3) + {1, 1, 1} == clench.vec3(2, 3, 4))
 -- this Lua's errors jump: thousands of refusals leave no C++ object behind, and the message is the same
 for _ = 1, 10000 do
   local ok, message = pcall(function() return clench.pose {xyz = {1, 2}} end)
-  assert(not ok and message:find("clench.pose: xyz: wanted 3 numbers, got 2", 1, true), message)
+  assert(not ok and message:find("clench.pose: xyz: expected 3 numbers, got 2", 1, true), message)
 end
 local ok, message = pcall(function() return clench.psoe end)
 assert(not ok and message:find("did you mean 'pose'?", 1, true))

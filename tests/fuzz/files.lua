@@ -1,5 +1,5 @@
 -- Files changed at random, read as `clench check` reads them. The same seed makes the same files.
---   clench -q run tests/fuzz/files.lua SEED COUNT LIST      LIST: a file that names the good files to begin with, one a line
+--   clench -q run tests/fuzz/files.lua SEED COUNT LIST      LIST: a file that names the good files to begin with, one per line
 --   clench -q run tests/fuzz/files.lua read FILE...         files as they are
 -- A changed file stands beside its original, as fuzz-SEED.ENDING, so that what it names is found, and stays there when it
 -- breaks the program. What is wrong without a crash (a message that is none, a number that is not finite, seconds) is kept
@@ -30,7 +30,7 @@ local function options_of(path)
   return {root = root, folder = path:match "^(.*)/", package = path:match "^(.*)/"}
 end
 
-local told_of = {"guessed", "mended", "ignored", "doubtful"}
+local told_of = {"inferred", "repaired", "ignored", "suspicious"}
 
 local said, findings, understood = {}, 0, 0
 local function finding(number, what, text, path)
@@ -46,17 +46,17 @@ local function try(number, path)
   local began = os.clock()
   local ok, r = pcall(report.of, path, options_of(path))
   local took = os.clock() - began
-  if ok and r.understood then understood = understood + 1 end
+  if ok and r.parsed then understood = understood + 1 end
   local ending = path:match "[^.]*$"
   if took > max_seconds then finding(number, "slow", ending, path) end
   if not ok then return finding(number, "message", ending .. ": " .. tostring(r), path) end
-  local bad = r.wrong and judge.message(r.wrong)
+  local bad = r.error and judge.message(r.error)
   for _, list in ipairs(told_of) do
     for _, text in ipairs(r[list]) do bad = bad or judge.text(text) end
   end
   if bad then finding(number, "message", ending .. ": " .. bad, path) end
-  if r.understood and judge.value(r.understood, ending) then finding(number, "not finite", ending, path) end
-  if arg[1] == "read" then print(path, r.wrong or r.kind) end
+  if r.parsed and judge.value(r.parsed, ending) then finding(number, "not finite", ending, path) end
+  if arg[1] == "read" then print(path, r.error or r.kind) end
   return took
 end
 

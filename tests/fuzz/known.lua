@@ -6,7 +6,7 @@ local known = {}
 -- numbers in a list of this name
 known.lengths = {
   load = 6, direction = 6, wrench = 6, wrenches = 6, ellipsoid = 6, edges = 6, color = 3, rpy = 3, quat = 4, matrix = 4,
-  size = 2, outline = 2, profile = 2, path = 3, from = 3, to = 3, up = 3, given = 3, vertices = 3, triangles = 3, apart = 3,
+  size = 2, outline = 2, profile = 2, path = 3, from = 3, to = 3, up = 3, given = 3, vertices = 3, triangles = 3, joint_positions = 3,
 }
 
 local function decimal(low, high) return function() return ("%.3g"):format(low + random() * (high - low)) end end
@@ -17,7 +17,7 @@ known.numbers = {
   soft_layer = decimal(1e-4, 0.02), torsion_radius = decimal(0, 0.01), color = decimal(0, 1), transparency = decimal(0, 1),
   radius = decimal(0, 0.05), height = decimal(0, 0.2), tube = decimal(0.001, 0.01), segments = whole(3, 24), steps = whole(1, 8),
   sides = whole(3, 9), subdivisions = whole(0, 3), width = whole(1, 90), size = whole(1, 90), samples = whole(1, 3),
-  per_link = whole(1, 4), chain = whole(0, 3), t = decimal(0, 1), tolerance = decimal(1e-6, 1e-2), seed = whole(0, 99),
+  count_per_link = whole(1, 4), chain = whole(0, 3), t = decimal(0, 1), tolerance = decimal(1e-6, 1e-2), seed = whole(0, 99),
   reach = decimal(0, 1), total_force = decimal(0.1, 50), max_force = decimal(0.1, 50), max_total_force = decimal(0.1, 50),
 }
 
@@ -118,22 +118,22 @@ known.sources = {
   ["clench.shapes.tube path"] = source_of {"{{0, 0, 0}, {0, 0, 0.1}, {0, 0.1, 0.1}}", "{{0, 0, 0}, {0, 0, 0.1}}"},
   ["clench.json.decode text"] = text_of {'{"a": [1, 2.5e3, null, true, "\\u00e9\\n"]}', "[[], {}, -0.0]", '"x"', "1e400", "[1,", "NaN"},
   unit = text_of {"mm", "cm", "m"}, measures = source_of {"{'epsilon'}", "{'epsilon', 'volume'}"},
-  objective = text_of {"least", "squares", "peak", "interior", "interior_sum"}, modulus = text_of {"series", "larger"},
+  objective = text_of {"min_sum", "min_norm", "min_max", "max_margin", "max_margin_sum"}, modulus = text_of {"series", "larger"},
   torques = text_of {"springs", "limits"}, balance = text_of {"exact", "nearest"},
   edges = source_of {"8", "4", "12", "'exact'"}, rho = source_of {"0.1", "1", "'gyration'"}, samples = source_of {"1", "2"},
   ["hand:add_virtual_contact edges"] = source_of {"{{0, 0, 1, 0, 0, 0}, {0.5, 0, 1, 0, 0, 0}, {0, 0.5, 1, 0, 0, 0}}"},
   ["clench.files.save_object_contacts edges"] = source_of {"{{0, 0, 1, 0, 0, 0}}"},
-  ["robot:set_dofs apart"] = source_of {"{}", "{{1, 1, 0}}", "{{1, 2, 0.1}}"},
+  ["robot:set_dofs joint_positions"] = source_of {"{}", "{{1, 1, 0}}", "{{1, 2, 0.1}}"},
   quat = source_of {"{1, 0, 0, 0}", "{0.6, 0, 0.8, 0}"},
   ["clench.shapes.turn axis"] = source_of {"{0, 0, 1}", "{1, 1, 0}"},
   matrix = source_of {"{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}", "{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}"},
   color = source_of {"{0.1, 0.5, 1}"}, up = source_of {"{0, 0, 1}", "{0, 1, 0}"}, field_of_view = source_of {"0.5", "1"},
   confine = source_of {"'.'"}, root = source_of {"'.'", "'models'"}, folder = source_of {"'.'"}, package = source_of {"'.'"},
   camera = source_of {"{eye = {1, 1, 1}, target = {0, 0, 0}, up = {0, 0, 1}, field_of_view = math.pi / 4}", "nil"},
-  ["robot:mount_on carrier"] = function(self) return (self:object "world" or "nil") .. ".robots[2]" end,
+  ["robot:mount_on parent"] = function(self) return (self:object "world" or "nil") .. ".robots[2]" end,
   ["hand:set_amplitudes fixed"] = source_of {"{1}", "{}"}, ["hand:move_amplitudes fixed"] = source_of {"{1}", "{}"},
   close = source_of {"{[1] = 1}", "{[1] = -1, [2] = 0}"}, labels = source_of {"{'one'}", "{'one', 'two'}"},
-  piece = text_of {"models/objects/cube.iv"},
+  adapter = text_of {"models/objects/cube.iv"},
   ["world:add_robot eigengrasps"] = text_of {"models/hands/barrett/barrett.egr"}, ["world:add_robot virtual_contacts"] = text_of {"models/hands/barrett/barrett.vgr"},
   size = source_of {"{16, 16}", "{64, 48}"},
   link = function(self) local robot = self:object "robot" return robot and robot .. ".links[2]" or "nil" end,
@@ -161,7 +161,7 @@ known.arguments = {
   ["wrench_space:project"] = source_of {"{fixed = {tx = 0, ty = 0, tz = 0}, tolerance = 0.01}", "{projected = {'tx', 'ty', 'tz'}}",
                                         "{fixed = {tx = 0}, projected = {'ty', 'tz'}}"},
   ["clench.chart"] = source_of {
-    "{series = {{name = 'a', values = {1, 2, false}}, {name = 'b', values = {-1, 1e-3, 4}, least_is_best = true}}, labels = {'x', 'y', 'z'}, title = 't', width = 200, height = 150}",
+    "{series = {{name = 'a', values = {1, 2, false}}, {name = 'b', values = {-1, 1e-3, 4}, higher_is_better = false}}, labels = {'x', 'y', 'z'}, title = 't', width = 200, height = 150}",
     "{series = {{name = 'a', values = {0}}}}"},
 }
 

@@ -30,12 +30,12 @@ end
 
 -- the last call and those whose values it uses
 local function needed(list)
-  local wanted, kept = {}, {}
+  local expected, kept = {}, {}
   for i = #list, 1, -1 do
     local target = list[i]:match '^call%("v%[(%d+)%] ='
     local changed = not target and list[i]:match '^call%("v%[(%d+)%]'
-    if i == #list or target and wanted[target] or changed and wanted[changed] then
-      for n in list[i]:gmatch "v%[(%d+)%]" do wanted[n] = true end
+    if i == #list or target and expected[target] or changed and expected[changed] then
+      for n in list[i]:gmatch "v%[(%d+)%]" do expected[n] = true end
       table.insert(kept, 1, list[i])
     end
   end

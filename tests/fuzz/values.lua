@@ -90,7 +90,7 @@ function Maker:text(name)
   if files and (name == "path" or name == "body" or name == "from") and random(6) > 1 then return quoted(one_of(files)) end
   local endings = known.endings[self.entry]
   if name == "to" and endings and random(8) > 1 then return quoted("x" .. random(5) .. one_of(endings)) end
-  if name == "path" or name == "from" or name == "piece" then return quoted(one_of(api.files)) end
+  if name == "path" or name == "from" or name == "adapter" then return quoted(one_of(api.files)) end
   if name == "to" then return quoted("x" .. random(5) .. one_of(api.endings)) end
   if name == "root" or name == "folder" then return one_of {"'models'", "'.'"} end
   if name == "material" or name == "a" or name == "b" then return quoted(one_of(api.materials)) end

@@ -192,7 +192,7 @@ std::vector<float> results_at(const BoxBundle& boxes, const TriangleBundle& one,
   gaps.places(0xb7, places);
   out.insert(out.end(), places, places + 8);
   add(select(F::lanes_of(0x5a), gaps, F::all(-1)));
-  out.push_back(least_of(gaps));
+  out.push_back(min_of(gaps));
   const auto a = load_triangles<F>(one), b = load_triangles<F>(two);
   const auto near = near_bounds(a, b);
   add(near.low), add(near.high), add(near.way.x), add(near.way.y), add(near.way.z);
@@ -238,7 +238,7 @@ TEST_CASE("lanes are put in order, each at its own place, equal and missing numb
       if (!std::isnan(values[0])) CHECK(std::is_sorted(sorted.rbegin(), sorted.rend()));
     }
   const float some[8] = {3, 5, 7, 2, 3, 9, 2.5f, 3};
-  CHECK(least_of(F::load(some)) == 2);
+  CHECK(min_of(F::load(some)) == 2);
 }
 
 TEST_CASE("bounds of boxes and triangles in single precision bracket the exact distances") {

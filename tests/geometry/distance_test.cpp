@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double least_of_all_pairs(const Shape& a, const Shape& b, const Pose& X_AB) {
+double min_of_all_pairs(const Shape& a, const Shape& b, const Pose& X_AB) {
   double least = infinity;
   for (int s = 0; a.has_triangle(s); ++s)
     for (int t = 0; b.has_triangle(t); ++t)
@@ -48,7 +48,7 @@ TEST_CASE("distance of random soups is the least of all pairs") {
     const Pose X = random_pose(random, i % 3 == 0 ? 10 : 1.5);
     const Distance d = distance(*a, *b, X);
     // rounding of coordinates up to 10
-    CHECK(std::abs(d.distance - least_of_all_pairs(*a, *b, X)) < 2e-14);
+    CHECK(std::abs(d.distance - min_of_all_pairs(*a, *b, X)) < 2e-14);
     CHECK((d.distance == 0) == colliding(*a, *b, X));
     check_witness(*a, *b, X, d);
   }
@@ -69,7 +69,7 @@ TEST_CASE("distance is the least of all pairs far away, near and touching, 0 whe
       check_witness(*a, *b, Y, d);
     }
     const Pose near = closed_in(start, X, 0.01);
-    CHECK(std::abs(least_of_all_pairs(*a, *b, near) - 0.01) < 2e-15);
+    CHECK(std::abs(min_of_all_pairs(*a, *b, near) - 0.01) < 2e-15);
     for (const double depth : {1e-6, 1e-2, 0.3}) {
       const Pose Y = closed_in(start, X, -depth);
       const Distance d = distance(*a, *b, Y);

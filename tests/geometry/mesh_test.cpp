@@ -157,5 +157,5 @@ TEST_CASE("a bad mesh is refused by the number of the vertex or triangle") {
                        "bad.obj: triangle 7: vertex index must be in 0..7, got -1", Error);
   bad.triangles.clear();
   CHECK_THROWS_WITH_AS(check_mesh(bad, "bad.obj"),
-                       "bad.obj: at least one triangle wanted, got none", Error);
+                       "bad.obj: at least one triangle expected, got none", Error);
 }

@@ -19,15 +19,15 @@ double highest(const Mesh& mesh, const Vector3d& centre, const Vector3d& n) {
   return most;
 }
 
-double highest(const Casing& casing, const Vector3d& n) {
+double highest(const BoundingPolytope& bounding_polytope, const Vector3d& n) {
   double most = -std::numeric_limits<double>::infinity();
-  for (const PointBundle& points : casing.corners)
+  for (const PointBundle& points : bounding_polytope.corners)
     for (int i = 0; i < lane_count; ++i)
       most = std::max(most, n.dot(Vector3d(points.at[0][i], points.at[1][i], points.at[2][i])));
   return most;
 }
 
-// how far the casing reaches beyond the mesh, at most, in parts of the radius
+// how far the bounding_polytope reaches beyond the mesh, at most, in parts of the radius
 double excess_of(const Mesh& mesh, Random& random) {
   const auto shape = Shape::make(mesh);
   const Vector3d centre = Vector3d::Map(shape->tree().centre());
@@ -35,9 +35,10 @@ double excess_of(const Mesh& mesh, Random& random) {
   for (int i = 0; i < 300; ++i) {
     Vector3d n = random_direction(random);
     if (i < 3) n = Vector3d::Unit(i);
-    const double excess = (highest(shape->tree().casing(), n) - highest(mesh, centre, n)) /
-                          std::max(shape->radius(), 1e-300);
-    // casing.h says by how much rounding may let it fall short
+    const double excess =
+        (highest(shape->tree().bounding_polytope(), n) - highest(mesh, centre, n)) /
+        std::max(shape->radius(), 1e-300);
+    // bounding_polytope.h says by how much rounding may let it fall short
     CHECK(excess > -16 * 0x1p-24);
     most = std::max(most, excess);
   }
@@ -46,7 +47,7 @@ double excess_of(const Mesh& mesh, Random& random) {
 
 }  // namespace
 
-TEST_CASE("a casing holds its mesh, and lies close around it") {
+TEST_CASE("a bounding_polytope holds its mesh, and lies close around it") {
   Random random(1);
   // three faces meet in most of the 128 corners: 66 of them, evenly about a ball, leave 5 % of its
   // radius at the corners; not quite evenly, twice as much
@@ -60,7 +61,7 @@ TEST_CASE("a casing holds its mesh, and lies close around it") {
   CHECK(excess_of(soup(random, 30), random) < 1e-6);
 }
 
-TEST_CASE("a casing holds what has no volume, no area, or no size") {
+TEST_CASE("a bounding_polytope holds what has no volume, no area, or no size") {
   Random random(2);
   Mesh flat = ball(1, 20, 30), needle = flat, spot = flat;
   for (Vector3d& p : flat.vertices) p.z() = 0.3 * p.x();

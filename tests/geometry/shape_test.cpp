@@ -57,7 +57,7 @@ TEST_CASE("a bad mesh is refused in the words of its subject") {
                        "mug.iv: vertex 2: coordinates must be finite and within 1000000000 [m], "
                        "got (nan, 0.5, -0.5)",
                        Error);
-  CHECK_THROWS_WITH_AS(Shape::make({}), "mesh: at least one triangle wanted, got none", Error);
+  CHECK_THROWS_WITH_AS(Shape::make({}), "mesh: at least one triangle expected, got none", Error);
 }
 
 TEST_CASE("shapes are made of anything finite: copies, points, needles, geometric series") {

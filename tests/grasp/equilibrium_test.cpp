@@ -27,7 +27,7 @@ TEST_CASE("motors hold what friction passes on, to their limit") {
   CHECK((falls.result.unbalanced - wrench(0, 0, -0.1, 0, 0, 0)).norm() < 1e-6);
   REQUIRE(falls.result.certificate.has_value());
   CHECK(falls.result.certificate->dof >= 0);
-  const auto& shares = falls.result.certificate->effort_shares;
+  const auto& shares = falls.result.certificate->effort_limit_power;
   CHECK(shares[0] > 0);
   CHECK(shares[0] + shares[1] == doctest::Approx(falls.result.certificate->capacity));
   CHECK(falls.result.certificate->power > falls.result.certificate->capacity);
@@ -89,10 +89,10 @@ TEST_CASE("springs hold by themselves what they press, and no more") {
 TEST_CASE("forces of which the sum of torques is given") {
   const Jaws j = jaws(DofKind::rigid, 0.5, 0);
   ForceOptions options{.load = wrench(0, 0, -2, 0, 0, 0),
-                       .objective = ForceObjective::interior_sum};
+                       .objective = ForceObjective::max_margin_sum};
   options.joints.emplace();
   options.joints->total_torque = 12;
-  options.joints->closing_only = true;
+  options.joints->unilateral = true;
   const ForceResult r = contact_forces(j.world, j.grasp, options);
   REQUIRE(r.status == ForceStatus::optimal);
   CHECK((r.efforts - Vector2d(6, 6)).norm() < 1e-6);
@@ -104,13 +104,14 @@ TEST_CASE("torques that are no numbers are refused") {
   JointDemand demand;
   demand.limits = Vector2d(-1, 1);
   CHECK_THROWS_WITH_AS(ask(j, {.joints = demand}),
-                       "contact forces: torque limits: wanted numbers >= 0 [N m or N], got -1",
+                       "contact forces: torque limits: expected numbers >= 0 [N m or N], got -1",
                        Error);
   demand.limits.reset();
   demand.efforts = Vector2d(std::numeric_limits<double>::quiet_NaN(), 1);
   CHECK_THROWS_WITH_AS(ask(j, {.joints = demand}),
-                       "contact forces: torques: wanted finite numbers [N m or N], got nan", Error);
+                       "contact forces: torques: expected finite numbers [N m or N], got nan",
+                       Error);
   demand.efforts = VectorXd::Ones(3);
   CHECK_THROWS_WITH_AS(ask(j, {.joints = demand}),
-                       "contact forces: torques: wanted 2, one a DOF, got 3", Error);
+                       "contact forces: torques: expected 2, one per DOF, got 3", Error);
 }

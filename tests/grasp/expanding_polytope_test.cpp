@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "base/random.h"
-#include "grasp/contact_reach.h"
 #include "grasp/wrench_hull.h"
 #include "grasp/wrench_sets.h"
+#include "grasp/wrench_support.h"
 #include "support/linear.h"
 
 using namespace clench;
@@ -13,9 +13,9 @@ using namespace clench::test;
 
 namespace {
 
-ContactReach reach_of(const Eigen::MatrixXd& points) {
+WrenchSupport reach_of(const Eigen::MatrixXd& points) {
   const ContactPart part{.points = points.data(), .count = static_cast<int>(points.cols())};
-  return ContactReach(static_cast<int>(points.rows()), WrenchNorm::l1, std::span(&part, 1));
+  return WrenchSupport(static_cast<int>(points.rows()), WrenchNorm::l1, std::span(&part, 1));
 }
 
 Eigen::MatrixXd cross_polytope(int d) {
@@ -94,10 +94,10 @@ TEST_CASE("cyclic polytopes have as many facets as any, and as the closed formul
   for (const int count : {7, 8, 12, 30}) {
     const int four = count * (count - 3) / 2;
     const int six = count * (count - 4) * (count - 5) / 6;
-    for (const auto& [d, wanted] : {std::pair(2, count), {4, four}, {6, six}}) {
+    for (const auto& [d, expected] : {std::pair(2, count), {4, four}, {6, six}}) {
       const Facets facets = all_facets(reach_of(cyclic(d, count)));
       REQUIRE(facets.end == FacetsEnd::complete);
-      CHECK(static_cast<int>(facets.corners.size()) == wanted * d);
+      CHECK(static_cast<int>(facets.corners.size()) == expected * d);
     }
   }
 }
@@ -150,7 +150,7 @@ TEST_CASE("whether the ball reaches a radius is known early, and known right") {
   int early = 0;
   for (int trial = 0; trial < 40; ++trial) {
     const auto set = side_by_side(wrench_set(0, static_cast<uint64_t>(trial)));
-    const ContactReach reach = reach_of(set / 4);
+    const WrenchSupport reach = reach_of(set / 4);
     const Ball whole = largest_ball(reach);
     if (whole.end != BallEnd::inside) continue;
     for (const double part : {0.1, 0.9, 0.999, 1.001, 1.1, 3.0}) {
@@ -166,7 +166,7 @@ TEST_CASE("whether the ball reaches a radius is known early, and known right") {
 
 TEST_CASE("points that run out leave a bracket that holds") {
   const RoundSet set(Eigen::VectorXd::Zero(6));  // all directions alike: the hardest
-  const Ball ball = largest_ball(set, {.tolerance = 1e-9, .most_points = 40});
+  const Ball ball = largest_ball(set, {.tolerance = 1e-9, .max_points = 40});
   CHECK(ball.end == BallEnd::stopped);
   CHECK(ball.points <= 40);
   CHECK(ball.lower < 1);
@@ -189,8 +189,8 @@ TEST_CASE("flat sets are told, with the direction across") {
 
 TEST_CASE("a hull of too many facets is given up, and says so") {
   Random random(4);
-  const ContactReach reach = reach_of(random_points(random, 6, 60));
-  CHECK(all_facets(reach, {.most_facets = 500}).end == FacetsEnd::too_many);
+  const WrenchSupport reach = reach_of(random_points(random, 6, 60));
+  CHECK(all_facets(reach, {.max_facets = 500}).end == FacetsEnd::too_many);
 }
 
 TEST_CASE("hard sets of every kind: ball and volume are those of the hull by qhull") {

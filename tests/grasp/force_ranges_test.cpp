@@ -15,9 +15,9 @@ namespace {
 // what is promised is 1e-9 of the largest numbers, here added up over some contacts and in other units
 constexpr double close_to = 1e-7;
 
-constexpr ForceObjective all_objectives[] = {ForceObjective::least, ForceObjective::squares,
-                                             ForceObjective::peak, ForceObjective::interior,
-                                             ForceObjective::interior_sum};
+constexpr ForceObjective all_objectives[] = {ForceObjective::min_sum, ForceObjective::min_norm,
+                                             ForceObjective::min_max, ForceObjective::max_margin,
+                                             ForceObjective::max_margin_sum};
 
 const Vector6d some_load = wrench(0.3, -0.5, -0.8, 0.01, 0.02, -0.03);
 
@@ -74,7 +74,7 @@ ForceResult hold(const Held& h, const ForceOptions& options) {
   return contact_forces(h.world, h.grasp, options);
 }
 
-// an answer where it is due, checked by sums; wanted: the best, and whether there is any
+// an answer where it is due, checked by sums; expected: the best, and whether there is any
 void check_hold(const Held& h, const ForceOptions& options, bool must, bool feasible,
                 std::optional<double> best = {}) {
   const ForceResult r = hold(h, options);
@@ -95,7 +95,7 @@ Held ball(double mu = 0.6) { return held(test::around_ball(7, mu, 3)); }
 // the largest load against caps of one newton
 double largest_of_unit(const Held& h, ForceOptions options) {
   options.load = some_load;
-  const ForceResult r = largest_load(h.world, h.grasp, options);
+  const ForceResult r = max_load(h.world, h.grasp, options);
   REQUIRE(r.status == ForceStatus::optimal);
   return r.load_factor;
 }
@@ -108,7 +108,7 @@ TEST_CASE("forces grow with load and caps, whatever their size") {
     CAPTURE(static_cast<int>(by));
     const double once = hold(h, {.load = some_load, .objective = by, .max_force = 10.0}).objective;
     each_power([&](double x, bool) {
-      const double times = by == ForceObjective::squares ? x * x : x;
+      const double times = by == ForceObjective::min_norm ? x * x : x;
       check_hold(h, {.load = x * some_load, .objective = by, .max_force = 10 * x}, true, true,
                  once * times);
     });
@@ -131,9 +131,9 @@ TEST_CASE("a load of any size against given caps or a given sum") {
 TEST_CASE("a cap that does not bind changes nothing") {
   const Held h = ball();
   const double most = largest_of_unit(h, {.max_force = 1.0}),
-               most_total = largest_of_unit(h, {.max_total_force = 1.0});
+               max_total = largest_of_unit(h, {.max_total_force = 1.0});
   for (const ForceObjective by :
-       {ForceObjective::least, ForceObjective::squares, ForceObjective::peak}) {
+       {ForceObjective::min_sum, ForceObjective::min_norm, ForceObjective::min_max}) {
     CAPTURE(static_cast<int>(by));
     const ForceResult free = hold(h, {.load = some_load, .objective = by});
     double peak = 0, total = 0;
@@ -145,8 +145,8 @@ TEST_CASE("a cap that does not bind changes nothing") {
       check_hold(h, {.load = some_load, .objective = by, .max_force = x}, true, x * most > 1,
                  best(peak));
       check_hold(h, {.load = some_load, .objective = by, .max_total_force = x}, true,
-                 x * most_total > 1, best(total));
-      if (by != ForceObjective::squares || x < 10) return;
+                 x * max_total > 1, best(total));
+      if (by != ForceObjective::min_norm || x < 10) return;
       // the only ones of which the forces themselves are certain, to the root of what their objective is
       const ForceResult r = hold(h, {.load = some_load, .objective = by, .max_force = x});
       for (size_t i = 0; i < r.forces.size(); ++i)
@@ -158,12 +158,12 @@ TEST_CASE("a cap that does not bind changes nothing") {
 TEST_CASE("forces that shall be large are told where they hide the load") {
   const Held h = ball();
   const double most = largest_of_unit(h, {.max_force = 1.0}),
-               most_total = largest_of_unit(h, {.max_total_force = 1.0});
+               max_total = largest_of_unit(h, {.max_total_force = 1.0});
   for (const ForceObjective by : all_objectives)
     each_power([&](double x, bool must) {
       check_hold(h, {.load = some_load, .objective = by, .total_force = x}, must,
-                 x * most_total > 1);
-      if (by != ForceObjective::interior && by != ForceObjective::interior_sum) return;
+                 x * max_total > 1);
+      if (by != ForceObjective::max_margin && by != ForceObjective::max_margin_sum) return;
       check_hold(h, {.load = some_load, .objective = by, .max_force = x}, must, x * most > 1);
     });
   const ForceResult absurd = hold(h, {.load = some_load, .total_force = 1e300});
@@ -178,12 +178,12 @@ TEST_CASE("friction and torsion radii of any size") {
     const auto check = [&](const Held& h, const Vector6d& load, ForceObjective by, double best) {
       check_hold(h, {.load = load, .objective = by}, must, true, best);
     };
-    check(pinch, weight, ForceObjective::least, 1 / x);
-    check(pinch, weight, ForceObjective::peak, 0.5 / x);
-    check(pinch, weight, ForceObjective::squares, 0.5 / (x * x) + 0.5);
+    check(pinch, weight, ForceObjective::min_sum, 1 / x);
+    check(pinch, weight, ForceObjective::min_max, 0.5 / x);
+    check(pinch, weight, ForceObjective::min_norm, 0.5 / (x * x) + 0.5);
     // and of a torque by torsion
     const Held soft = held(test::pinch(0.5, x));
-    check(soft, wrench(0, 0, 0, 1, 0, 0), ForceObjective::least, 2 / x);
+    check(soft, wrench(0, 0, 0, 1, 0, 0), ForceObjective::min_sum, 2 / x);
     for (const ForceObjective by : all_objectives) {
       const Held h = ball(x);
       const ForceOptions options{.load = some_load, .objective = by, .max_force = 10.0};
@@ -228,11 +228,11 @@ TEST_CASE("neither the length of torques nor that of the object changes what a l
 
 TEST_CASE("the largest load grows with caps and friction, and resistance with them") {
   const Vector6d weight = wrench(0, 0, -1, 0, 0, 0);
-  const auto check = [&](const Held& h, double cap, double wanted, bool must) {
-    const ForceResult r = largest_load(h.world, h.grasp, {.load = weight, .max_force = cap});
+  const auto check = [&](const Held& h, double cap, double expected, bool must) {
+    const ForceResult r = max_load(h.world, h.grasp, {.load = weight, .max_force = cap});
     if (must) REQUIRE(r.status == ForceStatus::optimal);
     if (r.status == ForceStatus::optimal)
-      CHECK(std::abs(r.load_factor - wanted) <= close_to * wanted + 1e-15 * cap);
+      CHECK(std::abs(r.load_factor - expected) <= close_to * expected + 1e-15 * cap);
     CHECK(r.status != ForceStatus::infeasible);
   };
   each_power([&](double x, bool must) {
@@ -301,12 +301,12 @@ TEST_CASE("motors hold links of any mass and press with the rest") {
   each_power([&](double mass, bool) {
     if (mass > 1e12) return;
     const double weight = 9.80665 * mass;
-    const auto ask = [&](double max_effort, EquilibriumStatus wanted) {
+    const auto ask = [&](double max_effort, EquilibriumStatus expected) {
       const Jaws j = upright_jaws(mass, max_effort);
       const Equilibrium e =
           equilibrium(j.world, j.grasp, {.load = wrench(0, 2, 0, 0, 0, 0), .joints = demand});
-      REQUIRE(e.status == wanted);
-      if (wanted != EquilibriumStatus::stable) return;
+      REQUIRE(e.status == expected);
+      if (expected != EquilibriumStatus::stable) return;
       for (int k = 0; k < 2; ++k) {
         const double normal = e.result.forces[k].normal, effort = e.result.efforts[k];
         CHECK(normal >= 2 - close_to);
@@ -337,7 +337,7 @@ TEST_CASE("an object of any mass is pressed as its weight wants, and as robust a
     Held pinched = held(test::pinch(0.5)), firm = held(faces);
     pinched.world.set_mass(pinched.grasp.object, mass);
     MeasuredGrasp measured(pinched.world, pinched.grasp);
-    CHECK(find_measure("weight_effort").of(measured) / (2 * weight) ==
+    CHECK(find_measure("gravity_effort").of(measured) / (2 * weight) ==
           doctest::Approx(1).epsilon(close_to));
     firm.world.set_mass(firm.grasp.object, mass);
     RobustnessProblem problem = MeasuredGrasp(firm.world, firm.grasp).robustness_problem();
@@ -363,7 +363,7 @@ TEST_CASE("just inside the friction angle is never infeasible, just outside neve
 }
 
 TEST_CASE("a margin of 0 is told, with and without force closure") {
-  const ForceOptions firm{.objective = ForceObjective::interior, .max_force = 10.0};
+  const ForceOptions firm{.objective = ForceObjective::max_margin, .max_force = 10.0};
   const ForceResult one = hold(held({test::contact_at({0.05, 0, 0}, {-1, 0, 0}, 0.5)}), firm);
   REQUIRE(one.status == ForceStatus::optimal);
   CHECK(one.margin == 0);

@@ -187,7 +187,7 @@ TEST_CASE("soft contacts resist turns as their patches do, hard ones none") {
   s.world.set_elastic_modulus(s.object, 1.5e6);
   const Grasp soft = measure_grasp(s.world, s.hand, s.object);
   REQUIRE(soft.points.size() == 8);
-  CHECK(soft.sharp_contacts == 0);
+  CHECK(soft.contacts_at_edges == 0);
   for (size_t i = 0; i < soft.points.size(); ++i) {
     CHECK(soft.contacts[i].kind == ContactKind::soft);
     CHECK(soft.points[i].torsion_radius == torsion_radius(soft_patch(*soft.contacts[i].site), 5));
@@ -219,8 +219,8 @@ TEST_CASE("soft contacts resist turns as their patches do, hard ones none") {
                        "grasp of cube by gripper: the normal force must be > 0 [N], got -1", Error);
   const std::string count =
       std::to_string(measure_grasp(s.world, s.hand, s.object).contacts.size());
-  const std::string wanted = "grasp of cube by gripper: normal_force: wanted one number or " +
-                             count + ", one a contact, got 2";
+  const std::string expected = "grasp of cube by gripper: normal_force: expected one number or " +
+                               count + ", one per contact, got 2";
   CHECK_THROWS_WITH_AS(measure_grasp(s.world, s.hand, s.object, {.normal_force = {{5, 1}}}),
-                       wanted.c_str(), Error);
+                       expected.c_str(), Error);
 }

@@ -1,7 +1,7 @@
 #include "grasp/nearest_point.h"
 
-#include "grasp/contact_reach.h"
 #include "grasp/wrench_sets.h"
+#include "grasp/wrench_support.h"
 
 using namespace clench;
 using namespace clench::test;
@@ -11,7 +11,7 @@ namespace {
 NearestPoint nearest_of(const Eigen::MatrixXd& points, const Eigen::VectorXd& place) {
   const ContactPart part{.points = points.data(), .count = static_cast<int>(points.cols())};
   return nearest_point(
-      ContactReach(static_cast<int>(points.rows()), WrenchNorm::l1, std::span(&part, 1)), place);
+      WrenchSupport(static_cast<int>(points.rows()), WrenchNorm::l1, std::span(&part, 1)), place);
 }
 
 }  // namespace

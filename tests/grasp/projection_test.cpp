@@ -60,56 +60,58 @@ double slow_slice_volume(const WrenchSpace& space,
 
 }  // namespace
 
-TEST_CASE("a cut or a shadow of a cross polytope is an octahedron, smaller as the cut is farther") {
+TEST_CASE(
+    "a section or a projection of a cross polytope is an octahedron, smaller as the section is "
+    "farther") {
   const WrenchSpace space({cross()});
-  const Projection shadow = project(space, {.projected = {3, 4, 5}});
-  CHECK(shadow.volume == doctest::Approx(8.0 / 6).epsilon(1e-12));
-  CHECK(shadow.mesh.triangles.size() == 8);
-  CHECK(shadow.free == std::array{0, 1, 2});
+  const Projection projection = project(space, {.projected = {3, 4, 5}});
+  CHECK(projection.volume == doctest::Approx(8.0 / 6).epsilon(1e-12));
+  CHECK(projection.mesh.triangles.size() == 8);
+  CHECK(projection.free == std::array{0, 1, 2});
   for (const double at : {0.0, 0.1, 0.5}) {
-    const Projection cut = project(space, {.fixed = {{0, at}, {4, -at / 2}, {5, 0}}});
-    CHECK(cut.free == std::array{1, 2, 3});
-    CHECK(cut.volume == doctest::Approx(std::pow(1 - 1.5 * at, 3) * 8 / 6).epsilon(1e-9));
+    const Projection section = project(space, {.fixed = {{0, at}, {4, -at / 2}, {5, 0}}});
+    CHECK(section.free == std::array{1, 2, 3});
+    CHECK(section.volume == doctest::Approx(std::pow(1 - 1.5 * at, 3) * 8 / 6).epsilon(1e-9));
   }
-  // half and half: cut in one coordinate, shadow of the rest
+  // half and half: section in one coordinate, projection of the rest
   const Projection mixed = project(space, {.fixed = {{3, 0.25}}, .projected = {4, 5}});
   CHECK(mixed.volume == doctest::Approx(std::pow(0.75, 3) * 8 / 6).epsilon(1e-9));
 }
 
-TEST_CASE("a cut of a frictional grasp is that of all facets of its hull") {
+TEST_CASE("a section of a frictional grasp is that of all facets of its hull") {
   for (const int edges : {3, 5, 8}) {
     const WrenchSpace space = tetrahedral(0.6, edges);
     for (const auto& fixed :
          std::vector<std::vector<std::pair<int, double>>>{{{3, 0}, {4, 0}, {5, 0}},
                                                           {{3, 0.05}, {4, -0.1}, {5, 0.02}},
                                                           {{0, 0}, {1, 0.1}, {5, 0}}}) {
-      const Projection cut = project(space, {.fixed = fixed});
-      CHECK(cut.volume == doctest::Approx(slow_slice_volume(space, fixed)).epsilon(1e-8));
-      CHECK(mesh_volume(cut.mesh) == doctest::Approx(cut.volume).epsilon(1e-12));
-      const auto shape = Shape::make(cut.mesh, "cut");
+      const Projection section = project(space, {.fixed = fixed});
+      CHECK(section.volume == doctest::Approx(slow_slice_volume(space, fixed)).epsilon(1e-8));
+      CHECK(mesh_volume(section.mesh) == doctest::Approx(section.volume).epsilon(1e-12));
+      const auto shape = Shape::make(section.mesh, "section");
       CHECK(shape->faults().closed());
       // every corner belongs to the space
       const Hull hull = space.hull();
-      for (const Eigen::Vector3d& v : cut.mesh.vertices) {
+      for (const Eigen::Vector3d& v : section.mesh.vertices) {
         Vector6d w = Vector6d::Zero();
         for (const auto& [coordinate, value] : fixed) w[coordinate] = value;
-        for (int i = 0; i < 3; ++i) w[cut.free[i]] = v[i];
+        for (int i = 0; i < 3; ++i) w[section.free[i]] = v[i];
         CHECK((hull.normals.transpose() * w - hull.offsets).maxCoeff() < 1e-9);
       }
     }
   }
 }
 
-TEST_CASE("shadows are hulls of what is left of the wrenches") {
+TEST_CASE("projections are hulls of what is left of the wrenches") {
   const WrenchSpace space = tetrahedral(0.6, 8);
   Eigen::MatrixXd points(3, 32);
   for (int i = 0; i < 4; ++i)
     points.middleCols(8 * i, 8) = space.contacts()[i].edges(std::vector{1, 3, 4}, Eigen::all);
-  const Projection shadow = project(space, {.projected = {0, 2, 5}});
-  CHECK(shadow.volume == doctest::Approx(convex_hull(points).volume).epsilon(1e-9));
+  const Projection projection = project(space, {.projected = {0, 2, 5}});
+  CHECK(projection.volume == doctest::Approx(convex_hull(points).volume).epsilon(1e-9));
 }
 
-TEST_CASE("round cones and L-infinity are cut, too: round ones hold their pyramids") {
+TEST_CASE("round cones and L-infinity have sections, too: round ones hold their pyramids") {
   const std::vector<std::pair<int, double>> fixed = {{3, 0}, {4, 0}, {5, 0}};
   for (const WrenchNorm norm : {WrenchNorm::l1, WrenchNorm::linf}) {
     const double coarse = project(tetrahedral(0.6, 4, norm), {.fixed = fixed}).volume;
@@ -127,9 +129,9 @@ TEST_CASE("round cones and L-infinity are cut, too: round ones hold their pyrami
 TEST_CASE("what is flat has no volume and no mesh") {
   Wrenches flat = cross();
   flat.row(1).setZero();
-  const Projection shadow = project(WrenchSpace({flat}), {.projected = {3, 4, 5}});
-  CHECK(shadow.volume == 0);
-  CHECK(shadow.mesh.triangles.empty());
+  const Projection projection = project(WrenchSpace({flat}), {.projected = {3, 4, 5}});
+  CHECK(projection.volume == 0);
+  CHECK(projection.mesh.triangles.empty());
   CHECK(project(WrenchSpace(std::vector<Wrenches>()), {.projected = {3, 4, 5}}).volume == 0);
 }
 
@@ -140,9 +142,9 @@ TEST_CASE("what cannot be projected is refused by name") {
     CHECK_THROWS_WITH_AS(project(s, options), why, Error);
   };
   refuse(space, {},
-         "wrench space: project: wanted three free coordinates, got 6: fx, fy, fz, tx, ty, tz");
+         "wrench space: project: expected three free coordinates, got 6: fx, fy, fz, tx, ty, tz");
   refuse(space, {.projected = {0, 1, 2, 3}},
-         "wrench space: project: wanted three free coordinates, got 2: ty, tz");
+         "wrench space: project: expected three free coordinates, got 2: ty, tz");
   refuse(space, {.fixed = {{0, 0}}, .projected = {0, 1}},
          "wrench space: project: fx is named twice, or does not count in this space");
   refuse(forces, {.projected = {5}},

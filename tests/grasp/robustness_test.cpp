@@ -210,8 +210,8 @@ TEST_CASE("the unit of one DOF, of compliance or of all forces changes nothing e
     const auto check = [&](auto change, double times) {
       RobustnessProblem other = problem;
       change(other);
-      const double wanted = times * radius;
-      CHECK(std::abs(contact_robustness(other).radius - wanted) <= 1e-6 * wanted);
+      const double expected = times * radius;
+      CHECK(std::abs(contact_robustness(other).radius - expected) <= 1e-6 * expected);
     };
     check([&](RobustnessProblem& p) { p.J.col(1) *= x; }, 1);
     check([&](RobustnessProblem& p) { p.J *= x; }, 1);
@@ -238,21 +238,22 @@ TEST_CASE("what is out of range is refused by name") {
     CHECK_THROWS_WITH_AS(contact_robustness(problem), sentence, Error);
   };
   refused([](RobustnessProblem& p) { p.mu[1] = -1; },
-          "robustness: mu: wanted a number from 0 to 1e+06, got -1");
+          "robustness: mu: expected a number from 0 to 1e+06, got -1");
   refused([](RobustnessProblem& p) { p.compliance[2] = 0; },
           "robustness: compliance must be > 0, got 0 [m/N]");
   refused([](RobustnessProblem& p) { p.max_force = 0; },
           "robustness: max_force must be > 0, got 0 [N]");
   refused([](RobustnessProblem& p) { p.load[3] = NAN; },
           "robustness: G, J and the load must be finite");
-  refused([](RobustnessProblem& p) { p.G.resize(6, 6); },
-          "robustness: wanted G of 6 x 9, J of 9 rows and as many compliances, got 6 x 6, 9 and 9");
+  refused(
+      [](RobustnessProblem& p) { p.G.resize(6, 6); },
+      "robustness: expected G of 6 x 9, J of 9 rows and as many compliances, got 6 x 6, 9 and 9");
   refused(
       [](RobustnessProblem& p) {
         p.starts = {0, 3, 9};
       },
-      "robustness of 3 contacts: wanted the starts of their forces and the end, rising from 0, "
+      "robustness of 3 contacts: expected the starts of their forces and the end, rising from 0, "
       "got 0, 3, 9");
   CHECK_THROWS_WITH_AS(contact_robustness(towards_origin({{1, 0, 0}}, 1), {}),
-                       "robustness: wanted 1 states, one a contact, got 0", Error);
+                       "robustness: expected 1 states, one per contact, got 0", Error);
 }

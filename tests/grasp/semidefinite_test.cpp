@@ -74,7 +74,7 @@ class SemidefiniteProgram {
 };
 
 // a bracket of the least sum of normal forces that balances the load, each at most `cap`
-std::array<double, 2> least_forces(const Grasp& grasp, const Vector6d& load, double cap) {
+std::array<double, 2> min_forces(const Grasp& grasp, const Vector6d& load, double cap) {
   const GraspMap map = grasp_map(grasp.points, grasp.com);
   MatrixXd G = map.matrix;
   Vector6d w = load;
@@ -121,7 +121,7 @@ TEST_CASE("least forces are those of a semidefinite program") {
     if (ours.status != ForceStatus::optimal) continue;
     ++held;
     CAPTURE(run);
-    const auto [low, high] = least_forces(h.grasp, load, cap);
+    const auto [low, high] = min_forces(h.grasp, load, cap);
     // its steps are solved to some 1e-8 of the objective
     const double close = 1e-7 * ours.objective;
     CHECK(ours.objective > low - close);

@@ -198,12 +198,12 @@ TEST_CASE("the original's wrench sets give the exact hull's epsilon and volume")
       continue;
     CAPTURE(name);
     const WrenchSpace space(contacts_of(test::measured("autograsp_" + name)));
-    const auto& wanted = exact["Qt_no_joggle"];
+    const auto& expected = exact["Qt_no_joggle"];
     // -1 there says no force closure
-    CHECK(std::abs(space.epsilon() - std::max(0.0, wanted["epsilon"].get<double>())) < 1e-9);
-    CHECK(std::abs(space.volume() - wanted["volume"].get<double>()) < 1e-9);
+    CHECK(std::abs(space.epsilon() - std::max(0.0, expected["epsilon"].get<double>())) < 1e-9);
+    CHECK(std::abs(space.volume() - expected["volume"].get<double>()) < 1e-9);
     // without force closure the hull lies beyond its distance, which is beyond each of its planes
-    const double offset = wanted["min_offset"].get<double>();
+    const double offset = expected["min_offset"].get<double>();
     if (space.is_force_closure())
       CHECK(std::abs(space.weakest().resistance - offset) < 1e-9);
     else
@@ -683,7 +683,7 @@ TEST_CASE("only the coordinates that count are looked at") {
   const auto refuse = [&](std::vector<int> coordinates, const char* why) {
     CHECK_THROWS_WITH_AS(WrenchSpace({all}, {.coordinates = std::move(coordinates)}), why, Error);
   };
-  refuse({0}, "wrench space: wanted 2 to 6 coordinates, got 1");
+  refuse({0}, "wrench space: expected 2 to 6 coordinates, got 1");
   refuse({0, 6}, "wrench space: coordinates must be 0 to 5, got 6");
   refuse({0, 1, 0}, "wrench space: coordinate 0 is there twice");
 }
@@ -774,18 +774,18 @@ TEST_CASE("volumes of round cones lie in brackets that close as pyramids get fin
     return WrenchSpace(cones(contacts, round_edges),
                        {.norm = norm, .coordinates = std::move(coordinates)});
   };
-  const auto check = [](const WrenchSpace& space, double wanted, double width) {
+  const auto check = [](const WrenchSpace& space, double expected, double width) {
     double last = 1;
     for (const int edges : {4, 8, 32, 100}) {
       const VolumeBounds bounds = space.volume_bounds(edges);
-      CHECK(bounds.lower < wanted);
-      CHECK(bounds.upper > wanted);
-      CHECK((bounds.upper - bounds.lower) / wanted < 20 * last);
-      last = (bounds.upper - bounds.lower) / wanted;
+      CHECK(bounds.lower < expected);
+      CHECK(bounds.upper > expected);
+      CHECK((bounds.upper - bounds.lower) / expected < 20 * last);
+      last = (bounds.upper - bounds.lower) / expected;
     }
     CHECK(last < width);
     CHECK(space.volume() == (space.volume_bounds(32).lower + space.volume_bounds(32).upper) / 2);
-    CHECK(space.volume() == doctest::Approx(wanted).epsilon(0.06));
+    CHECK(space.volume() == doctest::Approx(expected).epsilon(0.06));
   };
   check(forces(WrenchNorm::l1, {0, 1, 2}, 0), 2 * pi * mu * mu, 2e-3);
   // in L-infinity the disc at height z has the radius (2 - |z|) mu

@@ -14,8 +14,8 @@ static void check_trees(const std::string& format) {
   check_bad_files(format, "", "." + format, 20, [](const fs::path& path) { read_robot(path); });
 }
 
-TEST_CASE("a malformed URDF file is told by file, line, wanted and got") { check_trees("urdf"); }
-TEST_CASE("a malformed MJCF file is told by file, line, wanted and got") { check_trees("mjcf"); }
+TEST_CASE("a malformed URDF file is told by file, line, expected and got") { check_trees("urdf"); }
+TEST_CASE("a malformed MJCF file is told by file, line, expected and got") { check_trees("mjcf"); }
 
 TEST_CASE("an unexpanded xacro file is told to be expanded") {
   TemporaryFolder folder;
@@ -42,24 +42,24 @@ TEST_CASE("more links, joints or geoms than any robot has are refused") {
     CHECK_THROWS_WITH_AS(read_robot(folder.write(name, text)), sentence, Error);
   };
   refused("a.urdf", many("<robot>", "<link name='l#'/>", 1001, "</robot>"),
-          "a.urdf:1: wanted at most 1000 links");
+          "a.urdf:1: expected at most 1000 links");
   refused("a.urdf",
           many("<robot><link name='a'/>",
                "<link name='l#'/><joint name='j#' type='fixed'><parent link='a'/><child "
                "link='l#'/></joint>",
                1001, "</robot>"),
-          "a.urdf:1: wanted at most 1000 links");
+          "a.urdf:1: expected at most 1000 links");
   refused("a.mjcf",
           many("<mujoco><worldbody><body>", "<body/>", 1001, "</body></worldbody></mujoco>"),
-          "a.mjcf:1: wanted at most 1000 bodies");
+          "a.mjcf:1: expected at most 1000 bodies");
   refused("a.mjcf",
           many("<mujoco><worldbody><body><body>", "<joint name='j#' range='0 1'/>", 1001,
                "</body></body></worldbody></mujoco>"),
-          "a.mjcf:1: wanted at most 1000 joints");
+          "a.mjcf:1: expected at most 1000 joints");
   refused(
       "a.mjcf",
       many("<mujoco><worldbody><body>", "<geom size='1'/>", 20001, "</body></worldbody></mujoco>"),
-      "a.mjcf:1: wanted at most 20000 geoms");
+      "a.mjcf:1: expected at most 20000 geoms");
 }
 
 TEST_CASE("a circle of includes over several files is found") {
@@ -72,7 +72,7 @@ TEST_CASE("a circle of includes over several files is found") {
 
 TEST_CASE("a robot is no world, and the error says what loads it") {
   CHECK_THROWS_WITH_AS(read_world("tests/data/urdf/gripper.urdf"),
-                       "gripper.urdf: wanted a world, got a robot; world:add_robot loads it",
+                       "gripper.urdf: expected a world, got a robot; world:add_robot loads it",
                        Error);
 }
 
@@ -92,11 +92,12 @@ TEST_CASE("options that name no DOF, or no number, are refused by name") {
   const fs::path gripper = "tests/data/urdf/gripper.urdf";
   options.packages["gripper_description"] = "tests/data/urdf";
   options.closing["left_slid"] = 1;
-  CHECK_THROWS_WITH_AS(read_robot(gripper, options),
-                       "gripper.urdf: close: wanted the name of a DOF or a number from 1 to 1, got "
-                       "'left_slid'; did you mean 'left_slide'?",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      read_robot(gripper, options),
+      "gripper.urdf: close: expected the name of a DOF or a number from 1 to 1, got "
+      "'left_slid'; did you mean 'left_slide'?",
+      Error);
   options.closing = {{"1", NAN}};
   CHECK_THROWS_WITH_AS(read_robot(gripper, options),
-                       "gripper.urdf: close: 1: wanted 1, -1 or 0, got nan", Error);
+                       "gripper.urdf: close: 1: expected 1, -1 or 0, got nan", Error);
 }

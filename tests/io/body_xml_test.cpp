@@ -87,7 +87,7 @@ TEST_CASE("the type tells how geometry is written whose ending says nothing") {
             .triangles.size() == 12);
   CHECK_THROWS_WITH_AS(
       read_xml_body("<geometryFile type='of'>c.mesh</geometryFile>"),
-      "a.xml:2: geometryFile: wanted type Inventor, off, ply or that of another mesh, got 'of'",
+      "a.xml:2: geometryFile: expected type Inventor, off, ply or that of another mesh, got 'of'",
       Error);
   CHECK_THROWS_AS(read_xml_body("<geometryFile>c.mesh</geometryFile>"), Error);
 }
@@ -159,12 +159,12 @@ TEST_CASE("what a body's file holds and is not used is warned of") {
       "normalCompliance><shearCompliance>1</shearCompliance>\n<youngs>1.5</youngs>\n<colour/>\n"
       "<inertia_matrix>1 2 0 0 1 0 0 0 1</inertia_matrix>\n",
       warnings.options());
-  const std::vector<std::string> wanted = {
+  const std::vector<std::string> expected = {
       "body.xml:5: unknown element <colour> in <root> is not used",
       "body.xml:4: youngs 1.5 Pa is softer than any rubber; is it meant in MPa?",
       "body.xml:3: normalCompliance and shearCompliance are not used",
       "body.xml:6: inertia_matrix is not symmetric; its symmetric part is used",
       "body.xml:6: inertia_matrix is not positive definite; it is computed from the shape",
       "body.xml:2: geometryFile: type 'ply' is not that of 'box.off'; its ending counts"};
-  CHECK(warnings.list == wanted);
+  CHECK(warnings.list == expected);
 }

@@ -41,7 +41,7 @@ TEST_CASE("the transformations of a COLLADA node multiply in their order") {
   CHECK(centre("<matrix>1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1</matrix>") == Eigen::Vector3d(5, 6, 7));
   Warnings warnings;
   CHECK_FALSE(read_collada(collada_text(box(1, 1, 1), "<scale>1 -1 1</scale>"), warnings.options())
-                  .report.turned);
+                  .report.flipped);
 }
 
 TEST_CASE("counts of a COLLADA file that are not what stands there are told") {
@@ -112,9 +112,9 @@ TEST_CASE("nodes and skins are found by their names, and circles are refused") {
                              "q.dae: skins and morphs are not used: their meshes keep the shape "
                              "they were drawn in"});
   const std::string circle = replaced(good, "<node>", "<node id=\"a\"><instance_node url=\"#a\"/>");
-  CHECK_THROWS_WITH_AS(read_collada(circle),
-                       "q.dae:20: node: wanted at most 200 nodes in each other, and none in itself",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      read_collada(circle),
+      "q.dae:20: node: expected at most 200 nodes in each other, and none in itself", Error);
 }
 
 TEST_CASE("what is wrong in a COLLADA file is told by line") {
@@ -132,36 +132,36 @@ TEST_CASE("what is wrong in a COLLADA file is told by line") {
       CHECK(text.substr(colon + 2) == sentence);
     }
   };
-  CHECK_THROWS_WITH_AS(read_collada("<a/>"), "q.dae:1: wanted an element <COLLADA>, got <a>",
+  CHECK_THROWS_WITH_AS(read_collada("<a/>"), "q.dae:1: expected an element <COLLADA>, got <a>",
                        Error);
-  refused("meter=\"1\"", "meter=\"-1\"", "unit: wanted a length > 0 [m], got -1");
-  refused("Z_UP", "W_UP", "up_axis: wanted X_UP, Y_UP or Z_UP, got 'W_UP'");
+  refused("meter=\"1\"", "meter=\"-1\"", "unit: expected a length > 0 [m], got -1");
+  refused("Z_UP", "W_UP", "up_axis: expected X_UP, Y_UP or Z_UP, got 'W_UP'");
   refused("url=\"#s\"", "url=\"#t\"",
-          "instance_visual_scene: wanted an element with the id 't', got none");
+          "instance_visual_scene: expected an element with the id 't', got none");
   refused("url=\"#g\"", "url=\"b.dae#g\"",
-          "instance_geometry: wanted '#' and the id of an element of this file, got 'b.dae#g'");
+          "instance_geometry: expected '#' and the id of an element of this file, got 'b.dae#g'");
   refused("<instance_geometry", "<skew>1</skew><instance_geometry",
-          "skew: wanted matrix, translate, rotate, scale or lookat");
+          "skew: expected matrix, translate, rotate, scale or lookat");
   refused("<instance_geometry", "<lookat>1 2 3 1 2 9 0 0 1</lookat><instance_geometry",
-          "lookat: wanted an upward direction across the view");
+          "lookat: expected an upward direction across the view");
   refused("<instance_geometry", "<scale>1 x 1</scale><instance_geometry",
-          "scale: wanted a number, got 'x'");
+          "scale: expected a number, got 'x'");
   refused("<instance_geometry", "<scale>1 1</scale><instance_geometry",
-          "scale: wanted 3 numbers, got 2");
-  refused("count=\"8\"", "count=\"9\"", "accessor: wanted 9 points, got 8");
+          "scale: expected 3 numbers, got 2");
+  refused("count=\"8\"", "count=\"9\"", "accessor: expected 9 points, got 8");
   refused("<float_array id=\"pa\"", "<int_array id=\"x\"/><float_array id=\"pb\"",
-          "accessor: wanted an element with the id 'pa', got none");
+          "accessor: expected an element with the id 'pa', got none");
   refused("semantic=\"POSITION\"", "semantic=\"NORMAL\"",
-          "vertices: wanted an input POSITION, got none");
+          "vertices: expected an input POSITION, got none");
   refused("semantic=\"VERTEX\"", "semantic=\"COLOR\"",
-          "triangles: wanted an input VERTEX, got none");
+          "triangles: expected an input VERTEX, got none");
   refused("offset=\"0\"", "offset=\"-1\"",
-          "input: offset: wanted a whole number from 0 to 64, got '-1'");
-  refused("<p>0 0 ", "<p>8 0 ", "p: wanted a vertex from 0 to 7, got 8");
-  refused("<p>0 0 ", "<p>0 0 0 ", "p: wanted 2 numbers a corner, got 73 in all");
-  refused("<p>0 0 ", "<p>0 0 0 0 ", "triangles: wanted 3 corners of a face, got 1");
-  refused("1 0.5 0 1", "1 0.5", "color: wanted three or four numbers, got 2");
+          "input: offset: expected a whole number from 0 to 64, got '-1'");
+  refused("<p>0 0 ", "<p>8 0 ", "p: expected a vertex from 0 to 7, got 8");
+  refused("<p>0 0 ", "<p>0 0 0 ", "p: expected 2 numbers a corner, got 73 in all");
+  refused("<p>0 0 ", "<p>0 0 0 0 ", "triangles: expected 3 corners of a face, got 1");
+  refused("1 0.5 0 1", "1 0.5", "color: expected three or four numbers, got 2");
   CHECK_THROWS_WITH_AS(
       read_collada(replaced(replaced(good, "<triangles", "<lines"), "</triangles", "</lines")),
-      "q.dae: wanted triangles, got none", Error);
+      "q.dae: expected triangles, got none", Error);
 }

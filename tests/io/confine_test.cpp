@@ -239,7 +239,7 @@ TEST_CASE("pipes, devices and folders are never opened") {
     CHECK_MESSAGE(sentence.starts_with("w.wld:3: "), sentence);
   }
   CHECK(refusal([&] { read_body(pipe, {}); }) ==
-        "wanted a file, got a special file: " + pipe.string());
+        "expected a file, got a special file: " + pipe.string());
   CHECK_THROWS_AS(read_body("/proc/self/mem", {}), Error);
 }
 

@@ -168,9 +168,9 @@ TEST_CASE("writing says what the text format has no place for, and refuses other
   CHECK(warnings == std::vector<std::string>{
                         "a.egr: the text format has no place for limits of amplitudes; .xml has"});
   CHECK_THROWS_WITH_AS(write_eigengrasps(set, folder.path() / "a.doc"),
-                       "a.doc: wanted a file of eigengrasps, .egr or .xml, got '.doc'", Error);
+                       "a.doc: expected a file of eigengrasps, .egr or .xml, got '.doc'", Error);
   CHECK_THROWS_WITH_AS(write_eigengrasps({}, folder.path() / "a.egr"),
-                       "a.egr: wanted at least one eigengrasp, got none", Error);
+                       "a.egr: expected at least one eigengrasp, got none", Error);
   CHECK_THROWS_AS(write_eigengrasps(set, folder.path() / "no" / "a.egr"), Error);
 }
 

@@ -45,7 +45,7 @@ TEST_CASE("every ending of a body's file is loaded, checked and tried for anothe
       refused = error.what();
     }
     CHECK(refused.starts_with("part" + ending));
-    CHECK(refused.find("wanted a body from") == std::string::npos);
+    CHECK(refused.find("expected a body from") == std::string::npos);
     // the same part under a name that is gone
     CHECK(find_converted("part.old", folder.path() / "x", ModelKind::body, "", {}) == file);
     std::filesystem::remove(file);
@@ -60,10 +60,10 @@ TEST_CASE("an ending that no reader has is refused") {
   CHECK_THROWS_WITH_AS(file_kind("notes.txt"), "no such file: notes.txt", Error);
   CHECK_THROWS_WITH_AS(
       file_kind(folder.write("notes.txt", "")),
-      "notes.txt: wanted a model, a world, or a file that goes with one, got '.txt'", Error);
-  CHECK_THROWS_WITH_AS(file_kind(folder.write("notes", "")),
-                       "notes: wanted a model, a world, or a file that goes with one, got nothing",
-                       Error);
+      "notes.txt: expected a model, a world, or a file that goes with one, got '.txt'", Error);
+  CHECK_THROWS_WITH_AS(
+      file_kind(folder.write("notes", "")),
+      "notes: expected a model, a world, or a file that goes with one, got nothing", Error);
 }
 
 TEST_CASE("a file of numbers is known by how they stand") {

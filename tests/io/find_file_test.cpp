@@ -58,10 +58,10 @@ TEST_CASE("a near name in the same folder is suggested") {
 }
 
 TEST_CASE("a folder, an empty name and a monstrous one are no files") {
-  CHECK_THROWS_WITH_AS(find_file("tests", "", {}), "wanted a file, got a folder: tests", Error);
+  CHECK_THROWS_WITH_AS(find_file("tests", "", {}), "expected a file, got a folder: tests", Error);
   CHECK_THROWS_WITH_AS(find_file("/dev/zero", "", {}),
-                       "wanted a file, got a special file: /dev/zero", Error);
-  CHECK_THROWS_WITH_AS(find_file(" ", "", {}), "wanted the name of a file, got nothing", Error);
+                       "expected a file, got a special file: /dev/zero", Error);
+  CHECK_THROWS_WITH_AS(find_file(" ", "", {}), "expected the name of a file, got nothing", Error);
   CHECK_THROWS_AS(find_file(std::string(100000, 'x'), "", {}), Error);
   CHECK_THROWS_AS(find_file(std::string("a\0b", 3), "", {}), Error);
 }

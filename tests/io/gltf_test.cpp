@@ -55,7 +55,8 @@ TEST_CASE("nodes of a glTF file move, turn and scale their meshes") {
   CHECK((turned.bounds().size() - Eigen::Vector3d(2, 1, 4)).norm() < 1e-12);  // rounding of 1
   // a mirrored mesh still faces outward
   Warnings warnings;
-  CHECK_FALSE(read_gltf(whole(mesh, R"(, "scale": [-1, 1, 1])"), warnings.options()).report.turned);
+  CHECK_FALSE(
+      read_gltf(whole(mesh, R"(, "scale": [-1, 1, 1])"), warnings.options()).report.flipped);
   CHECK(warnings.list.empty());
 }
 
@@ -66,45 +67,47 @@ TEST_CASE("what is wrong in a glTF file is told by the name of its value") {
     CHECK_THROWS_WITH_AS(read_gltf(replaced(good, what, by)), ("q.gltf" + sentence).c_str(), Error);
   };
   CHECK_THROWS_WITH_AS(read_gltf("{\n\"asset\": x}"),
-                       "q.gltf:2: wanted JSON, got something else at byte 12 of it", Error);
-  CHECK_THROWS_WITH_AS(read_gltf("[]"), "q.gltf: wanted a JSON object, got a JSON array", Error);
-  CHECK_THROWS_WITH_AS(read_gltf("{}"), "q.gltf: wanted asset.version 2.0, got none", Error);
-  refused("2.0", "1.0", ": wanted glTF of version 2, got '1.0'");
+                       "q.gltf:2: expected JSON, got something else at byte 12 of it", Error);
+  CHECK_THROWS_WITH_AS(read_gltf("[]"), "q.gltf: expected a JSON object, got a JSON array", Error);
+  CHECK_THROWS_WITH_AS(read_gltf("{}"), "q.gltf: expected asset.version 2.0, got none", Error);
+  refused("2.0", "1.0", ": expected glTF of version 2, got '1.0'");
   refused("\"scene\": 0", "\"extensionsRequired\": [\"KHR_draco_mesh_compression\"]",
           ": it cannot be read without the extension 'KHR_draco_mesh_compression', which is not "
           "supported");
-  refused("\"scene\": 0", "\"scene\": 1", ": scene: wanted one of 1 scenes, got 1");
-  refused("\"nodes\": [0]", "\"nodes\": [2]", ": nodes: wanted one of 2 nodes, got 2");
-  refused("\"nodes\": [0]", "\"nodes\": [\"a\"]", ": scenes[0].nodes[0]: wanted a number");
+  refused("\"scene\": 0", "\"scene\": 1", ": scene: expected one of 1 scenes, got 1");
+  refused("\"nodes\": [0]", "\"nodes\": [2]", ": nodes: expected one of 2 nodes, got 2");
+  refused("\"nodes\": [0]", "\"nodes\": [\"a\"]", ": scenes[0].nodes[0]: expected a number");
   refused("\"children\": [1]", "\"children\": [0]",
-          ": nodes[0]: wanted nodes to form a tree, got one with two parents or in a circle");
-  refused("\"mesh\": 0", "\"mesh\": 1", ": nodes[1]: wanted one of 1 meshes, got 1");
+          ": nodes[0]: expected nodes to form a tree, got one with two parents or in a circle");
+  refused("\"mesh\": 0", "\"mesh\": 1", ": nodes[1]: expected one of 1 meshes, got 1");
   refused("\"mesh\": 0", "\"mesh\": 0, \"scale\": [1, 2]",
-          ": nodes[1].scale: wanted 3 numbers, got 2");
+          ": nodes[1].scale: expected 3 numbers, got 2");
   refused("\"mesh\": 0", "\"mesh\": 0, \"scale\": [1, 2, \"3\"]",
-          ": nodes[1].scale[2]: wanted a number");
+          ": nodes[1].scale[2]: expected a number");
   refused("\"mesh\": 0", "\"mesh\": 0, \"rotation\": [0, 0, 0, 0]",
-          ": nodes[1].rotation: wanted a unit quaternion");
-  refused("\"POSITION\": 0", "\"POSITION\": 1", ": accessors[1]: wanted the type VEC3");
+          ": nodes[1].rotation: expected a unit quaternion");
+  refused("\"POSITION\": 0", "\"POSITION\": 1", ": accessors[1]: expected the type VEC3");
   refused("\"indices\": 1", "\"indices\": -1",
-          ": meshes[0].primitives[0].indices: wanted a whole number from 0 on, got -1");
+          ": meshes[0].primitives[0].indices: expected a whole number from 0 on, got -1");
   refused("\"indices\": 1", "\"indices\": 1, \"extensions\": {\"KHR_draco_mesh_compression\": {}}",
           ": meshes[0].primitives[0]: meshes compressed by Draco are not supported");
-  refused("5125", "5126", ": accessors[1]: wanted indices of an unsigned componentType, got 5126");
+  refused("5125", "5126",
+          ": accessors[1]: expected indices of an unsigned componentType, got 5126");
   refused("5126", "5124", ": accessors[0]: unknown componentType 5124");
   refused("\"count\": 8", "\"count\": 9",
-          ": accessors[0]: wanted 108 bytes of bufferViews[0], got 96");
+          ": accessors[0]: expected 108 bytes of bufferViews[0], got 96");
   refused("\"count\": 8", "\"count\": 7",
-          ": meshes[0].primitives[0]: wanted an index below 7, got 7");
-  refused("\"bufferView\": 0, ", "", ": accessors[0]: wanted 'bufferView', got none");
+          ": meshes[0].primitives[0]: expected an index below 7, got 7");
+  refused("\"bufferView\": 0, ", "", ": accessors[0]: expected 'bufferView', got none");
   refused("\"bufferView\": 0", "\"sparse\": {}, \"bufferView\": 0",
           ": accessors[0]: sparse accessors are not supported");
-  refused("\"byteLength\": 240", "\"byteLength\": 241", ": buffers[0]: wanted 241 bytes, got 240");
+  refused("\"byteLength\": 240", "\"byteLength\": 241",
+          ": buffers[0]: expected 241 bytes, got 240");
   refused("\"byteLength\": 144", "\"byteLength\": 145",
-          ": bufferViews[1]: wanted 241 bytes of its buffer, got 240");
-  refused("base64,", "base64,!", ": buffers[0].uri: wanted data in base64");
+          ": bufferViews[1]: expected 241 bytes of its buffer, got 240");
+  refused("base64,", "base64,!", ": buffers[0].uri: expected data in base64");
   CHECK_THROWS_WITH_AS(read_gltf(gltf_text(box(1, 1, 1), "")),
-                       "q.gltf: buffers[0]: wanted a uri, got none", Error);
+                       "q.gltf: buffers[0]: expected a uri, got none", Error);
   CHECK_THROWS_WITH_AS(read_gltf(gltf_text(box(1, 1, 1), "no.bin")), "q.gltf: no such file: no.bin",
                        Error);
 }
@@ -116,10 +119,10 @@ TEST_CASE("what is wrong in the chunks of a GLB file is told in bytes") {
   };
   std::string old = good;
   old[4] = 1;
-  refused(old, "wanted glTF of version 2, got version 1");
-  refused(good.substr(0, 12), "wanted a chunk of JSON, got none");
+  refused(old, "expected glTF of version 2, got version 1");
+  refused(good.substr(0, 12), "expected a chunk of JSON, got none");
   refused(good.substr(0, good.size() - 10),
-          "wanted a chunk of 240 bytes, got 230 to the end of the file");
+          "expected a chunk of 240 bytes, got 230 to the end of the file");
 }
 
 TEST_CASE("what a glTF file holds and is not used is told") {

@@ -77,7 +77,7 @@ TEST_CASE("planned grasps written and read again are the same, runs and all") {
   }
   std::swap(list.front(), list.back());
   CHECK_THROWS_WITH_AS(write_planned_grasps(list, folder.path() / "a.txt"),
-                       "a.txt: wanted runs in their order", Error);
+                       "a.txt: expected runs in their order", Error);
 }
 
 TEST_CASE("more numbers than a planned grasp has are a warning") {

@@ -63,22 +63,23 @@ TEST_CASE("types that a file makes up are no names of libraries: nothing is open
 
 TEST_CASE("integers and words of any length are told by their first forty characters") {
   const std::string digits(520, '1'), word(65'500, 'w'), head(40, 'w');
-  CHECK(refusal(iv + "Switch { whichChild " + digits + " Cube { } }") ==
-        "a.iv:2: Switch: whichChild: wanted a whole number from -2147483648 to 2147483647, got '" +
-            digits.substr(0, 40) + "...'");
+  CHECK(
+      refusal(iv + "Switch { whichChild " + digits + " Cube { } }") ==
+      "a.iv:2: Switch: whichChild: expected a whole number from -2147483648 to 2147483647, got '" +
+          digits.substr(0, 40) + "...'");
   CHECK(refusal(iv + "PackedColor { orderedRGBA 0x" + digits + " }").ends_with("...'"));
   CHECK(refusal(iv + "Cube { width " + digits + " }") ==
-        "a.iv:2: Cube: width: wanted a finite number that fits 32 bits, got '" +
+        "a.iv:2: Cube: width: expected a finite number that fits 32 bits, got '" +
             digits.substr(0, 40) + "...'");
   CHECK(refusal(iv + "Cube { " + word + " 3 }") == "a.iv:2: Cube: unknown field '" + head + "...'");
   CHECK(refusal(iv + "RotationXYZ { axis " + word + " }") ==
-        "a.iv:2: RotationXYZ: axis: wanted one of X, Y, Z, got '" + head + "...'");
+        "a.iv:2: RotationXYZ: axis: expected one of X, Y, Z, got '" + head + "...'");
   CHECK(refusal(iv + "USE " + word) ==
         "a.iv:2: USE of '" + head + "...', which nothing above defines");
   CHECK(refusal(iv + "DEF " + word + " Group { USE " + word + " }") ==
         "a.iv:2: USE of '" + head + "...' inside itself, which line 2 defines");
   CHECK(refusal(iv + word) ==
-        "a.iv:2: wanted '{' after '" + head + "...', got the end of the file");
+        "a.iv:2: expected '{' after '" + head + "...', got the end of the file");
   CHECK(refusal(iv + word + " {").size() < 150);
   CHECK(read_text_as_body(iv + word + " { }")
             .warnings.starts_with("a.iv:2: unknown node '" + head + "...' is skipped\n"));
@@ -104,7 +105,7 @@ TEST_CASE("what has no part in triangles does no harm, whatever stands in it") {
 }
 
 TEST_CASE("copies count as nodes that are visited") {
-  const std::string limit = ": wanted at most 2000000 nodes, shared ones counted each time";
+  const std::string limit = ": expected at most 2000000 nodes, shared ones counted each time";
   const std::string huge = "numElements1 30000 numElements2 30000 numElements3 30000";
   CHECK(refusal(iv + "Array { " + huge + " }") == "a.iv:2" + limit);
   CHECK(refusal(iv + "DEF a MultipleCopy { matrix [ " +
@@ -126,7 +127,7 @@ TEST_CASE("rows without copies end at once, however many there are") {
 }
 
 TEST_CASE("triangles without area count as those with one do") {
-  const std::string limit = "wanted at most 2000000 triangles";
+  const std::string limit = "expected at most 2000000 triangles";
   const std::string copies = "Array { numElements1 999000 ";
   CHECK(refusal(iv + "Complexity { value 1 } " + copies + "Sphere { radius 0 } }") ==
         "a.iv:2: " + limit);
@@ -138,7 +139,7 @@ TEST_CASE("triangles without area count as those with one do") {
 
 TEST_CASE("what shapes list has an end, shared or not, with triangles or without") {
   const std::string limit =
-      "a.iv:2: wanted shapes that list at most 50000000 numbers, shared ones counted each time";
+      "a.iv:2: expected shapes that list at most 50000000 numbers, shared ones counted each time";
   const auto copies = [](const std::string& shape) {
     return iv + "Array { numElements1 999000 " + shape + " }";
   };
@@ -161,15 +162,15 @@ TEST_CASE("what shapes list has an end, shared or not, with triangles or without
 }
 
 TEST_CASE("a file has at most a million nodes, and ten million values") {
-  CHECK(refusal(iv + repeated(1'000'000, "Group{}")) == "a.iv:2: wanted at most 1000000 nodes");
+  CHECK(refusal(iv + repeated(1'000'000, "Group{}")) == "a.iv:2: expected at most 1000000 nodes");
   CHECK(refusal(iv + "Normal { }\nIndexedFaceSet { coordIndex [\n" + repeated(10'000'001, "0,") +
-                "] }") == "a.iv:4: wanted at most 10000000 values of fields");
+                "] }") == "a.iv:4: expected at most 10000000 values of fields");
 }
 
 TEST_CASE("names, warnings and PROTOs of a file have an end") {
-  CHECK(refusal(iv + repeated(1'000'001, "DEF a X{}")) == "a.iv:2: wanted at most 1000000 names");
+  CHECK(refusal(iv + repeated(1'000'001, "DEF a X{}")) == "a.iv:2: expected at most 1000000 names");
   CHECK(refusal(wrl + repeated(100'001, "PROTO a[]{}\n")) ==
-        "a.iv:100002: wanted at most 100000 PROTOs and fields of PROTOs");
+        "a.iv:100002: expected at most 100000 PROTOs and fields of PROTOs");
   const std::string told = read_text_as_body(iv + repeated(1500, "X{}\n")).warnings;
   CHECK(
       told.find("a.iv:1001: unknown node 'X' is skipped\na.iv: further warnings are left out\n") !=
@@ -206,11 +207,11 @@ TEST_CASE("PROTOs are read again for each instance, with an end") {
                 "PROTO P [ field SFNode x NULL ] { Group { children [ Group { children IS x } "
                 "Group { children IS x } ] } }\n" +
                 nested + "NULL" + repeated(40, " }")) ==
-        "a.iv:2: wanted PROTOs that stand for at most 20000000 bytes of text");
+        "a.iv:2: expected PROTOs that stand for at most 20000000 bytes of text");
   // long bodies
   CHECK(refusal(wrl + "PROTO P [ ] {\n#" + std::string(1 << 20, '-') + "\n}\n" +
                 repeated(60, "P { }\n")) ==
-        "a.iv:24: wanted PROTOs that stand for at most 20000000 bytes of text");
+        "a.iv:24: expected PROTOs that stand for at most 20000000 bytes of text");
   CHECK(refusal(wrl + "PROTO P [ ] { PROTO Q [ ] { Group { } } }\nP { }") ==
         "a.iv:2: a PROTO inside a PROTO is not read");
 }
@@ -225,7 +226,7 @@ TEST_CASE("files whose PROTOs stand for one another do not run out of the stack"
   }
   folder.write("f31.wrl", wrl + "Shape { geometry Box { } }\n");
   CHECK_THROWS_WITH_AS(read_body(folder.path() / "f0.wrl"),
-                       "f0.wrl:249: f2.wrl:3: wanted nodes at most 500 deep", Error);
+                       "f0.wrl:249: f2.wrl:3: expected nodes at most 500 deep", Error);
 }
 
 TEST_CASE("an extrusion has an end") {
@@ -237,21 +238,22 @@ TEST_CASE("an extrusion has an end") {
            " ] } }";
   };
   CHECK(read_text_as_body(extrusion(30, 30)).triangles > 1600);
-  CHECK(refusal(extrusion(3000, 3000)) ==
-        "a.iv:2: Extrusion: wanted a spine and a cross section of at most 1000000 points together, "
-        "got 3000 x 3000");
+  CHECK(
+      refusal(extrusion(3000, 3000)) ==
+      "a.iv:2: Extrusion: expected a spine and a cross section of at most 1000000 points together, "
+      "got 3000 x 3000");
 }
 
 TEST_CASE("coordinates that leave the range of 32 bits on their way are refused") {
   const std::string scale = "Scale { scaleFactor 1e30 1e30 1e30 }\n";
   CHECK(refusal(iv + scale + scale + "Cube { }") ==
-        "a.iv:4: Cube: wanted finite coordinates, got (inf, inf, inf)");
+        "a.iv:4: Cube: expected finite coordinates, got (inf, inf, inf)");
   CHECK(refusal(iv + "MatrixTransform { matrix 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 } Cube { }")
-            .starts_with("a.iv:2: Cube: wanted finite coordinates, got ("));
+            .starts_with("a.iv:2: Cube: expected finite coordinates, got ("));
   CHECK(refusal(iv + "Coordinate4 { point [ 1 0 0 0, 0 1 0 0, 0 0 1 0 ] } FaceSet { }")
-            .starts_with("a.iv:2: FaceSet: wanted finite coordinates, got ("));
+            .starts_with("a.iv:2: FaceSet: expected finite coordinates, got ("));
   CHECK(refusal(iv + "Cube { width nan }") ==
-        "a.iv:2: Cube: width: wanted a finite number that fits 32 bits, got 'nan'");
+        "a.iv:2: Cube: width: expected a finite number that fits 32 bits, got 'nan'");
 }
 
 TEST_CASE("closing braces too many are left out, with one warning, and what follows is read") {

@@ -177,7 +177,7 @@ TEST_CASE("a PROTO's instance has its own values, or those of the PROTO") {
       "material IS look } geometry Box { size IS size_of } } } }\n";
   CHECK_THROWS_WITH_AS(
       read_vrml_nodes(proto + "Ball { }"),
-      "a.iv:3: Box: size: wanted a field of a PROTO around it after IS, got 'size_of'", Error);
+      "a.iv:3: Box: size: expected a field of a PROTO around it after IS, got 'size_of'", Error);
   const std::string box =
       "PROTO Block [ field SFVec3f size 2 2 2 exposedField SFVec3f at 0 0 0 field MFNode more [ ] "
       "]\n"
@@ -246,7 +246,7 @@ TEST_CASE("what is not read is told by name and line") {
                                                   "a.iv: NurbsSurface is not used as geometry"});
 }
 
-TEST_CASE("what cannot be understood is told by line, wanted and got") {
+TEST_CASE("what cannot be understood is told by line, expected and got") {
   const auto refusal = [](const std::string& nodes) {
     try {
       read_nodes(nodes);
@@ -255,46 +255,46 @@ TEST_CASE("what cannot be understood is told by line, wanted and got") {
     }
     return std::string();
   };
-  CHECK(refusal("Separator Cube { }") == "a.iv:2: wanted '{' after 'Separator', got 'Cube'");
-  CHECK(refusal("\"text\"") == "a.iv:2: wanted a node, got 'text'");
-  CHECK(refusal("DEF { }") == "a.iv:2: wanted a name after DEF, got '{'");
-  CHECK(refusal("DEF a { }") == "a.iv:2: wanted a node type after DEF and a name, got '{'");
-  CHECK(refusal("USE [") == "a.iv:2: wanted a name after USE, got '['");
+  CHECK(refusal("Separator Cube { }") == "a.iv:2: expected '{' after 'Separator', got 'Cube'");
+  CHECK(refusal("\"text\"") == "a.iv:2: expected a node, got 'text'");
+  CHECK(refusal("DEF { }") == "a.iv:2: expected a name after DEF, got '{'");
+  CHECK(refusal("DEF a { }") == "a.iv:2: expected a node type after DEF and a name, got '{'");
+  CHECK(refusal("USE [") == "a.iv:2: expected a name after USE, got '['");
   CHECK(refusal("ROUTE a.b OT c.d") ==
-        "a.iv:2: wanted ROUTE, a field's name, TO and another's name");
+        "a.iv:2: expected ROUTE, a field's name, TO and another's name");
   CHECK(refusal("DEF hub Cube { } USE hubb") ==
         "a.iv:2: USE of 'hubb', which nothing above defines; did you mean 'hub'?");
-  CHECK(refusal("Separator { { } }") == "a.iv:2: wanted a node type before '{', got nothing");
-  CHECK(refusal("Cube { width }") == "a.iv:2: Cube: width: wanted a number, got '}'");
+  CHECK(refusal("Separator { { } }") == "a.iv:2: expected a node type before '{', got nothing");
+  CHECK(refusal("Cube { width }") == "a.iv:2: Cube: width: expected a number, got '}'");
   CHECK(refusal("Translation { translation 1 2 }") ==
-        "a.iv:2: Translation: translation: wanted a number, got '}'");
+        "a.iv:2: Translation: translation: expected a number, got '}'");
   CHECK(refusal("Coordinate3 { point [ 1 2 ] }") ==
-        "a.iv:2: Coordinate3: point: wanted a number, got ']'");
+        "a.iv:2: Coordinate3: point: expected a number, got ']'");
   CHECK(refusal("FaceSet { startIndex 1.5 }") ==
-        "a.iv:2: FaceSet: startIndex: wanted a whole number from -2147483648 to 2147483647, got "
+        "a.iv:2: FaceSet: startIndex: expected a whole number from -2147483648 to 2147483647, got "
         "'1.5'");
   CHECK(refusal("Units { units LIGHTYEARS }")
-            .starts_with("a.iv:2: Units: units: wanted one of METERS, "));
+            .starts_with("a.iv:2: Units: units: expected one of METERS, "));
   CHECK(refusal("Cylinder { parts (SIDES | LID) }") ==
-        "a.iv:2: Cylinder: parts: wanted one of SIDES, TOP, BOTTOM, ALL, got 'LID'");
+        "a.iv:2: Cylinder: parts: expected one of SIDES, TOP, BOTTOM, ALL, got 'LID'");
   CHECK(refusal("RotationXYZ { axis (|) }") ==
-        "a.iv:2: RotationXYZ: axis: wanted one of X, Y, Z, got '(|)'");
+        "a.iv:2: RotationXYZ: axis: expected one of X, Y, Z, got '(|)'");
   CHECK(refusal("FaceSet { vertexProperty Cube { } }") ==
-        "a.iv:2: FaceSet: vertexProperty: wanted a VertexProperty, got Cube");
+        "a.iv:2: FaceSet: vertexProperty: expected a VertexProperty, got Cube");
   CHECK(refusal("Cube { width IS w }") ==
-        "a.iv:2: Cube: width: wanted a field of a PROTO around it after IS, got 'w'");
-  CHECK(refusal("PROTO P { }") == "a.iv:2: wanted '[' after PROTO 'P', got '{'");
+        "a.iv:2: Cube: width: expected a field of a PROTO around it after IS, got 'w'");
+  CHECK(refusal("PROTO P { }") == "a.iv:2: expected '[' after PROTO 'P', got '{'");
   CHECK(refusal("PROTO P [ fild SFBool b TRUE ] { }") ==
-        "a.iv:2: wanted field, exposedField, eventIn, eventOut or ']', got 'fild'");
+        "a.iv:2: expected field, exposedField, eventIn, eventOut or ']', got 'fild'");
   CHECK(refusal("PROTO P [ ] Cube { }") ==
-        "a.iv:2: wanted '{' after PROTO 'P' and its fields, got 'Cube'");
-  CHECK(refusal("Cube \"{\" }") == "a.iv:2: wanted '{' after 'Cube', got '{'");
-  CHECK(refusal("PROTO P \"[\" ] { }") == "a.iv:2: wanted '[' after PROTO 'P', got '['");
+        "a.iv:2: expected '{' after PROTO 'P' and its fields, got 'Cube'");
+  CHECK(refusal("Cube \"{\" }") == "a.iv:2: expected '{' after 'Cube', got '{'");
+  CHECK(refusal("PROTO P \"[\" ] { }") == "a.iv:2: expected '[' after PROTO 'P', got '['");
   CHECK(refusal("PROTO P [ ] \"{\" }") ==
-        "a.iv:2: wanted '{' after PROTO 'P' and its fields, got '{'");
+        "a.iv:2: expected '{' after PROTO 'P' and its fields, got '{'");
   CHECK(refusal("Cube { width 1 = Engine \"{\" }") ==
-        "a.iv:2: wanted '{' after the node type, got '{'");
+        "a.iv:2: expected '{' after the node type, got '{'");
   CHECK(refusal("Cube { width 1 = USE a \".b\" }") == "a.iv:2: Cube: unknown field '.b'");
   CHECK(refusal("Cube { \"width\" 1 }") == "a.iv:2: Cube: unknown field 'width'");
-  CHECK(refusal("File { name [ ] ] }") == "a.iv:2: wanted '}' for the '{' of line 2, got ']'");
+  CHECK(refusal("File { name [ ] ] }") == "a.iv:2: expected '}' for the '{' of line 2, got ']'");
 }

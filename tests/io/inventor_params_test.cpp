@@ -93,7 +93,7 @@ TEST_CASE(
 
 TEST_CASE("a row of an inertia has three numbers") {
   CHECK_THROWS_WITH_AS(body_with("#inertia_matrix\n#5 0 0\n#0 5 0 7\n#0 0 5"),
-                       "box.iv:4: inertia_matrix: wanted 3 numbers in a row, got 4", Error);
+                       "box.iv:4: inertia_matrix: expected 3 numbers in a row, got 4", Error);
   CHECK(body_with("#inertia_matrix\n#5 0 0 # x\n#0 5 0\n#0 0 5").inertia_per_mass);
 }
 

@@ -113,12 +113,12 @@ TEST_CASE("of an XML body the geometry's primitives are read, scaled and placed 
                        "mug.xml:2: no such file: shape.off; did you mean 'shape.dat'?", Error);
   folder.write("shape.off", "OFF\n");
   CHECK_THROWS_WITH_AS(read_inventor("<geometryFile>shape.off</geometryFile>"),
-                       "shape.off: wanted primitives from .iv, .wrl or .vrml, got '.off'", Error);
+                       "shape.off: expected primitives from .iv, .wrl or .vrml, got '.off'", Error);
   Warnings warnings;
   CHECK(read_inventor("<mass>3</mass>", warnings.options()).empty());
   CHECK(warnings.list == std::vector<std::string>{"mug.xml:1: no <geometryFile>: no primitives"});
   CHECK_THROWS_WITH_AS(read_primitives(folder.write("hand.xml", "<robot/>")),
-                       "hand.xml:1: wanted a body, got <robot>", Error);
+                       "hand.xml:1: expected a body, got <robot>", Error);
 
   // what somebody has simplified goes before it, and stands in the body's frame
   folder.write("primitives/mug.iv", head + "Cone { }");

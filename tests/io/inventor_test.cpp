@@ -106,7 +106,7 @@ TEST_CASE("a closed mesh that is inside out is turned, with a warning") {
   const BodySpec b = read_body(file, warnings.options());
   CHECK(b.shape->solid().volume == doctest::Approx(1e-6 / 6));
   REQUIRE(warnings.list.size() == 1);
-  CHECK(warnings.list[0] == "tetra.iv: its triangles face inward; turned to face outward");
+  CHECK(warnings.list[0] == "tetra.iv: its triangles face inward; flipped to face outward");
 }
 
 TEST_CASE("polygons, strips and meshes of points become triangles that cover the same area") {
@@ -273,7 +273,8 @@ TEST_CASE("a chain of included files has an end") {
                  fmt::format("#Inventor V2.1 ascii\nFile {{ name \"f{}.iv\" }}\n", i + 1));
   CHECK_THROWS_WITH_AS(
       read_body(folder.path() / "f0.iv"),
-      "f0.iv:2: f31.iv:2: 'f32.iv': wanted files that include one another at most 32 deep", Error);
+      "f0.iv:2: f31.iv:2: 'f32.iv': expected files that include one another at most 32 deep",
+      Error);
 }
 
 TEST_CASE("a file may be included ten thousand times, and no more often") {
@@ -287,11 +288,11 @@ TEST_CASE("a file may be included ten thousand times, and no more often") {
   CHECK_NOTHROW(read(10'000, "File { name \"empty.iv\" }\n"));
   CHECK_THROWS_WITH_AS(
       read(10'001, "File { name \"empty.iv\" }\n"),
-      "many.iv:10002: wanted at most 10000 included files, each counted as often as it is named",
+      "many.iv:10002: expected at most 10000 included files, each counted as often as it is named",
       Error);
   CHECK_THROWS_WITH_AS(
       read(10'001, "WWWInline { name \"empty.iv\" }\n"),
-      "many.iv:10002: wanted at most 10000 included files, each counted as often as it is named",
+      "many.iv:10002: expected at most 10000 included files, each counted as often as it is named",
       Error);
 }
 
@@ -311,7 +312,7 @@ TEST_CASE("nodes that use one another have a limit of depth") {
   std::string text = "DEF g0 Group { }\n";
   for (int i = 1; i < 600; ++i)
     text += "DEF g" + std::to_string(i) + " Group { USE g" + std::to_string(i - 1) + " }\n";
-  CHECK_THROWS_WITH_AS(body(text), "body.iv:502: wanted nodes at most 500 deep", Error);
+  CHECK_THROWS_WITH_AS(body(text), "body.iv:502: expected nodes at most 500 deep", Error);
 }
 
 TEST_CASE("nodes shared a hundred thousand fold have a limit") {
@@ -320,11 +321,12 @@ TEST_CASE("nodes shared a hundred thousand fold have a limit") {
     const std::string below = "USE g" + std::to_string(i - 1) + " ";
     text += "DEF g" + std::to_string(i) + " Group { " + below + below + " }\n";
   }
-  CHECK_THROWS_WITH_AS(
-      body(text), "body.iv:2: wanted at most 2000000 nodes, shared ones counted each time", Error);
+  CHECK_THROWS_WITH_AS(body(text),
+                       "body.iv:2: expected at most 2000000 nodes, shared ones counted each time",
+                       Error);
 }
 
-TEST_CASE("one colour is the body's, several are one a triangle") {
+TEST_CASE("one colour is the body's, several are one per triangle") {
   const Appearance one =
       body("Separator { Material { diffuseColor 1 0.5 0 transparency 0.25 } Cube { } }").appearance;
   CHECK(one.given);
@@ -465,7 +467,7 @@ TEST_CASE("a file without a surface is a frame, which is told") {
   const test::TemporaryFolder folder;
   ReadOptions options;
   std::vector<std::string> doubts;
-  options.doubt = [&](const std::string& sentence) { doubts.push_back(sentence); };
+  options.suspect = [&](const std::string& sentence) { doubts.push_back(sentence); };
   CHECK(
       !read_body(folder.write("none.iv", "#Inventor V2.1 ascii\nSeparator { }\n"), options).shape);
   CHECK(doubts == std::vector<std::string>{
@@ -482,15 +484,16 @@ TEST_CASE(
       "outer.iv", "#Inventor V2.1 ascii\nFaceSet { numVertices [] }\nFile { name \"part.iv\" }\n");
   CHECK_THROWS_WITH_AS(
       read_body(outer),
-      "outer.iv: part.iv:4: FaceSet: number 0 of numVertices: wanted 3 points, got 1", Error);
+      "outer.iv: part.iv:4: FaceSet: number 0 of numVertices: expected 3 points, got 1", Error);
   const auto proto = folder.write(
       "proto.wrl",
       "#VRML V2.0 utf8\nPROTO P [ ] {\n  Shape { geometry IndexedFaceSet { coordIndex [0 1 2 -1] } "
       "}\n}\nGroup { }\nP { }\n");
-  CHECK_THROWS_WITH_AS(read_body(proto),
-                       "proto.wrl:3: IndexedFaceSet: number 0 of coordIndex: wanted -1 or one of 0 "
-                       "points, got 0",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      read_body(proto),
+      "proto.wrl:3: IndexedFaceSet: number 0 of coordIndex: expected -1 or one of 0 "
+      "points, got 0",
+      Error);
 }
 
 TEST_CASE("names of inlined files are ours to read, whatever stands in them") {

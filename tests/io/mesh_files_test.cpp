@@ -174,7 +174,7 @@ TEST_CASE("a mesh of nothing but lines in disguise is kept rather than emptied")
   CHECK(read_file_of(folder, {"a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"})
             .mesh.triangles.size() == 1);
   CHECK_THROWS_WITH_AS(read_file_of(folder, {"a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 2\n"}),
-                       "a.obj: wanted triangles, got none", Error);
+                       "a.obj: expected triangles, got none", Error);
 }
 
 TEST_CASE("colours follow their triangles when others are dropped") {
@@ -197,10 +197,10 @@ TEST_CASE("a closed mesh that is inside out is turned, with a warning and a word
   for (const MeshFile& file : in_every_format(inverted(stretched_box()))) {
     Warnings warnings;
     const Geometry geometry = read_file_of(folder, file, warnings.options());
-    CHECK(geometry.report.turned);
+    CHECK(geometry.report.flipped);
     CHECK(solid_mass(geometry.mesh).volume == doctest::Approx(0.25 * 0.5 * 0.125));
     REQUIRE(warnings.list.size() == 1);
-    CHECK(warnings.list[0] == file.name + ": its triangles face inward; turned to face outward");
+    CHECK(warnings.list[0] == file.name + ": its triangles face inward; flipped to face outward");
   }
 }
 
@@ -270,7 +270,7 @@ TEST_CASE("what a file calls up becomes z, unless its axes are to stay") {
     CHECK_FALSE(read_file_of(folder,
                              {"a.dae", collada_text(tall, "", "<up_axis>" + up + "</up_axis>")},
                              options)
-                    .report.turned);
+                    .report.flipped);
 }
 
 TEST_CASE("a body keeps the report, which describes itself") {

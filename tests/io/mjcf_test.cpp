@@ -304,7 +304,7 @@ TEST_CASE("an outermost class by another name is the global one, which is told")
             .shape);
 }
 
-TEST_CASE("a joint that is tied by nothing stands still, and is doubtful") {
+TEST_CASE("a joint that is tied by nothing stands still, and is suspicious") {
   const ToldRobot told(
       model("<joint name='p' range='-9 9'/><joint name='q' range='-9 9'/>",
             radian + "<equality><joint joint1='q' joint2='p' polycoef='0 0 0 0 0'/></equality>"));

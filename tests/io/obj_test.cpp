@@ -57,7 +57,7 @@ TEST_CASE("files of materials without end are not looked for without end") {
   Warnings warnings;
   CHECK(read_body(folder.write("cube.obj", text), warnings.options()).shape->closed());
   REQUIRE(warnings.list.size() == 1);
-  CHECK(warnings.list[0].find("wanted at most 1000 files of materials") != std::string::npos);
+  CHECK(warnings.list[0].find("expected at most 1000 files of materials") != std::string::npos);
 }
 
 TEST_CASE("the colours of an OBJ come from its material file and it loads without that too") {
@@ -80,8 +80,8 @@ TEST_CASE("the colours of an OBJ come from its material file and it loads withou
   folder.write("my cube.mtl", "newmtl red\nKd 1 x 0\nTr\n");
   read_body(file, warnings.options());
   CHECK(warnings.list ==
-        std::vector<std::string>{"my cube.mtl:2: wanted three numbers after Kd; not used",
-                                 "my cube.mtl:3: wanted a number after Tr; not used"});
+        std::vector<std::string>{"my cube.mtl:2: expected three numbers after Kd; not used",
+                                 "my cube.mtl:3: expected a number after Tr; not used"});
 }
 
 TEST_CASE("a material that no file of an OBJ defines is told once") {
@@ -112,7 +112,7 @@ TEST_CASE("colours of the points of an OBJ are those of its triangles") {
 TEST_CASE("a point or a face of an OBJ that is wrong is told by line") {
   const auto refused = [&](const std::string& line, const std::string& sentence) {
     CHECK_THROWS_WITH_AS(read_obj_text(cube_points + line + "\n" + cube_faces),
-                         ("q.obj:9: wanted " + sentence).c_str(), Error);
+                         ("q.obj:9: expected " + sentence).c_str(), Error);
   };
   refused("v 1 abc 2", "three numbers after v, got 'abc'");
   refused("v 1 2", "three numbers after v, got nothing");
@@ -132,7 +132,7 @@ TEST_CASE("of too many numbers after v the first three count, with a warning") {
   CHECK(mesh.triangles.size() == 12);
   REQUIRE(!warnings.list.empty());
   CHECK(warnings.list[0] ==
-        "q.obj:9: wanted at most a point, a weight and a colour after v; only the point is used");
+        "q.obj:9: expected at most a point, a weight and a colour after v; only the point is used");
 }
 
 TEST_CASE("what an OBJ holds and is not used is told by line, each kind once") {

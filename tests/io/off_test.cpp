@@ -12,7 +12,8 @@ static BodySpec read_off_text(const std::string& text, const ReadOptions& option
   return read_body(folder.write("q.off", text), options);
 }
 
-static const std::string off_rows = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+static const std::string off_rows =
+    "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 
 TEST_CASE("the header of an OFF file may stand in one line, in two, or be the counts alone") {
   for (const std::string head : {"OFF\n4 4 6\n", "OFF 4 4 6\n", "OFF4 4 6\n", "4 4 6\n",
@@ -51,23 +52,24 @@ TEST_CASE("what is wrong in an OFF file is told by line") {
   const auto refused = [](const std::string& text, const std::string& sentence) {
     CHECK_THROWS_WITH_AS(read_off_text(text), ("q.off:" + sentence).c_str(), Error);
   };
-  refused("", "1: wanted 'OFF', got the end of the file");
-  refused("OFT\n", "1: wanted 'OFF', got 'OFT'");
-  refused("4OFF\n", "1: wanted OFF of three dimensions, got '4OFF'");
-  refused("OFF BINARY\n", "1: wanted OFF as text, got binary OFF");
-  refused("OFF\n-4 4 6\n", "2: number of vertices: wanted a whole number from 0 on, got -4");
-  refused("OFF\n4 x 6\n", "2: number of faces: wanted a whole number, got 'x'");
-  refused("OFF\n4 4 6\n0 0 0\n1 0\n", "4: z: wanted a number, got nothing");
-  refused("OFF\n4 4 6\n0 0 0\n1 0 inf\n", "4: z: wanted a number, got 'inf'");
-  refused("OFF\n4 4 6\n0 0 0\n", "3: wanted vertex 2 of 4, got the end of the file");
-  refused("OFF\n9 4 6\n" + off_rows + "0 0 0\n", "11: wanted face 1 of 4, got the end of the file");
-  refused("OFF\n4 5 6\n" + off_rows, "10: wanted face 5 of 5, got the end of the file");
+  refused("", "1: expected 'OFF', got the end of the file");
+  refused("OFT\n", "1: expected 'OFF', got 'OFT'");
+  refused("4OFF\n", "1: expected OFF of three dimensions, got '4OFF'");
+  refused("OFF BINARY\n", "1: expected OFF as text, got binary OFF");
+  refused("OFF\n-4 4 6\n", "2: number of vertices: expected a whole number from 0 on, got -4");
+  refused("OFF\n4 x 6\n", "2: number of faces: expected a whole number, got 'x'");
+  refused("OFF\n4 4 6\n0 0 0\n1 0\n", "4: z: expected a number, got nothing");
+  refused("OFF\n4 4 6\n0 0 0\n1 0 inf\n", "4: z: expected a number, got 'inf'");
+  refused("OFF\n4 4 6\n0 0 0\n", "3: expected vertex 2 of 4, got the end of the file");
+  refused("OFF\n9 4 6\n" + off_rows + "0 0 0\n",
+          "11: expected face 1 of 4, got the end of the file");
+  refused("OFF\n4 5 6\n" + off_rows, "10: expected face 5 of 5, got the end of the file");
   const std::string points = "OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
-  refused(points + "3 0 1 4\n", "7: wanted 3 vertices from 0 to 3, got '4'");
-  refused(points + "4 0 1 2\n", "7: wanted 4 vertices from 0 to 3, got nothing");
-  refused(points + "x 0 1 2\n", "7: corners of a face: wanted a whole number, got 'x'");
-  refused(points + "3 0 1 2 1 x 0\n", "7: colour: wanted a number, got 'x'");
-  refused("NOFF\n1 0 0\n0 0 0 1 0\n", "3: normal: wanted a number, got nothing");
+  refused(points + "3 0 1 4\n", "7: expected 3 vertices from 0 to 3, got '4'");
+  refused(points + "4 0 1 2\n", "7: expected 4 vertices from 0 to 3, got nothing");
+  refused(points + "x 0 1 2\n", "7: corners of a face: expected a whole number, got 'x'");
+  refused(points + "3 0 1 2 1 x 0\n", "7: colour: expected a number, got 'x'");
+  refused("NOFF\n1 0 0\n0 0 0 1 0\n", "3: normal: expected a number, got nothing");
 }
 
 TEST_CASE("what an OFF file holds and is not used is told by line, each kind once") {

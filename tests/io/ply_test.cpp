@@ -59,34 +59,34 @@ TEST_CASE("what is wrong in the header of a PLY file is told by line") {
   const auto refused = [](const std::string& lines, const std::string& sentence) {
     CHECK_THROWS_WITH_AS(read_ply_text(lines), ("q.ply" + sentence).c_str(), Error);
   };
-  refused("plus\n", ":1: wanted 'ply' in the first line");
+  refused("plus\n", ":1: expected 'ply' in the first line");
   refused("ply\nformat text 1.0\n",
-          ":2: wanted ascii, binary_little_endian or binary_big_endian, got 'text'");
+          ":2: expected ascii, binary_little_endian or binary_big_endian, got 'text'");
   refused("ply\nelement vertex many\n",
-          ":2: number of elements 'vertex': wanted a whole number, got 'many'");
+          ":2: number of elements 'vertex': expected a whole number, got 'many'");
   refused("ply\nelement vertex -1\n",
-          ":2: number of elements 'vertex': wanted a whole number from 0 on, got -1");
-  refused("ply\nproperty float x\n", ":2: wanted an element before its properties");
+          ":2: number of elements 'vertex': expected a whole number from 0 on, got -1");
+  refused("ply\nproperty float x\n", ":2: expected an element before its properties");
   refused("ply\nelement vertex 1\nproperty real x\n",
-          ":3: wanted a type of PLY such as float or uchar, got 'real'");
+          ":3: expected a type of PLY such as float or uchar, got 'real'");
   refused("ply\nelement face 1\nproperty list float int i\n",
-          ":3: wanted a whole type for the count of a list");
+          ":3: expected a whole type for the count of a list");
   refused("ply\nelement face 1\nproperty float\n",
-          ":3: wanted the name of a property, got nothing");
-  refused("ply\nelem face 1\n", ":2: wanted a line of a PLY header, got 'elem'");
-  refused("ply\nend_header\n", ":2: wanted a line 'format' before end_header");
-  refused("ply\nformat ascii 1.0\n", ":2: wanted end_header, got the end of the file");
+          ":3: expected the name of a property, got nothing");
+  refused("ply\nelem face 1\n", ":2: expected a line of a PLY header, got 'elem'");
+  refused("ply\nend_header\n", ":2: expected a line 'format' before end_header");
+  refused("ply\nformat ascii 1.0\n", ":2: expected end_header, got the end of the file");
   refused("ply\nformat ascii 1.0\n" + faces + points + "end_header\n",
-          ": wanted the vertices before the faces");
+          ": expected the vertices before the faces");
   refused(
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 "
       "0\n",
-      ": wanted x, y and z of every vertex, got none of 'z'");
+      ": expected x, y and z of every vertex, got none of 'z'");
   refused("ply\nformat ascii 1.0\n" + points + points + "end_header\n" + point_rows,
-          ": wanted one element vertex, got two");
+          ": expected one element vertex, got two");
   refused("ply\nformat ascii 1.0\n" + points + "element face 1\nproperty int a\nend_header\n" +
               point_rows,
-          ": wanted a list vertex_indices of every face, got none");
+          ": expected a list vertex_indices of every face, got none");
 }
 
 TEST_CASE("what is wrong in the lines of a PLY file is told by line") {
@@ -94,14 +94,14 @@ TEST_CASE("what is wrong in the lines of a PLY file is told by line") {
   const auto refused = [&](const std::string& rows, const std::string& sentence) {
     CHECK_THROWS_WITH_AS(read_ply_text(head + rows), ("q.ply:" + sentence).c_str(), Error);
   };
-  refused("0 0 0\n1 0 x\n", "11: wanted a number, got 'x'");
-  refused("0 0 0\n1 0 nan\n", "11: wanted a number, got 'nan'");
-  refused("0 0 0\n1 0\n", "11: wanted a number, got nothing");
-  refused("0 0 0\n", "10: wanted vertex 2 of 4, got the end of the file");
-  refused(point_rows + "3 0 1 4\n", "14: wanted a vertex from 0 to 3, got 4");
-  refused(point_rows + "3 0 1 -1\n", "14: wanted a vertex from 0 on, got -1");
-  refused(point_rows + "3 0 1 0.5\n", "14: wanted a whole number, got 0.5");
-  refused(point_rows + "-3 0 1 2\n", "14: wanted a count of vertex_index from 0 on, got -3");
+  refused("0 0 0\n1 0 x\n", "11: expected a number, got 'x'");
+  refused("0 0 0\n1 0 nan\n", "11: expected a number, got 'nan'");
+  refused("0 0 0\n1 0\n", "11: expected a number, got nothing");
+  refused("0 0 0\n", "10: expected vertex 2 of 4, got the end of the file");
+  refused(point_rows + "3 0 1 4\n", "14: expected a vertex from 0 to 3, got 4");
+  refused(point_rows + "3 0 1 -1\n", "14: expected a vertex from 0 on, got -1");
+  refused(point_rows + "3 0 1 0.5\n", "14: expected a whole number, got 0.5");
+  refused(point_rows + "-3 0 1 2\n", "14: expected a count of vertex_index from 0 on, got -3");
   Warnings warnings;
   read_ply_text("ply\nformat ascii 1.0\n" + points + faces +
                     "element edge 1\nproperty int a\nend_header\n" + point_rows +
@@ -120,16 +120,16 @@ TEST_CASE("what is wrong in the bytes of a PLY file is told by element") {
     CHECK_THROWS_WITH_AS(read_ply_text(bytes), ("q.ply: " + sentence).c_str(), Error);
   };
   refused(content.substr(0, body + 20 * 3 + 5),
-          "vertex 4 of 8: wanted 8 bytes, got the end of the file");
+          "vertex 4 of 8: expected 8 bytes, got the end of the file");
   refused(content.substr(0, body + 20 * 8 + 14 * 2 + 1),
-          "face 3 of 12: wanted 1 bytes, got the end of the file");
+          "face 3 of 12: expected 1 bytes, got the end of the file");
   std::string bad = content, nan;
   append_bytes(nan, std::numeric_limits<float>::infinity());
   bad.replace(body + 20, 4, nan);
-  refused(bad, "vertex 2 of 8: wanted finite coordinates, got inf");
+  refused(bad, "vertex 2 of 8: expected finite coordinates, got inf");
   bad = content;
   bad[body + 20 * 8 + 14 + 2] = 8;
-  refused(bad, "face 2 of 12: wanted a vertex from 0 to 7, got 8");
+  refused(bad, "face 2 of 12: expected a vertex from 0 to 7, got 8");
   Warnings warnings;
   read_ply_text(content + "more", warnings.options());
   CHECK(warnings.list ==

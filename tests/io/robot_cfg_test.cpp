@@ -181,7 +181,7 @@ TEST_CASE("links without a last joint take the next one, which a note says") {
   CHECK(links[1].last_joint == 2);
 }
 
-TEST_CASE("limits of more than four turns are doubtful") {
+TEST_CASE("limits of more than four turns are suspicious") {
   Cfg cfg;
   cfg.joint_lines = "d0 0 10 0 -10 1e30\n";
   Warnings warnings;

@@ -48,7 +48,7 @@ TEST_CASE("a malformed file that a robot names is an error at both places") {
   Hand hand;
   hand.folder.write("a.egr", "DIMENSIONS 1\nEG\nx\n2\n");
   CHECK_THROWS_WITH_AS(hand.read("EigenGrasps\na.egr\n"),
-                       "hand.cfg:12: EigenGrasps: a.egr:3: eigengrasp 1: eigenvalue: wanted a "
+                       "hand.cfg:12: EigenGrasps: a.egr:3: eigengrasp 1: eigenvalue: expected a "
                        "number, got 'x'",
                        Error);
 }

@@ -27,7 +27,7 @@ static fs::path text_file(std::string file) {
 }
 
 static const std::vector<std::string> measured_worlds = {"dlr_flask", "plannerMug", "plannerP51",
-                                                "barrettGlassDyn"};
+                                                         "barrettGlassDyn"};
 
 TEST_CASE("every body of the original loads, with triangles unless it is a frame") {
   REQUIRE_SHARED();

@@ -80,7 +80,7 @@ const test::Oddities odd_lines = {{"-1", "999999999", "-2147483648", "1e308", "n
 
 }  // namespace
 
-TEST_CASE("malformed small files are told by file, line, wanted and got") {
+TEST_CASE("malformed small files are told by file, line, expected and got") {
   int checked = 0;
   for (const Format& format : formats) {
     std::vector<fs::path> files;
@@ -108,7 +108,7 @@ TEST_CASE("a small file that does not exist, or is a folder, is told by its name
   for (const Format& format : formats) {
     if (format.folder == std::string("primitives")) continue;  // its ending is looked at first
     CHECK_THROWS_WITH_AS(format.read("tests/none.egr"), "no such file: tests/none.egr", Error);
-    CHECK_THROWS_WITH_AS(format.read("tests/data"), "tests/data: wanted a file, got a folder",
+    CHECK_THROWS_WITH_AS(format.read("tests/data"), "tests/data: expected a file, got a folder",
                          Error);
   }
 }

@@ -36,30 +36,30 @@ TEST_CASE("what is wrong in an ascii STL file is told by line") {
   const auto refused = [&](const std::string& text, const std::string& sentence) {
     CHECK_THROWS_WITH_AS(read_stl_text(text), ("q.stl:" + sentence).c_str(), Error);
   };
-  refused(start + "endloop", "6: wanted three vertices a facet, got 2");
-  refused(start + "vertex 1 1 0\nvertex 2 2 2", "7: wanted three vertices a facet, got more");
-  refused(start + "vertex 1 x 0", "6: wanted three numbers after vertex, got 'x'");
-  refused(start + "vertex 1 nan 0", "6: wanted three numbers after vertex, got 'nan'");
-  refused(start + "vertx 1 1 0", "6: wanted 'vertex' or 'endloop', got 'vertx'");
-  refused(start + "vertex 1 1 0\nendloop\nendsolid", "8: wanted 'endfacet', got 'endsolid'");
+  refused(start + "endloop", "6: expected three vertices a facet, got 2");
+  refused(start + "vertex 1 1 0\nvertex 2 2 2", "7: expected three vertices a facet, got more");
+  refused(start + "vertex 1 x 0", "6: expected three numbers after vertex, got 'x'");
+  refused(start + "vertex 1 nan 0", "6: expected three numbers after vertex, got 'nan'");
+  refused(start + "vertx 1 1 0", "6: expected 'vertex' or 'endloop', got 'vertx'");
+  refused(start + "vertex 1 1 0\nendloop\nendsolid", "8: expected 'endfacet', got 'endsolid'");
   refused(start + "vertex 1 1 0\nendloop\nendfacet\n",
-          "8: wanted facet or endsolid, got the end of the file");
-  refused("solid\nfacet 0 0 1", "2: wanted 'normal' after facet");
-  refused("solid\nface normal", "2: wanted 'facet' or 'endsolid', got 'face'");
-  refused("solid\nendsolid\nmore", "3: wanted 'solid', got 'more'");
-  refused("solid\nendsolid", " wanted triangles, got none");
+          "8: expected facet or endsolid, got the end of the file");
+  refused("solid\nfacet 0 0 1", "2: expected 'normal' after facet");
+  refused("solid\nface normal", "2: expected 'facet' or 'endsolid', got 'face'");
+  refused("solid\nendsolid\nmore", "3: expected 'solid', got 'more'");
+  refused("solid\nendsolid", " expected triangles, got none");
 }
 
 TEST_CASE("what is wrong in a binary STL file is told by facet") {
   std::string content = binary_stl(box(1, 1, 1));
   CHECK_THROWS_WITH_AS(read_stl_text(content.substr(0, 84 + 50 * 7 + 3)),
-                       "q.stl: facet 8 of 12: wanted 50 bytes, got the end of the file", Error);
+                       "q.stl: facet 8 of 12: expected 50 bytes, got the end of the file", Error);
   std::string nan;
   append_bytes(nan, std::numeric_limits<float>::quiet_NaN());
   std::string bad = content;
   bad.replace(84 + 50 * 2 + 12, 4, nan);
   CHECK_THROWS_WITH_AS(read_stl_text(bad),
-                       "q.stl: facet 3 of 12: wanted finite coordinates, got nan", Error);
+                       "q.stl: facet 3 of 12: expected finite coordinates, got nan", Error);
   Warnings warnings;
   content[84 + 48] = 1;
   read_stl_text(content + "more", warnings.options());

@@ -100,5 +100,5 @@ TEST_CASE("transforms in tags mean what the lines mean") {
 
 TEST_CASE("a wrong number within tags is told by place") {
   CHECK_THROWS_WITH_AS(tags("<transform><translation>1 2 x</translation></transform>"),
-                       "x.wld:1: translation z: wanted a number, got 'x'", Error);
+                       "x.wld:1: translation z: expected a number, got 'x'", Error);
 }

@@ -85,18 +85,18 @@ TEST_CASE("faces that take long to cut have an end, however many there are") {
   Random random(5);
   GeometryBuilder builder;
   std::vector<int> face;
-  for (int i = 0; i < most_concave_corners; ++i)
+  for (int i = 0; i < max_concave_corners; ++i)
     face.push_back(builder.add_vertex({random.normal(), random.normal(), 0}));
   CHECK_THROWS_WITH_AS(for (int i = 0; i < 10'000; ++i) builder.add_face(face, {1, 1, 1}, 0),
-                       "wanted fewer faces of many corners that are not convex", Error);
+                       "expected fewer faces of many corners that are not convex", Error);
 }
 
 TEST_CASE("a crooked face of very many corners is refused") {
   Random random(3);
   Points p;
-  for (int i = 0; i <= most_concave_corners; ++i)
-    p.push_back({random.normal(), random.normal(), 0});
+  for (int i = 0; i <= max_concave_corners; ++i) p.push_back({random.normal(), random.normal(), 0});
   CHECK_THROWS_WITH_AS(triangulate(p),
-                       "wanted at most 1000 corners of a face that is not convex, got 1001", Error);
+                       "expected at most 1000 corners of a face that is not convex, got 1001",
+                       Error);
   CHECK(triangulate(p, true).size() == p.size() - 2);
 }

@@ -247,12 +247,12 @@ TEST_CASE("a wrong inertia is told and does not keep the robot from its work") {
   CHECK(impossible.warned("inertia that no body has"));
   const ToldRobot weightless(folder.write("a.urdf", inertial("0", "1")));
   CHECK(
-      weightless.warned("a.urdf:1: mass: value: wanted a number from 1e-12 to 1e+12 [kg], got 0; "
+      weightless.warned("a.urdf:1: mass: value: expected a number from 1e-12 to 1e+12 [kg], got 0; "
                         "the inertial of link "
                         "'a' is not used"));
   CHECK(weightless.robot.base.mass == doctest::Approx(1));
   const ToldRobot nonsense(folder.write("a.urdf", inertial("1", "nan")));
-  CHECK(nonsense.warned("inertia: ixx: wanted a number, got 'nan'"));
+  CHECK(nonsense.warned("inertia: ixx: expected a number, got 'nan'"));
 }
 
 TEST_CASE("a package is found by option, by its name above the file, or by what lies in it") {

@@ -134,11 +134,12 @@ TEST_CASE("contacts written and read again are the same but for the last place o
 TEST_CASE("writing refuses other endings, and names that would not be read as one are bent") {
   TemporaryFolder folder;
   CHECK_THROWS_WITH_AS(write_virtual_contacts({}, folder.path() / "a.doc"),
-                       "a.doc: wanted a file of virtual contacts, .vgr or .xml, got '.doc'", Error);
+                       "a.doc: expected a file of virtual contacts, .vgr or .xml, got '.doc'",
+                       Error);
   VirtualContactSet set{.robot = "", .contacts = {VirtualContactSpec{}}};
   set.contacts[0].mu = -1;
   CHECK_THROWS_WITH_AS(write_virtual_contacts(set, folder.path() / "a.vgr"),
-                       "a.vgr: contact 1: mu: wanted a number from 0 to 1e+06, got -1", Error);
+                       "a.vgr: contact 1: mu: expected a number from 0 to 1e+06, got -1", Error);
   for (const auto& [name, read_back] : {std::pair("", "_"), {"#1", "_#1"}, {"a\nb", "a_b"}}) {
     write_virtual_contacts({name, {}}, folder.path() / "a.vgr");
     CHECK(read_virtual_contacts(folder.path() / "a.vgr").robot == read_back);
@@ -202,9 +203,9 @@ TEST_CASE("contacts on an object are read with their points and without") {
 }
 
 TEST_CASE("of contacts on an object that are neither, the usual layout's error is told") {
-  CHECK_THROWS_WITH_AS(read_objects("1\n0\n1 0 0 0\n1 2\n"),
-                       "a.con:4: contact 1: translation: wanted a number, got the end of the file",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      read_objects("1\n0\n1 0 0 0\n1 2\n"),
+      "a.con:4: contact 1: translation: expected a number, got the end of the file", Error);
 }
 
 TEST_CASE("contacts on an object written and read again are the same") {
@@ -228,5 +229,5 @@ TEST_CASE("contacts on an object written and read again are the same") {
   }
   contacts[0].placed = false;
   CHECK_THROWS_WITH_AS(write_object_contacts(contacts, folder.path() / "a.con"),
-                       "a.con: contact 1: wanted a contact with a point", Error);
+                       "a.con: contact 1: expected a contact with a point", Error);
 }

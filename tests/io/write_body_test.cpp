@@ -175,16 +175,16 @@ TEST_CASE("what cannot be written is an error, and the old file stays") {
   const TemporaryFolder folder;
   const BodySpec body = some_body();
   CHECK_THROWS_WITH_AS(write_body(body, folder.path() / "a.glb"),
-                       "a.glb: wanted a body to .xml, .iv, .obj, .off, .ply or .stl, got '.glb'",
+                       "a.glb: expected a body to .xml, .iv, .obj, .off, .ply or .stl, got '.glb'",
                        Error);
   CHECK_THROWS_WITH_AS(write_mesh(body.shape->mesh(), folder.path() / "a.iv"),
-                       "a.iv: wanted a mesh to .obj, .off, .ply or .stl, got '.iv'", Error);
+                       "a.iv: expected a mesh to .obj, .off, .ply or .stl, got '.iv'", Error);
   const auto file = folder.write("a.stl", "old");
   Mesh far = box(1, 1, 1);
   far.vertices[0].x() = 1e39;
   CHECK_THROWS_WITH_AS(
       write_mesh(far, file),
-      "a.stl: wanted coordinates within 3.403e+38 m, as .stl holds them, got 1e+39", Error);
+      "a.stl: expected coordinates within 3.403e+38 m, as .stl holds them, got 1e+39", Error);
   CHECK(std::filesystem::file_size(file) == 3);
   const auto gone = folder.path() / "no/a.obj";
   CHECK_THROWS_WITH_AS(write_body(body, gone),

@@ -137,7 +137,7 @@ TEST_CASE("what a .urdf does not hold is told, a sentence each") {
   const TemporaryFolder folder, out;
   const RobotSpec robot = read_robot(full_robot(folder));
   const auto urdf = written(robot, out.path() / "hand.urdf");
-  const std::vector<std::string> wanted = {
+  const std::vector<std::string> expected = {
       "hand.urdf: 'chain0_joint0_frame' is a frame without mass between two joints of one link",
       "hand.urdf: DOF 0 counts 0.7 times as far in it, as its joint 'chain0_joint0' does",
       "hand.urdf names no eigengrasps; they stand beside it: read it with eigengrasps = "
@@ -164,13 +164,13 @@ TEST_CASE("what a .urdf does not hold is told, a sentence each") {
       "hand.urdf does not hold the 1 tactile sensors",
       "hand.urdf does not hold the 1 tendons and 1 wrappers",
       "hand.urdf does not hold the name in a database of grasps, 'TOY & co'"};
-  for (const std::string& sentence : wanted) {
+  for (const std::string& sentence : expected) {
     INFO(sentence);
     CHECK(urdf.told(sentence));
   }
   for (const std::string& sentence : urdf.lost) {
     INFO(sentence);
-    CHECK(std::ranges::count(wanted, sentence) == 1);
+    CHECK(std::ranges::count(expected, sentence) == 1);
   }
 }
 
@@ -251,11 +251,11 @@ TEST_CASE("a base and links without surfaces come back as frames") {
 
 TEST_CASE("robots that cannot be written are refused in one sentence, and leave nothing behind") {
   RobotSpec robot = bare_hand();
-  check_refused(robot, "hand.sdf", "hand.sdf: wanted a robot to .urdf, got '.sdf'");
-  check_refused(robot, "hand.cfg", "hand.cfg: wanted a robot to .urdf, got '.cfg'");
+  check_refused(robot, "hand.sdf", "hand.sdf: expected a robot to .urdf, got '.sdf'");
+  check_refused(robot, "hand.cfg", "hand.cfg: expected a robot to .urdf, got '.cfg'");
   robot.base.mass = 0;
   check_refused(robot, "hand.urdf",
-                "hand.urdf cannot be written: any: base 'any_base': mass: wanted a number from "
+                "hand.urdf cannot be written: any: base 'any_base': mass: expected a number from "
                 "1e-12 to 1e+12 [kg], got 0");
   robot = bare_hand();
   robot.chains[0].joints[0].max = -1;
@@ -264,7 +264,7 @@ TEST_CASE("robots that cannot be written are refused in one sentence, and leave 
   robot = bare_hand();
   robot.dofs[0].max_effort = HUGE_VAL;
   check_refused(robot, "hand.urdf",
-                "hand.urdf cannot be written: any: DOF 0: max effort: wanted a number from 0 to "
+                "hand.urdf cannot be written: any: DOF 0: max effort: expected a number from 0 to "
                 "1e+30, got inf");
   robot = bare_hand();
   JointSpec far = robot.chains[0].joints[0];
@@ -274,7 +274,7 @@ TEST_CASE("robots that cannot be written are refused in one sentence, and leave 
   robot.chains[0].links[0].last_joint = 2;
   check_refused(
       robot, "hand.urdf",
-      "hand.urdf: joint 'chain0_joint1': wanted a position within 1e+09 m of the origin, got "
+      "hand.urdf: joint 'chain0_joint1': expected a position within 1e+09 m of the origin, got "
       "(1600000000, 1600000000, 0)");
 }
 
@@ -289,7 +289,7 @@ TEST_CASE("a robot whose file cannot be written keeps the older one") {
                        Error);
   fs::create_directory(folder.path() / "folder.urdf");
   CHECK_THROWS_WITH_AS(write_robot(robot, folder.path() / "folder.urdf"),
-                       fmt::format("{}: wanted a file to write, got a folder",
+                       fmt::format("{}: expected a file to write, got a folder",
                                    (folder.path() / "folder.urdf").string())
                            .c_str(),
                        Error);

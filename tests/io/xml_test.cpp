@@ -28,26 +28,27 @@ TEST_CASE("elements, texts and attributes stand where the file has them") {
   CHECK(root.child("d").text().empty());
 }
 
-TEST_CASE("values that are not as wanted are told with their place") {
+TEST_CASE("values that are not as expected are told with their place") {
   const XmlFile file("a.xml", "<a n=\"x\">\n<b>1.5</b><c>12 0</c>\n<d><e/></d><f>7</f></a>");
   const XmlElement root = file.root();
-  CHECK_THROWS_WITH_AS(root.wanted("g"), "a.xml:1: a: wanted an element <g>, got none", Error);
-  CHECK_THROWS_WITH_AS(root.child("b").integer(), "a.xml:2: b: wanted a whole number, got '1.5'",
+  CHECK_THROWS_WITH_AS(root.expected("g"), "a.xml:1: a: expected an element <g>, got none", Error);
+  CHECK_THROWS_WITH_AS(root.child("b").integer(), "a.xml:2: b: expected a whole number, got '1.5'",
                        Error);
-  CHECK_THROWS_WITH_AS(root.child("c").vector(), "a.xml:2: c: wanted 3 numbers, got 2", Error);
-  CHECK_THROWS_WITH_AS(root.child("c").number(), "a.xml:2: c: wanted a number, got '12 0'", Error);
-  CHECK_THROWS_WITH_AS(root.child("d").text(), "a.xml:3: d: wanted text, got an element <e>",
+  CHECK_THROWS_WITH_AS(root.child("c").vector(), "a.xml:2: c: expected 3 numbers, got 2", Error);
+  CHECK_THROWS_WITH_AS(root.child("c").number(), "a.xml:2: c: expected a number, got '12 0'",
+                       Error);
+  CHECK_THROWS_WITH_AS(root.child("d").text(), "a.xml:3: d: expected text, got an element <e>",
                        Error);
   CHECK_THROWS_WITH_AS(root.child("f").integer(0, 5),
-                       "a.xml:3: f: wanted a whole number from 0 to 5, got '7'", Error);
+                       "a.xml:3: f: expected a whole number from 0 to 5, got '7'", Error);
   CHECK_THROWS_WITH_AS(root.child("f").integer(8),
-                       "a.xml:3: f: wanted a whole number >= 8, got '7'", Error);
-  CHECK_THROWS_WITH_AS(root.wanted_attribute("m"), "a.xml:1: a: wanted an attribute 'm', got none",
+                       "a.xml:3: f: expected a whole number >= 8, got '7'", Error);
+  CHECK_THROWS_WITH_AS(root.expected_attribute("m"),
+                       "a.xml:1: a: expected an attribute 'm', got none", Error);
+  CHECK_THROWS_WITH_AS(root.number_attribute("n"), "a.xml:1: a: n: expected a number, got 'x'",
                        Error);
-  CHECK_THROWS_WITH_AS(root.number_attribute("n"), "a.xml:1: a: n: wanted a number, got 'x'",
-                       Error);
-  CHECK_THROWS_WITH_AS(root.integer_attribute("n"), "a.xml:1: a: n: wanted a whole number, got 'x'",
-                       Error);
+  CHECK_THROWS_WITH_AS(root.integer_attribute("n"),
+                       "a.xml:1: a: n: expected a whole number, got 'x'", Error);
 }
 
 TEST_CASE("what is not known, stands twice, or is text among elements is warned of") {
@@ -64,22 +65,22 @@ TEST_CASE("what is not known, stands twice, or is text among elements is warned 
 TEST_CASE("files beyond all measure are refused before the parser sees them") {
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "<a>";
-  CHECK_THROWS_WITH_AS(XmlFile("a.xml", deep), "a.xml:1: wanted at most 64 elements in each other",
-                       Error);
+  CHECK_THROWS_WITH_AS(XmlFile("a.xml", deep),
+                       "a.xml:1: expected at most 64 elements in each other", Error);
   std::string wide = "<a ";
   for (int i = 0; i < 5000; ++i) wide += "x='1' ";
   CHECK_THROWS_WITH_AS(XmlFile("a.xml", wide + "/>"),
-                       "a.xml:1: wanted at most 1000 attributes, got 5000", Error);
+                       "a.xml:1: expected at most 1000 attributes, got 5000", Error);
   CHECK_THROWS_WITH_AS(XmlFile("a.xml", std::string(17 << 20, ' ')),
-                       "a.xml: wanted at most 16 MB of XML, got 17", Error);
+                       "a.xml: expected at most 16 MB of XML, got 17", Error);
   CHECK_THROWS_WITH_AS(XmlFile("a.xml", std::string("<a>\n\0</a>", 9)),
-                       "a.xml:2: wanted text, got a zero byte", Error);
+                       "a.xml:2: expected text, got a zero byte", Error);
 }
 
 TEST_CASE("entities of a file's own are refused, for they would stand in names as they are") {
   const std::string own = "<!DOCTYPE a [<!ENTITY who 'x'>]>\n";
   const std::string sentence =
-      ": the entity '&who;' is not read; wanted &amp; &lt; &gt; &quot; or &apos;";
+      ": the entity '&who;' is not read; expected &amp; &lt; &gt; &quot; or &apos;";
   CHECK_THROWS_WITH_AS(XmlFile("a.xml", own + "<a>\n&who;</a>"), ("a.xml:3" + sentence).c_str(),
                        Error);
   CHECK_THROWS_WITH_AS(XmlFile("a.xml", own + "<a b='&who;'/>"), ("a.xml:2" + sentence).c_str(),

@@ -17,26 +17,26 @@ test("a triangle that names a vertex twice is left out and counted", function(t)
   local triangles = {{1, 1, 2}, table.unpack(faces)}
   triangles[#triangles + 1] = {4, 3, 4}
   local said, body = told(function() return clench.world():add_object {vertices = corners, triangles = triangles} end)
-  t.equal(said, {"mended world:add_object: mesh: 2 of 6 triangles name a vertex twice and are left out"})
+  t.equal(said, {"repaired world:add_object: mesh: 2 of 6 triangles name a vertex twice and are left out"})
   t.equal(body.mesh.triangles, faces)
   t.ok(body.mesh:is_watertight())
   t.fails(function() clench.world():add_object {vertices = {{0, 0, 0}}, triangles = {{1, 1, 1}}} end,
-          "wanted a triangle of three different vertices, got none")
+          "expected a triangle of three different vertices, got none")
   t.fails(function() clench.world():add_object {vertices = corners, triangles = {}} end,
-          "wanted at least one triangle, got none")
+          "expected at least one triangle, got none")
 end)
 
-test("a body without area, and objects of a size that no hand grasps, are doubtful", function(t)
+test("a body without area, and objects of a size that no hand grasps, are suspicious", function(t)
   local function doubts(mesh, method)
     local world = clench.world()
     return (told(function() return world[method or "add_object"](world, mesh) end))
   end
   t.equal(doubts {vertices = {{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}}, triangles = {{1, 2, 3}}},
-          {"doubtful world:add_object: mesh: none of its triangles has an area"})
+          {"suspicious world:add_object: mesh: none of its triangles has an area"})
   t.equal(doubts(clench.shapes.box {100, 20, 30}),
-          {"doubtful world:add_object: mesh: it is 100 m large: is its unit right?"})
+          {"suspicious world:add_object: mesh: it is 100 m large: is its unit right?"})
   t.equal(doubts(clench.shapes.box {1e-4, 1e-4, 1e-4}),
-          {"doubtful world:add_object: mesh: it is 0.0001 m large: is its unit right?"})
+          {"suspicious world:add_object: mesh: it is 0.0001 m large: is its unit right?"})
   t.equal(doubts(clench.shapes.box {2.9, 0.002, 0.002}), {})
   -- what only stands in the way may be a room
   t.equal(doubts(clench.shapes.box {100, 20, 30}, "add_obstacle"), {})
@@ -45,45 +45,45 @@ end)
 test("vertices lie within a thousand million metres", function(t)
   local far = {{0, 0, 0}, {0.1, 0, 0}, {0, -1.1e9, 0}, {0, 0, 0.1}}
   t.fails(function() clench.world():add_object {vertices = far, triangles = faces} end,
-          "mesh: vertex 3: coordinates: wanted a number from -1e+09 to 1e+09 [m], got -1100000000")
+          "mesh: vertex 3: coordinates: expected a number from -1e+09 to 1e+09 [m], got -1100000000")
   far[3][2] = -1e9
   t.ok(clench.world():add_obstacle {vertices = far, triangles = faces}.mesh:is_watertight())
 end)
 
 test("a list has no names: braces that were forgotten are told", function(t)
-  t.fails(function() clench.vec3 {x = 1, y = 2, z = 3} end, "wanted 3 numbers, got a table with the key 'x'")
-  t.fails(function() clench.vec3 {1, 2, 3, w = 4} end, "wanted 3 numbers, got a table with the key 'w'")
+  t.fails(function() clench.vec3 {x = 1, y = 2, z = 3} end, "expected 3 numbers, got a table with the key 'x'")
+  t.fails(function() clench.vec3 {1, 2, 3, w = 4} end, "expected 3 numbers, got a table with the key 'w'")
   t.fails(function() clench.vec3 {1, 2, 3, [0] = 4} end, "got a table with the key [0]")
   t.fails(function() clench.vec3 {1, 2, 3, [5] = 4} end, "got a table with the key [5]")
   t.fails(function() clench.vec3 {1, 2, 3, [true] = 4} end, "got a table with the key [true]")
   local hand = clench.world():add_robot "models/hands/barrett/barrett.cfg"
   local count = #hand.virtual_contacts
   t.fails(function() hand.virtual_contacts = {link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}} end,
-          "hand.virtual_contacts: virtual_contacts: wanted a list of virtual contacts, got a table with the key 'link'")
+          "hand.virtual_contacts: virtual_contacts: expected a list of virtual contacts, got a table with the key 'link'")
   t.equal(#hand.virtual_contacts, count)
   local path = os.tmpname()
   t.fails(function() clench.files.save_pregrasps(path, {point = {0, 0, 0}}) end,
-          "wanted a list of tables, got a table with the key 'point'")
+          "expected a list of tables, got a table with the key 'point'")
   os.remove(path)
 end)
 
 test("masses and friction have an upper end", function(t)
   local world = clench.world()
   t.fails(function() world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {mass = 1e308}) end,
-          "mass: wanted a number from 1e-12 to 1e+12 [kg], got 1e+308")
+          "mass: expected a number from 1e-12 to 1e+12 [kg], got 1e+308")
   t.equal(#world.bodies, 0)
   local box = world:add_object(clench.shapes.box {0.1, 0.1, 0.1})
-  t.fails(function() box.mass = 1e31 end, "mass: wanted a number from 1e-12 to 1e+12 [kg], got 1e+31")
+  t.fails(function() box.mass = 1e31 end, "mass: expected a number from 1e-12 to 1e+12 [kg], got 1e+31")
   t.fails(function() world:set_friction("wood", "glass", {static = 1e300}) end,
-          "friction of wood and glass: static: wanted a number from 0 to 1e+06, got 1e+300")
+          "friction of wood and glass: static: expected a number from 0 to 1e+06, got 1e+300")
   local hand = world:add_robot "models/hands/barrett/barrett.cfg"
   t.fails(function() hand.virtual_contacts = {{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}, mu = 1e40}} end,
-          "mu: wanted a number from 0 to 1e+06, got 1e+40")
+          "mu: expected a number from 0 to 1e+06, got 1e+40")
 end)
 
 test("an inertia that no body has is refused", function(t)
   local odd = {{1, 0, 0}, {0, 1, 0}, {0, 0, 3}}
-  local tail = "inertia: wanted no moment above the sum of the others, got one of 1.5 times that sum"
+  local tail = "inertia: expected no moment above the sum of the others, got one of 1.5 times that sum"
   local world = clench.world()
   t.fails(function() world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {inertia = odd}) end, "world:add_object: body 'body': " .. tail)
   t.equal(#world.bodies, 0)
@@ -120,16 +120,16 @@ test("surplus arguments are refused by every method", function(t)
     local object = one[class.name]
     for _, method in ipairs(object and class.methods or {}) do
       local ok, message = pcall(object[method.name], object, table.unpack({}, 1, 20))
-      t.ok(not ok and message:find("wanted at most %d+ arguments?, got 20"), class.name .. ":" .. method.name .. ": " .. tostring(message))
+      t.ok(not ok and message:find("expected at most %d+ arguments?, got 20"), class.name .. ":" .. method.name .. ": " .. tostring(message))
       tried = tried + 1
     end
   end
   t.ok(tried > 40, "tried " .. tried)
 end)
 
-test("what is wanted is named with its article", function(t)
+test("what is expected is named with its article", function(t)
   local hand = clench.world():add_robot "models/hands/barrett/barrett.cfg"
-  t.fails(function() hand.eigengrasps.amplitudes(hand) end, "wanted eigengrasps before the colon, got a robot")
+  t.fails(function() hand.eigengrasps.amplitudes(hand) end, "expected eigengrasps before the colon, got a robot")
   t.fails(function() clench.eigengrasps {postures = {{1, 2}, {2, 1}}, vectors = {{1, 0}}} end,
-          "clench.eigengrasps: wanted postures or vectors, got both")
+          "clench.eigengrasps: expected postures or vectors, got both")
 end)

@@ -21,7 +21,7 @@ test("a patch of any radius is fitted or refused", function(t)
   for power = -30, 20 do
     for _, fit in ipairs {"quadric", "jet"} do
       for _, flat in ipairs {10.0 ^ power, 0.02} do
-        local ok, result = pcall(corners[1].fit_patch, corners[1], {radius = 10.0 ^ power, fit = fit, flat_radius = flat})
+        local ok, result = pcall(corners[1].fit_patch, corners[1], {radius = 10.0 ^ power, fit = fit, max_radius = flat})
         if ok then
           t.ok(result:ellipse {force = 5}.indentation >= 0)
         else
@@ -68,7 +68,7 @@ test("shapes have no more points than take a moment", function(t)
   t.fails(function() shapes.prism {outline = shapes.ring {1, segments = 2000}, height = 1} end,
     "shapes.prism: outline must have at most 1024 points, got 2000")
   t.fails(function() shapes.torus {1, 0.1, segments = 1000, sides = 1000} end,
-    "shapes.torus: wanted at most 300000 vertices, got 1000000")
+    "shapes.torus: expected at most 300000 vertices, got 1000000")
   local points = {}
   for i = 1, 200000 do points[i] = {i, i * i} end
   t.fails(function() shapes.prism {outline = points, height = 1} end, "a list of at most 100000 points, got a table of 200000")

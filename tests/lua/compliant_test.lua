@@ -22,8 +22,8 @@ test("a gripper on springs wraps itself around a cylinder, holds it by its sprin
   local wound = 0
   each_joint(hand, function(joint)
     t.equal(joint.broken_away, false)
-    t.close(joint.wound, joint.ratio * hand.dofs[1] - joint.value, 1e-15)
-    wound = math.max(wound, joint.wound)
+    t.close(joint.spring_deflection, joint.ratio * hand.dofs[1] - joint.value, 1e-15)
+    wound = math.max(wound, joint.spring_deflection)
   end)
   t.ok(wound > 0.05)
   local held = clench.grasp(hand, cylinder):equilibrium {torques = "springs"}
@@ -43,7 +43,7 @@ test("springs that are wound up stay so in Lua worlds; other formats say that th
   each_joint(hand, function(joint, c, j)
     local kept = again.robots[1].chains[c].joints[j]
     t.equal(kept.value, joint.value)
-    t.equal(kept.wound, joint.wound)
+    t.equal(kept.spring_deflection, joint.spring_deflection)
   end)
   for _, ending in ipairs {".wld", ".xml"} do
     local said = {}

@@ -43,15 +43,15 @@ end
 local function check(subject, entry)
   test(subject .. " is documented and its examples are true", function(t)
     local parsed = doc.parse(entry.doc)
-    t.ok(parsed.text ~= "", "wanted a sentence of doc, got none")
-    t.ok(#parsed.examples > 0, "wanted a running example, got none")
-    t.ok(parsed.unused == 0, "wanted a result after the last line of code, got none")
+    t.ok(parsed.text ~= "", "expected a sentence of doc, got none")
+    t.ok(#parsed.examples > 0, "expected a running example, got none")
+    t.ok(parsed.unused == 0, "expected a result after the last line of code, got none")
     local env = environment()
     for _, example in ipairs(parsed.examples) do
       for _, code in ipairs(example.prepare) do assert(load(code, "=example", "t", env))() end
       local got, want = result_of(example.code, env), example.result
-      local wanted_error = want:match "^error: (.*)$"
-      local ok = got == want or wanted_error and got:sub(1, 7) == "error: " and got:find(wanted_error, 1, true)
+      local expected_error = want:match "^error: (.*)$"
+      local ok = got == want or expected_error and got:sub(1, 7) == "error: " and got:find(expected_error, 1, true)
       t.ok(ok, ("> %s\nwanted %s\ngot    %s"):format(example.code, want, got))
     end
   end)

@@ -13,9 +13,9 @@ end
 for _, path in ipairs(list "files") do
   test(path .. " is understood, or refused by a sentence", function(t)
     local r = report.of(path, {root = "."})
-    t.ok(r.wrong or r.understood)
-    t.equal(r.wrong and judge.message(r.wrong), nil)
-    t.equal(r.understood and judge.value(r.understood, "found"), nil)
+    t.ok(r.error or r.parsed)
+    t.equal(r.error and judge.message(r.error), nil)
+    t.equal(r.parsed and judge.value(r.parsed, "found"), nil)
   end)
 end
 

@@ -80,7 +80,7 @@ test("a spoilt list of arguments has one part exchanged, and no key's name", fun
 end)
 
 test("a message of a library, of Lua or without a subject is found, a sentence is not", function(t)
-  t.equal(judge.message "fuzz:1: hand:autograsp: speed: wanted a number, got nil", nil)
+  t.equal(judge.message "fuzz:1: hand:autograsp: speed: expected a number, got nil", nil)
   t.equal(judge.message "no such file: cube.iv", nil)
   for _, text in ipairs {"std::bad_alloc", "clench.load: vector::_M_range_check", "not enough memory", "it failed",
                          "stdlib/report.lua:7: attempt to index a nil value", ("x: "):rep(500), "no body: 'a\27[2J'",
@@ -99,8 +99,8 @@ test("a value that is not finite is found, wherever it stands", function(t)
 end)
 
 test("findings of one cause have one signature", function(t)
-  local one = judge.signature("message", "fuzz:1: a: wanted 3, got 'x'")
-  t.equal(one, judge.signature("message", "fuzz:1: a: wanted 17.5, got 'yz'"))
+  local one = judge.signature("message", "fuzz:1: a: expected 3, got 'x'")
+  t.equal(one, judge.signature("message", "fuzz:1: a: expected 17.5, got 'yz'"))
   t.equal(crash("src/a.cpp:3:9: runtime error: 1e+30 is outside\n", 1), crash("/x/src/a.cpp:3:9: runtime error: 1e+30 is outside\n", 1))
   t.equal(crash("", 137), "no end")
   t.equal(crash("", 139), "exit code 139")

@@ -21,10 +21,10 @@ end)
 test("amplitudes that are set are the hand's, unless a limit is in the way", function(t)
   local hand = human()
   for i = 0, 4 do
-    local wanted = {0.05 * i, -0.02 * i, 0.01, 0, 0, 0}
-    local clamped = hand:set_amplitudes(wanted)
+    local expected = {0.05 * i, -0.02 * i, 0.01, 0, 0, 0}
+    local clamped = hand:set_amplitudes(expected)
     -- sums of twenty products of numbers below two
-    if #clamped == 0 then t.close(hand.amplitudes, wanted, 1e-13) end
+    if #clamped == 0 then t.close(hand.amplitudes, expected, 1e-13) end
   end
   local clamped = hand:set_amplitudes {50, 0, 0, 0, 0, 0}
   t.ok(#clamped > 0)
@@ -75,7 +75,7 @@ end)
 
 test("virtual contacts come back from files, on other hands of the kind too", function(t)
   local hand, other = human(), human()
-  hand.virtual_contacts = hand:find_virtual_contacts {per_link = 2}
+  hand.virtual_contacts = hand:find_virtual_contacts {count_per_link = 2}
   for _, ending in ipairs {".vgr", ".xml"} do
     local path = os.tmpname() .. ending
     hand:save_virtual_contacts(path)
@@ -94,26 +94,26 @@ end)
 test("what is no virtual contact is refused by a sentence", function(t)
   local hand, world = human(), clench.world()
   local box = world:add_object("models/objects/box.iv")
-  t.fails(function() hand.virtual_contacts = 3 end, "virtual_contacts: wanted a list of virtual contacts, got 3")
-  t.fails(function() hand.virtual_contacts = {3} end, "virtual_contacts[1]: wanted a virtual contact")
+  t.fails(function() hand.virtual_contacts = 3 end, "virtual_contacts: expected a list of virtual contacts, got 3")
+  t.fails(function() hand.virtual_contacts = {3} end, "virtual_contacts[1]: expected a virtual contact")
   t.fails(function() hand.virtual_contacts = {{link = box, point = {0, 0, 0}, normal = {0, 0, 1}}} end, "belongs to another world")
   t.fails(function() hand.virtual_contacts = {{link = 9, chain = 1, point = {0, 0, 0}, normal = {0, 0, 1}}} end, "there is no link 9 of chain 1")
-  t.fails(function() hand.virtual_contacts = {{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 0}}} end, "normal: wanted a direction")
+  t.fails(function() hand.virtual_contacts = {{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 0}}} end, "normal: expected a direction")
   t.fails(function() hand.virtual_contacts = {{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}, nu = 1}} end, "unknown key 'nu'")
-  t.fails(function() hand.virtual_contacts = {{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}, mu = -1}} end, "mu: wanted a number from 0 to 1e+06, got -1")
-  t.fails(function() hand.eigengrasps = {} end, "wanted eigengrasps, got a table")
-  t.fails(function() clench.eigengrasps {} end, "wanted postures or vectors")
+  t.fails(function() hand.virtual_contacts = {{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}, mu = -1}} end, "mu: expected a number from 0 to 1e+06, got -1")
+  t.fails(function() hand.eigengrasps = {} end, "expected eigengrasps, got a table")
+  t.fails(function() clench.eigengrasps {} end, "expected postures or vectors")
   t.fails(function() clench.eigengrasps {vectors = {{1, 0}, {2, 0}}} end, "eigengrasp 2: it is a sum of those before it")
-  t.fails(function() clench.eigengrasps {postures = {{0}, {1}}, count = 0} end, "count: wanted 1 or more, got 0")
-  t.fails(function() hand:find_virtual_contacts {per_link = 0} end, "per_link: wanted 1 to 100, got 0")
-  t.fails(function() hand:find_virtual_contacts {against = "wod"} end, "wood")
+  t.fails(function() clench.eigengrasps {postures = {{0}, {1}}, count = 0} end, "count: expected 1 or more, got 0")
+  t.fails(function() hand:find_virtual_contacts {count_per_link = 0} end, "count_per_link: expected 1 to 100, got 0")
+  t.fails(function() hand:find_virtual_contacts {object_material = "wod"} end, "wood")
 end)
 
 test("every hand of ours comes with eigengrasps and virtual contacts, and others are found near the pads", function(t)
   for _, path in ipairs(clench.catalog().hands) do
     local world = clench.world()
     local hand = world:add_robot(path)
-    t.ok(hand.eigengrasps.given and #hand.eigengrasps >= 1, path)
+    t.ok(hand.eigengrasps.is_custom and #hand.eigengrasps >= 1, path)
     local found = hand:find_virtual_contacts()
     t.ok(#found >= 3, path)
     -- a place faces the way that the closing hand carries it
@@ -139,9 +139,9 @@ test("a virtual contact lies on a link of the hand, in its world", function(t)
   hand:autograsp()
   local other = clench.load("worlds/dlr_flask.wld", {root = "."}).robots[1]
   t.fails(function() other:add_virtual_contact(world:contacts(hand, flask)[1]) end, "the contact is of another world")
-  t.fails(function() hand:remove_virtual_contact(0) end, "number: wanted one of")
-  t.fails(function() clench.files.save_planned_grasps("x", {{pose = {}, quality = 1, run = 0}}) end, "run: wanted a number from 1")
-  t.fails(function() clench.files.save_pregrasps("x", 3) end, "list: wanted a list of tables, got 3")
+  t.fails(function() hand:remove_virtual_contact(0) end, "number: expected one of")
+  t.fails(function() clench.files.save_planned_grasps("x", {{pose = {}, quality = 1, run = 0}}) end, "run: expected a number from 1")
+  t.fails(function() clench.files.save_pregrasps("x", 3) end, "list: expected a list of tables, got 3")
 end)
 
 test("a fixed amplitude stays while others are set", function(t)
@@ -152,8 +152,8 @@ test("a fixed amplitude stays while others are set", function(t)
   t.close(hand.amplitudes, {0.1, 0.1, 0, 0.05, 0, 0}, 1e-13)
   hand:move_amplitudes({0, 0, 0, 0, 0, 0}, {fixed = {1}})
   t.close(hand.amplitudes[1], 0.1, 1e-9)  -- where a drive ends, it is within its own tolerance
-  t.fails(function() hand:set_amplitudes({0, 0, 0, 0, 0, 0}, {fixed = {7}}) end, "fixed: wanted one of 6 eigengrasps, got 7")
-  t.fails(function() hand:set_amplitudes({0, 0, 0, 0, 0, 0}, {fixed = {1.5}}) end, "fixed: wanted one of 6 eigengrasps, got 1.5")
+  t.fails(function() hand:set_amplitudes({0, 0, 0, 0, 0, 0}, {fixed = {7}}) end, "fixed: expected one of 6 eigengrasps, got 7")
+  t.fails(function() hand:set_amplitudes({0, 0, 0, 0, 0, 0}, {fixed = {1.5}}) end, "fixed: expected one of 6 eigengrasps, got 1.5")
 end)
 
 test("virtual contacts that were made for another hand are taken with a warning", function(t)
@@ -171,15 +171,15 @@ test("virtual contacts that were made for another hand are taken with a warning"
   local list = clench.files.virtual_contacts(path)
   os.remove(path)
   local ok = pcall(give, list)
-  t.equal(said, ok and {"doubtful hand.virtual_contacts: virtual contacts made for 'human16' are used for 'human20'"} or {})
+  t.equal(said, ok and {"suspicious hand.virtual_contacts: virtual contacts made for 'human16' are used for 'human20'"} or {})
   give {hand.virtual_contacts[1]}
   t.equal(said, {})
   give {other.virtual_contacts[1]}
-  t.equal(said, {"doubtful hand.virtual_contacts: virtual contacts made for 'human16' are used for 'human20'"})
+  t.equal(said, {"suspicious hand.virtual_contacts: virtual contacts made for 'human16' are used for 'human20'"})
 end)
 
 test("a virtual contact has a frame, or a point and a normal", function(t)
   local hand = human()
   t.fails(function() hand:add_virtual_contact {link = hand.base, frame = {}, normal = {0, 0, 1}} end,
-    "wanted frame, or point and normal, got both")
+    "expected frame, or point and normal, got both")
 end)

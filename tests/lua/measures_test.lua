@@ -69,7 +69,7 @@ test("manipulability is the volume of what DOFs of length one do to the object, 
     local volume = math.sqrt(eliminate(square, none))
     t.ok(volume > 0)
     t.close(grasp:quality "manipulability", volume, 1e-6 * volume)
-    t.ok(grasp:quality "hand_least_singular_value" > 0 and grasp:quality "hand_isotropy" < 1)
+    t.ok(grasp:quality "hand_min_singular_value" > 0 and grasp:quality "hand_isotropy" < 1)
   end
 end)
 
@@ -78,7 +78,7 @@ test("all measures of grasps of many contacts come in time, and are the same how
     local grasp, again = closed(name), closed(name)
     local all = grasp:quality_all()
     t.ok(all.epsilon and all.grasp_robustness >= all.contact_robustness)
-    for _, measure in ipairs {"epsilon_exact", "epsilon", "volume", "weight_effort"} do
+    for _, measure in ipairs {"epsilon_exact", "epsilon", "volume", "gravity_effort"} do
       t.equal(again:quality(measure), all[measure])
     end
   end
@@ -97,7 +97,7 @@ test("what of the world a measure asks must stand as it did", function(t)
   local epsilon = grasp:quality "epsilon"
   grasp.hand:open()
   t.equal(grasp:quality "epsilon", epsilon)
-  for _, measure in ipairs {"manipulability", "joint_margin", "clearance", "weight_effort"} do
+  for _, measure in ipairs {"manipulability", "joint_margin", "clearance", "gravity_effort"} do
     t.fails(function() grasp:quality(measure) end, "joints of the hand have moved since it was measured; measure it anew")
   end
   grasp = closed "dlr_flask"
@@ -113,7 +113,7 @@ test("directions of any length, and thin ellipsoids", function(t)
   end
   local thin = grasp:resistance {ellipsoid = {1, 1, 1, 1e-7, 1e-7, 1e-7}}
   t.close(grasp:resistance {ellipsoid = {1, 1, 1, 1e-13, 1e-13, 1e-13}}, thin, 1e-5 * thin)
-  t.fails(function() grasp:resistance {wrenches = {}} end, "wrenches: wanted at least one, got none")
+  t.fails(function() grasp:resistance {wrenches = {}} end, "wrenches: expected at least one, got none")
 end)
 
 test("limits of torques count where they are asked for", function(t)
@@ -129,19 +129,19 @@ test("limits of torques count where they are asked for", function(t)
   t.equal(status {arms = true}, "optimal")
   local high = {}
   for i = 1, #grasp.hand.dofs do high[i] = 1e6 end
-  t.equal(status {closing_only = true}, status {closing_only = true, torque_limits = high})
+  t.equal(status {unilateral = true}, status {unilateral = true, torque_limits = high})
 end)
 
 test("a task of no wrench resists nothing, and what is no list of numbers is told from one", function(t)
   local grasp = closed "dlr_flask"
   local none = {0, 0, 0, 0, 0, 0}
-  t.fails(function() grasp:resistance {wrench = none} end, "wrench: wanted a wrench that is not zero: there is nothing to resist")
-  t.fails(function() grasp:resistance {wrenches = {{1, 0, 0, 0, 0, 0}, none}} end, "wrenches[2]: wanted a wrench that is not zero")
-  t.fails(function() grasp:resistance {wrenches = {}} end, "wrenches: wanted at least one, got none")
-  t.fails(function() grasp:resistance {wrenches = none} end, "wrenches[1]: wanted a list of 6 numbers, got 0")
-  t.fails(function() grasp:resistance {wrench = {0 / 0, 0, 0, 0, 0, 0}} end, "wrench[1]: wanted a finite number, got nan")
-  t.fails(function() grasp:contact_forces {torque_limits = 1} end, "torque_limits: wanted true or a list of numbers, got 1")
-  t.fails(function() grasp:equilibrium {torque_limits = "none"} end, "torque_limits: wanted true or a list of numbers, got 'none'")
+  t.fails(function() grasp:resistance {wrench = none} end, "wrench: expected a wrench that is not zero: there is nothing to resist")
+  t.fails(function() grasp:resistance {wrenches = {{1, 0, 0, 0, 0, 0}, none}} end, "wrenches[2]: expected a wrench that is not zero")
+  t.fails(function() grasp:resistance {wrenches = {}} end, "wrenches: expected at least one, got none")
+  t.fails(function() grasp:resistance {wrenches = none} end, "wrenches[1]: expected a list of 6 numbers, got 0")
+  t.fails(function() grasp:resistance {wrench = {0 / 0, 0, 0, 0, 0, 0}} end, "wrench[1]: expected a finite number, got nan")
+  t.fails(function() grasp:contact_forces {torque_limits = 1} end, "torque_limits: expected true or a list of numbers, got 1")
+  t.fails(function() grasp:equilibrium {torque_limits = "none"} end, "torque_limits: expected true or a list of numbers, got 'none'")
 end)
 
 test("measures of position, direction and normals are in quality_all", function(t)
@@ -149,7 +149,7 @@ test("measures of position, direction and normals are in quality_all", function(
   local all = grasp:quality_all()
   local mu = 0
   for _, contact in ipairs(grasp.contacts) do mu = math.max(mu, contact.mu) end
-  t.close(all.position_margin, all.epsilon * grasp.rho / math.sqrt(1 + mu ^ 2), 1e-12)
+  t.close(all.contact_position_tolerance, all.epsilon * grasp.rho / math.sqrt(1 + mu ^ 2), 1e-12)
   t.ok(all.orthogonality >= 0 and all.orthogonality <= math.pi / 4 + 1e-12)
   t.ok(all.coplanarity >= 0 and all.coplanarity <= math.sqrt(1 / 3) + 1e-12)
 end)

@@ -189,7 +189,7 @@ test("the postures that eigengrasps start from lie in the ranges and stand free"
   for _, path in ipairs(catalog.hands) do
     local world = clench.world()
     local hand = world:add_robot(path)
-    t.ok(hand.eigengrasps.given, path)
+    t.ok(hand.eigengrasps.is_custom, path)
     hand:set_dofs(hand.eigengrasps.origin)
     t.equal(#world:colliding(), 0)
   end

@@ -33,7 +33,7 @@ local function rich_world()
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   local hand, flask = world.robots[1], world.objects[1]
   local claw = world:add_robot("tests/data/two_finger/claw.cfg", {name = "the claw", pose = {xyz = {0.5, 0, 0.1}, rpy = {0.1, 0.2, 0.3}}})
-  claw:set_dofs({claw.dof_limits[1][2] / 2, 0}, {apart = {{1, 1, 0.001}}})
+  claw:set_dofs({claw.dof_limits[1][2] / 2, 0}, {joint_positions = {{1, 1, 0.001}}})
   world:set_friction("cork", "wood", {static = 0.9, kinetic = 0.1})
   world:set_friction("felt", "cork", {static = 0.7})
   world:set_friction("glass", "metal", {static = 0.3, kinetic = 0.3})
@@ -41,7 +41,7 @@ local function rich_world()
     name = "a \"round\" thing", material = "felt", mass = 0.1, com = {0.001, 0, 0}, inertia = {{1, 0, 0}, {0, 2, 0}, {0, 0, 2}},
     color = {1, 0.5, 0.1}, transparency = 0.25, elastic_modulus = 1e6, soft_layer = 0.004, poisson_ratio = 0.25, pose = {xyz = {1, 1 / 3, 0}, rpy = {1, 2, 3}}})
   local wrist = world:add_robot("tests/data/two_finger/pincher.cfg", {name = "wrist"})
-  wrist:mount_on(claw, {chain = 2, pose = {xyz = {0.01, 0.02, 0.03}, rpy = {0, 0, 1}}, piece = "tests/data/two_finger/box.iv"})
+  wrist:mount_on(claw, {chain = 2, pose = {xyz = {0.01, 0.02, 0.03}, rpy = {0, 0, 1}}, adapter = "tests/data/two_finger/box.iv"})
   world:add_obstacle("models/obstacles/table.iv", {name = "last", material = "cork", pose = {xyz = {0, 0, -2}}})
   flask.name, flask.mass, flask.com = "bottle", 0.456, {0, 0.01, 0}
   local third, fourth = hand.links[3].name, hand.links[4].name
@@ -188,7 +188,7 @@ test("a file that cannot be written leaves the old one as it was", function(t)
   local path = write("old.wld", "precious")
   local world = clench.world()
   t.fails(function() world:save "no/such/folder/a.wld" end, "no such folder: no/such/folder")
-  t.fails(function() world:save(folder .. "/a.obj") end, "wanted a world to .wld, .xml or .lua, got '.obj'")
+  t.fails(function() world:save(folder .. "/a.obj") end, "expected a world to .wld, .xml or .lua, got '.obj'")
   t.fails(function() world:save(path, {rot = "."}) end, "unknown key 'rot'")
   t.equal(read(path), "precious")
   world:save(path)
@@ -202,7 +202,7 @@ test("a Lua world is a script that returns a world", function(t)
     world:add_object(require "clench".shapes.box {1, 1, 1}, {name = options.root .. here})
     return world]])
   t.equal(clench.load(good, {root = "."}).objects[1].name, "." .. folder)
-  t.fails(function() clench.load(write("none.lua", "return 3")) end, "none.lua: wanted a script that returns a world, got 3")
+  t.fails(function() clench.load(write("none.lua", "return 3")) end, "none.lua: expected a script that returns a world, got 3")
   t.fails(function() clench.load(write("syntax.lua", "local = 3")) end, "syntax.lua:1:")
   t.fails(function() clench.load(write("raises.lua", "error 'no luck'")) end, "raises.lua:1: no luck")
   t.fails(function() clench.load(write("itself.lua", "return require 'clench'.load(" .. ("%q"):format(folder .. "/itself.lua") .. ")")) end, "itself.lua: it loads itself")
@@ -228,20 +228,20 @@ test("a camera is set by what it sees or by its pose", function(t)
   world.camera = nil
   t.equal(world.camera, nil)
   t.fails(function() world.camera = {eye = {0, 0, 0}, target = {0, 0, 0}} end, "eye and target apart")
-  t.fails(function() world.camera = {eye = {1, 0, 0}, target = {0, 0, 0}, field_of_view = 1} end, "field_of_view: wanted 0.785")
+  t.fails(function() world.camera = {eye = {1, 0, 0}, target = {0, 0, 0}, field_of_view = 1} end, "field_of_view: expected 0.785")
 end)
 
 test("joints that broke away are set by chain, joint and value", function(t)
   local claw = clench.world():add_robot "tests/data/two_finger/claw.cfg"
   local high = claw.dof_limits[1][2]
-  claw:set_dofs({high, high}, {apart = {{2, 1, 0}}})
+  claw:set_dofs({high, high}, {joint_positions = {{2, 1, 0}}})
   t.equal(claw.chains[2].joints[1].broken_away, true)
   t.equal(claw.chains[2].joints[1].value, 0)
   t.equal(claw.chains[1].joints[1].broken_away, false)
   claw:set_dofs {high, high}
   t.equal(claw.chains[2].joints[1].broken_away, false)
-  for bad, text in pairs {[{3, 1, 0}] = "wanted a chain from 1 to 2, got 3", [{1, 7, 0}] = "wanted a joint from 1 to", [{1, 1, 99}] = "wanted a value in"} do
-    t.fails(function() claw:set_dofs({0, 0}, {apart = {bad}}) end, text)
+  for bad, text in pairs {[{3, 1, 0}] = "expected a chain from 1 to 2, got 3", [{1, 7, 0}] = "expected a joint from 1 to", [{1, 1, 99}] = "expected a value in"} do
+    t.fails(function() claw:set_dofs({0, 0}, {joint_positions = {bad}}) end, text)
   end
 end)
 
@@ -254,7 +254,7 @@ test("files outside of the folder of confine are not read again to save a world"
   t.equal(clench.load(folder .. "/confined.xml").objects[1].mass, world.objects[1].mass)
   t.equal(warnings(function() world:save(folder .. "/confined.lua", {confine = "models"}) end), "")
   t.equal(clench.load(folder .. "/confined.lua"):hash(), world:hash())
-  t.fails(function() world:save(folder .. "/confined.lua", {confine = "no such"}) end, "world:save: confine: wanted a folder, got 'no such'")
+  t.fails(function() world:save(folder .. "/confined.lua", {confine = "no such"}) end, "world:save: confine: expected a folder, got 'no such'")
 end)
 
 test("worlds of the original come back from every format, and are the same in both of its generations", function(t)

@@ -220,7 +220,7 @@ test("an unknown key is named, with those that are known", function(t)
   t.fails(function() shapes.bxo {1, 2, 3} end, "there is no 'bxo'", "box")
 end)
 
-test("bad numbers are refused with what was wanted and what was got", function(t)
+test("bad numbers are refused with what was expected and what was got", function(t)
   local nan = 0 / 0
   t.fails(function() shapes.box {1, 2, -3} end, "shapes.box: z must be a number > 0, got -3")
   t.fails(function() shapes.box {("x"):rep(5000), 1, 1} end, "got '" .. ("x"):rep(37) .. "...'")
@@ -313,7 +313,7 @@ test("vectors and vertices that are numbers, or beyond what a mesh may reach, ar
   end
   t.fails(function() shapes.box {math.mininteger, 1, 1} end, "x must be a number > 0")
   t.fails(function() shapes.loft {{{math.mininteger, 0, 0}}, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}} end, "must be a point {x, y, z}")
-  t.fails(function() shapes.mass(shapes.scale(box, 1e-107)) end, "wanted a solid, got a shape without volume")
+  t.fails(function() shapes.mass(shapes.scale(box, 1e-107)) end, "expected a solid, got a shape without volume")
 end)
 
 test("whole coordinates do not go round where products of them would", function(t)
@@ -325,9 +325,9 @@ test("whole coordinates do not go round where products of them would", function(
 end)
 
 test("messages of the standard library have no control characters, and of long names both ends", function(t)
-  t.fails(function() shapes.ring {radius = 1, ["a\27[2J\0"] = 1} end, "shapes.ring: unknown key 'a?[2J\\0', wanted any of")
+  t.fails(function() shapes.ring {radius = 1, ["a\27[2J\0"] = 1} end, "shapes.ring: unknown key 'a?[2J\\0', expected any of")
   local ok, message = pcall(function() shapes.ring {radius = 1, [("\u{fc}"):rep(5000)] = 1} end)
   t.equal(ok, false)
   t.ok(#message < 1100 and utf8.len(message), message)
-  t.ok(message:find("wanted any of radius, segments", 1, true), message)
+  t.ok(message:find("expected any of radius, segments", 1, true), message)
 end)

@@ -62,7 +62,7 @@ test("corners and edges are warned of once a contact, and once a grasp", functio
   local heard = {}
   clench.log.sink(function(level, message) heard[#heard + 1] = level .. ": " .. message end)
   local contact = world:contacts(top, block)[1]
-  t.ok(contact.patch.sharp and contact.patch.sharp)
+  t.ok(contact.patch.at_edge and contact.patch.at_edge)
   clench.log.sink(nil)
   t.equal(#heard, 1)
   t.ok(heard[1]:find("warning: soft contact of top on block at .* a corner or an edge"), heard[1])
@@ -88,7 +88,7 @@ test("coarse round links are no edges, box-shaped ones are", function(t)
     hand:autograsp()
     object.elastic_modulus = 1.5e6
     local count, list = 0, scene:contacts(hand, object)
-    for _, contact in ipairs(list) do count = count + (contact.patch.sharp and 1 or 0) end
+    for _, contact in ipairs(list) do count = count + (contact.patch.at_edge and 1 or 0) end
     return count, #list
   end
   t.equal(sharp "worlds/dlr_flask.wld", 0)
@@ -103,19 +103,19 @@ test("options are read strictly", function(t)
   local world, top, ball = pressed()
   local contact = world:contacts(top, ball)[1]
   t.close(contact:fit_patch {radius = 0.005}.radius, 0.005, 0)
-  t.close(world:contacts(top, ball)[1]:fit_patch {flat_radius = 0.05}.relative_radii[1], 0.02, 1e-5)
+  t.close(world:contacts(top, ball)[1]:fit_patch {max_radius = 0.05}.relative_radii[1], 0.02, 1e-5)
   t.fails(function() contact:fit_patch {radius = 1e-6} end, "within radius 1e-06 [m] there is too little of a surface to fit")
   for _, radius in ipairs {5e-324, 1e-200, 1e-30, 1e-7, 10, 1e20, 1e300} do
     t.fails(function() contact:fit_patch {radius = radius} end, "there is too little of a surface to fit")
   end
-  t.equal(contact.patch:ellipse {force = 100}.beyond_layer, false)
-  t.equal(contact.patch:ellipse {force = 1000}.beyond_layer, true)
+  t.equal(contact.patch:ellipse {force = 100}.exceeds_layer, false)
+  t.equal(contact.patch:ellipse {force = 1000}.exceeds_layer, true)
   t.fails(function() contact:fit_patch {radius = 0} end, "radius must be > 0, got 0")
   t.fails(function() contact:fit_patch {raduis = 1} end, "unknown key 'raduis'; did you mean 'radius'?")
-  t.fails(function() contact.patch:ellipse {force = -1} end, "force: wanted a number >= 0, got -1")
+  t.fails(function() contact.patch:ellipse {force = -1} end, "force: expected a number >= 0, got -1")
   t.fails(function() contact.patch:ellipse {modulus = "sum"} end, "unknown modulus 'sum'")
   t.fails(function() contact.patch:torsion_limit {froce = 1} end, "unknown key 'froce'")
-  t.fails(function() ball.soft_layer = 0 end, "body 'ball': soft layer: wanted a number from 1e-09 to 1e+09 [m], got 0")
-  t.fails(function() ball.poisson_ratio = 0.5 end, "Poisson's ratio: wanted a number from 0 to 0.499999, got 0.5")
-  t.fails(function() world:add_object(clench.shapes.box {1, 1, 1}, {poisson_ratio = -1}) end, "Poisson's ratio: wanted a number from 0 to 0.499999, got -1")
+  t.fails(function() ball.soft_layer = 0 end, "body 'ball': soft layer: expected a number from 1e-09 to 1e+09 [m], got 0")
+  t.fails(function() ball.poisson_ratio = 0.5 end, "Poisson's ratio: expected a number from 0 to 0.499999, got 0.5")
+  t.fails(function() world:add_object(clench.shapes.box {1, 1, 1}, {poisson_ratio = -1}) end, "Poisson's ratio: expected a number from 0 to 0.499999, got -1")
 end)

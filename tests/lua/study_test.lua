@@ -11,11 +11,11 @@ end
 
 test("a spread tells mean, deviation and quantiles of numbers", function(t)
   local s = spread.of {4, 1, 3, 2, 5}
-  t.close({s.mean, s.least, s.median, s.largest}, {3, 1, 3, 5}, 1e-15)
-  t.close(s.deviation, math.sqrt(2.5), 1e-15)
-  t.close({s.low, s.high}, {1.2, 4.8}, 1e-15)
+  t.close({s.mean, s.min, s.median, s.max}, {3, 1, 3, 5}, 1e-15)
+  t.close(s.std, math.sqrt(2.5), 1e-15)
+  t.close({s.p05, s.p95}, {1.2, 4.8}, 1e-15)
   local one = spread.of {7}
-  t.close({one.mean, one.deviation, one.low, one.high}, {7, 0, 7, 7}, 0)
+  t.close({one.mean, one.std, one.p05, one.p95}, {7, 0, 7, 7}, 0)
 end)
 
 test("the interval of a probability holds it, and shrinks with more trials", function(t)
@@ -34,7 +34,7 @@ test("without errors every sample is the grasp itself", function(t)
   local grasp = closed_on_flask()
   local r = clench.study.robustness(grasp, {samples = 5})
   for _, epsilon in ipairs(r.samples) do t.ok(epsilon == grasp:quality "epsilon") end
-  t.ok(r.probability == 1 and r.taken == 0 and r.deviation == 0)
+  t.ok(r.probability == 1 and r.blocked == 0 and r.std == 0)
 end)
 
 test("soft fingers stay soft in every sample", function(t)
@@ -65,7 +65,7 @@ test("an object out of place is grasped anew, and the world stays as it is", fun
   local before = grasp.hand.world:hash()
   local r = clench.study.robustness(grasp, {samples = 6, position = 0.004, angle = 0.05})
   t.ok(grasp.hand.world:hash() == before)
-  t.ok(r.deviation > 0 and r.largest < 1)
+  t.ok(r.std > 0 and r.max < 1)
   -- errors of no size give the grasp itself, but for where in the threshold its fingers stop
   local same = clench.study.robustness(grasp, {samples = 3, position = 1e-9})
   t.close(same.mean, grasp:quality "epsilon", 0.1 * grasp:quality "epsilon")
@@ -78,7 +78,7 @@ test("where friction may vanish, so may force closure", function(t)
   -- a factor 1 + 3 n, n normal, is below 0 in 37 % of all samples; 0.2 is three deviations of 60 samples
   local r = clench.study.robustness(closed_on_flask(), {samples = 60, friction = 3})
   t.ok(r.probability > 0.4 and r.probability < 0.85)
-  t.ok(r.least == 0 and r.interval.low < r.probability and r.probability < r.interval.high)
+  t.ok(r.min == 0 and r.interval.low < r.probability and r.probability < r.interval.high)
 end)
 
 test("closing is the caller's if he likes", function(t)
@@ -98,8 +98,8 @@ test("what is wrong with the options is said in a sentence", function(t)
   refused({friction = "much"}, "study.robustness: friction must be a number >= 0, got 'much'")
   refused({close = 3}, "study.robustness: close must be a function, got 3")
   refused({frictoin = 1}, "study.robustness: unknown key 'frictoin'")
-  t.fails(function() clench.study.robustness() end, "study.robustness: wanted a grasp, got nothing")
-  t.fails(function() clench.study.robustness(grasp.hand, {}) end, "study.robustness: wanted a grasp, got a robot")
+  t.fails(function() clench.study.robustness() end, "study.robustness: expected a grasp, got nothing")
+  t.fails(function() clench.study.robustness(grasp.hand, {}) end, "study.robustness: expected a grasp, got a robot")
   t.fails(function() return clench.study.robust end, "study: there is no 'robust', only compare, robustness")
 end)
 
@@ -135,22 +135,22 @@ test("the best of a panel is the least where the measure says so", function(t)
   local hand, flask = grasp.hand, grasp.object
   hand.world:set_friction(flask.material, "rubber", {static = 0.8, kinetic = 0.8})
   local first = clench.grasp(hand, flask)
-  local c = clench.study.compare({first}, {measures = {"weight_effort"}, labels = {"1"}})
-  c.values.weight_effort = {3, 1}
+  local c = clench.study.compare({first}, {measures = {"gravity_effort"}, labels = {"1"}})
+  c.values.gravity_effort = {3, 1}
   c.labels = {"1", "2"}
   local function by_hand(least)
-    return clench.chart {series = {{name = "weight_effort", values = {3, 1}, least_is_best = least}}, labels = {"1", "2"}}
+    return clench.chart {series = {{name = "gravity_effort", values = {3, 1}, higher_is_better = not least}}, labels = {"1", "2"}}
   end
   t.ok(c:chart() == by_hand(true) and c:chart() ~= by_hand(false))
 end)
 
 test("a comparison without grasps or with strange ones is refused", function(t)
-  t.fails(function() clench.study.compare {} end, "study.compare: wanted at least one grasp, got none")
-  t.fails(function() clench.study.compare {3} end, "study.compare: grasps[1]: wanted a grasp, got 3")
-  t.fails(function() clench.study.compare(closed_on_flask()) end, "study.compare: wanted a list of grasps, got a grasp")
+  t.fails(function() clench.study.compare {} end, "study.compare: expected at least one grasp, got none")
+  t.fails(function() clench.study.compare {3} end, "study.compare: grasps[1]: expected a grasp, got 3")
+  t.fails(function() clench.study.compare(closed_on_flask()) end, "study.compare: expected a list of grasps, got a grasp")
   local grasp = closed_on_flask()
   t.fails(function() clench.study.compare({grasp}, {measures = {"epsilom"}}) end, "did you mean 'epsilon'?")
-  t.fails(function() clench.study.compare({grasp}, {labels = {"a", "b"}}) end, "study.compare: wanted 1 label, one a grasp, got 2")
+  t.fails(function() clench.study.compare({grasp}, {labels = {"a", "b"}}) end, "study.compare: expected 1 label, one per grasp, got 2")
 end)
 
 test("the best grasp is that of the least effort, and what holds nothing is drawn as missing", function(t)
@@ -159,9 +159,9 @@ test("the best grasp is that of the least effort, and what holds nothing is draw
   local slippery = hand.world:clone()
   slippery:set_friction(flask.material, "rubber", {static = 0, kinetic = 0})
   local list = {clench.grasp(slippery.robots[1], slippery.objects[1]), grasp}
-  local c = clench.study.compare(list, {measures = {"weight_effort", "epsilon"}})
-  t.ok(c.values.weight_effort[1] == math.huge and c.best.weight_effort == 2 and c.best.epsilon == 2)
+  local c = clench.study.compare(list, {measures = {"gravity_effort", "epsilon"}})
+  t.ok(c.values.gravity_effort[1] == math.huge and c.best.gravity_effort == 2 and c.best.epsilon == 2)
   t.ok(c:chart {width = 300}.width == 300)
-  t.fails(function() clench.study.compare {grasp, nil, grasp} end, "study.compare: grasps: wanted a list without holes or names")
+  t.fails(function() clench.study.compare {grasp, nil, grasp} end, "study.compare: grasps: expected a list without holes or names")
   t.fails(function() clench.study.compare({grasp}, {labels = "a"}) end, "study.compare: labels must be a list of strings, got 'a'")
 end)

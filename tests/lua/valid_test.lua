@@ -37,11 +37,11 @@ local function a_box(options) return clench.world():add_object(clench.shapes.box
 
 -- name, allowed numbers of the list above, the one that a file's reader puts right, and how each way gives one
 local quantities = {
-  {name = "mass", allowed = {1}, mended = {-1, 0}, file = function(x) body_file("#mass %s", x) end,
+  {name = "mass", allowed = {1}, repaired = {-1, 0}, file = function(x) body_file("#mass %s", x) end,
    option = function(x) a_box {mass = x} end, field = function(x) a_box().mass = x end},
   {name = "com", allowed = {5e-324, 0, -1, 1}, file = function(x) body_file("#cog %s 0 0", x) end,
    option = function(x) a_box {com = {0, x, 0}} end, field = function(x) a_box().com = {0, x, 0} end},
-  {name = "elastic modulus", allowed = {1}, mended = {-1}, file = function(x) body_file("#youngs %s", x) end,
+  {name = "elastic modulus", allowed = {1}, repaired = {-1}, file = function(x) body_file("#youngs %s", x) end,
    option = function(x) a_box {elastic_modulus = x} end, field = function(x) a_box().elastic_modulus = x end},
   {name = "soft layer", allowed = {1}, option = function(x) a_box {soft_layer = x} end,
    field = function(x) a_box().soft_layer = x end},
@@ -84,14 +84,14 @@ local quantities = {
 
 for _, quantity in ipairs(quantities) do
   test(quantity.name .. " has one rule", function(t)
-    local allowed, mended = {}, {}
+    local allowed, repaired = {}, {}
     for _, x in ipairs(quantity.allowed) do allowed[x] = true end
-    for _, x in ipairs(quantity.mended or {}) do mended[x] = true end
+    for _, x in ipairs(quantity.repaired or {}) do repaired[x] = true end
     for _, way in ipairs {"file", "option", "field"} do
       for _, x in ipairs(quantity[way] and numbers or {}) do
         local ok, message = pcall(quantity[way], x)
-        t.ok(ok == (allowed[x] or way == "file" and mended[x] or false), ("%s: %s: %s: %s"):format(quantity.name, way, x, message))
-        if not ok then t.ok(tostring(message):find "wanted " ~= nil, message) end
+        t.ok(ok == (allowed[x] or way == "file" and repaired[x] or false), ("%s: %s: %s: %s"):format(quantity.name, way, x, message))
+        if not ok then t.ok(tostring(message):find "expected " ~= nil, message) end
       end
     end
   end)
@@ -120,12 +120,12 @@ test("what a file says of DOFs is held against the same rules", function(t)
   for _, key in ipairs {"velocity", "effort", "d", "a", "alpha", "max", "spring"} do
     for _, x in ipairs {nan, math.huge, 1e308} do
       ok, message = arm {[key] = x}
-      t.ok(not ok and message:find "arm.cfg:%d+: .*wanted ", key .. ": " .. message)
+      t.ok(not ok and message:find "arm.cfg:%d+: .*expected ", key .. ": " .. message)
     end
   end
   for _, key in ipairs {"d", "a"} do
     ok, message = arm {[key] = 1e20}
-    t.ok(not ok and message:find("wanted a number from -1e+09 to 1e+09 [m]", 1, true), message)
+    t.ok(not ok and message:find("expected a number from -1e+09 to 1e+09 [m]", 1, true), message)
   end
 end)
 
@@ -133,19 +133,19 @@ test("names of things made in a script have no control characters", function(t)
   local world = clench.world()
   local bad = "a\27[31mb"
   t.fails(function() world:add_object(clench.shapes.box {1, 1, 1}, {name = bad}) end,
-          "world:add_object: body: name: wanted no control characters, got 'a?[31mb'")
+          "world:add_object: body: name: expected no control characters, got 'a?[31mb'")
   local body = world:add_object(clench.shapes.box {1, 1, 1})
-  t.fails(function() body.name = "a\nb" end, "name: wanted no control characters, got 'a?b'")
-  t.fails(function() body.name = "\xff" end, "name: wanted text in UTF-8")
-  t.fails(function() body.name = ("x"):rep(300) end, "name: wanted at most 250 bytes, got 300")
-  t.fails(function() world:set_friction("a\nb", "wood", {static = 1}) end, "material: name: wanted no control characters")
+  t.fails(function() body.name = "a\nb" end, "name: expected no control characters, got 'a?b'")
+  t.fails(function() body.name = "\xff" end, "name: expected text in UTF-8")
+  t.fails(function() body.name = ("x"):rep(300) end, "name: expected at most 250 bytes, got 300")
+  t.fails(function() world:set_friction("a\nb", "wood", {static = 1}) end, "material: name: expected no control characters")
   t.fails(function() world:add_robot("models/hands/barrett/barrett.cfg", {name = bad}) end,
-          "robot: name: wanted no control characters")
+          "robot: name: expected no control characters")
   body.name = "Tasse Grüße"
   t.equal(body.name, "Tasse Grüße")
 end)
 
-test("names in files are mended, and told", function(t)
+test("names in files are repaired, and told", function(t)
   local urdf = [[<robot name="a%sb"><link name="l&#x1b;k"/></robot>]]
   local said = {}
   clench.log.sink(function(_, text) said[#said + 1] = text end)
@@ -153,7 +153,7 @@ test("names in files are mended, and told", function(t)
   clench.log.sink()
   if not ok then return t.ok(tostring(robot):find "urdf:1", robot) end
   t.equal(robot.name, "a?b")
-  t.ok(table.concat(said, "\n"):find("name: wanted no control characters, got 'a?b'; it becomes 'a?b'", 1, true))
+  t.ok(table.concat(said, "\n"):find("name: expected no control characters, got 'a?b'; it becomes 'a?b'", 1, true))
 end)
 
 test("a mesh that is inside out is turned, and told, as one of a file is", function(t)
@@ -165,7 +165,7 @@ test("a mesh that is inside out is turned, and told, as one of a file is", funct
   end)
   clench.log.sink()
   t.ok(ok, body)
-  t.equal(said, {"mended world:add_object: mesh: its triangles face inward; turned to face outward"})
+  t.equal(said, {"repaired world:add_object: mesh: its triangles face inward; flipped to face outward"})
   t.close(body.mesh.volume, 1 / 6, 1e-15)
 end)
 
@@ -195,8 +195,8 @@ end)
 
 test("poses that are chained, undone or interpolated stay within the bound of positions", function(t)
   local p = clench.pose {xyz = {6e8, 0, 0}}
-  t.fails(function() return p * p end, "pose: wanted a position within 1e+09 m of the origin, got (1200000000, 0, 0)")
-  t.fails(function() return clench.pose {xyz = {1e308, 0, 0}} end, "clench.pose: wanted a position within 1e+09 m")
+  t.fails(function() return p * p end, "pose: expected a position within 1e+09 m of the origin, got (1200000000, 0, 0)")
+  t.fails(function() return clench.pose {xyz = {1e308, 0, 0}} end, "clench.pose: expected a position within 1e+09 m")
   t.equal(p:interpolate(p:inverse(), 0.5).position, clench.vec3(0, 0, 0))
 end)
 

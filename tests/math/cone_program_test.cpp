@@ -151,7 +151,7 @@ TEST_CASE("neither units nor powers of ten of rows and columns change what is fo
     CAPTURE(i);
     Made made = made_program(random, i % 2 == 0);
     ConeProgram p = made.program;
-    // x' = x / columns; rows times factors, one a cone; objective times another
+    // x' = x / columns; rows times factors, one per cone; objective times another
     const double whole = std::pow(10, random.uniform(-8, 8));
     VectorXd columns(p.c.size());
     for (double& x : columns) x = std::pow(10, random.uniform(-3, 3));
@@ -172,8 +172,8 @@ TEST_CASE("neither units nor powers of ten of rows and columns change what is fo
     }
     const ConeSolution r = solve(p);
     REQUIRE(r.status == ConeStatus::optimal);
-    const double wanted = made.objective * whole * right;
-    CHECK(std::abs(r.objective - wanted) <
+    const double expected = made.objective * whole * right;
+    CHECK(std::abs(r.objective - expected) <
           1e-6 * whole * right *
               std::max({1.0, std::abs(made.objective), biggest(made.program.c)}));
   }
@@ -307,18 +307,18 @@ TEST_CASE("the nearest point of a cone is that of its closed formula") {
     p.h = VectorXd::Zero(size);
     p.cones = {size};
     const double t = at[0], norm = at.tail(size - 1).norm();
-    VectorXd wanted = VectorXd::Zero(size);
+    VectorXd expected = VectorXd::Zero(size);
     if (norm <= t) {
-      wanted = at;
+      expected = at;
     } else if (norm > -t) {
-      wanted[0] = (t + norm) / 2;
-      wanted.tail(size - 1) = wanted[0] / norm * at.tail(size - 1);
+      expected[0] = (t + norm) / 2;
+      expected.tail(size - 1) = expected[0] / norm * at.tail(size - 1);
     }
     const ConeSolution r = solve(p);
     check_optimum(p, r);
     // an error e of a strictly convex objective leaves sqrt(e) in its place
-    CHECK(biggest(r.x - wanted) < 1e-4);
-    CHECK(std::abs((r.x - at).norm() - (wanted - at).norm()) < 1e-8);
+    CHECK(biggest(r.x - expected) < 1e-4);
+    CHECK(std::abs((r.x - at).norm() - (expected - at).norm()) < 1e-8);
   }
 }
 
@@ -425,24 +425,24 @@ TEST_CASE("a program that does not fit together is refused") {
   };
   ConeProgram bad = p;
   bad.P = MatrixXd::Zero(3, 2);
-  refuse(bad, "cone program: rows of P: wanted 2, got 3");
+  refuse(bad, "cone program: rows of P: expected 2, got 3");
   bad.P = MatrixXd::Zero(2, 3);
-  refuse(bad, "cone program: columns of P: wanted 2, got 3");
+  refuse(bad, "cone program: columns of P: expected 2, got 3");
   bad = p;
   bad.A = MatrixXd::Zero(1, 2);
-  refuse(bad, "cone program: rows of A: wanted 0, got 1");
+  refuse(bad, "cone program: rows of A: expected 0, got 1");
   bad.A = MatrixXd::Zero(1, 3), bad.b = VectorXd::Zero(1);
-  refuse(bad, "cone program: columns of A: wanted 2, got 3");
+  refuse(bad, "cone program: columns of A: expected 2, got 3");
   bad = p;
   bad.G = MatrixXd::Zero(1, 2);
-  refuse(bad, "cone program: rows of G: wanted 0, got 1");
+  refuse(bad, "cone program: rows of G: expected 0, got 1");
   bad.G = MatrixXd::Zero(1, 3), bad.h = VectorXd::Zero(1);
-  refuse(bad, "cone program: columns of G: wanted 2, got 3");
+  refuse(bad, "cone program: columns of G: expected 2, got 3");
   bad = p;
   bad.nonnegative = -1;
   refuse(bad, "cone program: nonnegative must be >= 0, got -1");
   bad.nonnegative = 1;
-  refuse(bad, "cone program: rows of the cones: wanted 0, got 1");
+  refuse(bad, "cone program: rows of the cones: expected 0, got 1");
   bad = p;
   bad.cones = {0};
   refuse(bad, "cone program: a cone's size must be >= 1, got 0");

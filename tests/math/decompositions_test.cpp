@@ -19,7 +19,7 @@ TEST_CASE("the least turn brings one direction to the other, about an axis norma
   Random random(1);
   for (int i = 0; i < 1000; ++i) {
     const Vector3d from = random_matrix(random, 3, 1), to = random_matrix(random, 3, 1);
-    const auto turn = least_turn(from, to);
+    const auto turn = shortest_rotation(from, to);
     CHECK((turn * from.normalized() - to.normalized()).norm() < rounding);
     CHECK(std::abs(turn.vec().dot(from.normalized())) < rounding);
     CHECK(std::abs(turn.norm() - 1) < rounding);
@@ -31,13 +31,13 @@ TEST_CASE("the least turn holds for equal, opposite and nearly opposite directio
   Random random(2);
   for (int i = 0; i < 200; ++i) {
     const Vector3d from = random_matrix(random, 3, 1);
-    CHECK((least_turn(from, 3 * from) * from - from).norm() < rounding);
-    CHECK((least_turn(from, -from) * from + from).norm() < rounding);
+    CHECK((shortest_rotation(from, 3 * from) * from - from).norm() < rounding);
+    CHECK((shortest_rotation(from, -from) * from + from).norm() < rounding);
     for (const double off : {1e-3, 1e-5, 1e-7, 1e-9}) {
       const Vector3d to = -from.normalized() + off * random_matrix(random, 3, 1);
       // what is lost of a sum of opposite directions: rounding over their distance of 1e-8 at least
-      CHECK((least_turn(from, to) * from.normalized() - to.normalized()).norm() < 1e-7);
-      CHECK(std::abs(least_turn(from, to).norm() - 1) < 1e-7);
+      CHECK((shortest_rotation(from, to) * from.normalized() - to.normalized()).norm() < 1e-7);
+      CHECK(std::abs(shortest_rotation(from, to).norm() - 1) < 1e-7);
     }
   }
 }

@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 namespace {
 
 // the least residual over all subsets of columns whose plain least squares are not negative
-double least_residual_by_enumeration(const MatrixXd& a, const VectorXd& b) {
+double min_residual_by_enumeration(const MatrixXd& a, const VectorXd& b) {
   double best = b.norm();
   for (int set = 1; set < 1 << a.cols(); ++set) {
     std::vector<int> columns;
@@ -43,7 +43,7 @@ TEST_CASE("the nearest point of a cone is that of the best set of its columns") 
     const VectorXd x = nonnegative_least_squares(a, b);
     CHECK(x.minCoeff() >= 0);
     const VectorXd rest = b - a * x;
-    CHECK(rest.norm() == doctest::Approx(least_residual_by_enumeration(a, b)).epsilon(1e-9));
+    CHECK(rest.norm() == doctest::Approx(min_residual_by_enumeration(a, b)).epsilon(1e-9));
     // optimal: nothing more is gained along any column, and nothing along those in use
     const VectorXd slope = a.transpose() * rest;
     CHECK(slope.maxCoeff() < 1e-10);
@@ -78,8 +78,7 @@ TEST_CASE("columns that are alike but for rounding do no harm") {
     const MatrixXd few = a(Eigen::all, std::vector<int>{0, 6, 12, 18});
     const VectorXd x = nonnegative_least_squares(a, b);
     CHECK(x.minCoeff() >= 0);
-    CHECK((a * x - b).norm() ==
-          doctest::Approx(least_residual_by_enumeration(few, b)).epsilon(1e-9));
+    CHECK((a * x - b).norm() == doctest::Approx(min_residual_by_enumeration(few, b)).epsilon(1e-9));
   }
 }
 

@@ -68,15 +68,15 @@ TEST_CASE("a start outside the limits is brought to the limit, with a warning be
         "limit");
 }
 
-TEST_CASE("who listens for what is mended is told of a start that is moved, and nobody else") {
+TEST_CASE("who listens for what is repaired is told of a start that is moved, and nobody else") {
   WorldSpec spec = arm_and_hand(0);
   spec.robots[1].dofs = {0, 9};
-  int ignored = 0, guessed = 0, mended = 0;
+  int ignored = 0, guessed = 0, repaired = 0;
   const auto count = [](int& n) { return [&n](const std::string&) { ++n; }; };
-  build_world(spec, {.warn = count(ignored), .note = count(guessed), .mend = count(mended)});
+  build_world(spec, {.warn = count(ignored), .note = count(guessed), .repair = count(repaired)});
   CHECK(ignored == 0);
   CHECK(guessed == 0);
-  CHECK(mended == 1);
+  CHECK(repaired == 1);
 }
 
 TEST_CASE("breakaway states are taken over") {
@@ -115,7 +115,7 @@ TEST_CASE(
 TEST_CASE("wrong counts are refused") {
   WorldSpec spec = arm_and_hand(0);
   spec.robots[1].dofs = {0};
-  CHECK_THROWS_WITH_AS(build_world(spec), "robot 'gripper_2': wanted 2 DOF values, got 1", Error);
+  CHECK_THROWS_WITH_AS(build_world(spec), "robot 'gripper_2': expected 2 DOF values, got 1", Error);
   spec = arm_and_hand(0);
   spec.connections[0].child = 7;
   CHECK_THROWS_WITH_AS(build_world(spec), "a connection names robots 0 and 7, but the world has 2",

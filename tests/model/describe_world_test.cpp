@@ -39,8 +39,7 @@ static World any_world(uint64_t seed) {
       auto broken = world.robot(id).chains[0].apart;
       // behind where its DOF has gone
       broken[0] = 0.5 * world.robot(id).q[0];
-      world.set_dofs_unchecked(id, world.robot(id).q,
-                               {broken, world.robot(id).chains[1].apart});
+      world.set_dofs_unchecked(id, world.robot(id).q, {broken, world.robot(id).chains[1].apart});
       if (!robots.empty() && chance(0.7)) {
         const BodySpec ring = body_spec("ring", box(0.01, 0.01, 0.01));
         world.mount(id, robots.back(), chance(0.5) ? 1 : 0, any_pose(random),

@@ -28,12 +28,12 @@ TEST_CASE("sets that do not fit the robot are refused by its name") {
   const auto hand = world.add_robot(two_finger(), {});
   EigengraspSet set = identity_eigengrasps(3);
   CHECK_THROWS_WITH_AS(world.set_eigengrasps(hand, std::make_shared<EigengraspSet>(set)),
-                       "eigengrasps of robot 'gripper': wanted a set for 2 DOFs, got one for 3",
+                       "eigengrasps of robot 'gripper': expected a set for 2 DOFs, got one for 3",
                        Error);
   set = identity_eigengrasps(2);
   set.grasps[1].vector[1] = 0;
   CHECK_THROWS_WITH_AS(world.set_eigengrasps(hand, std::make_shared<EigengraspSet>(set)),
-                       "eigengrasps of robot 'gripper': eigengrasp 2: wanted a vector other than "
+                       "eigengrasps of robot 'gripper': eigengrasp 2: expected a vector other than "
                        "zero, got one of length 0",
                        Error);
 
@@ -48,7 +48,7 @@ TEST_CASE("sets that do not fit the robot are refused by its name") {
   CHECK_THROWS_AS(place(-2, 0), Error);
   CHECK_THROWS_WITH_AS(
       place(0, 0, -1),
-      "virtual contact 1 of robot 'gripper': mu: wanted a number from 0 to 1e+06, got -1", Error);
+      "virtual contact 1 of robot 'gripper': mu: expected a number from 0 to 1e+06, got -1", Error);
 }
 
 TEST_CASE("a robot whose description does not fit itself is not added at all") {

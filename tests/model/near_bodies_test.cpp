@@ -55,14 +55,14 @@ TEST_CASE("the sweep finds all pairs within its reach, in the order of all pairs
     world.set_collision(false, world.bodies()[5], world.bodies()[6]);
     const auto& all = world.bodies();
     const auto every = all_pairs(world, all, all), near = near_bodies(world, reach);
-    const auto wanted = nearer_than(world, every, reach);
-    CHECK(nearer_than(world, near, reach) == wanted);
+    const auto expected = nearer_than(world, every, reach);
+    CHECK(nearer_than(world, near, reach) == expected);
     // two groups that share bodies, one of them in disorder and with a body twice
     std::vector<Id<Body>> a(all.begin(), all.begin() + 25), b(all.rbegin(), all.rbegin() + 25);
     b.push_back(b[2]);
     CHECK(nearer_than(world, near_bodies(world, a, b, reach), reach) ==
           nearer_than(world, all_pairs(world, a, b), reach));
-    found += wanted.size(), looked_at += near.size(), possible += every.size();
+    found += expected.size(), looked_at += near.size(), possible += every.size();
   }
   CHECK(found > 50);
   CHECK(looked_at < possible);

@@ -136,11 +136,11 @@ TEST_CASE("moving a robot moves its links rigidly") {
   CHECK(off.angle() < 1e-15);
 }
 
-TEST_CASE("DOF values are refused with what was wanted and got") {
+TEST_CASE("DOF values are refused with what was expected and got") {
   World world;
   const auto id = world.add_robot(two_finger(), {});
   CHECK_THROWS_WITH_AS(world.set_dofs(id, Eigen::Vector3d(1, 2, 3)),
-                       "robot 'gripper': wanted 2 DOF values, got 3", Error);
+                       "robot 'gripper': expected 2 DOF values, got 3", Error);
   CHECK_THROWS_WITH_AS(world.set_dofs(id, Eigen::Vector2d(NAN, 0)),
                        "robot 'gripper': DOF 1 must be finite, got nan", Error);
   CHECK_THROWS_WITH_AS(world.set_dofs(id, Eigen::Vector2d(0, -1)),
@@ -255,7 +255,7 @@ TEST_CASE("a mount on a chain that is not there is refused with the range") {
   World world;
   const auto arm = world.add_robot(two_finger(), {}), hand = world.add_robot(two_finger(), {});
   CHECK_THROWS_WITH_AS(world.mount(hand, arm, 2, Pose{}),
-                       "robot 'gripper_2': wanted a chain of 'gripper', 0 to 1, got 2", Error);
+                       "robot 'gripper_2': expected a chain of 'gripper', 0 to 1, got 2", Error);
 }
 
 TEST_CASE("properties refuse what is no mass, inertia, modulus, threshold, material or name") {
@@ -263,32 +263,32 @@ TEST_CASE("properties refuse what is no mass, inertia, modulus, threshold, mater
   const auto a = add_box(world, "a", {0, 0, 0});
   add_box(world, "b", {1, 0, 0});
   CHECK_THROWS_WITH_AS(world.set_mass(a, -1),
-                       "body 'a': mass: wanted a number from 1e-12 to 1e+12 [kg], got -1", Error);
+                       "body 'a': mass: expected a number from 1e-12 to 1e+12 [kg], got -1", Error);
   CHECK_THROWS_WITH_AS(world.set_com(a, {NAN, 0, 0}),
-                       "body 'a': com: wanted a number from -1e+09 to 1e+09 [m], got nan", Error);
+                       "body 'a': com: expected a number from -1e+09 to 1e+09 [m], got nan", Error);
   CHECK_THROWS_WITH_AS(
       world.set_inertia(a, Eigen::Vector3d(1, 1, -1).asDiagonal()),
-      "body 'a': inertia: wanted a positive definite matrix with moments of 1e-24 to "
+      "body 'a': inertia: expected a positive definite matrix with moments of 1e-24 to "
       "1e+20 m^2 a kilogram, got another",
       Error);
-  CHECK_THROWS_WITH_AS(world.set_elastic_modulus(a, 0),
-                       "body 'a': elastic modulus: wanted a number from 0.001 to 1e+15 [Pa], got 0",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      world.set_elastic_modulus(a, 0),
+      "body 'a': elastic modulus: expected a number from 0.001 to 1e+15 [Pa], got 0", Error);
   CHECK_THROWS_WITH_AS(world.set_soft_layer(a, -1),
-                       "body 'a': soft layer: wanted a number from 1e-09 to 1e+09 [m], got -1",
+                       "body 'a': soft layer: expected a number from 1e-09 to 1e+09 [m], got -1",
                        Error);
   CHECK_THROWS_WITH_AS(world.set_poisson_ratio(a, 0.5),
-                       "body 'a': Poisson's ratio: wanted a number from 0 to 0.499999, got 0.5",
+                       "body 'a': Poisson's ratio: expected a number from 0 to 0.499999, got 0.5",
                        Error);
   CHECK_THROWS_WITH_AS(world.set_contact_threshold(0),
-                       "world: contact threshold: wanted a number from 1e-09 to 0.01 [m], got 0",
+                       "world: contact threshold: expected a number from 1e-09 to 0.01 [m], got 0",
                        Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, "b"), "the name 'b' is taken in this world", Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, ""), "body 'a': a name may not be empty", Error);
   CHECK_THROWS_AS(world.set_material(a, "woood"), Error);
-  CHECK_THROWS_WITH_AS(world.set_pose(a, Pose::translation({NAN, 0, 0})),
-                       "body 'a': wanted a position within 1e+09 m of the origin, got (nan, 0, 0)",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      world.set_pose(a, Pose::translation({NAN, 0, 0})),
+      "body 'a': expected a position within 1e+09 m of the origin, got (nan, 0, 0)", Error);
 }
 
 TEST_CASE("a body may not stand where rounding leaves nothing of it, nor take a robot's name") {
@@ -297,7 +297,7 @@ TEST_CASE("a body may not stand where rounding leaves nothing of it, nor take a 
   world.add_robot(two_finger(), Pose::translation({1, 0, 0}));
   CHECK_THROWS_WITH_AS(
       world.set_pose(a, Pose::translation({0, 1e300, 0})),
-      "body 'a': wanted a position within 1e+09 m of the origin, got (0, 1e+300, 0)", Error);
+      "body 'a': expected a position within 1e+09 m of the origin, got (0, 1e+300, 0)", Error);
   CHECK_THROWS_WITH_AS(world.set_name(a, "gripper"), "the name 'gripper' is taken in this world",
                        Error);
 }
@@ -310,7 +310,7 @@ TEST_CASE(
   add_box(world, "a", {0, 0, 0});
   const uint64_t empty = world.hash();
   CHECK_THROWS_WITH_AS(world.add_robot(far, Pose::translation({0, 0, 1e9})),
-                       doctest::Contains("wanted a position within 1e+09 m of the origin, got ("),
+                       doctest::Contains("expected a position within 1e+09 m of the origin, got ("),
                        Error);
   CHECK(world.hash() == empty);
   CHECK(world.robots().empty());
@@ -343,7 +343,7 @@ TEST_CASE(
   World world;
   const auto a = add_box(world, "a", {0, 0, 0});
   CHECK_THROWS_WITH_AS(world.set_inertia(a, Eigen::Vector3d(1, 1, 100).asDiagonal()),
-                       "body 'a': inertia: wanted no moment above the sum of the others, got one "
+                       "body 'a': inertia: expected no moment above the sum of the others, got one "
                        "of 50 times that sum",
                        Error);
   CHECK_THROWS_AS(world.set_mass(a, 5e-324), Error);
@@ -351,12 +351,12 @@ TEST_CASE(
   world.set_com(a, {1e9, 0, 0});
   CHECK(world.body(a).inertia_per_mass.allFinite());
   CHECK_THROWS_WITH_AS(world.set_name(a, "a\nb"),
-                       "body 'a': name: wanted no control characters, got 'a?b'", Error);
+                       "body 'a': name: expected no control characters, got 'a?b'", Error);
   CHECK_THROWS_WITH_AS(world.set_friction("co\trk", "wood", {0.5, 0.4}),
-                       "material: name: wanted no control characters, got 'co?rk'", Error);
+                       "material: name: expected no control characters, got 'co?rk'", Error);
   CHECK_THROWS_AS(world.add_robot(two_finger(), {}, "\x1b[31m"), Error);
   CHECK_THROWS_WITH_AS(world.set_camera(Camera{.X_WC = {}, .focal_distance = -1}),
-                       "camera: focal distance: wanted a number from 1e-12 to 1e+09 [m], got -1",
+                       "camera: focal distance: expected a number from 1e-12 to 1e+09 [m], got -1",
                        Error);
   CHECK_FALSE(world.camera());
 }

@@ -12,13 +12,13 @@ TEST_CASE("a way that would take for ever ends, and says that it gave up") {
   const double height = 0.01 + 5e-5;
   const auto block = world.add_body(body_spec("block", box(0.02, 0.02, 0.02)), BodyKind::object,
                                     Pose::translation({0, 0, height}));
-  std::vector<Watch> watches{{.a = block, .b = table, .speed = 10}};
+  std::vector<PairBound> watches{{.a = block, .b = table, .speed = 10}};
   int queries = 0;
   const auto place = [&](double s) {
     world.set_pose(block, Pose::translation({10 * s, 0, height}));
   };
   const Advance end = advance(world, watches, 1, place, queries, 1000);
-  CHECK(end.gave_up);
+  CHECK(end.iteration_limit);
   CHECK(end.s < 1);
   // steps of half the gap, or what it exceeds the aim by: about 30 um each
   CHECK(end.s * 10 == doctest::Approx(1000 * 3e-5).epsilon(0.01));

@@ -164,7 +164,7 @@ TEST_CASE("wrong numbers are refused") {
   CHECK_THROWS_WITH_AS(autograsp(bench.world, bench.hand, 0),
                        "autograsp of 'gripper': the speed must be finite and not 0, got 0", Error);
   CHECK_THROWS_WITH_AS(drive_to(bench.world, bench.hand, Eigen::Vector3d(0, 0, 0)),
-                       "driving 'gripper': wanted 2 DOF values, got 3", Error);
+                       "driving 'gripper': expected 2 DOF values, got 3", Error);
   CHECK_THROWS_WITH_AS(drive_to(bench.world, bench.hand, Eigen::Vector2d(0, 9)),
                        "driving 'gripper': DOF 2 must lie in [0, 1.5707963267948966], got 9",
                        Error);

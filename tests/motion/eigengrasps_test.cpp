@@ -124,7 +124,7 @@ TEST_CASE("between the limits of an amplitude no DOF leaves its range, beyond th
     const Eigengrasps grasps(c.set, c.limits);
     VectorXd q(c.set.dofs);
     for (int d = 0; d < q.size(); ++d) q[d] = random.uniform(c.limits[d][0], c.limits[d][1]);
-    const auto most_beyond = [&](int k, double amplitude) {
+    const auto max_beyond = [&](int k, double amplitude) {
       VectorXd a = grasps.amplitudes(q);
       a[k] = amplitude;
       const VectorXd moved = grasps.posture(a, q);
@@ -136,9 +136,9 @@ TEST_CASE("between the limits of an amplitude no DOF leaves its range, beyond th
     const auto limits = grasps.limits(q);
     for (int k = 0; k < grasps.size(); ++k)
       for (const double limit : limits[k]) {
-        CHECK(most_beyond(k, limit) < rounding);
+        CHECK(max_beyond(k, limit) < rounding);
         const double now = grasps.amplitudes(q)[k];
-        CHECK(most_beyond(k, limit + 0.01 * (limit > now ? 1 : -1)) > 0);
+        CHECK(max_beyond(k, limit + 0.01 * (limit > now ? 1 : -1)) > 0);
       }
   }
 }
@@ -180,15 +180,15 @@ TEST_CASE("the range holds the amplitudes of all postures within the limits, and
 
 TEST_CASE("wrong counts and numbers that are none are refused") {
   const Eigengrasps grasps(identity_eigengrasps(2), {{0, 1}, {0, 1}});
-  CHECK_THROWS_WITH_AS(grasps.amplitudes(vec({1})), "eigengrasps: wanted 2 DOF values, got 1",
+  CHECK_THROWS_WITH_AS(grasps.amplitudes(vec({1})), "eigengrasps: expected 2 DOF values, got 1",
                        Error);
-  CHECK_THROWS_WITH_AS(grasps.posture(vec({1, 2, 3})), "eigengrasps: wanted 2 amplitudes, got 3",
+  CHECK_THROWS_WITH_AS(grasps.posture(vec({1, 2, 3})), "eigengrasps: expected 2 amplitudes, got 3",
                        Error);
   CHECK_THROWS_WITH_AS(grasps.posture(vec({1, NAN})),
-                       "eigengrasps: amplitudes: wanted a number from -1e+30 to 1e+30, got nan",
+                       "eigengrasps: amplitudes: expected a number from -1e+30 to 1e+30, got nan",
                        Error);
   CHECK_THROWS_WITH_AS(Eigengrasps(identity_eigengrasps(2), {{0, 1}}),
-                       "eigengrasps: wanted a set for 1 DOFs, got one for 2", Error);
+                       "eigengrasps: expected a set for 1 DOFs, got one for 2", Error);
 }
 
 // --- principal components ---
@@ -277,20 +277,21 @@ TEST_CASE("the same postures give the same bits") {
 
 TEST_CASE("postures that give no components are refused") {
   CHECK_THROWS_WITH_AS(principal_eigengrasps({vec({1, 2})}),
-                       "eigengrasps: wanted at least 2 postures, got 1", Error);
+                       "eigengrasps: expected at least 2 postures, got 1", Error);
   CHECK_THROWS_WITH_AS(principal_eigengrasps({vec({1, 2}), vec({1, 2})}),
-                       "eigengrasps: wanted postures that differ, got the same 2 times", Error);
+                       "eigengrasps: expected postures that differ, got the same 2 times", Error);
   CHECK_THROWS_WITH_AS(principal_eigengrasps({vec({1, 2}), vec({1})}),
-                       "eigengrasps: posture 2: wanted 2 DOF values, got 1", Error);
+                       "eigengrasps: posture 2: expected 2 DOF values, got 1", Error);
   CHECK_THROWS_WITH_AS(
       principal_eigengrasps({vec({1, 2}), vec({1, NAN})}),
-      "eigengrasps: posture 2: number: wanted a number from -1e+30 to 1e+30, got nan", Error);
+      "eigengrasps: posture 2: number: expected a number from -1e+30 to 1e+30, got nan", Error);
   CHECK_THROWS_WITH_AS(principal_eigengrasps({vec({1, 2}), vec({1, 3})}, 2),
-                       "eigengrasps: count: 2 postures vary in 1 directions only, wanted 2", Error);
+                       "eigengrasps: count: 2 postures vary in 1 directions only, expected 2",
+                       Error);
   CHECK_THROWS_WITH_AS(principal_eigengrasps({vec({1, 2}), vec({1, 3})}, 3),
-                       "eigengrasps: count: wanted 1 to 2, got 3", Error);
+                       "eigengrasps: count: expected 1 to 2, got 3", Error);
   CHECK_THROWS_WITH_AS(principal_eigengrasps({VectorXd(), VectorXd()}),
-                       "eigengrasps: posture 1: wanted DOF values, got none", Error);
+                       "eigengrasps: posture 1: expected DOF values, got none", Error);
 }
 
 // --- the original ---

@@ -145,7 +145,7 @@ TEST_CASE("bad numbers are refused") {
   CHECK_THROWS_WITH_AS(approach(world, hand, -1),
                        "approach of 'gripper': the reach must be >= 0 [m], got -1", Error);
   const auto a = add(world, "a", box(0.02, 0.02, 0.02), {1, 0, 0});
-  CHECK_THROWS_WITH_AS(move_body(world, a, Pose::translation({NAN, 0, 0})),
-                       "body 'a': wanted a position within 1e+09 m of the origin, got (nan, 0, 0)",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      move_body(world, a, Pose::translation({NAN, 0, 0})),
+      "body 'a': expected a position within 1e+09 m of the origin, got (nan, 0, 0)", Error);
 }

@@ -37,7 +37,7 @@ struct SpringBench {
   }
   double unrest() const {
     double most = 0;
-    for (const auto& chain : SpringBalance(world, hand, touching()).way())
+    for (const auto& chain : SpringBalance(world, hand, touching()).displacement())
       for (const double x : chain) most = std::max(most, std::abs(x));
     return most;
   }
@@ -51,7 +51,7 @@ double energy(const Robot& robot, int chain, double q, double first, double seco
 }
 
 // The least energy of a finger over postures near its own that do not collide: slow and obvious.
-double least_energy_nearby(const SpringBench& bench, int chain, double q, double reach) {
+double min_energy_nearby(const SpringBench& bench, int chain, double q, double reach) {
   World world = bench.world;
   const int cells = 100;
   double best = std::numeric_limits<double>::infinity();
@@ -89,7 +89,7 @@ TEST_CASE("without friction a finger comes to rest where its springs hold least"
       const double q = bench.robot().q[c];
       const double here = energy(bench.robot(), c, q, bench.q(c, 0), bench.q(c, 1));
       // torques of up to 8 N m on levers of 30 mm and more press with at most 260 N through a gap of 0.1 mm
-      CHECK(here <= least_energy_nearby(bench, c, q, 0.02) + 0.026);
+      CHECK(here <= min_energy_nearby(bench, c, q, 0.02) + 0.026);
     }
   }
 }

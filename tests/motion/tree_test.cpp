@@ -172,15 +172,16 @@ TEST_CASE("a chain begins on a link that exists, of a chain before it") {
   spec.chains[1].parent_chain = 1;
   CHECK_THROWS_WITH_AS(
       world.add_robot(spec, {}),
-      "gripper: chain 1: wanted to begin on the base or on a chain before it, got chain 1", Error);
+      "gripper: chain 1: expected to begin on the base or on a chain before it, got chain 1",
+      Error);
   spec.chains[1].parent_chain = 0, spec.chains[1].parent_link = 1;
   CHECK_THROWS_WITH_AS(world.add_robot(spec, {}),
-                       "gripper: chain 1: wanted to begin on one of 1 links of chain 0, got 1",
+                       "gripper: chain 1: expected to begin on one of 1 links of chain 0, got 1",
                        Error);
   spec = two_finger();
   spec.chains[0].joints[1].X_after.position.x() = NAN;
   CHECK_THROWS_WITH_AS(
       world.add_robot(spec, {}),
-      "gripper: chain 0 joint 1: wanted a position within 1e+09 m of the origin, got (nan, 0, 0)",
+      "gripper: chain 0 joint 1: expected a position within 1e+09 m of the origin, got (nan, 0, 0)",
       Error);
 }

@@ -71,7 +71,7 @@ TEST_CASE(
     s.hand = s.world.add_robot(spec, random_pose(random, 1));
     const auto& limits = s.world.robot(s.hand).limits;
     s.world.set_dofs(s.hand, Eigen::Vector2d(random.uniform(limits[0][0], limits[0][1]), 0.2));
-    const auto sites = find_virtual_contacts(s.world, s.hand, {.per_link = 3});
+    const auto sites = find_virtual_contacts(s.world, s.hand, {.count_per_link = 3});
     REQUIRE(sites.size() == 13);
     for (const auto& site : sites) {
       const Shape& shape = *s.world.body(body_of(s.world.robot(s.hand), site)).shape;
@@ -90,7 +90,7 @@ TEST_CASE(
 
 TEST_CASE("several places of a link stand in a row along it, in equal shares") {
   const Stage s = stage();
-  const auto sites = find_virtual_contacts(s.world, s.hand, {.per_link = 3, .palm = false});
+  const auto sites = find_virtual_contacts(s.world, s.hand, {.count_per_link = 3, .palm = false});
   REQUIRE(sites.size() == 12);
   for (int i = 0; i < 12; i += 3) {
     const double a = sites[i].X_LC.position.x(), b = sites[i + 1].X_LC.position.x(),
@@ -168,13 +168,13 @@ TEST_CASE("a sliding jaw has its place in the middle of the face that goes forwa
 TEST_CASE("mu is that of the link's material and the one to be grasped") {
   Stage s = stage();
   const auto mu = [&](const char* against) {
-    return find_virtual_contacts(s.world, s.hand, {.against = against})[0].mu;
+    return find_virtual_contacts(s.world, s.hand, {.object_material = against})[0].mu;
   };
   CHECK(mu("wood") == 0.4);
   CHECK(mu("rubber") == 1.0);
   CHECK_THROWS_AS(mu("cheese"), Error);
-  CHECK_THROWS_WITH_AS(find_virtual_contacts(s.world, s.hand, {.per_link = 0}),
-                       "virtual contacts: per_link: wanted 1 to 100, got 0", Error);
+  CHECK_THROWS_WITH_AS(find_virtual_contacts(s.world, s.hand, {.count_per_link = 0}),
+                       "virtual contacts: count_per_link: expected 1 to 100, got 0", Error);
 }
 
 TEST_CASE(

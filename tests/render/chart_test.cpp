@@ -140,7 +140,7 @@ TEST_CASE("nothing, next to nothing and a panel of zeros look different") {
 TEST_CASE("the least column is the darkest where least is best") {
   Chart chart{.series = {{"effort", {3, 1}}}};
   const Picture largest = draw_chart(chart, {.width = 400, .height = 200});
-  chart.series[0].least_is_best = true;
+  chart.series[0].higher_is_better = false;
   // the darker column is the smaller one now
   CHECK(ink_of(draw_chart(chart, {.width = 400, .height = 200})) < ink_of(largest));
 }
@@ -195,17 +195,17 @@ TEST_CASE("a chart whose counts do not fit is refused in a sentence") {
   const auto refused = [](const Chart& chart, const char* sentence, ChartOptions options = {}) {
     CHECK_THROWS_WITH_AS(draw_chart(chart, options), sentence, Error);
   };
-  refused({}, "chart: wanted at least one series, got none");
-  refused({.series = {{"a", {}}}}, "chart: series 'a': wanted at least one value, got none");
+  refused({}, "chart: expected at least one series, got none");
+  refused({.series = {{"a", {}}}}, "chart: series 'a': expected at least one value, got none");
   refused({.series = {{"a", {1, 2}}, {"b", {1}}}},
-          "chart: series 'b': wanted 2 values, as the first has, got 1");
+          "chart: series 'b': expected 2 values, as the first has, got 1");
   refused({.labels = {"x"}, .series = {{"a", {1, 2}}}},
-          "chart: wanted 2 labels, one a value, got 1");
+          "chart: expected 2 labels, one per value, got 1");
   refused({.labels = {"x", "y"}, .series = {{"a", {1}}}},
-          "chart: wanted 1 label, one a value, got 2");
-  refused({.series = {{"a", {1}}}}, "chart: wanted a width of 64 to 8192 pixels, got 63",
+          "chart: expected 1 label, one per value, got 2");
+  refused({.series = {{"a", {1}}}}, "chart: expected a width of 64 to 8192 pixels, got 63",
           {.width = 63});
-  refused({.series = {{"a", {1}}}}, "chart: wanted a height of 64 to 8192 pixels, got 9000",
+  refused({.series = {{"a", {1}}}}, "chart: expected a height of 64 to 8192 pixels, got 9000",
           {.height = 9000});
 }
 
@@ -229,10 +229,11 @@ TEST_CASE("numbers of any size make a chart") {
 
 TEST_CASE("a chart has no more values and letters than anybody can see") {
   CHECK_THROWS_WITH_AS(draw_chart({.series = {{"x", std::vector<double>(10000, 1)}}}),
-                       "chart: wanted at most 8192 values a series, got 10000", Error);
+                       "chart: expected at most 8192 values a series, got 10000", Error);
   CHECK_THROWS_WITH_AS(
       draw_chart({.series = std::vector<ChartSeries>(200, {"x", std::vector<double>(8000, 1)})}),
-      "chart: wanted at most 1000000 values in all, got 200 series of 8000", Error);
+      "chart: expected at most 1000000 values in all, got 200 series of 8000", Error);
   CHECK_THROWS_WITH_AS(draw_chart({.title = std::string(10'000'000, 'x'), .series = {{"x", {1}}}}),
-                       "chart: wanted texts of at most 10000000 bytes in all, got 10000001", Error);
+                       "chart: expected texts of at most 10000000 bytes in all, got 10000001",
+                       Error);
 }

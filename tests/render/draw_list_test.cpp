@@ -171,7 +171,8 @@ TEST_CASE("what a scene may not hold is refused by name") {
   CHECK_THROWS_WITH_AS(with([&](Scene& s) {
                          s.meshes[0].triangle_colors.resize(3, {0, 0, 0});
                        }),
-                       "picture: mesh 1: wanted one colour for each of 12 triangles, got 3", Error);
+                       "picture: mesh 1: expected one colour for each of 12 triangles, got 3",
+                       Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) {
                          s.meshes[0].triangle_colors.assign(12, {0, static_cast<float>(nan), 0});
                        }),

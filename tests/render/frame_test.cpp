@@ -37,7 +37,7 @@ TEST_CASE("every vertex lies inside the picture, and the picture is used") {
         scene.meshes.push_back(
             solid(ball(0.2 * scale), {1, 1, 1}, Pose::translation({2 * scale, scale, 0})));
         const double used = reach(scene, frame_all(scene, aspect), aspect);
-        // a margin of 16 % is wanted; 1e-5 for corners kept as floats
+        // a margin of 16 % is expected; 1e-5 for corners kept as floats
         CHECK(used < 0.84 + 1e-5);
         CHECK(used > 0.84 - 1e-5);
       }
@@ -66,7 +66,7 @@ TEST_CASE("the view is from that side which shows what is seen through") {
   Eigen::Vector3d side = open.eye - open.target;
   side.z() = 0;
   side.normalize();
-  const Pose X_WM{least_turn(Eigen::Vector3d::UnitX(), side), 0.6 * side};
+  const Pose X_WM{shortest_rotation(Eigen::Vector3d::UnitX(), side), 0.6 * side};
   scene.meshes.push_back(solid(box(0.1, 2, 2), {1, 1, 1}, X_WM));
   const Eye moved = frame_all(scene, 1);
   // the ball's centre seen from the eye does not lie beyond the wall's plane

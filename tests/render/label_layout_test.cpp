@@ -37,16 +37,16 @@ bool is_written(const std::vector<PlacedText>& texts, const std::string& text) {
 TEST_CASE("boxes that crowd are spread within the picture, the first stays") {
   Random random(3);
   const Vector2f picture(400, 300);
-  std::vector<PixelBox> wanted;
+  std::vector<PixelBox> expected;
   for (int i = 0; i < 60; ++i) {
     const Vector2f at(static_cast<float>(random.uniform(100, 220)),
                       static_cast<float>(random.uniform(80, 160)));
-    wanted.push_back({at, at + Vector2f(40, 10)});
+    expected.push_back({at, at + Vector2f(40, 10)});
   }
   const PixelBox taken{{90, 150}, {300, 170}};
-  const auto places = spread_boxes(wanted, picture, {taken});
-  REQUIRE(places.size() == wanted.size());
-  CHECK(places[0]->low == wanted[0].low);
+  const auto places = spread_boxes(expected, picture, {taken});
+  REQUIRE(places.size() == expected.size());
+  CHECK(places[0]->low == expected[0].low);
   int placed = 0;
   for (size_t i = 0; i < places.size(); ++i) {
     if (!places[i]) continue;
@@ -54,8 +54,8 @@ TEST_CASE("boxes that crowd are spread within the picture, the first stays") {
     CHECK(within(*places[i], picture));
     CHECK_FALSE(places[i]->overlaps(taken));
     // four heights up and down, eight sideways
-    CHECK((places[i]->low - wanted[i].low).cwiseAbs().x() <= 80.01f);
-    CHECK((places[i]->low - wanted[i].low).cwiseAbs().y() <= 40.01f);
+    CHECK((places[i]->low - expected[i].low).cwiseAbs().x() <= 80.01f);
+    CHECK((places[i]->low - expected[i].low).cwiseAbs().y() <= 40.01f);
     for (size_t k = 0; k < i; ++k) CHECK_FALSE((places[k] && places[i]->overlaps(*places[k])));
   }
   CHECK(placed > 20);

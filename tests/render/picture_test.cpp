@@ -48,10 +48,10 @@ TEST_CASE("a path that cannot be written is named, with the reason") {
                        "no/such/folder/a.png: the file cannot be written: no such folder: "
                        "no/such/folder",
                        Error);
-  CHECK_THROWS_WITH_AS(save_png(pattern(2, 2), ""), "wanted the name of a file, got nothing",
+  CHECK_THROWS_WITH_AS(save_png(pattern(2, 2), ""), "expected the name of a file, got nothing",
                        Error);
   CHECK_THROWS_WITH_AS(save_png(pattern(2, 2), "/dev/full"),
-                       "/dev/full: wanted a file to write, got a special file", Error);
+                       "/dev/full: expected a file to write, got a special file", Error);
 }
 
 TEST_CASE("a picture whose pixels do not fit its size is refused") {

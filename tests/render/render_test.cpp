@@ -292,7 +292,7 @@ TEST_CASE("numbers out of range are refused by name") {
   CHECK_THROWS_WITH_AS(render({}, {.samples = 0}),
                        "picture: samples must be between 1 and 256, got 0", Error);
   CHECK_THROWS_WITH_AS(render({}, {.width = 8192, .height = 8192, .samples = 256}),
-                       "picture: wanted at most 1073741824 pixels times samples, got 17179869184",
+                       "picture: expected at most 1073741824 pixels times samples, got 17179869184",
                        Error);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Scene scene = red_box();

@@ -35,7 +35,7 @@ constexpr const char* claims = R"lua(
   local path, marked = ...
   local bytes = string.dump(function() return 42 end)
   local function refused(name, f, message)
-    assert(f == nil and message == name .. ": bytecode is not run; wanted Lua text", message)
+    assert(f == nil and message == name .. ": bytecode is not run; expected Lua text", message)
   end
   refused("load", load(bytes))
   refused("load", load(bytes, nil, "b"))
@@ -55,11 +55,11 @@ constexpr const char* claims = R"lua(
     refused(file, loadfile(file))
     refused(file, loadfile(file, "b"))
     local ok, message = pcall(dofile, file)
-    assert(not ok and message == file .. ": bytecode is not run; wanted Lua text")
+    assert(not ok and message == file .. ": bytecode is not run; expected Lua text")
   end
   package.path = path
   local ok, message = pcall(require, "anything")
-  assert(not ok and message:find(path .. ": bytecode is not run; wanted Lua text", 1, true), message)
+  assert(not ok and message:find(path .. ": bytecode is not run; expected Lua text", 1, true), message)
   for _, search in ipairs(package.searchers) do
     local found, loader = pcall(search, "anything")
     assert(not (found and type(loader) == "function"))
@@ -89,14 +89,14 @@ TEST_CASE("a compiled chunk is refused wherever one could be loaded, by its file
   fs::remove(file);
   CHECK_MESSAGE(result.ok, result.error);
   CHECK(state.run_file(compiled.name(), {}).error ==
-        compiled.name() + ": bytecode is not run; wanted Lua text");
+        compiled.name() + ": bytecode is not run; expected Lua text");
 }
 
 TEST_CASE("a world in Lua that is a compiled chunk is refused in every state") {
   const Compiled compiled;
   Script lua;
   CHECK(lua.text("clench.load '" + compiled.name() + "'") ==
-        "test:1: " + compiled.name() + ": bytecode is not run; wanted Lua text");
+        "test:1: " + compiled.name() + ": bytecode is not run; expected Lua text");
 }
 
 TEST_CASE(
@@ -130,5 +130,5 @@ TEST_CASE("a host that asks too late is told, and one that does not ask keeps Lu
   lua_pushcfunction(lua.L, clench_refuse_bytecode);
   CHECK(lua_pcall(lua.L, 0, 0, 0) != LUA_OK);
   CHECK(std::string(lua_tostring(lua.L, -1)) ==
-        "clench_refuse_bytecode: wanted package.searchers as Lua makes them");
+        "clench_refuse_bytecode: expected package.searchers as Lua makes them");
 }

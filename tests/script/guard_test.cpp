@@ -19,7 +19,7 @@ struct Counted {
 
 int throws_error(lua_State*) {
   Counted counted;
-  clench::fail("flask: wanted a mass > 0, got {}", -1);
+  clench::fail("flask: expected a mass > 0, got {}", -1);
 }
 
 int calls_back(lua_State* L) {
@@ -42,9 +42,9 @@ TEST_CASE(
     "destroyed") {
   Script lua;
   lua_register(lua.L, "f", guarded<throws_error>);
-  CHECK(lua.run("f()") == "test:1: flask: wanted a mass > 0, got -1");
+  CHECK(lua.run("f()") == "test:1: flask: expected a mass > 0, got -1");
   CHECK(lua.run("\n\nreturn select(2, pcall(function() f() end))") ==
-        "test:3: flask: wanted a mass > 0, got -1");
+        "test:3: flask: expected a mass > 0, got -1");
   CHECK(alive == 0);
 }
 
@@ -74,7 +74,8 @@ TEST_CASE("endless recursion through C++ is an error") {
   CHECK(alive == 0);
 }
 
-TEST_CASE("of a message that nobody reads to its end both ends are told and no control characters") {
+TEST_CASE(
+    "of a message that nobody reads to its end both ends are told and no control characters") {
   Script lua;
   lua_register(lua.L, "f", guarded<throws_long>);
   const auto message = lua.run("f()");

@@ -58,25 +58,27 @@ TEST_CASE("what JSON cannot hold is refused by its place") {
     return lua.text("clench.json.encode(" + value + ")");
   };
   const std::string at = "test:1: clench.json.encode: ";
-  CHECK(refused("{a = {1, print}}") ==
-        at + "value.a[2]: wanted a number, string, boolean, table or clench value, got a function");
-  CHECK(refused("0 / 0").find("value: wanted a finite number, got") != std::string::npos);
-  CHECK(refused("{x = math.huge}") == at + "value.x: wanted a finite number, got inf");
+  CHECK(
+      refused("{a = {1, print}}") ==
+      at + "value.a[2]: expected a number, string, boolean, table or clench value, got a function");
+  CHECK(refused("0 / 0").find("value: expected a finite number, got") != std::string::npos);
+  CHECK(refused("{x = math.huge}") == at + "value.x: expected a finite number, got inf");
   CHECK(refused("{1, 2, a = 3}") ==
-        at + "value: wanted a list or names, got both: 2 items and the name 'a'");
-  CHECK(refused("{[1] = 1, [3] = 3, [-1] = 0}").find("wanted names, or items 1..n without holes") !=
-        std::string::npos);
+        at + "value: expected a list or names, got both: 2 items and the name 'a'");
+  CHECK(
+      refused("{[1] = 1, [3] = 3, [-1] = 0}").find("expected names, or items 1..n without holes") !=
+      std::string::npos);
   CHECK(refused("{[1.5] = 1}") ==
-        at + "value: wanted names, or items 1..n without holes, got the key 1.5");
-  CHECK(refused("'\\xff'") == at + "value: wanted text in UTF-8, got the byte 255");
+        at + "value: expected names, or items 1..n without holes, got the key 1.5");
+  CHECK(refused("'\\xff'") == at + "value: expected text in UTF-8, got the byte 255");
   CHECK(refused("'\\xed\\xa0\\x80'").find("UTF-8") != std::string::npos);
-  CHECK(refused("io.stdout") == at + "value: wanted a value that JSON can hold, got a FILE*");
+  CHECK(refused("io.stdout") == at + "value: expected a value that JSON can hold, got a FILE*");
   CHECK(refused("clench.random(1)") ==
-        at + "value: wanted a value that JSON can hold, got a random");
-  CHECK(refused("") == at + "value: wanted a value, got nothing");
-  CHECK(refused("1, {indent = 99}") == at + "indent: wanted 0 to 16, got 99");
+        at + "value: expected a value that JSON can hold, got a random");
+  CHECK(refused("") == at + "value: expected a value, got nothing");
+  CHECK(refused("1, {indent = 99}") == at + "indent: expected 0 to 16, got 99");
   CHECK(lua.run("local t = {} t.t = {t} return clench.json.encode(t)") ==
-        at + "value.t[1]: wanted no table within itself");
+        at + "value.t[1]: expected no table within itself");
   CHECK(lua.run("local t = {} for i = 1, 1000 do t = {t} end return clench.json.encode(t)")
             .find("at most 100 levels") != std::string::npos);
   CHECK(lua.run("return clench.json.encode(setmetatable({}, {__json = function(t) return t end}))")
@@ -91,30 +93,30 @@ TEST_CASE("a text that is not JSON is refused by line and column") {
     return lua.text("clench.json.decode [==[" + text + "]==]");
   };
   const std::string at = "test:1: clench.json.decode: line ";
-  CHECK(refused("") == at + "1, column 1: wanted a value, got the end of the text");
-  CHECK(refused("{\"a\": 1,\n \"b\" 2}") == at + "2, column 6: wanted ':', got '2'");
-  CHECK(refused("[1, 2") == at + "1, column 6: wanted ',' or ']', got the end of the text");
-  CHECK(refused("[1 2]") == at + "1, column 4: wanted ',' or ']', got '2'");
-  CHECK(refused("[1,]") == at + "1, column 4: wanted a value, got ']'");
-  CHECK(refused("{a: 1}") == at + "1, column 2: wanted a name in double quotes, got 'a'");
-  CHECK(refused("[1] x") == at + "1, column 5: wanted the end, got 'x'");
-  CHECK(refused("nul") == at + "1, column 1: wanted a value, got 'n'");
-  CHECK(refused("NaN").find("wanted a value") != std::string::npos);
-  CHECK(refused("01") == at + "1, column 2: wanted a number without leading zeros");
-  CHECK(refused("-") == at + "1, column 2: wanted a digit, got the end of the text");
-  CHECK(refused("1.") == at + "1, column 3: wanted a digit, got the end of the text");
-  CHECK(refused("1e+") == at + "1, column 4: wanted a digit, got the end of the text");
+  CHECK(refused("") == at + "1, column 1: expected a value, got the end of the text");
+  CHECK(refused("{\"a\": 1,\n \"b\" 2}") == at + "2, column 6: expected ':', got '2'");
+  CHECK(refused("[1, 2") == at + "1, column 6: expected ',' or ']', got the end of the text");
+  CHECK(refused("[1 2]") == at + "1, column 4: expected ',' or ']', got '2'");
+  CHECK(refused("[1,]") == at + "1, column 4: expected a value, got ']'");
+  CHECK(refused("{a: 1}") == at + "1, column 2: expected a name in double quotes, got 'a'");
+  CHECK(refused("[1] x") == at + "1, column 5: expected the end, got 'x'");
+  CHECK(refused("nul") == at + "1, column 1: expected a value, got 'n'");
+  CHECK(refused("NaN").find("expected a value") != std::string::npos);
+  CHECK(refused("01") == at + "1, column 2: expected a number without leading zeros");
+  CHECK(refused("-") == at + "1, column 2: expected a digit, got the end of the text");
+  CHECK(refused("1.") == at + "1, column 3: expected a digit, got the end of the text");
+  CHECK(refused("1e+") == at + "1, column 4: expected a digit, got the end of the text");
   CHECK(refused("1e999") == at + "1, column 1: a number too large for 64 bits: 1e999");
   CHECK(refused("\"abc") == at + "1, column 1: a string that never ends");
   CHECK(refused("\"a\nb\"") ==
-        at + "1, column 3: wanted no control character in a string, got byte 10");
+        at + "1, column 3: expected no control character in a string, got byte 10");
   CHECK(refused("\"\\x\"").find("after a backslash, got 'x'") != std::string::npos);
-  CHECK(refused("\"\\u12g4\"") == at + "1, column 6: wanted a hexadecimal digit, got 'g'");
+  CHECK(refused("\"\\u12g4\"") == at + "1, column 6: expected a hexadecimal digit, got 'g'");
   CHECK(refused("\"\\ud800\"") == at + "1, column 2: half of a surrogate pair");
   CHECK(refused("\"\\udc00x\"") == at + "1, column 2: half of a surrogate pair");
   CHECK(refused(std::string(1000, '[')).find("nested deeper than 100 levels") != std::string::npos);
   CHECK(lua.text("clench.json.decode(5)") ==
-        "test:1: clench.json.decode: text: wanted a string, got 5");
+        "test:1: clench.json.decode: text: expected a string, got 5");
   CHECK(lua.text("clench.json.decode '1e-999'") == "0.0");
 }
 

@@ -53,9 +53,9 @@ TEST_CASE("random numbers are the engine's own") {
   CHECK(lua.text("string.format('%.17g', clench.random(5, 3):uniform())") ==
         fmt::format("{:.17g}", random.uniform()));
   CHECK(lua.text("clench.random()") ==
-        "test:1: clench.random: seed: wanted an integer, got nothing");
+        "test:1: clench.random: seed: expected an integer, got nothing");
   CHECK(lua.text("clench.random(1):uniform(2, 1)") ==
-        "test:1: random:uniform: wanted low <= high, got 2 and 1");
+        "test:1: random:uniform: expected low <= high, got 2 and 1");
 }
 
 TEST_CASE("random integers reach both ends, and the widest range too") {
@@ -77,9 +77,9 @@ TEST_CASE("the log goes where it is told, from the level it is told") {
     said[2] = said[2]:gsub("0x.*", "")
     return table.concat(said, "|"))") == "info b 2 nil|warning table: |error d|debug e");
   CHECK(lua.text("clench.log.level 'loud'") ==
-        "test:1: clench.log.level: wanted one of debug, info, warning, error, quiet, got 'loud'");
+        "test:1: clench.log.level: expected one of debug, info, warning, error, quiet, got 'loud'");
   CHECK(lua.text("clench.log.sink(3)") ==
-        "test:1: clench.log.sink: fn: wanted a function or nil, got 3");
+        "test:1: clench.log.sink: fn: expected a function or nil, got 3");
   CHECK(lua.run("clench.log.sink(function() error('mine', 0) end) clench.log.error 'x'") == "mine");
   CHECK(lua.run("clench.log.sink() clench.log.info(setmetatable({}, {__tostring = function() "
                 "error('text', 0) end}))") == "text");

@@ -30,26 +30,27 @@ TEST_CASE("what a vec3 cannot do is said") {
         "test:1: vec3: two vectors have no product *; use a:dot(b) or a:cross(b)");
   CHECK(lua.text("clench.vec3(1, 2, 3) / 0") == "test:1: vec3: division by 0");
   CHECK(lua.text("clench.vec3(1, 2, 3) + 1") ==
-        "test:1: vec3: right of +: wanted a vec3 or {x, y, z}, got 1");
-  CHECK(lua.text("clench.vec3(1, 2)") == "test:1: clench.vec3: z: wanted a number, got nothing");
+        "test:1: vec3: right of +: expected a vec3 or {x, y, z}, got 1");
+  CHECK(lua.text("clench.vec3(1, 2)") == "test:1: clench.vec3: z: expected a number, got nothing");
   CHECK(lua.text("clench.vec3(1, 2, 3, 4)") ==
-        "test:1: clench.vec3: wanted at most 3 arguments, got 4");
+        "test:1: clench.vec3: expected at most 3 arguments, got 4");
   CHECK(lua.text("clench.vec3(0, 0, 0):unit()") ==
         "test:1: vec3:unit: a vector of length 0 has no direction");
   CHECK(lua.text("clench.vec3(1, 2, 3).nrm") == "test:1: vec3 has no 'nrm'; did you mean 'norm'?");
   CHECK(lua.text("clench.vec3(1, 2, 3)[{}]") == "nil");
   CHECK(lua.run("clench.vec3(1, 2, 3).x = 1") == "test:1: vec3.x cannot be set: it is read only");
   CHECK(lua.run("clench.vec3(1, 2, 3).w = 1").starts_with("test:1: vec3 has no field 'w' to set"));
-  CHECK(lua.run("clench.vec3(1, 2, 3)[1] = 1").find("wanted a name of a field to set") !=
+  CHECK(lua.run("clench.vec3(1, 2, 3)[1] = 1").find("expected a name of a field to set") !=
         std::string::npos);
 }
 
 TEST_CASE("a dot where a colon belongs is pointed out") {
   Script lua;
   CHECK(lua.run("local v = clench.vec3(1, 2, 3) return v.dot{1, 2, 3}") ==
-        "test:1: vec3:dot: wanted a vec3 before the colon, got a table of 3; use vec3:dot(...)");
-  CHECK(lua.run("local p = clench.pose{} return p.inverse()") ==
-        "test:1: pose:inverse: wanted a pose before the colon, got nothing; use pose:inverse(...)");
+        "test:1: vec3:dot: expected a vec3 before the colon, got a table of 3; use vec3:dot(...)");
+  CHECK(
+      lua.run("local p = clench.pose{} return p.inverse()") ==
+      "test:1: pose:inverse: expected a pose before the colon, got nothing; use pose:inverse(...)");
   CHECK(lua.run("return clench.pose{}.inverse(clench.vec3())").find("got a vec3") !=
         std::string::npos);
 }
@@ -104,19 +105,20 @@ TEST_CASE("poses chain and take points along") {
   CHECK(lua.text("clench.pose(clench.pose{xyz = {1, 2, 3}}).position") == "(1, 2, 3)");
 }
 
-TEST_CASE("a pose that is none is refused with what was wanted") {
+TEST_CASE("a pose that is none is refused with what was expected") {
   Script lua;
   CHECK(lua.text("clench.pose{quat = {1, 0, 0}}") ==
-        "test:1: clench.pose: quat: wanted 4 numbers, got 3");
+        "test:1: clench.pose: quat: expected 4 numbers, got 3");
   CHECK(lua.text("clench.pose{quat = {0, 0, 0, 0}}") ==
-        "test:1: clench.pose: quat: wanted a unit quaternion {w, x, y, z}, got one of length 0");
+        "test:1: clench.pose: quat: expected a unit quaternion {w, x, y, z}, got one of length 0");
   CHECK(lua.text("clench.pose{quat = {1e200, 1e200, 0, 0}}").find("of length 1.41421e+200") !=
         std::string::npos);
   CHECK(lua.text("clench.pose{rpy = {0, 0, 0}, quat = {1, 0, 0, 0}}") ==
-        "test:1: clench.pose: wanted one of rpy, quat, matrix, got 2");
-  CHECK(lua.text("clench.pose{matrix = {{1, 0}, {0, 1}}}") ==
-        "test:1: clench.pose: matrix: wanted 3 rows of 3 or 4 numbers, or 4 rows of 4, got 2 rows, "
-        "the first of 2");
+        "test:1: clench.pose: expected one of rpy, quat, matrix, got 2");
+  CHECK(
+      lua.text("clench.pose{matrix = {{1, 0}, {0, 1}}}") ==
+      "test:1: clench.pose: matrix: expected 3 rows of 3 or 4 numbers, or 4 rows of 4, got 2 rows, "
+      "the first of 2");
   CHECK(lua.text("clench.pose{matrix = {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}}").find("right-handed") !=
         std::string::npos);
   CHECK(
@@ -124,16 +126,16 @@ TEST_CASE("a pose that is none is refused with what was wanted") {
       "test:1: clench.pose: matrix: the last row must be 0 0 0 1");
   CHECK(lua.text(
             "clench.pose{xyz = {1, 2, 3}, matrix = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}") ==
-        "test:1: clench.pose: wanted the position once, got it from matrix and xyz");
-  CHECK(lua.text("clench.pose{xyz = {0, 0 / 0, 0}}").find("xyz[2]: wanted a finite number") !=
+        "test:1: clench.pose: expected the position once, got it from matrix and xyz");
+  CHECK(lua.text("clench.pose{xyz = {0, 0 / 0, 0}}").find("xyz[2]: expected a finite number") !=
         std::string::npos);
   CHECK(lua.text("clench.pose{xzy = {1, 2, 3}}") ==
         "test:1: clench.pose: unknown key 'xzy'; did you mean 'xyz'?");
   CHECK(lua.text("clench.pose{}:interpolate(clench.pose{}, 2)") ==
-        "test:1: pose:interpolate: t: wanted a number from 0 to 1, got 2");
+        "test:1: pose:interpolate: t: expected a number from 0 to 1, got 2");
   CHECK(lua.text("clench.pose{} * 2") ==
-        "test:1: pose: right of *: wanted a pose, a vec3 or {x, y, z}, got 2");
-  CHECK(lua.text("2 * clench.pose{}") == "test:1: pose: left of *: wanted a pose, got 2");
+        "test:1: pose: right of *: expected a pose, a vec3 or {x, y, z}, got 2");
+  CHECK(lua.text("2 * clench.pose{}") == "test:1: pose: left of *: expected a pose, got 2");
 }
 
 TEST_CASE("every value prints what it is") {

@@ -101,13 +101,13 @@ TEST_CASE("fields are read and set, methods called, by name") {
   Probes lua;
   CHECK(lua.run("local p = probe(4) p.number = p.number + 1 return p.number, p:twice()") ==
         "5, 10");
-  CHECK(lua.run("probe(4).number = 'x'") == "test:1: tip.number: wanted an integer, got 'x'");
+  CHECK(lua.run("probe(4).number = 'x'") == "test:1: tip.number: expected an integer, got 'x'");
   CHECK(lua.run("probe(4).who_field = 1") ==
         "test:1: tip.who_field cannot be set: it is read only");
   CHECK(lua.run("probe(4).numbr = 1") ==
         "test:1: tip has no field 'numbr' to set; did you mean 'number'?");
   CHECK(lua.run("return probe(4).twise") == "test:1: tip has no 'twise'; did you mean 'twice'?");
-  CHECK(lua.run("return probe(4)[1]").find("wanted a name") != std::string::npos);
+  CHECK(lua.run("return probe(4)[1]").find("expected a name") != std::string::npos);
 }
 
 TEST_CASE("an entry knows its name") {
@@ -131,7 +131,7 @@ TEST_CASE("values are destroyed once: by the collector, by <close>, or never aga
               .find("tip.number: the probe was closed") != std::string::npos);
     CHECK(lua.run("local w, s = clench.world() do local t <close> = w:snapshot() s = t end "
                   "return pcall(w.restore, w, s)") ==
-          "false, test:1: world:restore: snapshot: wanted a snapshot, got one that was closed");
+          "false, test:1: world:restore: snapshot: expected a snapshot, got one that was closed");
     CHECK(living == 0);
     // the finalizer, called by hand, twice and with strangers
     CHECK(lua.run("local p = probe(1) local gc = debug.getmetatable(p).__gc gc(p) gc(p) gc(1) gc() "
@@ -147,7 +147,7 @@ TEST_CASE("a metatable put on a stranger does not make it ours") {
   Probes lua;
   CHECK(lua.run("local v = clench.vec3(1, 2, 3) debug.setmetatable(v, "
                 "debug.getmetatable(probe(1))) return v.number")
-            .find("tip.number: wanted a probe") == std::string::npos);
+            .find("tip.number: expected a probe") == std::string::npos);
   // both have a class's metatable, neither is what it says
   CHECK(lua.run("local v = clench.vec3(1, 2, 3) debug.setmetatable(v, "
                 "debug.getmetatable(probe(1))) return v:twice()")

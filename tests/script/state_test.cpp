@@ -19,7 +19,7 @@ static std::string error_of(State& state, const std::string& code) {
 
 static bool says(const std::string& text, const std::string& part) {
   const bool found = text.find(part) != std::string::npos;
-  if (!found) MESSAGE("wanted '", part, "' in: ", text.substr(0, 400));
+  if (!found) MESSAGE("expected '", part, "' in: ", text.substr(0, 400));
   return found;
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("a file that is no Lua is refused, compiled chunks too") {
   const fs::path path = folder.path() / "state_binary.lua";
   std::ofstream(path, std::ios::binary) << "\x1bLua rubbish";
   State state;
-  CHECK(says(state.run_file(path.string(), {}).error, "bytecode is not run; wanted Lua text"));
+  CHECK(says(state.run_file(path.string(), {}).error, "bytecode is not run; expected Lua text"));
   fs::remove(path);
 }
 

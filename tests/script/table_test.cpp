@@ -61,34 +61,34 @@ TEST_CASE("a misspelt key is named, and the near one offered") {
   CHECK(f("{zzz = 1, yyyy = 2}") == "hand:autograsp: unknown key 'yyyy'");
 }
 
-TEST_CASE("what is wrong is said with subject, wanted and got") {
+TEST_CASE("what is wrong is said with subject, expected and got") {
   Options f;
-  CHECK(f("(3)") == "hand:autograsp: wanted a table of options, got 3");
-  CHECK(f("{speed = 'fast'}") == "hand:autograsp: speed: wanted a number, got 'fast'");
-  CHECK(f("{speed = '1'}") == "hand:autograsp: speed: wanted a number, got '1'");
-  CHECK(f("{speed = 0 / 0}").starts_with("hand:autograsp: speed: wanted a finite number, got"));
+  CHECK(f("(3)") == "hand:autograsp: expected a table of options, got 3");
+  CHECK(f("{speed = 'fast'}") == "hand:autograsp: speed: expected a number, got 'fast'");
+  CHECK(f("{speed = '1'}") == "hand:autograsp: speed: expected a number, got '1'");
+  CHECK(f("{speed = 0 / 0}").starts_with("hand:autograsp: speed: expected a finite number, got"));
   CHECK(f("{speed = 0 / 0}").ends_with("got nan"));
   CHECK(f("{speed = -(0 / 0)}").ends_with("got nan"));
-  CHECK(f("{speed = -1 / 0}") == "hand:autograsp: speed: wanted a finite number, got -inf");
+  CHECK(f("{speed = -1 / 0}") == "hand:autograsp: speed: expected a finite number, got -inf");
   CHECK(f("{speed = 0}") == "hand:autograsp: speed must be > 0, got 0");
-  CHECK(f("{edges = 2.5}") == "hand:autograsp: edges: wanted an integer, got 2.5");
+  CHECK(f("{edges = 2.5}") == "hand:autograsp: edges: expected an integer, got 2.5");
   CHECK(f("{edges = 1 << 40}") ==
-        "hand:autograsp: edges: wanted an integer of 32 bits, got 1099511627776");
+        "hand:autograsp: edges: expected an integer of 32 bits, got 1099511627776");
   CHECK(f("{stop_at_contact = 1}") ==
-        "hand:autograsp: stop_at_contact: wanted true or false, got 1");
-  CHECK(f("{norm = 'L3'}") == "hand:autograsp: unknown norm 'L3', wanted one of L1, Linf");
-  CHECK(f("{point = {1, 2}}") == "hand:autograsp: point: wanted 3 numbers, got 2");
-  CHECK(f("{point = {1, 2, {}}}") == "hand:autograsp: point[3]: wanted a number, got a table");
-  CHECK(f("{point = 'up'}") == "hand:autograsp: point: wanted a vec3 or {x, y, z}, got 'up'");
-  CHECK(f("{pose = 1}") == "hand:autograsp: pose: wanted a pose, got 1");
-  CHECK(f("{pose = {xyz = {1}}}") == "hand:autograsp: pose: xyz: wanted 3 numbers, got 1");
-  CHECK(f("{dofs = {1, 2}}") == "hand:autograsp: dofs: wanted 3 numbers, got 2");
-  CHECK(f("{rows = {{1, 2}, {1}}}") == "hand:autograsp: rows[2]: wanted 2 numbers, got 1");
-  CHECK(f("{rows = {1}}") == "hand:autograsp: rows[1]: wanted a list of 2 numbers, got 1");
-  CHECK(f("{name = 5}") == "hand:autograsp: name: wanted a string, got 5");
+        "hand:autograsp: stop_at_contact: expected true or false, got 1");
+  CHECK(f("{norm = 'L3'}") == "hand:autograsp: unknown norm 'L3', expected one of L1, Linf");
+  CHECK(f("{point = {1, 2}}") == "hand:autograsp: point: expected 3 numbers, got 2");
+  CHECK(f("{point = {1, 2, {}}}") == "hand:autograsp: point[3]: expected a number, got a table");
+  CHECK(f("{point = 'up'}") == "hand:autograsp: point: expected a vec3 or {x, y, z}, got 'up'");
+  CHECK(f("{pose = 1}") == "hand:autograsp: pose: expected a pose, got 1");
+  CHECK(f("{pose = {xyz = {1}}}") == "hand:autograsp: pose: xyz: expected 3 numbers, got 1");
+  CHECK(f("{dofs = {1, 2}}") == "hand:autograsp: dofs: expected 3 numbers, got 2");
+  CHECK(f("{rows = {{1, 2}, {1}}}") == "hand:autograsp: rows[2]: expected 2 numbers, got 1");
+  CHECK(f("{rows = {1}}") == "hand:autograsp: rows[1]: expected a list of 2 numbers, got 1");
+  CHECK(f("{name = 5}") == "hand:autograsp: name: expected a string, got 5");
   CHECK(f("{name = 'a\\0b'}").find("without zero bytes") != std::string::npos);
-  CHECK(f("{hook = 'x'}") == "hand:autograsp: hook: wanted a function, got 'x'");
-  CHECK(f("{seed = {}}") == "hand:autograsp: seed: wanted an integer, got a table");
+  CHECK(f("{hook = 'x'}") == "hand:autograsp: hook: expected a function, got 'x'");
+  CHECK(f("{seed = {}}") == "hand:autograsp: seed: expected an integer, got a table");
 }
 
 TEST_CASE("options are read raw: a metatable's code does not run") {
@@ -100,7 +100,7 @@ TEST_CASE("options are read raw: a metatable's code does not run") {
 TEST_CASE("a long text is cut short in a message") {
   Options f;
   CHECK(f("{speed = ('x'):rep(1e6)}") ==
-        "hand:autograsp: speed: wanted a number, got '" + std::string(37, 'x') + "...'");
+        "hand:autograsp: speed: expected a number, got '" + std::string(37, 'x') + "...'");
 }
 
 TEST_CASE("a key is known whole, or not at all") {

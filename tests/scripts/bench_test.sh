@@ -12,7 +12,7 @@ export CALLS="$root/calls" PATH="$root/bin:$PATH"
 fake() { printf '#!/usr/bin/env bash\n%s\n' "$2" >"$root/$1" && chmod +x "$root/$1"; }
 run() { : >"$CALLS"; status=0; said=$(bash "$root/scripts/bench" "$@" 2>&1 </dev/null) || status=$?; }
 wants() {
-  if [[ "$2" != $3 ]]; then printf 'FAILED %s\n  wanted: %s\n  got:    %s\n' "$1" "$3" "$2"; exit 1; fi
+  if [[ "$2" != $3 ]]; then printf 'FAILED %s\n  expected: %s\n  got:    %s\n' "$1" "$3" "$2"; exit 1; fi
   echo "ok     $1"
 }
 

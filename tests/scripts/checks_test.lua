@@ -7,16 +7,16 @@ local function run(command)
   return text, code
 end
 
-local function fails_with(command, wanted)
+local function fails_with(command, expected)
   local text, code = run(command)
   local lines = {}
   for line in text:gmatch "[^\n]+" do lines[#lines + 1] = line end
-  for i = 1, math.max(#lines, #wanted) do
-    if lines[i] ~= wanted[i] then
-      error(("%s: line %d\nwanted: %s\ngot:    %s"):format(command, i, wanted[i], lines[i]), 0)
+  for i = 1, math.max(#lines, #expected) do
+    if lines[i] ~= expected[i] then
+      error(("%s: line %d\nwanted: %s\ngot:    %s"):format(command, i, expected[i], lines[i]), 0)
     end
   end
-  assert(code == 1, command .. ": wanted exit code 1, got " .. tostring(code))
+  assert(code == 1, command .. ": expected exit code 1, got " .. tostring(code))
 end
 
 fails_with("lua5.4 scripts/check_layers.lua tests/data/layers/bad", {
@@ -36,7 +36,7 @@ fails_with("lua5.4 scripts/check_packages.lua tests/data/packages/bad", {
   "scripts/packages.txt:4: libfmt-dev is listed for 'build', and tests/CMakeLists.txt:1 asks for it",
   "scripts/packages.txt:5: doctest-dev is listed for 'test', and src/CMakeLists.txt:3 asks for it",
   "scripts/packages.txt:6: libold-dev is listed for old, which no CMake file asks for",
-  "scripts/packages.txt:7: wanted 'build', 'test' or 'bench', a package, how CMake asks for it, what for; "
+  "scripts/packages.txt:7: expected 'build', 'test' or 'bench', a package, how CMake asks for it, what for; "
     .. "got 'perhaps    libnew-dev    new     for nobody knows what'",
   "src/CMakeLists.txt:2: egl is asked for, and no package of scripts/packages.txt gives it",
   "packages: 6 faults",

@@ -40,7 +40,7 @@ chmod +x program
 # batch MODE SEED HOW: what it says, and what is kept afterwards
 batch() { said=$(BREAKS=$3 bash tests/fuzz/batch.sh "$root/program" "$1" "$2" 1000 2>/dev/null); kept=$(ls build/fuzz/found); }
 wants() {
-  if [[ "$2" != $3 ]]; then printf 'FAILED %s\n  wanted: %s\n  got:    %s\n' "$1" "$3" "$2"; exit 1; fi
+  if [[ "$2" != $3 ]]; then printf 'FAILED %s\n  expected: %s\n  got:    %s\n' "$1" "$3" "$2"; exit 1; fi
   echo "ok     $1"
 }
 

@@ -12,7 +12,7 @@ fake() { printf '#!%s/bash\n%s\n' "$bin" "$2" >"$bin/$1" && chmod +x "$bin/$1"; 
 run() { status=0; said=$(PATH="$bin" bash scripts/setup "$@" 2>&1 </dev/null) || status=$?; }
 calls() { cat "$bin/calls" 2>/dev/null; rm -f "$bin/calls"; }
 wants() {
-  if [[ "$2" != *"$3"* ]]; then printf 'FAILED %s\n  wanted: %s\n  got:    %s\n' "$1" "$3" "$2"; exit 1; fi
+  if [[ "$2" != *"$3"* ]]; then printf 'FAILED %s\n  expected: %s\n  got:    %s\n' "$1" "$3" "$2"; exit 1; fi
   echo "ok     $1"
 }
 

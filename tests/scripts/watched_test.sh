@@ -9,7 +9,7 @@ wants() {
   local status=0 said
   said=$("$program" "--test-case=$1" 2>&1) || status=$?
   if [ "$status" != "$2" ] || [[ "$said" != *"$3"* ]]; then
-    printf 'FAILED %s\n  wanted: %s %s\n  got:    %s %s\n' "$1" "$2" "$3" "$status" "$said"
+    printf 'FAILED %s\n  expected: %s %s\n  got:    %s %s\n' "$1" "$2" "$3" "$status" "$said"
     exit 1
   fi
   echo "ok     $1"

@@ -26,29 +26,29 @@ TEST_CASE("the identity has a unit vector a DOF and is in order") {
 }
 
 TEST_CASE("sets that are out of order are refused by a sentence") {
-  check_set_refused({}, "s: wanted at least one eigengrasp, got none");
+  check_set_refused({}, "s: expected at least one eigengrasp, got none");
   auto set = set_of({vec(1, 0, 0), vec(0, 0, 0)});
-  check_set_refused(set, "s: eigengrasp 2: wanted a vector other than zero, got one of length 0");
+  check_set_refused(set, "s: eigengrasp 2: expected a vector other than zero, got one of length 0");
   set.grasps[1].vector = VectorXd::Zero(2);
-  check_set_refused(set, "s: eigengrasp 2: wanted 3 numbers, got 2");
+  check_set_refused(set, "s: eigengrasp 2: expected 3 numbers, got 2");
   set.grasps[1].vector = vec(0, NAN, 1);
   check_set_refused(set,
-                    "s: eigengrasp 2: number 2: wanted a number from -1e+30 to 1e+30, got nan");
+                    "s: eigengrasp 2: number 2: expected a number from -1e+30 to 1e+30, got nan");
   set.grasps[1].vector = vec(1, 1, 0);
   set.grasps[1].eigenvalue = INFINITY;
   check_set_refused(set,
-                    "s: eigengrasp 2: eigenvalue: wanted a number from -1e+30 to 1e+30, got inf");
+                    "s: eigengrasp 2: eigenvalue: expected a number from -1e+30 to 1e+30, got inf");
   set.grasps[1].eigenvalue = 1;
   set.grasps[1].limits = {2, 1};
   check_set_refused(set, "s: eigengrasp 2: min 2 exceeds max 1");
   set.grasps[1].limits = {NAN, 1};
-  check_set_refused(set, "s: eigengrasp 2: limit: wanted a number from -1e+30 to 1e+30, got nan");
+  check_set_refused(set, "s: eigengrasp 2: limit: expected a number from -1e+30 to 1e+30, got nan");
   set.grasps[1].limits.reset();
   set.origin = VectorXd::Zero(2);
-  check_set_refused(set, "s: origin: wanted 3 numbers, got 2");
+  check_set_refused(set, "s: origin: expected 3 numbers, got 2");
   set.origin.reset();
   set.norm = vec(1, 0, 1);
-  check_set_refused(set, "s: norm: number 2: wanted a scale other than 0, got 0");
+  check_set_refused(set, "s: norm: number 2: expected a scale other than 0, got 0");
 }
 
 TEST_CASE("an eigengrasp that is a sum of others is refused, where it stands") {

@@ -9,7 +9,7 @@ TEST_CASE("the seven materials are known, others are refused with a near name or
   CHECK_THROWS_WITH_AS(check_material("rubbr"), "unknown material 'rubbr'; did you mean 'rubber'?",
                        Error);
   CHECK_THROWS_WITH_AS(check_material("jelly"),
-                       "unknown material 'jelly'; wanted one of frictionless, glass, metal, "
+                       "unknown material 'jelly'; expected one of frictionless, glass, metal, "
                        "plastic, wood, rubber, stone",
                        Error);
 }

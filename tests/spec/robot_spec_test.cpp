@@ -38,7 +38,7 @@ TEST_CASE(
 
 TEST_CASE("an approach without direction is refused") {
   CHECK_THROWS_WITH_AS(approach_frame({0, 0, 0}, {0, 0, 0}),
-                       "approach direction: wanted a direction, got (0, 0, 0)", Error);
+                       "approach direction: expected a direction, got (0, 0, 0)", Error);
   CHECK_THROWS_AS(approach_frame({0, 0, 0}, {NAN, 0, 1}), Error);
   CHECK_THROWS_AS(approach_frame({INFINITY, 0, 0}, {0, 0, 1}), Error);
 }
@@ -58,21 +58,21 @@ TEST_CASE("what is out of order in a robot is told by place") {
   };
   CHECK_NOTHROW(check_robot(two_joints()));
   refused([](RobotSpec& r) { r.chains[0].joints[1].dof = 1; },
-          "arm: chain 0 joint 1: wanted a DOF from 0 to 0, got 1");
+          "arm: chain 0 joint 1: expected a DOF from 0 to 0, got 1");
   refused([](RobotSpec& r) { r.chains[0].joints[1].dof = -1; },
-          "arm: chain 0 joint 1: wanted a DOF from 0 to 0, got -1");
+          "arm: chain 0 joint 1: expected a DOF from 0 to 0, got -1");
   refused([](RobotSpec& r) { r.chains[0].joints[0].ratio = 0; },
-          "arm: chain 0 joint 0: wanted a ratio other than 0, got 0");
+          "arm: chain 0 joint 0: expected a ratio other than 0, got 0");
   refused([](RobotSpec& r) { r.chains[0].joints[0].ratio = 1e-309; },
-          "arm: chain 0 joint 0: ratio: wanted a number from 1e-30 to 1e+30, got 1e-309");
+          "arm: chain 0 joint 0: ratio: expected a number from 1e-30 to 1e+30, got 1e-309");
   refused([](RobotSpec& r) { r.chains[0].joints[0].d = -1e31; },
-          "arm: chain 0 joint 0: d: wanted a number from -1e+09 to 1e+09 [m], got -1e+31");
+          "arm: chain 0 joint 0: d: expected a number from -1e+09 to 1e+09 [m], got -1e+31");
   refused([](RobotSpec& r) { r.chains[0].joints[1].theta = 1e300; },
-          "arm: chain 0 joint 1: theta: wanted a number from -1e+09 to 1e+09 [rad], got 1e+300");
+          "arm: chain 0 joint 1: theta: expected a number from -1e+09 to 1e+09 [rad], got 1e+300");
   refused([](RobotSpec& r) { r.chains[0].joints[1].max = INFINITY; },
-          "arm: chain 0 joint 1: max: wanted a number from -1e+30 to 1e+30 [rad or m], got inf");
+          "arm: chain 0 joint 1: max: expected a number from -1e+30 to 1e+30 [rad or m], got inf");
   refused([](RobotSpec& r) { r.chains[0].joints[0].a = NAN; },
-          "arm: chain 0 joint 0: a: wanted a number from -1e+09 to 1e+09 [m], got nan");
+          "arm: chain 0 joint 0: a: expected a number from -1e+09 to 1e+09 [m], got nan");
   refused([](RobotSpec& r) { r.chains[0].joints[0].min = 3; },
           "arm: chain 0 joint 0: min 3 exceeds max 2 [rad]");
   refused(
@@ -81,23 +81,23 @@ TEST_CASE("what is out of order in a robot is told by place") {
       },
       "arm: chain 0 joint 0: min 3 exceeds max 2 [m]");
   refused([](RobotSpec& r) { r.chains[0].joints[0].spring = -1; },
-          "arm: chain 0 joint 0: spring: wanted a number from 0 to 1e+30, got -1");
+          "arm: chain 0 joint 0: spring: expected a number from 0 to 1e+30, got -1");
   refused([](RobotSpec& r) { r.chains[0].links[0].last_joint = 2; },
-          "arm: chain 0 link 0: wanted a last joint from -1 to 1, got 2");
+          "arm: chain 0 link 0: expected a last joint from -1 to 1, got 2");
   refused([](RobotSpec& r) { r.chains[0].X_BC.position.x() = INFINITY; },
-          "arm: chain 0: wanted a position within 1e+09 m of the origin, got (inf, 0, 0)");
+          "arm: chain 0: expected a position within 1e+09 m of the origin, got (inf, 0, 0)");
   refused([](RobotSpec& r) { r.dofs[0].kp = NAN; },
-          "arm: DOF 0: Kp: wanted a number from -1e+30 to 1e+30, got nan");
+          "arm: DOF 0: Kp: expected a number from -1e+30 to 1e+30, got nan");
   refused([](RobotSpec& r) { r.dofs[0].default_velocity = -1e31; },
-          "arm: DOF 0: default velocity: wanted a number from -1e+30 to 1e+30, got -1e+31");
+          "arm: DOF 0: default velocity: expected a number from -1e+30 to 1e+30, got -1e+31");
   refused([](RobotSpec& r) { r.base.mass = 1e31; },
-          "arm: base '': mass: wanted a number from 1e-12 to 1e+12 [kg], got 1e+31");
+          "arm: base '': mass: expected a number from 1e-12 to 1e+12 [kg], got 1e+31");
   refused([](RobotSpec& r) { r.dofs[0].max_effort = -1; },
-          "arm: DOF 0: max effort: wanted a number from 0 to 1e+30, got -1");
+          "arm: DOF 0: max effort: expected a number from 0 to 1e+30, got -1");
   refused([](RobotSpec& r) { r.dofs[0].breakaway_torque = -1; },
-          "arm: DOF 0: breakaway torque: wanted a number from 0 to 1e+30, got -1");
+          "arm: DOF 0: breakaway torque: expected a number from 0 to 1e+30, got -1");
   refused([](RobotSpec& r) { r.chains[0].joints[1].min = 0.9, r.chains[0].joints[0].min = 1.5; },
-          "arm: DOF 0: wanted a range that all of its joints allow, got from 1.5 to -1.8");
+          "arm: DOF 0: expected a range that all of its joints allow, got from 1.5 to -1.8");
 }
 
 TEST_CASE("of a robot's long name messages show 40 characters") {

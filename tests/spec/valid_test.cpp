@@ -30,7 +30,7 @@ static void check_verdicts(const Quantity& rule, const char* name,
     const std::string sentence = refusal_of([&] { give(x); });
     CHECK(sentence.empty() == rule.allows(x));
     if (rule.allows(x)) continue;
-    CHECK(sentence.find("wanted ") != std::string::npos);
+    CHECK(sentence.find("expected ") != std::string::npos);
     CHECK(sentence.find(", got ") != std::string::npos);
   }
 }
@@ -52,11 +52,12 @@ TEST_CASE("what is no number, and what is infinite, is allowed by no rule") {
 }
 
 TEST_CASE("a number that its rule refuses is told with its bounds, in the unit of who gave it") {
-  CHECK(fault(mass_rule, 0) == "wanted a number from 1e-12 to 1e+12 [kg], got 0");
-  CHECK(fault(mass_rule.in("g", 1e-3), -1) == "wanted a number from 1e-09 to 1e+15 [g], got -1");
-  CHECK(fault(number_rule, -double(NAN)) == "wanted a number from -1e+30 to 1e+30, got nan");
+  CHECK(fault(mass_rule, 0) == "expected a number from 1e-12 to 1e+12 [kg], got 0");
+  CHECK(fault(mass_rule.in("g", 1e-3), -1) == "expected a number from 1e-09 to 1e+15 [g], got -1");
+  CHECK(fault(number_rule, -double(NAN)) == "expected a number from -1e+30 to 1e+30, got nan");
   CHECK_THROWS_WITH_AS(check(coordinate_rule.called("com"), Eigen::Vector3d(0, 0, 2e9), "cup"),
-                       "cup: com: wanted a number from -1e+09 to 1e+09 [m], got 2000000000", Error);
+                       "cup: com: expected a number from -1e+09 to 1e+09 [m], got 2000000000",
+                       Error);
 }
 
 TEST_CASE("each number of a body has one rule") {
@@ -229,10 +230,10 @@ TEST_CASE("a place is near enough for queries, and its quaternion is unit") {
   CHECK(is_place({}));
   CHECK(is_place(Pose::translation({1e9, -1e9, 0})));
   CHECK_THROWS_WITH_AS(check_place(Pose::translation({0, 0, 1e308}), "arm"),
-                       "arm: wanted a position within 1e+09 m of the origin, got (0, 0, 1e+308)",
+                       "arm: expected a position within 1e+09 m of the origin, got (0, 0, 1e+308)",
                        Error);
   CHECK_THROWS_WITH_AS(check_place(Pose::turn(Eigen::Quaterniond(2, 0, 0, 0)), "arm"),
-                       "arm: wanted a unit quaternion, got one of length 2", Error);
+                       "arm: expected a unit quaternion, got one of length 2", Error);
   CHECK_THROWS_AS(check_place(Pose::turn(Eigen::Quaterniond(NAN, 0, 0, 0)), "arm"), Error);
 }
 
@@ -246,26 +247,26 @@ TEST_CASE("a name has no control characters, is UTF-8 and not too long") {
     CHECK(name_fault(name).empty());
   CHECK(name_fault(std::string(250, 'x')).empty());
   CHECK_THROWS_WITH_AS(check_name("a\nb", "body"),
-                       "body: name: wanted no control characters, got 'a?b'", Error);
+                       "body: name: expected no control characters, got 'a?b'", Error);
   for (const char* name : {"\x1b[2J", "a\tb", "\x7f", "\xC2\x9B"})
-    CHECK(name_fault(name).starts_with("wanted no control characters, got "));
-  CHECK(name_fault("\xFF").starts_with("wanted text in UTF-8, got "));
-  CHECK(name_fault(std::string(251, 'x')) == "wanted at most 250 bytes, got 251");
+    CHECK(name_fault(name).starts_with("expected no control characters, got "));
+  CHECK(name_fault("\xFF").starts_with("expected text in UTF-8, got "));
+  CHECK(name_fault(std::string(251, 'x')) == "expected at most 250 bytes, got 251");
 }
 
-TEST_CASE("a name from a file is mended, and is a name then") {
-  CHECK(mended_name("a\nb\xFF"
-                    "c\xC2\x9B"
-                    "d") == "a?b?c??d");
-  CHECK(mended_name("Gr\xC3\xBC\xC3\x9F"
-                    "e") ==
+TEST_CASE("a name from a file is repaired, and is a name then") {
+  CHECK(repaired_name("a\nb\xFF"
+                      "c\xC2\x9B"
+                      "d") == "a?b?c??d");
+  CHECK(repaired_name("Gr\xC3\xBC\xC3\x9F"
+                      "e") ==
         "Gr\xC3\xBC\xC3\x9F"
         "e");
   // no character is cut in two
   std::string name;
   for (int i = 0; i < 200; ++i) name += "\xC3\xBC";
-  CHECK(mended_name(" " + name).size() == 249);
-  CHECK(name_fault(mended_name(" " + name)).empty());
+  CHECK(repaired_name(" " + name).size() == 249);
+  CHECK(name_fault(repaired_name(" " + name)).empty());
 }
 
 // --- inertia ---
@@ -289,23 +290,25 @@ TEST_CASE("an inertia is symmetric and positive definite, and no moment exceeds 
   skew(0, 1) = 0.1;
   CHECK(inertia_fault(skew) == InertiaFault::not_symmetric);
   CHECK_THROWS_WITH_AS(check_inertia(skew, "cup"),
-                       "cup: inertia: wanted a symmetric matrix, got one that is not", Error);
+                       "cup: inertia: expected a symmetric matrix, got one that is not", Error);
   CHECK_THROWS_WITH_AS(check_inertia(diagonal_inertia(1, 1, -1), "cup"),
-                       "cup: inertia: wanted a positive definite matrix with moments of 1e-24 to "
+                       "cup: inertia: expected a positive definite matrix with moments of 1e-24 to "
                        "1e+20 m^2 a kilogram, got another",
                        Error);
-  CHECK_THROWS_WITH_AS(check_inertia(diagonal_inertia(1, 1, 100), "cup"),
-                       "cup: inertia: wanted no moment above the sum of the others, got one of 50 "
-                       "times that sum",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      check_inertia(diagonal_inertia(1, 1, 100), "cup"),
+      "cup: inertia: expected no moment above the sum of the others, got one of 50 "
+      "times that sum",
+      Error);
 }
 
 TEST_CASE("the moments beside one that is too large are raised to it") {
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  const Eigen::Matrix3d mended = with_triangle(turn * diagonal_inertia(1, 2, 5) * turn.transpose());
-  CHECK(inertia_fault(mended) == InertiaFault::none);
-  CHECK((mended - turn * diagonal_inertia(2, 3, 5) * turn.transpose()).cwiseAbs().maxCoeff() <
+  const Eigen::Matrix3d repaired =
+      with_triangle(turn * diagonal_inertia(1, 2, 5) * turn.transpose());
+  CHECK(inertia_fault(repaired) == InertiaFault::none);
+  CHECK((repaired - turn * diagonal_inertia(2, 3, 5) * turn.transpose()).cwiseAbs().maxCoeff() <
         1e-14);
 }
 

@@ -1,0 +1,20 @@
+// What is used as it stands and looks like a unit mistaken for another: one rule each.
+#pragma once
+#include "base/listeners.h"
+#include "spec/robot_spec.h"
+
+namespace clench {
+
+/// Of a body that is to be grasped: smaller than a millimetre or larger than 3 m, or without area.
+/// `place`: what the sentence begins with, "w.wld:3"
+void check_plausible_object(const BodySpec& body, const std::string& place,
+                            const Listeners& listeners);
+
+/// Of a robot: parts as small or large, or heavier than a tonne; joints that turn more than four
+/// times.   `file`: what the sentences begin with
+void check_plausible(const RobotSpec& robot, const std::string& file, const Listeners& listeners);
+
+/// "'a', 'b' and 7 more"
+std::string some_names(const std::vector<std::string>& names);
+
+}  // namespace clench

@@ -1,0 +1,45 @@
+#include "io/repair_names.h"
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace clench {
+
+static void repair_name(std::string& name, const std::string& place, const ReadOptions& options) {
+  const std::string wrong = name_fault(name);
+  if (wrong.empty()) return;
+  name = repaired_name(name);
+  options.repaired(fmt::format("{}: name: {}; it becomes '{}'", place, wrong, excerpt(name)));
+}
+
+void repair_names(BodySpec& body, const std::string& place, const ReadOptions& options) {
+  repair_name(body.name, place, options);
+}
+
+static void repair_robot_names(RobotSpec& robot, const std::string& place,
+                               const ReadOptions& options) {
+  const auto repair = [&](std::string& name) { repair_name(name, place, options); };
+  for (std::string* name : {&robot.name, &robot.class_name, &robot.database_name, &robot.base.name})
+    repair(*name);
+  for (DofSpec& dof : robot.dofs) repair(dof.name);
+  for (ChainSpec& chain : robot.chains) {
+    for (JointSpec& joint : chain.joints) repair(joint.name);
+    for (LinkSpec& link : chain.links) repair(link.body.name);
+  }
+  for (TendonSpec& tendon : robot.tendons) repair(tendon.name);
+  for (TendonWrapper& wrapper : robot.wrappers) {
+    for (std::string& name : wrapper.exempt) repair(name);
+    for (TendonWrapper::Side& side : wrapper.sides) repair(side.tendon);
+  }
+}
+
+void check_read_robot(RobotSpec& robot, const std::string& place, const ReadOptions& options) {
+  repair_robot_names(robot, place, options);
+  try {
+    check_robot(robot);
+  } catch (const Error& error) {
+    fail("{}: {}", place, error.what());
+  }
+}
+
+}  // namespace clench

@@ -1,0 +1,70 @@
+#include "motion/relax_springs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/springs.h"
+
+namespace clench {
+
+// springs are at rest when no joint has farther to go: a micrometre at the tip of a finger [rad or m]
+static constexpr double at_rest = 1e-5;
+// contacts that a finger slides along change on the way; so many changes are followed before the tendon is pulled on
+static constexpr int max_turns = 20;
+
+namespace {
+
+// how much of a way all joints can go before one of them is at its limit
+double within_limits(const Drive& drive, const JointSpeeds& way) {
+  double part = 1;
+  for (size_t c = 0; c < way.size(); ++c)
+    for (size_t j = 0; j < way[c].size(); ++j) {
+      const JointSpec& joint = drive.robot().chains[c].joints[j];
+      const double q = joint_value(drive.robot(), static_cast<int>(c), static_cast<int>(j));
+      const double room = way[c][j] > 0 ? joint.max - q : joint.min - q;
+      if (way[c][j] != 0 && std::abs(way[c][j]) > std::abs(room))
+        part = std::min(part, std::max(0.0, room / way[c][j]));
+    }
+  return part;
+}
+
+// the joints of compliant DOFs go the way that their springs draw them
+Advance follow_springs(Drive& drive, const JointSpeeds& way, int& queries) {
+  const Robot start = drive.robot();
+  const auto place = [&](double s) {
+    for (size_t c = 0; c < way.size(); ++c)
+      for (size_t j = 0; j < way[c].size(); ++j)
+        if (way[c][j] != 0)
+          drive.apart[c][j] =
+              joint_value(start, static_cast<int>(c), static_cast<int>(j)) + s * way[c][j];
+    drive.place();
+  };
+  return follow_path(drive, way, within_limits(drive, way), place, queries);
+}
+
+double longest(const JointSpeeds& way) {
+  double most = 0;
+  for (const auto& chain : way)
+    for (const double x : chain) most = std::max(most, std::abs(x));
+  return most;
+}
+
+}  // namespace
+
+Springs relax_springs(Drive& drive, const DriveOptions& options, DriveResult& result) {
+  for (int turn = 0; turn < max_turns; ++turn) {
+    const auto touching = contacts(drive.world, drive.world.bodies(), drive.moving);
+    const JointSpeeds way = SpringBalance(drive.world, drive.id, touching, turn > 0).displacement();
+    if (longest(way) <= at_rest) return Springs::at_rest;
+    const Advance end = follow_springs(drive, way, result.queries);
+    re_engage(drive);
+    if (!end.stopped_by) continue;
+    ++result.events;
+    if (!options.stop_at_contact || end.stopped_by->touching) continue;
+    result.stopped_by = {{end.stopped_by->a, end.stopped_by->b}};
+    return Springs::stopped;
+  }
+  return Springs::moving;
+}
+
+}  // namespace clench

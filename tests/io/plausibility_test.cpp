@@ -1,0 +1,135 @@
+#include "io/plausibility.h"
+
+#include <fmt/format.h>
+
+#include "io/eigengrasps.h"
+#include "support/shapes.h"
+#include "temporary.h"
+#include "told_robot.h"
+
+using namespace clench;
+using clench::test::TemporaryFolder;
+using clench::test::ToldRobot;
+
+using Sentences = std::vector<std::string>;
+
+static Sentences suspicions_of(const BodySpec& body) {
+  Sentences told;
+  check_plausible_object(body, "a.obj",
+                         {.suspect = [&](const std::string& s) { told.push_back(s); }});
+  return told;
+}
+
+static Sentences suspicions_of(const RobotSpec& robot) {
+  Sentences told;
+  check_plausible(robot, "a.cfg", {.suspect = [&](const std::string& s) { told.push_back(s); }});
+  return told;
+}
+
+static BodySpec box_of(double size) {
+  BodySpec body;
+  body.name = "box";
+  body.shape = Shape::make(test::box(size, size / 2, size / 3));
+  return body;
+}
+
+static RobotSpec robot_of(const LinkSpec& link, const JointSpec& joint) {
+  RobotSpec robot;
+  robot.base = box_of(0.1);
+  ChainSpec chain;
+  chain.joints.push_back(joint);
+  chain.links.push_back(link);
+  robot.chains.push_back(chain);
+  return robot;
+}
+
+TEST_CASE("an object of less than a millimetre or more than 3 m is suspicious") {
+  for (const double size : {0.00101, 0.1, 2.99}) CHECK(suspicions_of(box_of(size)).empty());
+  CHECK(suspicions_of(box_of(7.5)) == Sentences{"a.obj: it is 7.5 m large: is its unit right?"});
+  CHECK(suspicions_of(box_of(9e-4)) ==
+        Sentences{"a.obj: it is 0.0009 m large: is its unit right?"});
+  CHECK(suspicions_of(BodySpec()).empty());
+}
+
+TEST_CASE("an object without area is suspicious") {
+  BodySpec body;
+  body.shape = Shape::make({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}});
+  CHECK(suspicions_of(body) == Sentences{"a.obj: none of its triangles has an area"});
+}
+
+TEST_CASE("a robot's parts of odd size or mass are named once for all") {
+  LinkSpec link;
+  link.body = box_of(24);
+  link.body.mass = 246'000;
+  RobotSpec robot = robot_of(link, {.min = -1, .max = 1});
+  link.body = box_of(5e-4);
+  robot.chains[0].links.push_back(link);
+  CHECK(suspicions_of(robot) ==
+        Sentences{"a.cfg: parts smaller than a millimetre: 'box': is the unit of their geometry "
+                  "right?",
+                  "a.cfg: parts larger than 3 m: 'box': is the unit of their geometry right, or a "
+                  "scale of 0.001 missing?",
+                  "a.cfg: parts heavier than a tonne: 'box': is the unit of their mass or geometry "
+                  "right?"});
+}
+
+TEST_CASE("a joint that turns more than four times is suspicious, one that slides is not") {
+  LinkSpec link;
+  link.body = box_of(0.1);
+  const double turn = 2 * M_PI;
+  CHECK(suspicions_of(robot_of(link, {.min = -4 * turn, .max = 4 * turn})).empty());
+  CHECK(suspicions_of(robot_of(link, {.kind = JointKind::prismatic, .min = 0, .max = 90})).empty());
+  CHECK(suspicions_of(robot_of(link, {.min = 0, .max = 90})) ==
+        Sentences{"a.cfg: joints that turn more than four times: '0 of chain 0': is the unit of "
+                  "their limits right?"});
+  JointSpec named{.min = -90, .max = 0};
+  named.name = "knuckle";
+  CHECK(suspicions_of(robot_of(link, named)) ==
+        Sentences{"a.cfg: joints that turn more than four times: 'knuckle': is the unit of their "
+                  "limits right?"});
+}
+
+TEST_CASE("names beyond six are counted") {
+  CHECK(some_names({"a", "b"}) == "'a', 'b'");
+  CHECK(some_names({"a", "b", "c", "d", "e", "f", "g", "h"}) ==
+        "'a', 'b', 'c', 'd', 'e', 'f' and 2 more");
+}
+
+TEST_CASE("text among the elements of a URDF is told, once for each kind of element") {
+  const TemporaryFolder folder;
+  const ToldRobot told(folder.write(
+      "a.urdf",
+      "<robot name='a'> loose &amp; lost\n<link name='b'>stray\n</link>\n<link name='c'>more</link>"
+      "<joint name='j' type='fixed'><parent link='b'/><child link='c'/></joint></robot>"));
+  CHECK(told.warned("a.urdf:1: text in <robot> is not used: 'loose & lost'"));
+  CHECK(told.warned("a.urdf:2: text in <link> is not used: 'stray'"));
+  CHECK_FALSE(told.warned("more"));
+}
+
+TEST_CASE("limits in degrees where radians are meant are suspicious") {
+  const TemporaryFolder folder;
+  const ToldRobot told(folder.write(
+      "a.urdf",
+      "<robot name='a'><link name='b'/><link name='c'/><joint name='j' type='revolute'><parent "
+      "link='b'/><child link='c'/><axis xyz='0 0 1'/><limit lower='0' upper='90' effort='1' "
+      "velocity='1'/></joint></robot>"));
+  CHECK(
+      told.warned("a.urdf: joints that turn more than four times: 'j': is the unit of their "
+                  "limits right?"));
+}
+
+TEST_CASE("a negative eigenvalue is suspicious, in text and in XML") {
+  const TemporaryFolder folder;
+  for (const auto& [name, text, place] :
+       {std::tuple("a.egr", "DIMENSIONS 2\nEG\n-1\n1 0\nEG\n0.5\n0 1\n", "a.egr:2"),
+        {"a.xml",
+         "<EigenGrasps dimensions='2'>\n<EG><EigenValue value='-1'/><DimVals d0='1' d1='0'/></EG>\n"
+         "<EG><EigenValue value='0.5'/><DimVals d0='0' d1='1'/></EG></EigenGrasps>",
+         "a.xml:2"}}) {
+    test::Warnings warnings;
+    read_eigengrasps(folder.write(name, text), warnings.options());
+    CHECK(warnings.list ==
+          Sentences{fmt::format("{}: eigengrasp 1: its eigenvalue is -1, and variances are >= 0",
+                                place)});
+  }
+}
