@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/convert.h"
-#include "render/lettering.h"
 
 namespace clench {
 
@@ -73,46 +72,19 @@ void Canvas::line(const Vector2f& from, const Vector2f& to, float width, const C
     }
 }
 
-float Canvas::text_width(std::string_view words, float height) {
-  const float scale = height / (letter_top - letter_baseline);
-  return static_cast<float>(letters_of(words).size()) * letter_advance * scale;
+void Canvas::text(const TextLine& line, const Color& color) {
+  font_.cover(line, {picture_.width, picture_.height},
+              [&](int x, int y, float part) { blend(x, y, part, color); });
 }
 
-std::string Canvas::shortened(std::string_view words, float height, float width) {
-  if (text_width(words, height) <= width) return std::string(words);
-  const std::u32string letters = letters_of(words);
-  const float letter = text_width("x", height);
-  // one of those that fit is the ellipsis
-  const int kept = floor_int(width / letter) - 1;
-  if (kept < 0) return "";
-  const auto back = static_cast<size_t>(kept / 2), front = static_cast<size_t>(kept) - back;
-  return text_of(letters.substr(0, front) + U"…" + letters.substr(letters.size() - back));
-}
-
-void Canvas::text(std::string_view words, const Vector2f& at, float height, const Color& color,
-                  const Vector2f& along) {
-  const float scale = height / (letter_top - letter_baseline);
-  const float width = std::max(1.0f, 0.8f * scale);
-  const Vector2f down(-along.y(), along.x());
-  Vector2f origin = at;
-  const auto place = [&](const Vector2f& p) {
-    return Vector2f(origin + scale * (p.x() * along + (letter_baseline - p.y()) * down));
-  };
-  for (const char32_t letter : letters_of(words)) {
-    for (const auto& stroke : strokes_of(letter)) {
-      if (stroke.size() == 1) line(place(stroke[0]), place(stroke[0]), 1.5f * width, color);
-      for (size_t i = 1; i < stroke.size(); ++i)
-        line(place(stroke[i - 1]), place(stroke[i]), width, color);
-    }
-    origin += letter_advance * scale * along;
-  }
-}
-
-void Canvas::bright_text(std::string_view words, const Vector2f& at, float height,
-                         const Color& color) {
+void Canvas::bright_text(const TextLine& line, const Color& color) {
+  TextLine moved = line;
   for (const float dx : {-1.0f, 1.0f})
-    for (const float dy : {-1.0f, 1.0f}) text(words, at + Vector2f(dx, dy), height, Color(1, 1, 1));
-  text(words, at, height, color);
+    for (const float dy : {-1.0f, 1.0f}) {
+      moved.at = line.at + Vector2f(dx, dy);
+      text(moved, Color(1, 1, 1));
+    }
+  text(line, color);
 }
 
 }  // namespace clench

@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "math/round_step.h"
 #include "render/canvas.h"
-#include "render/lettering.h"
 
 namespace clench {
 
@@ -115,9 +114,8 @@ void draw_axis(Canvas& canvas, const ChartPanel& panel, const ChartScale& scale,
     const float y = scale.height(value);
     canvas.rectangle({panel.left, y - 0.5f}, {panel.right, y + 0.5f}, quiet);
     const std::string number = fmt::format("{:.4g}", value);
-    canvas.text(number,
-                {panel.left - 8 - Canvas::text_width(number, letter_height), y + letter_height / 2},
-                letter_height, ink);
+    const float width = canvas.font().width(number, letter_height);
+    canvas.text({number, {panel.left - 8 - width, y + letter_height / 2}, letter_height}, ink);
   }
 }
 
@@ -146,8 +144,8 @@ float end_of(const ChartScale& scale, double value) {
 // above the columns, unless one is too wide
 void write_values(Canvas& canvas, const ChartScale& scale, const std::vector<double>& values,
                   const ChartColumns& columns) {
-  const auto width = [](const std::string& text) {
-    return Canvas::text_width(text, letter_height);
+  const auto width = [&](const std::string& text) {
+    return canvas.font().width(text, letter_height);
   };
   std::vector<std::string> numbers;
   for (const double value : values)
@@ -155,17 +153,19 @@ void write_values(Canvas& canvas, const ChartScale& scale, const std::vector<dou
   if (std::ranges::any_of(numbers, [&](const auto& n) { return width(n) > columns.width; })) return;
   for (size_t i = 0; i < values.size(); ++i)
     if (std::isfinite(values[i]))
-      canvas.bright_text(numbers[i],
-                         {columns.centre(i) - width(numbers[i]) / 2,
-                          std::min(end_of(scale, values[i]), scale.height(0)) - 4},
-                         letter_height, ink);
+      canvas.bright_text({numbers[i],
+                          {columns.centre(i) - width(numbers[i]) / 2,
+                           std::min(end_of(scale, values[i]), scale.height(0)) - 4},
+                          letter_height},
+                         ink);
 }
 
 void draw_columns(Canvas& canvas, const ChartPanel& panel, const ChartSeries& series,
                   const ChartColumns& columns) {
   const ChartScale scale{chart_axis(series.values), panel.top, panel.bottom};
-  canvas.text(Canvas::shortened(series.name, letter_height, panel.right - panel.left),
-              {panel.left, panel.top - panel.name}, letter_height, ink);
+  const float room = panel.right - panel.left;
+  const std::string name = canvas.font().shortened(series.name, letter_height, room);
+  canvas.text({name, {panel.left, panel.top - panel.name}, letter_height}, ink);
   draw_axis(canvas, panel, scale, nothing_to_show(series.values));
 
   const double best = best_of(series);
@@ -221,20 +221,19 @@ void drop_common(std::vector<std::string>& texts) {
   std::ranges::transform(letters, texts.begin(), text_of);
 }
 
-ChartLabels fit_labels(const Chart& chart, const ChartColumns& columns, float longest) {
+ChartLabels fit_labels(const Chart& chart, const ChartColumns& columns, float longest,
+                       const Font& font) {
   ChartLabels labels{labels_of(chart)};
-  const auto width = [](const std::string& text) {
-    return Canvas::text_width(text, letter_height);
-  };
   const auto widest = [&] {
     float most = 0;
-    for (const std::string& text : labels.texts) most = std::max(most, width(text));
+    for (const std::string& text : labels.texts)
+      most = std::max(most, font.width(text, letter_height));
     return most;
   };
   labels.upright = widest() + 4 > columns.width && columns.width < level_label;
   const float room = labels.upright ? longest : columns.width - 4;
   if (widest() > room) drop_common(labels.texts);
-  for (std::string& text : labels.texts) text = Canvas::shortened(text, letter_height, room);
+  for (std::string& text : labels.texts) text = font.shortened(text, letter_height, room);
   if (labels.upright) labels.height = widest();
   return labels;
 }
@@ -247,12 +246,12 @@ void draw_labels(Canvas& canvas, const ChartLabels& labels, float top,
       floor_between(std::ceil(least / columns.width), size_t{1}, labels.texts.size());
   for (size_t i = 0; i < labels.texts.size(); i += every) {
     const std::string& text = labels.texts[i];
-    const float width = Canvas::text_width(text, letter_height), x = columns.centre(i);
+    const float width = canvas.font().width(text, letter_height), x = columns.centre(i);
     if (labels.upright)
-      canvas.text(text, {x + letter_height / 2, top + width}, letter_height, ink,
-                  -Vector2f::UnitY());
+      canvas.text({text, {x + letter_height / 2, top + width}, letter_height, -Vector2f::UnitY()},
+                  ink);
     else
-      canvas.text(text, {x - width / 2, top + letter_height}, letter_height, ink);
+      canvas.text({text, {x - width / 2, top + letter_height}, letter_height}, ink);
   }
 }
 
@@ -272,7 +271,7 @@ ChartAxis chart_axis(const std::vector<double>& values) {
           std::min(std::ceil(high / step) * step, largest), step};
 }
 
-Picture draw_chart(const Chart& chart, const ChartOptions& options) {
+Picture draw_chart(const Chart& chart, const ChartOptions& options, const Font& font) {
   check_chart(chart, options);
   const float left = margin + axis_room, right = static_cast<float>(options.width) - margin;
   const auto items = static_cast<float>(chart.series[0].values.size());
@@ -280,7 +279,7 @@ Picture draw_chart(const Chart& chart, const ChartOptions& options) {
   const float longest =
       options.height > 0 ? std::min(turned_label, turned_part * static_cast<float>(options.height))
                          : turned_label;
-  const ChartLabels labels = fit_labels(chart, columns, longest);
+  const ChartLabels labels = fit_labels(chart, columns, longest, font);
   const float above = chart.title.empty() ? 0 : title_height + margin;
   const float below = 8 + labels.height + margin;
   const auto panels = static_cast<float>(chart.series.size());
@@ -289,9 +288,9 @@ Picture draw_chart(const Chart& chart, const ChartOptions& options) {
       options.height > 0 ? options.height : floor_between(needed, min_size, largest_size);
 
   Picture picture = blank_picture(options.width, height);
-  Canvas canvas(picture);
-  canvas.text(Canvas::shortened(chart.title, title_height, right - margin),
-              {margin, margin + title_height}, title_height, ink);
+  Canvas canvas(picture, font);
+  const std::string title = font.shortened(chart.title, title_height, right - margin);
+  canvas.text({title, {margin, margin + title_height}, title_height}, ink);
   const float room = (static_cast<float>(height) - margin - above - below) / panels;
   // low panels leave less between them
   const float gap = std::min(panel_gap, min_gap * room);

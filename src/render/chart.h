@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "render/lettering.h"
 #include "render/picture.h"
 
 namespace clench {
@@ -28,7 +29,7 @@ struct ChartOptions {
 /// ones lose their middle. It needs no graphics hardware.
 /// throws  Error without series or items, with more than anybody can see, where counts differ, and on a
 ///         size out of range
-Picture draw_chart(const Chart& chart, const ChartOptions& options = {});
+Picture draw_chart(const Chart& chart, const ChartOptions& options = {}, const Font& font = Font());
 
 /// Ends of an axis that holds all finite values and 0, and the step of its lines: 1, 2 or 5 times a
 /// power of ten.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/canvas.h"
 #include "render/frame.h"
 
 namespace clench {
@@ -73,12 +72,13 @@ void take_arrow(const DrawArrow& arrow, const Eye& eye, const Vector2f& picture,
 }
 
 // broken between words where a line would be wider; a word alone may be
-std::vector<std::string> broken(const std::string& line, float height, float width) {
+std::vector<std::string> broken(const std::string& line, float height, float width,
+                                const Font& font) {
   std::vector<std::string> lines;
   for (size_t from = 0; from <= line.size();) {
     const size_t end = std::min(line.find(' ', from), line.size());
     const std::string word = line.substr(from, end - from);
-    if (!lines.empty() && Canvas::text_width(lines.back() + ' ' + word, height) <= width)
+    if (!lines.empty() && font.width(lines.back() + ' ' + word, height) <= width)
       lines.back() += ' ' + word;
     else
       lines.push_back(word);
@@ -87,16 +87,17 @@ std::vector<std::string> broken(const std::string& line, float height, float wid
   return lines;
 }
 
-void place_caption(const Scene& scene, const Vector2f& picture, std::vector<PlacedText>& out) {
+void place_caption(const Scene& scene, const Vector2f& picture, const Font& font,
+                   std::vector<PlacedText>& out) {
   const float height = std::max(min_letters, caption_part * picture.y());
   const float room = picture.x() - 2 * height;
   std::vector<std::string> lines;
   for (const std::string& line : scene.caption)
-    for (std::string& part : broken(line, height, room)) lines.push_back(std::move(part));
+    for (std::string& part : broken(line, height, room, font)) lines.push_back(std::move(part));
   Vector2f at(height, picture.y() - height);
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
-    const std::string text = Canvas::shortened(*line, height, room);
-    const float width = Canvas::text_width(text, height);
+    const std::string text = font.shortened(*line, height, room);
+    const float width = font.width(text, height);
     out.push_back(
         {{at - Vector2f(0, height), at + Vector2f(width, 0)}, text, caption_color, height});
     at.y() -= 1.8f * height;
@@ -116,10 +117,11 @@ std::vector<std::optional<PixelBox>> spread_boxes(std::span<const PixelBox> expe
   return places;
 }
 
-std::vector<PlacedText> place_texts(const Scene& scene, const Eye& eye, const Vector2f& picture) {
+std::vector<PlacedText> place_texts(const Scene& scene, const Eye& eye, const Vector2f& picture,
+                                    const Font& font) {
   std::vector<PlacedText> texts;
   if (picture.minCoeff() < min_picture) return texts;
-  place_caption(scene, picture, texts);
+  place_caption(scene, picture, font, texts);
   std::vector<PixelBox> taken, expected;
   for (const PlacedText& text : texts) taken.push_back(text.box);
   for (const DrawArrow& arrow : scene.arrows) take_arrow(arrow, eye, picture, taken);
@@ -130,7 +132,7 @@ std::vector<PlacedText> place_texts(const Scene& scene, const Eye& eye, const Ve
   for (const DrawLabel& label : scene.labels) {
     const auto at = seen_at(label.p_W, eye, picture);
     if (!at) continue;
-    const Vector2f half(Canvas::text_width(label.text, height) / 2, height / 2);
+    const Vector2f half(font.width(label.text, height) / 2, height / 2);
     labels.push_back({{}, label.text, label.color, height});
     expected.push_back({*at - half - around, *at + half + around});
   }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "render/lettering.h"
 #include "scene/scene.h"
 
 namespace clench {
@@ -34,6 +35,6 @@ struct PlacedText {
 /// The caption in the lower left corner, its lines broken where they are too wide, and each label at its place as the eye sees it, or next to it; those behind the eye, out of the picture or
 /// without room are left out. Nothing is written on pictures of less than 120 pixels either way.
 std::vector<PlacedText> place_texts(const Scene& scene, const Eye& eye,
-                                    const Eigen::Vector2f& picture);
+                                    const Eigen::Vector2f& picture, const Font& font);
 
 }  // namespace clench

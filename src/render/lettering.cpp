@@ -1,198 +1,163 @@
 #include "render/lettering.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+#include <ft2build.h>
+#include FT_FREETYPE_H
+#include FT_ADVANCES_H
+#include FT_OUTLINE_H
 
-#include "render/more_letters.h"
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
 
 namespace clench {
 
-static constexpr float small_top = 6;
+using Eigen::Vector2f;
 
-// two digits a point, a bar between lines; in the order of ASCII, from the space on
-static constexpr std::string_view letters[] = {
-    "",                                                 // space
-    "28 24|22",                                         // !
-    "18 16|38 36",                                      // "
-    "13 17|33 37|04 44|06 46",                          // #
-    "47 07 05 45 43 03|28 22",                          // $
-    "02 48|08|42",                                      // %
-    "42 07 18 27 04 03 12 22 44",                       // &
-    "28 26",                                            // '
-    "38 26 24 32",                                      // (
-    "18 26 24 12",                                      // )
-    "14 36|16 34|23 27",                                // *
-    "05 45|23 27",                                      // +
-    "22 11",                                            // ,
-    "15 35",                                            // -
-    "22",                                               // .
-    "02 48",                                            // /
-    "12 03 07 18 38 47 43 32 12",                       // 0
-    "17 28 22|12 32",                                   // 1
-    "07 18 38 47 46 02 42",                             // 2
-    "07 18 38 47 46 35 15|35 44 43 32 12 03",           // 3
-    "32 38 04 44",                                      // 4
-    "48 08 05 35 44 43 32 12 03",                       // 5
-    "47 38 18 07 03 12 32 43 44 35 15 04",              // 6
-    "08 48 12",                                         // 7
-    "15 06 07 18 38 47 46 35 15 04 03 12 32 43 44 35",  // 8
-    "46 35 15 06 07 18 38 47 43 32 12 03",              // 9
-    "22|25",                                            // :
-    "22 11|25",                                         // ;
-    "47 05 43",                                         // <
-    "04 44|06 46",                                      // =
-    "07 45 03",                                         // >
-    "07 18 38 47 46 24|22",                             // ?
-    "42 12 03 07 18 38 47 44 24 26 46",                 // @
-    "02 28 42|14 34",                                   // A
-    "05 35 46 47 38 08 02 32 43 44 35",                 // B
-    "47 38 18 07 03 12 32 43",                          // C
-    "08 28 46 44 22 02 08",                             // D
-    "48 08 02 42|05 35",                                // E
-    "48 08 02|05 35",                                   // F
-    "47 38 18 07 03 12 32 43 45 25",                    // G
-    "02 08|42 48|05 45",                                // H
-    "12 32|22 28|18 38",                                // I
-    "48 43 32 12 03",                                   // J
-    "02 08|48 04|15 42",                                // K
-    "08 02 42",                                         // L
-    "02 08 25 48 42",                                   // M
-    "02 08 42 48",                                      // N
-    "12 03 07 18 38 47 43 32 12",                       // O
-    "02 08 38 47 46 35 05",                             // P
-    "12 03 07 18 38 47 43 32 12|24 42",                 // Q
-    "02 08 38 47 46 35 05|25 42",                       // R
-    "47 38 18 07 06 15 35 44 43 32 12 03",              // S
-    "08 48|28 22",                                      // T
-    "08 03 12 32 43 48",                                // U
-    "08 22 48",                                         // V
-    "08 12 26 32 48",                                   // W
-    "02 48|08 42",                                      // X
-    "08 25 48|25 22",                                   // Y
-    "08 48 02 42",                                      // Z
-    "38 18 12 32",                                      // [
-    "08 42",                                            // backslash
-    "18 38 32 12",                                      // ]
-    "16 28 36",                                         // ^
-    "01 41",                                            // _
-    "18 26",                                            // `
-    "16 36 45 42|44 14 03 12 32 43",                    // a
-    "08 02|05 16 36 45 43 32 12 03",                    // b
-    "45 36 16 05 03 12 32 43",                          // c
-    "48 42|45 36 16 05 03 12 32 43",                    // d
-    "04 44 45 36 16 05 03 12 32 43",                    // e
-    "38 28 17 12|06 26",                                // f
-    "46 41 30 10 01|45 36 16 05 03 12 32 43",           // g
-    "08 02|05 16 36 45 42",                             // h
-    "16 26 22|28",                                      // i
-    "26 21 10|28",                                      // j
-    "08 02|36 04|14 42",                                // k
-    "18 28 22",                                         // l
-    "02 06|05 16 25 22|25 36 45 42",                    // m
-    "02 06|05 16 36 45 42",                             // n
-    "12 03 05 16 36 45 43 32 12",                       // o
-    "06 00|05 16 36 45 43 32 12 03",                    // p
-    "46 40|45 36 16 05 03 12 32 43",                    // q
-    "02 06|04 16 36",                                   // r
-    "45 36 16 05 14 34 43 32 12 03",                    // s
-    "18 13 22 32|06 36",                                // t
-    "06 03 12 32 43|46 42",                             // u
-    "06 22 46",                                         // v
-    "06 12 25 32 46",                                   // w
-    "02 46|06 42",                                      // x
-    "06 22|46 10 00",                                   // y
-    "06 46 02 42",                                      // z
-    "38 27 26 15 24 23 32",                             // {
-    "28 20",                                            // |
-    "18 27 26 35 24 23 12",                             // }
-    "05 16 25 34 45",                                   // ~
+static constexpr char32_t no_letter = 0xFFFD;     // of bytes that are none
+static constexpr float max_letter_height = 1000;  // [pixels]
+static constexpr float max_letter_place = 1e5f;   // what FreeType counts in 64ths [pixels]
+
+struct Font::Face {
+  std::string bytes;  // of the file
+  FT_Library library = nullptr;
+  FT_Face face = nullptr;
+  float capital = 0;  // height of capital letters [font units]
+
+  explicit Face(const std::string& path) : bytes(read_bytes(path)) {
+    if (FT_Init_FreeType(&library) != 0) fail("{}: FreeType does not start", path);
+    const auto* data = reinterpret_cast<const FT_Byte*>(bytes.data());
+    FT_New_Memory_Face(library, data, static_cast<FT_Long>(bytes.size()), 0, &face);
+    if (face && FT_IS_SCALABLE(face) && index('H') != 0 && load(index('H')))
+      capital = static_cast<float>(face->glyph->metrics.horiBearingY);
+    if (!(capital > 0)) {
+      FT_Done_FreeType(library);
+      fail("{}: wanted an outline font with Latin letters", path);
+    }
+  }
+  // its faces go with it
+  ~Face() { FT_Done_FreeType(library); }
+  Face(const Face&) = delete;
+  Face& operator=(const Face&) = delete;
+
+  // 0 is the box
+  FT_UInt index(char32_t letter) const { return FT_Get_Char_Index(face, letter); }
+  // in font units, which hinting does not touch
+  bool load(FT_UInt glyph) const { return FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE) == 0; }
+  // in font units, whose sums are exact
+  int64_t advance(char32_t letter) const {
+    FT_Fixed units = 0;
+    FT_Get_Advance(face, index(letter), FT_LOAD_NO_SCALE, &units);
+    return units;
+  }
+  // in pixels
+  float length(int64_t units, float height) const {
+    return static_cast<float>(units) * height / capital;
+  }
 };
-static constexpr std::string_view unknown = "02 08 48 42 02";
-static constexpr char32_t no_letter = 0xFFFD;  // of bytes that are none
 
-static void add_strokes(std::string_view text, Strokes& strokes) {
-  for (size_t i = 0; i + 1 < text.size(); i += 3) {
-    if (i == 0 || text[i - 1] == '|') strokes.emplace_back();
-    strokes.back().emplace_back(static_cast<float>(text[i] - '0'),
-                                static_cast<float>(text[i + 1] - '0'));
+Font::Font() : Font(CLENCH_FONT) {}
+
+Font::Font(const std::string& path) {
+  try {
+    face_ = std::make_unique<Face>(path);
+  } catch (const Error& error) {
+    fault_ = fmt::format("pictures have no letters: {}", error.what());
   }
 }
 
-// null when there are none
-static const std::string_view* plain_strokes(char32_t letter) {
-  const size_t at = letter - size_t{32};
-  return at < std::size(letters) ? &letters[at] : more_strokes(letter);
+Font::~Font() = default;
+
+float Font::width(std::string_view text, float height) const {
+  if (!face_) return 0;
+  int64_t units = 0;
+  for (const char32_t letter : letters_of(text)) units += face_->advance(letter);
+  return face_->length(units, height);
 }
 
-// an accent above a capital takes its room from it
-static Strokes accented_strokes(const AccentedLetter& letter) {
-  Strokes strokes, accent;
-  add_strokes(*plain_strokes(letter.base), strokes);
-  add_strokes(*accent_strokes(letter.accent), accent);
-  const auto top = [](const Strokes& of) {
-    float highest = 0;
-    for (const auto& stroke : of)
-      for (const auto& p : stroke) highest = std::max(highest, p.y());
-    return highest;
-  };
-  if (top(accent) > letter_baseline && top(strokes) > small_top) {
-    for (auto& stroke : strokes)
-      for (auto& p : stroke) p.y() = letter_baseline + (p.y() - letter_baseline) * 5 / 6;
-    for (auto& stroke : accent)
-      for (auto& p : stroke) p.y() += 1;
+std::string Font::shortened(std::string_view text, float height, float width) const {
+  if (this->width(text, height) <= width) return std::string(text);
+  const std::u32string letters = letters_of(text);
+  const auto fits = [&](int64_t units) { return face_->length(units, height) <= width; };
+  int64_t units = face_->advance(U'…');
+  if (!fits(units)) return "";
+  // one from the front, one from the back, while they fit
+  size_t front = 0, back = 0;
+  while (front + back < letters.size()) {
+    const bool at_front = front <= back;
+    units += face_->advance(at_front ? letters[front] : letters[letters.size() - 1 - back]);
+    if (!fits(units)) break;
+    ++(at_front ? front : back);
   }
-  strokes.insert(strokes.end(), accent.begin(), accent.end());
-  return strokes;
+  return text_of(letters.substr(0, front) + U"…" + letters.substr(letters.size() - back));
 }
 
-Strokes strokes_of(char32_t letter) {
-  if (const AccentedLetter* accented = accented_letter(letter)) return accented_strokes(*accented);
-  const std::string_view* text = plain_strokes(letter);
-  Strokes strokes;
-  add_strokes(text ? *text : unknown, strokes);
-  return strokes;
+std::set<char32_t> Font::missing(std::string_view text) const {
+  std::set<char32_t> out;
+  if (!face_) return out;
+  for (const char32_t letter : letters_of(text))
+    if (face_->index(letter) == 0) out.insert(letter);
+  return out;
 }
 
-// how many bytes a letter has that begins so; 0 when none does
-static size_t letter_size(unsigned char first) {
-  if (first < 0x80) return 1;
-  if (first < 0xC2 || first > 0xF4) return 0;
-  return first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+// one row of a letter: called by FreeType
+static void cover_spans(int y, int count, const FT_Span* spans, void* user) {
+  const auto& cover = *static_cast<const Font::Cover*>(user);
+  for (const FT_Span* span = spans; span != spans + count; ++span)
+    for (int x = span->x; span->coverage > 0 && x < span->x + span->len; ++x)
+      cover(x, y, static_cast<float>(span->coverage) / 255);
+}
+
+void Font::cover(const TextLine& line, const Eigen::Vector2i& size, const Cover& cover) const {
+  if (!face_ || !(line.height > 0 && line.height <= max_letter_height)) return;
+  const float scale = line.height / face_->capital;
+  // font units, y up, become 64ths of a pixel, y down
+  const auto fixed = [&](float part) { return std::lround(part * scale * 64 * 65536); };
+  const Vector2f& along = line.along;
+  const FT_Matrix turn{fixed(along.x()), fixed(along.y()), fixed(along.y()), fixed(-along.x())};
+
+  FT_Raster_Params drawing{};
+  drawing.flags = FT_RASTER_FLAG_AA | FT_RASTER_FLAG_DIRECT | FT_RASTER_FLAG_CLIP;
+  drawing.gray_spans = cover_spans;
+  drawing.user = const_cast<Cover*>(&cover);
+  drawing.clip_box = {0, 0, size.x(), size.y()};
+  int64_t units = 0;
+  for (const char32_t letter : letters_of(line.text)) {
+    const Vector2f at = line.at + face_->length(units, line.height) * along;
+    units += face_->advance(letter);
+    if (!(at.cwiseAbs().maxCoeff() < max_letter_place) || !face_->load(face_->index(letter)))
+      continue;
+    FT_Outline& outline = face_->face->glyph->outline;
+    FT_Outline_Transform(&outline, &turn);
+    FT_Outline_Translate(&outline, std::lround(64 * at.x()), std::lround(64 * at.y()));
+    FT_Outline_Render(face_->library, &outline, &drawing);
+  }
 }
 
 std::u32string letters_of(std::string_view text) {
-  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // of so many bytes
   std::u32string out;
   for (size_t i = 0; i < text.size();) {
+    const size_t size = utf8_size(text, i);
     const auto first = static_cast<unsigned char>(text[i]);
-    const size_t size = letter_size(first);
-    char32_t letter = size > 1 ? first & (0x7F >> size) : first;
-    size_t read = 1;
-    for (; read < size && i + read < text.size() && (text[i + read] & 0xC0) == 0x80; ++read)
-      letter = letter << 6 | (text[i + read] & 0x3F);
-    const bool whole = size > 0 && read == size && letter >= least[size] && letter <= 0x10FFFF &&
-                       (letter < 0xD800 || letter > 0xDFFF);
-    out += whole ? letter : no_letter;
-    i += whole ? size : 1;
+    char32_t letter = size == 0 ? no_letter : size == 1 ? first : first & (0x7F >> size);
+    for (size_t k = 1; k < size; ++k) letter = letter << 6 | (text[i + k] & 0x3F);
+    out += letter;
+    i += std::max<size_t>(size, 1);
   }
   return out;
 }
 
-std::string text_of(std::u32string_view word) {
+std::string text_of(std::u32string_view letters) {
   std::string out;
-  for (const char32_t letter : word) {
+  for (const char32_t letter : letters) {
     const int more = letter < 0x80 ? 0 : letter < 0x800 ? 1 : letter < 0x10000 ? 2 : 3;
     constexpr unsigned first[] = {0, 0xC0, 0xE0, 0xF0};
     out += static_cast<char>(first[more] | letter >> 6 * more);
     for (int i = more - 1; i >= 0; --i) out += static_cast<char>(0x80 | (letter >> 6 * i & 0x3F));
   }
-  return out;
-}
-
-std::u32string unknown_letters(std::string_view text) {
-  std::u32string out;
-  for (const char32_t letter : letters_of(text))
-    if (!accented_letter(letter) && !plain_strokes(letter) && out.find(letter) == out.npos)
-      out += letter;
   return out;
 }
 

@@ -1,29 +1,62 @@
-// Letters as strokes on a grid, to write on pictures: no font of others is needed.
+// Text in an outline font: how wide it is, and which part of each pixel it covers.
 #pragma once
 #include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <set>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace clench {
 
-/// Lines from point to point on a grid of 5 x 9: x from 0 to 4, y up from 0, baseline at 2, capitals
-/// up to 8, their accents up to 9. A line of one point is a dot. Latin and Greek are known, and some
-/// signs; any other letter is an open box.
-using Strokes = std::vector<std::vector<Eigen::Vector2f>>;
-Strokes strokes_of(char32_t letter);
-
-/// The letters of text in UTF-8; each byte that belongs to none is U+FFFD.
+/// The characters of text in UTF-8; each byte that belongs to none is U+FFFD.
 std::u32string letters_of(std::string_view text);
 
-/// Letters as UTF-8.
-std::string text_of(std::u32string_view word);
+/// Characters as UTF-8.
+std::string text_of(std::u32string_view letters);
 
-/// Letters of a text that are drawn as boxes, each once.
-std::u32string unknown_letters(std::string_view text);
+/// A text on a picture: it begins at `at`, on its baseline, and runs along a unit vector. Pixels, x
+/// to the right and y down.
+struct TextLine {
+  std::string_view text;  ///< UTF-8
+  Eigen::Vector2f at = Eigen::Vector2f::Zero();
+  float height = 9;  ///< of capital letters, up to 1000 [pixels]
+  Eigen::Vector2f along = Eigen::Vector2f::UnitX();
+};
 
-inline constexpr float letter_advance = 6;  ///< from letter to letter on the grid
-inline constexpr float letter_baseline = 2;
-inline constexpr float letter_top = 8;
+/// A font, opened for the pictures of one thread. It is not hinted, so that a text has the same
+/// shape at every place and its width is that of its parts. A character that it lacks is its box.
+/// Without its file texts have no width and cover nothing.
+class Font {
+ public:
+  /// the one that CLENCH_FONT named when Clench was configured
+  Font();
+  explicit Font(const std::string& path);
+  ~Font();
+  Font(const Font&) = delete;
+  Font& operator=(const Font&) = delete;
+
+  /// why there are no letters, with the name of the file; empty when there are
+  const std::string& fault() const { return fault_; }
+
+  /// `height` of capital letters [pixels]
+  float width(std::string_view text, float height) const;
+  /// the text, or its beginning and end about an ellipsis, so that it takes no more than this
+  /// width [pixels]; nothing where even that is too narrow
+  std::string shortened(std::string_view text, float height, float width) const;
+  /// characters that the font lacks
+  std::set<char32_t> missing(std::string_view text) const;
+
+  /// takes a part of a pixel, in 0..1
+  using Cover = std::function<void(int x, int y, float part)>;
+  /// goes through the pixels of a picture of this size that the letters cover, one letter after
+  /// the other
+  void cover(const TextLine& line, const Eigen::Vector2i& size, const Cover& cover) const;
+
+ private:
+  struct Face;
+  std::unique_ptr<Face> face_;  // null without letters
+  std::string fault_;
+};
 
 }  // namespace clench

@@ -12,7 +12,7 @@ namespace clench {
 // some minutes without graphics hardware
 static constexpr int64_t max_drawn = int64_t{1} << 30;
 
-Picture render(const Scene& scene, const RenderOptions& options) {
+Picture render(const Scene& scene, const RenderOptions& options, const Font& font) {
   for (const auto& [name, value] :
        {std::pair("width", options.width), std::pair("height", options.height)})
     if (value < 16 || value > 8192)
@@ -29,10 +29,10 @@ Picture render(const Scene& scene, const RenderOptions& options) {
   const Eye eye = scene.eye ? list.to_scene(*scene.eye) : frame(list, aspect);
   const GlContext context;
   Picture picture = paint(list, eye, options);
-  Canvas canvas(picture);
+  Canvas canvas(picture, font);
   const Eigen::Vector2f size(options.width, options.height);
-  for (const PlacedText& text : place_texts(scene, list.to_world(eye), size))
-    canvas.bright_text(text.text, {text.box.low.x(), text.box.high.y()}, text.height, text.color);
+  for (const PlacedText& text : place_texts(scene, list.to_world(eye), size, font))
+    canvas.bright_text({text.text, {text.box.low.x(), text.box.high.y()}, text.height}, text.color);
   return picture;
 }
 

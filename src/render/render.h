@@ -1,6 +1,7 @@
 // A scene as a picture, by OpenGL 3.3 through EGL without display: the same bytes for the same
 // scene.
 #pragma once
+#include "render/lettering.h"
 #include "render/picture.h"
 #include "scene/scene.h"
 
@@ -13,7 +14,7 @@ struct RenderOptions {
 
 /// throws  Error that says what to install when there is no EGL or no OpenGL 3.3, on a size out of
 ///         range, and on a number of the scene out of range, naming the mesh or cone
-Picture render(const Scene& scene, const RenderOptions& options = {});
+Picture render(const Scene& scene, const RenderOptions& options = {}, const Font& font = Font());
 
 /// The view that `render` uses when the scene names none: everything in the frame, from above and
 /// that side which shows most of the contacts and of what is grasped. `aspect` is width over

@@ -8,7 +8,7 @@ namespace {
 
 }  // namespace
 
-Picture render(const Scene&, const RenderOptions&) { refuse(); }
+Picture render(const Scene&, const RenderOptions&, const Font&) { refuse(); }
 
 void save_png(const Picture&, const std::string&) { refuse(); }
 

@@ -1,7 +1,8 @@
 #include "script/bind_chart.h"
 
+#include <ranges>
+
 #include "render/chart.h"
-#include "render/lettering.h"
 #include "script/bind_log.h"
 #include "script/bind_render.h"
 #include "script/guard.h"
@@ -9,6 +10,8 @@
 #include "script/table.h"
 
 namespace clench {
+
+static constexpr size_t max_named = 8;  // of letters that are boxes
 
 // calls read(index, what) with each item of the list on top of the stack
 template <class Read>
@@ -37,15 +40,18 @@ static ChartSeries read_series(lua_State* L, int index, const What& what) {
   return series;
 }
 
-// once a chart, by the letter and its number
-static void warn_of_boxes(lua_State* L, const Chart& chart) {
+// once a chart, by their numbers
+static void warn_of_boxes(lua_State* L, const Chart& chart, const Font& font) {
   std::string all = chart.title;
   for (const std::string& label : chart.labels) all += ' ' + label;
   for (const ChartSeries& series : chart.series) all += ' ' + series.name;
+  const std::set<char32_t> boxes = font.missing(all);
+  if (boxes.empty()) return;
   std::string names;
-  for (const char32_t letter : unknown_letters(all))
+  for (const char32_t letter : boxes | std::views::take(max_named))
     names += fmt::format("{}U+{:04X}", names.empty() ? "" : ", ", static_cast<uint32_t>(letter));
-  if (!names.empty()) log(L, LogLevel::warning, "chart: drawn as boxes are the letters " + names);
+  if (boxes.size() > max_named) names += fmt::format(" and {} more", boxes.size() - max_named);
+  log_warning(L, "chart: drawn as boxes are the letters " + names);
 }
 
 static int draw(lua_State* L) {
@@ -65,15 +71,17 @@ static int draw(lua_State* L) {
   drawing.width = options.integer("width", drawing.width);
   drawing.height = options.integer("height", drawing.height);
   options.done();
-  warn_of_boxes(L, chart);
-  return push_object(L, draw_chart(chart, drawing));
+  const Font font;
+  warn_without_letters(L, font);
+  warn_of_boxes(L, chart, font);
+  return push_object(L, draw_chart(chart, drawing, font));
 }
 
 static const Entry functions[] = {
     {"chart", guarded<draw>, R"(
 Draws numbers as columns, one panel a series, each to its own scale, all over the same items, with its value where there is
 room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked.
-Texts are UTF-8; letters that are neither Latin nor Greek are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
+Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
 @param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer}  labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
 @return picture
 > clench.chart{series = {{name = "epsilon", values = {0.1, 0.3, 0.2}}}, height = 200}  --> picture of 960 x 200 pixels

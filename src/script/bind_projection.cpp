@@ -104,7 +104,7 @@ static int draw_projection(lua_State* L) {
   if (options.boolean("weakest", true)) showing.weakest = least;
   showing.title = title_of(handle);
   showing.epsilon = handle.space->epsilon();
-  return push_object(L, draw_scene(options, make_wrench_scene(showing)));
+  return push_object(L, draw_scene(L, options, make_wrench_scene(showing)));
 }
 
 static int projection_text(lua_State* L) {

@@ -4,6 +4,7 @@
 #include "render/render.h"
 #include "scene/force_arrows.h"
 #include "script/bind_contact.h"
+#include "script/bind_log.h"
 #include "script/guard.h"
 #include "script/handles.h"
 #include "script/push.h"
@@ -63,7 +64,20 @@ static void add_forces(Table& options, const GivenForces& given, Scene& scene) {
     scene.caption = {fmt::format("forces on the object, the largest {}", scene.labels[0].text)};
 }
 
-Picture draw_scene(Table& options, Scene scene) {
+// its address names the place where a state remembers that it was told
+static const char told_key = 0;
+
+void warn_without_letters(lua_State* L, const Font& font) {
+  if (font.fault().empty()) return;
+  const bool told = lua_rawgetp(L, LUA_REGISTRYINDEX, &told_key) == LUA_TBOOLEAN;
+  lua_pop(L, 1);
+  if (told) return;
+  lua_pushboolean(L, true);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &told_key);
+  log_warning(L, font.fault());
+}
+
+Picture draw_scene(lua_State* L, Table& options, Scene scene) {
   RenderOptions rendering;
   const auto size =
       options.has("size") ? options.numbers("size", 2) : std::vector<double>{1280, 960};
@@ -81,7 +95,9 @@ Picture draw_scene(Table& options, Scene scene) {
   const Eye eye = read_eye(options, framed);
   if (parts > 0) scene.eye = eye;
   options.done();
-  return render(scene, rendering);
+  const Font font;
+  if (!scene.labels.empty() || !scene.caption.empty()) warn_without_letters(L, font);
+  return render(scene, rendering, font);
 }
 
 static int draw(lua_State* L) {
@@ -98,7 +114,7 @@ static int draw(lua_State* L) {
   showing.see_through = std::move(given.robots);
   Scene scene = make_scene(world, showing);
   add_forces(options, given, scene);
-  return push_object(L, draw_scene(options, std::move(scene)));
+  return push_object(L, draw_scene(L, options, std::move(scene)));
 }
 
 static int save(lua_State* L) {

@@ -122,12 +122,14 @@ test("letters that a chart cannot draw are named once a chart", function(t)
   local heard = {}
   clench.log.sink(function(level, message) heard[#heard + 1] = level .. ": " .. message end)
   local function draw(title) clench.chart {title = title, labels = {title}, series = {{name = title, values = {1}}}, width = 200} end
-  draw "Größe µ, ε, τ"
+  draw "Größe µ, ε, τ, Ж и \xff"
   t.equal(#heard, 0)
-  draw "Ж и 力"
+  draw "手 и 力"
+  draw "一丁丂七丄丅丆万丈三上下丌不与丏丐丑丒专"
   clench.log.sink(nil)
-  t.equal(#heard, 1)
-  t.equal(heard[1], "warning: chart: drawn as boxes are the letters U+0416, U+0438, U+529B")
+  t.equal(#heard, 2)
+  t.equal(heard[1], "warning: chart: drawn as boxes are the letters U+529B, U+624B")
+  t.ok(heard[2]:find "and 12 more$")
 end)
 
 test("the best of a panel is the least where the measure says so", function(t)

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "render/canvas.h"
-#include "render/lettering.h"
 
 using namespace clench;
 using Eigen::Vector2f;
@@ -24,27 +23,10 @@ int ink_of(const Picture& picture) {
 
 }  // namespace
 
-TEST_CASE("every printable character has strokes on the grid, no two alike") {
-  for (char c = '!'; c <= '~'; ++c) {
-    const Strokes strokes = strokes_of(c);
-    CAPTURE(c);
-    CHECK_FALSE(strokes.empty());
-    for (const auto& stroke : strokes)
-      for (const Vector2f& p : stroke) {
-        CHECK((p.x() >= 0 && p.x() <= 4));
-        CHECK((p.y() >= 0 && p.y() <= 8));
-      }
-    for (char other = '!'; other < c; ++other)
-      if (!(other == '0' && c == 'O')) CHECK(strokes_of(other) != strokes);
-  }
-  CHECK(strokes_of(' ').empty());
-  CHECK(strokes_of('\xff') == strokes_of('\n'));
-}
-
 TEST_CASE("a line's ink is its area, wherever and in which direction it runs") {
   for (const Vector2f& along : {Vector2f(40, 0), Vector2f(0, 40), Vector2f(24, 32)}) {
     Picture picture = blank_picture(100, 100);
-    Canvas(picture).line({20.3f, 25.7f}, Vector2f(20.3f, 25.7f) + along, 3, black);
+    Canvas(picture, Font()).line({20.3f, 25.7f}, Vector2f(20.3f, 25.7f) + along, 3, black);
     // 40 x 3 and two half discs; 3 % for edges that are blended by distance
     CHECK(ink_of(picture) / 255.0 == doctest::Approx(40 * 3 + M_PI * 1.5 * 1.5).epsilon(0.03));
   }
@@ -52,7 +34,8 @@ TEST_CASE("a line's ink is its area, wherever and in which direction it runs") {
 
 TEST_CASE("a rectangle's ink is its area to the rounding of bytes, cut off at the edges") {
   Picture picture = blank_picture(50, 40);
-  Canvas canvas(picture);
+  const Font font;
+  Canvas canvas(picture, font);
   canvas.rectangle({10.25f, 5.5f}, {20.5f, 15.75f}, black);
   CHECK(ink_of(picture) / 255.0 == doctest::Approx(10.25 * 10.25).epsilon(0.002));
   canvas.rectangle({-1e9f, -1e9f}, {1e9f, 1e9f}, black);
@@ -62,10 +45,11 @@ TEST_CASE("a rectangle's ink is its area to the rounding of bytes, cut off at th
 }
 
 TEST_CASE("text runs along its direction and takes the width that it tells") {
-  const float height = 12, width = Canvas::text_width("epsilon", height);
+  const Font font;
+  const float height = 12, width = font.width("epsilon", height);
   Picture level = blank_picture(200, 200), upright = blank_picture(200, 200);
-  Canvas(level).text("epsilon", {50, 100}, height, black);
-  Canvas(upright).text("epsilon", {100, 150}, height, black, -Vector2f::UnitY());
+  Canvas(level, font).text({"epsilon", {50, 100}, height}, black);
+  Canvas(upright, font).text({"epsilon", {100, 150}, height, -Vector2f::UnitY()}, black);
   // the second is the first turned by a quarter
   CHECK(ink_of(level) == doctest::Approx(ink_of(upright)).epsilon(0.01));
   const auto inside = [&](const Picture& p, int x0, int y0, int x1, int y1) {
@@ -74,9 +58,9 @@ TEST_CASE("text runs along its direction and takes the width that it tells") {
       for (int x = x0; x < x1; ++x) sum += 255 - p.pixels[3 * (200 * static_cast<size_t>(y) + x)];
     return sum;
   };
-  const int room = static_cast<int>(width) + 2;
-  CHECK(inside(level, 48, 84, 48 + room, 106) == ink_of(level));
-  CHECK(inside(upright, 84, 152 - room, 106, 152) == ink_of(upright));
+  const int room = static_cast<int>(width) + 1;
+  CHECK(inside(level, 50, 84, 50 + room, 106) == ink_of(level));
+  CHECK(inside(upright, 84, 150 - room, 106, 150) == ink_of(upright));
 }
 
 TEST_CASE("an axis holds all values and zero in 2 to 5 steps of 1, 2 or 5") {

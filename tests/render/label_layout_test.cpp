@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include "base/random.h"
-#include "render/canvas.h"
 #include "render/render.h"
 #include "scene/force_arrows.h"
 #include "scene/wrench_scene.h"
@@ -84,7 +83,7 @@ TEST_CASE("the words of a wrench space lie apart, from wherever one looks") {
       const Vector3d away(random.normal(), random.normal(), random.normal());
       eye.eye = eye.target + 5 * away.normalized();
     }
-    const auto texts = place_texts(scene, eye, picture);
+    const auto texts = place_texts(scene, eye, picture, Font());
     check_apart(texts, picture);
     CHECK(is_written(texts, "a wrench space"));
     for (const char* word : {"fx", "fy", "fz", "weakest", "radius 0.1"}) {
@@ -102,7 +101,7 @@ TEST_CASE("labels keep clear of arrows, and lie beside the places that they tell
   scene.labels = force_labels(forces, 1);
   Eye eye;
   eye.eye = {0, -6, 0};
-  const auto texts = place_texts(scene, eye, picture);
+  const auto texts = place_texts(scene, eye, picture, Font());
   REQUIRE(texts.size() == 2);
   check_apart(texts, picture);
   // seen along y at 6 m: 400 pixels are 2 * 6 * tan(0.3) = 3.71 m, so the tails, 1 m to the left,
@@ -121,7 +120,7 @@ TEST_CASE("what is behind the eye or beside the picture is not written") {
   scene.labels = {{{0, 0, 0}, "before"}, {{0, -20, 0}, "behind"}, {{50, 0, 0}, "beside"}};
   Eye eye;
   eye.eye = {0, -6, 0};
-  const auto texts = place_texts(scene, eye, {200, 200});
+  const auto texts = place_texts(scene, eye, {200, 200}, Font());
   REQUIRE(texts.size() == 1);
   CHECK(texts[0].text == "before");
 }
@@ -130,15 +129,15 @@ TEST_CASE("a picture that is too small for words has none") {
   Scene scene;
   scene.labels = {{{0, 0, 0}, "a label"}};
   scene.caption = {"a caption"};
-  CHECK(place_texts(scene, {}, {120, 120}).size() == 2);
-  CHECK(place_texts(scene, {}, {400, 119}).empty());
+  CHECK(place_texts(scene, {}, {120, 120}, Font()).size() == 2);
+  CHECK(place_texts(scene, {}, {400, 119}, Font()).empty());
 }
 
 TEST_CASE("a line of a caption that is too wide goes on in the next") {
   Scene scene;
   scene.caption = {"some words that are too many for one line", "last"};
   const Vector2f picture(200, 200);
-  const auto texts = place_texts(scene, {}, picture);
+  const auto texts = place_texts(scene, {}, picture, Font());
   check_apart(texts, picture);
   REQUIRE(texts.size() > 2);
   CHECK(texts[0].text == "last");
@@ -151,7 +150,7 @@ TEST_CASE("a caption stands in the lower left corner, its lines from the top, no
   Scene scene;
   scene.caption = {"first", std::string(200, 'x')};
   const Vector2f picture(300, 200);
-  const auto texts = place_texts(scene, {}, picture);
+  const auto texts = place_texts(scene, {}, picture, Font());
   REQUIRE(texts.size() == 2);
   check_apart(texts, picture);
   CHECK(texts[1].text == "first");
