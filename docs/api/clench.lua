@@ -26,7 +26,7 @@ function vec3:norm() end
 ---@return vec3
 function vec3:unit() end
 
----A rigid transform, which never changes. `a * b` chains two of them, `a * v` takes a point along, `==` compares bit by bit. Wherever a pose is wanted, the table that `clench.pose` takes will do.
+---A rigid transform, which never changes. `a * b` chains two of them, `a * v` takes a point along, `==` compares bit by bit. Wherever a pose is expected, the table that `clench.pose` takes will do.
 ---@class pose
 ---@field position vec3 # Where the frame's origin is. [m]
 ---@field quat number[] # The rotation as a unit quaternion, w x y z.
@@ -80,7 +80,7 @@ function random:integer(low, high) end
 ---@return vec3
 function random:direction() end
 
----Bodies and robots, what may collide with what, how things rub. Lists are in creation order.
+---Bodies and robots, what may collide with what, friction. Lists are in creation order.
 ---@class world
 ---@field bodies body[] # All bodies in creation order: objects, obstacles, robot bases, links, mounts.
 ---@field objects body[] # The bodies that can be grasped.
@@ -121,8 +121,8 @@ function world:add_obstacle(body, options) end
 function world:add_robot(path, options) end
 
 ---Removes an object, an obstacle or a whole robot. Whoever still holds it gets an error that names it.
----@param thing body|robot
-function world:remove(thing) end
+---@param entity body|robot
+function world:remove(entity) end
 
 ---An independent copy that shares the meshes. Its things are found by name or place in its lists.
 ---@return world
@@ -145,7 +145,7 @@ function world:save(path, options) end
 ---@return string # 16 hexadecimal digits
 function world:hash() end
 
----Pairs of bodies that collide, of the world, of one thing, or between two. A closed body inside another collides too.
+---Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
 ---@param a? body|robot
 ---@param b? body|robot
 ---@return body[][] # pairs
@@ -159,13 +159,13 @@ function world:colliding(a, b) end
 ---@return vec3 on_b
 function world:distance(a, b) end
 
----Where surfaces touch: everywhere, on one thing, or of `a` on `b`.
+---Where surfaces touch: everywhere, on one entity, or of `a` on `b`.
 ---@param a? body|robot
 ---@param b? body|robot
 ---@return contact[] # on b; without arguments on the object of each pair
 function world:contacts(a, b) end
 
----Switches collision on or off: for the whole world, for one thing against everything, or for a pair.
+---Switches collision on or off: for the whole world, for one entity against everything, or for a pair.
 ---@param on boolean
 ---@param a? body|robot
 ---@param b? body|robot
@@ -189,24 +189,24 @@ function world:friction(a, b) end
 local snapshot = {}
 
 ---What bodies and robots have in common; of a robot these are its base's.
----@class thing
+---@class entity
 ---@field world world # The world that it is in.
----@field material string # Name of its material, which decides how it rubs.
+---@field material string # Name of its material, which decides its friction.
 ---@field mass number # Its mass. [kg]
 ---@field com vec3 # Centre of mass in the body frame. Setting it takes an inertia that comes from its shape to the new centre; one that was given stays. [m]
 ---@field inertia number[][] # Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the sum of the others: no body has such an inertia. [kg m^2]
 ---@field mesh mesh? # Its surface; nil when it has none.
----@field mesh_report table? # What was done to the triangles of its file: lines of text, and the same as fields `format`, `unit` [m], `unit_from` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `turned` (was it inside out?). Nil when it has no mesh, or none from a file.
+---@field mesh_report table? # What was done to the triangles of its file: lines of text, and the same as fields `format`, `unit` [m], `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped` (was it inside out?). Nil when it has no mesh, or none from a file.
 ---@field elastic_modulus number? # Young's modulus; nil when it is rigid. [Pa]
 ---@field soft_layer number # Height of the soft layer of an elastic body. [m]
 ---@field poisson_ratio number # Poisson's ratio of an elastic body, below 0.5: its layer gives way by modulus / (1 - ratio^2).
 ---@field contacts contact[] # Where others touch it now.
 ---@field color number[] # Colour in pictures: red, green and blue in 0..1.
 ---@field transparency number # From 0, opaque, to 1, invisible.
-local thing = {}
+local entity = {}
 
 ---A rigid thing in a world: an object, an obstacle, or a part of a robot.
----@class body: thing
+---@class body: entity
 ---@field name string # Unique in its world.
 ---@field pose pose # Where it is, in the world frame. Setting it moves it at once, whatever is in the way; see move_to. The parts of a robot move with the robot.
 ---@field kind string # "object", "obstacle", "base", "link" or "mount".
@@ -217,7 +217,7 @@ local body = {}
 
 ---Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that remains is within the contact threshold. One that starts in contact may slide and leave, but is not pushed in.
 ---@param pose pose
----@return table result # `fraction` of the way gone, `touched`, `stopped_by` (pairs), `gave_up` (after a million steps), `queries`
+---@return table result # `fraction` of the way gone, `touched`, `stopped_by` (pairs), `iteration_limit` (after a million steps), `queries`
 function body:move_to(pose) end
 
 ---The triangles of a body's surface. Meshes never change, and clones of a world share them.
@@ -242,8 +242,8 @@ function mesh:is_watertight() end
 function mesh:save(path) end
 
 ---What every robot has for grasping: eigengrasps, virtual contacts, a glove, a position sensor.
----@class hand: thing
----@field eigengrasps eigengrasps # Its eigengrasps, as they are at any time: those of its file, or one a DOF. Setting copies a set; nil leaves one a DOF.
+---@class hand: entity
+---@field eigengrasps eigengrasps # Its eigengrasps, as they are at any time: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
 ---@field amplitudes number[] # Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
 ---@field virtual_contacts virtual_contact[] # Where it would like to touch: those of its file, those it was given, or, when there are none of either, those that find_virtual_contacts finds, anew each time. Set to a list of virtual contacts, contacts, or tables as of add_virtual_contact; to {} for none, to nil for those that are found.
 ---@field glove {slopes: number[][], intercepts: number[]}? # Calibration of the data glove that its file names: `slopes` (a row a DOF, a number a sensor) and `intercepts`, so that DOF = intercept + slopes * raw. nil when there is none. [rad per count, rad]
@@ -275,7 +275,7 @@ function hand:add_virtual_contact(contact) end
 function hand:remove_virtual_contact(number) end
 
 ---Places on its surface where it moves forward when the hand closes: the centre of what each link sweeps, by area and speed along its normal, and one on the palm. Sets nothing.
----@param options? {per_link?: integer, palm?: boolean, against?: string} # against: material to be grasped, "wood" by default
+---@param options? {count_per_link?: integer, palm?: boolean, object_material?: string} # object_material: material to be grasped, "wood" by default
 ---@return virtual_contact[]
 function hand:find_virtual_contacts(options) end
 
@@ -296,7 +296,7 @@ function hand:save_virtual_contacts(path) end
 ---@field base body # Its base: palm or stand.
 ---@field bodies body[] # Base, links, and mount if it has one.
 ---@field approach {point: vec3, direction: vec3, frame: pose} # How it approaches what it grasps, in the world frame: `point` on the palm, `direction`, `frame` with +z along it.
----@field carrier robot? # The robot that carries it; nil when none does.
+---@field parent robot? # The robot that carries it; nil when none does.
 ---@field class_name string # What its file calls its kind.
 ---@field source string # File that it was read from.
 ---@field files table # Files that its file names: `eigengrasps`, `virtual_contacts`, `glove_calibration`.
@@ -309,7 +309,7 @@ function robot:link(name) end
 
 ---Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away, or were held against their springs, follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
 ---@param values number[] # within the limits [rad or m]
----@param options? {apart?: number[][]} # rows {chain, joint, value}
+---@param options? {joint_positions?: number[][]} # rows {chain, joint, value}
 function robot:set_dofs(values, options) end
 
 ---Drives all DOFs in proportion towards values, until contact stops them.
@@ -320,7 +320,7 @@ function robot:move_dofs(values, options) end
 
 ---Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they give way and slide, until contacts take up whatever more it pulls. Negative speed opens.
 ---@param options? {speed?: number, stop_at_contact?: boolean}
----@return table result # `moved`, `stops` (a DOF each: "contact", "limit", "reached", "still", "gave up"), `stopped_by` (pairs), `queries`, `events`
+---@return table result # `moved`, `stops` (a DOF each: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
 function robot:autograsp(options) end
 
 ---Opens the hand as far as it goes. One that overlaps something is opened without regard to contacts until it is free.
@@ -330,18 +330,18 @@ function robot:open(options) end
 
 ---Moves the whole robot until it first touches something, as a body's move_to.
 ---@param pose pose
----@return table result # `fraction`, `touched`, `stopped_by`, `gave_up`, `queries`
+---@return table result # `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 function robot:move_to(pose) end
 
 ---Moves the hand along its approach direction until it touches something.
 ---@param options? {reach?: number} # at most this far, 1 by default [m]
----@return table result # `fraction`, `touched`, `stopped_by`, `gave_up`, `queries`
+---@return table result # `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 function robot:approach_object(options) end
 
 ---Fixes the robot to the last link of another one's chain. It follows from now on.
----@param carrier robot
----@param options? {chain?: integer, pose?: pose, piece?: string, root?: string, confine?: string, strict?: boolean} # chain 1 by default; pose of the base in the link; file of an adapter
-function robot:mount_on(carrier, options) end
+---@param parent robot
+---@param options? {chain?: integer, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean} # chain 1 by default; pose of the base in the link; file of an adapter
+function robot:mount_on(parent, options) end
 
 ---A few postures whose sums are a hand's: each posture is an origin and an amplitude for each eigengrasp.
 ---@class eigengrasps
@@ -352,7 +352,7 @@ function robot:mount_on(carrier, options) end
 ---@field limits number[][] # How far each amplitude can go from the hand's posture, while the others stay: what its file says, else until the first DOF that it moves is at a limit. {least, largest} each
 ---@field range number[][] # What each amplitude can be at all: what its file says, else the least and largest of all postures within the DOF limits. {least, largest} each
 ---@field hand robot? # The hand whose set it is; nil for a set by itself.
----@field given boolean # Does it come from a file or a script? A hand that was given none has one eigengrasp a DOF.
+---@field is_custom boolean # Does it come from a file or a script? A hand that was given none has one eigengrasp per DOF.
 ---@field count integer # How many there are; # says it, too.
 local eigengrasps = {}
 
@@ -401,7 +401,7 @@ local virtual_contact = {}
 local contact = {}
 
 ---The patch of a soft contact by options of one's own; nil of others.
----@param options? {radius?: number, flat_radius?: number, fit?: string} # radius: how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm, an error where there is nothing to fit [m]; flat_radius: stands for a relative radius that is none, 0.02 [m]; fit: "quadric", our own, or "jet", CGAL's
+---@param options? {radius?: number, max_radius?: number, fit?: string} # radius: how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm, an error where there is nothing to fit [m]; max_radius: stands for a relative radius that is none, 0.02 [m]; fit: "quadric", our own, or "jet", CGAL's
 ---@return patch?
 function contact:fit_patch(options) end
 
@@ -409,18 +409,18 @@ function contact:fit_patch(options) end
 ---@class forces
 local forces = {}
 
----Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx, fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's centre of mass; its weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "least" sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); least sum of "squares" of the forces, the only one that always has a single answer; least largest normal force ("peak"); "interior", as far from the edges of the cones and from max_force as all can be; "interior_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible", with a `certificate`; "unbounded" when more force is always better; "inaccurate" when what was found does not pass its check: balance, cones, caps and optimum to 1e-9, and what is left of a load, to 1e-7 of it. A cap that does not bind changes nothing. `margin`: the least of the forces' margins, for "interior" of the distances from max_force, too; 0 when some force has to lie on an edge: then "interior" is optimal, but these contacts cannot keep inside their cones, as without force closure. `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in the world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `opens` and `slides` of each contact along it; `cap_shares`, `effort_shares` of the capacity; `contact` or `dof`, whichever gives way.
----@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean, balance?: string} # max_force of each contact, or a list of one a contact, limit and value of their sum [N]; torque_limits: the motors' own, or one a DOF; without it motors give what they must; total_torque: of all motors, closing [N m or N]; closing_only: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
+---Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx, fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's centre of mass; its weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "min_sum", the least sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); "min_norm", the least sum of squares of the forces, the only one that always has a single answer; "min_max", the least largest normal force; "max_margin", as far from the edges of the cones and from max_force as all can be; "max_margin_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible", with a `certificate`; "unbounded" when more force is always better; "inaccurate" when what was found does not pass its check: balance, cones, caps and optimum to 1e-9, and what is left of a load, to 1e-7 of it. A cap that does not bind changes nothing. `margin`: the least of the forces' margins, for "max_margin" of the distances from max_force, too; 0 when some force has to lie on an edge: then "max_margin" is optimal, but these contacts cannot keep inside their cones, as without force closure. `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in the world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `separation_rates` and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or `dof`, whichever gives way.
+---@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string} # max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: the motors' own, or one per DOF; without it motors give what they must; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
 ---@return table result # `status`, `forces`, `objective`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 function forces:contact_forces(options) end
 
 ---The largest multiple `load` of a wrench on the object that forces at the contacts balance, its axes as in contact_forces. `status` "unlimited" when no cap and no torque ends it. The `certificate` says what gives way beyond it.
----@param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, closing_only?: boolean, arms?: boolean, link_weights?: boolean} # as in contact_forces
+---@param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean} # as in contact_forces
 ---@return table result # `status`, `load`, `forces`, `margin`, `joint_torques`, `certificate`
-function forces:largest_load(options) end
+function forces:max_load(options) end
 
 ---Can the hand as it stands hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their couplings, within their limits (max_effort of each DOF; none where that is 0), by springs, and by the clutches of joints that have broken away. The palm takes what it must. `status`: "stable"; "unstable", then `unbalanced` is the least wrench that is left and `certificate` says what gives way; "moving" when no contact forces balance the joints, so that a finger moves; "inaccurate".
----@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean} # torque_limits: one a DOF, or false for none; torques: what the motors give, one a DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact, or one a contact [N]
+---@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean} # torque_limits: one per DOF, or false for none; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact, or one per contact [N]
 ---@return table result # `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 function forces:equilibrium(options) end
 
@@ -452,7 +452,7 @@ function measures:resistance(options) end
 
 ---The surfaces of two bodies around a soft contact, and the turn about the normal that it resists.
 ---@class patch
----@field relative_radii number[] # Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures. Where the surfaces part slower than a ball of 2 m from a plane, or not at all, the `flat_radius` of 20 mm stands for them, or the first radius when that is larger; between 1 m and 2 m the one goes over into the other. [m]
+---@field relative_radii number[] # Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures. Where the surfaces part slower than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm stands for them, or the first radius when that is larger; between 1 m and 2 m the one goes over into the other. [m]
 ---@field flat boolean[] # Is a relative radius the one that stands for a flat direction?
 ---@field curvatures {body: number[], other: number[]} # Principal curvatures of the surfaces of both bodies, descending: positive where a surface falls away from the other body, as a ball's, negative where it rises, as a socket's. [1/m]
 ---@field radii {body: number[], other: number[]} # The principal radii of both, 1 over the curvatures: negative where a surface is hollow; as large as you like where it is flat. [m]
@@ -461,12 +461,12 @@ function measures:resistance(options) end
 ---@field points {body: vec3[], other: vec3[]} # What was fitted: points of both surfaces, in the world frame. [m]
 ---@field radius number # How far around the contact the surfaces were looked at. [m]
 ---@field residual number # How far the points lie from the fit, root of the mean square; of the worse surface. [m]
----@field sharp boolean # Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that is sure to touch.
+---@field at_edge boolean # Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that is sure to touch.
 local patch = {}
 
----Where the bodies press on each other, after the mattress model: its semi-axes along `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the semi-axes are those of what is sure to touch, where the gap is no wider than the indentation of flat surfaces; the indentation is where the springs under the gap as it is make up the force, as far as the neighbourhood goes. `beyond_layer` says that it is more than the soft layers are high, and the model holds no longer.
+---Where the bodies press on each other, after the mattress model: its semi-axes along `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the semi-axes are those of what is sure to touch, where the gap is no wider than the indentation of flat surfaces; the indentation is where the springs under the gap as it is make up the force, as far as the neighbourhood goes. `exceeds_layer` says that it is more than the soft layers are high, and the model holds no longer.
 ---@param options? {force?: number, modulus?: string} # normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
----@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, beyond_layer: boolean} # [m], [m], [Pa], [m]
+---@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, exceeds_layer: boolean} # [m], [m], [Pa], [m]
 function patch:ellipse(options) end
 
 ---The largest torque about the normal that the contact resists, at rest: mu F times the torsion radius.
@@ -531,7 +531,7 @@ function wrench_space:weakest() end
 ---@return number[][][]
 function wrench_space:wrenches() end
 
----The space in three coordinates. Of the others, `fixed` ones have a value, so that the space is cut, and `projected` ones may be anything, which gives its shadow.
+---The space in three coordinates. Of the others, `fixed` ones have a value, which gives its section, and `projected` ones may be anything, which gives its projection.
 ---@param options? {fixed?: table<string, number>, projected?: string[], tolerance?: number} # tolerance: of round cones, as a part of the space's size, 1e-3
 ---@return projection
 function wrench_space:project(options) end
@@ -588,7 +588,7 @@ function clench.deg(radians) end
 ---@return number # [m]
 function clench.mm(millimetres) end
 
----A vector of three finite numbers, from a list or one by one. Wherever a vec3 is wanted, {x, y, z} will do.
+---A vector of three finite numbers, from a list or one by one. Wherever a vec3 is expected, {x, y, z} will do.
 ---@param x number[]|number
 ---@param y? number
 ---@param z? number
@@ -641,15 +641,15 @@ function clench.load(path, options) end
 ---The grasp of a hand on an object as it is now. No contact is no error: such a grasp resists nothing.
 ---@param hand robot
 ---@param object body
----@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string} # edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N], or a list of one a contact; modulus: as of `patch:ellipse`
+---@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string} # edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
 ---@return grasp
 function clench.grasp(hand, object, options) end
 
 ---The measures that grasp:quality knows, in the order of the guide.
----@return {name: string, what: string, range: string, unit: string, larger_is_better: boolean, source: string}[]
+---@return {name: string, what: string, range: string, unit: string, higher_is_better: boolean, source: string}[]
 function clench.measures() end
 
----All wrenches that contacts resist when their normal forces sum to one (norm "L1") or are each at most one ("Linf"). A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in the object frame; torsion_radius, 0 for a hard finger, says how far a soft one resists a turn about its normal [m]. Nothing is calculated before it is asked for.
+---All wrenches that contacts resist when their normal forces sum to one (norm "L1") or are each at most one ("Linf"). A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in the object frame; torsion_radius, 0 for a hard finger, is that of torsional friction of a soft one [m]. Nothing is calculated before it is asked for.
 ---@param options {contacts: table[], norm?: string, edges?: integer|string, rho?: number, com?: vec3, coordinates?: string[]} # edges: of the friction pyramids, 8, or "exact" for round cones; rho: length that torques are divided by, 1 m unless given; com: the point of torques, the frame's origin unless given [m]; coordinates: those that count, of "fx" to "tz"
 ---@return wrench_space
 function clench.wrench_space(options) end
@@ -665,8 +665,8 @@ function clench.eigengrasps(options) end
 ---@return picture
 function clench.render(world, options) end
 
----Draws numbers as columns, one panel a series, each to its own scale, all over the same items, with its value where there is room; the best of a panel, the largest or with least_is_best the least, is the darkest. `false` is a value that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
----@param options {series: {name: string, values: (number|false)[], least_is_best?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one an item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
+---Draws numbers as columns, one panel a series, each to its own scale, all over the same items, with its value where there is room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
+---@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
 ---@return picture
 function clench.chart(options) end
 
@@ -711,7 +711,7 @@ function clench.log.error(...) end
 ---@return string before
 function clench.log.level(name) end
 
----Sends messages to a function(level, text, about) instead of stderr; without one, to stderr again. `about` says of what the reader of a file tells: what is "guessed", "ignored", "mended" or "doubtful"; nil otherwise.
+---Sends messages to a function(level, text, about) instead of stderr; without one, to stderr again. `about` says of what the reader of a file tells: what is "inferred", "ignored", "repaired" or "suspicious"; nil otherwise.
 ---@param fn? fun(level: string, text: string, about: string?)
 function clench.log.sink(fn) end
 
