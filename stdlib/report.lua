@@ -1,4 +1,4 @@
---- What a file was understood to be, as tables: what `clench check` prints, or writes as JSON.
+--- What a file holds, as tables: what `clench check` prints, or writes as JSON.
 local error_text = require "clench.host.error_text"
 local reading = require "clench.host.reading"
 local report = {}
@@ -170,7 +170,7 @@ local readers = {
   end,
 }
 
---- One file, understood: what `clench check` says of it. Loaded by require "clench.report" or as clench.report.
+--- One file, parsed: what `clench check` says of it. Loaded by require "clench.report" or as clench.report.
 --- `parsed` is a table of what its kind holds, all in metres, kilograms and radians; without it `error` says why.
 --- With `strict` so does the first sentence of what was repaired, not used or suspicious.
 ---@param path string

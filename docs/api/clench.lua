@@ -205,7 +205,7 @@ local snapshot = {}
 ---@field transparency number # From 0, opaque, to 1, invisible.
 local entity = {}
 
----A rigid thing in a world: an object, an obstacle, or a part of a robot.
+---A rigid body in a world: an object, an obstacle, or a part of a robot.
 ---@class body: entity
 ---@field name string # Unique in its world.
 ---@field pose pose # Where it is, in the world frame. Setting it moves it at once, whatever is in the way; see move_to. The parts of a robot move with the robot.
@@ -352,7 +352,7 @@ function robot:mount_on(parent, options) end
 ---@field limits number[][] # How far each amplitude can go from the hand's posture, while the others stay: what its file says, else until the first DOF that it moves is at a limit. {least, largest} each
 ---@field range number[][] # What each amplitude can be at all: what its file says, else the least and largest of all postures within the DOF limits. {least, largest} each
 ---@field hand robot? # The hand whose set it is; nil for a set by itself.
----@field is_custom boolean # Does it come from a file or a script? A hand that was given none has one eigengrasp per DOF.
+---@field is_custom boolean # Does it come from a file or a script? A hand without a set of its own has one eigengrasp per DOF.
 ---@field count integer # How many there are; # says it, too.
 local eigengrasps = {}
 

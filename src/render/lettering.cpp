@@ -35,7 +35,7 @@ struct Font::Face {
       capital = static_cast<float>(face->glyph->metrics.horiBearingY);
     if (!(capital > 0)) {
       FT_Done_FreeType(library);
-      fail("{}: wanted an outline font with Latin letters", path);
+      fail("{}: expected an outline font with Latin letters", path);
     }
   }
   // its faces go with it

@@ -125,7 +125,7 @@ static const Entry operators[] = {
 const Class body_class{.name = "body",
                        .variable = "body",
                        .doc =
-                           "A rigid thing in a world: an object, an "
+                           "A rigid body in a world: an object, an "
                            "obstacle, or a part of a robot.",
                        .fields = fields,
                        .methods = methods,

@@ -208,7 +208,7 @@ The hand whose set it is; nil for a set by itself.
 > hand.eigengrasps.hand == hand  --> true
 > clench.eigengrasps{vectors = {{1}}}.hand  --> nil)"},
     {"is_custom", guarded<get_is_custom>, R"(
-Does it come from a file or a script? A hand that was given none has one eigengrasp per DOF.
+Does it come from a file or a script? A hand without a set of its own has one eigengrasp per DOF.
 @type boolean
 > hand.eigengrasps = nil
 > hand.eigengrasps.is_custom  --> false

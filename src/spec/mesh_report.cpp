@@ -27,7 +27,7 @@ const char* source_name(UnitSource source) {
 
 static std::string unit_sentence(const MeshReport& report) {
   static constexpr const char* sources[] = {"by the format", "by the file", "by option",
-                                            "guessed from the size"};
+                                            "inferred from the size"};
   std::string text = fmt::format("unit {}, {}", unit_name(report.unit),
                                  sources[static_cast<int>(report.unit_source)]);
   if (report.up != 'z') text += fmt::format("; {} axis turned to z", report.up);

@@ -280,7 +280,7 @@ TEST_CASE("a body keeps the report, which describes itself") {
   CHECK(body.name == "crate");
   CHECK(describe(*body.mesh_report, *body.shape) ==
         std::vector<std::string>{
-            "ascii STL: 12 triangles of 36 vertices", "unit mm, guessed from the size",
+            "ascii STL: 12 triangles of 36 vertices", "unit mm, inferred from the size",
             "28 vertices welded", "watertight, 0.2 x 0.1 x 0.1 m, no faults",
             "volume 0.002 m^3, centre of mass (0, 0, 0) m",
             "inertia of each kg: xx 0.001667, yy 0.004167, zz 0.004167, xy 0, xz 0, yz 0 m^2"});
