@@ -195,8 +195,8 @@ int GltfDocument::integer(const GltfValue& object, const char* key, int fallback
   if (!found) return fallback;
   const bool whole = found.json->is_number_integer();
   if (!whole || *found.json < low || *found.json > std::numeric_limits<int>::max())
-    fail("{}: expected a whole number from {} on, got {}", found.name, low,
-         found.json->dump().substr(0, 40));
+    fail("{}: {}", found.name,
+         integer_fault(found.json->dump(), low, std::numeric_limits<int>::max()));
   return found.json->get<int>();
 }
 

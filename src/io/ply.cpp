@@ -162,8 +162,11 @@ void PlyReader::skip(const PlyProperty& property) {
 int PlyReader::read_count(const PlyProperty& list) {
   const double count = values_.next(list.count_type);
   // every item of a list is a byte at least, so the file's size bounds their number
-  if (!(count >= 0 && count <= 1 << 30))
+  constexpr int most = 1 << 30;
+  if (!(count >= 0))
     values_.fail("expected a count of {} from 0 on, got {}", excerpt(list.name), count);
+  if (count > most)
+    values_.fail("expected a count of {} up to {}, got {}", excerpt(list.name), most, count);
   return floor_int(count);
 }
 

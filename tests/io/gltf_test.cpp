@@ -89,6 +89,9 @@ TEST_CASE("what is wrong in a glTF file is told by the name of its value") {
   refused("\"POSITION\": 0", "\"POSITION\": 1", ": accessors[1]: expected the type VEC3");
   refused("\"indices\": 1", "\"indices\": -1",
           ": meshes[0].primitives[0].indices: expected a whole number from 0 on, got -1");
+  refused("\"indices\": 1", "\"indices\": 4000000000",
+          ": meshes[0].primitives[0].indices: expected a whole number from 0 to 2147483647, got "
+          "'4000000000'");
   refused("\"indices\": 1", "\"indices\": 1, \"extensions\": {\"KHR_draco_mesh_compression\": {}}",
           ": meshes[0].primitives[0]: meshes compressed by Draco are not supported");
   refused("5125", "5126",

@@ -102,6 +102,8 @@ TEST_CASE("what is wrong in the lines of a PLY file is told by line") {
   refused(point_rows + "3 0 1 -1\n", "14: expected a vertex from 0 on, got -1");
   refused(point_rows + "3 0 1 0.5\n", "14: expected a whole number, got 0.5");
   refused(point_rows + "-3 0 1 2\n", "14: expected a count of vertex_index from 0 on, got -3");
+  refused(point_rows + "4e9 0 1 2\n",
+          "14: expected a count of vertex_index up to 1073741824, got 4000000000");
   Warnings warnings;
   read_ply_text("ply\nformat ascii 1.0\n" + points + faces +
                     "element edge 1\nproperty int a\nend_header\n" + point_rows +
