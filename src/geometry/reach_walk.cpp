@@ -40,7 +40,7 @@ class ReachWalk {
     while (height > 0) {
       const Task task = stack_[--height];
       if ((task.child_a & task.child_b & 1) != 0) {
-        if (judge_leaves(task.child_a >> 1, task.child_b >> 1, visit)) return true;
+        if (judge_leaves(task, visit)) return true;
       } else {
         height = open(task, height);
       }
@@ -124,15 +124,41 @@ class ReachWalk {
     n.x.store(side.normal[0]), n.y.store(side.normal[1]), n.z.store(side.normal[2]);
     max(max(at_p, at_q), at_r).store(side.above), min(min(at_p, at_q), at_r).store(side.below);
   }
-  void load_sides(int leaf_a, int leaf_b) {
-    if (leaf_a != side_a_.leaf) {
-      side_a_.leaf = leaf_a;
-      take(load_triangles<F>(a_.leaf(leaf_a)), side_a_);
+  void load_side_a(int leaf) {
+    if (leaf == side_a_.leaf) return;
+    side_a_.leaf = leaf;
+    take(load_triangles<F>(a_.leaf(leaf)), side_a_);
+  }
+  void load_side_b(int leaf) {
+    if (leaf == side_b_.leaf) return;
+    side_b_.leaf = leaf;
+    take(moved(load_triangles<F>(b_.leaf(leaf)), b_to_a_), side_b_);
+  }
+
+  static CLENCH_INLINE Triple<F> eight(const Real (&rows)[9][8], int corner) {
+    return {F::stored(rows[3 * corner]), F::stored(rows[3 * corner + 1]),
+            F::stored(rows[3 * corner + 2])};
+  }
+  static CLENCH_INLINE Triple<F> eight(const Real (&rows)[3][8]) {
+    return {F::stored(rows[0]), F::stored(rows[1]), F::stored(rows[2])};
+  }
+
+  // which triangles of a side are in reach of a box of the other, by its axes and their own planes
+  CLENCH_INLINE unsigned near_box(const Side& side, const BoxOf<Real>& box) const {
+    const Triple<F> n = eight(side.normal);
+    const F at = dot(n, box.centre);
+    F reach = F::all(0);
+    for (int k = 0; k < 3; ++k) reach = reach + abs(dot(n, box.axis[k])) * box.half[k];
+    auto off = (at - reach - F::stored(side.above) > limit_) |
+               (F::stored(side.below) - at - reach > limit_);
+    for (int k = 0; k < 3; ++k) {
+      F s[3];
+      for (int c = 0; c < 3; ++c) s[c] = dot(eight(side.corners, c), box.axis[k]);
+      const Real middle = dot(box.centre, box.axis[k]), far = box.half[k] + limit_;
+      off = off | (min(min(s[0], s[1]), s[2]) > middle + far) |
+            (max(max(s[0], s[1]), s[2]) < middle - far);
     }
-    if (leaf_b != side_b_.leaf) {
-      side_b_.leaf = leaf_b;
-      take(moved(load_triangles<F>(b_.leaf(leaf_b)), b_to_a_), side_b_);
-    }
+    return ~off.set();
   }
 
   static CLENCH_INLINE Triple<Real> one(const Real (&rows)[9][8], int corner, int lane) {
@@ -154,27 +180,30 @@ class ReachWalk {
     if (!expected) return 0;
     const Triple<Real> n = {a.normal[0][i], a.normal[1][i], a.normal[2][i]};
     F s[3];
-    for (int k = 0; k < 3; ++k)
-      s[k] = dot(Triple<F>{F::stored(b.corners[3 * k]), F::stored(b.corners[3 * k + 1]),
-                           F::stored(b.corners[3 * k + 2])},
-                 n);
+    for (int k = 0; k < 3; ++k) s[k] = dot(eight(b.corners, k), n);
     const auto off_a = (min(min(s[0], s[1]), s[2]) > a.above[i] + limit_) |
                        (max(max(s[0], s[1]), s[2]) < a.below[i] - limit_);
-    const Triple<F> normal = {F::stored(b.normal[0]), F::stored(b.normal[1]),
-                              F::stored(b.normal[2])};
-    for (int k = 0; k < 3; ++k) s[k] = dot(normal, one(a.corners, k, i));
+    for (int k = 0; k < 3; ++k) s[k] = dot(eight(b.normal), one(a.corners, k, i));
     const auto off_b = (min(min(s[0], s[1]), s[2]) - F::stored(b.above) > limit_) |
                        (max(max(s[0], s[1]), s[2]) - F::stored(b.below) < -limit_);
     return expected & ~(off_a | off_b).set();
   }
 
   // Pairs of two leaves in reach wait until eight are there to be judged at once.
-  bool judge_leaves(int leaf_a, int leaf_b, PairVisit visit) {
+  bool judge_leaves(const Task& task, PairVisit visit) {
+    const int leaf_a = task.child_a >> 1, leaf_b = task.child_b >> 1;
     const TriangleBundle &from_a = a_.leaf(leaf_a), &from_b = b_.leaf(leaf_b);
-    load_sides(leaf_a, leaf_b);
-    const unsigned lanes_b = used_lanes(from_b.triangle);
-    for (unsigned rest = used_lanes(from_a.triangle); rest; rest &= rest - 1) {
-      const int i = __builtin_ctz(rest);
+    load_side_a(leaf_a);
+    unsigned lanes_a = used_lanes(from_a.triangle) &
+                       near_box(side_a_, one_of<Real>(boxes_b_(task.box_b >> 3), task.box_b & 7));
+    if (!lanes_a) return false;
+    load_side_b(leaf_b);
+    const unsigned lanes_b =
+        used_lanes(from_b.triangle) &
+        near_box(side_b_, one_of<Real>(boxes_a_(task.box_a >> 3), task.box_a & 7));
+    if (!lanes_b) return false;
+    for (; lanes_a; lanes_a &= lanes_a - 1) {
+      const int i = __builtin_ctz(lanes_a);
       for (unsigned row = near_row(i, lanes_b); row; row &= row - 1) {
         const int j = __builtin_ctz(row);
         waiting_.add(side_a_.corners, i, side_b_.corners, j,
