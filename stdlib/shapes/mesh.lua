@@ -33,10 +33,11 @@ function mesh.check(shape, subject)
   for i = 1, #shape.triangles do
     local t = shape.triangles[i]
     for k = 1, 3 do
-      local index = type(t) == "table" and math.tointeger(t[k])
+      local got = t
+      if type(t) == "table" then got = t[k] end
+      -- '3' would be made an integer too
+      local index = type(got) == "number" and math.tointeger(got)
       if not index or index < 1 or index > count then
-        local got = t
-        if type(t) == "table" then got = t[k] end
         fail(subject, "triangle %d must name vertices 1 to %d, got %s", i, count, described(got))
       end
     end
