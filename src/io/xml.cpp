@@ -63,6 +63,10 @@ std::vector<size_t> check_limits(const std::string& file, std::string_view text,
       --depth;
     else if (!tag.closed)
       ++depth;
+    // the parser would end here
+    if (depth < 0)
+      fail("{}:{}: {} closes nothing", file, line_at(text, at),
+           in_quotes(text.substr(at, tag.end + 1 - at)));
     if (depth > deepest_nesting)
       fail("{}:{}: expected at most {} elements in each other", file, line_at(text, at),
            deepest_nesting);
@@ -71,12 +75,25 @@ std::vector<size_t> check_limits(const std::string& file, std::string_view text,
   return alone;
 }
 
-const char* broken_part(tinyxml2::XMLError error) {
-  switch (error) {
+/// The element that the parser names, "<mass>", or what stands for one that has no name.
+std::string broken_element(const tinyxml2::XMLDocument& document) {
+  constexpr std::string_view before = "XMLElement name=";
+  const std::string_view told = document.ErrorStr();
+  const size_t at = told.find(before);
+  return at == told.npos ? "a tag" : fmt::format("<{}>", excerpt(told.substr(at + before.size())));
+}
+
+std::string broken_part(const tinyxml2::XMLDocument& document) {
+  switch (document.ErrorID()) {
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return broken_element(document) + " without its closing tag";
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+      return broken_element(document) + " that does not end, or begins as none";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
-      return "an attribute that is none, or stands twice";
+      return broken_element(document) +
+             " with an attribute that stands twice or has no value in quotes";
     case tinyxml2::XML_ERROR_PARSING_TEXT:
-      return "text outside all elements";
+      return "text outside all elements, or in one that does not end";
     case tinyxml2::XML_ERROR_PARSING_CDATA:
       return "CDATA that does not end";
     case tinyxml2::XML_ERROR_PARSING_COMMENT:
@@ -86,21 +103,15 @@ const char* broken_part(tinyxml2::XMLError error) {
     case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
       return "a '<!' that does not end";
     default:
-      return "something else";
+      return "an element that does not end, or a '<' that begins none";
   }
 }
 
-[[noreturn]] void fail_parse(const std::string& file, const std::string& text,
-                             const tinyxml2::XMLDocument& document) {
+[[noreturn]] void fail_parse(const std::string& file, const tinyxml2::XMLDocument& document) {
   const int line = std::max(document.ErrorLineNum(), 1);
-  const auto error = document.ErrorID();
-  if (error == tinyxml2::XML_ERROR_EMPTY_DOCUMENT)
+  if (document.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT)
     fail("{}:{}: expected an XML element, got nothing", file, line);
-  if (const auto fault = find_xml_fault(text))
-    fail("{}:{}: {}", file, fault->line, fault->sentence);
-  if (error == tinyxml2::XML_ERROR_PARSING_ELEMENT)
-    fail("{}:{}: expected an XML element, got something else", file, line);
-  fail("{}:{}: expected well-formed XML, got {}", file, line, broken_part(error));
+  fail("{}:{}: expected well-formed XML, got {}", file, line, broken_part(document));
 }
 
 bool contains(const std::vector<std::string>& list, std::string_view name) {
@@ -266,7 +277,7 @@ XmlFile::XmlFile(std::string file, const std::string& text, size_t max_bytes)
   }
   whole.append(text, from);
   document_->Parse(whole.data(), whole.size());
-  if (document_->Error()) fail_parse(file_, text, *document_);
+  if (document_->Error()) fail_parse(file_, *document_);
   const auto* root = document_->RootElement();
   if (!root) fail("{}: expected an XML element, got none", file_);
   if (const auto* second = root->NextSiblingElement())
