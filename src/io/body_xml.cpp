@@ -4,9 +4,9 @@
 #include <array>
 
 #include "base/units.h"
-#include "io/inertia.h"
 #include "io/repairs.h"
 #include "io/transform_xml.h"
+#include "spec/inertia.h"
 #include "spec/material_names.h"
 
 namespace clench {

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
-#include "io/triangulate.h"
+#include "geometry/triangulate.h"
 
 namespace clench {
 

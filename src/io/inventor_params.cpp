@@ -4,8 +4,8 @@
 
 #include "base/text.h"
 #include "base/units.h"
-#include "io/inertia.h"
 #include "io/repairs.h"
+#include "spec/inertia.h"
 #include "spec/material_names.h"
 
 namespace clench {

@@ -6,11 +6,11 @@
 #include "io/inventor.h"
 #include "io/inventor_params.h"
 #include "io/mesh_files.h"
-#include "io/plausibility.h"
 #include "io/repair_names.h"
 #include "io/robot_cfg.h"
 #include "io/robot_xml.h"
 #include "io/tree_files.h"
+#include "spec/plausibility.h"
 
 namespace clench {
 

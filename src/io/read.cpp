@@ -7,11 +7,11 @@
 
 #include "base/text.h"
 #include "io/library.h"
-#include "io/plausibility.h"
 #include "io/robot_files.h"
 #include "io/tree_files.h"
 #include "io/world_wld.h"
 #include "io/world_xml.h"
+#include "spec/plausibility.h"
 
 namespace clench {
 

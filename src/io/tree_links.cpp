@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "io/plausibility.h"
+#include "spec/plausibility.h"
 
 namespace clench {
 

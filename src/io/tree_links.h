@@ -1,9 +1,9 @@
 // What the readers of URDF and MJCF share about links: mass properties, and which geometry collides.
 #pragma once
-#include "io/inertia.h"
 #include "io/library.h"
 #include "io/tree_geometry.h"
 #include "io/tree_model.h"
+#include "spec/inertia.h"
 
 namespace clench {
 

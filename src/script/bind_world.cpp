@@ -2,7 +2,6 @@
 #include <array>
 
 #include "base/suggest.h"
-#include "io/plausibility.h"
 #include "model/build.h"
 #include "script/bind_contact.h"
 #include "script/camera.h"
@@ -13,6 +12,7 @@
 #include "script/read_spec.h"
 #include "script/table.h"
 #include "script/world_files.h"
+#include "spec/plausibility.h"
 
 namespace clench {
 

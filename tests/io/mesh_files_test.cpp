@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/random.h"
+#include "geometry/triangulate.h"
+#include "io/geometry_builder.h"
 #include "mesh_writers.h"
 #include "support/meshes.h"
 #include "support/shared.h"
@@ -296,4 +299,14 @@ TEST_CASE("scanned objects load with every triangle that their files hold") {
     CHECK(geometry.report.triangles_read == 16384);
     CHECK(geometry.report.unit == 1);
   }
+}
+
+TEST_CASE("faces that take long to cut have an end, however many there are") {
+  Random random(5);
+  GeometryBuilder builder;
+  std::vector<int> face;
+  for (int i = 0; i < max_concave_corners; ++i)
+    face.push_back(builder.add_vertex({random.normal(), random.normal(), 0}));
+  CHECK_THROWS_WITH_AS(for (int i = 0; i < 10'000; ++i) builder.add_face(face, {1, 1, 1}, 0),
+                       "expected fewer faces of many corners that are not convex", Error);
 }

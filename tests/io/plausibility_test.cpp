@@ -1,4 +1,4 @@
-#include "io/plausibility.h"
+#include "spec/plausibility.h"
 
 #include <fmt/format.h>
 

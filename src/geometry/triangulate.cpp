@@ -1,4 +1,4 @@
-#include "io/triangulate.h"
+#include "geometry/triangulate.h"
 
 #include <Eigen/Geometry>
 #include <numeric>
@@ -9,7 +9,7 @@ namespace clench {
 
 namespace {
 
-using Corners = std::vector<Eigen::Vector2d>;
+using FlatCorners = std::vector<Eigen::Vector2d>;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -17,7 +17,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 /// The polygon seen along its normal, counter-clockwise.   source  Newell (1974), normal of a
 /// polygon
-Corners flatten(const std::vector<Eigen::Vector3d>& corners) {
+FlatCorners flatten(const std::vector<Eigen::Vector3d>& corners) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   const Eigen::Vector3d& origin = corners.front();
   for (size_t i = 0; i < corners.size(); ++i)
@@ -25,13 +25,13 @@ Corners flatten(const std::vector<Eigen::Vector3d>& corners) {
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  Corners flat;
+  FlatCorners flat;
   for (const auto& p : corners) flat.emplace_back(p[u], normal[axis] < 0 ? -p[v] : p[v]);
   return flat;
 }
 
 /// No corner bends back, and the outline goes round once.
-bool is_convex(const Corners& p) {
+bool is_convex(const FlatCorners& p) {
   const size_t n = p.size();
   int turns_back = 0;
   for (size_t i = 0; i < n; ++i) {
@@ -48,7 +48,7 @@ bool inside(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vec
 }
 
 /// Is the corner convex, with no other corner in its triangle?
-bool is_ear(const Corners& p, const std::vector<int>& rest, size_t i) {
+bool is_ear(const FlatCorners& p, const std::vector<int>& rest, size_t i) {
   const size_t n = rest.size();
   const auto &a = p[rest[(i + n - 1) % n]], &b = p[rest[i]], &c = p[rest[(i + 1) % n]];
   if (!(cross(b - a, c - b) > 0)) return false;
@@ -67,7 +67,7 @@ std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, b
   const int n = static_cast<int>(corners.size());
   if (n < 3) return out;
   if (n == 3) return {{0, 1, 2}};
-  const Corners flat = convex ? Corners() : flatten(corners);
+  const FlatCorners flat = convex ? FlatCorners() : flatten(corners);
   if (convex || is_convex(flat)) {
     for (int i = 1; i + 1 < n; ++i) out.push_back({0, i, i + 1});
     return out;

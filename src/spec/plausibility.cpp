@@ -1,4 +1,4 @@
-#include "io/plausibility.h"
+#include "spec/plausibility.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,11 +1,10 @@
-#include "io/triangulate.h"
+#include "geometry/triangulate.h"
 
 #include <Eigen/Geometry>
 #include <numbers>
 
 #include "base/error.h"
 #include "base/random.h"
-#include "io/geometry_builder.h"
 
 using namespace clench;
 using Points = std::vector<Eigen::Vector3d>;
@@ -79,16 +78,6 @@ TEST_CASE("anything else gives n - 2 triangles and an end") {
     for (int i = 0; i < 12; ++i) p.push_back({random.normal(), random.normal(), random.normal()});
     CHECK(triangulate(p).size() == 10);
   }
-}
-
-TEST_CASE("faces that take long to cut have an end, however many there are") {
-  Random random(5);
-  GeometryBuilder builder;
-  std::vector<int> face;
-  for (int i = 0; i < max_concave_corners; ++i)
-    face.push_back(builder.add_vertex({random.normal(), random.normal(), 0}));
-  CHECK_THROWS_WITH_AS(for (int i = 0; i < 10'000; ++i) builder.add_face(face, {1, 1, 1}, 0),
-                       "expected fewer faces of many corners that are not convex", Error);
 }
 
 TEST_CASE("a crooked face of very many corners is refused") {
