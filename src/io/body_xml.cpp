@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/units.h"
+#include "io/read_geometry.h"
 #include "io/repairs.h"
 #include "io/transform_xml.h"
 #include "spec/inertia.h"

@@ -1,5 +1,6 @@
 // Bodies from the XML files of GraspIt! 2.1 and later.
 #pragma once
+#include "io/file_kind.h"
 #include "io/library.h"
 #include "io/xml.h"
 

@@ -1,6 +1,7 @@
 // How a hand closes and approaches where the options of the call say so, whatever its file says.
 #pragma once
-#include "io/read.h"
+#include "io/find_file.h"
+#include "spec/robot_spec.h"
 
 namespace clench {
 

@@ -8,6 +8,7 @@
 
 #include "io/geometry_builder.h"
 #include "io/xml.h"
+#include "spec/body_spec.h"
 
 namespace clench {
 

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "io/eigengrasps.h"
+#include "io/read.h"
 #include "io/virtual_contacts.h"
 #include "io/write_body.h"
 #include "io/write_robot.h"

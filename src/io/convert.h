@@ -1,7 +1,7 @@
 // A file read and written as another format.
 #pragma once
 #include "io/file_kind.h"
-#include "io/read.h"
+#include "io/find_file.h"
 #include "io/write_world.h"
 
 namespace clench {

@@ -1,10 +1,11 @@
+#include "io/find_file.h"
+
 #include <algorithm>
 
 #include "base/file.h"
 #include "base/suggest.h"
 #include "base/text.h"
 #include "io/confine.h"
-#include "io/read.h"
 
 namespace clench {
 
@@ -67,13 +68,6 @@ static std::vector<fs::path> places_of(const fs::path& name, const fs::path& ref
   return places;
 }
 
-ReadOptions ReadOptions::beside_only() const {
-  ReadOptions out = *this;
-  out.root.clear();
-  out.folder.clear();
-  return out;
-}
-
 bool is_readable(const fs::path& file, const ReadOptions& options) {
   std::error_code code;
   return lies_within(file, options.confine) && fs::is_regular_file(file, code);
@@ -112,6 +106,10 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
     if (fs::status(place, code).type() == fs::file_type::none)
       fail("{}: the file cannot be read: {}", shown, system_reason(code.value()));
   fail("no such file: {}{}", shown, suggestion(places, options));
+}
+
+std::string absolute_name(const fs::path& path) {
+  return fs::absolute(path).lexically_normal().generic_string();
 }
 
 }  // namespace clench

@@ -1,6 +1,6 @@
 // Where the body or robot that a file names is, also when the files around it are of another generation.
 #pragma once
-#include "io/read.h"
+#include "io/find_file.h"
 
 namespace clench {
 

@@ -4,7 +4,9 @@
 #include <map>
 #include <span>
 
-#include "io/read.h"
+#include "geometry/mesh.h"
+#include "io/find_file.h"
+#include "spec/body_spec.h"
 
 namespace clench {
 

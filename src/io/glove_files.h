@@ -2,7 +2,8 @@
 #pragma once
 #include <filesystem>
 
-#include "io/read.h"
+#include "io/find_file.h"
+#include "spec/glove_spec.h"
 
 namespace clench {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <filesystem>
 
-#include "io/read.h"
+#include "io/find_file.h"
 
 namespace clench {
 

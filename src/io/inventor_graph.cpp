@@ -3,6 +3,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "io/find_file.h"
 #include "io/inventor_parser.h"
 
 namespace clench {
@@ -11,7 +12,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr size_t max_inventor_warnings = 1000;
 constexpr size_t max_nested_files = 32;  // files that include files
 
 /// Files to nodes, each read once.
@@ -84,40 +84,7 @@ const InventorNode* InventorLoader::load_part(const fs::path& path, const std::s
   }
 }
 
-template <class T>
-const std::vector<T>& value_of(const InventorNode& node, std::string_view name) {
-  for (const auto& [field, value] : node.values)
-    if (field->name == name) return std::get<std::vector<T>>(value);
-  return std::get<std::vector<T>>(node.type->field(name)->absent);
-}
-
 }  // namespace
-
-const std::vector<float>& InventorNode::numbers(std::string_view field) const {
-  return value_of<float>(*this, field);
-}
-const std::vector<int32_t>& InventorNode::integers(std::string_view field) const {
-  return value_of<int32_t>(*this, field);
-}
-const std::vector<std::string>& InventorNode::words(std::string_view field) const {
-  return value_of<std::string>(*this, field);
-}
-const InventorNode* InventorNode::node(std::string_view field) const {
-  const auto& nodes = value_of<const InventorNode*>(*this, field);
-  return nodes.empty() ? nullptr : nodes[0];
-}
-
-std::string InventorGraph::place(const InventorNode& node) const {
-  const std::string within = fmt::format("{}:{}", files[node.file], node.line);
-  return node.file == 0 ? within : files[0] + ": " + within;
-}
-
-void InventorWarnings::add(const std::string& file, const std::string& sentence) {
-  if (list_.size() > max_inventor_warnings || !told_.insert(sentence).second) return;
-  list_.push_back(list_.size() < max_inventor_warnings
-                      ? sentence
-                      : fmt::format("{}: further warnings are left out", file));
-}
 
 InventorGraph read_inventor_graph(const fs::path& path, const std::string& text,
                                   const ReadOptions& options) {

@@ -1,7 +1,8 @@
 // The '#key' lines of Inventor and VRML files, by which a geometry file says what its body is made
 // of.
 #pragma once
-#include "io/read.h"
+#include "io/find_file.h"
+#include "spec/body_spec.h"
 
 namespace clench {
 

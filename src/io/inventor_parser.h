@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "io/inventor_graph.h"
+#include "io/inventor_nodes.h"
 #include "io/inventor_tokens.h"
 
 namespace clench {

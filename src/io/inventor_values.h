@@ -1,6 +1,6 @@
 // Values of Inventor nodes that say what cannot be meant.
 #pragma once
-#include "io/inventor_graph.h"
+#include "io/inventor_nodes.h"
 
 namespace clench {
 

@@ -2,17 +2,25 @@
 #pragma once
 #include <map>
 
-#include "io/file_kind.h"
-#include "io/find_model.h"
-#include "io/geometry_builder.h"
+#include "io/read_options.h"
+#include "spec/robot_spec.h"
 
 namespace clench {
+
+class Library;
+
+/// How a file that was found becomes a spec. What else it names is asked of the library.
+struct Loaders {
+  BodySpec (*body)(const std::filesystem::path& path, Library& library);
+  RobotSpec (*robot)(const std::filesystem::path& path, Library& library);
+};
 
 /// Bodies and robots by the file they stand in. Lives as long as one call of read_robot or
 /// read_world.
 class Library {
  public:
-  explicit Library(const ReadOptions& options) : options_(options) {}
+  Library(const ReadOptions& options, const Loaders& loaders)
+      : options_(options), loaders_(loaders) {}
 
   const ReadOptions& options() const { return options_; }
   void warn(const std::string& sentence) const {
@@ -41,18 +49,9 @@ class Library {
                                   const std::string& place) const;
 
   const ReadOptions& options_;
+  const Loaders& loaders_;
   std::map<std::filesystem::path, BodySpec> bodies_;
   std::map<std::filesystem::path, RobotSpec> robots_;
 };
-
-/// Triangles of a file that holds nothing else, in a format, none: the one of its ending. `text` is
-/// what an Inventor or VRML file holds, read when it is null.
-/// throws Error when the ending is none of a geometry file, and no format is given
-Geometry read_geometry(const std::filesystem::path& path, const ReadOptions& options,
-                       GeometryFormat format = GeometryFormat::none,
-                       const std::string* text = nullptr);
-
-/// The path from the root of the file system, as specs keep it.
-std::string absolute_name(const std::filesystem::path& path);
 
 }  // namespace clench

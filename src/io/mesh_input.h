@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "io/file_kind.h"
-#include "io/read.h"
+#include "io/find_file.h"
 
 namespace clench {
 

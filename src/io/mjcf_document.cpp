@@ -5,6 +5,7 @@
 
 #include "base/suggest.h"
 #include "base/units.h"
+#include "io/find_file.h"
 #include "math/decompositions.h"
 
 namespace clench {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/text.h"
-#include "io/library.h"
+#include "io/load.h"
 #include "io/robot_files.h"
 #include "io/tree_files.h"
 #include "io/world_wld.h"
@@ -24,22 +24,16 @@ static void check_options(const ReadOptions& options) {
   check("silent_mesh_unit", options.silent_mesh_unit);
 }
 
-ReadOptions strict(ReadOptions options) {
-  options.warn = options.repair =
-      options.suspect = [](const std::string& sentence) { throw Error(sentence); };
-  return options;
-}
-
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
-  BodySpec body = Library(options).body(find_file(path.string(), "", options));
+  BodySpec body = Library(options, all_formats).body(find_file(path.string(), "", options));
   body.source = path.generic_string();
   return body;
 }
 
 RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
-  RobotSpec robot = Library(options).robot(find_file(path.string(), "", options));
+  RobotSpec robot = Library(options, all_formats).robot(find_file(path.string(), "", options));
   robot.source = path.generic_string();
   read_chosen_files(robot, options);
   return robot;
@@ -47,7 +41,7 @@ RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& optio
 
 WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
-  Library library(options);
+  Library library(options, all_formats);
   const auto found = find_file(path.string(), "", options);
   const std::string extension = lower_case(found.extension().string());
   WorldSpec world;

@@ -1,6 +1,7 @@
 // Names that files give: what a name may not have is replaced, and told.
 #pragma once
-#include "io/read.h"
+#include "io/find_file.h"
+#include "spec/robot_spec.h"
 
 namespace clench {
 

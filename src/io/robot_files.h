@@ -2,7 +2,8 @@
 #pragma once
 #include <filesystem>
 
-#include "io/read.h"
+#include "io/find_file.h"
+#include "spec/robot_spec.h"
 
 namespace clench {
 

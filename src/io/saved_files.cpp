@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "io/confine.h"
+#include "io/load.h"
 #include "io/world_parts.h"
 #include "io/write_mesh.h"
 #include "io/xml.h"
@@ -29,7 +30,7 @@ SavedFiles::SavedFiles(const fs::path& path, const WriteOptions& options)
       folder_(path_.parent_path()),
       root_(absolute_folder(options.root)),
       reading_{.root = root_, .confine = options.confine},
-      library_(reading_),
+      library_(reading_, all_formats),
       warn_(options.warn) {}
 
 // --- names ---
@@ -103,7 +104,7 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
       ReadOptions options = reading_;
       options.folder = robot.files.folder;
       options.packages.insert(robot.files.packages.begin(), robot.files.packages.end());
-      read = &(given_[robot.name] = Library(options).robot(robot.file));
+      read = &(given_[robot.name] = Library(options, all_formats).robot(robot.file));
     }
   } catch (const Error& error) {
     fail("robot '{}' cannot be saved: {}", excerpt(robot.name), error.what());

@@ -6,7 +6,7 @@
 
 #include "base/file.h"
 #include "io/library.h"
-#include "io/write_world.h"
+#include "io/write_options.h"
 
 namespace clench {
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/library.h"
+#include "io/read_geometry.h"
 
 namespace clench {
 

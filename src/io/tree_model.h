@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/read.h"
+#include "io/find_file.h"
 #include "spec/robot_spec.h"
 
 namespace clench {

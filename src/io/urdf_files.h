@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "io/read.h"
+#include "io/find_file.h"
 
 namespace clench {
 

@@ -5,7 +5,8 @@
 
 #include "base/listeners.h"
 #include "base/text.h"
-#include "io/read.h"
+#include "io/find_file.h"
+#include "spec/world_spec.h"
 
 namespace clench {
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "io/library.h"
+#include "spec/world_spec.h"
 
 namespace clench {
 

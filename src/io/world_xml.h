@@ -1,6 +1,7 @@
 // Worlds from the XML files of GraspIt! 2.1 and later.
 #pragma once
 #include "io/library.h"
+#include "spec/world_spec.h"
 
 namespace clench {
 

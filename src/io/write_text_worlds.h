@@ -3,6 +3,7 @@
 #include <string>
 
 #include "io/saved_files.h"
+#include "spec/world_spec.h"
 
 namespace clench {
 

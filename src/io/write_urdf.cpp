@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/text.h"
+#include "io/find_file.h"
 #include "io/read.h"
 #include "io/urdf_losses.h"
 #include "io/urdf_plan.h"

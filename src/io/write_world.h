@@ -1,24 +1,9 @@
 // Worlds to files: the other side of read_world.
 #pragma once
-#include <filesystem>
-#include <functional>
-
+#include "io/write_options.h"
 #include "spec/world_spec.h"
 
 namespace clench {
-
-struct WriteOptions {
-  /// names of files below it are written from there on; others from the file's own folder on where
-  /// they lie below that, else absolute
-  std::filesystem::path root = {};
-  /// files that are read again are those below this folder, as in ReadOptions
-  std::filesystem::path confine = {};
-  /// told of what is not as the file would have it
-  std::function<void(const std::string&)> warn = {};
-  /// sees the whole file under another name in its folder, before it takes the place of an older
-  /// one; what it throws keeps that one
-  std::function<void(const std::filesystem::path&)> check = {};
-};
 
 /// By the ending: .wld and .xml as GraspIt! has them, .lua a script that makes the world. Numbers are
 /// written so that reading gives them back to the bit where the format's unit allows it. Bodies

@@ -1,0 +1,22 @@
+// What a call that writes files is told.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace clench {
+
+struct WriteOptions {
+  /// names of files below it are written from there on; others from the file's own folder on where
+  /// they lie below that, else absolute
+  std::filesystem::path root = {};
+  /// files that are read again are those below this folder, as in ReadOptions
+  std::filesystem::path confine = {};
+  /// told of what is not as the file would have it
+  std::function<void(const std::string&)> warn = {};
+  /// sees the whole file under another name in its folder, before it takes the place of an older
+  /// one; what it throws keeps that one
+  std::function<void(const std::filesystem::path&)> check = {};
+};
+
+}  // namespace clench
