@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "math/decompositions.h"
+#include "math/solve_cone_program.h"
 
 namespace clench {
 

@@ -1,6 +1,6 @@
 // The cone program whose solution contact forces are.
 #pragma once
-#include "grasp/contact_forces.h"
+#include "grasp/force_options.h"
 #include "math/cone_builder.h"
 
 namespace clench {

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "math/cone_program.h"
+#include "math/solve_cone_program.h"
 #include "math/decompositions.h"
 #include "spec/valid.h"
 

@@ -1,6 +1,6 @@
 // The springs of compliant DOFs come to rest.
 #pragma once
-#include "motion/drive.h"
+#include "motion/drive_result.h"
 #include "motion/drive_state.h"
 
 namespace clench {

@@ -61,7 +61,7 @@ Batch append(Piece& piece, DrawList& list) {
   batch.count = static_cast<int>(fine.size());
   // corners as they are remain corners when they are split
   corners.insert(corners.end(), fine.begin(), fine.end());
-  append_shared(corners, list);
+  append_shared(corners, list.corners, list.indices);
   return batch;
 }
 

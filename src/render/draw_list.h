@@ -1,22 +1,13 @@
 // A scene as triangle corners ready for the graphics card, in the scene's own units: moved to its
 // centre and divided by its radius, so that a millimetre and a kilometre make the same picture.
 #pragma once
-#include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "render/corner.h"
 #include "scene/scene.h"
 
 namespace clench {
-
-/// One corner of triangles as the shaders read it.
-struct Corner {
-  Eigen::Vector3f p;  ///< scene units
-  Eigen::Vector3f n;  ///< unit, to the side from which the triangle runs counter-clockwise
-  std::array<uint8_t, 4> color;  ///< red green blue as on a screen, opacity
-};
-static_assert(sizeof(Corner) == 28);
 
 /// A run of indices that belong together, and the same surface in fewer triangles, which throw its
 /// shadow.

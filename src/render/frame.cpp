@@ -7,7 +7,6 @@
 
 #include "base/convert.h"
 #include "base/error.h"
-#include "render/render.h"
 
 namespace clench {
 namespace {
@@ -178,12 +177,6 @@ Eye frame(const DrawList& list, double aspect) {
     if (value > most) best = eye, most = value;
   }
   return best;
-}
-
-Eye frame_all(const Scene& scene, double aspect) {
-  if (!(aspect > 0 && std::isfinite(aspect))) fail("picture: aspect must be > 0, got {}", aspect);
-  const DrawList list = make_draw_list(scene);
-  return list.to_world(frame(list, aspect));
 }
 
 }  // namespace clench

@@ -2,7 +2,7 @@
 #pragma once
 #include "render/draw_list.h"
 #include "render/picture.h"
-#include "render/render.h"
+#include "render/render_options.h"
 
 namespace clench {
 

@@ -62,7 +62,8 @@ std::vector<Corner> split_long_edges(const std::vector<Corner>& corners, float l
   return out;
 }
 
-void append_shared(const std::vector<Corner>& corners, DrawList& list) {
+void append_shared(const std::vector<Corner>& corners, std::vector<Corner>& shared,
+                   std::vector<uint32_t>& indices) {
   std::vector<uint32_t> order(corners.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = static_cast<uint32_t>(i);
   const auto compare = [&](uint32_t a, uint32_t b) {
@@ -79,10 +80,10 @@ void append_shared(const std::vector<Corner>& corners, DrawList& list) {
         i > 0 && compare(order[i - 1], order[i]) == 0 ? first[order[i - 1]] : order[i];
   for (uint32_t i = 0; i < corners.size(); ++i) {
     if (first[i] == i) {
-      place[i] = static_cast<uint32_t>(list.corners.size());
-      list.corners.push_back(corners[i]);
+      place[i] = static_cast<uint32_t>(shared.size());
+      shared.push_back(corners[i]);
     }
-    list.indices.push_back(place[first[i]]);
+    indices.push_back(place[first[i]]);
   }
 }
 

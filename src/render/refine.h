@@ -1,6 +1,8 @@
 // Triangle corners made fine enough to carry light and to be sorted, and shared again.
 #pragma once
-#include "render/draw_list.h"
+#include <vector>
+
+#include "render/corner.h"
 
 namespace clench {
 
@@ -11,7 +13,8 @@ namespace clench {
 std::vector<Corner> split_long_edges(const std::vector<Corner>& corners, float longest,
                                      size_t most);
 
-/// Appends corners, three a triangle, each distinct one once, and their indices.
-void append_shared(const std::vector<Corner>& corners, DrawList& list);
+/// Appends corners, three a triangle, each distinct one once, and their indices among those.
+void append_shared(const std::vector<Corner>& corners, std::vector<Corner>& shared,
+                   std::vector<uint32_t>& indices);
 
 }  // namespace clench

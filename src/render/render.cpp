@@ -1,5 +1,7 @@
 #include "render/render.h"
 
+#include <cmath>
+
 #include "base/error.h"
 #include "render/canvas.h"
 #include "render/frame.h"
@@ -34,6 +36,12 @@ Picture render(const Scene& scene, const RenderOptions& options, const Font& fon
   for (const PlacedText& text : place_texts(scene, list.to_world(eye), size, font))
     canvas.bright_text({text.text, {text.box.low.x(), text.box.high.y()}, text.height}, text.color);
   return picture;
+}
+
+Eye frame_all(const Scene& scene, double aspect) {
+  if (!(aspect > 0 && std::isfinite(aspect))) fail("picture: aspect must be > 0, got {}", aspect);
+  const DrawList list = make_draw_list(scene);
+  return list.to_world(frame(list, aspect));
 }
 
 }  // namespace clench

@@ -3,14 +3,10 @@
 #pragma once
 #include "render/lettering.h"
 #include "render/picture.h"
+#include "render/render_options.h"
 #include "scene/scene.h"
 
 namespace clench {
-
-struct RenderOptions {
-  int width = 1280, height = 960;  ///< pixels, 16..8192
-  int samples = 8;  ///< a pixel: smoothness of edges and shadows against time, 1..256
-};
 
 /// throws  Error that says what to install when there is no EGL or no OpenGL 3.3, on a size out of
 ///         range, and on a number of the scene out of range, naming the mesh or cone

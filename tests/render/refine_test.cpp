@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/random.h"
+#include "render/draw_list.h"
 #include "support/shapes.h"
 
 using namespace clench;
@@ -55,7 +56,7 @@ TEST_CASE("a mesh that would become too many triangles keeps longer edges") {
 TEST_CASE("equal corners are shared, in the order in which they first come") {
   DrawList list;
   const auto corners = corners_of(box(1, 1, 1));
-  append_shared(corners, list);
+  append_shared(corners, list.corners, list.indices);
   CHECK(list.corners.size() == 8);
   REQUIRE(list.indices.size() == 36);
   uint32_t next = 0;
@@ -65,7 +66,7 @@ TEST_CASE("equal corners are shared, in the order in which they first come") {
     next = std::max(next, list.indices[i] + 1);
   }
   // a second piece does not mix with the first
-  append_shared(corners, list);
+  append_shared(corners, list.corners, list.indices);
   CHECK(list.corners.size() == 16);
   CHECK(list.indices[36] == 8);
 }

@@ -1,4 +1,4 @@
-#include "math/cone_program.h"
+#include "math/solve_cone_program.h"
 
 #include <coin/ClpSimplex.hpp>
 
