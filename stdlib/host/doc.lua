@@ -144,11 +144,13 @@ local function class_page(class)
 end
 
 -- each block of `---` lines before a function that a module offers, its `return function(...)` or its `function module.name(...)`,
--- as an entry's doc
+-- as an entry's doc; those of folder/unit.lua are the folder's
 local function packed_functions_of(file)
-  local comment, found = {}, {}
+  local comment, found, number = {}, {}, 0
   local module = file.path:gsub("%.lua$", ""):gsub("/", ".")
+  local folder, unit = module:match "^(.*%.)([^.]+)$"
   for line in (file.text .. "\n"):gmatch "(.-)\n" do
+    number = number + 1
     local said = line:match "^%-%-%-%s?(.*)$"
     if said and not said:find "^[@>]" and #comment > 0 and comment[#comment]:sub(1, 1) == "@" then
       -- a tag goes on: with its type while a brace is open, else with prose
@@ -160,10 +162,11 @@ local function packed_functions_of(file)
     elseif said then
       comment[#comment + 1] = said
     else
-      local name = line:match("^function " .. module .. "%.(%w+)%(")
+      local name = line:match("^function " .. (unit or module) .. "%.(%w+)%(")
       local offers = name or line:match "^return function%("
       if offers and #comment > 0 then
-        found[#found + 1] = {name = name and module .. "." .. name or module, doc = table.concat(comment, "\n")}
+        local full = name and (folder or module .. ".") .. name or module
+        found[#found + 1] = {name = full, line = number, doc = table.concat(comment, "\n")}
       end
       comment = {}
     end
@@ -180,7 +183,10 @@ function doc.packed_functions(files)
     for _, entry in ipairs(file.path:find "^host/" and {} or packed_functions_of(file)) do
       local module, name = entry.name:match "^(%w+)%.(%w+)$"
       local ok, offered = pcall(function() return clench[module][name] end)
-      if ok and offered then list[#list + 1] = entry end
+      -- another unit of the folder may have a function of that name, which it does not offer
+      if ok and type(offered) == "function" and debug.getinfo(offered, "S").linedefined == entry.line then
+        list[#list + 1] = entry
+      end
     end
   end
   return list

@@ -6,6 +6,7 @@ local vector = require "clench.shapes.vector"
 local measure = {}
 
 --- Least and largest coordinates.
+---@param shape table  {vertices = ..., triangles = ...}
 ---@return number[] low, number[] high  [m]
 function measure.bounds(shape)
   mesh.check(shape, "shapes.bounds")
@@ -17,10 +18,12 @@ function measure.bounds(shape)
 end
 
 --- Volume enclosed, > 0 when the triangles face outward; overlaps of a union's parts count twice.
+---@param shape table  {vertices = ..., triangles = ...}
 ---@return number volume  [m^3]
 function measure.volume(shape) return mesh.volume6(mesh.check(shape, "shapes.volume")) / 6 end
 
 --- Area of the surface.
+---@param shape table  {vertices = ..., triangles = ...}
 ---@return number area  [m^2]
 function measure.area(shape)
   local sum = 0
@@ -32,6 +35,7 @@ function measure.area(shape)
 end
 
 --- Is every edge run exactly once each way, so that the surface bounds a solid?
+---@param shape table  {vertices = ..., triangles = ...}
 ---@return boolean closed, string? why  what is wrong, when it is not
 function measure.closed(shape)
   mesh.check(shape, "shapes.closed")
@@ -55,7 +59,8 @@ function measure.closed(shape)
 end
 
 --- Integrals over the solid, for uniform density; overlaps of a union's parts count twice.
---- source  Eberly (2002), polyhedral mass properties: moments of the tetrahedra from a point to each triangle
+--- Source: Eberly (2002), polyhedral mass properties: moments of the tetrahedra from a point to each triangle
+---@param shape table  {vertices = ..., triangles = ...}
 ---@return {volume: number, centroid: number[], inertia: number[][]} mass  [m^3, m]; inertia about the centroid for
 ---  unit mass [m^2]
 function measure.mass(shape)
