@@ -338,9 +338,9 @@ function robot:move_to(pose) end
 ---@return table result # `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 function robot:approach_object(options) end
 
----Fixes the robot to the last link of another one's chain. It follows from now on.
+---Fixes the robot to a link of another one: that of a name, or the last of a chain. It follows from now on.
 ---@param parent robot
----@param options? {chain?: integer, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean} # chain 1 by default; pose of the base in the link; file of an adapter
+---@param options? {chain?: integer, link?: string, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean} # chain 1 by default; pose of the base in the link; file of an adapter
 function robot:mount_on(parent, options) end
 
 ---A few postures whose sums are a hand's: each posture is an origin and an amplitude for each eigengrasp.

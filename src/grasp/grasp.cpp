@@ -26,9 +26,8 @@ static void add_torsion(Grasp& grasp, const GraspOptions& options) {
 static GraspPosture posture_of(const World& world, Id<Robot> hand, Id<Body> object) {
   const Robot& robot = world.robot(hand);
   GraspPosture out{world.body(robot.base).X_WB.inverse() * world.body(object).X_WB, {}};
-  for (int c = 0; c < static_cast<int>(robot.chains.size()); ++c)
-    for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j)
-      out.joints.push_back(joint_value(robot, c, j));
+  for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j)
+    out.joints.push_back(joint_value(robot, j));
   return out;
 }
 

@@ -24,7 +24,7 @@ struct GraspOptions {
 /// How a hand stands about an object.
 struct GraspPosture {
   Pose X_BO;                   ///< the object in the hand's base
-  std::vector<double> joints;  ///< q of all, chain by chain [rad or m]
+  std::vector<double> joints;  ///< q of all [rad or m]
 };
 
 struct Grasp {

@@ -9,7 +9,7 @@ namespace {
 // a robot on the way from the ground to the hand, and the link of it that carries the next one; the hand: none
 struct Carrier {
   Id<Robot> robot;
-  int chain = -1, link = -1;
+  int link = -1;
 };
 
 std::vector<Carrier> carriers(const World& world, Id<Robot> hand, bool arms) {
@@ -17,24 +17,27 @@ std::vector<Carrier> carriers(const World& world, Id<Robot> hand, bool arms) {
   while (arms) {
     const auto& mounting = world.robot(out.back().robot).mounting;
     if (!mounting) break;
-    const auto& chains = world.robot(mounting->parent).chains;
-    const int last = static_cast<int>(chains[mounting->chain].links.size()) - 1;
-    out.push_back({mounting->parent, mounting->chain, last});
+    out.push_back({mounting->parent, mounting->link});
   }
   return out;
 }
 
-// the column of one joint: axis in the world
+// a joint's axis in the world
+struct Axis {
+  bool turns;
+  Eigen::Vector3d along, point;
+};
+
+// the column of one joint
 void fill_column(Eigen::Ref<Eigen::VectorXd> column, const Grasp& grasp, const GraspMap& map, int i,
-                 const Pose& X_WO, JointKind kind, const Pose& axis) {
-  const bool turns = kind == JointKind::revolute;
-  const Eigen::Vector3d z = axis.rotation * Eigen::Vector3d::UnitZ();
+                 const Pose& X_WO, const Axis& axis) {
+  const Eigen::Vector3d& z = axis.along;
   const Eigen::Vector3d p_W = X_WO * grasp.points[i].p_O;
-  const Eigen::Vector3d v = turns ? Eigen::Vector3d(z.cross(p_W - axis.position)) : z;
+  const Eigen::Vector3d v = axis.turns ? Eigen::Vector3d(z.cross(p_W - axis.point)) : z;
   const Eigen::Matrix3d frame = X_WO.matrix() * contact_frame(grasp.points[i].n_O);
   const int start = map.starts[i], count = map.starts[i + 1] - start;
   for (int k = 0; k < std::min(count, 3); ++k) column[start + k] = frame.col((k + 2) % 3).dot(v);
-  if (count == 4) column[start + 3] = turns ? frame.col(2).dot(z) : 0;
+  if (count == 4) column[start + 3] = axis.turns ? frame.col(2).dot(z) : 0;
 }
 
 }  // namespace
@@ -48,22 +51,19 @@ HandJacobian hand_jacobian(const World& world, const Grasp& grasp, const Jacobia
   for (const Carrier& carrier : carriers(world, grasp.hand, options.arms)) {
     const Robot& robot = world.robot(carrier.robot);
     const Pose& X_WB = world.body(robot.base).X_WB;
-    const auto frames = chain_frames(robot);
-    for (int c = 0; c < static_cast<int>(robot.chains.size()); ++c)
-      for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j) {
-        Eigen::VectorXd column = Eigen::VectorXd::Zero(map.forces());
-        for (int i = 0; i < map.contacts(); ++i) {
-          const Body& part = world.body(grasp.contacts[i].other);
-          const bool own = carrier.chain < 0;
-          const int chain = own ? part.chain : carrier.chain;
-          const int link = own ? part.link : carrier.link;
-          if (chain < 0 || !joint_moves_link(robot, c, j, chain, link)) continue;
-          fill_column(column, grasp, map, i, X_WO, robot.chains[c].joints[j].kind,
-                      X_WB * frames[c].axes[j]);
-        }
-        out.joints.push_back({carrier.robot, c, j});
-        columns.push_back(std::move(column));
+    const auto frames = robot_frames(robot);
+    for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
+      const Axis axis = {robot.joints[j].kind == JointKind::revolute,
+                         X_WB.rotation * frames.axis(robot, j), X_WB * frames.joints[j].position};
+      Eigen::VectorXd column = Eigen::VectorXd::Zero(map.forces());
+      for (int i = 0; i < map.contacts(); ++i) {
+        const bool own = carrier.robot == grasp.hand;
+        const int link = own ? world.body(grasp.contacts[i].other).link : carrier.link;
+        if (joint_moves_link(robot, j, link)) fill_column(column, grasp, map, i, X_WO, axis);
       }
+      out.joints.push_back({carrier.robot, j});
+      columns.push_back(std::move(column));
+    }
   }
   out.of_joints.resize(map.forces(), static_cast<int>(columns.size()));
   for (size_t k = 0; k < columns.size(); ++k) out.of_joints.col(static_cast<int>(k)) = columns[k];
@@ -76,8 +76,8 @@ Eigen::MatrixXd dof_jacobian(const World& world, const Grasp& grasp, const HandJ
       Eigen::MatrixXd::Zero(jacobian.of_joints.rows(), static_cast<int>(hand.dofs.size()));
   for (size_t k = 0; k < jacobian.joints.size(); ++k) {
     const JointRef& ref = jacobian.joints[k];
-    if (ref.robot != grasp.hand || hand.chains[ref.chain].apart[ref.joint]) continue;
-    const JointSpec& joint = hand.chains[ref.chain].joints[ref.joint];
+    if (ref.robot != grasp.hand || hand.apart[ref.joint]) continue;
+    const Joint& joint = hand.joints[ref.joint];
     out.col(joint.dof) += joint.ratio * jacobian.of_joints.col(static_cast<int>(k));
   }
   return out;

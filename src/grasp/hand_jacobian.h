@@ -8,7 +8,7 @@ namespace clench {
 /// A joint of the hand, or of a robot that carries it.
 struct JointRef {
   Id<Robot> robot;
-  int chain = 0, joint = 0;
+  int joint = 0;  ///< number in the robot
 };
 
 struct HandJacobian {
@@ -17,7 +17,7 @@ struct HandJacobian {
   /// each joint must give.
   Eigen::MatrixXd of_joints;
   std::vector<JointRef>
-      joints;  ///< those of the hand first, by chain; then, when asked for, of who carries it
+      joints;  ///< those of the hand first; then, when asked for, of who carries it
 };
 
 struct JacobianOptions {

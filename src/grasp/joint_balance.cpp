@@ -15,16 +15,14 @@ double limit_or_none(double effort) { return effort > 0 ? effort : no_limit; }
 
 template <class Visit>
 void each_joint_of(const Robot& robot, int dof, Visit visit) {
-  for (const Chain& chain : robot.chains)
-    for (const JointSpec& joint : chain.joints)
-      if (joint.dof == dof) visit(joint);
+  for (const Joint& joint : robot.joints)
+    if (joint.dof == dof) visit(joint);
 }
 
 // what a joint's spring gives as it stands
 double spring_of(const Robot& robot, const JointRef& ref) {
-  const JointSpec& joint = robot.chains[ref.chain].joints[ref.joint];
-  return joint.spring > 0 ? -joint.spring * (joint_value(robot, ref.chain, ref.joint) - joint.rest)
-                          : 0;
+  const Joint& joint = robot.joints[ref.joint];
+  return joint.spring > 0 ? -joint.spring * (joint_value(robot, ref.joint) - joint.rest) : 0;
 }
 
 // what the joints of a compliant DOF get of its effort: in free air the tendon holds their springs, and does the work
@@ -99,8 +97,7 @@ class BalanceRows {
 
 void BalanceRows::add(const JointRef& ref, const Eigen::VectorXd& forces, bool link_weights) {
   const Robot& robot = world_.robot(ref.robot);
-  const Chain& chain = robot.chains[ref.chain];
-  const JointSpec& joint = chain.joints[ref.joint];
+  const Joint& joint = robot.joints[ref.joint];
   const DofSpec& dof = robot.dofs[joint.dof];
   const int motor = motors_.at({ref.robot, joint.dof});
   Row row{forces, motor, joint.ratio, spring_of(robot, ref)};
@@ -108,7 +105,7 @@ void BalanceRows::add(const JointRef& ref, const Eigen::VectorXd& forces, bool l
   if (dof.kind == DofKind::compliant) {
     row.factor = TendonShares(robot, joint.dof).of(joint);
     row.slack = springs_at_rest * joint.spring;
-  } else if (chain.apart[ref.joint]) {
+  } else if (robot.apart[ref.joint]) {
     row.effort = add_effort({ref.robot, joint.dof, ref}, 0, limit_or_none(dof.breakaway_torque));
     row.factor = joint.ratio < 0 ? -1 : 1;
   } else {

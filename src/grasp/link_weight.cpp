@@ -7,16 +7,16 @@ namespace clench {
 double link_weight(const World& world, const JointRef& ref) {
   const Robot& robot = world.robot(ref.robot);
   const Pose X_WB = world.body(robot.base).X_WB;
-  const Pose axis = X_WB * chain_frames(robot)[ref.chain].axes[ref.joint];
-  const Eigen::Vector3d z = axis.rotation * Eigen::Vector3d::UnitZ();
-  const bool turns = robot.chains[ref.chain].joints[ref.joint].kind == JointKind::revolute;
+  const auto frames = robot_frames(robot);
+  const Eigen::Vector3d origin = X_WB * frames.joints[ref.joint].position;
+  const Eigen::Vector3d z = X_WB.rotation * frames.axis(robot, ref.joint);
+  const bool turns = robot.joints[ref.joint].kind == JointKind::revolute;
   double sum = 0;
   for (const Id<Body> id : world.bodies()) {
-    if (!world.body(id).robot || !joint_moves(world, ref.robot, {ref.chain, ref.joint}, id))
-      continue;
+    if (!world.body(id).robot || !joint_moves(world, ref.robot, ref.joint, id)) continue;
     const Body& body = world.body(id);
     const Eigen::Vector3d weight(0, 0, -standard_gravity * body.mass);
-    const Eigen::Vector3d arm = body.X_WB * body.com - axis.position;
+    const Eigen::Vector3d arm = body.X_WB * body.com - origin;
     sum += turns ? z.dot(arm.cross(weight)) : z.dot(weight);
   }
   return sum;

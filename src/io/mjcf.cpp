@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "io/mjcf_couplings.h"
 #include "io/mjcf_geoms.h"
-#include "io/tree_chains.h"
+#include "io/tree_robot.h"
 
 namespace clench {
 
@@ -471,7 +471,7 @@ RobotSpec MjcfReader::read() {
       if (geom.drawn) pieces_[i].visual.push_back(geom.piece);
     }
   dress_links(tree_, pieces_, geoms_.geometry(), document_.file(), library_);
-  RobotSpec robot = make_chains(std::move(tree_), document_.file(), library_);
+  RobotSpec robot = make_robot(std::move(tree_), document_.file(), library_);
   robot.source = document_.path().generic_string();
   document_.repairs().tell();
   inertial_faults_.tell(library_);

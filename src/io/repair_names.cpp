@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "spec/check_robot.h"
 
 namespace clench {
 
@@ -22,9 +23,9 @@ static void repair_robot_names(RobotSpec& robot, const std::string& place,
   for (std::string* name : {&robot.name, &robot.class_name, &robot.database_name, &robot.base.name})
     repair(*name);
   for (DofSpec& dof : robot.dofs) repair(dof.name);
-  for (ChainSpec& chain : robot.chains) {
-    for (JointSpec& joint : chain.joints) repair(joint.name);
-    for (LinkSpec& link : chain.links) repair(link.body.name);
+  for (LinkSpec& link : robot.links) {
+    for (JointSpec& joint : link.joints) repair(joint.name);
+    repair(link.body.name);
   }
   for (TendonSpec& tendon : robot.tendons) repair(tendon.name);
   for (TendonWrapper& wrapper : robot.wrappers) {

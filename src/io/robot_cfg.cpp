@@ -3,6 +3,7 @@
 #include "base/suggest.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "io/chain_links.h"
 #include "io/joint_expression.h"
 #include "io/repair_names.h"
 #include "io/repairs.h"
@@ -46,8 +47,8 @@ class CfgReader {
   int count(const char* what, int low);
   void read_dofs();
   void read_chain(int number);
-  void read_joint(ChainSpec& chain, int number);
-  void read_link(ChainSpec& chain, int number, const std::string& name);
+  void read_joint(ChainLinks& chain, int number);
+  void read_link(ChainLinks& chain, int number, const std::string& name);
   void read_optional_blocks();
   void read_tracker();
   void read_approach();
@@ -149,16 +150,18 @@ void CfgReader::read_dofs() {
 }
 
 void CfgReader::read_chain(int number) {
-  ChainSpec chain;
-  const int joints = count("number of joints", 0), links = count("number of links", 0);
-  chain.X_BC = read_transform_list(lines_, library_.options().listeners());
+  const int joints = count("number of joints", 0), links = count("number of links", 1);
+  const Line transform = lines_.peek();
+  ChainLinks chain(read_transform_list(lines_, library_.options().listeners()));
   for (int j = 0; j < joints; ++j) read_joint(chain, j);
   for (int l = 0; l < links; ++l)
     read_link(chain, l, fmt::format("{}_chain{}_link{}", robot_.name, number, l));
-  robot_.chains.push_back(std::move(chain));
+  if (chain.last_joint() + 1 < joints)
+    library_.warn(fmt::format("{}: chain {}: joints from {} on move no link, and are not used",
+                              transform.place(), number, chain.last_joint() + 1));
 }
 
-void CfgReader::read_joint(ChainSpec& chain, int number) {
+void CfgReader::read_joint(ChainLinks& chain, int number) {
   const Line line = expected(fmt::format("the line of joint {}", number));
   const auto value = [&](int i, const char* what) {
     const double x = line.number(i, fmt::format("joint {}: {}", number, what));
@@ -188,10 +191,11 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
 
   // degrees and millimetres to radians and metres
   const double unit = revolute ? units::degree : units::millimetre;
-  joint.theta = revolute ? expression->offset * units::degree : value(0, "theta") * units::degree;
-  joint.d = revolute ? value(1, "d") * units::millimetre : expression->offset * units::millimetre;
-  joint.a = value(2, "a") * units::millimetre;
-  joint.alpha = value(3, "alpha") * units::degree;
+  const DenavitHartenberg numbers = {
+      .theta = revolute ? expression->offset * units::degree : value(0, "theta") * units::degree,
+      .d = revolute ? value(1, "d") * units::millimetre : expression->offset * units::millimetre,
+      .a = value(2, "a") * units::millimetre,
+      .alpha = value(3, "alpha") * units::degree};
   double low = value(4, "min"), high = value(5, "max");
   repairs_.order(low, high, fmt::format("{}: joint {}", line.place(), number));
   joint.min = low * unit;
@@ -215,44 +219,33 @@ void CfgReader::read_joint(ChainSpec& chain, int number) {
   if (!kind) kind = joint.kind;
   joint.ratio = expression->ratio;
   if (*kind != joint.kind) joint.ratio *= revolute ? 1 / units::millimetre : units::millimetre;
-  chain.joints.push_back(joint);
+  try {
+    chain.add_joint(joint, numbers);
+  } catch (const Error& error) {
+    line.fail("{}", error.what());
+  }
 }
 
-void CfgReader::read_link(ChainSpec& chain, int number, const std::string& name) {
-  constexpr std::pair<std::string_view, LinkJoint> kinds[] = {{"Revolute", LinkJoint::revolute},
-                                                              {"Prismatic", LinkJoint::prismatic},
-                                                              {"Universal", LinkJoint::universal},
-                                                              {"Ball", LinkJoint::ball},
-                                                              {"Fixed", LinkJoint::fixed}};
+void CfgReader::read_link(ChainLinks& chain, int number, const std::string& name) {
   const Line kind_line = expected(fmt::format("the joint type of link {}", number));
-  LinkSpec link;
-  std::vector<std::string> names;
-  bool known = false;
-  for (const auto& [word, kind] : kinds) {
-    names.emplace_back(word);
-    if (lower_case(word) == lower_case(kind_line.word(0))) link.joint = kind, known = true;
-  }
-  if (!known)
-    kind_line.fail("link {}: expected Revolute, Prismatic, Universal, Ball or Fixed, got {}{}",
-                   number, in_quotes(kind_line.word(0)), did_you_mean(kind_line.word(0), names));
-
+  link_kind(kind_line.word(0),
+            [&](const std::string& wrong) { kind_line.fail("link {}: {}", number, wrong); });
   used_up(kind_line, 1);
   const Line line = expected(fmt::format("the file of link {}", number));
   used_up(line, 2);
-  const int before = chain.links.empty() ? -1 : chain.links.back().last_joint;
-  const int joints = static_cast<int>(chain.joints.size());
+  const int before = chain.last_joint(), joints = chain.joints();
+  int last = before + 1;
   if (line.size() > 1) {
-    link.last_joint = line.integer(1, fmt::format("link {}: last joint", number), -1, joints - 1);
+    // a link stands on the one before: what moves that, moves it, too
+    last = line.integer(1, fmt::format("link {}: last joint", number), before, joints - 1);
   } else {
-    link.last_joint = before + 1;
     library_.note(fmt::format("{}: link {}: its last joint is not given; joint {} moves it",
-                              line.place(), number, link.last_joint));
+                              line.place(), number, last));
   }
-  if (link.last_joint >= joints)
+  if (last >= joints)
     line.fail("link {}: expected a joint to move it, got {} joints for {} links", number, joints,
-              chain.links.size() + 1);
-  link.body = body(line, name);
-  chain.links.push_back(std::move(link));
+              number + 1);
+  chain.add_link(body(line, name), last, robot_);
 }
 
 void CfgReader::set_dof_units() {

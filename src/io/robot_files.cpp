@@ -4,6 +4,7 @@
 #include "io/eigengrasps.h"
 #include "io/glove_files.h"
 #include "io/virtual_contacts.h"
+#include "spec/check_robot.h"
 
 namespace clench {
 

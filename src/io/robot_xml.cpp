@@ -4,6 +4,7 @@
 
 #include "base/suggest.h"
 #include "base/units.h"
+#include "io/chain_links.h"
 #include "io/joint_expression.h"
 #include "io/repair_names.h"
 #include "io/repairs.h"
@@ -29,24 +30,30 @@ class XmlRobotReader {
   RobotSpec read();
 
  private:
+  struct PairOff {
+    XmlElement element;
+    ChainPlace a, b;
+  };
+
   const std::function<void(const std::string&)>& warn() const { return library_.options().warn; }
   void read_type();
   void read_dof(const XmlElement& element);
   void read_chain(const XmlElement& element);
-  void read_joint(const XmlElement& element, ChainSpec& chain);
-  void read_expression(const XmlElement& element, JointSpec& joint, const std::string& subject);
+  void read_joint(const XmlElement& element, ChainLinks& chain);
+  DenavitHartenberg read_expression(const XmlElement& element, JointSpec& joint,
+                                    const std::string& subject);
   void read_limits(const XmlElement& element, JointSpec& joint, const std::string& subject);
   void read_losses(const XmlElement& element, JointSpec& joint, const std::string& subject);
   double magnitude(const XmlElement& element, const std::string& subject);
   double number_or_zero(const XmlElement& parent, const char* name, const std::string& subject);
-  void read_link(const XmlElement& element, ChainSpec& chain);
-  void read_rule(const XmlElement& link, const RobotPart& part);
+  void read_link(const XmlElement& element, ChainLinks& chain, ChainPlace place);
+  void read_rule(const XmlElement& link, ChainPlace place);
   void read_disabled_pair(const XmlElement& element);
   void set_dof_units();
   void read_approach();
   void read_tracker();
   void read_files();
-  void check_part(const XmlElement& element, const RobotPart& part) const;
+  int part(const XmlElement& element, ChainPlace place) const;
   NamedFile named(const char* name) const;
 
   const XmlElement root_;
@@ -54,8 +61,9 @@ class XmlRobotReader {
   Library& library_;
   Repairs repairs_;
   std::vector<XmlElement> dofs_;
-  std::vector<std::optional<JointKind>> dof_kinds_;            // of its first joint
-  std::vector<std::pair<XmlElement, RobotPart>> named_parts_;  // to be looked at when all are known
+  std::vector<std::optional<JointKind>> dof_kinds_;  // of its first joint
+  std::vector<Chain> chains_;
+  std::vector<PairOff> pairs_off_;  // to be looked at when all links are known
   RobotSpec robot_;
 };
 
@@ -84,11 +92,12 @@ RobotSpec XmlRobotReader::read() {
   couple_by_springs(robot_);
   set_dof_units();
   for (const XmlElement& e : root_.children("disableCollision")) read_disabled_pair(e);
-  for (const auto& [element, part] : named_parts_) check_part(element, part);
+  for (const auto& [element, a, b] : pairs_off_)
+    robot_.collision_rules.pairs_off.push_back({part(element, a), part(element, b)});
   robot_.collision_rules.near_pairs_off = true;
   read_tendons(
-      root_, [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), repairs_,
-      robot_);
+      root_, [&](const XmlElement& e, ChainPlace place) { return part(e, place); }, warn(),
+      repairs_, robot_);
   read_approach();
   read_tracker();
   check_read_robot(robot_, root_.place(), library_.options());
@@ -107,15 +116,15 @@ void XmlRobotReader::read_type() {
   }
 }
 
-void XmlRobotReader::check_part(const XmlElement& element, const RobotPart& part) const {
-  if (part.chain < 0) return;
-  const int chains = static_cast<int>(robot_.chains.size());
-  if (part.chain >= chains)
-    element.fail("{}: expected one of {} chains, got {}", element.name(), chains, part.chain);
-  const int links = static_cast<int>(robot_.chains[part.chain].links.size());
-  if (part.link < 0 || part.link >= links)
-    element.fail("{}: expected one of {} links of chain {}, got {}", element.name(), links,
-                 part.chain, part.link);
+int XmlRobotReader::part(const XmlElement& element, ChainPlace place) const {
+  if (place.chain >= static_cast<int>(chains_.size()))
+    element.fail("{}: expected one of {} chains, got {}", element.name(), chains_.size(),
+                 place.chain);
+  const auto link = link_at(chains_, place);
+  if (!link)
+    element.fail("{}: expected one of {} links of chain {}, got {}", element.name(),
+                 chains_[place.chain].links.size(), place.chain, place.link);
+  return *link;
 }
 
 // --- DOFs; their units depend on the kind of their joints ---
@@ -204,26 +213,33 @@ void XmlRobotReader::set_dof_units() {
 
 void XmlRobotReader::read_chain(const XmlElement& element) {
   element.check({.once = {"transform"}, .many = {"joint", "link", "filter"}}, warn());
-  ChainSpec chain;
+  const int number = static_cast<int>(chains_.size());
   const auto joints = element.children("joint"), links = element.children("link");
   if (joints.size() > max_parts || links.size() > max_parts)
     element.fail("chain: expected at most {} joints and links, got {} and {}", max_parts,
                  joints.size(), links.size());
-  chain.X_BC = read_transform_of(element, library_.options().listeners());
+  if (links.empty()) element.fail("chain: expected a link, got none");
+  ChainLinks chain(read_transform_of(element, library_.options().listeners()));
   for (const XmlElement& e : joints) read_joint(e, chain);
-  for (const XmlElement& e : links) read_link(e, chain);
-  robot_.chains.push_back(std::move(chain));
+  chains_.emplace_back();
+  for (int l = 0; l < static_cast<int>(links.size()); ++l) {
+    chains_.back().links.push_back(static_cast<int>(robot_.links.size()));
+    read_link(links[l], chain, {number, l});
+  }
+  if (chain.last_joint() + 1 < chain.joints())
+    library_.warn(fmt::format("{}: chain {}: joints from {} on move no link, and are not used",
+                              element.place(), number, chain.last_joint() + 1));
   read_tactile(
-      element, static_cast<int>(robot_.chains.size()) - 1,
-      [&](const XmlElement& e, const RobotPart& p) { check_part(e, p); }, warn(), repairs_, robot_);
+      element, number, [&](const XmlElement& e, ChainPlace place) { return part(e, place); },
+      warn(), repairs_, robot_);
 }
 
-void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
+void XmlRobotReader::read_joint(const XmlElement& element, ChainLinks& chain) {
   element.check({.once = {"theta", "d", "a", "alpha", "minValue", "maxValue", "viscousFriction",
                           "CoulombFriction", "springStiffness", "restValue"},
                  .attributes = {"type"}},
                 warn());
-  const std::string subject = fmt::format("joint {}", chain.joints.size());
+  const std::string subject = fmt::format("joint {}", chain.joints());
   JointSpec joint;
   const std::string type = element.expected_attribute("type");
   if (lower_case(type) == "prismatic")
@@ -231,9 +247,9 @@ void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
   else if (lower_case(type) != "revolute")
     element.fail("{}: expected type Revolute or Prismatic, got {}{}", subject, in_quotes(type),
                  did_you_mean(type, {"Revolute", "Prismatic"}));
-  read_expression(element, joint, subject);
-  joint.a = number_or_zero(element, "a", subject) * units::millimetre;
-  joint.alpha = number_or_zero(element, "alpha", subject) * units::degree;
+  DenavitHartenberg numbers = read_expression(element, joint, subject);
+  numbers.a = number_or_zero(element, "a", subject) * units::millimetre;
+  numbers.alpha = number_or_zero(element, "alpha", subject) * units::degree;
   read_limits(element, joint, subject);
   read_losses(element, joint, subject);
 
@@ -242,11 +258,15 @@ void XmlRobotReader::read_joint(const XmlElement& element, ChainSpec& chain) {
   if (!kind) kind = joint.kind;
   if (*kind != joint.kind)
     joint.ratio *= joint.kind == JointKind::revolute ? 1 / units::millimetre : units::millimetre;
-  chain.joints.push_back(joint);
+  try {
+    chain.add_joint(joint, numbers);
+  } catch (const Error& error) {
+    element.fail("{}", error.what());
+  }
 }
 
-void XmlRobotReader::read_expression(const XmlElement& element, JointSpec& joint,
-                                     const std::string& subject) {
+DenavitHartenberg XmlRobotReader::read_expression(const XmlElement& element, JointSpec& joint,
+                                                  const std::string& subject) {
   const bool revolute = joint.kind == JointKind::revolute;
   const XmlElement moved = element.expected(revolute ? "theta" : "d");
   const std::string text = moved.text();
@@ -261,8 +281,8 @@ void XmlRobotReader::read_expression(const XmlElement& element, JointSpec& joint
   joint.dof = expression->dof;
   joint.ratio = expression->ratio;
   const double other = number_or_zero(element, revolute ? "d" : "theta", subject);
-  joint.theta = (revolute ? expression->offset : other) * units::degree;
-  joint.d = (revolute ? other : expression->offset) * units::millimetre;
+  return {.theta = (revolute ? expression->offset : other) * units::degree,
+          .d = (revolute ? other : expression->offset) * units::millimetre};
 }
 
 void XmlRobotReader::read_limits(const XmlElement& element, JointSpec& joint,
@@ -292,80 +312,58 @@ void XmlRobotReader::read_losses(const XmlElement& element, JointSpec& joint,
     joint.rest = rest.number() * (revolute ? 1.0 : units::millimetre);
 }
 
-void XmlRobotReader::read_link(const XmlElement& element, ChainSpec& chain) {
-  struct Kind {
-    const char* name;
-    LinkJoint joint;
-    int joints;  // that it takes
-  };
-  constexpr Kind kinds[] = {{"Revolute", LinkJoint::revolute, 1},
-                            {"Prismatic", LinkJoint::prismatic, 1},
-                            {"Universal", LinkJoint::universal, 2},
-                            {"Ball", LinkJoint::ball, 3},
-                            {"Fixed", LinkJoint::fixed, 0}};
+void XmlRobotReader::read_link(const XmlElement& element, ChainLinks& chain, ChainPlace place) {
   element.check({.attributes = {"dynamicJointType", "collisionRule", "targetChain", "targetLink"}},
                 warn());
-  const int number = static_cast<int>(chain.links.size());
-  const std::string type = element.expected_attribute("dynamicJointType");
-  const auto kind = std::ranges::find_if(
-      kinds, [&](const Kind& k) { return lower_case(k.name) == lower_case(type); });
-  if (kind == std::end(kinds))
-    element.fail("link {}: expected Revolute, Prismatic, Universal, Ball or Fixed, got {}{}",
-                 number, in_quotes(type),
-                 did_you_mean(type, {"Revolute", "Prismatic", "Universal", "Ball", "Fixed"}));
-  LinkSpec link;
-  link.joint = kind->joint;
-  link.last_joint = (chain.links.empty() ? -1 : chain.links.back().last_joint) + kind->joints;
-  if (link.last_joint >= static_cast<int>(chain.joints.size()))
-    element.fail("link {}: expected {} joints for the links up to it, got {}", number,
-                 link.last_joint + 1, chain.joints.size());
-  const int own_chain = static_cast<int>(robot_.chains.size());
-  link.body = library_.part(element.text(), path_, element.place());
-  link.body.name = fmt::format("{}_chain{}_link{}", robot_.name, own_chain, number);
-  chain.links.push_back(std::move(link));
-  read_rule(element, {own_chain, number});
+  const int joints =
+      link_kind(element.expected_attribute("dynamicJointType"),
+                [&](const std::string& wrong) { element.fail("link {}: {}", place.link, wrong); });
+  const int last = chain.last_joint() + joints;
+  if (last >= chain.joints())
+    element.fail("link {}: expected {} joints for the links up to it, got {}", place.link, last + 1,
+                 chain.joints());
+  BodySpec body = library_.part(element.text(), path_, element.place());
+  body.name = fmt::format("{}_chain{}_link{}", robot_.name, place.chain, place.link);
+  chain.add_link(body, last, robot_);
+  read_rule(element, place);
 }
 
 // --- what never collides ---
 
-void XmlRobotReader::read_rule(const XmlElement& link, const RobotPart& part) {
+void XmlRobotReader::read_rule(const XmlElement& link, ChainPlace place) {
   const auto rule = link.attribute("collisionRule");
   if (!rule) return;
-  CollisionRules& rules = robot_.collision_rules;
   if (lower_case(*rule) == "off") {
-    rules.parts_off.push_back(part);
+    robot_.collision_rules.parts_off.push_back(static_cast<int>(robot_.links.size()) - 1);
   } else if (lower_case(*rule) == "overlappingpair") {
-    RobotPart target;
+    ChainPlace target;
     const auto chain = link.attribute("targetChain");
     if (!chain)
       repairs_.add("target",
                    fmt::format("{}: link {}: OverlappingPair without a targetChain; its own "
                                "chain, {}, is used",
-                               link.place(), part.link, part.chain));
+                               link.place(), place.link, place.chain));
     if (!chain || lower_case(*chain) != "base")
-      target = {chain ? link.integer_attribute("targetChain", 0) : part.chain,
+      target = {chain ? link.integer_attribute("targetChain", 0) : place.chain,
                 link.integer_attribute("targetLink", 0)};
-    named_parts_.emplace_back(link, target);
-    rules.pairs_off.push_back({part, target});
+    pairs_off_.push_back({link, place, target});
   } else {
     repairs_.add(
         "rule", fmt::format("{}: link {}: collisionRule {} is neither Off nor OverlappingPair, and "
                             "not used{}",
-                            link.place(), part.link, in_quotes(*rule),
+                            link.place(), place.link, in_quotes(*rule),
                             did_you_mean(*rule, {"Off", "OverlappingPair"})));
   }
 }
 
 void XmlRobotReader::read_disabled_pair(const XmlElement& element) {
   element.check({.attributes = {"body1_link", "body1_chain", "body2_link", "body2_chain"}}, warn());
-  const auto part = [&](const char* chain, const char* link) {
-    RobotPart out{element.integer_attribute(chain), element.integer_attribute(link)};
-    if (out.chain < 0) out = {};
-    named_parts_.emplace_back(element, out);
-    return out;
+  const auto place = [&](const char* chain, const char* link) {
+    const ChainPlace out{element.integer_attribute(chain), element.integer_attribute(link)};
+    return out.chain < 0 ? ChainPlace() : out;
   };
-  robot_.collision_rules.pairs_off.push_back(
-      {part("body1_chain", "body1_link"), part("body2_chain", "body2_link")});
+  const ChainPlace a = place("body1_chain", "body1_link");
+  pairs_off_.push_back({element, a, place("body2_chain", "body2_link")});
 }
 
 // --- the rest ---

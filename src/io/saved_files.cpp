@@ -109,10 +109,10 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
   } catch (const Error& error) {
     fail("robot '{}' cannot be saved: {}", excerpt(robot.name), error.what());
   }
-  bool same = read->dofs.size() == robot.dofs.size() && read->chains.size() == robot.chains.size();
-  for (size_t c = 0; same && c < robot.chains.size(); ++c)
-    same = read->chains[c].joints.size() == robot.chains[c].joints.size() &&
-           read->chains[c].links.size() == robot.chains[c].links.size();
+  const bool same = read->dofs.size() == robot.dofs.size() &&
+                    std::ranges::equal(read->links, robot.links, [](const auto& a, const auto& b) {
+                      return a.parent == b.parent && a.joints.size() == b.joints.size();
+                    });
   if (!same)
     fail("robot '{}' cannot be saved: its file gives another robot when it is read again: {}",
          excerpt(robot.name), robot.file);

@@ -26,10 +26,9 @@ double not_negative(const XmlElement& element, Repairs& repairs) {
 }
 
 /// <chain> and <link>, both -1 for the base.
-RobotPart part_of(const XmlElement& element, const PartCheck& check) {
-  RobotPart part{element.expected("chain").integer(-1), element.expected("link").integer(-1)};
-  check(element, part);
-  return part;
+int link_of(const XmlElement& element, const FindLink& find) {
+  const int chain = element.expected("chain").integer(-1);
+  return find(element, {chain, element.expected("link").integer(-1)});
 }
 
 double friction_of(const XmlElement& element, Repairs& repairs) {
@@ -46,7 +45,7 @@ std::optional<double> length_of(const XmlElement& element, const char* name, Rep
   return not_negative(child, repairs) * units::millimetre;
 }
 
-TendonSpec read_tendon(const XmlElement& element, const PartCheck& check, const Warn& warn,
+TendonSpec read_tendon(const XmlElement& element, const FindLink& find, const Warn& warn,
                        Repairs& repairs) {
   element.check({.once = {"stiffness", "restLength", "preTensionLength"},
                  .many = {"insertionPoint"},
@@ -61,7 +60,7 @@ TendonSpec read_tendon(const XmlElement& element, const PartCheck& check, const 
   for (const XmlElement& e : element.children("insertionPoint")) {
     e.check({.once = {"chain", "link", "position", "friction"}}, warn);
     TendonPoint point;
-    point.part = part_of(e, check);
+    point.link = link_of(e, find);
     point.p_L = e.expected("position").vector() * units::millimetre;
     point.friction = friction_of(e, repairs);
     tendon.points.push_back(point);
@@ -71,14 +70,14 @@ TendonSpec read_tendon(const XmlElement& element, const PartCheck& check, const 
   return tendon;
 }
 
-TendonWrapper read_wrapper(const XmlElement& element, const PartCheck& check, const Warn& warn,
+TendonWrapper read_wrapper(const XmlElement& element, const FindLink& find, const Warn& warn,
                            Repairs& repairs) {
   element.check(
       {.once = {"chain", "link", "friction", "position", "orientation", "radius", "length"},
        .many = {"exemption", "wrapping_side"}},
       warn);
   TendonWrapper wrapper;
-  wrapper.part = part_of(element, check);
+  wrapper.link = link_of(element, find);
   wrapper.friction = friction_of(element, repairs);
   wrapper.p_L = element.expected("position").vector() * units::millimetre;
   wrapper.axis_L = direction(element.expected("orientation"));
@@ -112,12 +111,11 @@ void check_names(const std::vector<XmlElement>& wrappers, const std::vector<Tend
 
 }  // namespace
 
-void read_tendons(const XmlElement& robot, const PartCheck& check, const Warn& warn,
-                  Repairs& repairs, RobotSpec& out) {
+void read_tendons(const XmlElement& robot, const FindLink& find, const Warn& warn, Repairs& repairs,
+                  RobotSpec& out) {
   const auto tendons = robot.children("tendon"), wrappers = robot.children("tendonWrapper");
-  for (const XmlElement& e : tendons) out.tendons.push_back(read_tendon(e, check, warn, repairs));
-  for (const XmlElement& e : wrappers)
-    out.wrappers.push_back(read_wrapper(e, check, warn, repairs));
+  for (const XmlElement& e : tendons) out.tendons.push_back(read_tendon(e, find, warn, repairs));
+  for (const XmlElement& e : wrappers) out.wrappers.push_back(read_wrapper(e, find, warn, repairs));
   if (warn) check_names(wrappers, out.tendons, warn);
   if (warn && !(tendons.empty() && wrappers.empty()))
     warn(fmt::format("{}: tendons and their wrappers are kept, {} and {}, but do not act yet",
@@ -125,13 +123,12 @@ void read_tendons(const XmlElement& robot, const PartCheck& check, const Warn& w
                      wrappers.size()));
 }
 
-void read_tactile(const XmlElement& chain, int number, const PartCheck& check, const Warn& warn,
+void read_tactile(const XmlElement& chain, int number, const FindLink& find, const Warn& warn,
                   Repairs& repairs, RobotSpec& out) {
   for (const XmlElement& e : chain.children("filter")) {
     e.check({.attributes = {"params"}}, warn);
     TactileSpec sensor;
-    sensor.part = {number, e.integer(0)};
-    check(e, sensor.part);
+    sensor.link = find(e, {number, e.integer(0)});
     const std::string params = e.expected_attribute("params");
     const auto words = split_words(params, ",", 7);
     double x[6];

@@ -4,21 +4,21 @@
 
 #include "io/repairs.h"
 #include "io/xml.h"
-#include "spec/robot_spec.h"
+#include "spec/chains.h"
 
 namespace clench {
 
-/// Whether a part exists is for the caller to check: element by element, in their order in the spec.
-using PartCheck = std::function<void(const XmlElement& element, const RobotPart& part)>;
+/// The caller's: the link at a place.   throws Error at the element when there is none
+using FindLink = std::function<int(const XmlElement& element, ChainPlace place)>;
 
 /// <tendon> and <tendonWrapper>, millimetres; they are kept, and `warn` is told that they do not act.
 /// throws Error  "hand.xml:31: tendon: expected at least 2 insertion points, got 1"
-void read_tendons(const XmlElement& robot, const PartCheck& check,
+void read_tendons(const XmlElement& robot, const FindLink& find,
                   const std::function<void(const std::string&)>& warn, Repairs& repairs,
                   RobotSpec& out);
 
 /// The <filter> elements of a chain.
-void read_tactile(const XmlElement& chain, int number, const PartCheck& check,
+void read_tactile(const XmlElement& chain, int number, const FindLink& find,
                   const std::function<void(const std::string&)>& warn, Repairs& repairs,
                   RobotSpec& out);
 

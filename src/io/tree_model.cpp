@@ -93,15 +93,4 @@ void order_branches(TreeModel& tree) {
   }
 }
 
-std::vector<Pose> link_poses(const TreeModel& tree, const std::vector<double>& q) {
-  std::vector<Pose> poses;
-  poses.reserve(tree.links.size());
-  for (const TreeLink& link : tree.links) {
-    Pose X = link.parent < 0 ? Pose{} : poses[link.parent] * link.X_PL;
-    for (const int j : link.joints) X = X * joint_pose(tree.joints[j], q[j]);
-    poses.push_back(X);
-  }
-  return poses;
-}
-
 }  // namespace clench

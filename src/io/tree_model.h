@@ -1,5 +1,5 @@
 // A robot as files of today describe it: a tree of links, joints between them that stand anywhere.
-// URDF and MJCF become this; tree_chains makes our chains of it.
+// URDF and MJCF become this, whose joints may follow each other; make_robot makes ours of it.
 #pragma once
 #include <optional>
 #include <string>
@@ -58,8 +58,5 @@ void resolve_leaders(TreeModel& tree);
 /// does: by its first joint a DOF counts in lengths or angles. A leader behind its follower in one
 /// branch stays there.   `tree`  each link after its parent, leaders resolved
 void order_branches(TreeModel& tree);
-
-/// Poses of the links in the root's frame.   q  one per joint [rad or m]
-std::vector<Pose> link_poses(const TreeModel& tree, const std::vector<double>& q);
 
 }  // namespace clench

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "base/suggest.h"
-#include "io/tree_chains.h"
 #include "io/tree_links.h"
+#include "io/tree_robot.h"
 #include "io/tree_shapes.h"
 #include "io/tree_xml.h"
 #include "io/urdf_files.h"
@@ -462,7 +462,7 @@ RobotSpec UrdfReader::read() {
   order_links();
   read_mimics();
   dress_links(tree_, pieces_, geometry_, file_, library_);
-  RobotSpec robot = make_chains(std::move(tree_), file_, library_);
+  RobotSpec robot = make_robot(std::move(tree_), file_, library_);
   robot.source = path_.generic_string();
   repairs_.tell();
   inertial_faults_.tell(library_);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "spec/chains.h"
+
 namespace clench {
 
 namespace {
@@ -9,8 +11,7 @@ namespace {
 /// Base and links, in their order.
 std::vector<const BodySpec*> bodies_of(const RobotSpec& robot) {
   std::vector<const BodySpec*> out = {&robot.base};
-  for (const auto& chain : robot.chains)
-    for (const auto& link : chain.links) out.push_back(&link.body);
+  for (const LinkSpec& link : robot.links) out.push_back(&link.body);
   return out;
 }
 
@@ -21,8 +22,8 @@ bool any_dof(const RobotSpec& robot, Predicate predicate) {
 
 template <class Predicate>
 bool any_joint(const RobotSpec& robot, Predicate predicate) {
-  return std::ranges::any_of(robot.chains, [&](const ChainSpec& chain) {
-    return std::ranges::any_of(chain.joints, predicate);
+  return std::ranges::any_of(robot.links, [&](const LinkSpec& link) {
+    return std::ranges::any_of(link.joints, predicate);
   });
 }
 
@@ -41,8 +42,9 @@ bool has_default_values(const RobotSpec& robot) {
 
 /// Pairs that the formats of GraspIt! do not switch off by themselves.
 size_t pairs_off(const RobotSpec& robot) {
-  return std::ranges::count_if(robot.collision_rules.pairs_off, [](const auto& pair) {
-    const auto& [a, b] = pair;
+  const auto chains = chains_of(robot);
+  return std::ranges::count_if(robot.collision_rules.pairs_off, [&](const auto& pair) {
+    const auto a = place_of(chains, pair[0]), b = place_of(chains, pair[1]);
     const bool at_base = (a.chain < 0 && b.link == 0) || (b.chain < 0 && a.link == 0);
     return a.chain != b.chain && !at_base;
   });
@@ -97,8 +99,7 @@ static void tell_control(const RobotSpec& robot, const RobotFolder& folder) {
 void report_losses(const RobotSpec& robot, const RobotFolder& folder) {
   tell_control(robot, folder);
   std::vector<char> moves(robot.dofs.size());
-  for (const auto& chain : robot.chains)
-    for (const auto& joint : chain.joints) moves[joint.dof] = true;
+  each_joint(robot, [&](const JointSpec& joint) { moves[joint.dof] = true; });
   for (size_t d = 0; d < moves.size(); ++d)
     if (!moves[d]) folder.lost(fmt::format("DOF {}, which moves no joint", d));
   const auto bodies = bodies_of(robot);

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "base/text.h"
-#include "io/tree_chains.h"
+#include "io/tree_robot.h"
 
 namespace clench {
 
@@ -20,35 +21,24 @@ class Planner {
   UrdfPlan plan();
 
  private:
-  /// The link at the end of what stands so far, and our frame after the last joint in it.
-  struct Tip {
-    int link = 0;
-    Pose X_LF;
-  };
-
   /// Readers put the robot's name before it again.
   std::string body_name(const BodySpec& body) const;
   std::string unique(const std::string& name, std::set<std::string>& taken, bool given);
   int add_link(const std::string& name, const BodySpec* body);
   void choose_leaders();
-  void plan_chain(int number);
-  void hang_fixed(Tip& tip, const RobotPart& part);
-  void hang_moved(Tip& tip, int chain, int joint, const RobotPart* part);
-  UrdfJoint moving_joint(int chain, int joint) const;
+  void add_link_with_joints(int number);
+  int hang_fixed(int parent, const Pose& X_PC, const BodySpec& body);
+  int hang_moved(int parent, const Pose& X_PJ, const JointSpec& spec, const LinkSpec* link);
+  UrdfJoint moving_joint(const JointSpec& spec) const;
   void set_limits(UrdfJoint& joint) const;
   void order_joints();
 
   const RobotSpec& robot_;
   UrdfPlan plan_;
-  std::vector<const JointSpec*> leaders_;  // by DOF
+  std::vector<const JointSpec*> leaders_;                // by DOF
+  std::map<const JointSpec*, std::string> usual_names_;  // by chain and number
   std::set<std::string> link_names_, joint_names_;
 };
-
-/// Rz(theta) Tz(d) Tx(a) Rx(alpha)
-Pose dh_pose(double theta, double d, double a, double alpha) {
-  return Pose::turn(theta, Eigen::Vector3d::UnitZ()) * Pose::translation({a, 0, d}) *
-         Pose::turn(alpha, Eigen::Vector3d::UnitX());
-}
 
 /// A name that readers take as it stands: XML trims it, and xacro would look into it.
 std::string cleaned(const std::string& name) {
@@ -84,10 +74,10 @@ int Planner::add_link(const std::string& name, const BodySpec* body) {
 void Planner::choose_leaders() {
   leaders_.assign(robot_.dofs.size(), nullptr);
   for (const double expected : {1.0, -1.0, 0.0})
-    for (const ChainSpec& chain : robot_.chains)
-      for (const JointSpec& joint : chain.joints)
-        if (!leaders_[joint.dof] && (joint.ratio == expected || expected == 0))
-          leaders_[joint.dof] = &joint;
+    each_joint(robot_, [&](const JointSpec& joint) {
+      if (!leaders_[joint.dof] && (joint.ratio == expected || expected == 0))
+        leaders_[joint.dof] = &joint;
+    });
   plan_.leader_of.assign(robot_.dofs.size(), -1);
 }
 
@@ -105,54 +95,44 @@ bool stops(const JointSpec& joint, const JointSpec& leader) {
 void Planner::set_limits(UrdfJoint& joint) const {
   const JointSpec& spec = *joint.spec;
   double low = spec.min, high = spec.max;
-  if (joint.leads && std::ranges::any_of(robot_.chains, [&](const ChainSpec& chain) {
-        return std::ranges::any_of(chain.joints, [&](const JointSpec& other) {
-          return other.dof == spec.dof && stops(other, spec);
-        });
-      })) {
+  bool stopped = false;
+  each_joint(robot_, [&](const JointSpec& other) {
+    stopped = stopped || (joint.leads && other.dof == spec.dof && stops(other, spec));
+  });
+  if (stopped) {
     const auto range = dof_range(robot_, spec.dof);
     low = std::min(range[0] * spec.ratio, range[1] * spec.ratio);
     high = std::max(range[0] * spec.ratio, range[1] * spec.ratio);
   }
   const bool turned = joint.leads && spec.ratio < 0;  // its axis is
-  joint.min = (turned ? -high : low) + joint.offset;
-  joint.max = (turned ? -low : high) + joint.offset;
+  joint.min = turned ? -high : low;
+  joint.max = turned ? -low : high;
 }
 
 /// With everything but its place in the tree.
-UrdfJoint Planner::moving_joint(int chain, int number) const {
-  const JointSpec& spec = robot_.chains[chain].joints[number];
+UrdfJoint Planner::moving_joint(const JointSpec& spec) const {
   const double leader = leaders_[spec.dof]->ratio;
   UrdfJoint joint;
   joint.spec = &spec;
   joint.leads = leaders_[spec.dof] == &spec;
   joint.factor = joint.leads ? std::abs(leader) : spec.ratio;
-  // joints of DOFs of their own have no offset; followers of today's files have theirs
-  if (!joint.leads && spec.placed_freely)
-    joint.offset = spec.kind == JointKind::revolute ? spec.theta : spec.d;
   set_limits(joint);
-  joint.name = !spec.name.empty() ? spec.name
-               : joint.leads && !robot_.dofs[spec.dof].name.empty()
-                   ? robot_.dofs[spec.dof].name
-                   : fmt::format("chain{}_joint{}", chain, number);
+  joint.name = !spec.name.empty()                                   ? spec.name
+               : joint.leads && !robot_.dofs[spec.dof].name.empty() ? robot_.dofs[spec.dof].name
+                                                                    : usual_names_.at(&spec);
   return joint;
 }
 
-/// A link of ours, or without one a frame, moved by a joint.
-void Planner::hang_moved(Tip& tip, int chain, int number, const RobotPart* part) {
-  const JointSpec& spec = robot_.chains[chain].joints[number];
-  const LinkSpec* link = part ? &robot_.chains[chain].links[part->link] : nullptr;
-  UrdfJoint joint = moving_joint(chain, number);
-  const bool revolute = spec.kind == JointKind::revolute;
-  const Pose zero = dh_pose(spec.theta - (revolute ? joint.offset : 0),
-                            spec.d - (revolute ? 0 : joint.offset), 0, 0);
-  // to our frame after the joint, and on to that of the link
-  const Pose after = dh_pose(0, 0, spec.a, spec.alpha) * spec.X_after;
-  const Pose to_link = link && link->X_JL ? after * *link->X_JL : after;
-  const bool fits = !revolute || std::hypot(to_link.position.x(), to_link.position.y()) <= on_axis;
-  joint.parent = tip.link;
-  joint.X_PC = tip.X_LF * spec.X_before * zero;
-  if (fits) {
+/// A link of ours, or without one a frame, moved by a joint.   returns  its number
+int Planner::hang_moved(int parent, const Pose& X_PJ, const JointSpec& spec, const LinkSpec* link) {
+  UrdfJoint joint = moving_joint(spec);
+  const Pose to_link = link ? link->X_JL : Pose{};
+  const Eigen::Vector3d off = to_link.position - to_link.position.dot(spec.axis) * spec.axis;
+  const bool fits = spec.kind == JointKind::prismatic || off.norm() <= on_axis;
+  joint.parent = parent;
+  joint.X_PC = X_PJ;
+  joint.axis = spec.axis;
+  if (fits && !(to_link == Pose{})) {
     joint.X_PC = joint.X_PC * to_link;
     joint.axis = to_link.rotation.conjugate() * joint.axis;
   }
@@ -162,44 +142,34 @@ void Planner::hang_moved(Tip& tip, int chain, int number, const RobotPart* part)
   plan_.links[joint.child].X_UB = fits ? Pose{} : to_link;
   joint.name = unique(joint.name, joint_names_, !spec.name.empty());
   plan_.joints.push_back(joint);
-  tip = {joint.child, !fits ? after : link && link->X_JL ? link->X_JL->inverse() : Pose{}};
-  if (part) plan_.link_of[chain][part->link] = joint.child;
+  return joint.child;
 }
 
-void Planner::hang_fixed(Tip& tip, const RobotPart& part) {
-  const LinkSpec& link = robot_.chains[part.chain].links[part.link];
+int Planner::hang_fixed(int parent, const Pose& X_PC, const BodySpec& body) {
   UrdfJoint joint;
-  joint.parent = tip.link;
-  joint.child = add_link(body_name(link.body), &link.body);
-  joint.X_PC = link.X_JL ? tip.X_LF * *link.X_JL : tip.X_LF;
+  joint.parent = parent;
+  joint.child = add_link(body_name(body), &body);
+  joint.X_PC = X_PC;
   joint.name = unique(plan_.links[joint.child].name + "_fixed", joint_names_, false);
   plan_.joints.push_back(joint);
-  tip = {joint.child, link.X_JL ? link.X_JL->inverse() : Pose{}};
-  plan_.link_of[part.chain][part.link] = joint.child;
+  return joint.child;
 }
 
-// --- chains ---
+static Pose product(const Pose& a, const Pose& b) {
+  return a == Pose{} ? b : b == Pose{} ? a : a * b;
+}
 
-void Planner::plan_chain(int number) {
-  const ChainSpec& chain = robot_.chains[number];
-  Tip tip;
-  tip.link = plan_.link({chain.parent_chain, chain.parent_link});
-  const Pose& X_UB = plan_.links[tip.link].X_UB;
-  tip.X_LF = X_UB == Pose{} ? chain.X_BC : X_UB * chain.X_BC;
-  plan_.link_of.emplace_back(chain.links.size(), 0);
-  for (int j = -1; j < static_cast<int>(chain.joints.size()); ++j) {
-    bool moved = j < 0;
-    for (int l = 0; l < static_cast<int>(chain.links.size()); ++l) {
-      if (chain.links[l].last_joint != j) continue;
-      const RobotPart part{number, l};
-      if (moved)
-        hang_fixed(tip, part);
-      else
-        hang_moved(tip, number, j, &part);
-      moved = true;
-    }
-    if (!moved) hang_moved(tip, number, j, nullptr);
+void Planner::add_link_with_joints(int number) {
+  const LinkSpec& link = robot_.links[number];
+  int at = plan_.link(link.parent);
+  Pose X = plan_.links[at].X_UB;  // of our frame there
+  for (const JointSpec& joint : link.joints) {
+    at = hang_moved(at, product(X, joint.X_PJ), joint,
+                    &joint == &link.joints.back() ? &link : nullptr);
+    X = Pose{};
   }
+  if (link.joints.empty()) at = hang_fixed(at, product(X, link.X_JL), link.body);
+  plan_.link_of[number] = at;
 }
 
 /// Readers number DOFs as their joints come, and chains too: joints come chain by chain, but for
@@ -231,7 +201,16 @@ UrdfPlan Planner::plan() {
   plan_.name = robot_.name.empty() ? "" : cleaned(robot_.name);
   choose_leaders();
   add_link(body_name(robot_.base), &robot_.base);
-  for (int c = 0; c < static_cast<int>(robot_.chains.size()); ++c) plan_chain(c);
+  plan_.link_of.resize(robot_.links.size());
+  const auto chains = chains_of(robot_);
+  for (size_t c = 0; c < chains.size(); ++c) {
+    int count = 0;
+    for (const int link : chains[c].links)
+      for (const JointSpec& joint : robot_.links[link].joints)
+        usual_names_[&joint] = fmt::format("chain{}_joint{}", c, count++);
+  }
+  for (const Chain& chain : chains)
+    for (const int link : chain.links) add_link_with_joints(link);
   order_joints();
   return std::move(plan_);
 }

@@ -1,9 +1,8 @@
-// Our chains as the tree that a URDF holds: links whose frames stand on the axes, joints between
-// two each.
+// Our tree as that of a URDF: links whose frames stand on the axes, one joint between two.
 #pragma once
 #include <optional>
 
-#include "spec/robot_spec.h"
+#include "spec/chains.h"
 
 namespace clench {
 
@@ -13,7 +12,7 @@ struct UrdfLink {
   Pose X_UB;                       ///< the body's frame in the link's
 };
 
-/// Fixed when it has no spec. v = factor * DOF + offset, where v is its value in the file.
+/// Fixed when it has no spec. v = factor * DOF, where v is its value in the file.
 struct UrdfJoint {
   std::string name;
   int parent = 0, child = 0;                        ///< indices of links
@@ -22,21 +21,18 @@ struct UrdfJoint {
   const JointSpec* spec = nullptr;
   bool leads = false;  ///< does its value stand for the DOF?
   double factor = 1;
-  double offset = 0;        ///< [rad or m]; of leaders 0
   double min = 0, max = 0;  ///< of v [rad or m]
 };
 
 struct UrdfPlan {
   std::string name;
-  std::vector<UrdfLink> links;            ///< [0] is the base
-  std::vector<UrdfJoint> joints;          ///< in an order in which leaders come as their DOFs do
-  std::vector<std::vector<int>> link_of;  ///< by chain, by our link
-  std::vector<int> leader_of;             ///< by DOF: index of a joint; -1: it moves none
-  std::vector<std::string> renamed;       ///< sentences: what could not keep its name
+  std::vector<UrdfLink> links;       ///< [0] is the base
+  std::vector<UrdfJoint> joints;     ///< in an order in which leaders come as their DOFs do
+  std::vector<int> link_of;          ///< by our link
+  std::vector<int> leader_of;        ///< by DOF: index of a joint; -1: it moves none
+  std::vector<std::string> renamed;  ///< sentences: what could not keep its name
 
-  int link(const RobotPart& part) const {
-    return part.chain < 0 ? 0 : link_of[part.chain][part.link];
-  }
+  int link(int ours) const { return ours < 0 ? 0 : link_of[ours]; }
 };
 
 /// `robot` has to outlive the plan.

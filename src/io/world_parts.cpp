@@ -5,26 +5,24 @@
 
 #include "base/units.h"
 #include "io/number_reader.h"
+#include "spec/chains.h"
 
 namespace clench {
 
 namespace {
 
-struct JointPlace {
-  size_t chain, joint;
+/// Number and chain of a joint, and its place in the spec's order.
+struct JointOfDof : NumberedJoint {
+  size_t index;
 };
 
 /// Joints of a DOF, in the order in which worlds count them.
-std::vector<JointPlace> joints_of(const RobotSpec& robot, int dof) {
-  std::vector<JointPlace> out;
-  for (size_t c = 0; c < robot.chains.size(); ++c)
-    for (size_t j = 0; j < robot.chains[c].joints.size(); ++j)
-      if (robot.chains[c].joints[j].dof == dof) out.push_back({c, j});
+std::vector<JointOfDof> joints_of_dof(const RobotSpec& robot, int dof) {
+  std::vector<JointOfDof> out;
+  const auto joints = joints_of(robot);
+  for (size_t j = 0; j < joints.size(); ++j)
+    if (joints[j].joint->dof == dof) out.push_back({joints[j], j});
   return out;
-}
-
-const JointSpec& joint_at(const RobotSpec& robot, const JointPlace& at) {
-  return robot.chains[at.chain].joints[at.joint];
 }
 
 /// A DOF counts in the unit of its first joint: rad or mm.
@@ -36,20 +34,15 @@ double unit_of(const RobotSpec& robot, int dof) {
 
 // --- DOFs ---
 
-bool dof_slides(const RobotSpec& robot, int dof) {
-  const auto joints = joints_of(robot, dof);
-  return !joints.empty() && joint_at(robot, joints.front()).kind == JointKind::prismatic;
-}
-
 void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& listeners) {
   const RobotSpec& robot = placed.robot;
   const int dofs = static_cast<int>(robot.dofs.size());
   const bool plain = line.size() == dofs;
   // one more a joint that may have broken away
   int least = dofs;
-  for (const auto& chain : robot.chains)
-    for (const auto& joint : chain.joints)
-      least += robot.dofs[joint.dof].kind == DofKind::breakaway;
+  each_joint(robot, [&](const JointSpec& joint) {
+    least += robot.dofs[joint.dof].kind == DofKind::breakaway;
+  });
   const auto repair = [&](int expected, const char* made) {
     tell(listeners.repair, listeners.warn,
          fmt::format("{}: expected {} numbers for the {} DOFs of {}, got {}; {}", line.place(),
@@ -60,23 +53,21 @@ void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& lis
   if (!plain && !short_line && line.size() < least)
     line.fail("expected {} numbers for the {} DOFs of {}, got {}", least, dofs, robot.name,
               line.size());
-  for (const auto& chain : robot.chains) placed.apart.emplace_back(chain.joints.size());
+  placed.apart.resize(joint_count(robot));
   int next = 0;
   for (int d = 0; d < dofs; ++d) {
     if (short_line && d >= line.size()) {
       placed.dofs.push_back(robot.dofs[d].default_value);
       continue;
     }
-    const auto joints = joints_of(robot, d);
     const double unit = unit_of(robot, d);
     placed.dofs.push_back(line.number(next++, fmt::format("DOF {} of {}", d, dofs)) * unit);
     if (robot.dofs[d].kind != DofKind::breakaway || plain) continue;
-    for (const JointPlace& at : joints) {
-      const std::string what = fmt::format("DOF {}: joint {} of chain {}", d, at.joint, at.chain);
+    for (const JointOfDof& at : joints_of_dof(robot, d)) {
+      const std::string what = fmt::format("DOF {}: joint {} of chain {}", d, at.number, at.chain);
       if (line.integer(next++, what + ": broken away (0 or 1)", 0, 1) == 0) continue;
       // written as the value of the DOF at which the joint stopped
-      placed.apart[at.chain][at.joint] =
-          line.number(next++, what) * unit * joint_at(robot, at).ratio;
+      placed.apart[at.index] = line.number(next++, what) * unit * at.joint->ratio;
     }
   }
   if (short_line) repair(dofs, "the others start at their defaults");
@@ -88,14 +79,13 @@ std::string dof_values(const PlacedRobot& placed) {
   std::string out;
   const auto add = [&](const std::string& word) { out += (out.empty() ? "" : " ") + word; };
   for (size_t d = 0; d < robot.dofs.size(); ++d) {
-    const auto joints = joints_of(robot, static_cast<int>(d));
     const double unit = unit_of(robot, static_cast<int>(d));
     const double value = d < placed.dofs.size() ? placed.dofs[d] : robot.dofs[d].default_value;
     add(number_in(value, unit));
     if (robot.dofs[d].kind != DofKind::breakaway) continue;
-    for (const JointPlace& at : joints) {
-      const Apart broken = placed.apart.empty() ? Apart() : placed.apart[at.chain][at.joint];
-      add(broken ? "1 " + number_in(*broken, unit, joint_at(robot, at).ratio) : "0");
+    for (const JointOfDof& at : joints_of_dof(robot, static_cast<int>(d))) {
+      const Apart broken = placed.apart.empty() ? Apart() : placed.apart[at.index];
+      add(broken ? "1 " + number_in(*broken, unit, at.joint->ratio) : "0");
     }
   }
   return out;
@@ -103,12 +93,12 @@ std::string dof_values(const PlacedRobot& placed) {
 
 // --- connections, cameras ---
 
-void check_connections(const WorldSpec& world, const std::vector<std::string>& places) {
+void find_connections(WorldSpec& world, const std::vector<ConnectionPlace>& places) {
   const int robots = static_cast<int>(world.robots.size());
   std::vector<int> carrier(robots, -1);
   for (size_t i = 0; i < world.connections.size(); ++i) {
-    const Connection& c = world.connections[i];
-    const std::string& place = places[i];
+    Connection& c = world.connections[i];
+    const auto& [place, chain] = places[i];
     for (const auto& [who, index] : {std::pair("parent", c.parent), {"child", c.child}})
       if (index >= robots)
         fail("{}: {} robot: expected {}, got {}", place, who,
@@ -117,12 +107,12 @@ void check_connections(const WorldSpec& world, const std::vector<std::string>& p
              index);
     if (c.parent == c.child)
       fail("{}: child robot: expected another robot than the parent, got {}", place, c.child);
-    const auto& chains = world.robots[c.parent].robot.chains;
-    if (c.chain >= static_cast<int>(chains.size()))
+    const RobotSpec& parent = world.robots[c.parent].robot;
+    const auto chains = chains_of(parent);
+    if (chain >= static_cast<int>(chains.size()))
       fail("{}: parent chain: expected one of {} chains of {}, got {}", place, chains.size(),
-           world.robots[c.parent].robot.name, c.chain);
-    if (chains[c.chain].links.empty())
-      fail("{}: parent chain: chain {} has no link to carry a robot", place, c.chain);
+           parent.name, chain);
+    c.link = chains[chain].links.back();
     if (carrier[c.child] >= 0) fail("{}: child robot: robot {} is carried already", place, c.child);
     for (int robot = c.parent; robot >= 0; robot = carrier[robot])
       if (robot == c.child)
@@ -130,6 +120,14 @@ void check_connections(const WorldSpec& world, const std::vector<std::string>& p
              c.parent, c.child);
     carrier[c.child] = c.parent;
   }
+}
+
+int chain_of(const WorldSpec& world, const Connection& connection) {
+  const RobotSpec& parent = world.robots[connection.parent].robot;
+  if (const auto chain = chain_ending_at(parent, connection.link)) return *chain;
+  fail("{}: '{}' is carried by '{}', which ends no chain; the format knows no other links",
+       excerpt(world.source), excerpt(world.robots[connection.child].robot.name),
+       excerpt(parent.links[connection.link].body.name));
 }
 
 std::optional<Eigen::Quaterniond> camera_orientation(double x, double y, double z, double w) {

@@ -10,9 +10,6 @@
 
 namespace clench {
 
-/// Does the DOF count in lengths, as its first joint does?
-bool dof_slides(const RobotSpec& robot, int dof);
-
 /// Values of the robot's DOFs in their order [rad or mm]; after that of a breakaway DOF, for each of
 /// its joints, 0, or 1 and the value of the DOF at which the joint broke away. One value a DOF and
 /// nothing else is understood too; DOFs whose values lack start at their defaults.
@@ -20,9 +17,19 @@ bool dof_slides(const RobotSpec& robot, int dof);
 void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& listeners);
 std::string dof_values(const PlacedRobot& placed);
 
-/// throws Error, begun by the connection's place, when its robots or chain do not exist, carry
-/// themselves or one another in a circle, or are carried twice
-void check_connections(const WorldSpec& world, const std::vector<std::string>& places);
+/// What a file says of a connection: the parent's chain, whose last link it means.
+struct ConnectionPlace {
+  std::string place;
+  int chain = 0;
+};
+/// Finds the links of the world's connections, when all robots are known.
+/// places  one per connection
+/// throws  Error, begun by the connection's place, when its robots or chain do not exist, carry
+///         themselves or one another in a circle, or are carried twice
+void find_connections(WorldSpec& world, const std::vector<ConnectionPlace>& places);
+/// The parent's chain of a connection, for files.
+/// throws  Error "...: 'hand' is carried by a link ... that ends no chain"
+int chain_of(const WorldSpec& world, const Connection& connection);
 
 /// Orientation of a camera, in Inventor's order x y z w; empty when they are no rotation.
 std::optional<Eigen::Quaterniond> camera_orientation(double x, double y, double z, double w);

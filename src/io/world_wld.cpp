@@ -43,7 +43,7 @@ class WldReader {
   const fs::path& path_;
   Library& library_;
   LineReader lines_;
-  std::vector<std::string> connection_places_;
+  std::vector<ConnectionPlace> connection_places_;
   WorldSpec world_;
 };
 
@@ -121,7 +121,7 @@ WorldSpec WldReader::read() {
           in_quotes(line.text()),
           did_you_mean(key, {std::begin(block_names), std::end(block_names)}));
   }
-  check_connections(world_, connection_places_);
+  find_connections(world_, connection_places_);
   return std::move(world_);
 }
 
@@ -163,7 +163,7 @@ void WldReader::read_connection() {
   const Line line = lines_.next_full("'parent chain child' of a connection");
   Connection c;
   c.parent = line.integer(0, "parent robot", 0);
-  c.chain = line.integer(1, "parent chain", 0);
+  const int chain = line.integer(1, "parent chain", 0);
   c.child = line.integer(2, "child robot", 0);
   used_up(line, 3);
   // the line of the mount may be empty
@@ -173,7 +173,7 @@ void WldReader::read_connection() {
     c.mount = library_.named_body(std::string(mount.text()), path_, mount.place());
   }
   c.X_LB = pose();
-  connection_places_.push_back(line.place());
+  connection_places_.push_back({line.place(), chain});
   world_.connections.push_back(std::move(c));
 }
 

@@ -30,7 +30,7 @@ class XmlWorldReader {
   const XmlElement root_;
   const fs::path& path_;
   Library& library_;
-  std::vector<std::string> connection_places_;
+  std::vector<ConnectionPlace> connection_places_;
   WorldSpec world_;
 };
 
@@ -51,7 +51,7 @@ WorldSpec XmlWorldReader::read() {
     else if (e.name() == "camera" && !world_.camera)
       read_camera(e);
   }
-  check_connections(world_, connection_places_);
+  find_connections(world_, connection_places_);
   return std::move(world_);
 }
 
@@ -117,12 +117,12 @@ void XmlWorldReader::read_connection(const XmlElement& element) {
       {.once = {"parentRobot", "parentChain", "childRobot", "mountFilename", "transform"}}, warn());
   Connection c;
   c.parent = element.expected("parentRobot").integer(0);
-  c.chain = element.expected("parentChain").integer(0);
+  const int chain = element.expected("parentChain").integer(0);
   c.child = element.expected("childRobot").integer(0);
   if (const XmlElement mount = element.child("mountFilename"); mount && !mount.text().empty())
     c.mount = library_.named_body(mount.text(), path_, mount.place());
   c.X_LB = pose(element);
-  connection_places_.push_back(element.place());
+  connection_places_.push_back({element.place(), chain});
   world_.connections.push_back(std::move(c));
 }
 

@@ -205,9 +205,8 @@ static std::vector<std::pair<std::string, const BodySpec*>> parts(const RobotSpe
   std::vector<std::pair<std::string, const BodySpec*>> out;
   out.emplace_back(fmt::format("robots[{}].base", index + 1), &robot.base);
   int number = 0;
-  for (const ChainSpec& chain : robot.chains)
-    for (const LinkSpec& link : chain.links)
-      out.emplace_back(fmt::format("robots[{}].links[{}]", index + 1, ++number), &link.body);
+  for (const LinkSpec& link : robot.links)
+    out.emplace_back(fmt::format("robots[{}].links[{}]", index + 1, ++number), &link.body);
   return out;
 }
 
@@ -239,11 +238,11 @@ void LuaWriter::change_parts(const RobotSpec& now, const RobotSpec& was, int ind
 void LuaWriter::set_dofs(const PlacedRobot& placed, int index) {
   if (placed.dofs.empty()) return;
   std::string apart;
-  for (size_t c = 0; c < placed.apart.size(); ++c)
-    for (size_t j = 0; j < placed.apart[c].size(); ++j)
-      if (const Apart& q = placed.apart[c][j])
-        apart +=
-            fmt::format("{}{{{}, {}, {}}}", apart.empty() ? "" : ", ", c + 1, j + 1, number(*q));
+  const auto joints = joints_of(placed.robot);
+  for (size_t j = 0; j < placed.apart.size(); ++j)
+    if (const Apart& q = placed.apart[j])
+      apart += fmt::format("{}{{{}, {}, {}}}", apart.empty() ? "" : ", ", joints[j].chain + 1,
+                           joints[j].number + 1, number(*q));
   line(fmt::format("robots[{}]:set_dofs({}{})", index + 1, list(placed.dofs),
                    apart.empty() ? "" : ", {joint_positions = {" + apart + "}}"));
 }
@@ -341,8 +340,13 @@ void LuaWriter::add_connection(const Connection& c) {
       for (const auto& [key, value] : changes(*c.mount, *read, false))
         after += fmt::format("world:body({}).{} = {}\n", as_lua(c.mount->name), key, value);
   }
-  line(fmt::format("robots[{}]:mount_on(robots[{}], {{chain = {}, pose = {}{}}})", c.child + 1,
-                   c.parent + 1, c.chain + 1, pose(c.X_LB), adapter));
+  const RobotSpec& parent = world_.robots[c.parent].robot;
+  const auto place = place_of(chains_of(parent), c.link);
+  const bool last = chain_ending_at(parent, c.link).has_value();
+  const std::string where = last ? fmt::format("chain = {}", place.chain + 1)
+                                 : "link = " + as_lua(parent.links[c.link].body.name);
+  line(fmt::format("robots[{}]:mount_on(robots[{}], {{{}, pose = {}{}}})", c.child + 1,
+                   c.parent + 1, where, pose(c.X_LB), adapter));
   out_ += after;
 }
 

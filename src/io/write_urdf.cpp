@@ -9,6 +9,7 @@
 #include "io/urdf_plan.h"
 #include "io/write_robot.h"
 #include "io/xml.h"
+#include "spec/check_robot.h"
 
 namespace clench {
 
@@ -148,9 +149,8 @@ void UrdfText::add_joint(const UrdfJoint& joint) {
       add("    ",
           fmt::format("<dynamics damping=\"{}\" friction=\"{}\"/>", spec->viscous, spec->coulomb));
     if (!joint.leads)
-      add("    ",
-          fmt::format("<mimic joint=\"{}\" multiplier=\"{}\" offset=\"{}\"/>",
-                      xml_escaped(leader.name), joint.factor / leader.factor, joint.offset));
+      add("    ", fmt::format("<mimic joint=\"{}\" multiplier=\"{}\"/>", xml_escaped(leader.name),
+                              joint.factor / leader.factor));
   }
   add("  ", "</joint>");
 }
@@ -222,16 +222,17 @@ void UrdfText::beside_contacts(const std::string& text) {
   folder_.write_parts();
   const Draft draft(folder_.path(), text);
   const RobotSpec read = read_robot(draft.path());
-  std::map<std::string, RobotPart> parts;
-  for (int c = 0; c < static_cast<int>(read.chains.size()); ++c)
-    for (int l = 0; l < static_cast<int>(read.chains[c].links.size()); ++l)
-      parts[read.chains[c].links[l].body.name] = {c, l};
+  const auto chains = chains_of(robot_), read_chains = chains_of(read);
+  std::map<std::string, ChainPlace> places;
+  for (int l = 0; l < static_cast<int>(read.links.size()); ++l)
+    places[read.links[l].body.name] = place_of(read_chains, l);
   VirtualContactSet set = *robot_.virtual_contacts;
   for (VirtualContactSpec& contact : set.contacts) {
     if (contact.chain < 0) continue;
-    const UrdfLink& link = plan_.links[plan_.link({contact.chain, contact.link})];
-    const auto found = parts.find(read.name + "_" + link.name);
-    if (found == parts.end())
+    const int ours = *link_at(chains, {contact.chain, contact.link});
+    const UrdfLink& link = plan_.links[plan_.link(ours)];
+    const auto found = places.find(read.name + "_" + link.name);
+    if (found == places.end())
       fail("{}: link '{}' is not found again in it", folder_.file(), excerpt(link.name));
     contact.chain = found->second.chain;
     contact.link = found->second.link;

@@ -46,7 +46,7 @@ std::string wld_text(const WorldSpec& world, SavedFiles& files) {
   }
   // robots are counted in the order of their blocks
   for (const Connection& c : world.connections)
-    out += fmt::format("Connection\n{} {} {}\n{}T {}\n\n", c.parent, c.chain, c.child,
+    out += fmt::format("Connection\n{} {} {}\n{}T {}\n\n", c.parent, chain_of(world, c), c.child,
                        c.mount ? body_file(*c.mount, files) : "\n", full_transform(c.X_LB));
   if (world.camera)
     out += fmt::format("CameraFull\n{} {} {}\n", millimetres(world.camera->X_WC.position),

@@ -29,9 +29,10 @@ static std::string robot_element(const PlacedRobot& placed, SavedFiles& files) {
          element("dofValues", dof_values(placed)) + transform_element(placed.X_WB) + "  </robot>\n";
 }
 
-static std::string connection_element(const Connection& c, SavedFiles& files) {
+static std::string connection_element(const WorldSpec& world, const Connection& c,
+                                      SavedFiles& files) {
   std::string out = "  <connection>\n" + element("parentRobot", fmt::format("{}", c.parent)) +
-                    element("parentChain", fmt::format("{}", c.chain)) +
+                    element("parentChain", fmt::format("{}", chain_of(world, c))) +
                     element("childRobot", fmt::format("{}", c.child));
   if (c.mount) {
     const std::string file =
@@ -56,7 +57,7 @@ std::string world_xml_text(const WorldSpec& world, SavedFiles& files) {
     else if (entry.kind == WorldEntry::Kind::robot)
       out += robot_element(world.robots[entry.index], files);
   }
-  for (const Connection& c : world.connections) out += connection_element(c, files);
+  for (const Connection& c : world.connections) out += connection_element(world, c, files);
   if (world.camera) out += camera_element(*world.camera);
   return out + "</world>\n";
 }

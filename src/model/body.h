@@ -33,8 +33,7 @@ struct Body {
 
   // place in a robot, when it belongs to one
   Id<Robot> robot;
-  int chain = -1;  ///< -1: base or mount
-  int link = -1;
+  int link = -1;  ///< -1: base or mount
 
   /// largest distance of the surface from the centre of mass [m]; scales torques
   double max_radius() const;

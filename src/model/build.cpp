@@ -12,31 +12,25 @@ static constexpr double digits = 1e-5;
 
 // inside its limits a joint of a compliant DOF may stand anywhere, and has broken away where its breakaway DOF has gone
 // on beyond it; any other follows its DOF
-static std::vector<std::vector<Apart>> checked_apart(const Robot& robot, const Eigen::VectorXd& q,
-                                                     const std::vector<std::vector<Apart>>& given,
-                                                     const Listeners& listeners) {
+static std::vector<Apart> checked_apart(const Robot& robot, const Eigen::VectorXd& q,
+                                        const std::vector<Apart>& given,
+                                        const Listeners& listeners) {
   auto out = given;
-  if (out.size() != robot.chains.size())
-    fail("robot '{}': expected joint states of {} chains, got {}", excerpt(robot.name),
-         robot.chains.size(), out.size());
-  for (size_t c = 0; c < out.size(); ++c) {
-    const auto& joints = robot.chains[c].joints;
-    if (out[c].size() != joints.size())
-      fail("robot '{}': expected joint states of {} joints, got {}", excerpt(robot.name),
-           joints.size(), out[c].size());
-    for (size_t j = 0; j < out[c].size(); ++j) {
-      if (!out[c][j]) continue;
-      const JointSpec& joint = joints[j];
-      const bool sprung = robot.dofs[joint.dof].kind == DofKind::compliant;
-      const bool beyond = sprung || (joint.ratio * q[joint.dof] - *out[c][j]) * joint.ratio > 0;
-      if (beyond && *out[c][j] >= joint.min - digits && *out[c][j] <= joint.max + digits) continue;
-      if (listeners.warn && beyond)
-        listeners.warn(fmt::format(
-            "robot '{}': joint {} of chain {} {} at {}, outside [{}, {}]; it follows its DOF",
-            excerpt(robot.name), j + 1, c + 1, sprung ? "stands" : "broke away", *out[c][j],
-            joint.min, joint.max));
-      out[c][j].reset();
-    }
+  if (out.size() != robot.joints.size())
+    fail("robot '{}': expected the states of {} joints, got {}", excerpt(robot.name),
+         robot.joints.size(), out.size());
+  for (size_t j = 0; j < out.size(); ++j) {
+    if (!out[j]) continue;
+    const Joint& joint = robot.joints[j];
+    const bool sprung = robot.dofs[joint.dof].kind == DofKind::compliant;
+    const bool beyond = sprung || (joint.ratio * q[joint.dof] - *out[j]) * joint.ratio > 0;
+    if (beyond && *out[j] >= joint.min - digits && *out[j] <= joint.max + digits) continue;
+    if (listeners.warn && beyond)
+      listeners.warn(
+          fmt::format("robot '{}': joint {} {} at {}, outside [{}, {}]; it follows its DOF",
+                      excerpt(robot.name), j + 1, sprung ? "stands" : "broke away", *out[j],
+                      joint.min, joint.max));
+    out[j].reset();
   }
   return out;
 }
@@ -66,9 +60,8 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
                     const Listeners& listeners) {
   const Robot& carrier = world.robot(parent);
   Pose X_LB = c.X_LB;
-  if (c.chain >= 0 && c.chain < static_cast<int>(carrier.chains.size()) &&
-      !carrier.chains[c.chain].links.empty()) {
-    const Pose X_WL = world.body(carrier.chains[c.chain].links.back()).X_WB;
+  if (c.link >= 0 && c.link < static_cast<int>(carrier.links.size())) {
+    const Pose X_WL = world.body(carrier.links[c.link].body).X_WB;
     const Pose& X_WB = world.body(world.robot(child).base).X_WB;
     const Pose as_written = X_WL.inverse() * X_WB;
     const Pose off = X_LB.inverse() * as_written;
@@ -82,7 +75,7 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
                       excerpt(world.robot(child).name), excerpt(carrier.name), off.position.norm(),
                       off.angle()));
   }
-  world.mount(child, parent, c.chain, X_LB, c.mount ? &*c.mount : nullptr);
+  world.mount(child, parent, c.link, X_LB, c.mount ? &*c.mount : nullptr);
 }
 
 std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot, double closer_than) {

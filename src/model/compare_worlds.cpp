@@ -132,13 +132,10 @@ void Comparer::robots(const Robot& a, const Robot& b) {
         return same(x.default_velocity, y.default_velocity);
       }))
     add("how '{}' closes", a.name);
-  bool broken = a.chains.size() == b.chains.size();
-  for (size_t c = 0; broken && c < a.chains.size(); ++c)
-    broken = std::ranges::equal(
-        a.chains[c].apart, b.chains[c].apart, [](const Apart& x, const Apart& y) {
-          return x.has_value() == y.has_value() && same(x.value_or(0), y.value_or(0));
-        });
-  if (!broken) add("the joints of '{}' that do not follow their DOFs", a.name);
+  const bool alike = std::ranges::equal(a.apart, b.apart, [](const Apart& x, const Apart& y) {
+    return x.has_value() == y.has_value() && same(x.value_or(0), y.value_or(0));
+  });
+  if (!alike) add("the joints of '{}' that do not follow their DOFs", a.name);
   if (!same(a.X_BA, b.X_BA)) add("the approach frame of '{}'", a.name);
   if (a.mounting.has_value() != b.mounting.has_value()) add("what carries '{}'", a.name);
   if (!same_set(a.eigengrasps.get(), b.eigengrasps.get())) add("the eigengrasps of '{}'", a.name);

@@ -54,15 +54,10 @@ RobotSpec Describer::robot(const Robot& r) const {
   out.class_name = r.class_name;
   out.base = body(r.base);
   out.dofs = r.dofs;
-  for (const Chain& from : r.chains) {
-    ChainSpec chain{.parent_chain = from.parent_chain,
-                    .parent_link = from.parent_link,
-                    .X_BC = from.X_BC,
-                    .joints = from.joints,
-                    .links = {}};
-    for (size_t l = 0; l < from.links.size(); ++l)
-      chain.links.push_back({body(from.links[l]), from.link_joints[l], from.last_joints[l]});
-    out.chains.push_back(std::move(chain));
+  for (const Link& from : r.links) {
+    LinkSpec link{.body = body(from.body), .parent = from.parent, .X_JL = from.X_JL};
+    link.joints.assign(r.joints.begin() + from.first_joint, r.joints.begin() + from.end_joint);
+    out.links.push_back(std::move(link));
   }
   out.X_BA = r.X_BA;
   if (r.eigengrasps) out.eigengrasps = *r.eigengrasps;
@@ -83,7 +78,7 @@ PlacedRobot Describer::placed(const Robot& r) const {
   out.robot = robot(r);
   out.X_WB = world_.body(r.base).X_WB;
   out.dofs.assign(r.q.begin(), r.q.end());
-  for (const Chain& chain : r.chains) out.apart.push_back(chain.apart);
+  out.apart = r.apart;
   return out;
 }
 
@@ -96,7 +91,7 @@ void Describer::add_connection(Id<Robot> child) {
   const Mounting& mounting = *world_.robot(child).mounting;
   Connection c;
   c.parent = number(mounting.parent);
-  c.chain = mounting.chain;
+  c.link = mounting.link;
   c.child = number(child);
   c.X_LB = mounting.X_LB;
   if (mounting.piece) c.mount = body(*mounting.piece);

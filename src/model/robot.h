@@ -1,4 +1,4 @@
-// A robot of the world: its chains, and the values of its DOFs.
+// A robot of the world: its links, and the values of its DOFs.
 #pragma once
 #include <Eigen/Core>
 #include <memory>
@@ -7,27 +7,27 @@
 #include <vector>
 
 #include "model/body.h"
+#include "spec/chains.h"
 #include "spec/world_spec.h"
 
 namespace clench {
 
-struct Chain {
-  int parent_chain = -1;  ///< -1: it begins on the base
-  int parent_link = -1;
-  Pose X_BC;  ///< chain frame in the base, or in the parent link
-  std::vector<JointSpec> joints;
-  std::vector<Apart> apart;      ///< one per joint: its own q, where it does not follow its DOF
-  std::vector<int> last_joints;  ///< one per link
-  std::vector<std::optional<Pose>> X_JL;  ///< one per link: in the frame after its last joint
-  std::vector<LinkJoint> link_joints;
-  std::vector<Id<Body>> links;
+struct Joint : JointSpec {
+  int link = 0;  ///< that it moves, with all beyond
+};
+
+struct Link {
+  Id<Body> body;
+  int parent = -1;                     ///< an earlier link; -1: the base
+  int first_joint = 0, end_joint = 0;  ///< its own, from the parent on: [first, end)
+  Pose X_JL;                           ///< in the frame behind the last joint, or the parent's
 };
 
 /// How a robot is carried by another one.
 struct Mounting {
   Id<Robot> parent;
-  int chain = 0;
-  Pose X_LB;                      ///< our base in the parent's last link
+  int link = 0;                   ///< of the parent
+  Pose X_LB;                      ///< our base in it
   std::optional<Id<Body>> piece;  ///< adapter, stands where our base stands
 };
 
@@ -40,8 +40,11 @@ struct Robot {
   std::vector<DofSpec> dofs;
   std::vector<std::array<double, 2>> limits;  ///< one per DOF [rad or m]
   Eigen::VectorXd q;                          ///< one per DOF [rad or m]
-  std::vector<Chain> chains;
-  Pose X_BA;  ///< approach frame: +z is the direction of approach
+  std::vector<Link> links;
+  std::vector<Joint> joints;  ///< link by link
+  std::vector<Apart> apart;   ///< one per joint: its own q, where it does not follow its DOF
+  std::vector<Chain> chains;  ///< the links in rows
+  Pose X_BA;                  ///< approach frame: +z is the direction of approach
   std::optional<Mounting> mounting;
   /// null: none given, and each DOF is its own
   std::shared_ptr<const EigengraspSet> eigengrasps;
@@ -51,26 +54,26 @@ struct Robot {
   RobotFiles files;  ///< where the three above came from
   std::optional<TrackerSpec> tracker;
   std::shared_ptr<const PassiveParts> passive;  ///< null: none; nothing acts on them yet
+
+  Id<Body> body_of(int link) const { return link < 0 ? base : links[link].body; }
 };
 
 /// q of a joint: ratio * dof, or its own.
-double joint_value(const Robot& robot, int chain, int joint);
+double joint_value(const Robot& robot, int joint);
 
-/// Frame of a joint after it has turned or slid by q, in the frame before.
-Pose joint_pose(const JointSpec& joint, double q);
+/// Where joints and links stand, in the base frame.
+struct RobotFrames {
+  std::vector<Pose> joints;  ///< before they move
+  std::vector<Pose> links;
 
-/// Where a chain's joints stand, in the base frame.
-struct ChainFrames {
-  Pose start;               ///< the chain frame
-  std::vector<Pose> axes;   ///< one per joint: its axis is z
-  std::vector<Pose> after;  ///< one per joint: after its motion
-  std::vector<Pose> links;  ///< one per link
+  Pose link(int number) const { return number < 0 ? Pose{} : links[number]; }
+  Eigen::Vector3d axis(const Robot& robot, int joint) const {
+    return joints[joint].rotation * robot.joints[joint].axis;
+  }
 };
+RobotFrames robot_frames(const Robot& robot);
 
-/// One a chain.
-std::vector<ChainFrames> chain_frames(const Robot& robot);
-
-/// Does a joint move a link: is it on the way from the base to the link?
-bool joint_moves_link(const Robot& robot, int joint_chain, int joint, int chain, int link);
+/// Does a joint move a link: is it on the way from the base to the link?   link  -1: the base
+bool joint_moves_link(const Robot& robot, int joint, int link);
 
 }  // namespace clench

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/suggest.h"
 #include "base/text.h"
-#include "model/near_bodies.h"
+#include "spec/check_robot.h"
 #include "spec/inertia.h"
 
 namespace clench {
@@ -127,6 +127,15 @@ Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::s
     robot.virtual_contacts =
         std::make_shared<std::vector<VirtualContactSpec>>(spec.virtual_contacts->contacts);
   if (spec.glove) robot.glove = std::make_shared<GloveCalibration>(*spec.glove);
+  for (const LinkSpec& link : spec.links) {
+    const int first = static_cast<int>(robot.joints.size());
+    for (const JointSpec& joint : link.joints)
+      robot.joints.push_back({joint, static_cast<int>(robot.links.size())});
+    robot.links.push_back(
+        {{}, link.parent, first, static_cast<int>(robot.joints.size()), link.X_JL});
+  }
+  robot.apart.resize(robot.joints.size());
+  robot.chains = chains_of(spec);
   robot.q.resize(static_cast<int>(spec.dofs.size()));
   for (int i = 0; i < robot.q.size(); ++i) {
     const auto range = dof_range(spec, i);
@@ -150,80 +159,55 @@ Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::s
   return id;
 }
 
-// base and links chain by chain, and what of them never meets
+// base and links, and what of them never meets
 void World::add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB) {
   const std::string robot_name = robot(id).name;
-  const auto add_part = [&](const BodySpec& part, BodyKind kind, int chain, int link) {
+  const auto add_part = [&](const BodySpec& part, BodyKind kind, int link) {
     BodySpec named = part;
     named.name = repaired_name(part_name(part.name, spec.name, robot_name));
     const auto body = add_body(named, kind, X_WB);
     edit(body).robot = id;
-    edit(body).chain = chain;
     edit(body).link = link;
     return body;
   };
-  edit(id).base = add_part(spec.base, BodyKind::base, -1, -1);
-  for (size_t c = 0; c < spec.chains.size(); ++c) {
-    const ChainSpec& from = spec.chains[c];
-    Chain chain{.parent_chain = from.parent_chain,
-                .parent_link = from.parent_link,
-                .X_BC = from.X_BC,
-                .joints = from.joints,
-                .apart = {},
-                .last_joints = {},
-                .X_JL = {},
-                .link_joints = {},
-                .links = {}};
-    chain.apart.resize(from.joints.size());
-    for (size_t l = 0; l < from.links.size(); ++l) {
-      chain.last_joints.push_back(from.links[l].last_joint);
-      chain.X_JL.push_back(from.links[l].X_JL);
-      chain.link_joints.push_back(from.links[l].joint);
-      chain.links.push_back(
-          add_part(from.links[l].body, BodyKind::link, static_cast<int>(c), static_cast<int>(l)));
-    }
-    edit(id).chains.push_back(std::move(chain));
+  edit(id).base = add_part(spec.base, BodyKind::base, -1);
+  for (int l = 0; l < static_cast<int>(spec.links.size()); ++l) {
+    const auto body = add_part(spec.links[l].body, BodyKind::link, l);
+    edit(id).links[l].body = body;
   }
-  switch_off_neighbours(this->robot(id), spec.chain_links_collide);
-  const auto part = [&](const RobotPart& p) {
-    const Robot& r = this->robot(id);
-    return p.chain < 0 ? r.base : r.chains[p.chain].links[p.link];
-  };
-  for (const auto& off : spec.collision_rules.parts_off) set_collision(false, part(off));
-  for (const auto& [a, b] : spec.collision_rules.pairs_off) set_collision(false, part(a), part(b));
+  const Robot& made = robot(id);
+  switch_off_neighbours(made, spec.chain_links_collide);
+  for (const int off : spec.collision_rules.parts_off) set_collision(false, made.body_of(off));
+  for (const auto& [a, b] : spec.collision_rules.pairs_off)
+    set_collision(false, made.body_of(a), made.body_of(b));
 }
 
 // Neighbours never meet: a link and the nearest body with a shape on the way to the base. In robots of the original
 // no two links of a chain do, and the base meets no chain's first link.
 void World::switch_off_neighbours(const Robot& robot, bool chain_links_collide) {
-  std::vector<std::vector<Id<Body>>> shaped;  // by chain, by link: itself or what carries it
-  for (const Chain& chain : robot.chains) {
-    Id<Body> before =
-        chain.parent_chain < 0 ? robot.base : shaped[chain.parent_chain][chain.parent_link];
-    shaped.emplace_back();
-    for (size_t i = 0; i < chain.links.size(); ++i) {
-      if (i == 0 || chain_links_collide) set_collision(false, before, chain.links[i]);
-      if (body(chain.links[i]).shape) before = chain.links[i];
-      shaped.back().push_back(before);
-      if (chain_links_collide) continue;
-      for (size_t j = 0; j < i; ++j) set_collision(false, chain.links[j], chain.links[i]);
-    }
+  std::vector<Id<Body>> shaped;  // by link: itself or what carries it
+  for (const Link& link : robot.links) {
+    const Id<Body> before = link.parent < 0 ? robot.base : shaped[link.parent];
+    if (chain_links_collide || link.parent < 0) set_collision(false, before, link.body);
+    shaped.push_back(body(link.body).shape ? link.body : before);
   }
+  if (chain_links_collide) return;
+  for (const Chain& chain : robot.chains)
+    for (const int i : chain.links)
+      for (const int j : chain.links)
+        if (j < i) set_collision(false, robot.links[j].body, robot.links[i].body);
 }
 
-void World::mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB,
+void World::mount(Id<Robot> child, Id<Robot> parent, int link, const Pose& X_LB,
                   const BodySpec* piece) {
   const std::string& name = robot(child).name;
   const Robot& carrier = robot(parent);
   if (robot(child).mounting)
     fail("robot '{}' is already carried by '{}'", excerpt(name),
          excerpt(robot(robot(child).mounting->parent).name));
-  if (chain < 0 || chain >= static_cast<int>(carrier.chains.size()))
-    fail("robot '{}': expected a chain of '{}', 0 to {}, got {}", excerpt(name),
-         excerpt(carrier.name), static_cast<int>(carrier.chains.size()) - 1, chain);
-  if (carrier.chains[chain].links.empty())
-    fail("robot '{}': chain {} of '{}' has no link to carry it", excerpt(name), chain,
-         excerpt(carrier.name));
+  if (link < 0 || link >= static_cast<int>(carrier.links.size()))
+    fail("robot '{}': expected a link of '{}', 0 to {}, got {}", excerpt(name),
+         excerpt(carrier.name), static_cast<int>(carrier.links.size()) - 1, link);
   check_place(X_LB,
               fmt::format("robot '{}': its pose on '{}'", excerpt(name), excerpt(carrier.name)));
   for (auto up = parent;;) {
@@ -234,8 +218,8 @@ void World::mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB
     up = robot(up).mounting->parent;
   }
 
-  // the last link, the adapter and the base are one rigid piece: they never collide
-  const Id<Body> last = carrier.chains[chain].links.back();
+  // the link, the adapter and the base are one rigid piece: they never collide
+  const Id<Body> last = carrier.links[link].body;
   const Id<Body> base = robot(child).base;
   const Pose X_WB = this->body(last).X_WB * X_LB;
   if (piece) {
@@ -244,7 +228,7 @@ void World::mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB
   }
   place(child, X_WB);
   edit(child).mounting =
-      Mounting{.parent = parent, .chain = chain, .X_LB = X_LB, .piece = std::nullopt};
+      Mounting{.parent = parent, .link = link, .X_LB = X_LB, .piece = std::nullopt};
   set_collision(false, last, base);
   if (piece) {
     BodySpec named = *piece;
@@ -292,7 +276,7 @@ void World::remove(Id<Robot> id) {
 std::vector<Id<Body>> World::bodies_of(Id<Robot> id) const {
   const Robot& r = robot(id);
   std::vector<Id<Body>> out{r.base};
-  for (const auto& chain : r.chains) out.insert(out.end(), chain.links.begin(), chain.links.end());
+  for (const Link& link : r.links) out.push_back(link.body);
   if (r.mounting && r.mounting->piece) out.push_back(*r.mounting->piece);
   return out;
 }
@@ -319,14 +303,13 @@ void World::find_places(Id<Robot> id, const Pose& X_WB, Places& out) const {
   const Robot& r = robot(id);
   out.emplace_back(r.base, X_WB);
   if (r.mounting && r.mounting->piece) out.emplace_back(*r.mounting->piece, X_WB);
-  const auto frames = chain_frames(r);
-  for (size_t c = 0; c < r.chains.size(); ++c)
-    for (size_t l = 0; l < r.chains[c].links.size(); ++l)
-      out.emplace_back(r.chains[c].links[l], X_WB * frames[c].links[l]);
+  const auto frames = robot_frames(r);
+  for (size_t l = 0; l < r.links.size(); ++l)
+    out.emplace_back(r.links[l].body, X_WB * frames.links[l]);
   for (const auto other : state_.robot_order) {
     const auto& mounting = robot(other).mounting;
     if (mounting && mounting->parent == id)
-      find_places(other, X_WB * frames[mounting->chain].links.back() * mounting->X_LB, out);
+      find_places(other, X_WB * frames.links[mounting->link] * mounting->X_LB, out);
   }
 }
 
@@ -355,26 +338,21 @@ void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
     inside[i] = std::clamp(q[i], low, high);
   }
   // a value set by hand re-engages every joint
-  std::vector<std::vector<Apart>> engaged;
-  for (const auto& chain : r.chains) engaged.emplace_back(chain.joints.size());
-  set_dofs_unchecked(id, inside, engaged);
+  set_dofs_unchecked(id, inside, std::vector<Apart>(r.joints.size()));
 }
 
 void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
-                               const std::vector<std::vector<Apart>>& apart) {
+                               const std::vector<Apart>& apart) {
   Robot& r = edit(id);
   const Eigen::VectorXd was = r.q;
-  std::vector<std::vector<Apart>> was_apart;
+  const std::vector<Apart> was_apart = r.apart;
   r.q = q;
-  for (size_t c = 0; c < r.chains.size(); ++c) {
-    was_apart.push_back(r.chains[c].apart);
-    r.chains[c].apart = apart[c];
-  }
+  r.apart = apart;
   try {
     place(id, body(r.base).X_WB);
   } catch (const Error&) {
     r.q = was;
-    for (size_t c = 0; c < r.chains.size(); ++c) r.chains[c].apart = was_apart[c];
+    r.apart = was_apart;
     throw;
   }
 }

@@ -48,10 +48,10 @@ class World {
   Id<Body> add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB,
                     const std::string& name = "");
   Id<Robot> add_robot(const RobotSpec& spec, const Pose& X_WB, const std::string& name = "");
-  /// Carries `child` on the last link of the parent's chain from now on.
-  /// throws  Error when that closes a circle, the chain does not exist, or the child is carried
+  /// Carries `child` on a link of the parent from now on.
+  /// throws  Error when that closes a circle, the link does not exist, or the child is carried
   ///         already
-  void mount(Id<Robot> child, Id<Robot> parent, int chain, const Pose& X_LB,
+  void mount(Id<Robot> child, Id<Robot> parent, int link, const Pose& X_LB,
              const BodySpec* piece = nullptr);
   /// an object or obstacle
   /// throws  Error for a part of a robot
@@ -69,7 +69,7 @@ class World {
   /// empty when there is none
   Id<Body> find_body(std::string_view name) const;
   Id<Robot> find_robot(std::string_view name) const;
-  /// base, links chain by chain, mount
+  /// base, links, mount
   std::vector<Id<Body>> bodies_of(Id<Robot> robot) const;
 
   // --- state ---
@@ -82,9 +82,9 @@ class World {
   /// throws  Error on a wrong count or a number that is not finite; values outside the limits are
   ///         refused by name
   void set_dofs(Id<Robot> robot, const Eigen::VectorXd& q);
-  /// the same, with joints that do not follow, by chain and joint; used by motion, which has its own checks
+  /// the same, with joints that do not follow; used by motion, which has its own checks
   void set_dofs_unchecked(Id<Robot> robot, const Eigen::VectorXd& q,
-                          const std::vector<std::vector<Apart>>& apart);
+                          const std::vector<Apart>& apart);
   /// null: each DOF is its own
   /// throws  Error when check_eigengrasps does, or the set is for another number of DOFs
   void set_eigengrasps(Id<Robot> robot, std::shared_ptr<const EigengraspSet> set);

@@ -19,11 +19,10 @@ static size_t bytes_of(const Body& body) {
 
 static size_t bytes_of(const Robot& robot) {
   size_t bytes = bytes_of(robot.source) + bytes_of(robot.file) + bytes_of(robot.dofs) +
-                 bytes_of(robot.limits) + bytes_of(robot.chains) +
+                 bytes_of(robot.limits) + bytes_of(robot.links) + bytes_of(robot.joints) +
+                 bytes_of(robot.apart) + bytes_of(robot.chains) +
                  static_cast<size_t>(robot.q.size()) * sizeof(double);
-  for (const Chain& chain : robot.chains)
-    bytes += bytes_of(chain.joints) + bytes_of(chain.apart) + bytes_of(chain.last_joints) +
-             bytes_of(chain.X_JL) + bytes_of(chain.link_joints) + bytes_of(chain.links);
+  for (const Chain& chain : robot.chains) bytes += bytes_of(chain.links);
   return bytes;
 }
 

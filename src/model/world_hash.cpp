@@ -64,11 +64,10 @@ uint64_t World::hash() const {
     flag(r.mounting.has_value());
     if (r.mounting) {
       h.add(robot(r.mounting->parent).name);
-      h.add(static_cast<uint64_t>(r.mounting->chain));
+      h.add(static_cast<uint64_t>(r.mounting->link));
       add(h, r.mounting->X_LB);
     }
-    for (const auto& chain : r.chains)
-      for (const auto& broken : chain.apart) flag(broken.has_value()), h.add(broken.value_or(0));
+    for (const Apart& own : r.apart) flag(own.has_value()), h.add(own.value_or(0));
   }
   for (const auto& name : state_.materials.names()) h.add(name);
   const int count = static_cast<int>(state_.materials.names().size());

@@ -8,30 +8,23 @@ namespace clench {
 // a contact blocks a joint that has a lever longer than a nanometre
 static constexpr double no_lever = 1e-9;
 
-// velocity of a point of whatever the joint moves, the joint at unit speed; frame: of its axis, in the world
-static Eigen::Vector3d point_velocity(const JointSpec& joint, const Pose& frame,
-                                      const Eigen::Vector3d& p_W) {
-  const Eigen::Vector3d axis = frame.rotation * Eigen::Vector3d::UnitZ();
-  return joint.kind == JointKind::revolute ? Eigen::Vector3d(axis.cross(p_W - frame.position))
-                                           : axis;
-}
-
-Eigen::Vector3d contact_velocity(const World& world, Id<Robot> id,
-                                 const std::vector<ChainFrames>& frames, JointPlace joint,
-                                 const Contact& contact) {
+Eigen::Vector3d contact_velocity(const World& world, Id<Robot> id, const RobotFrames& frames,
+                                 int joint, const Contact& contact) {
   const bool moves_body = joint_moves(world, id, joint, contact.body);
   if (moves_body == joint_moves(world, id, joint, contact.other)) return Eigen::Vector3d::Zero();
   const Robot& robot = world.robot(id);
-  const auto [c, j] = joint;
-  const Pose frame = world.body(robot.base).X_WB * frames[c].axes[j];
-  return (moves_body ? 1 : -1) * point_velocity(robot.chains[c].joints[j], frame, contact.p_W);
+  const Pose& X_WB = world.body(robot.base).X_WB;
+  const Eigen::Vector3d axis = X_WB.rotation * frames.axis(robot, joint);
+  const Eigen::Vector3d arm = contact.p_W - X_WB * frames.joints[joint].position;
+  const bool turns = robot.joints[joint].kind == JointKind::revolute;
+  return (moves_body ? 1 : -1) * (turns ? Eigen::Vector3d(axis.cross(arm)) : axis);
 }
 
 namespace {
 
 /// What one joint does to a contact.
 struct Share {
-  JointPlace joint;
+  int joint;
   bool moves_body;  ///< or the other one
   double leaving;   ///< [m per unit of path]
   double margin;    ///< what counts as nothing of it
@@ -40,27 +33,23 @@ struct Share {
 }  // namespace
 
 // of joints that move one side of the contact, not both
-static std::vector<Share> shares_of(const World& world, Id<Robot> id,
-                                    const std::vector<ChainFrames>& frames,
+static std::vector<Share> shares_of(const World& world, Id<Robot> id, const RobotFrames& frames,
                                     const JointSpeeds& speeds, const Contact& contact) {
   std::vector<Share> shares;
-  for (int c = 0; c < static_cast<int>(speeds.size()); ++c)
-    for (int j = 0; j < static_cast<int>(speeds[c].size()); ++j) {
-      if (speeds[c][j] == 0) continue;
-      const bool moves_body = joint_moves(world, id, {c, j}, contact.body);
-      if (moves_body == joint_moves(world, id, {c, j}, contact.other)) continue;
-      const Eigen::Vector3d v = speeds[c][j] * contact_velocity(world, id, frames, {c, j}, contact);
-      shares.push_back({{c, j},
-                        moves_body,
-                        v.dot(contact.n_W),
-                        std::max(grazing * v.norm(), no_lever * std::abs(speeds[c][j]))});
-    }
+  for (int j = 0; j < static_cast<int>(speeds.size()); ++j) {
+    if (speeds[j] == 0) continue;
+    const bool moves_body = joint_moves(world, id, j, contact.body);
+    if (moves_body == joint_moves(world, id, j, contact.other)) continue;
+    const Eigen::Vector3d v = speeds[j] * contact_velocity(world, id, frames, j, contact);
+    shares.push_back({j, moves_body, v.dot(contact.n_W),
+                      std::max(grazing * v.norm(), no_lever * std::abs(speeds[j]))});
+  }
   return shares;
 }
 
 BlockedJoints blocked_joints(const World& world, Id<Robot> id, const JointSpeeds& speeds,
                              std::span<const Contact> touching, double closed) {
-  const auto frames = chain_frames(world.robot(id));
+  const auto frames = robot_frames(world.robot(id));
   BlockedJoints out;
   std::set<BodyPair> seen;
   for (const Contact& contact : touching) {

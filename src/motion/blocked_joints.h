@@ -11,11 +11,10 @@ namespace clench {
 /// A contact blocks a motion that leans into it by more than this sine.
 constexpr double grazing = 1e-6;
 
-using JointSpeeds =
-    std::vector<std::vector<double>>;  ///< by chain, by joint [rad or m per unit of path]
+using JointSpeeds = std::vector<double>;  ///< one per joint [rad or m per unit of path]
 
 struct BlockedJoints {
-  std::set<JointPlace> joints;
+  std::set<int> joints;
   std::vector<BodyPair> pairs;  ///< whose contacts block; link first
 };
 
@@ -27,9 +26,8 @@ BlockedJoints blocked_joints(const World& world, Id<Robot> robot, const JointSpe
                              std::span<const Contact> touching, double closed);
 
 /// How fast the contact's body moves against the other at their point, one joint at unit speed: 0 when the joint moves
-/// neither or both.   frames  of the robot's chains;   returns  world axes [m per unit of the joint]
-Eigen::Vector3d contact_velocity(const World& world, Id<Robot> robot,
-                                 const std::vector<ChainFrames>& frames, JointPlace joint,
-                                 const Contact& contact);
+/// neither or both.   frames  of the robot;   returns  world axes [m per unit of the joint]
+Eigen::Vector3d contact_velocity(const World& world, Id<Robot> robot, const RobotFrames& frames,
+                                 int joint, const Contact& contact);
 
 }  // namespace clench

@@ -30,10 +30,10 @@ namespace {
 bool tendon_can_advance(Drive& drive, int dof, double rate, const BlockedJoints& blocked,
                         const SpringBalance& springs) {
   bool free = false, unwinds = false;
-  each_joint(drive.robot(), dof, [&](int c, int j, const JointSpec& joint) {
-    Apart& own = drive.apart[c][j];
+  each_joint_of(drive.robot(), dof, [&](int j, const Joint& joint) {
+    Apart& own = drive.apart[j];
     const double place = joint.ratio * drive.q[dof];
-    if (!own && blocked.joints.contains({c, j}))
+    if (!own && blocked.joints.contains(j))
       own = place;
     else if (!own)
       free = true;
@@ -46,16 +46,16 @@ bool tendon_can_advance(Drive& drive, int dof, double rate, const BlockedJoints&
 // may the DOF go on past its blocked joints? a breakaway DOF, closing, leaves them behind
 bool dof_can_advance(Drive& drive, int dof, double rate, const BlockedJoints& blocked) {
   int stopped = 0, free = 0;
-  each_joint(drive.robot(), dof, [&](int c, int j, const JointSpec&) {
-    if (blocked.joints.contains({c, j}))
+  each_joint_of(drive.robot(), dof, [&](int j, const Joint&) {
+    if (blocked.joints.contains(j))
       ++stopped;
-    else if (!drive.apart[c][j])
+    else if (!drive.apart[j])
       ++free;
   });
   if (stopped == 0) return free > 0;
   if (drive.robot().dofs[dof].kind != DofKind::breakaway || rate < 0 || free == 0) return false;
-  each_joint(drive.robot(), dof, [&](int c, int j, const JointSpec& joint) {
-    if (blocked.joints.contains({c, j})) drive.apart[c][j] = joint.ratio * drive.q[dof];
+  each_joint_of(drive.robot(), dof, [&](int j, const Joint& joint) {
+    if (blocked.joints.contains(j)) drive.apart[j] = joint.ratio * drive.q[dof];
   });
   return true;
 }
@@ -95,9 +95,9 @@ double path_length(const Drive& drive, const Eigen::VectorXd& rates) {
   for (int dof = 0; dof < rates.size(); ++dof) {
     if (rates[dof] == 0) continue;
     length = std::min(length, (drive.targets[dof] - drive.q[dof]) / rates[dof]);
-    each_joint(drive.robot(), dof, [&](int c, int j, const JointSpec& joint) {
-      if (!drive.apart[c][j]) return;
-      const double there = (*drive.apart[c][j] / joint.ratio - drive.q[dof]) / rates[dof];
+    each_joint_of(drive.robot(), dof, [&](int j, const Joint& joint) {
+      if (!drive.apart[j]) return;
+      const double there = (*drive.apart[j] / joint.ratio - drive.q[dof]) / rates[dof];
       if (there > 0) length = std::min(length, there);
       if (drive.sprung(dof))
         length = std::min(length, pull_step / std::abs(joint.ratio * rates[dof]));
@@ -142,9 +142,8 @@ void check(const Robot& robot, const DofMotion& motion) {
 
 bool any_moved(const Robot& before, const Robot& now) {
   if ((now.q - before.q).lpNorm<Eigen::Infinity>() > no_motion) return true;
-  for (int c = 0; c < static_cast<int>(now.chains.size()); ++c)
-    for (int j = 0; j < static_cast<int>(now.chains[c].joints.size()); ++j)
-      if (std::abs(joint_value(now, c, j) - joint_value(before, c, j)) > no_motion) return true;
+  for (int j = 0; j < static_cast<int>(now.joints.size()); ++j)
+    if (std::abs(joint_value(now, j) - joint_value(before, j)) > no_motion) return true;
   return false;
 }
 

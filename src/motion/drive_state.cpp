@@ -17,49 +17,44 @@ bool back_at(const Drive& drive, const JointSpec& joint, double own) {
   return beyond * (joint.ratio < 0 ? -1 : 1) <= 0;
 }
 
-// bound of the way that a joint's frames span, whatever its q
+// bound of the way from the frame before a joint to the one behind it, whatever its q
 double span_of(const JointSpec& joint) {
-  const double d = joint.kind == JointKind::prismatic
-                       ? std::max(std::abs(joint.d + joint.min), std::abs(joint.d + joint.max))
-                       : std::abs(joint.d);
-  return std::hypot(joint.a, d) +
-         (joint.placed_freely ? joint.X_before.position.norm() + joint.X_after.position.norm() : 0);
+  const double slides =
+      joint.kind == JointKind::prismatic ? std::max(std::abs(joint.min), std::abs(joint.max)) : 0;
+  return joint.X_PJ.position.norm() + slides;
 }
 
 // bound of the distance of any point of the body from the axis of a joint that moves it, whatever the joints do
-// on the way: lengths along the chains, then the body's own extent
-double lever(const Drive& drive, JointPlace joint, Id<Body> id) {
+// on the way: lengths along the links, then the body's own extent
+double lever(const Drive& drive, int joint, Id<Body> id) {
   const Robot& robot = drive.robot();
   const Body& body = drive.world.body(id);
-  auto [chain, link] = carrying_link(drive.world, drive.id, id);
+  int link = carrying_link(drive.world, drive.id, id);
   // a carried robot is rigid on its link
-  const Pose X_WL = drive.world.body(robot.chains[chain].links[link]).X_WB;
+  const Pose X_WL = drive.world.body(robot.links[link].body).X_WB;
   const Eigen::Vector3d centre = X_WL.inverse() * (body.X_WB * body.shape->centre());
   double length = centre.norm() + body.shape->radius();
   while (true) {
-    const Chain& c = robot.chains[chain];
-    const bool here = chain == joint.first;
-    if (c.X_JL[link]) length += c.X_JL[link]->position.norm();
-    for (int k = here ? joint.second : 0; k <= c.last_joints[link]; ++k)
-      length += span_of(c.joints[k]);
+    const Link& l = robot.links[link];
+    const bool here = link == robot.joints[joint].link;
+    length += l.X_JL.position.norm();
+    for (int k = here ? joint + 1 : l.first_joint; k < l.end_joint; ++k)
+      length += span_of(robot.joints[k]);
     if (here) return length;
-    length += c.X_BC.position.norm();
-    chain = c.parent_chain;
-    link = c.parent_link;
+    link = l.parent;
   }
 }
 
 // bound of the relative speed of two bodies: the joints that move one of them and not the other
 double pair_speed(const Drive& drive, const JointSpeeds& speeds, Id<Body> a, Id<Body> b) {
   double sum = 0;
-  for (int c = 0; c < static_cast<int>(speeds.size()); ++c)
-    for (int j = 0; j < static_cast<int>(speeds[c].size()); ++j) {
-      if (speeds[c][j] == 0) continue;
-      const bool moves_a = joint_moves(drive.world, drive.id, {c, j}, a);
-      if (moves_a == joint_moves(drive.world, drive.id, {c, j}, b)) continue;
-      const bool turns = drive.robot().chains[c].joints[j].kind == JointKind::revolute;
-      sum += std::abs(speeds[c][j]) * (turns ? lever(drive, {c, j}, moves_a ? a : b) : 1);
-    }
+  for (int j = 0; j < static_cast<int>(speeds.size()); ++j) {
+    if (speeds[j] == 0) continue;
+    const bool moves_a = joint_moves(drive.world, drive.id, j, a);
+    if (moves_a == joint_moves(drive.world, drive.id, j, b)) continue;
+    const bool turns = drive.robot().joints[j].kind == JointKind::revolute;
+    sum += std::abs(speeds[j]) * (turns ? lever(drive, j, moves_a ? a : b) : 1);
+  }
   return sum;
 }
 
@@ -79,31 +74,25 @@ std::vector<PairBound> all_pairs(const Drive& drive) {
 
 Drive begin_drive(World& world, Id<Robot> id) {
   const Robot& robot = world.robot(id);
-  Drive drive{world, id, movable_bodies(world, id), robot.q, {}, {}};
-  for (const auto& chain : robot.chains) drive.apart.push_back(chain.apart);
+  Drive drive{world, id, movable_bodies(world, id), robot.q, robot.apart, {}};
   drive.pairs = all_pairs(drive);
   return drive;
 }
 
 JointSpeeds joint_speeds(const Drive& drive, const Eigen::VectorXd& rates, bool pulled) {
   JointSpeeds speeds;
-  for (size_t c = 0; c < drive.apart.size(); ++c) {
-    const auto& joints = drive.robot().chains[c].joints;
-    speeds.emplace_back();
-    for (size_t j = 0; j < joints.size(); ++j) {
-      const bool moves = !drive.apart[c][j] || (pulled && drive.sprung(joints[j].dof));
-      speeds[c].push_back(moves ? joints[j].ratio * rates[joints[j].dof] : 0);
-    }
+  for (size_t j = 0; j < drive.apart.size(); ++j) {
+    const Joint& joint = drive.robot().joints[j];
+    const bool moves = !drive.apart[j] || (pulled && drive.sprung(joint.dof));
+    speeds.push_back(moves ? joint.ratio * rates[joint.dof] : 0);
   }
   return speeds;
 }
 
 void re_engage(Drive& drive) {
-  for (int dof = 0; dof < drive.q.size(); ++dof)
-    each_joint(drive.robot(), dof, [&](int c, int j, const JointSpec& joint) {
-      Apart& own = drive.apart[c][j];
-      if (own && back_at(drive, joint, *own)) own.reset();
-    });
+  for (size_t j = 0; j < drive.apart.size(); ++j)
+    if (Apart& own = drive.apart[j]; own && back_at(drive, drive.robot().joints[j], *own))
+      own.reset();
 }
 
 Advance follow_path(Drive& drive, const JointSpeeds& speeds, double length,

@@ -13,7 +13,7 @@ struct Drive {
   Id<Robot> id;
   std::vector<Id<Body>> moving;
   Eigen::VectorXd q;
-  std::vector<std::vector<Apart>> apart;
+  std::vector<Apart> apart;  ///< one per joint
   std::vector<PairBound> pairs;
   Eigen::VectorXd targets = {};  ///< of the DOFs, within their limits
 
@@ -29,12 +29,11 @@ Drive begin_drive(World& world, Id<Robot> robot);
 /// pulled  also of those that contacts hold against their springs
 JointSpeeds joint_speeds(const Drive& drive, const Eigen::VectorXd& rates, bool pulled = false);
 
-/// Visits chain, joint and its spec for all joints of a DOF.
+/// Visits number and spec of all joints of a DOF.
 template <class Visit>
-void each_joint(const Robot& robot, int dof, Visit visit) {
-  for (int c = 0; c < static_cast<int>(robot.chains.size()); ++c)
-    for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j)
-      if (robot.chains[c].joints[j].dof == dof) visit(c, j, robot.chains[c].joints[j]);
+void each_joint_of(const Robot& robot, int dof, Visit visit) {
+  for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j)
+    if (robot.joints[j].dof == dof) visit(j, robot.joints[j]);
 }
 
 /// Joints to which their DOFs have come back follow them again.

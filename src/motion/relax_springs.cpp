@@ -17,26 +17,24 @@ namespace {
 // how much of a way all joints can go before one of them is at its limit
 double within_limits(const Drive& drive, const JointSpeeds& way) {
   double part = 1;
-  for (size_t c = 0; c < way.size(); ++c)
-    for (size_t j = 0; j < way[c].size(); ++j) {
-      const JointSpec& joint = drive.robot().chains[c].joints[j];
-      const double q = joint_value(drive.robot(), static_cast<int>(c), static_cast<int>(j));
-      const double room = way[c][j] > 0 ? joint.max - q : joint.min - q;
-      if (way[c][j] != 0 && std::abs(way[c][j]) > std::abs(room))
-        part = std::min(part, std::max(0.0, room / way[c][j]));
-    }
+  for (int j = 0; j < static_cast<int>(way.size()); ++j) {
+    const Joint& joint = drive.robot().joints[j];
+    const double q = joint_value(drive.robot(), j);
+    const double room = way[j] > 0 ? joint.max - q : joint.min - q;
+    if (way[j] != 0 && std::abs(way[j]) > std::abs(room))
+      part = std::min(part, std::max(0.0, room / way[j]));
+  }
   return part;
 }
 
 // the joints of compliant DOFs go the way that their springs draw them
 Advance follow_springs(Drive& drive, const JointSpeeds& way, int& queries) {
-  const Robot start = drive.robot();
+  std::vector<double> start;
+  for (int j = 0; j < static_cast<int>(way.size()); ++j)
+    start.push_back(joint_value(drive.robot(), j));
   const auto place = [&](double s) {
-    for (size_t c = 0; c < way.size(); ++c)
-      for (size_t j = 0; j < way[c].size(); ++j)
-        if (way[c][j] != 0)
-          drive.apart[c][j] =
-              joint_value(start, static_cast<int>(c), static_cast<int>(j)) + s * way[c][j];
+    for (size_t j = 0; j < way.size(); ++j)
+      if (way[j] != 0) drive.apart[j] = start[j] + s * way[j];
     drive.place();
   };
   return follow_path(drive, way, within_limits(drive, way), place, queries);
@@ -44,8 +42,7 @@ Advance follow_springs(Drive& drive, const JointSpeeds& way, int& queries) {
 
 double longest(const JointSpeeds& way) {
   double most = 0;
-  for (const auto& chain : way)
-    for (const double x : chain) most = std::max(most, std::abs(x));
+  for (const double x : way) most = std::max(most, std::abs(x));
   return most;
 }
 

@@ -23,9 +23,8 @@ namespace {
 
 // has every joint of the DOF a spring?
 bool all_sprung(const Robot& robot, int dof) {
-  for (const Chain& chain : robot.chains)
-    for (const JointSpec& joint : chain.joints)
-      if (joint.dof == dof && !(joint.spring > 0)) return false;
+  for (const Joint& joint : robot.joints)
+    if (joint.dof == dof && !(joint.spring > 0)) return false;
   return true;
 }
 
@@ -62,20 +61,13 @@ std::optional<VectorXd> nearest_allowed(const Eigen::MatrixXd& sides, const Vect
 SpringBalance::SpringBalance(const World& world, Id<Robot> id, std::span<const Contact> touching,
                              bool sliding) {
   const Robot& robot = world.robot(id);
-  for (int c = 0; c < static_cast<int>(robot.chains.size()); ++c) {
-    const auto& joints = robot.chains[c].joints;
-    none_.emplace_back(joints.size(), 0.0);
-    for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
-      const JointSpec& joint = joints[j];
-      if (robot.dofs[joint.dof].kind != DofKind::compliant) continue;
-      joints_.push_back({{c, j},
-                         joint.dof,
-                         joint.ratio,
-                         all_sprung(robot, joint.dof) ? joint.spring : 1,
-                         joint.ratio * robot.q[joint.dof] - joint_value(robot, c, j)});
-    }
+  none_.assign(robot.joints.size(), 0);
+  for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
+    const Joint& joint = robot.joints[j];
+    if (robot.dofs[joint.dof].kind != DofKind::compliant) continue;
+    joints_.push_back({j, joint.dof, joint.ratio, all_sprung(robot, joint.dof) ? joint.spring : 1,
+                       joint.ratio * robot.q[joint.dof] - joint_value(robot, j)});
   }
-
   add_reactions(world, id, touching, sliding);
 }
 
@@ -89,20 +81,19 @@ void SpringBalance::add_reactions(const World& world, Id<Robot> id,
     columns.push_back(torques);
     opens.push_back(open);
   };
-  const auto frames = chain_frames(robot);
+  const auto frames = robot_frames(robot);
   for (const Contact& contact : touching) {
     Eigen::Matrix3Xd velocities(3, count);
     for (int i = 0; i < count; ++i)
-      velocities.col(i) = contact_velocity(world, id, frames, joints_[i].place, contact);
+      velocities.col(i) = contact_velocity(world, id, frames, joints_[i].number, contact);
     if (velocities.isZero(0)) continue;
     const double open = std::max(0.0, min_gap * world.contact_threshold() - contact.gap);
     for (const Vector3d& edge : edges_of(contact, sliding))
       add(velocities.transpose() * edge, open);
   }
   for (int i = 0; i < count; ++i) {
-    const auto [c, j] = joints_[i].place;
-    const JointSpec& joint = robot.chains[c].joints[j];
-    const double q = joint_value(robot, c, j);
+    const Joint& joint = robot.joints[joints_[i].number];
+    const double q = joint_value(robot, joints_[i].number);
     if (q <= joint.min + at_limit) add(VectorXd::Unit(count, i), 0);
     if (q >= joint.max - at_limit) add(-VectorXd::Unit(count, i), 0);
   }
@@ -125,7 +116,7 @@ JointSpeeds SpringBalance::displacement() const {
   JointSpeeds out = none_;
   for (int i = 0; way && i < drawn.size(); ++i) {
     const double far = (*way)[i] / std::sqrt(joints_[i].stiffness);
-    if (std::abs(far) > nowhere) out[joints_[i].place.first][joints_[i].place.second] = far;
+    if (std::abs(far) > nowhere) out[joints_[i].number] = far;
   }
   return out;
 }

@@ -23,8 +23,8 @@ class SpringBalance {
   bool balanced_by_contacts(int dof, double sense) const;
 
  private:
-  struct Joint {
-    JointPlace place;
+  struct Sprung {
+    int number;
     int dof;
     double ratio;
     double stiffness;
@@ -33,8 +33,8 @@ class SpringBalance {
   void add_reactions(const World& world, Id<Robot> id, std::span<const Contact> touching,
                      bool sliding);
 
-  JointSpeeds none_;
-  std::vector<Joint> joints_;
+  JointSpeeds none_;  // of all joints
+  std::vector<Sprung> joints_;
   /// what contacts and limits can give to each joint over the root of its stiffness: a column each, times a number >= 0
   Eigen::MatrixXd reactions_;
   /// by how much each must open [m]

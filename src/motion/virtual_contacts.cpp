@@ -41,30 +41,26 @@ Robot opened(Robot robot) {
     const auto [low, high] = robot.limits[i];
     robot.q[i] = v > 0 ? low : v < 0 ? high : std::clamp(0.0, low, high);
   }
-  for (Chain& chain : robot.chains)
-    for (Apart& broken : chain.apart) broken.reset();
+  for (Apart& own : robot.apart) own.reset();
   return robot;
 }
 
 // how a link moves while the hand closes, in its own frame
-Motion closing_motion(const Robot& robot, const std::vector<ChainFrames>& frames, int chain,
-                      int link) {
+Motion closing_motion(const Robot& robot, const RobotFrames& frames, int link) {
   Motion motion;
-  const Pose X_LB = frames[chain].links[link].inverse();
-  for (int c = 0; c <= chain; ++c)
-    for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j) {
-      const JointSpec& joint = robot.chains[c].joints[j];
-      const double speed = joint.ratio * robot.dofs[joint.dof].default_velocity;
-      if (speed == 0 || !joint_moves_link(robot, c, j, chain, link)) continue;
-      const Pose X_LA = X_LB * frames[c].axes[j];
-      const Vector3d axis = X_LA.rotation * Vector3d::UnitZ() * speed;
-      if (joint.kind == JointKind::prismatic) {
-        motion.linear += axis;
-      } else {
-        motion.angular += axis;
-        motion.linear -= axis.cross(X_LA.position);
-      }
+  const Pose X_LB = frames.links[link].inverse();
+  for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
+    const Joint& joint = robot.joints[j];
+    const double speed = joint.ratio * robot.dofs[joint.dof].default_velocity;
+    if (speed == 0 || !joint_moves_link(robot, j, link)) continue;
+    const Vector3d axis = X_LB.rotation * frames.axis(robot, j) * speed;
+    if (joint.kind == JointKind::prismatic) {
+      motion.linear += axis;
+    } else {
+      motion.angular += axis;
+      motion.linear -= axis.cross(X_LB * frames.joints[j].position);
     }
+  }
   return motion;
 }
 
@@ -177,7 +173,7 @@ std::vector<Pose> link_sites(const Shape& shape, const Motion& motion, int count
 
 /// A body that stays where it is while the hand closes.
 struct Still {
-  int chain, link;  // -1, 0: the base
+  int link;  // -1: the base
   const Body* body;
   Pose X_LA;  // approach frame in it
 };
@@ -209,31 +205,31 @@ std::vector<VirtualContactSpec> find_virtual_contacts(const World& world, Id<Rob
     fail("virtual contacts: count_per_link: expected 1 to 100, got {}", options.count_per_link);
   const int against = world.materials().index(options.object_material);
   const Robot robot = opened(world.robot(id));
-  const auto frames = chain_frames(robot);
+  const auto frames = robot_frames(robot);
   const bool closes = std::any_of(robot.dofs.begin(), robot.dofs.end(),
                                   [](const DofSpec& dof) { return dof.default_velocity != 0; });
   std::vector<VirtualContactSpec> out;
-  const auto add = [&](int chain, int link, const Body& body, const Pose& X_LC) {
+  const auto add = [&](int link, const Body& body, const Pose& X_LC) {
     const double mu = world.materials().friction(body.material, against).statics;
-    out.push_back({chain, link, X_LC, mu, friction_edges()});
+    const ChainPlace place = place_of(robot.chains, link);
+    out.push_back({place.chain, place.link, X_LC, mu, friction_edges()});
   };
   std::vector<Still> still;
   if (const Body& base = world.body(robot.base); base.shape)
-    still.push_back({-1, 0, &base, robot.X_BA});
-  for (int c = 0; closes && c < static_cast<int>(robot.chains.size()); ++c)
-    for (int l = 0; l < static_cast<int>(robot.chains[c].links.size()); ++l) {
-      const Body& body = world.body(robot.chains[c].links[l]);
-      if (!body.shape) continue;
-      const Motion motion = closing_motion(robot, frames, c, l);
-      if (motion.none()) {
-        still.push_back({c, l, &body, frames[c].links[l].inverse() * robot.X_BA});
-        continue;
-      }
-      for (const Pose& X_LC : link_sites(*body.shape, motion, options.count_per_link))
-        add(c, l, body, X_LC);
+    still.push_back({-1, &base, robot.X_BA});
+  for (int l = 0; closes && l < static_cast<int>(robot.links.size()); ++l) {
+    const Body& body = world.body(robot.links[l].body);
+    if (!body.shape) continue;
+    const Motion motion = closing_motion(robot, frames, l);
+    if (motion.none()) {
+      still.push_back({l, &body, frames.links[l].inverse() * robot.X_BA});
+      continue;
     }
+    for (const Pose& X_LC : link_sites(*body.shape, motion, options.count_per_link))
+      add(l, body, X_LC);
+  }
   if (const Still* palm = closes && options.palm ? palm_of(still) : nullptr)
-    if (const auto X_LC = palm_site(*palm)) add(palm->chain, palm->link, *palm->body, *X_LC);
+    if (const auto X_LC = palm_site(*palm)) add(palm->link, *palm->body, *X_LC);
   return out;
 }
 
@@ -243,7 +239,7 @@ std::vector<VirtualContactSpec> virtual_contacts(const World& world, Id<Robot> i
 }
 
 Id<Body> body_of(const Robot& robot, const VirtualContactSpec& contact) {
-  return contact.chain < 0 ? robot.base : robot.chains[contact.chain].links[contact.link];
+  return robot.body_of(*link_at(robot.chains, {contact.chain, contact.link}));
 }
 
 VirtualContactSpec marked(const World& world, Id<Robot> id, const Contact& contact) {
@@ -254,9 +250,9 @@ VirtualContactSpec marked(const World& world, Id<Robot> id, const Contact& conta
     const Vector3d n_W = touched ? Vector3d(-contact.n_W) : contact.n_W;
     const Vector3d p_W = touched ? contact.p_W : Vector3d(contact.p_W - contact.gap * contact.n_W);
     const Pose X_WC{Eigen::Quaterniond(contact_frame(n_W)).normalized(), p_W};
-    const bool on_link = body.kind == BodyKind::link;
-    return {on_link ? body.chain : -1, on_link ? body.link : 0, body.X_WB.inverse() * X_WC,
-            contact.friction.statics, friction_edges()};
+    const ChainPlace place = place_of(world.robot(id).chains, body.link);
+    return {place.chain, place.link, body.X_WB.inverse() * X_WC, contact.friction.statics,
+            friction_edges()};
   }
   fail("virtual contacts: the contact of '{}' and '{}' is on no link of '{}'",
        excerpt(world.body(contact.other).name), excerpt(world.body(contact.body).name),

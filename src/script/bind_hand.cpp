@@ -232,9 +232,8 @@ static int get_tracker(lua_State* L) {
 // --- parts that do not act yet ---
 
 // base or link that a part stands for
-static void set_link(lua_State* L, const RobotHandle& robot, const RobotPart& part) {
-  const auto id = part.chain < 0 ? robot->base : robot->chains[part.chain].links[part.link];
-  push(L, BodyHandle{robot.world, id});
+static void set_link(lua_State* L, const RobotHandle& robot, int link) {
+  push(L, BodyHandle{robot.world, robot->body_of(link)});
   lua_setfield(L, -2, "link");
 }
 
@@ -256,7 +255,7 @@ static int get_tendons(lua_State* L) {
     if (t.pre_tension_length) set_field(L, "pre_tension_length", *t.pre_tension_length);
     push_list_of(L, t.points, [&](const TendonPoint& p) {
       push_list(L, 0, 3);
-      set_link(L, robot, p.part);
+      set_link(L, robot, p.link);
       set_field(L, "point", p.p_L);
       set_field(L, "friction", p.friction);
     });
@@ -267,7 +266,7 @@ static int get_tendons(lua_State* L) {
 static int get_tendon_wrappers(lua_State* L) {
   const auto push_wrapper = [L](const RobotHandle& robot, const TendonWrapper& w) {
     push_list(L, 0, 7);
-    set_link(L, robot, w.part);
+    set_link(L, robot, w.link);
     set_field(L, "point", w.p_L);
     set_field(L, "axis", w.axis_L);
     set_field(L, "radius", w.radius);
@@ -287,7 +286,7 @@ static int get_tendon_wrappers(lua_State* L) {
 static int get_tactile_sensors(lua_State* L) {
   return push_parts(L, &PassiveParts::tactile, [L](const RobotHandle& robot, const TactileSpec& s) {
     push_list(L, 0, 3);
-    set_link(L, robot, s.part);
+    set_link(L, robot, s.link);
     set_field(L, "low", s.low_L);
     set_field(L, "high", s.high_L);
   });

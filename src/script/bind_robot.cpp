@@ -39,8 +39,7 @@ static int get_bodies(lua_State* L) {
 
 static std::vector<Id<Body>> links_of(const Robot& robot) {
   std::vector<Id<Body>> links;
-  for (const auto& chain : robot.chains)
-    links.insert(links.end(), chain.links.begin(), chain.links.end());
+  for (const Link& link : robot.links) links.push_back(link.body);
   return links;
 }
 
@@ -49,8 +48,8 @@ static int get_links(lua_State* L) {
   return push_bodies(L, robot.world, links_of(*robot));
 }
 
-static void push_joint(lua_State* L, const Robot& robot, int chain, int joint) {
-  const JointSpec& spec = robot.chains[chain].joints[joint];
+static void push_joint(lua_State* L, const Robot& robot, int joint) {
+  const Joint& spec = robot.joints[joint];
   push_list(L, 0, 11);
   if (!spec.name.empty()) set_field(L, "name", std::string_view(spec.name));
   set_field(L, "kind", spec.kind == JointKind::revolute ? "revolute" : "prismatic");
@@ -58,38 +57,38 @@ static void push_joint(lua_State* L, const Robot& robot, int chain, int joint) {
   set_field(L, "ratio", spec.ratio);
   set_field(L, "min", spec.min);
   set_field(L, "max", spec.max);
-  set_field(L, "value", joint_value(robot, chain, joint));
-  const bool apart = robot.chains[chain].apart[joint].has_value();
+  set_field(L, "value", joint_value(robot, joint));
+  const bool apart = robot.apart[joint].has_value();
   const DofKind kind = robot.dofs[spec.dof].kind;
   set_field(L, "broken_away", apart && kind == DofKind::breakaway);
-  set_field(L, "spring_deflection",
-            spec.ratio * robot.q[spec.dof] - joint_value(robot, chain, joint));
+  set_field(L, "spring_deflection", spec.ratio * robot.q[spec.dof] - joint_value(robot, joint));
   if (spec.spring > 0) set_field(L, "spring", spec.spring), set_field(L, "rest", spec.rest);
+}
+
+// numbers of a chain's joints
+static std::vector<int> joints_of(const Robot& robot, const Chain& chain) {
+  std::vector<int> out;
+  for (const int l : chain.links)
+    for (int j = robot.links[l].first_joint; j < robot.links[l].end_joint; ++j) out.push_back(j);
+  return out;
 }
 
 static int get_chains(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  push_list(L, static_cast<int>(robot->chains.size()));
-  for (int c = 0; c < static_cast<int>(robot->chains.size()); ++c) {
-    const Chain& chain = robot->chains[c];
+  return push_list_of(L, robot->chains, [&](const Chain& chain) {
     push_list(L, 0, 4);
-    set_field(L, "pose", chain.X_BC);
-    const auto parent = chain.parent_chain < 0
-                            ? robot->base
-                            : robot->chains[chain.parent_chain].links[chain.parent_link];
-    push(L, BodyHandle{robot.world, parent});
+    const Link& first = robot->links[chain.links.front()];
+    const bool fixed = first.first_joint == first.end_joint;
+    set_field(L, "pose", fixed ? first.X_JL : robot->joints[first.first_joint].X_PJ);
+    push(L, BodyHandle{robot.world, robot->body_of(chain.parent)});
     lua_setfield(L, -2, "parent");
-    push_bodies(L, robot.world, chain.links);
+    std::vector<Id<Body>> links;
+    for (const int l : chain.links) links.push_back(robot->links[l].body);
+    push_bodies(L, robot.world, links);
     lua_setfield(L, -2, "links");
-    push_list(L, static_cast<int>(chain.joints.size()));
-    for (int j = 0; j < static_cast<int>(chain.joints.size()); ++j) {
-      push_joint(L, *robot, c, j);
-      lua_rawseti(L, -2, j + 1);
-    }
+    push_list_of(L, joints_of(*robot, chain), [&](int j) { push_joint(L, *robot, j); });
     lua_setfield(L, -2, "joints");
-    lua_rawseti(L, -2, c + 1);
-  }
-  return 1;
+  });
 }
 
 static int get_dofs(lua_State* L) { return push_vector(L, self<RobotHandle>(L)->q); }
@@ -104,9 +103,8 @@ static Eigen::VectorXd check_dofs(lua_State* L, int i, const Robot& robot) {
 }
 
 // rows {chain, joint, value} of joints that do not follow their DOFs
-static std::vector<std::vector<Apart>> check_apart(Table& options, const Robot& robot) {
-  std::vector<std::vector<Apart>> out;
-  for (const Chain& chain : robot.chains) out.emplace_back(chain.joints.size());
+static std::vector<Apart> check_apart(Table& options, const Robot& robot) {
+  std::vector<Apart> out(robot.joints.size());
   for (const auto& row : options.rows("joint_positions", 3)) {
     const auto number = [&](double x, size_t count, const char* what) {
       if (!(x >= 1 && x <= static_cast<double>(count) && x == std::floor(x)))
@@ -114,13 +112,14 @@ static std::vector<std::vector<Apart>> check_apart(Table& options, const Robot& 
              count, x);
       return floor_between(x, size_t{1}, count) - 1;
     };
-    const size_t c = number(row[0], out.size(), "chain");
-    const size_t j = number(row[1], out[c].size(), "joint");
-    const JointSpec& joint = robot.chains[c].joints[j];
+    const size_t c = number(row[0], robot.chains.size(), "chain");
+    const auto joints = joints_of(robot, robot.chains[c]);
+    const size_t j = number(row[1], joints.size(), "joint");
+    const Joint& joint = robot.joints[joints[j]];
     if (!(row[2] >= joint.min - 1e-9 && row[2] <= joint.max + 1e-9))
       fail("{}: joint_positions: joint {} of chain {}: expected a value in [{}, {}], got {}",
            options.subject(), j + 1, c + 1, joint.min, joint.max, row[2]);
-    out[c][j] = row[2];
+    out[joints[j]] = row[2];
   }
   return out;
 }
@@ -130,7 +129,7 @@ static int set_dofs(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const Eigen::VectorXd values = check_dofs(L, 2, *robot);
   Table options(L, 3);
-  std::vector<std::vector<Apart>> apart;
+  std::vector<Apart> apart;
   if (options.has("joint_positions")) apart = check_apart(options, *robot);
   options.done();
   robot.world->set_dofs(robot.id, values);
@@ -205,21 +204,23 @@ static int get_files(lua_State* L) {
 
 // --- verbs ---
 
-static int link(lua_State* L) {
-  check_count(L, 1);
-  const auto& robot = self<RobotHandle>(L);
-  const std::string name = check_string(L, 2, "name");
+static Id<Body> find_link(lua_State* L, const RobotHandle& robot, const std::string& name) {
   std::vector<std::string> names;
   auto parts = links_of(*robot);
   parts.push_back(robot->base);
   for (const auto id : parts) {
     const std::string& full = robot.world->body(id).name;
-    if (full == name || full == robot->name + "_" + name)
-      return push(L, BodyHandle{robot.world, id});
+    if (full == name || full == robot->name + "_" + name) return id;
     names.push_back(full);
   }
   fail("{}: robot '{}' has no link '{}'{}", subject(L), robot->name, name,
        did_you_mean(name, names));
+}
+
+static int link(lua_State* L) {
+  check_count(L, 1);
+  const auto& robot = self<RobotHandle>(L);
+  return push(L, BodyHandle{robot.world, find_link(L, robot, check_string(L, 2, "name"))});
 }
 
 static const char* stop_name(DofStop stop) {
@@ -291,15 +292,22 @@ static int mount_on(lua_State* L) {
     fail("{}: '{}' belongs to another world", subject(L), parent->name);
   Table options(L, 3);
   const ReadOptions reading = read_options(L, options);
+  const bool by_name = options.has("link");
+  if (by_name && options.has("chain"))
+    fail("{}: expected chain or link, got both", options.subject());
+  const std::string link_name = options.string("link", "");
   const int chain = options.integer("chain", 1);
   const Pose pose = options.pose("pose", Pose{});
   const std::string adapter = options.string("adapter", "");
   options.done();
-  if (chain < 1 || chain > static_cast<int>(parent->chains.size()))
+  if (!by_name && (chain < 1 || chain > static_cast<int>(parent->chains.size())))
     fail("{}: chain: expected 1 to {}, got {}", subject(L), parent->chains.size(), chain);
+  const int link = by_name ? parent.world->body(find_link(L, parent, link_name)).link
+                           : parent->chains[chain - 1].links.back();
+  if (link < 0) fail("{}: link: expected a link, got the base of '{}'", subject(L), parent->name);
   std::optional<BodySpec> spec;
   if (!adapter.empty()) spec = read_body(find_file(adapter, {}, reading), reading);
-  robot.world->mount(robot.id, parent.id, chain - 1, pose, spec ? &*spec : nullptr);
+  robot.world->mount(robot.id, parent.id, link, pose, spec ? &*spec : nullptr);
   return 0;
 }
 
@@ -426,9 +434,9 @@ Moves the hand along its approach direction until it touches something.
 @return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 > hand:approach_object{reach = -1}  --> error: reach)"},
     {"mount_on", guarded<mount_on>, R"(
-Fixes the robot to the last link of another one's chain. It follows from now on.
+Fixes the robot to a link of another one: that of a name, or the last of a chain. It follows from now on.
 @param parent robot
-@param options? {chain?: integer, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean}  chain 1 by default; pose of the base in the link; file of an adapter
+@param options? {chain?: integer, link?: string, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean}  chain 1 by default; pose of the base in the link; file of an adapter
 > hand:mount_on(hand)  --> error: which it carries itself)"},
 };
 

@@ -20,36 +20,35 @@ int push_virtual_contacts(lua_State* L, const RobotHandle& robot,
 
 // --- values into contacts ---
 
-// chain and link of a body, {-1, 0} for the base
-static std::pair<int, int> place_of(const Body& body, const RobotHandle& robot, const What& what) {
+static ChainPlace place_of_body(const Body& body, const RobotHandle& robot, const What& what) {
   const bool link = body.kind == BodyKind::link;
   if (body.robot != robot.id || !(link || body.kind == BodyKind::base))
     fail("{}: '{}' is no link of robot '{}'", what.text(), body.name, robot->name);
-  return {link ? body.chain : -1, link ? body.link : 0};
+  return place_of(robot->chains, body.link);
 }
 
-static std::pair<int, int> place_of_name(const std::string& name, const RobotHandle& robot,
-                                         const What& what) {
+static ChainPlace place_of_name(const std::string& name, const RobotHandle& robot,
+                                const What& what) {
   std::vector<std::string> names;
   for (const auto id : robot.world->bodies_of(robot.id)) {
     const Body& body = robot.world->body(id);
     if (body.kind == BodyKind::mount) continue;
     if (body.name == name || body.name == robot->name + "_" + name)
-      return place_of(body, robot, what);
+      return place_of_body(body, robot, what);
     names.push_back(body.name);
   }
   fail("{}: robot '{}' has no link '{}'{}", what.text(), robot->name, name,
        did_you_mean(name, names));
 }
 
-static std::pair<int, int> read_place(lua_State* L, Table& table, const RobotHandle& robot) {
+static ChainPlace read_place(lua_State* L, Table& table, const RobotHandle& robot) {
   const What what = table.what("link");
   const int type = table.push("link");
-  std::pair<int, int> place;
+  ChainPlace place;
   if (const auto* body = to<BodyHandle>(L, -1)) {
     if (body->world != robot.world)
       fail("{}: '{}' belongs to another world", what.text(), (*body)->name);
-    place = place_of(**body, robot, what);
+    place = place_of_body(**body, robot, what);
   } else if (type == LUA_TSTRING) {
     place = place_of_name(read_string(L, -1, what), robot, what);
   } else if (type == LUA_TNUMBER) {
@@ -97,7 +96,9 @@ VirtualContactSpec read_virtual_contact(lua_State* L, int i, const What& what,
                   i);
   Table table(L, i, what.text());
   VirtualContactSpec contact;
-  std::tie(contact.chain, contact.link) = read_place(L, table, robot);
+  const ChainPlace place = read_place(L, table, robot);
+  contact.chain = place.chain;
+  contact.link = place.link;
   table.integer("chain", 0);  // known, though a link given otherwise does not ask for it
   contact.X_LC = read_frame(table);
   contact.mu = table.number("mu", 1);

@@ -6,37 +6,48 @@ namespace clench {
 
 namespace {
 
-// axes of a chain's joints in the chain frame, all joints at 0
-std::vector<Eigen::Vector3d> axes_of(const ChainSpec& chain) {
-  std::vector<Eigen::Vector3d> axes;
-  Eigen::Quaterniond at = Eigen::Quaterniond::Identity();
-  for (const JointSpec& joint : chain.joints) {
-    if (joint.placed_freely) at = at * joint.X_before.rotation;
-    axes.push_back(at * Eigen::Vector3d::UnitZ());
-    at = at * Eigen::AngleAxisd(joint.theta, Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(joint.alpha, Eigen::Vector3d::UnitX());
-    if (joint.placed_freely) at = at * joint.X_after.rotation;
+struct JointAxis {
+  const JointSpec* joint;
+  int link;
+  Eigen::Vector3d axis;  // in the base, all joints at 0
+};
+
+std::vector<JointAxis> axes_of(const RobotSpec& robot) {
+  std::vector<JointAxis> out;
+  std::vector<Eigen::Quaterniond> links;
+  for (int l = 0; l < static_cast<int>(robot.links.size()); ++l) {
+    const LinkSpec& link = robot.links[l];
+    Eigen::Quaterniond at = link.parent < 0 ? Eigen::Quaterniond::Identity() : links[link.parent];
+    for (const JointSpec& joint : link.joints) {
+      at = at * joint.X_PJ.rotation;
+      out.push_back({&joint, l, at * joint.axis});
+    }
+    links.push_back(at * link.X_JL.rotation);
   }
-  return axes;
+  return out;
+}
+
+// is the link the other one, or beyond it?
+bool beyond(const RobotSpec& robot, int link, int other) {
+  while (link > other) link = robot.links[link].parent;
+  return link == other;
 }
 
 // what each joint of the DOF turns or slides by for one unit of the tendon's pull; empty: its ratios stand
 std::vector<double> free_motion(const RobotSpec& robot, int dof) {
+  std::vector<JointAxis> own;
+  for (const JointAxis& axis : axes_of(robot))
+    if (axis.joint->dof == dof) own.push_back(axis);
   std::vector<double> out;
-  std::optional<JointKind> kind;
-  for (const ChainSpec& chain : robot.chains) {
-    const auto axes = axes_of(chain);
-    for (size_t j = 0; j < chain.joints.size(); ++j) {
-      const JointSpec& joint = chain.joints[j];
-      if (joint.dof != dof) continue;
-      if (!kind) kind = joint.kind;
-      double torque = 0;
-      for (size_t i = j; i < chain.joints.size(); ++i)
-        if (chain.joints[i].dof == dof) torque += chain.joints[i].ratio * axes[i].dot(axes[j]);
-      out.push_back(torque / joint.spring);
-      const bool its_way = torque * joint.ratio > 0 && std::isfinite(out.back());
-      if (joint.kind != *kind || !(joint.spring > 0) || !its_way) return {};
-    }
+  for (size_t j = 0; j < own.size(); ++j) {
+    const JointSpec& joint = *own[j].joint;
+    double torque = 0;
+    for (size_t i = j; i < own.size(); ++i)
+      if (beyond(robot, own[i].link, own[j].link))
+        torque += own[i].joint->ratio * own[i].axis.dot(own[j].axis);
+    out.push_back(torque / joint.spring);
+    const bool its_way = torque * joint.ratio > 0 && std::isfinite(out.back());
+    if (joint.kind != own.front().joint->kind || !(joint.spring > 0) || !its_way) return {};
   }
   return out;
 }
@@ -50,11 +61,10 @@ void couple_by_springs(RobotSpec& robot) {
     if (free.empty()) continue;
     size_t next = 0;
     double first = 0;
-    for (ChainSpec& chain : robot.chains)
-      for (JointSpec& joint : chain.joints) {
+    for (LinkSpec& link : robot.links)
+      for (JointSpec& joint : link.joints) {
         if (joint.dof != dof) continue;
-        joint.pull = joint.ratio;
-        if (next == 0) first = joint.pull / free[0];
+        if (next == 0) first = joint.ratio / free[0];
         joint.ratio = first * free[next++];
       }
   }

@@ -51,15 +51,12 @@ void check_plausible(const RobotSpec& robot, const std::string& file, const List
     if (body.mass > max_mass) heavy.push_back(body.name);
   };
   look(robot.base);
-  for (size_t c = 0; c < robot.chains.size(); ++c) {
-    const ChainSpec& chain = robot.chains[c];
-    for (const LinkSpec& link : chain.links) look(link.body);
-    for (size_t j = 0; j < chain.joints.size(); ++j) {
-      const JointSpec& joint = chain.joints[j];
+  for (const LinkSpec& link : robot.links) {
+    look(link.body);
+    for (const JointSpec& joint : link.joints)
       if (joint.kind == JointKind::revolute &&
           std::max(std::abs(joint.min), std::abs(joint.max)) > max_turn)
-        turning.push_back(joint.name.empty() ? fmt::format("{} of chain {}", j, c) : joint.name);
-    }
+        turning.push_back(joint.name.empty() ? "that of " + link.body.name : joint.name);
   }
   const auto tell_of = [&](const std::vector<std::string>& names, const char* what,
                            const char* question) {

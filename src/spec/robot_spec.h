@@ -1,4 +1,4 @@
-// A robot as a file describes it: a base, chains of joints after Denavit and Hartenberg, links, DOFs.
+// A robot as a file describes it: a base, a tree of links that joints move, and the DOFs that move the joints.
 #pragma once
 #include <map>
 #include <optional>
@@ -30,43 +30,32 @@ struct DofSpec {
   double default_value = 0;     ///< [rad or m]
 };
 
-/// q = ratio * dof; theta = theta + q (revolute) or d = d + q (prismatic).
-/// frame after = frame before * X_before * Rz(theta) Tz(d) Tx(a) Rx(alpha) * X_after
-/// (Denavit and Hartenberg 1955, distal; the two fixed poses are for files that place joints freely)
+/// Turns about, or slides along, an axis through the origin of the joint's frame: q = ratio * dof.
 struct JointSpec {
   std::string name = {};  ///< as its file calls it; empty: it has none
   JointKind kind = JointKind::revolute;
+  Pose X_PJ =
+      {};  ///< at q = 0, in the frame of the link's parent, or behind the link's joint before it
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit, in the joint's frame
   int dof = 0;
   double ratio = 1;
-  double pull =
-      0;  ///< of a compliant DOF: what the ratio was made of, see couple_by_springs; 0: not made
-  double theta = 0, d = 0, a = 0, alpha = 0;  ///< constant parts [rad, m, m, rad]
-  bool placed_freely = false;                 ///< has it fixed poses of its own?
-  Pose X_before = {}, X_after = {};           ///< then; z after X_before is the axis
-  double min = 0, max = 0;                    ///< of q [rad or m]
-  double viscous = 0;                         ///< friction [N m s/rad or N s/m]
-  double coulomb = 0;                         ///< friction [N m or N]
-  double spring = 0;                          ///< stiffness [N m/rad or N/m]
-  double rest = 0;                            ///< q at which the spring is slack [rad or m]
+  double min = 0, max = 0;  ///< of q [rad or m]
+  double viscous = 0;       ///< friction [N m s/rad or N s/m]
+  double coulomb = 0;       ///< friction [N m or N]
+  double spring = 0;        ///< stiffness [N m/rad or N/m]
+  double rest = 0;          ///< q at which the spring is slack [rad or m]
 };
 
-enum class LinkJoint { revolute, prismatic, universal, ball, fixed };
+/// What the joint does at q, in its frame.
+Pose joint_motion(const JointSpec& joint, double q);
 
+/// A rigid part, and what lets it move against its parent.
+/// its frame = parent's frame * (X_PJ * motion) of each joint * X_JL
 struct LinkSpec {
-  BodySpec body;                          ///< frame: after its last joint, then X_JL
-  LinkJoint joint = LinkJoint::revolute;  ///< how dynamics attaches it to the link before
-  int last_joint = 0;             ///< index in the chain of the last joint that moves it; -1: none
-  std::optional<Pose> X_JL = {};  ///< in the frame after that joint; absent: it is that frame
-};
-
-/// Joints in a row. A chain begins on the base, or on a link of a chain before it: a tree that branches
-/// is a chain for each branch.
-struct ChainSpec {
-  int parent_chain = -1;  ///< -1: the base
-  int parent_link = -1;   ///< index into the parent chain's links
-  Pose X_BC;              ///< chain frame in the base, or in the parent link
-  std::vector<JointSpec> joints;
-  std::vector<LinkSpec> links;
+  BodySpec body = {};
+  int parent = -1;                     ///< an earlier link; -1: the base
+  std::vector<JointSpec> joints = {};  ///< the parent's side first; none: it is fixed
+  Pose X_JL = {};                      ///< in the frame behind the last joint
 };
 
 /// Position sensor on the robot: number and mounting pose.
@@ -77,8 +66,8 @@ struct TrackerSpec {
 
 /// What of a robot may never collide, beside its neighbours.
 struct CollisionRules {
-  std::vector<RobotPart> parts_off;                 ///< with nothing at all
-  std::vector<std::array<RobotPart, 2>> pairs_off;  ///< with each other
+  std::vector<int> parts_off;                 ///< links with nothing at all; -1: the base
+  std::vector<std::array<int, 2>> pairs_off;  ///< with each other
   bool near_pairs_off = false;  ///< nor parts nearer than the contact threshold as it is loaded
 };
 
@@ -98,7 +87,7 @@ struct RobotSpec {
   std::string database_name;  ///< in a database of grasps; empty: none
   BodySpec base;
   std::vector<DofSpec> dofs;
-  std::vector<ChainSpec> chains;
+  std::vector<LinkSpec> links;
   bool chain_links_collide =
       false;  ///< may links of one chain meet that are no neighbours? the original's never do
   CollisionRules collision_rules;
@@ -122,13 +111,22 @@ std::array<double, 2> dof_range(const RobotSpec& robot, int dof);
 /// The end of a sentence about a range that is none.
 std::string no_range(const std::array<double, 2>& range);
 
-/// throws Error when it does not fit the robot's DOFs, chains and links
-void check_fit(const RobotSpec& robot, const EigengraspSet& set);
-void check_fit(const RobotSpec& robot, const VirtualContactSet& set);
-void check_fit(const RobotSpec& robot, const GloveCalibration& glove);
+/// Number of joints, counted link by link.
+int joint_count(const RobotSpec& robot);
 
-/// throws Error with one sentence when a number is out of order: DOF indices, limits, last joints, DOFs
-/// without a range; or when a rule of valid.h refuses a name, number or pose
-void check_robot(const RobotSpec& robot);
+/// Visits all joints in that order.
+template <class Visit>
+void each_joint(const RobotSpec& robot, Visit visit) {
+  for (const LinkSpec& link : robot.links)
+    for (const JointSpec& joint : link.joints) visit(joint);
+}
+
+/// A link in its parent's frame.   q  one per DOF [rad or m]
+Pose link_in_parent(const LinkSpec& link, const std::vector<double>& q);
+/// Links in the base's frame.
+std::vector<Pose> link_poses(const RobotSpec& robot, const std::vector<double>& q);
+
+/// Does the DOF's first joint slide? Then the DOF counts in metres, else in radians.
+bool dof_slides(const RobotSpec& robot, int dof);
 
 }  // namespace clench

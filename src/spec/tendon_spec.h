@@ -6,14 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "spec/robot_part.h"
-
 namespace clench {
 
-/// Where a tendon is tied to a part, or runs through an eyelet on it.
+/// Where a tendon is tied to a link, or runs through an eyelet on it.
 struct TendonPoint {
-  RobotPart part;
-  Eigen::Vector3d p_L = Eigen::Vector3d::Zero();  ///< in the part's frame [m]
+  int link = -1;                                  ///< -1: the base
+  Eigen::Vector3d p_L = Eigen::Vector3d::Zero();  ///< in the link's frame [m]
   double friction = 0;                            ///< Coulomb coefficient, >= 0
 };
 
@@ -27,8 +25,8 @@ struct TendonSpec {
 
 /// A cylinder without ends around which tendons wrap.
 struct TendonWrapper {
-  RobotPart part;
-  Eigen::Vector3d p_L = Eigen::Vector3d::Zero();      ///< on its axis, in the part's frame [m]
+  int link = -1;                                      ///< -1: the base
+  Eigen::Vector3d p_L = Eigen::Vector3d::Zero();      ///< on its axis, in the link's frame [m]
   Eigen::Vector3d axis_L = Eigen::Vector3d::UnitZ();  ///< unit
   double radius = 0;                                  ///< [m]
   double length = 0.01;                               ///< of its picture [m]
@@ -43,7 +41,7 @@ struct TendonWrapper {
 
 /// A box on a link in which contacts count as one sensor's.
 struct TactileSpec {
-  RobotPart part;
+  int link = -1;  ///< -1: the base
   Eigen::Vector3d low_L = Eigen::Vector3d::Zero(),
                   high_L = Eigen::Vector3d::Zero();  ///< corners [m]
 };

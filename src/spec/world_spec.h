@@ -23,17 +23,17 @@ using Apart = std::optional<double>;
 struct PlacedRobot {
   RobotSpec robot;
   Pose X_WB;
-  std::vector<double> dofs;               ///< one per DOF [rad or m]
-  std::vector<std::vector<Apart>> apart;  ///< by chain, by joint; empty: all follow their DOFs
+  std::vector<double> dofs;  ///< one per DOF [rad or m]
+  std::vector<Apart> apart;  ///< one per joint, link by link; empty: all follow their DOFs
 };
 
-/// The child's base is fixed to the last link of the parent's chain.
+/// The child's base is fixed to a link of the parent.
 struct Connection {
   int parent = 0;  ///< index into WorldSpec::robots
-  int chain = 0;
+  int link = 0;    ///< of the parent
   int child = 0;
-  Pose X_LB;                      ///< child base in the parent's last link
-  std::optional<BodySpec> mount;  ///< adapter piece, at the last link's frame
+  Pose X_LB;                      ///< child base in the parent's link
+  std::optional<BodySpec> mount;  ///< adapter piece, at the link's frame
 };
 
 struct Camera {

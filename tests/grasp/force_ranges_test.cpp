@@ -290,8 +290,8 @@ static Jaws upright_jaws(double mass, double max_effort) {
     contact.p_W = up * contact.p_W;
     contact.n_W = up.rotation * contact.n_W;
   }
-  for (const Chain& chain : j.world.robot(j.grasp.hand).chains)
-    j.world.set_mass(chain.links[0], mass);
+  for (const int c : {0, 1})
+    j.world.set_mass(test::link_of(j.world.robot(j.grasp.hand), c, 0), mass);
   return j;
 }
 

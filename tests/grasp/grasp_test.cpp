@@ -22,16 +22,11 @@ BodySpec body(const std::string& name, const Mesh& mesh, const std::string& mate
   return spec;
 }
 
-// a finger that slides along +x in its chain frame's z, starting 0.1 m beside the middle
-ChainSpec finger(const std::string& name, const Pose& X_BC, int dof) {
-  ChainSpec chain;
-  chain.X_BC = X_BC;
-  chain.joints.push_back({.kind = JointKind::prismatic, .dof = dof, .min = 0, .max = 0.1});
-  LinkSpec link;
-  link.body = body(name, test::box(0.02, 0.02, 0.02), "rubber");
-  link.joint = LinkJoint::prismatic;
-  chain.links.push_back(link);
-  return chain;
+// a finger that slides along z of the frame that it begins at, 0.1 m beside the middle
+void add_finger(RobotSpec& robot, const std::string& name, const Pose& X_BC, int dof) {
+  LinkSpec link{.body = body(name, test::box(0.02, 0.02, 0.02), "rubber")};
+  link.joints = {{.kind = JointKind::prismatic, .X_PJ = X_BC, .dof = dof, .min = 0, .max = 0.1}};
+  robot.links.push_back(link);
 }
 
 // a gripper: palm below, a finger from either side
@@ -41,12 +36,11 @@ RobotSpec gripper() {
   spec.name = "gripper";
   spec.base = body("palm", test::box(0.2, 0.02, 0.02), "rubber");
   spec.dofs.resize(2);
-  spec.chains.push_back(finger(
-      "left", {Eigen::Quaterniond(Eigen::AngleAxisd(quarter, Vector3d::UnitY())), {-0.1, 0, 0.1}},
-      0));
-  spec.chains.push_back(finger(
-      "right", {Eigen::Quaterniond(Eigen::AngleAxisd(-quarter, Vector3d::UnitY())), {0.1, 0, 0.1}},
-      1));
+  const auto turned = [](double angle) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitY()));
+  };
+  add_finger(spec, "left", {turned(quarter), {-0.1, 0, 0.1}}, 0);
+  add_finger(spec, "right", {turned(-quarter), {0.1, 0, 0.1}}, 1);
   return spec;
 }
 

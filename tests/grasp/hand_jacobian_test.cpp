@@ -4,6 +4,7 @@
 #include "grasp/contact_forces.h"
 #include "grasp/link_weight.h"
 #include "io/read.h"
+#include "support/chains.h"
 #include "support/robots.h"
 
 using namespace clench;
@@ -65,8 +66,7 @@ Arranged arrange(const std::string& hand, bool on_arm, Random& random) {
 VectorXd measured_column(const Arranged& a, Id<Robot> robot, int dof) {
   const double h = 1e-6;
   World plus = a.world, minus = a.world;
-  std::vector<std::vector<Apart>> broken;
-  for (const auto& chain : a.world.robot(robot).chains) broken.push_back(chain.apart);
+  const auto broken = a.world.robot(robot).apart;
   VectorXd q = a.world.robot(robot).q;
   q[dof] += h;
   plus.set_dofs_unchecked(robot, q, broken);
@@ -109,7 +109,7 @@ TEST_CASE("the hand Jacobian is what the contacts do when a DOF moves") {
       for (size_t k = 0; k < jacobian.joints.size(); ++k) {
         const JointRef& ref = jacobian.joints[k];
         if (ref.robot != arm) continue;
-        const JointSpec& joint = robot.chains[ref.chain].joints[ref.joint];
+        const JointSpec& joint = robot.joints[ref.joint];
         arms.col(joint.dof) += joint.ratio * jacobian.of_joints.col(static_cast<int>(k));
       }
       for (int k = 0; k < arms.cols(); ++k)
@@ -121,18 +121,11 @@ TEST_CASE("a joint that has broken away is moved by no DOF, and held by its clut
   Random random(2);
   Arranged a = arrange("barrett/barrett.cfg", false, random);
   const Robot& robot = a.world.robot(a.grasp.hand);
-  std::vector<std::vector<Apart>> broken;
-  for (const auto& chain : robot.chains) broken.push_back(chain.apart);
-  int chain = -1, joint = -1;
-  for (int c = 0; c < static_cast<int>(robot.chains.size()) && chain < 0; ++c)
-    for (int j = 0; j < static_cast<int>(robot.chains[c].joints.size()); ++j)
-      if (robot.dofs[robot.chains[c].joints[j].dof].kind == DofKind::breakaway) {
-        chain = c, joint = j;
-        break;
-      }
-  REQUIRE(chain >= 0);
-  broken[chain][joint] = joint_value(robot, chain, joint);
-  const int dof = robot.chains[chain].joints[joint].dof;
+  auto broken = robot.apart;
+  int joint = 0;
+  while (robot.dofs[robot.joints.at(joint).dof].kind != DofKind::breakaway) ++joint;
+  broken[joint] = joint_value(robot, joint);
+  const int dof = robot.joints[joint].dof;
   a.world.set_dofs_unchecked(a.grasp.hand, robot.q, broken);
   const HandJacobian jacobian = hand_jacobian(a.world, a.grasp);
   const MatrixXd dofs = dof_jacobian(a.world, a.grasp, jacobian);
@@ -164,8 +157,8 @@ Grasp begun_grasp(World& world, const RobotSpec& spec) {
 TEST_CASE("a rigid DOF is one balance, a compliant one as many as it has joints") {
   for (const auto kind : {DofKind::rigid, DofKind::compliant}) {
     RobotSpec spec = test::two_finger(kind);
-    for (auto& chain : spec.chains)
-      for (auto& joint : chain.joints) joint.spring = 0.1, joint.rest = -0.2;
+    for (auto& link : spec.links)
+      for (auto& joint : link.joints) joint.spring = 0.1, joint.rest = -0.2;
     World world;
     const Grasp grasp = begun_grasp(world, spec);
     const JointBalance balance = joint_balance(world, grasp);
@@ -182,7 +175,8 @@ TEST_CASE("a rigid DOF is one balance, a compliant one as many as it has joints"
 TEST_CASE(
     "the tendon of a compliant DOF holds all of its springs in free air, and does the DOF's work") {
   RobotSpec spec = test::two_finger(DofKind::compliant);
-  for (auto& chain : spec.chains) chain.joints[0].spring = 0.1, chain.joints[1].spring = 0.3;
+  for (const int c : {0, 1})
+    test::joint_of(spec, c, 0).spring = 0.1, test::joint_of(spec, c, 1).spring = 0.3;
   World world;
   const Grasp grasp = begun_grasp(world, spec);
   const JointBalance balance = joint_balance(world, grasp);
@@ -219,9 +213,8 @@ TEST_CASE("what links weigh in a joint is how their height changes with it") {
       double energy[2];
       for (const int side : {0, 1}) {
         World moved = a.world;
-        std::vector<std::vector<Apart>> apart;
-        for (const auto& chain : robot.chains) apart.push_back(chain.apart);
-        apart[ref.chain][ref.joint] = joint_value(robot, ref.chain, ref.joint) + (side ? h : -h);
+        auto apart = robot.apart;
+        apart[ref.joint] = joint_value(robot, ref.joint) + (side ? h : -h);
         moved.set_dofs_unchecked(ref.robot, robot.q, apart);
         energy[side] = height_energy(moved);
       }

@@ -22,23 +22,21 @@ inline Jaws jaws(DofKind kind, double mu, double max_effort, bool palm = false, 
   dof.max_effort = max_effort;
   spec.dofs = {dof, dof};
   for (int side = 0; side < 2; ++side) {
-    ChainSpec chain;
     const double quarter = std::numbers::pi / 2;
-    // z of the chain points inwards
-    chain.X_BC = {Eigen::Quaterniond(
-                      Eigen::AngleAxisd(side == 0 ? -quarter : quarter, Eigen::Vector3d::UnitY())),
-                  {side == 0 ? 0.1 : -0.1, 0, 0.1}};
-    chain.joints.push_back({.kind = JointKind::prismatic,
-                            .dof = side,
-                            .min = 0,
-                            .max = 0.1,
-                            .spring = spring,
-                            .rest = 0.1});
+    // z of the joint points inwards
+    const Pose X_BJ{Eigen::Quaterniond(Eigen::AngleAxisd(side == 0 ? -quarter : quarter,
+                                                         Eigen::Vector3d::UnitY())),
+                    {side == 0 ? 0.1 : -0.1, 0, 0.1}};
     LinkSpec link;
     link.body = body_spec("jaw" + std::to_string(side), box(0.02, 0.02, 0.02));
-    link.joint = LinkJoint::prismatic;
-    chain.links.push_back(link);
-    spec.chains.push_back(chain);
+    link.joints = {{.kind = JointKind::prismatic,
+                    .X_PJ = X_BJ,
+                    .dof = side,
+                    .min = 0,
+                    .max = 0.1,
+                    .spring = spring,
+                    .rest = 0.1}};
+    spec.links.push_back(link);
   }
   j.grasp.hand = j.world.add_robot(spec, Pose());
   j.world.set_dofs(j.grasp.hand, Eigen::Vector2d(0.07, 0.07));
@@ -54,9 +52,9 @@ inline Jaws jaws(DofKind kind, double mu, double max_effort, bool palm = false, 
     j.grasp.contacts.push_back(contact);
     j.grasp.points.push_back({.p_O = p_O, .n_O = n, .mu = mu});
   };
-  const auto& chains = j.world.robot(j.grasp.hand).chains;
-  touch(chains[0].links[0], {0.02, 0, 0}, {-1, 0, 0});
-  touch(chains[1].links[0], {-0.02, 0, 0}, {1, 0, 0});
+  const auto& links = j.world.robot(j.grasp.hand).links;
+  touch(links[0].body, {0.02, 0, 0}, {-1, 0, 0});
+  touch(links[1].body, {-0.02, 0, 0}, {1, 0, 0});
   if (palm) touch(j.world.robot(j.grasp.hand).base, {0, 0, -0.02}, {0, 0, 1});
   return j;
 }

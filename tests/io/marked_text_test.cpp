@@ -49,7 +49,7 @@ TEST_CASE("a robot's tree behind a mark is read as without it") {
     CHECK(marked.list == plain.list);
     CHECK(b.name == a.name);
     CHECK(b.dofs.size() == a.dofs.size());
-    CHECK(b.chains.size() == a.chains.size());
+    CHECK(b.links.size() == a.links.size());
     for (size_t d = 0; d < a.dofs.size(); ++d) CHECK(b.dofs[d].name == a.dofs[d].name);
   }
 }

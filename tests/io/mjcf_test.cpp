@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "support/chains.h"
 #include "temporary.h"
 #include "told_robot.h"
 
@@ -63,13 +64,13 @@ TEST_CASE("an equality ties a joint to another, counted from where both stand at
   const JointSpec& tied = hand.joint("middle_pip");
   CHECK(tied.dof == hand.joint("middle_mcp").dof);
   CHECK(tied.ratio == 0.8);
-  CHECK(tied.theta == doctest::Approx(0.1));
+  CHECK(constant_turn(tied) == doctest::Approx(0.1));
   const ToldRobot from(
       model("<joint name='p' range='-9 9' ref='1'/><joint name='q' range='-9 9' ref='2'/>",
             radian + "<equality><joint joint1='q' joint2='p' polycoef='0.5 3'/></equality>"));
   // q = 2 + 0.5 + 3 (p - 1), and the pose counts from q = 2
   CHECK(from.joint("q").ratio == 3);
-  CHECK(from.joint("q").theta == doctest::Approx(-0.5 - 2));
+  CHECK(constant_turn(from.joint("q")) == doctest::Approx(-0.5 - 2));
 }
 
 TEST_CASE("a motor on a tendon moves its joints together, in proportion") {
@@ -111,8 +112,8 @@ TEST_CASE("excluded pairs never collide, nor do pairs whose bits differ") {
   const ToldRobot hand("tests/data/mjcf/hand.mjcf");
   REQUIRE(hand.robot.collision_rules.pairs_off.size() == 1);
   const auto& [a, b] = hand.robot.collision_rules.pairs_off[0];
-  CHECK(hand.robot.chains[a.chain].links[a.link].body.name == "small_hand_index_1");
-  CHECK(hand.robot.chains[b.chain].links[b.link].body.name == "small_hand_middle_1");
+  CHECK(hand.robot.links[a].body.name == "small_hand_index_1");
+  CHECK(hand.robot.links[b].body.name == "small_hand_middle_1");
   TemporaryFolder folder;
   const ToldRobot bits(folder.write("m.xml", R"(<mujoco model="m"><worldbody><body name="a">
 <geom size="1" contype="2" conaffinity="1"/><body name="b"><geom size="1" contype="2" conaffinity="1"/></body>
@@ -203,7 +204,7 @@ TEST_CASE("the body with the most joints is the robot, things that move freely b
 <body name="left" pos="1 0 0"><joint name="j" type="slide" range="0 1"/></body><body name="right"/>
 </worldbody></mujoco>)"));
   CHECK(two.robot.base.name == "m_world");
-  CHECK(two.robot.chains.size() == 2);
+  CHECK(chains_of(two.robot).size() == 2);
 }
 
 TEST_CASE("what would close a loop is told and left open") {
@@ -321,7 +322,7 @@ TEST_CASE("a tendon may be held longer than it is at first") {
                 "</fixed></tendon><equality><tendon tendon1='t' polycoef='0.2'/></equality>");
   // p - 0.5 - 2 q = 0.2
   CHECK(told.joint("q").ratio == 0.5);
-  CHECK(told.joint("q").theta == doctest::Approx(-0.35));
+  CHECK(constant_turn(told.joint("q")) == doctest::Approx(-0.35));
 }
 
 TEST_CASE("round geoms weigh what their true solids do") {

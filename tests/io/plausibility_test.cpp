@@ -36,10 +36,8 @@ static BodySpec box_of(double size) {
 static RobotSpec robot_of(const LinkSpec& link, const JointSpec& joint) {
   RobotSpec robot;
   robot.base = box_of(0.1);
-  ChainSpec chain;
-  chain.joints.push_back(joint);
-  chain.links.push_back(link);
-  robot.chains.push_back(chain);
+  robot.links.push_back(link);
+  robot.links[0].joints.push_back(joint);
   return robot;
 }
 
@@ -63,7 +61,7 @@ TEST_CASE("a robot's parts of odd size or mass are named once for all") {
   link.body.mass = 246'000;
   RobotSpec robot = robot_of(link, {.min = -1, .max = 1});
   link.body = box_of(5e-4);
-  robot.chains[0].links.push_back(link);
+  robot.links.push_back(link);
   CHECK(suspicions_of(robot) ==
         Sentences{"a.cfg: parts smaller than a millimetre: 'box': is the unit of their geometry "
                   "right?",
@@ -80,7 +78,7 @@ TEST_CASE("a joint that turns more than four times is suspicious, one that slide
   CHECK(suspicions_of(robot_of(link, {.min = -4 * turn, .max = 4 * turn})).empty());
   CHECK(suspicions_of(robot_of(link, {.kind = JointKind::prismatic, .min = 0, .max = 90})).empty());
   CHECK(suspicions_of(robot_of(link, {.min = 0, .max = 90})) ==
-        Sentences{"a.cfg: joints that turn more than four times: '0 of chain 0': is the unit of "
+        Sentences{"a.cfg: joints that turn more than four times: 'that of box': is the unit of "
                   "their limits right?"});
   JointSpec named{.min = -90, .max = 0};
   named.name = "knuckle";

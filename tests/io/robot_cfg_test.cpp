@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/read.h"
+#include "support/chains.h"
 #include "support/shared.h"
 #include "temporary.h"
 
@@ -38,12 +39,13 @@ TEST_CASE("the two-finger pincher is read as it is written") {
   CHECK(r.base.name == "pincher_base");
   CHECK(r.base.mass == doctest::Approx(0.5));
   REQUIRE(r.dofs.size() == 2);
-  REQUIRE(r.chains.size() == 2);
-  CHECK(r.chains[1].links[0].body.name == "pincher_chain1_link0");
-  CHECK(r.chains[0].links[0].joint == LinkJoint::prismatic);
-  CHECK(r.chains[0].links[0].last_joint == 0);
-  CHECK(r.chains[1].links[0].last_joint == 0);  // left out in the file
-  const JointSpec& joint = r.chains[0].joints[0];
+  REQUIRE(r.links.size() == 2);
+  CHECK(link_of(r, 1, 0).body.name == "pincher_chain1_link0");
+  for (const LinkSpec& link : r.links) {  // the second one's last joint is left out in the file
+    CHECK(link.parent == -1);
+    CHECK(link.joints.size() == 1);
+  }
+  const JointSpec& joint = joint_of(r, 0, 0);
   CHECK(joint.kind == JointKind::prismatic);
   CHECK(joint.max == doctest::Approx(0.044));
   // a sliding DOF: mm/s, g mm/s^2
@@ -58,8 +60,8 @@ TEST_CASE("the two-finger pincher is read as it is written") {
 
 TEST_CASE("a geometry file that several links name is read once and shared") {
   const RobotSpec r = read_robot("tests/data/two_finger/claw.cfg");
-  CHECK(r.chains[0].links[0].body.shape == r.chains[1].links[0].body.shape);
-  CHECK(r.chains[0].links[0].body.shape != r.chains[0].links[1].body.shape);
+  CHECK(link_of(r, 0, 0).body.shape == link_of(r, 1, 0).body.shape);
+  CHECK(link_of(r, 0, 0).body.shape != link_of(r, 0, 1).body.shape);
 }
 
 TEST_CASE("numbers of a turning joint come in radians, newton metres and metres") {
@@ -67,13 +69,14 @@ TEST_CASE("numbers of a turning joint come in radians, newton metres and metres"
   cfg.dofs = "1\nb 1.5 5e9 1e9 1e7 20 0.5\n";
   cfg.joint_lines = "d0*-0.5+90 7 10 -90 -10 90 5e7 2e6 1600 0.25\n";
   const RobotSpec r = cfg.read();
-  const JointSpec& j = r.chains[0].joints[0];
+  const JointSpec& j = joint_of(r, 0, 0);
   CHECK(j.kind == JointKind::revolute);
   CHECK(j.ratio == -0.5);
-  CHECK(j.theta == doctest::Approx(90 * one_degree));
-  CHECK(j.d == doctest::Approx(0.007));
-  CHECK(j.a == doctest::Approx(0.010));
-  CHECK(j.alpha == doctest::Approx(-90 * one_degree));
+  // theta 90, d 7, a 10, alpha -90
+  const Pose& X_JL = link_of(r, 0, 0).X_JL;
+  CHECK((X_JL.position - Eigen::Vector3d(0, 0.010, 0.007)).norm() < 1e-15);
+  CHECK((X_JL.rotation * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm() < 1e-15);
+  CHECK((X_JL.rotation * Eigen::Vector3d::UnitZ() + Eigen::Vector3d::UnitX()).norm() < 1e-15);
   CHECK(j.min == doctest::Approx(-10 * one_degree));
   CHECK(j.max == doctest::Approx(90 * one_degree));
   CHECK(j.viscous == doctest::Approx(0.05));
@@ -93,10 +96,12 @@ TEST_CASE("numbers of a turning joint come in radians, newton metres and metres"
 TEST_CASE("a sliding joint stands in the d column, its numbers in millimetres") {
   Cfg cfg;
   cfg.joint_lines = "30 d0*2+-5 10 0 -10 90 5e7 2e6 3 0.5\n";
-  const JointSpec j = cfg.read().chains[0].joints[0];
+  const RobotSpec r = cfg.read();
+  const JointSpec& j = joint_of(r, 0, 0);
   CHECK(j.kind == JointKind::prismatic);
-  CHECK(j.theta == doctest::Approx(30 * one_degree));
-  CHECK(j.d == doctest::Approx(-0.005));
+  const Pose& X_JL = link_of(r, 0, 0).X_JL;
+  CHECK(X_JL.angle() == doctest::Approx(30 * one_degree));
+  CHECK(X_JL.position.z() == doctest::Approx(-0.005));
   CHECK(j.ratio == 2);
   CHECK(j.min == doctest::Approx(-0.010));
   CHECK(j.viscous == doctest::Approx(5e4));
@@ -108,10 +113,11 @@ TEST_CASE("a sliding joint stands in the d column, its numbers in millimetres") 
 TEST_CASE("a DOF that turns and slides joints counts in the unit of its first") {
   Cfg cfg;
   cfg.joints = "2\n1\n";
+  cfg.links = "Universal\nbox.iv 1\n";
   cfg.joint_lines = "d0 0 10 0 -10 90\n0 d0*5 0 0 -100 100\n";
-  CHECK(cfg.read().chains[0].joints[1].ratio == doctest::Approx(0.005));  // 5 mm a radian
+  CHECK(joint_of(cfg.read(), 0, 1).ratio == doctest::Approx(0.005));  // 5 mm a radian
   cfg.joint_lines = "0 d0 10 0 -10 90\nd0*0.1 0 0 0 -1000 1000\n";
-  CHECK(cfg.read().chains[0].joints[1].ratio == doctest::Approx(100));  // 0.1 rad a millimetre
+  CHECK(joint_of(cfg.read(), 0, 1).ratio == doctest::Approx(100));  // 0.1 rad a millimetre
 }
 
 TEST_CASE("a DOF that is told to close slides at 5 cm/s, whatever the ratio of its joints") {
@@ -132,8 +138,8 @@ TEST_CASE("comments, tabs, blank lines and other line ends change nothing") {
   Cfg cfg;
   cfg.joint_lines = "# theta d\n\n  \t\n d0+90 \t0\t10\t-90 +0 +180 # friction\r\n\r\n";
   const RobotSpec r = cfg.read();
-  CHECK(r.chains[0].joints[0].max == doctest::Approx(180 * one_degree));
-  CHECK(r.chains[0].joints[0].viscous == 0);
+  CHECK(joint_of(r, 0, 0).max == doctest::Approx(180 * one_degree));
+  CHECK(joint_of(r, 0, 0).viscous == 0);
 }
 
 TEST_CASE("surplus words are not used, with a warning, and comments are none") {
@@ -143,7 +149,7 @@ TEST_CASE("surplus words are not used, with a warning, and comments are none") {
   cfg.joint_lines = "d0 0 10 0 -10 90 0 0 0 0 7\n";
   cfg.links = "Revolute # it turns\nbox.iv 0 plastic\n";
   Warnings warnings;
-  CHECK(cfg.read(warnings.options()).chains[0].links.size() == 1);
+  CHECK(cfg.read(warnings.options()).links.size() == 1);
   CHECK(warnings.list == std::vector<std::string>{
                              "hand.cfg:5: 1 surplus word is not used",
                              "hand.cfg:9: 2 surplus words are not used",
@@ -174,11 +180,11 @@ TEST_CASE("links without a last joint take the next one, which a note says") {
   std::vector<std::string> notes;
   ReadOptions options;
   options.note = [&](const std::string& s) { notes.push_back(s); };
-  const auto links = cfg.read(options).chains[0].links;
+  const auto links = cfg.read(options).links;
   CHECK(notes.at(0) == "hand.cfg:16: link 1: its last joint is not given; joint 2 moves it");
-  CHECK(links[0].joint == LinkJoint::universal);
-  CHECK(links[0].last_joint == 1);
-  CHECK(links[1].last_joint == 2);
+  CHECK(links[0].joints.size() == 2);
+  CHECK(links[1].joints.size() == 1);
+  CHECK(links[1].parent == 0);
 }
 
 TEST_CASE("limits of more than four turns are suspicious") {
@@ -187,20 +193,31 @@ TEST_CASE("limits of more than four turns are suspicious") {
   Warnings warnings;
   cfg.read(warnings.options());
   CHECK(warnings.list ==
-        std::vector<std::string>{"hand.cfg: joints that turn more than four times: '0 of chain 0': "
+        std::vector<std::string>{"hand.cfg: joints that turn more than four times: 'that of "
+                                 "hand_chain0_link0': "
                                  "is the unit of their limits right?"});
 }
 
 TEST_CASE("every kind of link joint is known") {
   Cfg cfg;
-  for (const auto& [word, kind] : {std::pair{"Revolute", LinkJoint::revolute},
-                                   {"Prismatic", LinkJoint::prismatic},
-                                   {"Universal", LinkJoint::universal},
-                                   {"Ball", LinkJoint::ball},
-                                   {"Fixed", LinkJoint::fixed}}) {
-    cfg.links = std::string(word) + "\nbox.iv -1\n";
-    CHECK(cfg.read().chains[0].links[0].joint == kind);
+  for (const std::string word : {"Revolute", "Prismatic", "Universal", "Ball", "Fixed"}) {
+    cfg.links = word + "\nbox.iv -1\n";
+    Warnings warnings;
+    CHECK(cfg.read(warnings.options()).links[0].joints.empty());
+    CHECK(warnings.list ==
+          std::vector<std::string>{
+              "hand.cfg:9: chain 0: joints from 0 on move no link, and are not used"});
   }
+}
+
+TEST_CASE("a link moves with what moves the link before it") {
+  Cfg cfg;
+  cfg.joints = "2\n2\n";
+  cfg.joint_lines = "d0 0 10 0 -10 90\nd0 0 10 0 -10 90\n";
+  cfg.links = "Universal\nbox.iv 1\nRevolute\nbox.iv 0\n";
+  CHECK_THROWS_WITH_AS(
+      cfg.read(), "hand.cfg:15: link 1: last joint: expected a whole number from 1 to 1, got 0",
+      Error);
 }
 
 TEST_CASE("blocks at the end may come in any order") {
@@ -259,8 +276,8 @@ TEST_CASE("the Barrett hand of the original has the figures of its manual") {
   CHECK(r.dofs[3].kind == DofKind::breakaway);
   CHECK(r.dofs[3].max_effort == doctest::Approx(5));
   CHECK(r.dofs[3].breakaway_torque == 0.5);
-  REQUIRE(r.chains.size() == 3);
-  CHECK(r.chains[0].joints[2].ratio == 0.333333333);
+  REQUIRE(chains_of(r).size() == 3);
+  CHECK(joint_of(r, 0, 2).ratio == 0.333333333);
   CHECK(dof_range(r, 0)[1] == doctest::Approx(180 * one_degree));
   CHECK(dof_range(r, 1)[1] == doctest::Approx(144 * one_degree));
   CHECK(r.files.virtual_contacts.ends_with("virtual/all_16_contacts.vgr"));

@@ -6,29 +6,27 @@
 
 #include "base/random.h"
 #include "spec/robot_spec.h"
+#include "support/chains.h"
 
 namespace clench::test {
 
-/// Poses of links in the base, by chain, by link: the formula of JointSpec, step by step.
-inline std::vector<std::vector<Pose>> link_poses(const RobotSpec& robot,
-                                                 const std::vector<double>& dofs) {
-  std::vector<std::vector<Pose>> out;
-  for (const ChainSpec& chain : robot.chains) {
-    Pose X = chain.X_BC;
-    if (chain.parent_chain >= 0) X = out[chain.parent_chain][chain.parent_link] * X;
-    std::vector<Pose> frames = {X};
-    for (const JointSpec& joint : chain.joints) {
+/// Poses of links in the base: the formula of LinkSpec, step by step, as matrices.
+inline std::vector<Eigen::Isometry3d> slow_link_poses(const RobotSpec& robot,
+                                                      const std::vector<double>& dofs) {
+  const auto matrix = [](const Pose& X) { return Eigen::Translation3d(X.position) * X.rotation; };
+  std::vector<Eigen::Isometry3d> out;
+  for (const LinkSpec& link : robot.links) {
+    Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+    if (link.parent >= 0) X = out[link.parent];
+    for (const JointSpec& joint : link.joints) {
       const double q = joint.ratio * dofs[joint.dof];
-      const bool turns = joint.kind == JointKind::revolute;
-      X = X * joint.X_before * Pose::turn(joint.theta + (turns ? q : 0), Eigen::Vector3d::UnitZ()) *
-          Pose::translation({joint.a, 0, joint.d + (turns ? 0 : q)}) *
-          Pose::turn(joint.alpha, Eigen::Vector3d::UnitX()) * joint.X_after;
-      frames.push_back(X);
+      X = X * matrix(joint.X_PJ);
+      if (joint.kind == JointKind::revolute)
+        X = X * Eigen::AngleAxisd(q, joint.axis);
+      else
+        X = X * Eigen::Translation3d(q * joint.axis);
     }
-    std::vector<Pose> links;
-    for (const LinkSpec& link : chain.links)
-      links.push_back(frames[link.last_joint + 1] * link.X_JL.value_or(Pose{}));
-    out.push_back(links);
+    out.push_back(X * matrix(link.X_JL));
   }
   return out;
 }
@@ -52,8 +50,8 @@ inline std::string bare_name(const BodySpec& body, const RobotSpec& robot) {
 inline std::map<std::string, std::vector<Eigen::Vector3d>> placed_points(
     const RobotSpec& robot, const std::vector<double>& dofs) {
   std::map<std::string, std::vector<Eigen::Vector3d>> out;
-  const auto poses = link_poses(robot, dofs);
-  const auto add = [&](const BodySpec& body, const Pose& X) {
+  const auto poses = slow_link_poses(robot, dofs);
+  const auto add = [&](const BodySpec& body, const Eigen::Isometry3d& X) {
     auto& points = out[bare_name(body, robot)];
     points.push_back(X * com_of(body));
     if (!body.shape) return;
@@ -61,9 +59,8 @@ inline std::map<std::string, std::vector<Eigen::Vector3d>> placed_points(
     for (size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / 20)
       points.push_back(X * vertices[i]);
   };
-  add(robot.base, Pose{});
-  for (size_t c = 0; c < poses.size(); ++c)
-    for (size_t l = 0; l < poses[c].size(); ++l) add(robot.chains[c].links[l].body, poses[c][l]);
+  add(robot.base, Eigen::Isometry3d::Identity());
+  for (size_t l = 0; l < poses.size(); ++l) add(robot.links[l].body, poses[l]);
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/read.h"
+#include "support/chains.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -64,22 +65,22 @@ TEST_CASE("a robot's elements are read in SI") {
   CHECK(r.dofs[1].kind == DofKind::breakaway);
   CHECK(r.dofs[1].breakaway_torque == 0.5);
   CHECK(r.dofs[1].default_value == doctest::Approx(30 * degree));
-  const ChainSpec& c = r.chains.at(0);
-  CHECK((c.X_BC * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(0.025, 0, -1.001)).norm() < 1e-12);
-  const JointSpec& j = c.joints.at(0);
-  CHECK(j.theta == doctest::Approx(90 * degree));
-  CHECK(j.d == doctest::Approx(0.003));
-  CHECK(j.a == doctest::Approx(0.05));
-  CHECK(j.alpha == doctest::Approx(-90 * degree));
+  const JointSpec& j = test::joint_of(r, 0, 0);
+  CHECK((j.X_PJ * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(0.025, 0, -1.001)).norm() < 1e-12);
+  // theta 90, d 3, a 50, alpha -90
+  const Pose& X_JL = test::link_of(r, 0, 0).X_JL;
+  CHECK((X_JL.position - Eigen::Vector3d(0, 0.05, 0.003)).norm() < 1e-15);
+  CHECK((X_JL.rotation * Eigen::Vector3d::UnitZ() + Eigen::Vector3d::UnitX()).norm() < 1e-15);
   CHECK(j.max == doctest::Approx(90 * degree));
   CHECK(j.viscous == doctest::Approx(0.05));
   CHECK(j.coulomb == doctest::Approx(0.002));
   CHECK(j.spring == doctest::Approx(1.6));
   CHECK(j.rest == 1.2);
-  CHECK(c.joints.at(1).ratio == 0.5);
-  CHECK(c.joints.at(1).theta == doctest::Approx(-5 * degree));
-  CHECK(c.links.at(1).body.name == "hand_chain0_link1");
-  CHECK(c.links.at(1).last_joint == 1);
+  CHECK(test::joint_of(r, 0, 1).ratio == 0.5);
+  const Eigen::Vector3d x = test::link_of(r, 0, 1).X_JL.rotation * Eigen::Vector3d::UnitX();
+  CHECK(std::atan2(x.y(), x.x()) == doctest::Approx(-5 * degree));
+  CHECK(test::link_of(r, 0, 1).body.name == "hand_chain0_link1");
+  CHECK(test::link_of(r, 0, 1).joints.size() == 1);
   CHECK((r.X_BA->position - Eigen::Vector3d(0, 0, 0.02)).norm() < 1e-15);
   CHECK(r.tracker->number == 3);
   CHECK(r.tracker->X_BS.position.y() == doctest::Approx(-0.06));
@@ -96,17 +97,15 @@ TEST_CASE("a text robot and an XML robot that say the same are the same") {
       dof() + dof() +
       chain("<transform><translation>1 2 3</translation><rotation>40 x</rotation></transform>" +
             joint("d0*-1+90") + joint("30", "d1*2") + link_of("Revolute") + link_of("Prismatic")));
-  REQUIRE(xml.chains.size() == 1);
-  CHECK(xml.chains[0].X_BC == text.chains[0].X_BC);
+  REQUIRE(xml.links.size() == 2);
   for (int i = 0; i < 2; ++i) {
-    const JointSpec &a = text.chains[0].joints[i], &b = xml.chains[0].joints[i];
+    const JointSpec &a = test::joint_of(text, 0, i), &b = test::joint_of(xml, 0, i);
     CHECK(a.kind == b.kind);
-    CHECK(std::tie(a.dof, a.ratio, a.theta, a.d, a.a, a.alpha, a.min, a.max) ==
-          std::tie(b.dof, b.ratio, b.theta, b.d, b.a, b.alpha, b.min, b.max));
+    CHECK(std::tie(a.dof, a.ratio, a.X_PJ, a.min, a.max) ==
+          std::tie(b.dof, b.ratio, b.X_PJ, b.min, b.max));
     CHECK(text.dofs[i].max_effort == xml.dofs[i].max_effort);
     CHECK(text.dofs[i].kp == xml.dofs[i].kp);
-    CHECK(text.chains[0].links[i].last_joint == xml.chains[0].links[i].last_joint);
-    CHECK(text.chains[0].links[i].joint == xml.chains[0].links[i].joint);
+    CHECK(text.links[i].X_JL == xml.links[i].X_JL);
   }
 }
 
@@ -116,17 +115,19 @@ TEST_CASE("each kind of link takes as many joints as it has") {
                                    joint("d0") + joint("0", "d0") + joint("d0") + link_of("Fixed") +
                                    link_of("Universal") + link_of("Ball") + link_of("Prismatic") +
                                    link_of("Fixed") + link_of("Revolute")));
-  const int last[] = {-1, 1, 4, 5, 5, 6};
-  for (int i = 0; i < 6; ++i) CHECK(r.chains[0].links[i].last_joint == last[i]);
-  CHECK(r.chains[0].links[3].joint == LinkJoint::prismatic);
+  const size_t joints[] = {0, 2, 3, 1, 0, 1};
+  for (int i = 0; i < 6; ++i) {
+    CHECK(r.links[i].parent == i - 1);
+    CHECK(r.links[i].joints.size() == joints[i]);
+  }
 }
 
 TEST_CASE("limits written in the DOF's direction are exchanged, with a warning") {
   Warnings warnings;
   const RobotSpec r = read_xml_robot(
       dof() + chain(joint("0", "d0*-10", "-0 -20") + link_of("Prismatic")), warnings.options());
-  CHECK(r.chains[0].joints[0].min == doctest::Approx(-0.02));
-  CHECK(r.chains[0].joints[0].max == 0);
+  CHECK(test::joint_of(r, 0, 0).min == doctest::Approx(-0.02));
+  CHECK(test::joint_of(r, 0, 0).max == 0);
   CHECK(dof_range(r, 0)[1] == doctest::Approx(0.002));
   REQUIRE(warnings.list.size() == 1);
   CHECK(warnings.list[0] ==
@@ -138,7 +139,7 @@ TEST_CASE(
   Warnings warnings;
   const RobotSpec r =
       read_xml_robot(dof("r", "<defaultValue>120</defaultValue>") + dof() +
-                         chain(joint("d0") + joint("d1", "0", "10 20") + link_of("Revolute")),
+                         chain(joint("d0") + joint("d1", "0", "10 20") + link_of("Universal")),
                      warnings.options());
   CHECK(r.dofs[0].default_value == doctest::Approx(90 * degree));
   CHECK(r.dofs[1].default_value == doctest::Approx(10 * degree));
@@ -160,11 +161,11 @@ TEST_CASE("collision rules name links, the base, or all") {
   const CollisionRules& rules = r.collision_rules;
   CHECK(rules.near_pairs_off);
   REQUIRE(rules.parts_off.size() == 1);
-  CHECK(rules.parts_off[0] == RobotPart{0, 0});
+  CHECK(rules.parts_off[0] == 0);
   REQUIRE(rules.pairs_off.size() == 3);
-  CHECK(rules.pairs_off[0] == std::array{RobotPart{0, 1}, RobotPart{}});
-  CHECK(rules.pairs_off[1] == std::array{RobotPart{0, 2}, RobotPart{0, 0}});
-  CHECK(rules.pairs_off[2] == std::array{RobotPart{0, 1}, RobotPart{}});
+  CHECK(rules.pairs_off[0] == std::array{1, -1});
+  CHECK(rules.pairs_off[1] == std::array{2, 0});
+  CHECK(rules.pairs_off[2] == std::array{1, -1});
 }
 
 TEST_CASE("tendons, wrappers and tactile sensors are kept, and one warning says they do not act") {
@@ -187,8 +188,8 @@ TEST_CASE("tendons, wrappers and tactile sensors are kept, and one warning says 
   CHECK_FALSE(r.tendons[0].rest_length);
   CHECK(*r.tendons[0].pre_tension_length == doctest::Approx(0.07));
   REQUIRE(r.tendons[0].points.size() == 2);
-  CHECK(r.tendons[0].points[0].part == RobotPart{});
-  CHECK(r.tendons[0].points[1].part == RobotPart{0, 0});
+  CHECK(r.tendons[0].points[0].link == -1);
+  CHECK(r.tendons[0].points[1].link == 0);
   CHECK(r.tendons[0].points[1].friction == 0.1);
   REQUIRE(r.wrappers.size() == 1);
   CHECK(r.wrappers[0].axis_L == Eigen::Vector3d(0, 1, 0));
@@ -197,7 +198,7 @@ TEST_CASE("tendons, wrappers and tactile sensors are kept, and one warning says 
   CHECK(r.wrappers[0].exempt == std::vector<std::string>{"flexor"});
   CHECK(r.wrappers[0].sides.at(0).direction_L == Eigen::Vector3d(1, 0, 0));
   REQUIRE(r.tactile.size() == 1);
-  CHECK(r.tactile[0].part == RobotPart{0, 0});
+  CHECK(r.tactile[0].link == 0);
   CHECK((r.tactile[0].high_L - Eigen::Vector3d(0.003, 0.004, 0.005)).norm() < 1e-15);
   CHECK(warnings.list ==
         std::vector<std::string>{

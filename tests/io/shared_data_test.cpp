@@ -53,7 +53,7 @@ TEST_CASE("every robot of the original loads") {
     RobotSpec robot;
     CHECK_NOTHROW(robot = read_robot(file));
     CHECK_FALSE(robot.dofs.empty());
-    CHECK_FALSE(robot.chains.empty());
+    CHECK_FALSE(robot.links.empty());
     CHECK(robot.base.shape);
   }
 }

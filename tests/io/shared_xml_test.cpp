@@ -74,19 +74,20 @@ TEST_CASE("hands that exist in both generations are the same in both") {
       CHECK(text.dofs[i].max_effort == xml.dofs[i].max_effort);
       CHECK(text.dofs[i].breakaway_torque == xml.dofs[i].breakaway_torque);
     }
-    REQUIRE(text.chains.size() == xml.chains.size());
-    for (size_t c = 0; c < text.chains.size(); ++c) {
-      const ChainSpec &a = text.chains[c], &b = xml.chains[c];
-      CHECK((a.X_BC.position - b.X_BC.position).norm() < 1e-12);
+    REQUIRE(text.links.size() == xml.links.size());
+    for (size_t l = 0; l < text.links.size(); ++l) {
+      const LinkSpec &a = text.links[l], &b = xml.links[l];
+      CHECK(a.parent == b.parent);
       REQUIRE(a.joints.size() == b.joints.size());
-      REQUIRE(a.links.size() == b.links.size());
       for (size_t j = 0; j < a.joints.size(); ++j) {
         const JointSpec &p = a.joints[j], &q = b.joints[j];
-        CHECK(std::tie(p.kind, p.dof, p.ratio, p.theta, p.d, p.a, p.alpha, p.min, p.max) ==
-              std::tie(q.kind, q.dof, q.ratio, q.theta, q.d, q.a, q.alpha, q.min, q.max));
+        CHECK(std::tie(p.kind, p.dof, p.ratio, p.min, p.max) ==
+              std::tie(q.kind, q.dof, q.ratio, q.min, q.max));
+        // one file says where a finger begins by a rotation, the other by a matrix
+        CHECK((p.X_PJ.inverse() * q.X_PJ).position.norm() < 1e-12);
+        CHECK(p.axis == q.axis);
       }
-      for (size_t l = 0; l < a.links.size(); ++l)
-        CHECK(a.links[l].last_joint == b.links[l].last_joint);
+      CHECK(a.X_JL == b.X_JL);
     }
   }
 }

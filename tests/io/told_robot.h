@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "io/read.h"
+#include "support/chains.h"
 
 namespace clench::test {
 
@@ -25,21 +26,20 @@ struct ToldRobot {
 
   // by the names in the file
   const LinkSpec& link(const std::string& name) const {
-    for (const auto& chain : robot.chains)
-      for (const auto& l : chain.links)
-        if (l.body.name == robot.name + "_" + name) return l;
+    for (const auto& l : robot.links)
+      if (l.body.name == robot.name + "_" + name) return l;
     FAIL("no link " << name);
-    return robot.chains.at(0).links.at(0);
+    return robot.links.at(0);
   }
   const BodySpec& body(const std::string& name) const {
     return robot.base.name == robot.name + "_" + name ? robot.base : link(name).body;
   }
   const JointSpec& joint(const std::string& name) const {
-    for (const auto& chain : robot.chains)
-      for (const auto& j : chain.joints)
+    for (const auto& l : robot.links)
+      for (const auto& j : l.joints)
         if (j.name == name) return j;
     FAIL("no joint " << name);
-    return robot.chains.at(0).joints.at(0);
+    return robot.links.at(0).joints.at(0);
   }
   const DofSpec& dof(const std::string& name) const {
     for (const auto& d : robot.dofs)
@@ -53,5 +53,11 @@ struct ToldRobot {
     return out;
   }
 };
+
+/// How far a joint is turned about its axis where its q is 0, in (-pi, pi].
+inline double constant_turn(const JointSpec& joint) {
+  const Eigen::Quaterniond& R = joint.X_PJ.rotation;
+  return std::remainder(2 * std::atan2(R.vec().dot(joint.axis), R.w()), 2 * 3.14159265358979323846);
+}
 
 }  // namespace clench::test

@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "base/text.h"
 #include "io/read.h"
+#include "spec/check_robot.h"
 #include "support/mutate.h"
 #include "temporary.h"
 
@@ -24,8 +25,7 @@ void check_sane(const RobotSpec& robot) {
     if (body.inertia_per_mass) CHECK(body.inertia_per_mass->allFinite());
   };
   check_body(robot.base);
-  for (const auto& chain : robot.chains)
-    for (const auto& link : chain.links) check_body(link.body);
+  for (const auto& link : robot.links) check_body(link.body);
   for (const auto& dof : robot.dofs) CHECK(std::isfinite(dof.default_velocity));
   if (robot.X_BA) CHECK(robot.X_BA->is_finite());
 }

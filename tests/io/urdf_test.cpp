@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "base/text.h"
+#include "support/chains.h"
+#include "support/shared.h"
 #include "temporary.h"
 #include "told_robot.h"
 
@@ -43,8 +45,8 @@ TEST_CASE("a URDF keeps the names of its links, joints and DOFs") {
   REQUIRE(gripper.robot.dofs.size() == 1);
   CHECK(gripper.robot.dofs[0].name == "left_slide");
   for (const auto* name : {"palm", "left_finger", "right_finger", "camera"}) gripper.link(name);
-  CHECK(gripper.link("palm").joint == LinkJoint::fixed);
-  CHECK(gripper.link("left_finger").joint == LinkJoint::prismatic);
+  CHECK(gripper.link("palm").joints.empty());
+  CHECK(gripper.link("left_finger").joints.at(0).kind == JointKind::prismatic);
 }
 
 TEST_CASE("limits, effort, velocity and friction of a URDF joint are kept") {
@@ -129,7 +131,7 @@ TEST_CASE("a joint that mimics is of its leader's DOF, its offset a constant par
   const JointSpec& next = told.joint("next");
   CHECK(next.dof == 0);
   CHECK(next.ratio == 2);
-  CHECK(next.theta == 0.5);
+  CHECK(test::constant_turn(next) == doctest::Approx(0.5));
   CHECK(next.min == -1.5);
   CHECK(next.max == 2.5);
   const auto [low, high] = dof_range(told.robot, 0);
@@ -164,7 +166,7 @@ TEST_CASE("a follower of a follower follows the first") {
   const ToldRobot told(file);
   REQUIRE(told.robot.dofs.size() == 1);
   CHECK(told.joint("third").ratio == 6);
-  CHECK(told.joint("third").theta == 1.5);
+  CHECK(test::constant_turn(told.joint("third")) == doctest::Approx(1.5));
 }
 
 TEST_CASE("a follower that does not follow stays at its offset") {
@@ -175,9 +177,8 @@ TEST_CASE("a follower that does not follow stays at its offset") {
 <joint name="stays" type="continuous"><parent link="b"/><child link="c"/><axis xyz="0 0 1"/>
 <mimic joint="lead" multiplier="0" offset="0.5"/></joint></robot>)");
   const ToldRobot told(file);
-  CHECK(told.robot.chains[0].joints.size() == 1);
-  REQUIRE(told.link("c").X_JL);
-  CHECK(told.link("c").X_JL->angle() == doctest::Approx(0.5));
+  CHECK(joint_count(told.robot) == 1);
+  CHECK(told.link("c").X_JL.angle() == doctest::Approx(0.5));
   CHECK(told.warned("joint 'stays': its multiplier is 0; it stays at 0.5"));
 }
 
@@ -197,7 +198,7 @@ TEST_CASE("floating and planar joints stay, which is told") {
     const ToldRobot told(
         folder.write("a.urdf", two_links("", "type='" + type + "'", "<origin xyz='1 2 3'/>")));
     CHECK(told.robot.dofs.empty());
-    CHECK(told.robot.chains[0].X_BC.position == Eigen::Vector3d(1, 2, 3));
+    CHECK(told.robot.links[0].X_JL.position == Eigen::Vector3d(1, 2, 3));
     CHECK(told.warned("joint 'j' is " + type + "; its link stays where the file puts it"));
   }
 }
@@ -428,17 +429,33 @@ TEST_CASE("a DOF slides or turns as its leader does, whichever stands first") {
     const ToldRobot told = read(arm);
     REQUIRE(told.robot.dofs.size() == 2);
     std::vector<std::string> joints;
-    for (const auto& chain : told.robot.chains)
-      for (const auto& joint : chain.joints)
-        if (joint.dof == told.joint("k").dof) joints.push_back(joint.name);
+    each_joint(told.robot, [&](const JointSpec& joint) {
+      if (joint.dof == told.joint("k").dof) joints.push_back(joint.name);
+    });
     CHECK(joints == std::vector<std::string>{"k", "j"});
     // others stay where they were
     CHECK(told.robot.dofs[0].name == "s");
-    CHECK(told.robot.chains[0].joints[0].name == "s");
+    CHECK(test::joint_of(told.robot, 0, 0).name == "s");
     CHECK(told.joint("j").ratio == 0.02);
   }
   // behind its follower the leader stays
   const ToldRobot behind = read("b");
   CHECK(behind.joint("k").ratio == 1);
   CHECK(behind.robot.dofs.size() == 2);
+}
+
+TEST_CASE("the left and the right hand of a maker close alike") {
+  REQUIRE_SHARED();
+  const fs::path folder = test::shared() / "data/hands-urdf";
+  ReadOptions options;
+  options.packages[""] = folder;
+  for (const std::string name : {"allegro_hand/allegro_hand_", "shadow_hand/shadow_hand_"}) {
+    const RobotSpec one = read_robot(folder / (name + "left.urdf"), options),
+                    other = read_robot(folder / (name + "right.urdf"), options);
+    REQUIRE(one.dofs.size() == other.dofs.size());
+    for (size_t d = 0; d < one.dofs.size(); ++d) {
+      INFO(name << one.dofs[d].name);
+      CHECK(one.dofs[d].default_velocity == other.dofs[d].default_velocity);
+    }
+  }
 }

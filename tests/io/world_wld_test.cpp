@@ -59,11 +59,10 @@ TEST_CASE("DOF values are written by kind: breakaway ones with the state of each
   CHECK(r.dofs[0] == doctest::Approx(0.005));  // it slides: mm
   CHECK(r.dofs[1] == 0.9);
   CHECK(r.dofs[2] == -0.5);
-  REQUIRE(r.apart.size() == 1);
-  REQUIRE(r.apart[0].size() == 5);
-  CHECK_FALSE(r.apart[0][1]);
-  CHECK(r.apart[0][2] == 0.125);  // 0.25 of the DOF, ratio 0.5
-  CHECK_FALSE(r.apart[0][3]);
+  REQUIRE(r.apart.size() == 5);
+  CHECK_FALSE(r.apart[1]);
+  CHECK(r.apart[2] == 0.125);  // 0.25 of the DOF, ratio 0.5
+  CHECK_FALSE(r.apart[3]);
 }
 
 TEST_CASE("a broken-away joint is written as the value of its DOF, and kept as its own") {
@@ -78,10 +77,10 @@ TEST_CASE("a broken-away joint is written as the value of its DOF, and kept as i
       folder.write("w.wld", head + "Robot\nhand.cfg\n+0.9 0 1 0.9 5 0 1 6 # broken away\n" + stay);
   const PlacedRobot r = read_world(file).robots[0];
   CHECK(r.dofs[0] == 0.9);
-  CHECK_FALSE(r.apart[0][0]);
-  CHECK(*r.apart[0][1] == doctest::Approx(0.3));
-  CHECK_FALSE(r.apart[0][2]);
-  CHECK(*r.apart[0][3] == doctest::Approx(0.012));  // 6 mm of the DOF are 12 of the joint
+  CHECK_FALSE(r.apart[0]);
+  CHECK(*r.apart[1] == doctest::Approx(0.3));
+  CHECK_FALSE(r.apart[2]);
+  CHECK(*r.apart[3] == doctest::Approx(0.012));  // 6 mm of the DOF are 12 of the joint
 }
 
 TEST_CASE("surplus words in a world are not used, with a warning") {
@@ -112,7 +111,7 @@ TEST_CASE(
     REQUIRE(w.connections.size() == 1);
     const Connection& c = w.connections[0];
     CHECK(c.parent == 0);
-    CHECK(c.chain == 0);
+    CHECK(c.link == 0);
     CHECK(c.child == 1);
     CHECK(c.X_LB.position.z() == doctest::Approx(0.17505));
     CHECK(c.mount.has_value() == (mount.size() > 1));
@@ -153,7 +152,7 @@ TEST_CASE("an empty world is a world") { CHECK(wld_world_of(head).order.empty())
 
 TEST_CASE("the test worlds of two fingers are read") {
   const WorldSpec w = read_world("tests/data/two_finger/claw.wld");
-  CHECK(w.robots[0].apart[0][1] == 0.01);  // 0.02 of the DOF, ratio 0.5
+  CHECK(w.robots[0].apart[1] == 0.01);  // 0.02 of the DOF, ratio 0.5
   CHECK(w.bodies[0].role == Role::obstacle);
   CHECK(read_world("tests/data/two_finger/pinch.wld").camera);
 }

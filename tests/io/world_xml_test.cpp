@@ -45,7 +45,7 @@ TEST_CASE("bodies, robots, connections and the camera are read in the file's ord
   CHECK(w.bodies[1].role == Role::object);
   CHECK(w.bodies[0].body.shape == w.bodies[1].body.shape);
   CHECK(w.robots[0].dofs == std::vector<double>{0.5});
-  CHECK(*w.robots[0].apart[0][0] == 0.2);
+  CHECK(*w.robots[0].apart[0] == 0.2);
   CHECK(w.robots[1].dofs.empty());
   REQUIRE(w.connections.size() == 1);
   CHECK(w.connections[0].child == 1);

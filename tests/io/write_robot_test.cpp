@@ -10,6 +10,7 @@
 #include "files_below.h"
 #include "io/read.h"
 #include "robot_compare.h"
+#include "support/chains.h"
 #include "support/plain_user.h"
 #include "support/shapes.h"
 #include "support/shared.h"
@@ -128,7 +129,7 @@ TEST_CASE("that a .urdf holds no soft layers and Poisson's ratios is told") {
   const TemporaryFolder folder, out;
   RobotSpec robot = read_robot(full_robot(folder));
   robot.base.soft_layer = 0.004;
-  robot.chains[0].links[0].body.poisson_ratio = 0.3;
+  link_of(robot, 0, 0).body.poisson_ratio = 0.3;
   CHECK(written(robot, out.path() / "hand.urdf")
             .told("hand.urdf does not hold the soft layers and Poisson's ratios of 2 parts"));
 }
@@ -214,14 +215,10 @@ RobotSpec bare_hand() {
   robot.class_name = "Hand";
   robot.base.name = "any_base";
   robot.dofs.resize(1);
-  ChainSpec chain;
-  JointSpec joint;
-  joint.max = 1;
-  chain.joints.push_back(joint);
   LinkSpec link;
+  link.joints = {{.max = 1}};
   link.body.name = "any_chain0_link0";
-  chain.links.push_back(link);
-  robot.chains.push_back(chain);
+  robot.links.push_back(link);
   return robot;
 }
 
@@ -245,7 +242,7 @@ TEST_CASE("a base and links without surfaces come back as frames") {
   const RobotSpec robot = bare_hand();
   const auto again = written(robot, folder.path() / "any.urdf");
   CHECK(!again.robot.base.shape);
-  CHECK(!again.robot.chains.at(0).links.at(0).body.shape);
+  CHECK(!link_of(again.robot, 0, 0).body.shape);
   CHECK(again.robot.base.mass == robot.base.mass);
 }
 
@@ -258,20 +255,25 @@ TEST_CASE("robots that cannot be written are refused in one sentence, and leave 
                 "hand.urdf cannot be written: any: base 'any_base': mass: expected a number from "
                 "1e-12 to 1e+12 [kg], got 0");
   robot = bare_hand();
-  robot.chains[0].joints[0].max = -1;
+  joint_of(robot, 0, 0).max = -1;
   check_refused(robot, "hand.urdf",
-                "hand.urdf cannot be written: any: chain 0 joint 0: min 0 exceeds max -1 [rad]");
+                "hand.urdf cannot be written: any: link 'any_chain0_link0': joint 0: min 0 exceeds "
+                "max -1 [rad]");
   robot = bare_hand();
   robot.dofs[0].max_effort = HUGE_VAL;
   check_refused(robot, "hand.urdf",
                 "hand.urdf cannot be written: any: DOF 0: max effort: expected a number from 0 to "
                 "1e+30, got inf");
   robot = bare_hand();
-  JointSpec far = robot.chains[0].joints[0];
-  far.placed_freely = true;
-  far.X_before = far.X_after = Pose::translation({8e8, 8e8, 0});
-  robot.chains[0].joints.assign(3, far);
-  robot.chains[0].links[0].last_joint = 2;
+  JointSpec far = joint_of(robot, 0, 0);
+  far.X_PJ = Pose::translation({8e8, 8e8, 0});
+  LinkSpec& middle = robot.links[0];
+  middle.X_JL = far.X_PJ;
+  LinkSpec tip = middle;
+  tip.body.name = "any_tip";
+  tip.parent = 0;
+  tip.joints.assign(1, far);
+  robot.links.push_back(tip);
   check_refused(
       robot, "hand.urdf",
       "hand.urdf: joint 'chain0_joint1': expected a position within 1e+09 m of the origin, got "
@@ -314,7 +316,7 @@ TEST_CASE("of a robot that cannot be written whole no part is, and older parts s
   fs::permissions(file, fs::perms(0444));
   const auto before = contents_below(folder.path());
   robot.base.shape = Shape::make(box(2, 1, 1));
-  robot.chains[0].links[0].body.shape = Shape::make(box(3, 1, 1));
+  link_of(robot, 0, 0).body.shape = Shape::make(box(3, 1, 1));
   {
     const test::PlainUser user;
     CHECK_THROWS_WITH_AS(
@@ -360,11 +362,11 @@ TEST_CASE("robots of one name, or of names alike, that are written into one fold
 TEST_CASE("parts that are equal share their files, and others of one name have their own") {
   const TemporaryFolder folder;
   RobotSpec robot = bare_hand();
-  LinkSpec link = robot.chains[0].links[0];
+  LinkSpec link = link_of(robot, 0, 0);
   link.body.shape = Shape::make(box(1, 1, 1));
   link.body.file = "/elsewhere/link.iv";
-  robot.chains[0].links.assign(3, link);
-  robot.chains[0].links[2].body.shape = Shape::make(box(2, 1, 1));
+  robot.links.assign(3, link);
+  robot.links[2].body.shape = Shape::make(box(2, 1, 1));
   write_robot(robot, folder.path() / "any.urdf");
   for (const char* name : {"link.obj", "link_2.obj"})
     CHECK(fs::exists(folder.path() / "any_files" / name));

@@ -9,6 +9,7 @@
 #include "io/urdf_plan.h"
 #include "io/write_robot.h"
 #include "robot_compare.h"
+#include "support/chains.h"
 #include "support/shapes.h"
 #include "support/shared.h"
 #include "temporary.h"
@@ -36,11 +37,10 @@ void check_same_kinematics(const RobotSpec& a, const RobotSpec& b) {
     CHECK(a.dofs[d].max_velocity == b.dofs[d].max_velocity);
     CHECK(dof_range(a, static_cast<int>(d)) == dof_range(b, static_cast<int>(d)));
   }
-  REQUIRE(a.chains.size() == b.chains.size());
-  for (size_t c = 0; c < a.chains.size(); ++c) {
-    const ChainSpec &x = a.chains[c], &y = b.chains[c];
-    CHECK(x.parent_chain == y.parent_chain);
-    CHECK(x.parent_link == y.parent_link);
+  REQUIRE(a.links.size() == b.links.size());
+  for (size_t l = 0; l < a.links.size(); ++l) {
+    const LinkSpec &x = a.links[l], &y = b.links[l];
+    CHECK(x.parent == y.parent);
     REQUIRE(x.joints.size() == y.joints.size());
     for (size_t j = 0; j < x.joints.size(); ++j) {
       CHECK(x.joints[j].name == y.joints[j].name);
@@ -49,19 +49,15 @@ void check_same_kinematics(const RobotSpec& a, const RobotSpec& b) {
       CHECK(x.joints[j].viscous == y.joints[j].viscous);
       CHECK(x.joints[j].coulomb == y.joints[j].coulomb);
     }
-    REQUIRE(x.links.size() == y.links.size());
-    for (size_t l = 0; l < x.links.size(); ++l) {
-      const BodySpec &link = x.links[l].body, &other = y.links[l].body;
-      CHECK(link.name == other.name);
-      CHECK(x.links[l].joint == y.links[l].joint);
-      CHECK(link.mass == other.mass);
-      // turned into the file's axes and back
-      CHECK((inertia_of(link) - inertia_of(other)).norm() <= 1e-13 * inertia_of(link).norm());
-      CHECK((link.shape != nullptr) == (other.shape != nullptr));
-      CHECK((link.appearance.visual != nullptr) == (other.appearance.visual != nullptr));
-      CHECK(link.appearance.color == other.appearance.color);
-      CHECK(link.appearance.triangle_colors == other.appearance.triangle_colors);
-    }
+    const BodySpec &link = x.body, &other = y.body;
+    CHECK(link.name == other.name);
+    CHECK(link.mass == other.mass);
+    // turned into the file's axes and back
+    CHECK((inertia_of(link) - inertia_of(other)).norm() <= 1e-13 * inertia_of(link).norm());
+    CHECK((link.shape != nullptr) == (other.shape != nullptr));
+    CHECK((link.appearance.visual != nullptr) == (other.appearance.visual != nullptr));
+    CHECK(link.appearance.color == other.appearance.color);
+    CHECK(link.appearance.triangle_colors == other.appearance.triangle_colors);
   }
 }
 
@@ -72,16 +68,12 @@ RobotSpec one_link(const std::string& name, const std::string& link_name) {
   robot.class_name = "Hand";
   robot.base.name = name + "_base";
   robot.dofs.push_back({.name = link_name + " turns"});
-  ChainSpec chain;
-  JointSpec joint;
-  joint.a = 0.1;
-  joint.max = 1;
-  chain.joints.push_back(joint);
   LinkSpec link;
+  link.joints = {{.max = 1}};
+  link.X_JL = Pose::translation({0.1, 0, 0});
   link.body.name = name + "_" + link_name;
   link.body.shape = Shape::make(box(0.1, 0.02, 0.03));
-  chain.links.push_back(link);
-  robot.chains.push_back(chain);
+  robot.links.push_back(link);
   return robot;
 }
 
@@ -142,10 +134,12 @@ TEST_CASE("hands of today come back from a .urdf as they were, followers and wri
 TEST_CASE("a chain may begin on a link that moves") {
   const TemporaryFolder folder;
   RobotSpec robot = one_link("any", "palm2");
-  ChainSpec branch = robot.chains[0];
-  branch.parent_chain = branch.parent_link = 0;
-  branch.links[0].body.name = "any_tip";
-  robot.chains.push_back(branch);
+  for (const char* name : {"any_tip", "any_nail"}) {
+    LinkSpec branch = robot.links[0];
+    branch.parent = 0;
+    branch.body.name = name;
+    robot.links.push_back(branch);
+  }
   const auto urdf = written(robot, folder.path() / "hand.urdf");
   CHECK(largest_gap(robot, urdf.robot) < 1e-12);
 }
@@ -156,21 +150,21 @@ TEST_CASE("names with blanks, quotes and signs of XML come back") {
   const RobotSpec robot = one_link(name, name);
   const auto urdf = written(robot, folder.path() / "my hand & <co>.urdf");
   CHECK(urdf.robot.name == name);
-  CHECK(urdf.robot.chains[0].links[0].body.name == name + "_" + name);
+  CHECK(link_of(urdf.robot, 0, 0).body.name == name + "_" + name);
   CHECK(urdf.robot.dofs[0].name == name + " turns");
 }
 
 TEST_CASE("links and joints of one name get others, and a name that readers trim is told") {
   const TemporaryFolder folder;
   RobotSpec robot = one_link("any", "tip ");
-  robot.chains.push_back(robot.chains[0]);
-  robot.chains[0].joints[0].name = robot.chains[1].joints[0].name = "${x}";
+  robot.links.push_back(robot.links[0]);
+  joint_of(robot, 0, 0).name = joint_of(robot, 1, 0).name = "${x}";
   const auto urdf = written(robot, folder.path() / "hand.urdf");
-  REQUIRE(urdf.robot.chains.size() == 2);
-  CHECK(urdf.robot.chains[0].links[0].body.name == "any_tip");
-  CHECK(urdf.robot.chains[1].links[0].body.name == "any_tip_2");
-  CHECK(urdf.robot.chains[0].joints[0].name == "_{x}");
-  CHECK(urdf.robot.chains[1].joints[0].name == "_{x}_2");
+  REQUIRE(urdf.robot.links.size() == 2);
+  CHECK(link_of(urdf.robot, 0, 0).body.name == "any_tip");
+  CHECK(link_of(urdf.robot, 1, 0).body.name == "any_tip_2");
+  CHECK(joint_of(urdf.robot, 0, 0).name == "_{x}");
+  CHECK(joint_of(urdf.robot, 1, 0).name == "_{x}_2");
   CHECK(urdf.told("hand.urdf: 'tip ' is called 'tip' in it"));
   CHECK(urdf.told("hand.urdf: 'tip ' is called 'tip_2' in it"));
   CHECK(urdf.told("hand.urdf: '${x}' is called '_{x}_2' in it"));
@@ -182,17 +176,17 @@ TEST_CASE("leaders keep their DOF's order, opposite and partial ratios their sen
   RobotSpec robot = one_link("any", "left");
   robot.dofs.resize(2);
   robot.dofs[0].name = "first", robot.dofs[1].name = "second";
-  robot.chains[0].joints[0].dof = 1;
-  robot.chains[0].joints[0].ratio = -1;
-  robot.chains.push_back(robot.chains[0]);
-  robot.chains[1].links[0].body.name = "any_right";
-  robot.chains[1].joints[0].dof = 0;
-  robot.chains[1].joints[0].ratio = -0.5;
-  robot.chains.push_back(robot.chains[1]);
-  robot.chains[2].links[0].body.name = "any_middle";
-  robot.chains[2].joints[0].ratio = 0.25;
-  robot.chains[2].joints[0].theta = 0.3;
-  robot.chains[2].joints[0].min = -1;
+  joint_of(robot, 0, 0).dof = 1;
+  joint_of(robot, 0, 0).ratio = -1;
+  robot.links.push_back(robot.links[0]);
+  link_of(robot, 1, 0).body.name = "any_right";
+  joint_of(robot, 1, 0).dof = 0;
+  joint_of(robot, 1, 0).ratio = -0.5;
+  robot.links.push_back(robot.links[1]);
+  link_of(robot, 2, 0).body.name = "any_middle";
+  joint_of(robot, 2, 0).ratio = 0.25;
+  joint_of(robot, 2, 0).X_PJ = Pose::turn(0.3, Eigen::Vector3d::UnitZ());
+  joint_of(robot, 2, 0).min = -1;
   EigengraspSet set = identity_eigengrasps(2);
   set.origin = Eigen::VectorXd::Constant(2, -0.3);
   robot.eigengrasps = set;
@@ -222,9 +216,9 @@ TEST_CASE("leaders keep their DOF's order, opposite and partial ratios their sen
 TEST_CASE("a follower that leaves its leader next to nothing is no slip when it is meant") {
   const TemporaryFolder folder;
   RobotSpec robot = one_link("any", "left");
-  robot.chains.push_back(robot.chains[0]);
-  robot.chains[1].links[0].body.name = "any_right";
-  robot.chains[1].joints[0].max = 0.01;
+  robot.links.push_back(robot.links[0]);
+  link_of(robot, 1, 0).body.name = "any_right";
+  joint_of(robot, 1, 0).max = 0.01;
   const auto urdf = written(robot, folder.path() / "hand.urdf");
   CHECK(dof_range(urdf.robot, 0) == dof_range(robot, 0));
 }
@@ -233,10 +227,11 @@ TEST_CASE("virtual contacts of a .urdf name its own chains and links") {
   const TemporaryFolder folder;
   // in the file, the link that two joints move is the second of its chain
   RobotSpec robot = one_link("any", "tip");
-  robot.chains[0].joints.push_back(robot.chains[0].joints[0]);
+  auto& joints = robot.links[0].joints;
+  joints.push_back(joints[0]);
   robot.dofs.emplace_back();
-  robot.chains[0].joints[1].dof = 1;
-  robot.chains[0].links[0].last_joint = 1;
+  joints[1].dof = 1;
+  joints[1].X_PJ = robot.links[0].X_JL;
   VirtualContactSpec contact;
   contact.chain = 0;
   contact.X_LC = Pose::translation({0.01, 0.02, 0.03});
@@ -250,20 +245,20 @@ TEST_CASE("virtual contacts of a .urdf name its own chains and links") {
   const VirtualContactSpec& read = again.virtual_contacts->contacts.at(0);
   CHECK(read.link == 1);
   const std::vector<double> dofs = {0.3, 0.4};
-  const Eigen::Vector3d at = link_poses(robot, dofs)[0][0] * contact.X_LC.position;
-  CHECK((link_poses(again, dofs)[0][1] * read.X_LC.position - at).norm() < 1e-12);
+  const Eigen::Vector3d at = link_poses(robot, dofs)[0] * contact.X_LC.position;
+  CHECK((link_poses(again, dofs)[1] * read.X_LC.position - at).norm() < 1e-12);
 }
 
 TEST_CASE("surfaces of several colours keep them beside a .urdf, transparent ones too") {
   const TemporaryFolder folder;
   RobotSpec robot = one_link("any", "tip");
-  Appearance& looks = robot.chains[0].links[0].body.appearance;
+  Appearance& looks = link_of(robot, 0, 0).body.appearance;
   looks.given = true;
   looks.transparency = 0.25f;
   for (int i = 0; i < 12; ++i)
     looks.triangle_colors.push_back(i < 5 ? Eigen::Vector3f(1, 0, 0.3f) : Eigen::Vector3f(0, 1, 0));
   const auto urdf = written(robot, folder.path() / "hand.urdf");
-  const Appearance& read = urdf.robot.chains[0].links[0].body.appearance;
+  const Appearance& read = link_of(urdf.robot, 0, 0).body.appearance;
   CHECK(read.triangle_colors == looks.triangle_colors);
   CHECK(read.transparency == 0.25f);
   CHECK(!read.visual);
@@ -275,7 +270,7 @@ TEST_CASE("rolls, pitches and yaws give turns back, a quarter turn of pitch too"
   Random random(5, 5);
   for (int i = 0; i < 40; ++i) {
     RobotSpec robot = one_link("any", "tip");
-    Pose& X = robot.chains[0].X_BC;
+    Pose& X = joint_of(robot, 0, 0).X_PJ;
     const double pitch = i % 4 == 0   ? pi / 2
                          : i % 4 == 1 ? -pi / 2 + 1e-9 * i
                                       : random.uniform(-2, 2);

@@ -34,14 +34,14 @@ static WorldSpec any_world(uint64_t seed) {
   for (auto& placed : world.robots) {
     placed.X_WB = test::random_pose(random, 2);
     for (double& q : placed.dofs) q = random.uniform(0, 0.05);
-    for (auto& chain : placed.apart)
-      for (auto& joint : chain) {
-        joint.reset();
-        if (random.uniform(0, 1) < 0.5) joint = random.uniform(0, 0.01);
-      }
+    for (Apart& joint : placed.apart) {
+      joint.reset();
+      if (random.uniform(0, 1) < 0.5) joint = random.uniform(0, 0.01);
+    }
   }
   Connection c;
   c.child = 1;
+  c.link = static_cast<int>(world.robots[0].robot.links.size()) - 1;
   c.X_LB = test::random_pose(random, 2);
   if (seed % 2) c.mount = world.bodies[0].body;
   world.connections.push_back(c);
@@ -73,12 +73,11 @@ static void check_same(const WorldSpec& a, const WorldSpec& b, double tolerance)
     REQUIRE(a.robots[i].dofs.size() == b.robots[i].dofs.size());
     for (size_t d = 0; d < a.robots[i].dofs.size(); ++d)
       CHECK(std::abs(a.robots[i].dofs[d] - b.robots[i].dofs[d]) <= tolerance);
-    for (size_t c = 0; c < a.robots[i].apart.size(); ++c)
-      for (size_t j = 0; j < a.robots[i].apart[c].size(); ++j) {
-        const Apart &x = a.robots[i].apart[c][j], &y = b.robots[i].apart[c][j];
-        REQUIRE(x.has_value() == y.has_value());
-        CHECK(std::abs(x.value_or(0) - y.value_or(0)) <= tolerance);
-      }
+    for (size_t j = 0; j < a.robots[i].apart.size(); ++j) {
+      const Apart &x = a.robots[i].apart[j], &y = b.robots[i].apart[j];
+      REQUIRE(x.has_value() == y.has_value());
+      CHECK(std::abs(x.value_or(0) - y.value_or(0)) <= tolerance);
+    }
   }
   for (size_t i = 0; i < a.connections.size(); ++i) {
     CHECK(gap(a.connections[i].X_LB, b.connections[i].X_LB) <= tolerance);

@@ -1,6 +1,7 @@
 #include "model/build.h"
 
 #include "base/error.h"
+#include "support/chains.h"
 #include "support/robots.h"
 
 using namespace clench;
@@ -15,6 +16,7 @@ static WorldSpec arm_and_hand(double off) {
   spec.order = {
       {WorldEntry::Kind::robot, 0}, {WorldEntry::Kind::body, 0}, {WorldEntry::Kind::robot, 1}};
   Connection c;
+  c.link = 1;
   c.child = 1;
   c.X_LB = Pose::translation({0.1, 0, 0});
   // where the arm's last link is, by a world without the connection
@@ -22,7 +24,7 @@ static WorldSpec arm_and_hand(double off) {
   const auto arm = alone.add_robot(spec.robots[0].robot, {});
   alone.set_dofs(arm, Eigen::Vector2d(0.5, 0));
   spec.robots[1].X_WB =
-      alone.body(alone.robot(arm).chains[0].links[1]).X_WB * Pose::translation({0.1 + off, 0, 0});
+      alone.body(link_of(alone.robot(arm), 0, 1)).X_WB * Pose::translation({0.1 + off, 0, 0});
   spec.connections.push_back(c);
   return spec;
 }
@@ -84,11 +86,11 @@ TEST_CASE("breakaway states are taken over") {
   spec.connections.clear();
   spec.robots[1].robot = two_finger(DofKind::breakaway);
   spec.robots[1].dofs = {0.6, 0};
-  spec.robots[1].apart = {{0.2, std::nullopt}, {std::nullopt, std::nullopt}};
+  spec.robots[1].apart = {0.2, std::nullopt, std::nullopt, std::nullopt};
   const World world = build_world(spec);
   const Robot& hand = world.robot(world.robots()[1]);
-  CHECK(joint_value(hand, 0, 0) == 0.2);
-  CHECK(joint_value(hand, 0, 1) == doctest::Approx(0.3));
+  CHECK(joint_value(hand, 0) == 0.2);
+  CHECK(joint_value(hand, 1) == doctest::Approx(0.3));
 }
 
 TEST_CASE(
@@ -98,17 +100,17 @@ TEST_CASE(
   spec.connections.clear();
   spec.robots[1].robot = two_finger(DofKind::breakaway);
   spec.robots[1].dofs = {0.6, 0.6};
-  spec.robots[1].apart = {{0.9, -3.0}, {std::nullopt, 0.1}};
+  spec.robots[1].apart = {0.9, -3.0, std::nullopt, 0.1};
   std::vector<std::string> warnings;
   const World world =
       build_world(spec, {.warn = [&](const std::string& w) { warnings.push_back(w); }});
   const Robot& hand = world.robot(world.robots()[1]);
-  CHECK(joint_value(hand, 0, 0) == 0.6);
-  CHECK(joint_value(hand, 0, 1) == doctest::Approx(0.3));
-  CHECK(joint_value(hand, 1, 1) == 0.1);
+  CHECK(joint_value(hand, 0) == 0.6);
+  CHECK(joint_value(hand, 1) == doctest::Approx(0.3));
+  CHECK(joint_value(hand, 3) == 0.1);
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0] ==
-        "robot 'gripper_2': joint 2 of chain 1 broke away at -3, outside [0, 1.5707963267948966]; "
+        "robot 'gripper_2': joint 2 broke away at -3, outside [0, 1.5707963267948966]; "
         "it follows its DOF");
 }
 
@@ -125,14 +127,14 @@ TEST_CASE("wrong counts are refused") {
 TEST_CASE("links that overlap as a robot is loaded are switched off, and said to be guessed") {
   RobotSpec spec = two_finger();
   // the second links reach back into the base
-  spec.chains[0].links[1].body.shape = Shape::make(moved(box(0.4, 0.01, 0.01), {-0.025, 0, 0}));
+  link_of(spec, 0, 1).body.shape = Shape::make(moved(box(0.4, 0.01, 0.01), {-0.025, 0, 0}));
   World world;
   std::vector<std::string> warnings;
   const auto id = add_robot(world, spec, {}, "",
                             {.note = [&](const std::string& w) { warnings.push_back(w); }});
   const Robot& robot = world.robot(id);
-  CHECK_FALSE(world.may_collide(robot.base, robot.chains[0].links[1]));
-  CHECK(world.may_collide(robot.base, robot.chains[1].links[1]));
+  CHECK_FALSE(world.may_collide(robot.base, link_of(robot, 0, 1)));
+  CHECK(world.may_collide(robot.base, link_of(robot, 1, 1)));
   CHECK(colliding_pairs(world).empty());
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0] ==
@@ -146,7 +148,7 @@ TEST_CASE("of long names a file's messages show 40 characters") {
   const std::string word = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
   for (PlacedRobot& placed : spec.robots) {
     placed.robot.name = placed.robot.base.name = word;
-    for (ChainSpec& chain : placed.robot.chains) chain.links[1].body.name = word;
+    for (const int c : {0, 1}) link_of(placed.robot, c, 1).body.name = word;
     placed.dofs = {-1, 0};
   }
   std::vector<std::string> told;

@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "model/build.h"
 #include "model/compare_worlds.h"
+#include "support/chains.h"
 #include "support/robots.h"
 
 using namespace clench;
@@ -36,10 +37,10 @@ static World any_world(uint64_t seed) {
     } else {
       const auto id = world.add_robot(two_finger(DofKind::breakaway), any_pose(random));
       world.set_dofs(id, Eigen::Vector2d(random.uniform(0, 1), random.uniform(0, 1)));
-      auto broken = world.robot(id).chains[0].apart;
+      auto broken = world.robot(id).apart;
       // behind where its DOF has gone
       broken[0] = 0.5 * world.robot(id).q[0];
-      world.set_dofs_unchecked(id, world.robot(id).q, {broken, world.robot(id).chains[1].apart});
+      world.set_dofs_unchecked(id, world.robot(id).q, broken);
       if (!robots.empty() && chance(0.7)) {
         const BodySpec ring = body_spec("ring", box(0.01, 0.01, 0.01));
         world.mount(id, robots.back(), chance(0.5) ? 1 : 0, any_pose(random),
@@ -133,33 +134,33 @@ TEST_CASE("each difference of two worlds has its phrase") {
   CHECK(only([&](World& w) { w.set_collision(false, cup); }) == phrase("which bodies may collide"));
   CHECK(only([&](World& w) { w.set_collision(false); }) == phrase("which bodies may collide"));
   CHECK(only([&](World& w) {
-          auto broken = w.robot(hand).chains[0].apart;
+          auto broken = w.robot(hand).apart;
           broken[0] = 0.5;
-          w.set_dofs_unchecked(hand, w.robot(hand).q, {broken, w.robot(hand).chains[1].apart});
+          w.set_dofs_unchecked(hand, w.robot(hand).q, broken);
         }) == phrase("the joints of 'gripper' that do not follow their DOFs"));
   CHECK(only([&](World& w) { w.remove(cup); }) == phrase("its number of bodies"));
 }
 
 TEST_CASE("rules of a robot's file are switches of the world") {
   RobotSpec spec = two_finger();
-  spec.collision_rules.parts_off = {{0, 1}};
-  spec.collision_rules.pairs_off = {{RobotPart{}, RobotPart{1, 1}}};
+  spec.collision_rules.parts_off = {1};
+  spec.collision_rules.pairs_off = {{-1, 3}};
   World world;
   const Robot& robot = world.robot(world.add_robot(spec, {}));
   const auto cup = world.add_body(body_spec("cup", box(0.1, 0.1, 0.1)), BodyKind::object, {});
-  CHECK_FALSE(world.may_collide(robot.chains[0].links[1], cup));
-  CHECK_FALSE(world.may_collide(robot.base, robot.chains[1].links[1]));
-  CHECK(world.may_collide(robot.chains[1].links[1], cup));
+  CHECK_FALSE(world.may_collide(link_of(robot, 0, 1), cup));
+  CHECK_FALSE(world.may_collide(robot.base, link_of(robot, 1, 1)));
+  CHECK(world.may_collide(link_of(robot, 1, 1), cup));
 }
 
 TEST_CASE("parts nearer than the contact threshold are switched off where the robot asks for it") {
   // the outer links of straight fingers stand 50 um apart
   RobotSpec spec = two_finger();
-  for (auto& chain : spec.chains) chain.X_BC.position.x() *= (0.005 + 0.000025) / 0.03;
+  for (const int c : {0, 1}) joint_of(spec, c, 0).X_PJ.position.x() *= (0.005 + 0.000025) / 0.03;
   for (const bool near : {false, true}) {
     spec.collision_rules.near_pairs_off = near;
     World world;
     const Robot& robot = world.robot(add_robot(world, spec, {}));
-    CHECK(world.may_collide(robot.chains[0].links[1], robot.chains[1].links[1]) != near);
+    CHECK(world.may_collide(link_of(robot, 0, 1), link_of(robot, 1, 1)) != near);
   }
 }

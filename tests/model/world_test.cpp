@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "model/build.h"
 #include "model/find.h"
+#include "support/chains.h"
 #include "support/robots.h"
 
 using namespace clench;
@@ -115,19 +116,18 @@ TEST_CASE("links stand where Denavit and Hartenberg put them") {
   const Eigen::Vector3d first = knuckle + 0.05 * Eigen::Vector3d(-std::sin(q), std::cos(q), 0);
   const Eigen::Vector3d second =
       first + 0.05 * Eigen::Vector3d(-std::sin(1.5 * q), std::cos(1.5 * q), 0);
-  CHECK((world.body(robot.chains[0].links[0]).X_WB.position - first).norm() < 1e-15);
-  CHECK((world.body(robot.chains[0].links[1]).X_WB.position - second).norm() < 1e-15);
+  CHECK((world.body(link_of(robot, 0, 0)).X_WB.position - first).norm() < 1e-15);
+  CHECK((world.body(link_of(robot, 0, 1)).X_WB.position - second).norm() < 1e-15);
   // the other finger mirrors it: straight up at rest
-  CHECK(
-      (world.body(robot.chains[1].links[1]).X_WB.position - Eigen::Vector3d(-0.03, 0.1, 1)).norm() <
-      1e-15);
+  CHECK((world.body(link_of(robot, 1, 1)).X_WB.position - Eigen::Vector3d(-0.03, 0.1, 1)).norm() <
+        1e-15);
 }
 
 TEST_CASE("moving a robot moves its links rigidly") {
   World world;
   const auto id = world.add_robot(two_finger(), {});
   world.set_dofs(id, Eigen::Vector2d(0.4, 0.7));
-  const auto link = world.robot(id).chains[1].links[1];
+  const auto link = link_of(world.robot(id), 1, 1);
   const Pose before = world.body(link).X_WB;
   const Pose X{Eigen::Quaterniond(Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 2) / 3)), {1, 2, 3}};
   world.set_pose(id, X);
@@ -150,7 +150,7 @@ TEST_CASE("DOF values are refused with what was expected and got") {
 TEST_CASE("parts of a robot can neither be moved nor removed by themselves") {
   World world;
   const auto id = world.add_robot(two_finger(), {});
-  const auto link = world.robot(id).chains[0].links[0];
+  const auto link = link_of(world.robot(id), 0, 0);
   CHECK_THROWS_WITH_AS(world.set_pose(link, Pose{}),
                        "body 'gripper_chain0_link0' is a part of robot 'gripper': move the robot",
                        Error);
@@ -166,7 +166,7 @@ TEST_CASE("the manual's pairs are off on load: base and first links, links of on
   World world;
   const auto id = world.add_robot(two_finger(), {});
   const Robot& robot = world.robot(id);
-  const auto link = [&](int c, int l) { return robot.chains[c].links[l]; };
+  const auto link = [&](int c, int l) { return link_of(robot, c, l); };
   CHECK_FALSE(world.may_collide(robot.base, link(0, 0)));
   CHECK_FALSE(world.may_collide(link(0, 0), link(0, 1)));
   CHECK(world.may_collide(robot.base, link(0, 1)));
@@ -228,8 +228,8 @@ TEST_CASE("an arm carries a hand: it follows, and what is rigidly joined never c
   CHECK(world.body(world.robot(hand).base).name == "gripper_2_base");
   const Pose X_LB = Pose::translation({0.1, 0, 0});
   const BodySpec piece = body_spec("adapter", box(0.02, 0.02, 0.02));
-  world.mount(hand, arm, 0, X_LB, &piece);
-  const auto last = world.robot(arm).chains[0].links[1];
+  world.mount(hand, arm, 1, X_LB, &piece);
+  const auto last = link_of(world.robot(arm), 0, 1);
   const auto base = world.robot(hand).base;
   for (const double q : {0.0, 0.5}) {
     world.set_dofs(arm, Eigen::Vector2d(q, 0));
@@ -251,11 +251,11 @@ TEST_CASE("an arm carries a hand: it follows, and what is rigidly joined never c
   world.set_pose(hand, Pose{});
 }
 
-TEST_CASE("a mount on a chain that is not there is refused with the range") {
+TEST_CASE("a mount on a link that is not there is refused with the range") {
   World world;
   const auto arm = world.add_robot(two_finger(), {}), hand = world.add_robot(two_finger(), {});
-  CHECK_THROWS_WITH_AS(world.mount(hand, arm, 2, Pose{}),
-                       "robot 'gripper_2': expected a chain of 'gripper', 0 to 1, got 2", Error);
+  CHECK_THROWS_WITH_AS(world.mount(hand, arm, 4, Pose{}),
+                       "robot 'gripper_2': expected a link of 'gripper', 0 to 3, got 4", Error);
 }
 
 TEST_CASE("properties refuse what is no mass, inertia, modulus, threshold, material or name") {
@@ -305,7 +305,7 @@ TEST_CASE("a body may not stand where rounding leaves nothing of it, nor take a 
 TEST_CASE(
     "a robot of which a link would stand too far out is not added, moved, driven or mounted") {
   RobotSpec far = two_finger();
-  far.chains[0].X_BC.position.z() = 1e9;
+  joint_of(far, 0, 0).X_PJ.position.z() = 1e9;
   World world;
   add_box(world, "a", {0, 0, 0});
   const uint64_t empty = world.hash();
@@ -324,7 +324,8 @@ TEST_CASE(
   CHECK(world.hash() == as_added);
 
   RobotSpec sliding = two_finger();
-  for (JointSpec& joint : sliding.chains[0].joints) {
+  for (const int j : {0, 1}) {
+    JointSpec& joint = joint_of(sliding, 0, j);
     joint.kind = JointKind::prismatic;
     joint.min = 0, joint.max = 1e20;
   }
@@ -381,7 +382,7 @@ TEST_CASE("the hash knows shapes and mountings") {
   for (World* world : {&apart, &mounted})
     for (int i = 0; i < 2; ++i) world->add_robot(two_finger(), {});
   const Pose X_LB = Pose::translation({0.1, 0, 0});
-  const auto last = apart.robot(apart.robots()[0]).chains[0].links[1];
+  const auto last = link_of(apart.robot(apart.robots()[0]), 0, 1);
   apart.set_pose(apart.robots()[1], apart.body(last).X_WB * X_LB);
   apart.set_collision(false, last, apart.robot(apart.robots()[1]).base);
   mounted.mount(mounted.robots()[1], mounted.robots()[0], 0, X_LB);

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "support/chains.h"
 #include "support/robots.h"
 
 using namespace clench;
@@ -25,7 +26,7 @@ struct Bench {
                             Pose::translation(at));
   }
   const Robot& robot() const { return world.robot(hand); }
-  Id<Body> link(int chain, int link) const { return robot().chains[chain].links[link]; }
+  Id<Body> link(int chain, int link) const { return link_of(robot(), chain, link); }
   double gap(Id<Body> a) const {
     const std::array ga{a}, gb{object};
     return distance(world, ga, gb).distance;
@@ -88,16 +89,16 @@ TEST_CASE("a breakaway finger goes on closing beyond the joint that contact stop
   Bench breakaway(DofKind::breakaway, 0.5, ball(0.02), {0, 0.03, 0});
   autograsp(rigid.world, rigid.hand);
   autograsp(breakaway.world, breakaway.hand);
-  const auto& chain = breakaway.robot().chains[0];
-  REQUIRE(chain.apart[0]);
-  CHECK(*chain.apart[0] == doctest::Approx(rigid.robot().q[0]).epsilon(0.02));
+  const Apart left = apart_of(breakaway.robot(), 0, 0);
+  REQUIRE(left);
+  CHECK(*left == doctest::Approx(rigid.robot().q[0]).epsilon(0.02));
   CHECK(breakaway.robot().q[0] > rigid.robot().q[0] + 0.1);
-  CHECK(joint_value(breakaway.robot(), 0, 1) > joint_value(rigid.robot(), 0, 1) + 0.05);
+  CHECK(joint_value(breakaway.robot(), 1) > joint_value(rigid.robot(), 1) + 0.05);
   CHECK(colliding_pairs(breakaway.world).empty());
 
   // opening picks the joint up where it was left
   open_hand(breakaway.world, breakaway.hand);
-  CHECK_FALSE(breakaway.robot().chains[0].apart[0]);
+  CHECK_FALSE(apart_of(breakaway.robot(), 0, 0));
   CHECK(breakaway.robot().q == Eigen::Vector2d(0, 0));
 }
 

@@ -5,6 +5,7 @@
 
 #include "motion/drive.h"
 #include "support/cases.h"
+#include "support/chains.h"
 #include "support/robots.h"
 
 using namespace clench;
@@ -23,31 +24,33 @@ struct SpringBench {
   SpringBench(std::array<double, 2> springs, const std::string& material, Eigen::Vector3d at,
               Mesh mesh = ball(0.015)) {
     RobotSpec spec = two_finger(DofKind::compliant, 0.5);
-    for (ChainSpec& chain : spec.chains)
-      for (int j = 0; j < 2; ++j) chain.joints[j].spring = springs[j];
+    for (const int c : {0, 1})
+      for (const int j : {0, 1}) joint_of(spec, c, j).spring = springs[j];
     hand = world.add_robot(spec, {});
     BodySpec body = body_spec("object", std::move(mesh));
     body.material = material;
     object = world.add_body(body, BodyKind::object, Pose::translation(at));
   }
   const Robot& robot() const { return world.robot(hand); }
-  double q(int chain, int joint) const { return joint_value(robot(), chain, joint); }
+  double q(int chain, int joint) const {
+    return joint_value(robot(), joint_number(robot(), chain, joint));
+  }
   std::vector<Contact> touching() const {
     return contacts(world, world.bodies(), world.bodies_of(hand));
   }
   double unrest() const {
     double most = 0;
-    for (const auto& chain : SpringBalance(world, hand, touching()).displacement())
-      for (const double x : chain) most = std::max(most, std::abs(x));
+    for (const double x : SpringBalance(world, hand, touching()).displacement())
+      most = std::max(most, std::abs(x));
     return most;
   }
 };
 
 // what the springs of a finger hold, its tendon at q
 double energy(const Robot& robot, int chain, double q, double first, double second) {
-  const auto& joints = robot.chains[chain].joints;
-  const double a = joints[0].ratio * q - first, b = joints[1].ratio * q - second;
-  return 0.5 * (joints[0].spring * a * a + joints[1].spring * b * b);
+  const Joint &inner = joint_of(robot, chain, 0), &outer = joint_of(robot, chain, 1);
+  const double a = inner.ratio * q - first, b = outer.ratio * q - second;
+  return 0.5 * (inner.spring * a * a + outer.spring * b * b);
 }
 
 // The least energy of a finger over postures near its own that do not collide: slow and obvious.
@@ -55,8 +58,9 @@ double min_energy_nearby(const SpringBench& bench, int chain, double q, double r
   World world = bench.world;
   const int cells = 100;
   double best = std::numeric_limits<double>::infinity();
-  std::vector<std::vector<Apart>> apart;
-  for (const int c : {0, 1}) apart.push_back({bench.q(c, 0), bench.q(c, 1)});
+  std::vector<Apart> apart = {bench.q(0, 0), bench.q(0, 1), bench.q(1, 0), bench.q(1, 1)};
+  const std::vector<Id<Body>> finger = {link_of(bench.robot(), chain, 0),
+                                        link_of(bench.robot(), chain, 1)};
   for (int i = 0; i <= cells; ++i)
     for (int j = 0; j <= cells; ++j) {
       const double first =
@@ -65,11 +69,9 @@ double min_energy_nearby(const SpringBench& bench, int chain, double q, double r
           std::clamp(bench.q(chain, 1) + reach * (2.0 * j / cells - 1), 0.0, pi / 2);
       const double e = energy(bench.robot(), chain, q, first, second);
       if (e >= best) continue;
-      apart[chain] = {first, second};
+      apart[2 * chain] = first, apart[2 * chain + 1] = second;
       world.set_dofs_unchecked(bench.hand, world.robot(bench.hand).q, apart);
-      if (colliding_pairs(world, world.robot(bench.hand).chains[chain].links, world.bodies())
-              .empty())
-        best = e;
+      if (colliding_pairs(world, finger, world.bodies()).empty()) best = e;
     }
   return best;
 }
@@ -110,13 +112,13 @@ TEST_CASE("a finger that is opened again follows its tendon back") {
   for (const char* material : {"frictionless", "plastic", "rubber"}) {
     SpringBench bench({1, 2}, material, {0.004, 0.06, 0});
     autograsp(bench.world, bench.hand);
-    CHECK(bench.robot().chains[0].apart[0]);
+    CHECK(apart_of(bench.robot(), 0, 0));
     const auto result = autograsp(bench.world, bench.hand, -1);
     CHECK(bench.robot().q.isZero(0));
     for (const int c : {0, 1})
       for (const int j : {0, 1}) {
         CHECK(bench.q(c, j) == 0);
-        CHECK_FALSE(bench.robot().chains[c].apart[j]);
+        CHECK_FALSE(apart_of(bench.robot(), c, j));
         CHECK(result.stops[c] == DofStop::limit);
       }
   }
@@ -129,7 +131,7 @@ TEST_CASE("the weaker of two joints gives way more") {
     SpringBench bench({first, second}, "frictionless", {0.005, 0.09, 0}, box(0.03, 0.01, 0.05));
     const auto result = autograsp(bench.world, bench.hand);
     CHECK(result.moved);
-    const auto& joints = bench.robot().chains[0].joints;
+    const auto& joints = bench.robot().joints;
     const double q = bench.robot().q[0];
     return Eigen::Vector2d(joints[0].ratio * q - bench.q(0, 0),
                            joints[1].ratio * q - bench.q(0, 1));

@@ -1,10 +1,11 @@
-// Robots whose chains branch, and joints that a file places freely.
+// Robots as trees: links of several joints, whose frames stand anywhere.
 #include <array>
 #include <random>
 
 #include "base/error.h"
 #include "motion/blocked_joints.h"
 #include "motion/drive.h"
+#include "support/chains.h"
 #include "support/robots.h"
 
 using namespace clench;
@@ -18,36 +19,27 @@ Pose random_pose(std::mt19937& random) {
   return {q.normalized(), {0.1 * unit(random), 0.1 * unit(random), 0.1 * unit(random)}};
 }
 
-// chains of random joints, each beginning on the base or on a random link before it
-RobotSpec random_tree(std::mt19937& random, int chains) {
+// links of no, one or two random joints, each on the base or on a random link before it
+RobotSpec random_tree(std::mt19937& random, int links) {
   std::uniform_real_distribution<double> unit(-1, 1);
   RobotSpec robot;
   robot.name = "tree";
   robot.base = body_spec("tree_base", box(0.01, 0.01, 0.01));
-  for (int c = 0; c < chains; ++c) {
-    ChainSpec chain;
-    chain.parent_chain = c == 0 ? -1 : static_cast<int>(random() % (c + 1)) - 1;
-    if (chain.parent_chain >= 0)
-      chain.parent_link =
-          static_cast<int>(random() % robot.chains[chain.parent_chain].links.size());
-    chain.X_BC = random_pose(random);
-    for (int j = 0; j < 2; ++j) {
+  for (int l = 0; l < links; ++l) {
+    LinkSpec link{.body = body_spec("tree_link", box(0.01, 0.01, 0.01))};
+    link.parent = static_cast<int>(random() % (l + 1)) - 1;
+    link.X_JL = random_pose(random);
+    for (size_t joints = random() % 3; joints > 0; --joints) {
       JointSpec joint;
       joint.kind = random() % 3 ? JointKind::revolute : JointKind::prismatic;
       joint.dof = static_cast<int>(robot.dofs.size());
-      joint.theta = unit(random), joint.d = 0.1 * unit(random);
-      joint.a = 0.1 * unit(random), joint.alpha = unit(random);
+      joint.X_PJ = random_pose(random);
+      joint.axis = Eigen::Vector3d(unit(random), unit(random), unit(random)).normalized();
       joint.min = -1, joint.max = 1;
-      joint.placed_freely = random() % 2;
-      joint.X_before = random_pose(random), joint.X_after = random_pose(random);
       robot.dofs.emplace_back();
-      chain.joints.push_back(joint);
-      LinkSpec link;
-      link.body = body_spec("tree_link", box(0.01, 0.01, 0.01));
-      link.last_joint = j;
-      chain.links.push_back(link);
+      link.joints.push_back(joint);
     }
-    robot.chains.push_back(chain);
+    robot.links.push_back(link);
   }
   return robot;
 }
@@ -60,39 +52,17 @@ Eigen::Matrix4d matrix(const Pose& pose) {
 }
 
 // elementary motions multiplied as matrices, from the link up to the base
-Eigen::Matrix4d slow_link(const RobotSpec& robot, const Eigen::VectorXd& q, int c, int link) {
-  const ChainSpec& chain = robot.chains[c];
-  Eigen::Matrix4d m = matrix(chain.X_BC);
-  for (int j = 0; j <= chain.links[link].last_joint; ++j) {
-    const JointSpec& joint = chain.joints[j];
-    const bool turns = joint.kind == JointKind::revolute;
-    const Pose identity;
-    m = m * matrix(joint.placed_freely ? joint.X_before : identity) *
-        matrix(Pose::turn(joint.theta + (turns ? q[joint.dof] : 0), Eigen::Vector3d::UnitZ())) *
-        matrix(Pose::translation({0, 0, joint.d + (turns ? 0 : q[joint.dof])})) *
-        matrix(Pose::translation({joint.a, 0, 0})) *
-        matrix(Pose::turn(joint.alpha, Eigen::Vector3d::UnitX())) *
-        matrix(joint.placed_freely ? joint.X_after : identity);
+Eigen::Matrix4d slow_link(const RobotSpec& robot, const Eigen::VectorXd& q, int number) {
+  const LinkSpec& link = robot.links[number];
+  Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+  for (const JointSpec& joint : link.joints) {
+    const double x = joint.ratio * q[joint.dof];
+    m = m * matrix(joint.X_PJ) *
+        matrix(joint.kind == JointKind::revolute ? Pose::turn(x, joint.axis)
+                                                 : Pose::translation(x * joint.axis));
   }
-  if (chain.parent_chain < 0) return m;
-  return slow_link(robot, q, chain.parent_chain, chain.parent_link) * m;
-}
-
-// the same finger as one chain, or as a chain for each link
-RobotSpec cut_fingers(RobotSpec robot) {
-  std::vector<ChainSpec> cut;
-  for (const ChainSpec& whole : robot.chains) {
-    ChainSpec first = whole, second;
-    first.joints.resize(1), first.links.resize(1);
-    second.parent_chain = static_cast<int>(cut.size()), second.parent_link = 0;
-    second.joints = {whole.joints[1]};
-    second.links = {whole.links[1]};
-    second.links[0].last_joint = 0;
-    cut.push_back(first);
-    cut.push_back(second);
-  }
-  robot.chains = cut;
-  return robot;
+  m = m * matrix(link.X_JL);
+  return link.parent < 0 ? m : slow_link(robot, q, link.parent) * m;
 }
 
 }  // namespace
@@ -101,42 +71,41 @@ TEST_CASE("links of a tree stand where the product of all motions before them pu
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int round = 0; round < 20; ++round) {
-    const RobotSpec spec = random_tree(random, 5);
+    const RobotSpec spec = random_tree(random, 10);
     World world;
     const auto id = world.add_robot(spec, {});
     Eigen::VectorXd q(spec.dofs.size());
     for (double& x : q) x = unit(random);
     world.set_dofs(id, q);
-    const Robot& robot = world.robot(id);
-    for (int c = 0; c < 5; ++c)
-      for (int l = 0; l < 2; ++l) {
-        const Pose& X_WL = world.body(robot.chains[c].links[l]).X_WB;
-        // thirty products of numbers near 1
-        CHECK((matrix(X_WL) - slow_link(spec, q, c, l)).cwiseAbs().maxCoeff() < 1e-13);
-      }
+    const auto poses = link_poses(spec, {q.begin(), q.end()});
+    for (int l = 0; l < 10; ++l) {
+      const Pose& X_WL = world.body(world.robot(id).links[l].body).X_WB;
+      // thirty products of numbers near 1
+      CHECK((matrix(X_WL) - slow_link(spec, q, l)).cwiseAbs().maxCoeff() < 1e-13);
+      CHECK((matrix(poses[l]) - slow_link(spec, q, l)).cwiseAbs().maxCoeff() < 1e-13);
+    }
   }
 }
 
 TEST_CASE("a joint moves the links that turning it moves") {
   std::mt19937 random(2);
-  const RobotSpec spec = random_tree(random, 6);
+  const RobotSpec spec = random_tree(random, 12);
   World world;
   const auto id = world.add_robot(spec, {});
-  for (int c = 0; c < 6; ++c)
-    for (int j = 0; j < 2; ++j) {
-      const World before = world;
-      Eigen::VectorXd q = world.robot(id).q;
-      q[spec.chains[c].joints[j].dof] += 0.1;
-      World after = world;
-      after.set_dofs(id, q);
-      for (const auto body : world.bodies_of(id)) {
-        const bool moved = !(before.body(body).X_WB == after.body(body).X_WB);
-        CHECK(joint_moves(world, id, {c, j}, body) == moved);
-      }
+  for (int j = 0; j < joint_count(spec); ++j) {
+    World after = world;
+    Eigen::VectorXd q = world.robot(id).q;
+    q[world.robot(id).joints[j].dof] += 0.1;
+    after.set_dofs(id, q);
+    for (const auto body : world.bodies_of(id)) {
+      const bool moved = !(world.body(body).X_WB == after.body(body).X_WB);
+      CHECK(joint_moves(world, id, j, body) == moved);
     }
+  }
 }
 
-TEST_CASE("a hand of cut chains closes as the hand of whole ones does") {
+TEST_CASE("a hand closes the same wherever its links' frames are") {
+  std::mt19937 random(3);
   for (const auto kind : {DofKind::rigid, DofKind::breakaway}) {
     const auto close = [&](const RobotSpec& spec) {
       World world;
@@ -147,41 +116,29 @@ TEST_CASE("a hand of cut chains closes as the hand of whole ones does") {
       CHECK(colliding_pairs(world).empty());
       return world.robot(hand).q;
     };
-    const Eigen::VectorXd whole = close(two_finger(kind)),
-                          cut = close(cut_fingers(two_finger(kind)));
+    RobotSpec moved = two_finger(kind);
+    for (LinkSpec& link : moved.links) {
+      const Pose X_LN = random_pose(random);  // the new frame in the old one
+      link.X_JL = link.X_JL * X_LN;
+      Mesh mesh = link.body.shape->mesh();
+      for (auto& v : mesh.vertices) v = X_LN.inverse() * v;
+      link.body.shape = Shape::make(mesh);
+      for (LinkSpec& child : moved.links)
+        if (child.parent == &link - moved.links.data())
+          child.joints[0].X_PJ = X_LN.inverse() * child.joints[0].X_PJ;
+    }
     // the same geometry by other products: rounding may end an advance at another place in the threshold
-    CHECK((whole - cut).cwiseAbs().maxCoeff() < 1e-3);
+    CHECK((close(two_finger(kind)) - close(moved)).cwiseAbs().maxCoeff() < 1e-3);
   }
 }
 
 TEST_CASE("neighbours in a tree never collide, over frames without a shape too") {
-  RobotSpec spec = cut_fingers(two_finger());
-  spec.chains[0].links[0].body.shape = nullptr;
+  RobotSpec spec = two_finger();
+  spec.links[0].body.shape = nullptr;
   spec.chain_links_collide = true;
   World world;
-  const auto id = world.add_robot(spec, {});
-  const Robot& robot = world.robot(id);
-  CHECK_FALSE(world.may_collide(robot.base, robot.chains[1].links[0]));
-  CHECK_FALSE(world.may_collide(robot.chains[2].links[0], robot.chains[3].links[0]));
-  CHECK(world.may_collide(robot.base, robot.chains[3].links[0]));
-}
-
-TEST_CASE("a chain begins on a link that exists, of a chain before it") {
-  RobotSpec spec = cut_fingers(two_finger());
-  World world;
-  spec.chains[1].parent_chain = 1;
-  CHECK_THROWS_WITH_AS(
-      world.add_robot(spec, {}),
-      "gripper: chain 1: expected to begin on the base or on a chain before it, got chain 1",
-      Error);
-  spec.chains[1].parent_chain = 0, spec.chains[1].parent_link = 1;
-  CHECK_THROWS_WITH_AS(world.add_robot(spec, {}),
-                       "gripper: chain 1: expected to begin on one of 1 links of chain 0, got 1",
-                       Error);
-  spec = two_finger();
-  spec.chains[0].joints[1].X_after.position.x() = NAN;
-  CHECK_THROWS_WITH_AS(
-      world.add_robot(spec, {}),
-      "gripper: chain 0 joint 1: expected a position within 1e+09 m of the origin, got (nan, 0, 0)",
-      Error);
+  const Robot& robot = world.robot(world.add_robot(spec, {}));
+  CHECK_FALSE(world.may_collide(robot.base, robot.links[1].body));
+  CHECK_FALSE(world.may_collide(robot.links[2].body, robot.links[3].body));
+  CHECK(world.may_collide(robot.base, robot.links[3].body));
 }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "motion/drive.h"
+#include "support/chains.h"
 #include "support/meshes.h"
 #include "support/robots.h"
 
@@ -62,8 +63,7 @@ TEST_CASE("a place is the centre of what its link sweeps") {
 TEST_CASE(
     "places lie on the surface and face out of it, of round links too, wherever the hand stands") {
   RobotSpec spec = two_finger();
-  spec.chains[0].links[1].body =
-      body_spec("gripper_chain0_link1", moved(ball(0.01, 3), {-0.02, 0, 0}));
+  link_of(spec, 0, 1).body = body_spec("gripper_chain0_link1", moved(ball(0.01, 3), {-0.02, 0, 0}));
   Random random(2, 0);
   std::vector<VirtualContactSpec> first;
   for (int i = 0; i < 5; ++i) {
@@ -109,7 +109,7 @@ TEST_CASE("what does not move has no place, and a robot that does not close has 
   s = stage(spec);
   CHECK(find_virtual_contacts(s.world, s.hand).empty());
   spec = two_finger();
-  spec.chains[0].links[0].body.shape = nullptr;
+  link_of(spec, 0, 0).body.shape = nullptr;
   s = stage(spec);
   CHECK(find_virtual_contacts(s.world, s.hand).size() == 4);
 }
@@ -117,19 +117,17 @@ TEST_CASE("what does not move has no place, and a robot that does not close has 
 TEST_CASE("the palm may be a link: of what stays where it is, the nearest to the approach point") {
   // the base goes on an arm: a forearm below it, and a wrist between them that does not close
   RobotSpec spec = two_finger();
-  ChainSpec wrist;
   JointSpec joint;
   joint.dof = 2;
   joint.min = -1;
   joint.max = 1;
-  wrist.joints.push_back(joint);
   LinkSpec palm;
+  palm.joints.push_back(joint);
   palm.body = spec.base;
   palm.body.name = "gripper_palm";
-  wrist.links.push_back(palm);
   spec.base = body_spec("gripper_base", moved(box(0.04, 0.2, 0.04), {0, -0.2, 0}));
-  for (auto& chain : spec.chains) chain.parent_chain = 0, chain.parent_link = 0;
-  spec.chains.insert(spec.chains.begin(), wrist);
+  for (LinkSpec& link : spec.links) ++link.parent;
+  spec.links.insert(spec.links.begin(), palm);
   spec.dofs.push_back(DofSpec{});
   const Stage s = stage(spec);
   const auto sites = find_virtual_contacts(s.world, s.hand);
@@ -149,14 +147,11 @@ TEST_CASE("a finger that closes the other way has its places on the other side")
 
 TEST_CASE("a sliding jaw has its place in the middle of the face that goes forward") {
   RobotSpec spec = two_finger();
-  for (auto& chain : spec.chains) {
-    chain.joints.resize(1);
-    chain.links.resize(1);
-    chain.joints[0] = JointSpec{};
-    chain.joints[0].kind = JointKind::prismatic;
-    chain.joints[0].dof = static_cast<int>(&chain - spec.chains.data());
-    chain.joints[0].max = 0.02;
-    chain.links[0].last_joint = 0;
+  spec.links = {spec.links[0], spec.links[2]};
+  for (const int l : {0, 1}) {
+    JointSpec& joint = spec.links[l].joints[0];
+    joint = {.kind = JointKind::prismatic, .X_PJ = joint.X_PJ, .dof = l, .max = 0.02};
+    spec.links[l].X_JL = {};
   }
   const Stage s = stage(spec);
   const auto sites = find_virtual_contacts(s.world, s.hand, {.palm = false});

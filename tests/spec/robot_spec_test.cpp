@@ -1,18 +1,20 @@
-#include "spec/robot_spec.h"
+#include "spec/check_robot.h"
 
 #include "base/error.h"
 #include "base/random.h"
+#include "support/chains.h"
 
 using namespace clench;
+using namespace clench::test;
 
 static RobotSpec two_joints() {
   RobotSpec robot;
   robot.name = "arm";
   robot.dofs.resize(1);
-  robot.chains.resize(1);
-  robot.chains[0].joints = {{.dof = 0, .ratio = 1, .min = -1, .max = 2},
-                            {.dof = 0, .ratio = -0.5, .min = -0.5, .max = 1}};
-  robot.chains[0].links.resize(1);
+  robot.links.resize(1);
+  robot.links[0].body.name = "fist";
+  robot.links[0].joints = {{.dof = 0, .ratio = 1, .min = -1, .max = 2},
+                           {.dof = 0, .ratio = -0.5, .min = -0.5, .max = 1}};
   return robot;
 }
 
@@ -57,35 +59,43 @@ TEST_CASE("what is out of order in a robot is told by place") {
     CHECK_THROWS_WITH_AS(check_robot(robot), sentence, Error);
   };
   CHECK_NOTHROW(check_robot(two_joints()));
-  refused([](RobotSpec& r) { r.chains[0].joints[1].dof = 1; },
-          "arm: chain 0 joint 1: expected a DOF from 0 to 0, got 1");
-  refused([](RobotSpec& r) { r.chains[0].joints[1].dof = -1; },
-          "arm: chain 0 joint 1: expected a DOF from 0 to 0, got -1");
-  refused([](RobotSpec& r) { r.chains[0].joints[0].ratio = 0; },
-          "arm: chain 0 joint 0: expected a ratio other than 0, got 0");
-  refused([](RobotSpec& r) { r.chains[0].joints[0].ratio = 1e-309; },
-          "arm: chain 0 joint 0: ratio: expected a number from 1e-30 to 1e+30, got 1e-309");
-  refused([](RobotSpec& r) { r.chains[0].joints[0].d = -1e31; },
-          "arm: chain 0 joint 0: d: expected a number from -1e+09 to 1e+09 [m], got -1e+31");
-  refused([](RobotSpec& r) { r.chains[0].joints[1].theta = 1e300; },
-          "arm: chain 0 joint 1: theta: expected a number from -1e+09 to 1e+09 [rad], got 1e+300");
-  refused([](RobotSpec& r) { r.chains[0].joints[1].max = INFINITY; },
-          "arm: chain 0 joint 1: max: expected a number from -1e+30 to 1e+30 [rad or m], got inf");
-  refused([](RobotSpec& r) { r.chains[0].joints[0].a = NAN; },
-          "arm: chain 0 joint 0: a: expected a number from -1e+09 to 1e+09 [m], got nan");
-  refused([](RobotSpec& r) { r.chains[0].joints[0].min = 3; },
-          "arm: chain 0 joint 0: min 3 exceeds max 2 [rad]");
+  refused([](RobotSpec& r) { joint_of(r, 0, 1).dof = 1; },
+          "arm: link 'fist': joint 1: expected a DOF from 0 to 0, got 1");
+  refused([](RobotSpec& r) { joint_of(r, 0, 1).dof = -1; },
+          "arm: link 'fist': joint 1: expected a DOF from 0 to 0, got -1");
+  refused([](RobotSpec& r) { joint_of(r, 0, 0).ratio = 0; },
+          "arm: link 'fist': joint 0: expected a ratio other than 0, got 0");
+  refused([](RobotSpec& r) { joint_of(r, 0, 0).ratio = 1e-309; },
+          "arm: link 'fist': joint 0: ratio: expected a number from 1e-30 to 1e+30, got 1e-309");
+  refused(
+      [](RobotSpec& r) { joint_of(r, 0, 1).max = INFINITY; },
+      "arm: link 'fist': joint 1: max: expected a number from -1e+30 to 1e+30 [rad or m], got inf");
+  refused([](RobotSpec& r) { joint_of(r, 0, 0).axis.z() = 2; },
+          "arm: link 'fist': joint 0: expected an axis of length 1, got (0, 0, 2)");
+  refused([](RobotSpec& r) { joint_of(r, 0, 1).axis.x() = NAN; },
+          "arm: link 'fist': joint 1: expected an axis of length 1, got (nan, 0, 1)");
+  refused([](RobotSpec& r) { joint_of(r, 0, 1).X_PJ.position.x() = NAN; },
+          "arm: link 'fist': joint 1: expected a position within 1e+09 m of the origin, got (nan, "
+          "0, 0)");
+  refused([](RobotSpec& r) { joint_of(r, 0, 0).min = 3; },
+          "arm: link 'fist': joint 0: min 3 exceeds max 2 [rad]");
   refused(
       [](RobotSpec& r) {
-        r.chains[0].joints[0].kind = JointKind::prismatic, r.chains[0].joints[0].min = 3;
+        joint_of(r, 0, 0).kind = JointKind::prismatic, joint_of(r, 0, 0).min = 3;
       },
-      "arm: chain 0 joint 0: min 3 exceeds max 2 [m]");
-  refused([](RobotSpec& r) { r.chains[0].joints[0].spring = -1; },
-          "arm: chain 0 joint 0: spring: expected a number from 0 to 1e+30, got -1");
-  refused([](RobotSpec& r) { r.chains[0].links[0].last_joint = 2; },
-          "arm: chain 0 link 0: expected a last joint from -1 to 1, got 2");
-  refused([](RobotSpec& r) { r.chains[0].X_BC.position.x() = INFINITY; },
-          "arm: chain 0: expected a position within 1e+09 m of the origin, got (inf, 0, 0)");
+      "arm: link 'fist': joint 0: min 3 exceeds max 2 [m]");
+  refused([](RobotSpec& r) { joint_of(r, 0, 0).spring = -1; },
+          "arm: link 'fist': joint 0: spring: expected a number from 0 to 1e+30, got -1");
+  for (const int parent : {-2, 0, 1})
+    refused([=](RobotSpec& r) { r.links[0].parent = parent; },
+            fmt::format("arm: link 'fist': expected a parent from -1, the base, to -1, a link "
+                        "before it, got {}",
+                        parent)
+                .c_str());
+  refused([](RobotSpec& r) { r.links[0].X_JL.position.x() = INFINITY; },
+          "arm: link 'fist': expected a position within 1e+09 m of the origin, got (inf, 0, 0)");
+  refused([](RobotSpec& r) { r.collision_rules.parts_off = {1}; },
+          "arm: collision rule: expected one of 1 links, or -1 for the base, got 1");
   refused([](RobotSpec& r) { r.dofs[0].kp = NAN; },
           "arm: DOF 0: Kp: expected a number from -1e+30 to 1e+30, got nan");
   refused([](RobotSpec& r) { r.dofs[0].default_velocity = -1e31; },
@@ -96,7 +106,7 @@ TEST_CASE("what is out of order in a robot is told by place") {
           "arm: DOF 0: max effort: expected a number from 0 to 1e+30, got -1");
   refused([](RobotSpec& r) { r.dofs[0].breakaway_torque = -1; },
           "arm: DOF 0: breakaway torque: expected a number from 0 to 1e+30, got -1");
-  refused([](RobotSpec& r) { r.chains[0].joints[1].min = 0.9, r.chains[0].joints[0].min = 1.5; },
+  refused([](RobotSpec& r) { joint_of(r, 0, 1).min = 0.9, joint_of(r, 0, 0).min = 1.5; },
           "arm: DOF 0: expected a range that all of its joints allow, got from 1.5 to -1.8");
 }
 
@@ -116,9 +126,9 @@ TEST_CASE("of a robot's long name messages show 40 characters") {
     CHECK_MESSAGE(false, "nothing was wrong");
   };
   cut([](RobotSpec& r) { r.dofs[0].kp = NAN; });
-  cut([](RobotSpec& r) { r.chains[0].joints[0].ratio = 0; });
-  cut([](RobotSpec& r) { r.chains[0].parent_chain = 3; });
+  cut([](RobotSpec& r) { joint_of(r, 0, 0).ratio = 0; });
+  cut([](RobotSpec& r) { r.links[0].parent = 3; });
   cut([](RobotSpec& r) { r.base.mass = 0; });
-  cut([](RobotSpec& r) { r.tactile.push_back({.part = {5, 5}}); });
+  cut([](RobotSpec& r) { r.tactile.push_back({.link = 5}); });
   cut([&](RobotSpec& r) { r.tendons.emplace_back().stiffness = -1; });
 }

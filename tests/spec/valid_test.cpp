@@ -3,12 +3,14 @@
 #include <functional>
 
 #include "base/error.h"
+#include "spec/check_robot.h"
 #include "spec/inertia.h"
 #include "spec/world_spec.h"
+#include "support/chains.h"
 #include "support/shapes.h"
 
 using namespace clench;
-using clench::test::box;
+using namespace clench::test;
 
 static const double hostile_numbers[] = {NAN,    INFINITY, -INFINITY, 1e308, -1e308,
                                          5e-324, 0,        -1,        0.3,   1};
@@ -96,11 +98,10 @@ static RobotSpec one_joint() {
   RobotSpec robot;
   robot.name = "arm";
   robot.dofs.resize(1);
-  robot.chains.resize(1);
-  robot.chains[0].joints.resize(1);
-  robot.chains[0].joints[0].min = -largest_number;
-  robot.chains[0].joints[0].max = largest_number;
-  robot.chains[0].links.resize(1);
+  robot.links.resize(1);
+  robot.links[0].joints.resize(1);
+  joint_of(robot, 0, 0).min = -largest_number;
+  joint_of(robot, 0, 0).max = largest_number;
   return robot;
 }
 
@@ -113,26 +114,21 @@ TEST_CASE("each number of a robot has one rule") {
     };
   };
   const auto joint = [&](double JointSpec::*number) {
-    return robot([number](RobotSpec& r, double x) { r.chains[0].joints[0].*number = x; });
+    return robot([number](RobotSpec& r, double x) { joint_of(r, 0, 0).*number = x; });
   };
   const auto dof = [&](double DofSpec::*number) {
     return robot([number](RobotSpec& r, double x) { r.dofs[0].*number = x; });
   };
-  check_verdicts(angle_rule, "theta", joint(&JointSpec::theta));
-  check_verdicts(angle_rule, "alpha", joint(&JointSpec::alpha));
-  check_verdicts(coordinate_rule, "a", joint(&JointSpec::a));
-  check_verdicts(coordinate_rule, "d", joint(&JointSpec::d));
   check_verdicts(limit_rule, "min", joint(&JointSpec::min));
   check_verdicts(limit_rule, "max", joint(&JointSpec::max));
   check_verdicts(limit_rule, "rest", joint(&JointSpec::rest));
   check_verdicts(not_negative_rule, "viscous", joint(&JointSpec::viscous));
   check_verdicts(not_negative_rule, "coulomb", joint(&JointSpec::coulomb));
   check_verdicts(not_negative_rule, "spring", joint(&JointSpec::spring));
-  check_verdicts(number_rule, "pull", joint(&JointSpec::pull));
   check_verdicts(positive_rule, "ratio", robot([](RobotSpec& r, double x) {
                    // negative ones run the other way
-                   r.chains[0].joints[0].ratio = std::copysign(x, -1);
-                   if (x < 0) r.chains[0].joints[0].ratio = 0;
+                   joint_of(r, 0, 0).ratio = std::copysign(x, -1);
+                   if (x < 0) joint_of(r, 0, 0).ratio = 0;
                  }));
   check_verdicts(number_rule, "default velocity", dof(&DofSpec::default_velocity));
   check_verdicts(limit_rule, "default value", dof(&DofSpec::default_value));
@@ -143,7 +139,7 @@ TEST_CASE("each number of a robot has one rule") {
   check_verdicts(not_negative_rule, "max velocity", dof(&DofSpec::max_velocity));
   check_verdicts(not_negative_rule, "breakaway torque", dof(&DofSpec::breakaway_torque));
   check_verdicts(mass_rule, "mass of a link",
-                 robot([](RobotSpec& r, double x) { r.chains[0].links[0].body.mass = x; }));
+                 robot([](RobotSpec& r, double x) { link_of(r, 0, 0).body.mass = x; }));
 }
 
 TEST_CASE("each frame and part of a robot has one rule") {
@@ -154,14 +150,10 @@ TEST_CASE("each frame and part of a robot has one rule") {
       check_robot(robot);
     };
   };
-  check_verdicts(coordinate_rule, "chain",
-                 at([](RobotSpec& r) -> Pose& { return r.chains[0].X_BC; }));
-  check_verdicts(coordinate_rule, "before",
-                 at([](RobotSpec& r) -> Pose& { return r.chains[0].joints[0].X_before; }));
-  check_verdicts(coordinate_rule, "after",
-                 at([](RobotSpec& r) -> Pose& { return r.chains[0].joints[0].X_after; }));
+  check_verdicts(coordinate_rule, "joint",
+                 at([](RobotSpec& r) -> Pose& { return joint_of(r, 0, 0).X_PJ; }));
   check_verdicts(coordinate_rule, "link",
-                 at([](RobotSpec& r) -> Pose& { return r.chains[0].links[0].X_JL.emplace(); }));
+                 at([](RobotSpec& r) -> Pose& { return link_of(r, 0, 0).X_JL; }));
   check_verdicts(coordinate_rule, "approach",
                  at([](RobotSpec& r) -> Pose& { return r.X_BA.emplace(); }));
   check_verdicts(coordinate_rule, "tracker",

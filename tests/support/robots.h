@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "model/world.h"
+#include "support/chains.h"
 #include "support/shapes.h"
 
 namespace clench::test {
@@ -19,29 +20,26 @@ inline Mesh moved(Mesh mesh, const Eigen::Vector3d& by) {
   return mesh;
 }
 
-/// A finger of two links, 50 mm each, along -x of their frames; it turns about z of the base, one
+/// A finger of two links, 50 mm each, along -x of their frames; it turns about z of the frame that it begins at, one
 /// joint a link.
-inline ChainSpec finger(const Pose& X_BC, int dof, double ratio_of_second,
-                        const std::string& prefix) {
+inline void add_finger(RobotSpec& robot, const Pose& X_BC, int dof, double ratio_of_second,
+                       const std::string& prefix) {
   const double pi = std::numbers::pi;
-  ChainSpec chain;
-  chain.X_BC = X_BC;
   JointSpec joint;
+  joint.X_PJ = X_BC;
   joint.dof = dof;
-  joint.a = 0.05;
   joint.max = pi / 2;
-  chain.joints.push_back(joint);
-  joint.ratio = ratio_of_second;
-  joint.max = pi / 2 * std::max(1.0, ratio_of_second);
-  chain.joints.push_back(joint);
   for (int l = 0; l < 2; ++l) {
-    LinkSpec link;
-    link.body = body_spec(prefix + "_link" + std::to_string(l),
-                          moved(box(0.044, 0.01, 0.01), {-0.025, 0, 0}));
-    link.last_joint = l;
-    chain.links.push_back(link);
+    LinkSpec link{.body = body_spec(prefix + "_link" + std::to_string(l),
+                                    moved(box(0.044, 0.01, 0.01), {-0.025, 0, 0}))};
+    link.parent = l == 0 ? -1 : static_cast<int>(robot.links.size()) - 1;
+    link.joints = {joint};
+    link.X_JL = Pose::translation({0.05, 0, 0});
+    robot.links.push_back(link);
+    joint.X_PJ = {};
+    joint.ratio = ratio_of_second;
+    joint.max = pi / 2 * std::max(1.0, ratio_of_second);
   }
-  return chain;
 }
 
 /// Two fingers that stand along +y, 60 mm apart, and close towards each other; one DOF a finger.
@@ -58,8 +56,8 @@ inline RobotSpec two_finger(DofKind kind = DofKind::rigid, double ratio_of_secon
   const Pose right{Eigen::Quaterniond(Eigen::AngleAxisd(pi / 2, Eigen::Vector3d::UnitZ())),
                    {0.03, 0, 0}};
   const Pose over = Pose::turn(pi, Eigen::Vector3d::UnitY());
-  robot.chains.push_back(finger(right, 0, ratio_of_second, "gripper_chain0"));
-  robot.chains.push_back(finger(over * right, 1, ratio_of_second, "gripper_chain1"));
+  add_finger(robot, right, 0, ratio_of_second, "gripper_chain0");
+  add_finger(robot, over * right, 1, ratio_of_second, "gripper_chain1");
   robot.X_BA = approach_frame({0, 0, 0}, {0, 1, 0});
   return robot;
 }

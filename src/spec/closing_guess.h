@@ -10,16 +10,16 @@
 // axes that do not lie along that of its last joint, stay when they swing as far to either side or
 // bring the tip hardly nearer.
 #pragma once
-#include "io/tree_model.h"
+#include "spec/robot_spec.h"
 
 namespace clench {
 
 struct ClosingGuess {
-  std::vector<double> senses;  ///< one per joint: +1, -1, or 0 (it stays); of leaders only
-  std::optional<Pose> X_BA;    ///< approach frame in the root
+  std::vector<double> senses;  ///< one per DOF: +1, -1, or 0 (it stays)
+  std::optional<Pose> X_BA;    ///< approach frame in the base
 };
 
-/// The leaders of the tree must be resolved.
-ClosingGuess guess_closing(const TreeModel& tree);
+/// passive  DOFs that no motor drives: these stay
+ClosingGuess guess_closing(const RobotSpec& robot, const std::vector<bool>& passive);
 
 }  // namespace clench

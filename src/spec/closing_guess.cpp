@@ -1,8 +1,9 @@
-#include "io/closing_guess.h"
+#include "spec/closing_guess.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "base/random.h"
 
@@ -20,43 +21,49 @@ constexpr double lopsided = 0.1;   // of the range: a middle farther than this f
 constexpr double common = 0.4;     // mean of unit vectors: longer means they agree
 constexpr double nearly_axis = 0.94;  // cosine of 20 degrees: a direction this near an axis is it
 
+// a joint may turn this far and more without end [rad]
+constexpr double endless = 1.5 * 2 * std::numbers::pi;
+
 struct Finger {
-  int tip = 0;              // link
-  std::vector<int> links;   // between palm and tip, from the palm on, and the tip
-  std::vector<int> joints;  // theirs
-  Eigen::Vector3d p_tip;    // in the tip's frame
+  int tip = 0;            // link
+  std::vector<int> links;  // between palm and tip, from the palm on, and the tip
+  Eigen::Vector3d p_tip;   // in the tip's frame
 };
 
-int root_distance(const TreeModel& tree, int link) {
+int root_distance(const RobotSpec& robot, int link) {
   int n = 0;
-  for (; tree.links[link].parent >= 0; link = tree.links[link].parent) ++n;
+  for (; link >= 0; link = robot.links[link].parent) ++n;
   return n;
 }
 
-int common_ancestor(const TreeModel& tree, int a, int b) {
-  int depth_a = root_distance(tree, a), depth_b = root_distance(tree, b);
+int common_ancestor(const RobotSpec& robot, int a, int b) {
+  int depth_a = root_distance(robot, a), depth_b = root_distance(robot, b);
   while (a != b) {
     if (depth_a >= depth_b)
-      a = tree.links[a].parent, --depth_a;
+      a = robot.links[a].parent, --depth_a;
     else
-      b = tree.links[b].parent, --depth_b;
+      b = robot.links[b].parent, --depth_b;
   }
   return a;
 }
 
 /// Links between an ancestor, which is not among them, and a link, which is; from the ancestor on.
-std::vector<int> links_below(const TreeModel& tree, int ancestor, int link) {
+std::vector<int> links_below(const RobotSpec& robot, int ancestor, int link) {
   std::vector<int> out;
-  for (; link != ancestor && link >= 0; link = tree.links[link].parent) out.push_back(link);
+  for (; link != ancestor && link >= 0; link = robot.links[link].parent) out.push_back(link);
   return {out.rbegin(), out.rend()};
 }
 
 /// Joints of those links.
-std::vector<int> joints_below(const TreeModel& tree, int ancestor, int link) {
-  std::vector<int> out;
-  for (const int l : links_below(tree, ancestor, link))
-    out.insert(out.end(), tree.links[l].joints.begin(), tree.links[l].joints.end());
+std::vector<const JointSpec*> joints_below(const RobotSpec& robot, int ancestor, int link) {
+  std::vector<const JointSpec*> out;
+  for (const int l : links_below(robot, ancestor, link))
+    for (const JointSpec& joint : robot.links[l].joints) out.push_back(&joint);
   return out;
+}
+
+const BodySpec& body_of(const RobotSpec& robot, int link) {
+  return link < 0 ? robot.base : robot.links[link].body;
 }
 
 const ShapePtr& drawn(const BodySpec& body) {
@@ -64,114 +71,89 @@ const ShapePtr& drawn(const BodySpec& body) {
 }
 
 /// Links that end the tree: the last ones with geometry, or without when none has any.
-std::vector<int> ends(const TreeModel& tree) {
-  const bool any_shape = std::any_of(tree.links.begin(), tree.links.end(),
-                                     [](const TreeLink& link) { return drawn(link.body); });
-  std::vector<bool> dof_can_advance(tree.links.size());
+std::vector<int> ends(const RobotSpec& robot) {
+  const bool any_shape =
+      drawn(robot.base) || std::any_of(robot.links.begin(), robot.links.end(),
+                                       [](const LinkSpec& link) { return drawn(link.body); });
+  std::vector<bool> goes_on(robot.links.size());
   std::vector<int> out;
-  for (int i = static_cast<int>(tree.links.size()) - 1; i >= 0; --i) {
-    const bool counts = !any_shape || drawn(tree.links[i].body);
-    if (counts && !dof_can_advance[i]) out.push_back(i);
-    if (const int parent = tree.links[i].parent; parent >= 0)
-      dof_can_advance[parent] = dof_can_advance[parent] || dof_can_advance[i] || counts;
+  for (int i = static_cast<int>(robot.links.size()) - 1; i >= 0; --i) {
+    const bool counts = !any_shape || drawn(robot.links[i].body);
+    if (counts && !goes_on[i]) out.push_back(i);
+    if (const int parent = robot.links[i].parent; parent >= 0)
+      goes_on[parent] = goes_on[parent] || goes_on[i] || counts;
   }
   std::reverse(out.begin(), out.end());
   return out;
 }
 
-/// Values of all joints, and where they put the links in the root's frame.
+/// Values of all DOFs, and where they put the links in the base's frame.
 struct Posture {
   std::vector<double> q;
   std::vector<Pose> poses;
+
+  Pose at(int link) const { return link < 0 ? Pose{} : poses[link]; }
 };
 
 struct Hand {
-  const TreeModel& tree;
+  const RobotSpec& robot;
   int palm = -1;
   std::vector<Finger> fingers;
-  std::vector<int> dofs;  // joints that lead, and themselves move
+  std::vector<int> dofs;  // that can move
   Posture rest;           // at first
-  std::vector<std::array<double, 2>>
-      ranges;  // one per joint; of leaders, with their followers' limits
-  std::vector<std::vector<int>> followers;  // one per joint: joints that it leads
-  std::vector<int> link_of;                 // one per joint
+  std::vector<std::array<double, 2>> ranges;  // one per DOF
+
+  /// Does the DOF go round and round?
+  bool turns_without_end(int dof) const { return !(ranges[dof][1] - ranges[dof][0] < endless); }
 };
 
-std::array<double, 2> range_of(const Hand& hand, int leader) {
-  const TreeModel& tree = hand.tree;
-  std::array<double, 2> range = {tree.joints[leader].min, tree.joints[leader].max};
-  for (const int follower : hand.followers[leader]) {
-    const TreeJoint& joint = tree.joints[follower];
-    if (joint.ratio == 0) continue;
-    const double a = (joint.min - joint.offset) / joint.ratio,
-                 b = (joint.max - joint.offset) / joint.ratio;
-    range = {std::max(range[0], std::min(a, b)), std::min(range[1], std::max(a, b))};
-  }
-  return range;
-}
-
 void find_fingers(Hand& hand) {
-  const TreeModel& tree = hand.tree;
-  std::vector<int> tips = ends(tree);
-  std::erase_if(tips, [&](int tip) { return joints_below(tree, -1, tip).empty(); });
+  const RobotSpec& robot = hand.robot;
+  std::vector<int> tips = ends(robot);
+  std::erase_if(tips, [&](int tip) { return joints_below(robot, -1, tip).empty(); });
   // what is fixed on the palm is no finger, and without it the palm may lie farther out
   for (size_t before = tips.size() + 1; tips.size() > 1 && tips.size() < before;) {
     before = tips.size();
     hand.palm = tips.front();
-    for (const int tip : tips) hand.palm = common_ancestor(tree, hand.palm, tip);
-    std::erase_if(tips, [&](int tip) { return joints_below(tree, hand.palm, tip).empty(); });
+    for (const int tip : tips) hand.palm = common_ancestor(robot, hand.palm, tip);
+    std::erase_if(tips, [&](int tip) { return joints_below(robot, hand.palm, tip).empty(); });
   }
   // a single finger of one or two joints closes against what carries it; a longer one is an arm
   if (tips.size() == 1) {
     hand.palm = tips.front();
-    while (joints_below(tree, hand.palm, tips.front()).empty() && hand.palm > 0)
-      hand.palm = tree.links[hand.palm].parent;
-    const bool arm = joints_below(tree, -1, tips.front()).size() > 2;
+    while (joints_below(robot, hand.palm, tips.front()).empty() && hand.palm >= 0)
+      hand.palm = robot.links[hand.palm].parent;
+    const bool arm = joints_below(robot, -1, tips.front()).size() > 2;
     if (arm) tips.clear();
   }
   for (const int tip : tips) {
-    const ShapePtr& shape = drawn(tree.links[tip].body);
-    hand.fingers.push_back({tip, links_below(tree, hand.palm, tip),
-                            joints_below(tree, hand.palm, tip),
+    const ShapePtr& shape = drawn(robot.links[tip].body);
+    hand.fingers.push_back({tip, links_below(robot, hand.palm, tip),
                             shape ? shape->centre() : Eigen::Vector3d(Eigen::Vector3d::Zero())});
   }
 }
 
-Hand make_hand(const TreeModel& tree) {
-  const int joints = static_cast<int>(tree.joints.size());
-  Hand hand{tree, -1, {}, {}, {}, {}, {}, std::vector<int>(joints)};
-  hand.followers.resize(joints);
-  for (int j = 0; j < joints; ++j)
-    if (const int leader = tree.joints[j].leader; leader >= 0) hand.followers[leader].push_back(j);
-  for (int l = 0; l < static_cast<int>(tree.links.size()); ++l)
-    for (const int j : tree.links[l].joints) hand.link_of[j] = l;
-  for (int j = 0; j < joints; ++j) {
-    const TreeJoint& joint = tree.joints[j];
-    hand.ranges.push_back(joint.leader < 0 ? range_of(hand, j)
-                                           : std::array<double, 2>{joint.min, joint.max});
+Hand make_hand(const RobotSpec& robot) {
+  Hand hand{robot, -1, {}, {}, {}, {}};
+  for (int d = 0; d < static_cast<int>(robot.dofs.size()); ++d) {
+    hand.ranges.push_back(dof_range(robot, d));
     const auto [low, high] = hand.ranges.back();
-    if (joint.leader < 0 && low < high) hand.dofs.push_back(j);
-    hand.rest.q.push_back(low <= high ? std::clamp(joint.start, low, high) : joint.start);
+    if (low < high) hand.dofs.push_back(d);
+    const double start = robot.dofs[d].default_value;
+    hand.rest.q.push_back(low <= high ? std::clamp(start, low, high) : start);
   }
-  hand.rest.poses = link_poses(tree, hand.rest.q);
+  hand.rest.poses = link_poses(robot, hand.rest.q);
   find_fingers(hand);
   return hand;
 }
 
-/// Sets a DOF, and what follows it.
-void set(const Hand& hand, std::vector<double>& q, int dof, double value) {
-  q[dof] = value;
-  for (const int j : hand.followers[dof])
-    q[j] = hand.tree.joints[j].ratio * value + hand.tree.joints[j].offset;
-}
-
 /// Fingertips in the palm's frame.
 std::vector<Eigen::Vector3d> tips_at(const Hand& hand, const std::vector<double>& q) {
-  const auto poses = link_poses(hand.tree, q);
-  const Pose X_PB = poses[hand.palm].inverse();
+  const Posture posture{q, link_poses(hand.robot, q)};
+  const Pose X_PB = posture.at(hand.palm).inverse();
   std::vector<Eigen::Vector3d> out;
   for (const Finger& finger : hand.fingers)
-    out.push_back(X_PB * (poses[finger.tip] * finger.p_tip));
+    out.push_back(X_PB * (posture.at(finger.tip) * finger.p_tip));
   return out;
 }
 
@@ -179,28 +161,22 @@ std::vector<Eigen::Vector3d> tips_at(const Hand& hand, const std::vector<double>
 /// Long hands would else take the square of their length.
 Eigen::Vector3d tip_at(const Hand& hand, const Posture& posture, const std::vector<double>& q,
                        const Finger& finger) {
-  Pose X = posture.poses[hand.palm];
-  for (const int l : finger.links) {
-    X = X * hand.tree.links[l].X_PL;
-    for (const int j : hand.tree.links[l].joints) X = X * joint_pose(hand.tree.joints[j], q[j]);
-  }
-  return posture.poses[hand.palm].inverse() * (X * finger.p_tip);
-}
-
-bool follows(const Hand& hand, int joint, int dof) {
-  return joint == dof || hand.tree.joints[joint].leader == dof;
+  Pose X = posture.at(hand.palm);
+  for (const int l : finger.links) X = X * link_in_parent(hand.robot.links[l], q);
+  return posture.at(hand.palm).inverse() * (X * finger.p_tip);
 }
 
 /// Fingers that a DOF moves; none when it moves the palm, too.
 std::vector<int> moved_fingers(const Hand& hand, int dof) {
-  for (const int j : joints_below(hand.tree, -1, hand.palm))
-    if (follows(hand, j, dof)) return {};
+  const auto moves = [&](int from, int to) {
+    const auto joints = joints_below(hand.robot, from, to);
+    return std::any_of(joints.begin(), joints.end(),
+                       [&](const JointSpec* joint) { return joint->dof == dof; });
+  };
   std::vector<int> out;
-  for (int f = 0; f < static_cast<int>(hand.fingers.size()); ++f) {
-    const auto& joints = hand.fingers[f].joints;
-    if (std::any_of(joints.begin(), joints.end(), [&](int j) { return follows(hand, j, dof); }))
-      out.push_back(f);
-  }
+  if (moves(-1, hand.palm)) return out;
+  for (int f = 0; f < static_cast<int>(hand.fingers.size()); ++f)
+    if (moves(hand.palm, hand.fingers[f].tip)) out.push_back(f);
   return out;
 }
 
@@ -208,7 +184,7 @@ std::vector<int> moved_fingers(const Hand& hand, int dof) {
 Eigen::Vector3d grasp_centre(const Hand& hand) {
   // a single finger closes on what carries it
   if (hand.fingers.size() == 1) {
-    const ShapePtr& palm = drawn(hand.tree.links[hand.palm].body);
+    const ShapePtr& palm = drawn(body_of(hand.robot, hand.palm));
     return palm ? palm->centre() : Eigen::Vector3d(Eigen::Vector3d::Zero());
   }
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -219,7 +195,7 @@ Eigen::Vector3d grasp_centre(const Hand& hand) {
       const auto [low, high] = hand.ranges[dof];
       const double value = random.uniform(low, high);
       // what turns without end, turns nothing in on average
-      if (high - low < 1.5 * endless_turn) set(hand, q, dof, value);
+      if (!hand.turns_without_end(dof)) q[dof] = value;
     }
     for (const auto& p : tips_at(hand, q)) sum += p;
   }
@@ -228,22 +204,22 @@ Eigen::Vector3d grasp_centre(const Hand& hand) {
 
 /// Does some joint of the DOF turn its finger the way that the finger's last joint does?
 bool flexes(const Hand& hand, int dof) {
-  // axis of a joint in the root's frame
-  const auto axis = [&](int joint) {
-    const TreeLink& link = hand.tree.links[hand.link_of[joint]];
-    Pose X = link.parent < 0 ? Pose{} : hand.rest.poses[link.parent] * link.X_PL;
-    for (const int j : link.joints) {
-      if (j == joint) break;
-      X = X * joint_pose(hand.tree.joints[j], hand.rest.q[j]);
+  for (const Finger& finger : hand.fingers) {
+    std::vector<std::pair<const JointSpec*, Eigen::Vector3d>> axes;  // in the base
+    for (const int l : finger.links) {
+      Pose X = hand.rest.at(hand.robot.links[l].parent);
+      for (const JointSpec& joint : hand.robot.links[l].joints) {
+        X = X * joint.X_PJ;
+        axes.emplace_back(&joint, X.rotation * joint.axis);
+        X = X * joint_motion(joint, joint.ratio * hand.rest.q[joint.dof]);
+      }
     }
-    return Eigen::Vector3d(X.rotation * hand.tree.joints[joint].axis);
-  };
-  for (const Finger& finger : hand.fingers)
-    for (const int j : finger.joints) {
-      if (!follows(hand, j, dof)) continue;
-      if (hand.tree.joints[j].kind == JointKind::prismatic) return true;
-      if (std::abs(axis(j).dot(axis(finger.joints.back()))) > along) return true;
+    for (const auto& [joint, axis] : axes) {
+      if (joint->dof != dof) continue;
+      if (joint->kind == JointKind::prismatic) return true;
+      if (std::abs(axis.dot(axes.back().second)) > along) return true;
     }
+  }
   return false;
 }
 
@@ -265,7 +241,7 @@ Way way_to(const Hand& hand, const Posture& posture, int dof, const std::vector<
   std::vector<Eigen::Vector3d> before(fingers.size());
   double first = 0;
   for (int s = 0; s <= steps; ++s) {
-    set(hand, q, dof, start + (end - start) * s / steps);
+    q[dof] = start + (end - start) * s / steps;
     double distance = 0;
     for (size_t f = 0; f < fingers.size(); ++f) {
       const Eigen::Vector3d tip = tip_at(hand, posture, q, hand.fingers[fingers[f]]);
@@ -285,17 +261,16 @@ Posture half_way(const Hand& hand) {
   Posture out{hand.rest.q, {}};
   for (const int dof : hand.dofs) {
     const auto [least, most] = hand.ranges[dof];
-    if (most - least < 1.5 * endless_turn) set(hand, out.q, dof, (least + most) / 2);
+    if (!hand.turns_without_end(dof)) out.q[dof] = (least + most) / 2;
   }
-  out.poses = link_poses(hand.tree, out.q);
+  out.poses = link_poses(hand.robot, out.q);
   return out;
 }
 
 double sense_of(const Hand& hand, const Posture& bent, int dof, const Eigen::Vector3d& centre) {
   const auto fingers = moved_fingers(hand, dof);
   const auto [low, high] = hand.ranges[dof];
-  if (fingers.empty() || hand.tree.joints[dof].passive) return 0;
-  if (!(high - low < 1.5 * endless_turn)) return 0;
+  if (fingers.empty() || hand.turns_without_end(dof)) return 0;
   Way up = way_to(hand, hand.rest, dof, fingers, centre, high),
       down = way_to(hand, hand.rest, dof, fingers, centre, low);
   if (up.length + down.length < rolling * up.far) {
@@ -335,24 +310,21 @@ Eigen::Vector3d approach_direction(const Hand& hand, const std::vector<double>& 
     const double little = 0.05 * (high - low) * senses[dof];
     double start = hand.rest.q[dof];
     if (start + little > high || start + little < low) start -= little;
-    set(hand, from, dof, start);
-    set(hand, to, dof, start + little);
+    from[dof] = start;
+    to[dof] = start + little;
   }
   const auto before = tips_at(hand, from), after = tips_at(hand, to);
   Eigen::Vector3d closing = Eigen::Vector3d::Zero(), pointing = closing;
-  const auto& poses = hand.rest.poses;
-  const Pose X_PB = poses[hand.palm].inverse();
+  const Pose X_PB = hand.rest.at(hand.palm).inverse();
   for (size_t f = 0; f < hand.fingers.size(); ++f) {
     closing += (after[f] - before[f]).stableNormalized() / static_cast<double>(hand.fingers.size());
     // from the finger's first link to its tip
-    int first = hand.fingers[f].tip;
-    while (hand.tree.links[first].parent != hand.palm && hand.tree.links[first].parent >= 0)
-      first = hand.tree.links[first].parent;
-    pointing += (before[f] - X_PB * poses[first].position).stableNormalized();
+    const Pose first = hand.rest.at(hand.fingers[f].links.front());
+    pointing += (before[f] - X_PB * first.position).stableNormalized();
   }
   if (closing.norm() > common) return closing.normalized();
   if (pointing.norm() > 1e-6) return pointing.normalized();
-  const ShapePtr& palm = drawn(hand.tree.links[hand.palm].body);
+  const ShapePtr& palm = drawn(body_of(hand.robot, hand.palm));
   const Eigen::Vector3d out =
       centre - (palm ? palm->centre() : Eigen::Vector3d(Eigen::Vector3d::Zero()));
   return out.norm() > 1e-9 ? Eigen::Vector3d(out.normalized())
@@ -362,11 +334,10 @@ Eigen::Vector3d approach_direction(const Hand& hand, const std::vector<double>& 
 /// On the palm's surface, where it bulges most in the direction.
 Eigen::Vector3d approach_point(const Hand& hand, const Eigen::Vector3d& direction_P) {
   int link = hand.palm;
-  while (link > 0 && !drawn(hand.tree.links[link].body)) link = hand.tree.links[link].parent;
-  const ShapePtr& shape = drawn(hand.tree.links[link].body);
+  while (link >= 0 && !drawn(body_of(hand.robot, link))) link = hand.robot.links[link].parent;
+  const ShapePtr& shape = drawn(body_of(hand.robot, link));
   if (!shape) return Eigen::Vector3d::Zero();
-  const auto& poses = hand.rest.poses;
-  const Pose X_PL = poses[hand.palm].inverse() * poses[link];
+  const Pose X_PL = hand.rest.at(hand.palm).inverse() * hand.rest.at(link);
   const Eigen::Vector3d centre = X_PL * shape->bounds().centre();
   double farthest = 0;
   for (const auto& p : shape->mesh().vertices)
@@ -376,19 +347,20 @@ Eigen::Vector3d approach_point(const Hand& hand, const Eigen::Vector3d& directio
 
 }  // namespace
 
-ClosingGuess guess_closing(const TreeModel& tree) {
-  const Hand hand = make_hand(tree);
+ClosingGuess guess_closing(const RobotSpec& robot, const std::vector<bool>& passive) {
+  const Hand hand = make_hand(robot);
   ClosingGuess guess;
-  guess.senses.assign(tree.joints.size(), 0);
+  guess.senses.assign(robot.dofs.size(), 0);
   if (hand.fingers.empty()) return guess;
   const Eigen::Vector3d centre = grasp_centre(hand);
   if (!centre.allFinite()) return guess;
   const Posture bent = half_way(hand);
-  for (const int dof : hand.dofs) guess.senses[dof] = sense_of(hand, bent, dof, centre);
+  for (const int dof : hand.dofs)
+    if (!passive[dof]) guess.senses[dof] = sense_of(hand, bent, dof, centre);
 
   const Eigen::Vector3d z_P = approach_direction(hand, guess.senses, centre);
   const Eigen::Vector3d p_P = approach_point(hand, z_P);
-  const Pose X_BP = hand.rest.poses[hand.palm];
+  const Pose X_BP = hand.rest.at(hand.palm);
   const Eigen::Vector3d z_B = snapped(X_BP.rotation * z_P), p_B = X_BP * p_P;
   if (z_B.allFinite() && p_B.allFinite()) guess.X_BA = approach_frame(p_B, z_B);
   return guess;

@@ -1,5 +1,5 @@
-// A robot's tree as our chains: each chain runs as far as one way leads on to joints, and every branch
-// begins a chain. Nothing is lost: each link keeps its name and its pose for all joint values.
+// A robot as files of today describe it becomes ours: followers count by their leaders' DOFs, the links of a chain stand
+// side by side. Each link keeps its name and its pose for all joint values.
 #pragma once
 #include "io/library.h"
 #include "io/tree_model.h"
@@ -12,6 +12,6 @@ constexpr double min_follower_range = 0.1;
 /// Guesses what closes the hand and how it approaches, as far as the options do not say it, and
 /// tells. `file` is the name shown in sentences.
 /// throws  Error naming the joint, the DOF or the option that is wrong
-RobotSpec make_chains(TreeModel tree, const std::string& file, const Library& library);
+RobotSpec make_robot(TreeModel tree, const std::string& file, const Library& library);
 
 }  // namespace clench

@@ -1,0 +1,93 @@
+#include "spec/chains.h"
+
+namespace clench {
+
+// of each link the child that goes on in its chain; -1: none
+static std::vector<int> ways_on(const RobotSpec& robot) {
+  const int count = static_cast<int>(robot.links.size());
+  std::vector<char> moves(count);  // is there a joint in the link or beyond it?
+  for (int i = count - 1; i >= 0; --i) {
+    moves[i] = moves[i] || !robot.links[i].joints.empty();
+    if (const int parent = robot.links[i].parent; moves[i] && parent >= 0) moves[parent] = true;
+  }
+  std::vector<int> moving(count), first(count, -1), first_moving(count, -1);
+  for (int i = 0; i < count; ++i) {
+    const int parent = robot.links[i].parent;
+    if (parent < 0) continue;
+    if (first[parent] < 0) first[parent] = i;
+    if (!moves[i]) continue;
+    ++moving[parent];
+    if (first_moving[parent] < 0) first_moving[parent] = i;
+  }
+  std::vector<int> out(count, -1);
+  for (int i = 0; i < count; ++i)
+    out[i] = moving[i] == 1 ? first_moving[i] : moving[i] == 0 ? first[i] : -1;
+  return out;
+}
+
+std::vector<Chain> chains_of(const RobotSpec& robot) {
+  const auto way_on = ways_on(robot);
+  std::vector<Chain> out;
+  std::vector<int> chain_of;
+  for (int i = 0; i < static_cast<int>(robot.links.size()); ++i) {
+    const int parent = robot.links[i].parent;
+    if (parent < 0 || way_on[parent] != i) {
+      chain_of.push_back(static_cast<int>(out.size()));
+      out.push_back({parent, {}});
+    } else {
+      chain_of.push_back(chain_of[parent]);
+    }
+    out[chain_of.back()].links.push_back(i);
+  }
+  return out;
+}
+
+ChainPlace place_of(const std::vector<Chain>& chains, int link) {
+  for (int c = 0; link >= 0 && c < static_cast<int>(chains.size()); ++c)
+    for (int l = 0; l < static_cast<int>(chains[c].links.size()); ++l)
+      if (chains[c].links[l] == link) return {c, l};
+  return {};
+}
+
+std::optional<int> link_at(const std::vector<Chain>& chains, ChainPlace place) {
+  if (place.chain < 0) return -1;
+  if (place.chain >= static_cast<int>(chains.size())) return {};
+  const auto& links = chains[place.chain].links;
+  if (place.link < 0 || place.link >= static_cast<int>(links.size())) return {};
+  return links[place.link];
+}
+
+std::optional<int> chain_ending_at(const RobotSpec& robot, int link) {
+  const auto chains = chains_of(robot);
+  for (size_t c = 0; c < chains.size(); ++c)
+    if (chains[c].links.back() == link) return static_cast<int>(c);
+  return {};
+}
+
+std::vector<NumberedJoint> joints_of(const RobotSpec& robot) {
+  const auto chains = chains_of(robot);
+  std::vector<int> counts(chains.size());
+  std::vector<NumberedJoint> out;
+  for (int l = 0; l < static_cast<int>(robot.links.size()); ++l) {
+    const int chain = place_of(chains, l).chain;
+    for (const JointSpec& joint : robot.links[l].joints)
+      out.push_back({chain, counts[chain]++, &joint});
+  }
+  return out;
+}
+
+std::vector<int> order_by_chains(RobotSpec& robot) {
+  std::vector<int> now(robot.links.size());
+  std::vector<LinkSpec> links;
+  for (const Chain& chain : chains_of(robot))
+    for (const int link : chain.links) {
+      now[link] = static_cast<int>(links.size());
+      links.push_back(std::move(robot.links[link]));
+    }
+  for (LinkSpec& link : links)
+    if (link.parent >= 0) link.parent = now[link.parent];
+  robot.links = std::move(links);
+  return now;
+}
+
+}  // namespace clench

@@ -1,0 +1,177 @@
+#include "spec/check_robot.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace clench {
+
+static void check_dof(const DofSpec& dof, const std::string& subject) {
+  check_name(dof.name, subject);
+  check(limit_rule.called("default value"), dof.default_value, subject);
+  check_each(number_rule,
+             {{"default velocity", dof.default_velocity},
+              {"Kp", dof.kp},
+              {"Kd", dof.kd},
+              {"dragger scale", dof.dragger_scale}},
+             subject);
+  check_each(not_negative_rule,
+             {{"max effort", dof.max_effort},
+              {"max velocity", dof.max_velocity},
+              {"breakaway torque", dof.breakaway_torque}},
+             subject);
+}
+
+static void check_joint(const JointSpec& joint, const RobotSpec& robot,
+                        const std::string& subject) {
+  const int dofs = static_cast<int>(robot.dofs.size());
+  if (joint.dof < 0 || joint.dof >= dofs)
+    fail("{}: expected a DOF from 0 to {}, got {}", subject, dofs - 1, joint.dof);
+  check_name(joint.name, subject);
+  check_each(limit_rule, {{"min", joint.min}, {"max", joint.max}, {"rest value", joint.rest}},
+             subject);
+  check_place(joint.X_PJ, subject);
+  if (!(std::abs(joint.axis.norm() - 1) < 1e-9))
+    fail("{}: expected an axis of length 1, got ({}, {}, {})", subject, joint.axis.x(),
+         joint.axis.y(), joint.axis.z());
+  if (joint.ratio == 0) fail("{}: expected a ratio other than 0, got 0", subject);
+  check(positive_rule.called("ratio"), std::abs(joint.ratio), subject);
+  if (joint.min > joint.max)
+    fail("{}: min {} exceeds max {} [{}]", subject, joint.min, joint.max,
+         joint.kind == JointKind::revolute ? "rad" : "m");
+  check_each(not_negative_rule,
+             {{"viscous friction", joint.viscous},
+              {"Coulomb friction", joint.coulomb},
+              {"spring", joint.spring}},
+             subject);
+}
+
+static void check_part(const RobotSpec& robot, int link, const char* subject) {
+  if (link < -1 || link >= static_cast<int>(robot.links.size()))
+    fail("{}: {}: expected one of {} links, or -1 for the base, got {}", excerpt(robot.name),
+         subject, robot.links.size(), link);
+}
+
+static void check_tendons(const RobotSpec& robot) {
+  for (const TendonSpec& tendon : robot.tendons) {
+    check_name(tendon.name, excerpt(robot.name) + ": tendon");
+    const std::string subject =
+        fmt::format("{}: tendon '{}'", excerpt(robot.name), excerpt(tendon.name));
+    check(not_negative_rule.called("stiffness"), tendon.stiffness, subject);
+    for (const auto& length : {tendon.rest_length, tendon.pre_tension_length})
+      check(not_negative_rule.called("length"), length.value_or(0), subject);
+    for (const TendonPoint& point : tendon.points) {
+      check(coordinate_rule, point.p_L, subject);
+      check(friction_rule, point.friction, subject);
+    }
+  }
+  for (size_t i = 0; i < robot.wrappers.size(); ++i) {
+    const TendonWrapper& wrapper = robot.wrappers[i];
+    const std::string subject = fmt::format("{}: tendon wrapper {}", excerpt(robot.name), i);
+    check(coordinate_rule, wrapper.p_L, subject);
+    check(coordinate_rule.called("axis"), wrapper.axis_L, subject);
+    check(not_negative_rule.called("radius"), wrapper.radius, subject);
+    check(not_negative_rule.called("length"), wrapper.length, subject);
+    check(friction_rule, wrapper.friction, subject);
+  }
+}
+
+static void check_parts(const RobotSpec& robot) {
+  for (const int part : robot.collision_rules.parts_off) check_part(robot, part, "collision rule");
+  for (const auto& pair : robot.collision_rules.pairs_off)
+    for (const int part : pair) check_part(robot, part, "collision rule");
+  for (const auto& sensor : robot.tactile) {
+    check_part(robot, sensor.link, "tactile sensor");
+    check(coordinate_rule, sensor.low_L, excerpt(robot.name) + ": tactile sensor");
+    check(coordinate_rule, sensor.high_L, excerpt(robot.name) + ": tactile sensor");
+  }
+  for (const auto& wrapper : robot.wrappers) check_part(robot, wrapper.link, "tendon wrapper");
+  for (const auto& tendon : robot.tendons)
+    for (const auto& point : tendon.points) check_part(robot, point.link, "tendon");
+}
+
+void check_fit(const RobotSpec& robot, const EigengraspSet& set) {
+  if (set.dofs != static_cast<int>(robot.dofs.size()))
+    fail("eigengrasps of {} DOFs do not fit '{}', which has {}", set.dofs, excerpt(robot.name),
+         robot.dofs.size());
+}
+
+void check_fit(const std::vector<Chain>& chains, const std::string& robot,
+               const std::vector<VirtualContactSpec>& contacts) {
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const auto [chain, link] = std::pair(contacts[i].chain, contacts[i].link);
+    if (chain == -1 && link == 0) continue;
+    if (chain < 0 || chain >= static_cast<int>(chains.size()))
+      fail("contact {}: '{}' has no chain {}", i + 1, excerpt(robot), chain);
+    if (!link_at(chains, {chain, link}))
+      fail("contact {}: chain {} of '{}' has no link {}", i + 1, chain, excerpt(robot), link);
+  }
+}
+
+void check_fit(const RobotSpec& robot, const VirtualContactSet& set) {
+  check_fit(chains_of(robot), robot.name, set.contacts);
+}
+
+void check_fit(const RobotSpec& robot, const GloveCalibration& glove) {
+  const int dofs = static_cast<int>(robot.dofs.size());
+  if (glove.slopes.rows() != dofs || glove.intercepts.size() != dofs)
+    fail("a glove's calibration for {} DOFs does not fit '{}', which has {}", glove.slopes.rows(),
+         excerpt(robot.name), dofs);
+}
+
+static void check_sets(const RobotSpec& robot, const std::string& name) {
+  if (robot.eigengrasps) {
+    check_fit(robot, *robot.eigengrasps);
+    check_eigengrasps(*robot.eigengrasps, name);
+  }
+  if (robot.virtual_contacts) {
+    check_fit(robot, *robot.virtual_contacts);
+    for (size_t i = 0; i < robot.virtual_contacts->contacts.size(); ++i)
+      check_virtual_contact(robot.virtual_contacts->contacts[i],
+                            fmt::format("{}: virtual contact {}", name, i + 1));
+  }
+  if (!robot.glove) return;
+  check_fit(robot, *robot.glove);
+  const std::string glove = name + ": glove";
+  for (const double x : robot.glove->slopes.reshaped())
+    check(number_rule.called("slope"), x, glove);
+  for (const double x : robot.glove->intercepts) check(number_rule.called("intercept"), x, glove);
+}
+
+static void check_bodies(const RobotSpec& robot, const std::string& name) {
+  for (const std::string* other : {&robot.class_name, &robot.database_name})
+    check_name(*other, name);
+  check_body(robot.base, name + ": base");
+  for (const LinkSpec& link : robot.links) check_body(link.body, name + ": link");
+  if (robot.X_BA) check_place(*robot.X_BA, name + ": approach");
+  if (robot.tracker) check_place(robot.tracker->X_BS, name + ": tracker");
+}
+
+static void check_link(const RobotSpec& robot, int number, const std::string& name) {
+  const LinkSpec& link = robot.links[number];
+  const std::string place = fmt::format("{}: link '{}'", name, excerpt(link.body.name));
+  if (link.parent < -1 || link.parent >= number)
+    fail("{}: expected a parent from -1, the base, to {}, a link before it, got {}", place,
+         number - 1, link.parent);
+  for (size_t j = 0; j < link.joints.size(); ++j)
+    check_joint(link.joints[j], robot, fmt::format("{}: joint {}", place, j));
+  check_place(link.X_JL, place);
+}
+
+void check_robot(const RobotSpec& robot) {
+  check_name(robot.name, "robot");
+  const std::string name = excerpt(robot.name);
+  check_sets(robot, name);
+  check_bodies(robot, name);
+  for (size_t i = 0; i < robot.dofs.size(); ++i)
+    check_dof(robot.dofs[i], fmt::format("{}: DOF {}", name, i));
+  for (int l = 0; l < static_cast<int>(robot.links.size()); ++l) check_link(robot, l, name);
+  for (size_t i = 0; i < robot.dofs.size(); ++i)
+    if (const auto range = dof_range(robot, static_cast<int>(i)); range[0] > range[1])
+      fail("{}: DOF {}: {}", name, i, no_range(range));
+  check_parts(robot);
+  check_tendons(robot);
+}
+
+}  // namespace clench
