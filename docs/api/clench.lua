@@ -132,7 +132,7 @@ function world:clone() end
 ---@return snapshot
 function world:snapshot() end
 
----Back to a snapshot of this world: what was removed since is back, what was added since is gone.
+---Back to a snapshot of this world, of a clone of it, or of one that it is a clone of: what was removed since is back, what was added since is gone.
 ---@param snapshot snapshot
 function world:restore(snapshot) end
 

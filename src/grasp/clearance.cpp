@@ -18,8 +18,7 @@ double clearance(const World& world, Id<Robot> hand, Id<Body> object) {
 namespace {
 
 // the deepest of a's corners inside b
-double deepest_corner(const Body& a, const Body& b) {
-  const Pose X_BA = b.X_WB.inverse() * a.X_WB;
+double deepest_corner(const Body& a, const Body& b, const Pose& X_BA) {
   double deepest = 0;
   for (const Eigen::Vector3d& p_A : a.shape->mesh().vertices) {
     const Eigen::Vector3d p = X_BA * p_A;
@@ -39,7 +38,9 @@ double penetration(const World& world, Id<Robot> hand, Id<Body> object) {
   double deepest = 0;
   for (const auto& [a, b] : colliding_pairs(world, parts, std::span(&object, 1))) {
     const Body &one = world.body(a), &other = world.body(b);
-    deepest = std::max({deepest, deepest_corner(one, other), deepest_corner(other, one)});
+    const Pose X_BA = world.pose(b).inverse() * world.pose(a);
+    deepest = std::max(
+        {deepest, deepest_corner(one, other, X_BA), deepest_corner(other, one, X_BA.inverse())});
   }
   return deepest;
 }

@@ -24,7 +24,7 @@ ContactForce read_force(const ForceProgram& p, const World& world, const Grasp& 
   const PointContact& contact = grasp.points[i];
   const int count = p.map.starts[i + 1] - p.map.starts[i];
   const VectorXd f = p.solution.x.segment(p.normal(i), count);
-  const Eigen::Matrix3d R_WO = world.body(grasp.object).X_WB.matrix();
+  const Eigen::Matrix3d R_WO = world.pose(grasp.object).matrix();
   ContactForce out;
   out.normal = f[0];
   Eigen::Vector3d f_C(0, 0, f[0]);
@@ -100,7 +100,7 @@ void read_forces(const ForceProgram& p, const World& world, const Grasp& grasp,
   Vector6d sum = p.map.matrix * p.solution.x.segment(p.f, p.map.forces()) + held;
   const bool asked = !held.isZero(0) && question != ForceQuestion::nearest;
   if (asked && !balances(p.arm, held, sum)) out.status = ForceStatus::inaccurate;
-  out.unbalanced = turned_wrench(sum, world.body(grasp.object).X_WB.matrix());
+  out.unbalanced = turned_wrench(sum, world.pose(grasp.object).matrix());
   sum.tail<3>() /= grasp.rho;
   out.residual = sum.stableNorm();
   if (!std::isfinite(out.residual)) out.status = ForceStatus::inaccurate;
@@ -144,7 +144,7 @@ ForceCertificate read_certificate(const ForceProgram& p, const World& world, con
   // no motion of the object is in a proof that its forces contradict each other whatever the load
   const double size = measured.norm() > 1e-12 * s.y.norm() ? 1 / measured.norm() : 1;
   ForceCertificate out;
-  out.twist = turned_wrench(y * size, world.body(grasp.object).X_WB.matrix());
+  out.twist = turned_wrench(y * size, world.pose(grasp.object).matrix());
   out.power = size * p.load_O.dot(y);
   const double value = size * (s.y.dot(p.program.b) + s.z.dot(p.program.h));
   if (factor)

@@ -197,7 +197,7 @@ ForceProgram make_program(const World& world, const Grasp& grasp, const ForceOpt
                           ForceQuestion question) {
   ForceProgram p;
   p.map = grasp_map(grasp.points, grasp.com);
-  const Eigen::Matrix3d R_OW = world.body(grasp.object).X_WB.matrix().transpose();
+  const Eigen::Matrix3d R_OW = world.pose(grasp.object).matrix().transpose();
   p.load_O = turned_wrench(options.load, R_OW);
   p.f = p.builder.unknowns(p.map.forces());
   p.arm = about_longest_arm(grasp);

@@ -25,9 +25,9 @@ static void add_torsion(Grasp& grasp, const GraspOptions& options) {
 
 static GraspPosture posture_of(const World& world, Id<Robot> hand, Id<Body> object) {
   const Robot& robot = world.robot(hand);
-  GraspPosture out{world.body(robot.base).X_WB.inverse() * world.body(object).X_WB, {}};
-  for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j)
-    out.joints.push_back(joint_value(robot, j));
+  GraspPosture out{world.pose(robot.base).inverse() * world.pose(object), {}};
+  const auto q = world.joints(hand);
+  out.joints.assign(q.begin(), q.end());
   return out;
 }
 
@@ -90,7 +90,7 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
 
   const auto parts = world.bodies_of(hand);
   grasp.contacts = contacts(world, parts, std::span(&object, 1));
-  const Pose X_OW = held.X_WB.inverse();
+  const Pose X_OW = world.pose(object).inverse();
   for (const Contact& contact : grasp.contacts)
     grasp.points.push_back({.p_O = X_OW * contact.p_W,
                             .n_O = (X_OW.rotation * contact.n_W).normalized(),

@@ -45,16 +45,15 @@ void fill_column(Eigen::Ref<Eigen::VectorXd> column, const Grasp& grasp, const G
 HandJacobian hand_jacobian(const World& world, const Grasp& grasp, const JacobianOptions& options) {
   check_unmoved(world, grasp);
   const GraspMap map = grasp_map(grasp.points, grasp.com);
-  const Pose& X_WO = world.body(grasp.object).X_WB;
+  const Pose& X_WO = world.pose(grasp.object);
   std::vector<Eigen::VectorXd> columns;
   HandJacobian out;
   for (const Carrier& carrier : carriers(world, grasp.hand, options.arms)) {
     const Robot& robot = world.robot(carrier.robot);
-    const Pose& X_WB = world.body(robot.base).X_WB;
-    const auto frames = robot_frames(robot);
+    const auto frames = world.frames(carrier.robot);
     for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
-      const Axis axis = {robot.joints[j].kind == JointKind::revolute,
-                         X_WB.rotation * frames.axis(robot, j), X_WB * frames.joints[j].position};
+      const Axis axis = {robot.joints[j].kind == JointKind::revolute, frames.axis(robot, j),
+                         frames.joints[j].position};
       Eigen::VectorXd column = Eigen::VectorXd::Zero(map.forces());
       for (int i = 0; i < map.contacts(); ++i) {
         const bool own = carrier.robot == grasp.hand;
@@ -76,7 +75,7 @@ Eigen::MatrixXd dof_jacobian(const World& world, const Grasp& grasp, const HandJ
       Eigen::MatrixXd::Zero(jacobian.of_joints.rows(), static_cast<int>(hand.dofs.size()));
   for (size_t k = 0; k < jacobian.joints.size(); ++k) {
     const JointRef& ref = jacobian.joints[k];
-    if (ref.robot != grasp.hand || hand.apart[ref.joint]) continue;
+    if (ref.robot != grasp.hand || !world.follows_dof(grasp.hand, ref.joint)) continue;
     const Joint& joint = hand.joints[ref.joint];
     out.col(joint.dof) += joint.ratio * jacobian.of_joints.col(static_cast<int>(k));
   }

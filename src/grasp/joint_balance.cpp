@@ -20,9 +20,9 @@ void each_joint_of(const Robot& robot, int dof, Visit visit) {
 }
 
 // what a joint's spring gives as it stands
-double spring_of(const Robot& robot, const JointRef& ref) {
-  const Joint& joint = robot.joints[ref.joint];
-  return joint.spring > 0 ? -joint.spring * (joint_value(robot, ref.joint) - joint.rest) : 0;
+double spring_of(const World& world, const JointRef& ref) {
+  const Joint& joint = world.robot(ref.robot).joints[ref.joint];
+  return joint.spring > 0 ? -joint.spring * (world.joints(ref.robot)[ref.joint] - joint.rest) : 0;
 }
 
 // what the joints of a compliant DOF get of its effort: in free air the tendon holds their springs, and does the work
@@ -42,12 +42,13 @@ struct TendonShares {
 };
 
 // what a compliant DOF's motor gives to stand where it does in free air: the work of its springs along its motion
-double tendon_effort(const Robot& robot, int dof) {
+double tendon_effort(const World& world, Id<Robot> id, int dof) {
+  const Robot& robot = world.robot(id);
+  const double q = world.dofs(id)[dof];
   double sum = 0;
   if (robot.dofs[dof].kind == DofKind::compliant)
-    each_joint_of(robot, dof, [&](const JointSpec& j) {
-      sum += j.ratio * j.spring * (j.ratio * robot.q[dof] - j.rest);
-    });
+    each_joint_of(robot, dof,
+                  [&](const JointSpec& j) { sum += j.ratio * j.spring * (j.ratio * q - j.rest); });
   return sum;
 }
 
@@ -78,7 +79,7 @@ class BalanceRows {
     for (int i = 0; i < static_cast<int>(world_.robot(robot).dofs.size()); ++i) {
       const double most = limit_or_none(world_.robot(robot).dofs[i].max_effort);
       motors_[{robot, i}] = add_effort({robot, i}, -most, most);
-      tendons_.push_back(tendon_effort(world_.robot(robot), i));
+      tendons_.push_back(tendon_effort(world_, robot, i));
     }
   }
   int add_effort(const EffortRef& ref, double least, double most) {
@@ -100,12 +101,12 @@ void BalanceRows::add(const JointRef& ref, const Eigen::VectorXd& forces, bool l
   const Joint& joint = robot.joints[ref.joint];
   const DofSpec& dof = robot.dofs[joint.dof];
   const int motor = motors_.at({ref.robot, joint.dof});
-  Row row{forces, motor, joint.ratio, spring_of(robot, ref)};
+  Row row{forces, motor, joint.ratio, spring_of(world_, ref)};
   if (link_weights) row.spring += link_weight(world_, ref);
   if (dof.kind == DofKind::compliant) {
     row.factor = TendonShares(robot, joint.dof).of(joint);
     row.slack = springs_at_rest * joint.spring;
-  } else if (robot.apart[ref.joint]) {
+  } else if (!world_.follows_dof(ref.robot, ref.joint)) {
     row.effort = add_effort({ref.robot, joint.dof, ref}, 0, limit_or_none(dof.breakaway_torque));
     row.factor = joint.ratio < 0 ? -1 : 1;
   } else {

@@ -112,7 +112,8 @@ RobustnessProblem MeasuredGrasp::robustness_problem() {
   problem.compliance = VectorXd::Ones(problem.G.cols());
   const Body& object = world_.body(grasp_.object);
   const Vector6d weight = weight_of(object);
-  problem.load.head<3>() = object.X_WB.rotation.conjugate() * Eigen::Vector3d(weight.head<3>());
+  problem.load.head<3>() =
+      world_.pose(grasp_.object).rotation.conjugate() * Eigen::Vector3d(weight.head<3>());
   return problem;
 }
 
@@ -144,15 +145,17 @@ double gravity_effort(MeasuredGrasp& g) {
 
 // the DOFs that have a range, each with where it is in it, from 0 to 1
 template <class Act>
-void each_place_in_range(const Robot& robot, Act act) {
-  for (Index i = 0; i < robot.q.size(); ++i)
+void each_place_in_range(const World& world, Id<Robot> id, Act act) {
+  const Robot& robot = world.robot(id);
+  const auto q = world.dofs(id);
+  for (Index i = 0; i < q.size(); ++i)
     if (const auto [low, high] = robot.limits[i]; high > low && std::isfinite(high - low))
-      act((robot.q[i] - low) / (high - low));
+      act((q[i] - low) / (high - low));
 }
 
 double joint_margin(MeasuredGrasp& g) {
   double least = infinite;
-  each_place_in_range(g.world().robot(g.grasp().hand), [&](double place) {
+  each_place_in_range(g.world(), g.grasp().hand, [&](double place) {
     least = std::min({least, std::max(0.0, place), std::max(0.0, 1 - place)});
   });
   return least;
@@ -161,7 +164,7 @@ double joint_margin(MeasuredGrasp& g) {
 double joint_deviation(MeasuredGrasp& g) {
   double sum = 0;
   int count = 0;
-  each_place_in_range(g.world().robot(g.grasp().hand), [&](double place) {
+  each_place_in_range(g.world(), g.grasp().hand, [&](double place) {
     sum += (2 * place - 1) * (2 * place - 1);
     ++count;
   });
@@ -183,8 +186,8 @@ double orthogonality(MeasuredGrasp& g) {
   if (!axis) return infinite;
   const Robot& hand = g.world().robot(g.grasp().hand);
   const Eigen::Vector3d approach =
-      g.world().body(hand.base).X_WB.rotation * hand.X_BA.rotation * Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d axis_W = object.X_WB.rotation * *axis;
+      g.world().pose(hand.base).rotation * hand.X_BA.rotation * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d axis_W = g.world().pose(g.grasp().object).rotation * *axis;
   const double along = std::abs(axis_W.dot(approach)), across = axis_W.cross(approach).norm();
   return std::atan2(std::min(along, across), std::max(along, across));
 }

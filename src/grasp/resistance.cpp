@@ -32,7 +32,7 @@ double ellipsoid_resistance(const World& world, const Grasp& grasp, const Vector
   const Vector6d axes = axes_W.cwiseMax(1e-8 * axes_W.maxCoeff());
 
   // where the ellipsoid is a ball: along the world's axes, each over its half axis
-  const Eigen::Matrix3d R_WO = world.body(grasp.object).X_WB.matrix();
+  const Eigen::Matrix3d R_WO = world.pose(grasp.object).matrix();
   Eigen::Matrix<double, 6, 6> to_ball = Eigen::Matrix<double, 6, 6>::Zero();
   to_ball.topLeftCorner<3, 3>() = R_WO;
   to_ball.bottomRightCorner<3, 3>() = R_WO;

@@ -4,7 +4,7 @@ namespace clench {
 
 double Body::max_radius() const { return shape ? largest_radius(shape->mesh(), com) : 0; }
 
-Body make_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB) {
+Body make_body(const BodySpec& spec, BodyKind kind) {
   Body body;
   body.name = spec.name;
   body.source = spec.source;
@@ -13,7 +13,6 @@ Body make_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB) {
   body.shape = spec.shape;
   body.mesh_report = spec.mesh_report;
   body.appearance = spec.appearance;
-  body.X_WB = X_WB;
   body.mass = spec.mass;
   body.com = com_of(spec);
   body.inertia_per_mass = inertia_of(spec);

@@ -1,4 +1,4 @@
-// A body of the world: what it is, and where.
+// A body of the world: what it is.
 #pragma once
 #include <optional>
 #include <string>
@@ -21,7 +21,6 @@ struct Body {
   ShapePtr shape;  ///< null: a frame without geometry
   std::optional<MeshReport> mesh_report;
   Appearance appearance;
-  Pose X_WB;
   int material = 0;                       ///< index into the world's table
   double mass = 0;                        ///< [kg]
   Eigen::Vector3d com;                    ///< in the body frame [m]
@@ -40,6 +39,6 @@ struct Body {
 };
 
 /// What the spec describes; see com_of and inertia_of for what it leaves open.
-Body make_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB);
+Body make_body(const BodySpec& spec, BodyKind kind);
 
 }  // namespace clench

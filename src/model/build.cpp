@@ -42,7 +42,7 @@ static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed
   if (placed.dofs.size() != robot.dofs.size())
     fail("robot '{}': expected {} DOF values, got {}", excerpt(robot.name), robot.dofs.size(),
          placed.dofs.size());
-  Eigen::VectorXd q(robot.q.size());
+  Eigen::VectorXd q(static_cast<Eigen::Index>(robot.dofs.size()));
   for (int i = 0; i < q.size(); ++i) {
     const auto [low, high] = robot.limits[i];
     q[i] = std::clamp(placed.dofs[i], low, high);
@@ -61,8 +61,8 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
   const Robot& carrier = world.robot(parent);
   Pose X_LB = c.X_LB;
   if (c.link >= 0 && c.link < static_cast<int>(carrier.links.size())) {
-    const Pose X_WL = world.body(carrier.links[c.link].body).X_WB;
-    const Pose& X_WB = world.body(world.robot(child).base).X_WB;
+    const Pose X_WL = world.pose(carrier.links[c.link].body);
+    const Pose& X_WB = world.pose(world.robot(child).base);
     const Pose as_written = X_WL.inverse() * X_WB;
     const Pose off = X_LB.inverse() * as_written;
     if (off.position.norm() < digits && off.angle() < digits)
@@ -157,7 +157,7 @@ Id<Body> Builder::named(const std::string& name) const {
 }
 
 void Builder::switch_collision() {
-  const auto neighbours = world_.state().pairs_off;
+  const auto neighbours = world_.settings().pairs_off;
   for (const auto& [a, b] : neighbours) world_.set_collision(true, a, b);
   for (const auto& [a, b] : spec_.collision->pairs_off)
     world_.set_collision(false, named(a), named(b));

@@ -66,8 +66,8 @@ class Comparer {
   void add(fmt::format_string<Args...> format, Args&&... args) {
     out_.push_back(fmt::format(format, std::forward<Args>(args)...));
   }
-  void bodies(const Body& a, const Body& b);
-  void robots(const Robot& a, const Robot& b);
+  void bodies(Id<Body> a_id, Id<Body> b_id);
+  void robots(Id<Robot> a_id, Id<Robot> b_id);
   void frictions();
   void switches();
   std::vector<std::pair<size_t, size_t>> pairs_off(const World& world,
@@ -79,7 +79,8 @@ class Comparer {
   std::vector<std::string> out_;
 };
 
-void Comparer::bodies(const Body& a, const Body& b) {
+void Comparer::bodies(Id<Body> a_id, Id<Body> b_id) {
+  const Body &a = a_.body(a_id), &b = b_.body(b_id);
   if (a.name != b.name) add("the name '{}'", a.name);
   if (a_.materials().name(a.material) != b_.materials().name(b.material))
     add("the material of '{}'", a.name);
@@ -94,7 +95,7 @@ void Comparer::bodies(const Body& a, const Body& b) {
   if (a.tracker != b.tracker) add("the position sensor of '{}'", a.name);
   if (!same_look(a.appearance, b.appearance)) add("the colour of '{}'", a.name);
   if (!same_shape(a.shape, b.shape)) add("the surface of '{}'", a.name);
-  if (!same(a.X_WB, b.X_WB)) add("the pose of '{}'", a.name);
+  if (!same(a_.pose(a_id), b_.pose(b_id))) add("the pose of '{}'", a.name);
 }
 
 bool same_set(const EigengraspSet* a, const EigengraspSet* b) {
@@ -120,21 +121,21 @@ bool same_contacts(const std::vector<VirtualContactSpec>* a,
   });
 }
 
-void Comparer::robots(const Robot& a, const Robot& b) {
+void Comparer::robots(Id<Robot> a_id, Id<Robot> b_id) {
+  const Robot &a = a_.robot(a_id), &b = b_.robot(b_id);
   if (a.name != b.name) add("the name '{}'", a.name);
-  if (a.q.size() != b.q.size()) return add("the DOFs of '{}'", a.name);
-  for (int i = 0; i < a.q.size(); ++i)
-    if (!same(a.q[i], b.q[i])) {
-      add("the DOFs of '{}'", a.name);
-      break;
-    }
+  const auto alike_numbers = [](double x, double y) { return same(x, y); };
+  if (!std::ranges::equal(a_.dofs(a_id), b_.dofs(b_id), alike_numbers))
+    add("the DOFs of '{}'", a.name);
+  if (a.dofs.size() != b.dofs.size()) return;
   if (!std::ranges::equal(a.dofs, b.dofs, [](const DofSpec& x, const DofSpec& y) {
         return same(x.default_velocity, y.default_velocity);
       }))
     add("how '{}' closes", a.name);
-  const bool alike = std::ranges::equal(a.apart, b.apart, [](const Apart& x, const Apart& y) {
-    return x.has_value() == y.has_value() && same(x.value_or(0), y.value_or(0));
-  });
+  const bool alike =
+      std::ranges::equal(a_.apart(a_id), b_.apart(b_id), [](const Apart& x, const Apart& y) {
+        return x.has_value() == y.has_value() && same(x.value_or(0), y.value_or(0));
+      });
   if (!alike) add("the joints of '{}' that do not follow their DOFs", a.name);
   if (!same(a.X_BA, b.X_BA)) add("the approach frame of '{}'", a.name);
   if (a.mounting.has_value() != b.mounting.has_value()) add("what carries '{}'", a.name);
@@ -166,7 +167,7 @@ std::vector<std::pair<size_t, size_t>> Comparer::pairs_off(const World& world,
     return static_cast<size_t>(std::ranges::find(all, id) - all.begin());
   };
   std::vector<std::pair<size_t, size_t>> out;
-  for (const auto& [a, b] : world.state().pairs_off)
+  for (const auto& [a, b] : world.settings().pairs_off)
     out.push_back(std::minmax(number(a), number(b)));
   std::ranges::sort(out);
   return out;
@@ -176,12 +177,12 @@ std::vector<size_t> Comparer::bodies_off(const World& world,
                                          const std::vector<Id<Body>>& all) const {
   std::vector<size_t> out;
   for (size_t i = 0; i < all.size(); ++i)
-    if (world.state().switched_off.contains(all[i])) out.push_back(i);
+    if (world.settings().switched_off.contains(all[i])) out.push_back(i);
   return out;
 }
 
 void Comparer::switches() {
-  if (a_.state().collision_on != b_.state().collision_on ||
+  if (a_.settings().collision_on != b_.settings().collision_on ||
       pairs_off(a_, a_bodies_) != pairs_off(b_, b_bodies_) ||
       bodies_off(a_, a_bodies_) != bodies_off(b_, b_bodies_))
     add("which bodies may collide");
@@ -193,10 +194,8 @@ std::vector<std::string> Comparer::compare() {
     add("its number of bodies");
     return std::move(out_);
   }
-  for (size_t i = 0; i < a_bodies_.size(); ++i)
-    bodies(a_.body(a_bodies_[i]), b_.body(b_bodies_[i]));
-  for (size_t i = 0; i < a_.robots().size(); ++i)
-    robots(a_.robot(a_.robots()[i]), b_.robot(b_.robots()[i]));
+  for (size_t i = 0; i < a_bodies_.size(); ++i) bodies(a_bodies_[i], b_bodies_[i]);
+  for (size_t i = 0; i < a_.robots().size(); ++i) robots(a_.robots()[i], b_.robots()[i]);
   frictions();
   switches();
   return std::move(out_);

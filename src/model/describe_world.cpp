@@ -14,7 +14,7 @@ class Describer {
  private:
   BodySpec body(Id<Body> id) const;
   RobotSpec robot(const Robot& r) const;
-  PlacedRobot placed(const Robot& r) const;
+  PlacedRobot placed(Id<Robot> id) const;
   int number(Id<Robot> id) const;
   void add_body(Id<Body> id);
   void add_connections(Id<Robot> robot);
@@ -73,12 +73,14 @@ RobotSpec Describer::robot(const Robot& r) const {
   return out;
 }
 
-PlacedRobot Describer::placed(const Robot& r) const {
+PlacedRobot Describer::placed(Id<Robot> id) const {
+  const Robot& r = world_.robot(id);
   PlacedRobot out;
   out.robot = robot(r);
-  out.X_WB = world_.body(r.base).X_WB;
-  out.dofs.assign(r.q.begin(), r.q.end());
-  out.apart = r.apart;
+  out.X_WB = world_.pose(r.base);
+  const auto q = world_.dofs(id);
+  out.dofs.assign(q.begin(), q.end());
+  out.apart = world_.apart(id);
   return out;
 }
 
@@ -113,7 +115,7 @@ void Describer::add_body(Id<Body> id) {
   if (b.kind == BodyKind::object || b.kind == BodyKind::obstacle) {
     out_.order.push_back({WorldEntry::Kind::body, static_cast<int>(out_.bodies.size())});
     const Role role = b.kind == BodyKind::object ? Role::object : Role::obstacle;
-    out_.bodies.push_back({body(id), role, b.X_WB});
+    out_.bodies.push_back({body(id), role, world_.pose(id)});
   } else if (b.kind == BodyKind::base) {
     out_.order.push_back({WorldEntry::Kind::robot, number(b.robot)});
     add_connections(b.robot);
@@ -143,18 +145,18 @@ void Describer::add_friction() {
 }
 
 void Describer::add_collision() {
-  const WorldState& state = world_.state();
+  const WorldSettings& set = world_.settings();
   CollisionSpec spec;
-  spec.on = state.collision_on;
-  for (const auto id : state.switched_off) spec.bodies_off.push_back(world_.body(id).name);
-  for (const auto& [a, b] : state.pairs_off)
+  spec.on = set.collision_on;
+  for (const auto id : set.switched_off) spec.bodies_off.push_back(world_.body(id).name);
+  for (const auto& [a, b] : set.pairs_off)
     spec.pairs_off.push_back({world_.body(a).name, world_.body(b).name});
   out_.collision = std::move(spec);
 }
 
 WorldSpec Describer::describe() {
   out_.source = world_.source();
-  for (const auto id : world_.robots()) out_.robots.push_back(placed(world_.robot(id)));
+  for (const auto id : world_.robots()) out_.robots.push_back(placed(id));
   for (const auto id : world_.bodies()) add_body(id);
   out_.camera = world_.camera();
   out_.contact_threshold = world_.contact_threshold();

@@ -6,13 +6,15 @@
 
 namespace clench {
 
-static Pose relative(const Body& a, const Body& b) { return a.X_WB.inverse() * b.X_WB; }
+static Pose relative(const World& world, Id<Body> a, Id<Body> b) {
+  return world.pose(a).inverse() * world.pose(b);
+}
 
 static bool pair_collides(const World& world, Id<Body> a, Id<Body> b) {
   std::tie(a, b) = ordered(a, b);
-  const Body &body_a = world.body(a), &body_b = world.body(b);
-  if (sphere_gap(body_a, body_b) > 0) return false;
-  return colliding(*body_a.shape, *body_b.shape, relative(body_a, body_b), &world.cache(a, b));
+  if (sphere_gap(world, a, b) > 0) return false;
+  return colliding(*world.body(a).shape, *world.body(b).shape, relative(world, a, b),
+                   &world.cache(a, b));
 }
 
 static std::vector<BodyPair> colliding_of(const World& world, std::vector<BodyPair> pairs) {
@@ -38,11 +40,13 @@ BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span
     for (const auto j : b) {
       const auto [first, second] = ordered(i, j);
       const Body &one = world.body(first), &two = world.body(second);
-      if (i == j || !one.shape || !two.shape || sphere_gap(one, two) > best.distance) continue;
-      const Distance d = distance(*one.shape, *two.shape, relative(one, two), best.distance,
-                                  &world.cache(first, second));
+      if (i == j || !one.shape || !two.shape || sphere_gap(world, first, second) > best.distance)
+        continue;
+      const Distance d = distance(*one.shape, *two.shape, relative(world, first, second),
+                                  best.distance, &world.cache(first, second));
       if (!(d.distance < best.distance)) continue;
-      const Eigen::Vector3d p_one = one.X_WB * d.p_a, p_two = one.X_WB * d.p_b;
+      const Pose& X_W = world.pose(first);
+      const Eigen::Vector3d p_one = X_W * d.p_a, p_two = X_W * d.p_b;
       best = {d.distance, i == first ? p_one : p_two, i == first ? p_two : p_one, i, j};
     }
   if (!best.a) best.distance = std::numeric_limits<double>::infinity();
@@ -63,29 +67,30 @@ static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
   const auto [first, second] = ordered(other, body);
   const Body &a = world.body(first), &b = world.body(second);
   const double threshold = world.contact_threshold();
-  if (sphere_gap(a, b) > threshold) return;
-  const auto touches = contact_set(*a.shape, *b.shape, relative(a, b), {.threshold = threshold});
+  if (sphere_gap(world, first, second) > threshold) return;
+  const Pose X_AB = relative(world, first, second);
+  const Pose& X_WA = world.pose(first);
+  const auto touches = contact_set(*a.shape, *b.shape, X_AB, {.threshold = threshold});
   const Friction friction = world.materials().friction(a.material, b.material);
   const bool soft = friction.statics > 0 && (a.elastic_modulus || b.elastic_modulus);
   const ContactKind kind = soft                   ? ContactKind::soft
                            : friction.statics > 0 ? ContactKind::point
                                                   : ContactKind::frictionless;
   std::vector<SoftSitePtr> sites(touches.size());
-  if (soft)
-    sites = soft_sites(a.shape, b.shape, relative(a, b), elasticity(a), elasticity(b), touches);
+  if (soft) sites = soft_sites(a.shape, b.shape, X_AB, elasticity(a), elasticity(b), touches);
   const bool on_b = body == second;
   for (size_t i = 0; i < touches.size(); ++i) {
     const Touch& touch = touches[i];
-    const Eigen::Vector3d n_W = a.X_WB.rotation * touch.normal_b;
+    const Eigen::Vector3d n_W = X_WA.rotation * touch.normal_b;
     out.push_back({.body = body,
                    .other = other,
-                   .p_W = a.X_WB * (on_b ? touch.p_b : touch.p_a),
+                   .p_W = X_WA * (on_b ? touch.p_b : touch.p_a),
                    .n_W = on_b ? n_W : Eigen::Vector3d(-n_W),
                    .gap = touch.gap,
                    .friction = friction,
                    .kind = kind,
                    .site = sites[i],
-                   .X_WA = a.X_WB,
+                   .X_WA = X_WA,
                    .body_is_b = on_b});
   }
 }

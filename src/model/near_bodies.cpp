@@ -7,9 +7,10 @@ namespace clench {
 
 using Eigen::Vector3d;
 
-double sphere_gap(const Body& a, const Body& b) {
-  const Vector3d between = a.X_WB * a.shape->centre() - b.X_WB * b.shape->centre();
-  return between.norm() - a.shape->radius() - b.shape->radius();
+double sphere_gap(const World& world, Id<Body> a, Id<Body> b) {
+  const Shape &one = *world.body(a).shape, &two = *world.body(b).shape;
+  const Vector3d between = world.pose(a) * one.centre() - world.pose(b) * two.centre();
+  return between.norm() - one.radius() - two.radius();
 }
 
 namespace {
@@ -28,14 +29,15 @@ void add_items(const World& world, std::span<const Id<Body>> list, bool second,
     const Body& body = world.body(list[i]);
     if (!body.shape) continue;
     const Bounds& bounds = body.shape->bounds();
-    const Eigen::Matrix3d R = body.X_WB.rotation.normalized().toRotationMatrix();
-    const Vector3d middle = body.X_WB * bounds.centre(),
+    const Pose& X_WB = world.pose(list[i]);
+    const Eigen::Matrix3d R = X_WB.rotation.normalized().toRotationMatrix();
+    const Vector3d middle = X_WB * bounds.centre(),
                    half = R.cwiseAbs() * (0.5 * bounds.size()) +
                           Vector3d::Constant(1e-12 *
-                                             (body.X_WB.position.cwiseAbs().maxCoeff() +
+                                             (X_WB.position.cwiseAbs().maxCoeff() +
                                               body.shape->centre().norm() + body.shape->radius()));
-    out.push_back({middle - half, middle + half, body.X_WB * body.shape->centre(),
-                   body.shape->radius(), static_cast<int>(i), second});
+    out.push_back({middle - half, middle + half, X_WB * body.shape->centre(), body.shape->radius(),
+                   static_cast<int>(i), second});
   }
 }
 

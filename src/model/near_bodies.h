@@ -1,22 +1,16 @@
 // Which bodies of a world are near enough to be looked at: a sweep over their boxes, then their spheres.
 // source  Cohen, Lin, Manocha & Ponamgi (1995), I-COLLIDE: sweep and prune
 #pragma once
-#include <algorithm>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "model/world.h"
 
 namespace clench {
 
-using BodyPair = std::pair<Id<Body>, Id<Body>>;
-/// Every query runs on a pair in one order, so that (a, b) and (b, a) give the same bits.
-inline BodyPair ordered(Id<Body> a, Id<Body> b) { return std::minmax(a, b); }
-
 /// Least distance that the bounding spheres of two bodies with geometry allow; negative when they
 /// overlap [m].
-double sphere_gap(const Body& a, const Body& b);
+double sphere_gap(const World& world, Id<Body> a, Id<Body> b);
 
 /// Pairs of the world that may collide and may be as near as reach [m]: the earlier body first, in
 /// creation order. None that is as near is missing.

@@ -1,25 +1,39 @@
 #include "model/robot.h"
 
+#include <cmath>
+
 namespace clench {
 
-double joint_value(const Robot& robot, int joint) {
-  if (robot.apart[joint]) return *robot.apart[joint];
-  return robot.joints[joint].ratio * robot.q[robot.joints[joint].dof];
+// A pose that is put together of many; its rotation is made unit once, at the end.
+static void append(Pose& X, const Pose& next) {
+  X.position += X.rotation * next.position;
+  X.rotation = X.rotation * next.rotation;
 }
 
-RobotFrames robot_frames(const Robot& robot) {
-  RobotFrames frames;
-  frames.joints.reserve(robot.joints.size());
-  frames.links.reserve(robot.links.size());
-  for (const Link& link : robot.links) {
-    Pose at = frames.link(link.parent);
-    for (int j = link.first_joint; j < link.end_joint; ++j) {
-      frames.joints.push_back(at * robot.joints[j].X_PJ);
-      at = frames.joints.back() * joint_motion(robot.joints[j], joint_value(robot, j));
-    }
-    frames.links.push_back(at * link.X_JL);
+static void move(Pose& X, const Joint& joint, double q) {
+  if (joint.kind == JointKind::prismatic) {
+    X.position += X.rotation * (q * joint.axis);
+    return;
   }
-  return frames;
+  const Eigen::Vector3d axis = std::sin(0.5 * q) * joint.axis;
+  X.rotation = X.rotation * Eigen::Quaterniond(std::cos(0.5 * q), axis.x(), axis.y(), axis.z());
+}
+
+void find_frames(const Robot& robot, const Pose& X_base, std::span<const double> q,
+                 RobotFrames& out) {
+  out.joints.resize(robot.joints.size());
+  out.links.resize(robot.links.size());
+  for (size_t l = 0; l < robot.links.size(); ++l) {
+    const Link& link = robot.links[l];
+    Pose X = link.parent < 0 ? X_base : out.links[link.parent];
+    for (int j = link.first_joint; j < link.end_joint; ++j) {
+      append(X, robot.joints[j].X_PJ);
+      out.joints[j] = X;
+      move(X, robot.joints[j], q[j]);
+    }
+    append(X, link.X_JL);
+    out.links[l] = {X.rotation.normalized(), X.position};
+  }
 }
 
 bool joint_moves_link(const Robot& robot, int joint, int link) {

@@ -1,8 +1,9 @@
-// A robot of the world: its links, and the values of its DOFs.
+// A robot of the world: its links, joints and DOFs.
 #pragma once
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,12 +40,11 @@ struct Robot {
   Id<Body> base;
   std::vector<DofSpec> dofs;
   std::vector<std::array<double, 2>> limits;  ///< one per DOF [rad or m]
-  Eigen::VectorXd q;                          ///< one per DOF [rad or m]
   std::vector<Link> links;
-  std::vector<Joint> joints;  ///< link by link
-  std::vector<Apart> apart;   ///< one per joint: its own q, where it does not follow its DOF
-  std::vector<Chain> chains;  ///< the links in rows
-  Pose X_BA;                  ///< approach frame: +z is the direction of approach
+  std::vector<Joint> joints;              ///< link by link
+  size_t first_dof = 0, first_joint = 0;  ///< where its own begin in the state's arrays
+  std::vector<Chain> chains;              ///< the links in rows
+  Pose X_BA;                              ///< approach frame: +z is the direction of approach
   std::optional<Mounting> mounting;
   /// null: none given, and each DOF is its own
   std::shared_ptr<const EigengraspSet> eigengrasps;
@@ -58,20 +58,18 @@ struct Robot {
   Id<Body> body_of(int link) const { return link < 0 ? base : links[link].body; }
 };
 
-/// q of a joint: ratio * dof, or its own.
-double joint_value(const Robot& robot, int joint);
-
-/// Where joints and links stand, in the base frame.
+/// Where joints and links stand, in the frame that the base's pose is given in.
 struct RobotFrames {
   std::vector<Pose> joints;  ///< before they move
   std::vector<Pose> links;
 
-  Pose link(int number) const { return number < 0 ? Pose{} : links[number]; }
   Eigen::Vector3d axis(const Robot& robot, int joint) const {
     return joints[joint].rotation * robot.joints[joint].axis;
   }
 };
-RobotFrames robot_frames(const Robot& robot);
+/// q  of the joints [rad or m]
+void find_frames(const Robot& robot, const Pose& X_base, std::span<const double> q,
+                 RobotFrames& out);
 
 /// Does a joint move a link: is it on the way from the base to the link?   link  -1: the base
 bool joint_moves_link(const Robot& robot, int joint, int link);

@@ -1,6 +1,7 @@
 #include "model/world.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/suggest.h"
@@ -36,23 +37,36 @@ static std::string the_body(const std::string& name) {
   return fmt::format("body '{}'", excerpt(name));
 }
 
-const Body& World::body(Id<Body> id) const { return follow(state_.bodies, id, "body"); }
-const Robot& World::robot(Id<Robot> id) const { return follow(state_.robots, id, "robot"); }
-Body& World::edit(Id<Body> id) { return const_cast<Body&>(body(id)); }
-Robot& World::edit(Id<Robot> id) { return const_cast<Robot&>(robot(id)); }
-bool World::alive(Id<Body> id) const { return holds(state_.bodies, id); }
-bool World::alive(Id<Robot> id) const { return holds(state_.robots, id); }
+const Body& World::body(Id<Body> id) const { return follow(model_->bodies, id, "body"); }
+const Robot& World::robot(Id<Robot> id) const { return follow(model_->robots, id, "robot"); }
+
+// --- parts that are shared ---
+
+template <class Part>
+static Part& own(std::shared_ptr<Part>& part) {
+  if (part.use_count() > 1) part = std::make_shared<Part>(*part);
+  // who was the last of others to let go of it may have done so in another thread
+  std::atomic_thread_fence(std::memory_order_acquire);
+  return *part;
+}
+
+WorldModel& World::edit_model() { return own(model_); }
+WorldSettings& World::edit_settings() { return own(settings_); }
+Body& World::edit(Id<Body> id) { return body(id), edit_model().bodies[id.index].value; }
+Robot& World::edit(Id<Robot> id) { return robot(id), edit_model().robots[id.index].value; }
+bool World::alive(Id<Body> id) const { return holds(model_->bodies, id); }
+bool World::alive(Id<Robot> id) const { return holds(model_->robots, id); }
 
 // --- names ---
 
 Id<Body> World::find_body(std::string_view name) const {
-  for (const auto id : state_.body_order)
+  for (const auto id : bodies())
     if (body(id).name == name) return id;
   return {};
 }
 
 Id<Robot> World::find_robot(std::string_view name) const {
-  for (const auto id : state_.robot_order)
+  for (const auto id : robots())
     if (robot(id).name == name) return id;
   return {};
 }
@@ -61,7 +75,7 @@ std::string World::unique_name(const std::string& expected) {
   const std::string stem = expected.empty() ? "body" : expected;
   std::string name = stem;
   // the count of a name is remembered, so that a thousand boxes are named in no time
-  int& count = state_.counts[stem];
+  int& count = edit_model().counts[stem];
   while (find_body(name) || find_robot(name)) name = fmt::format("{}_{}", stem, ++count + 1);
   return name;
 }
@@ -77,13 +91,14 @@ void World::set_name(Id<Body> id, const std::string& name) {
 
 // --- adding and removing ---
 
-Id<Body> World::insert(Body body, const std::string& name) {
+Id<Body> World::insert(Body body, const Pose& X_WB, const std::string& name) {
   check_name(name, "body");
   if (!name.empty() && (find_body(name) || find_robot(name)))
     fail("the name '{}' is taken in this world", excerpt(name));
   body.name = name.empty() ? unique_name(body.name) : name;
-  const auto id = insert_slot(state_.bodies, std::move(body), next_serial_++);
-  state_.body_order.push_back(id);
+  const auto id = insert_slot(edit_model().bodies, std::move(body), next_serial());
+  model_->body_order.push_back(id);
+  state_.X_WB.push_back(X_WB);
   return id;
 }
 
@@ -92,9 +107,9 @@ Id<Body> World::add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB,
   check_body(spec, "body");
   check_appearance(spec.appearance, the_body(spec.name));
   check_place(X_WB, the_body(spec.name));
-  Body body = make_body(spec, kind, X_WB);
-  body.material = state_.materials.index(spec.material);
-  return insert(std::move(body), name);
+  Body body = make_body(spec, kind);
+  body.material = settings_->materials.index(spec.material);
+  return insert(std::move(body), X_WB, name);
 }
 
 // a part's name follows its robot's when that had to be changed
@@ -134,26 +149,30 @@ Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::s
     robot.links.push_back(
         {{}, link.parent, first, static_cast<int>(robot.joints.size()), link.X_JL});
   }
-  robot.apart.resize(robot.joints.size());
   robot.chains = chains_of(spec);
-  robot.q.resize(static_cast<int>(spec.dofs.size()));
-  for (int i = 0; i < robot.q.size(); ++i) {
+  robot.first_dof = state_.dofs.size();
+  robot.first_joint = state_.joints.size();
+  for (int i = 0; i < static_cast<int>(spec.dofs.size()); ++i) {
     const auto range = dof_range(spec, i);
     robot.limits.push_back(range);
-    robot.q[i] = std::clamp(spec.dofs[i].default_value, range[0], range[1]);
+    state_.dofs.push_back(std::clamp(spec.dofs[i].default_value, range[0], range[1]));
+  }
+  for (const Joint& joint : robot.joints) {
+    state_.joints.push_back(joint.ratio * state_.dofs[robot.first_dof + joint.dof]);
+    state_.follows_dof.push_back(true);
   }
 
   // the robot first, so that its parts know it
-  const size_t bodies = state_.body_order.size();
-  const auto id = insert_slot(state_.robots, std::move(robot), next_serial_++);
-  state_.robot_order.push_back(id);
+  const size_t count = bodies().size();
+  const auto id = insert_slot(edit_model().robots, std::move(robot), next_serial());
+  model_->robot_order.push_back(id);
   try {
     add_parts(id, spec, X_WB);
     place(id, X_WB);
   } catch (const Error&) {
-    while (state_.body_order.size() > bodies) erase(state_.body_order.back());
-    state_.robots[id.index].used = false;
-    state_.robot_order.pop_back();
+    while (bodies().size() > count) erase(bodies().back());
+    edit_model().robots[id.index].used = false;
+    model_->robot_order.pop_back();
     throw;
   }
   return id;
@@ -221,10 +240,10 @@ void World::mount(Id<Robot> child, Id<Robot> parent, int link, const Pose& X_LB,
   // the link, the adapter and the base are one rigid piece: they never collide
   const Id<Body> last = carrier.links[link].body;
   const Id<Body> base = robot(child).base;
-  const Pose X_WB = this->body(last).X_WB * X_LB;
+  const Pose X_WB = pose(last) * X_LB;
   if (piece) {
     check_body(*piece, "mount");
-    state_.materials.index(piece->material);
+    settings_->materials.index(piece->material);
   }
   place(child, X_WB);
   edit(child).mounting =
@@ -242,13 +261,15 @@ void World::mount(Id<Robot> child, Id<Robot> parent, int link, const Pose& X_LB,
 }
 
 void World::erase(Id<Body> id) {
-  state_.bodies[id.index].used = false;
-  state_.bodies[id.index].value.shape.reset();
-  std::erase(state_.body_order, id);
-  state_.switched_off.erase(id);
-  std::erase_if(state_.pairs_off,
+  WorldModel& model = edit_model();
+  model.bodies[id.index].used = false;
+  model.bodies[id.index].value.shape.reset();
+  std::erase(model.body_order, id);
+  WorldSettings& settings = edit_settings();
+  settings.switched_off.erase(id);
+  std::erase_if(settings.pairs_off,
                 [&](const auto& pair) { return pair.first == id || pair.second == id; });
-  std::erase_if(caches_, [&](const auto& entry) {
+  std::erase_if(scratch_.caches, [&](const auto& entry) {
     return entry.first.first == id || entry.first.second == id;
   });
 }
@@ -263,14 +284,14 @@ void World::remove(Id<Body> id) {
 
 void World::remove(Id<Robot> id) {
   for (const auto body : bodies_of(id)) erase(body);
-  for (const auto other : state_.robot_order)
+  for (const auto other : robots())
     if (robot(other).mounting && robot(other).mounting->parent == id) {
       // its adapter goes with the arm that it was screwed to
       if (const auto piece = robot(other).mounting->piece) erase(*piece);
       edit(other).mounting.reset();
     }
-  state_.robots[id.index].used = false;
-  std::erase(state_.robot_order, id);
+  edit_model().robots[id.index].used = false;
+  std::erase(model_->robot_order, id);
 }
 
 std::vector<Id<Body>> World::bodies_of(Id<Robot> id) const {
@@ -288,7 +309,7 @@ void World::set_pose(Id<Body> id, const Pose& X_WB) {
     fail("body '{}' is a part of robot '{}': move the robot", excerpt(body(id).name),
          excerpt(robot(body(id).robot).name));
   check_place(X_WB, the_body(body(id).name));
-  edit(id).X_WB = X_WB;
+  state_.X_WB[id.index] = X_WB;
 }
 
 void World::set_pose(Id<Robot> id, const Pose& X_WB) {
@@ -299,32 +320,64 @@ void World::set_pose(Id<Robot> id, const Pose& X_WB) {
   place(id, X_WB);
 }
 
-void World::find_places(Id<Robot> id, const Pose& X_WB, Places& out) const {
+void World::find_places(Id<Robot> id, const Pose& X_WB) {
   const Robot& r = robot(id);
-  out.emplace_back(r.base, X_WB);
-  if (r.mounting && r.mounting->piece) out.emplace_back(*r.mounting->piece, X_WB);
-  const auto frames = robot_frames(r);
+  auto& places = scratch_.places;
+  places.emplace_back(r.base, X_WB);
+  if (r.mounting && r.mounting->piece) places.emplace_back(*r.mounting->piece, X_WB);
+  const Values q = joints(id);
+  find_frames(r, X_WB, {q.data(), r.joints.size()}, scratch_.frames);
+  const size_t first = places.size();
   for (size_t l = 0; l < r.links.size(); ++l)
-    out.emplace_back(r.links[l].body, X_WB * frames.links[l]);
-  for (const auto other : state_.robot_order) {
+    places.emplace_back(r.links[l].body, scratch_.frames.links[l]);
+  for (const auto other : robots()) {
     const auto& mounting = robot(other).mounting;
     if (mounting && mounting->parent == id)
-      find_places(other, X_WB * frames.links[mounting->link] * mounting->X_LB, out);
+      find_places(other, Pose(places[first + mounting->link].second) * mounting->X_LB);
   }
 }
 
 void World::place(Id<Robot> id, const Pose& X_WB) {
-  Places places;
-  find_places(id, X_WB, places);
-  for (const auto& [part, X] : places)
+  scratch_.places.clear();
+  find_places(id, X_WB);
+  for (const auto& [part, X] : scratch_.places)
     if (!is_place(X)) check_place(X, the_body(body(part).name));
-  for (const auto& [part, X] : places) edit(part).X_WB = X;
+  for (const auto& [part, X] : scratch_.places) state_.X_WB[part.index] = X;
+}
+
+World::Values World::dofs(Id<Robot> id) const {
+  const Robot& r = robot(id);
+  return {state_.dofs.data() + r.first_dof, static_cast<Eigen::Index>(r.dofs.size())};
+}
+
+World::Values World::joints(Id<Robot> id) const {
+  const Robot& r = robot(id);
+  return {state_.joints.data() + r.first_joint, static_cast<Eigen::Index>(r.joints.size())};
+}
+
+bool World::follows_dof(Id<Robot> id, int joint) const {
+  return state_.follows_dof[robot(id).first_joint + joint];
+}
+
+std::vector<Apart> World::apart(Id<Robot> id) const {
+  const Values q = joints(id);
+  std::vector<Apart> out(q.size());
+  for (int j = 0; j < q.size(); ++j)
+    if (!follows_dof(id, j)) out[j] = q[j];
+  return out;
+}
+
+RobotFrames World::frames(Id<Robot> id) const {
+  RobotFrames out;
+  const Robot& r = robot(id);
+  find_frames(r, pose(r.base), {joints(id).data(), r.joints.size()}, out);
+  return out;
 }
 
 void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
   const Robot& r = robot(id);
-  if (q.size() != r.q.size())
-    fail("robot '{}': expected {} DOF values, got {}", excerpt(r.name), r.q.size(), q.size());
+  if (q.size() != static_cast<Eigen::Index>(r.dofs.size()))
+    fail("robot '{}': expected {} DOF values, got {}", excerpt(r.name), r.dofs.size(), q.size());
   Eigen::VectorXd inside = q;
   for (int i = 0; i < q.size(); ++i) {
     const auto [low, high] = r.limits[i];
@@ -338,21 +391,31 @@ void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
     inside[i] = std::clamp(q[i], low, high);
   }
   // a value set by hand re-engages every joint
-  set_dofs_unchecked(id, inside, std::vector<Apart>(r.joints.size()));
+  set_dofs_unchecked(id, inside, {});
 }
 
 void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
-                               const std::vector<Apart>& apart) {
-  Robot& r = edit(id);
-  const Eigen::VectorXd was = r.q;
-  const std::vector<Apart> was_apart = r.apart;
-  r.q = q;
-  r.apart = apart;
+                               std::span<const Apart> apart) {
+  const Robot& r = robot(id);
+  const auto dofs = state_.dofs.begin() + static_cast<std::ptrdiff_t>(r.first_dof);
+  const auto joints = state_.joints.begin() + static_cast<std::ptrdiff_t>(r.first_joint);
+  const auto follows = state_.follows_dof.begin() + static_cast<std::ptrdiff_t>(r.first_joint);
+  const auto count = static_cast<std::ptrdiff_t>(r.joints.size());
+  scratch_.dofs.assign(dofs, dofs + q.size());
+  scratch_.joints.assign(joints, joints + count);
+  scratch_.follows_dof.assign(follows, follows + count);
+  std::copy(q.begin(), q.end(), dofs);
+  for (std::ptrdiff_t j = 0; j < count; ++j) {
+    const bool own = !apart.empty() && apart[j];
+    joints[j] = own ? *apart[j] : r.joints[j].ratio * q[r.joints[j].dof];
+    follows[j] = !own;
+  }
   try {
-    place(id, body(r.base).X_WB);
+    place(id, pose(r.base));
   } catch (const Error&) {
-    r.q = was;
-    r.apart = was_apart;
+    std::ranges::copy(scratch_.dofs, dofs);
+    std::ranges::copy(scratch_.joints, joints);
+    std::ranges::copy(scratch_.follows_dof, follows);
     throw;
   }
 }
@@ -361,8 +424,8 @@ void World::set_eigengrasps(Id<Robot> id, std::shared_ptr<const EigengraspSet> s
   const Robot& r = robot(id);
   if (set) {
     const std::string subject = fmt::format("eigengrasps of robot '{}'", excerpt(r.name));
-    if (set->dofs != r.q.size())
-      fail("{}: expected a set for {} DOFs, got one for {}", subject, r.q.size(), set->dofs);
+    if (set->dofs != static_cast<int>(r.dofs.size()))
+      fail("{}: expected a set for {} DOFs, got one for {}", subject, r.dofs.size(), set->dofs);
     check_eigengrasps(*set, subject);
   }
   edit(id).eigengrasps = std::move(set);
@@ -389,7 +452,7 @@ void World::set_virtual_contacts(Id<Robot> id,
 // --- properties ---
 
 void World::set_material(Id<Body> id, std::string_view material) {
-  edit(id).material = state_.materials.index(material);
+  edit(id).material = settings_->materials.index(material);
 }
 
 void World::set_mass(Id<Body> id, double mass) {
@@ -438,45 +501,54 @@ void World::set_appearance(Id<Body> id, const Appearance& appearance) {
 
 void World::set_contact_threshold(double threshold) {
   check(contact_threshold_rule, threshold, "world");
-  state_.contact_threshold = threshold;
+  edit_settings().contact_threshold = threshold;
 }
 
 void World::set_camera(const std::optional<Camera>& camera) {
   if (camera) check_camera(*camera);
-  state_.camera = camera;
+  edit_settings().camera = camera;
 }
 
 // --- what may collide ---
 
-void World::set_collision(bool on) { state_.collision_on = on; }
+void World::set_collision(bool on) { edit_settings().collision_on = on; }
 
 void World::set_collision(bool on, Id<Body> id) {
   body(id);
   if (on)
-    state_.switched_off.erase(id);
+    edit_settings().switched_off.erase(id);
   else
-    state_.switched_off.insert(id);
+    edit_settings().switched_off.insert(id);
 }
 
 void World::set_collision(bool on, Id<Body> a, Id<Body> b) {
   body(a), body(b);
   if (on)
-    state_.pairs_off.erase(ordered(a, b));
+    edit_settings().pairs_off.erase(ordered(a, b));
   else
-    state_.pairs_off.insert(ordered(a, b));
+    edit_settings().pairs_off.insert(ordered(a, b));
 }
 
 bool World::may_collide(Id<Body> a, Id<Body> b) const {
-  return a != b && state_.collision_on && body(a).shape && body(b).shape &&
-         !state_.switched_off.contains(a) && !state_.switched_off.contains(b) &&
-         !state_.pairs_off.contains(ordered(a, b));
+  const WorldSettings& set = *settings_;
+  return a != b && set.collision_on && body(a).shape && body(b).shape &&
+         !set.switched_off.contains(a) && !set.switched_off.contains(b) &&
+         !set.pairs_off.contains(ordered(a, b));
 }
 
 // --- time machine ---
 
-void World::restore(const WorldState& snapshot) {
-  state_ = snapshot;
-  caches_.clear();
+std::shared_ptr<const Snapshot> World::snapshot() const {
+  return std::make_shared<Snapshot>(Snapshot{lineage_, model_, settings_, state_});
+}
+
+void World::restore(const Snapshot& snapshot) {
+  if (snapshot.lineage != lineage_)
+    fail("the snapshot was taken of another world, of which this is no clone");
+  // both are copied before they are changed
+  model_ = std::const_pointer_cast<WorldModel>(snapshot.model);
+  settings_ = std::const_pointer_cast<WorldSettings>(snapshot.settings);
+  state_ = snapshot.state;
 }
 
 }  // namespace clench

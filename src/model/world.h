@@ -1,44 +1,17 @@
 // The World owns every mutable thing: bodies, robots, what may collide with what, friction.
-// It is used by one thread; copy it for another. A copy shares the meshes and nothing else.
+// It is used by one thread; copy it for another. A copy shares what neither changes from then on.
 #pragma once
+#include <atomic>
 #include <map>
 #include <memory>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "contact/materials.h"
 #include "geometry/queries.h"
-#include "model/robot.h"
+#include "model/world_model.h"
 
 namespace clench {
-
-/// A place for a T and the serial number of who sits there.
-template <class T>
-struct Slot {
-  uint32_t serial = 0;
-  bool used = false;
-  T value;  ///< of the last occupant; its name outlives it, for errors
-};
-
-/// All state of a world as a value: what a snapshot keeps.
-struct WorldState {
-  std::vector<Slot<Body>> bodies;
-  std::vector<Slot<Robot>> robots;
-  std::vector<Id<Body>> body_order;  ///< alive, in creation order
-  std::vector<Id<Robot>> robot_order;
-  MaterialTable materials;
-  double contact_threshold = 1e-4;  ///< [m]
-  bool collision_on = true;
-  std::set<Id<Body>> switched_off;                    ///< bodies that collide with nothing
-  std::set<std::pair<Id<Body>, Id<Body>>> pairs_off;  ///< lesser id first
-  std::optional<Camera> camera;
-  std::string source;
-  std::map<std::string, int> counts;  ///< how often a name was numbered
-
-  size_t bytes() const;  ///< that it takes, about; meshes, which are shared, left out
-};
 
 class World {
  public:
@@ -59,8 +32,8 @@ class World {
   /// with base, links and mount; robots that it carries stay where they are
   void remove(Id<Robot> robot);
 
-  const std::vector<Id<Body>>& bodies() const { return state_.body_order; }
-  const std::vector<Id<Robot>>& robots() const { return state_.robot_order; }
+  const std::vector<Id<Body>>& bodies() const { return model_->body_order; }
+  const std::vector<Id<Robot>>& robots() const { return model_->robot_order; }
   /// throws Error "body 'flask' was removed from its world" when stale
   const Body& body(Id<Body> id) const;
   const Robot& robot(Id<Robot> id) const;
@@ -73,18 +46,33 @@ class World {
   std::vector<Id<Body>> bodies_of(Id<Robot> robot) const;
 
   // --- state ---
+  const Pose& pose(Id<Body> id) const { return body(id), state_.X_WB[id.index]; }
+  using Values = Eigen::Map<const Eigen::VectorXd>;
+  Values dofs(Id<Robot> id) const;    ///< one per DOF [rad or m]
+  Values joints(Id<Robot> id) const;  ///< q of each [rad or m]
+  /// Does the joint stand where its DOF has it? One that has left a breakaway DOF does not, nor one that is held against
+  /// its spring.
+  bool follows_dof(Id<Robot> robot, int joint) const;
+  /// One per joint: its q where it does not follow its DOF.
+  std::vector<Apart> apart(Id<Robot> robot) const;
+  /// In the world frame.
+  RobotFrames frames(Id<Robot> robot) const;
+
   /// of an object or obstacle
   /// throws  Error for a part of a robot or a pose that is not finite
   void set_pose(Id<Body> body, const Pose& X_WB);
   /// of the base; links and carried robots follow
   /// throws  Error when the robot is carried
   void set_pose(Id<Robot> robot, const Pose& X_WB);
+  /// All joints follow them.
   /// throws  Error on a wrong count or a number that is not finite; values outside the limits are
   ///         refused by name
   void set_dofs(Id<Robot> robot, const Eigen::VectorXd& q);
-  /// the same, with joints that do not follow; used by motion, which has its own checks
-  void set_dofs_unchecked(Id<Robot> robot, const Eigen::VectorXd& q,
-                          const std::vector<Apart>& apart);
+  /// The same, with joints that do not follow; used by motion, which has its own checks.
+  /// apart  one per joint
+  void set_dofs_unchecked(Id<Robot> robot, const Eigen::VectorXd& q, std::span<const Apart> apart);
+
+  // --- what things are ---
   /// null: each DOF is its own
   /// throws  Error when check_eigengrasps does, or the set is for another number of DOFs
   void set_eigengrasps(Id<Robot> robot, std::shared_ptr<const EigengraspSet> set);
@@ -103,17 +91,17 @@ class World {
   void set_poisson_ratio(Id<Body> body, double ratio);  ///< in [0, 0.5)
   void set_appearance(Id<Body> body, const Appearance& appearance);
 
-  const MaterialTable& materials() const { return state_.materials; }
+  const MaterialTable& materials() const { return settings_->materials; }
   void set_friction(std::string_view a, std::string_view b, Friction friction) {
-    state_.materials.set_friction(a, b, friction);
+    edit_settings().materials.set_friction(a, b, friction);
   }
-  double contact_threshold() const { return state_.contact_threshold; }
+  double contact_threshold() const { return settings_->contact_threshold; }
   /// throws Error when contact_threshold_rule refuses it
   void set_contact_threshold(double threshold);
-  const std::optional<Camera>& camera() const { return state_.camera; }
+  const std::optional<Camera>& camera() const { return settings_->camera; }
   void set_camera(const std::optional<Camera>& camera);
-  const std::string& source() const { return state_.source; }
-  void set_source(const std::string& source) { state_.source = source; }
+  const std::string& source() const { return model_->source; }
+  void set_source(const std::string& source) { edit_model().source = source; }
 
   // --- what may collide ---
   void set_collision(bool on);                          ///< the whole world
@@ -122,37 +110,52 @@ class World {
   bool may_collide(Id<Body> a, Id<Body> b) const;
 
   // --- time machine ---
-  std::shared_ptr<const WorldState> snapshot() const {
-    return std::make_shared<WorldState>(state_);
-  }
-  /// Exactly the state of the snapshot: what was removed since is back, what was added since is
-  /// gone.
-  void restore(const WorldState& snapshot);
-  const WorldState& state() const { return state_; }
+  std::shared_ptr<const Snapshot> snapshot() const;
+  /// Exactly as in the snapshot, which was taken of this world or of a clone of it, or of one that this is a clone of:
+  /// what was removed since is back, what was added since is gone.
+  /// throws Error when it was taken of another world
+  void restore(const Snapshot& snapshot);
+  const WorldSettings& settings() const { return *settings_; }
   /// Fingerprint of poses, DOFs, masses, materials, switches: equal for equal bits.
   uint64_t hash() const;
-  size_t bytes() const;  ///< that it takes, as its state's
+  size_t bytes() const;  ///< that it takes, about
 
   /// Coherence memory of a pair; changes no answer.
-  PairCache& cache(Id<Body> a, Id<Body> b) const { return caches_[{a, b}]; }
+  PairCache& cache(Id<Body> a, Id<Body> b) const { return scratch_.caches[{a, b}]; }
 
  private:
+  WorldModel& edit_model();
+  WorldSettings& edit_settings();
   Body& edit(Id<Body> id);
   Robot& edit(Id<Robot> id);
-  Id<Body> insert(Body body, const std::string& name);
+  uint32_t next_serial() { return ++*lineage_; }
+  Id<Body> insert(Body body, const Pose& X_WB, const std::string& name);
   std::string unique_name(const std::string& expected);
   void switch_off_neighbours(const Robot& robot, bool chain_links_collide);
   void add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB);
   void erase(Id<Body> id);
-  using Places = std::vector<std::pair<Id<Body>, Pose>>;
-  /// Where a robot's bodies, and those of robots that it carries, are when its base is at X_WB.
-  void find_places(Id<Robot> robot, const Pose& X_WB, Places& out) const;
+  /// A pose of a robot's base, and of all that moves with it: where they are to be.
+  void find_places(Id<Robot> robot, const Pose& X_WB);
   /// throws Error, and moves nothing, when one of them would be no place
   void place(Id<Robot> robot, const Pose& X_WB);
 
+  std::shared_ptr<WorldModel> model_ = std::make_shared<WorldModel>();
+  std::shared_ptr<WorldSettings> settings_ = std::make_shared<WorldSettings>();
   WorldState state_;
-  uint32_t next_serial_ = 1;  // never goes back, so a restored world cannot revive a stale id
-  mutable std::map<std::pair<Id<Body>, Id<Body>>, PairCache> caches_;
+  /// The last serial number that was given; it never goes back, so that a restored world cannot revive a stale id.
+  std::shared_ptr<std::atomic<uint32_t>> lineage_ = std::make_shared<std::atomic<uint32_t>>(0);
+  /// What no copy takes over.
+  struct Scratch {
+    Scratch() = default;
+    Scratch(const Scratch&) {}
+    Scratch& operator=(const Scratch&) { return *this; }
+    std::map<std::pair<Id<Body>, Id<Body>>, PairCache> caches;
+    std::vector<std::pair<Id<Body>, Pose>> places;
+    std::vector<double> dofs, joints;
+    std::vector<unsigned char> follows_dof;
+    RobotFrames frames;
+  };
+  mutable Scratch scratch_;
 };
 
 }  // namespace clench

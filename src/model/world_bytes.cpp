@@ -20,27 +20,34 @@ static size_t bytes_of(const Body& body) {
 static size_t bytes_of(const Robot& robot) {
   size_t bytes = bytes_of(robot.source) + bytes_of(robot.file) + bytes_of(robot.dofs) +
                  bytes_of(robot.limits) + bytes_of(robot.links) + bytes_of(robot.joints) +
-                 bytes_of(robot.apart) + bytes_of(robot.chains) +
-                 static_cast<size_t>(robot.q.size()) * sizeof(double);
+                 bytes_of(robot.chains);
   for (const Chain& chain : robot.chains) bytes += bytes_of(chain.links);
   return bytes;
 }
 
-size_t WorldState::bytes() const {
+size_t WorldModel::bytes() const {
   size_t sum = sizeof *this + bytes_of(bodies) + bytes_of(robots) + bytes_of(body_order) +
                bytes_of(robot_order) + bytes_of(source);
   for (const auto& slot : bodies) sum += bytes_of(slot.value);
   for (const auto& slot : robots) sum += bytes_of(slot.value);
-  sum += switched_off.size() * (node_bytes + sizeof(Id<Body>));
-  sum += pairs_off.size() * (node_bytes + 2 * sizeof(Id<Body>));
-  sum += counts.size() * (node_bytes + sizeof(std::string));
+  return sum + counts.size() * (node_bytes + sizeof(std::string));
+}
+
+size_t WorldSettings::bytes() const {
   // a row for each material
   const size_t names = materials.names().size();
-  return sum + names * (sizeof(std::string) + names * sizeof(Friction));
+  return sizeof *this + switched_off.size() * (node_bytes + sizeof(Id<Body>)) +
+         pairs_off.size() * (node_bytes + 2 * sizeof(Id<Body>)) +
+         names * (sizeof(std::string) + names * sizeof(Friction));
+}
+
+size_t WorldState::bytes() const {
+  return bytes_of(X_WB) + bytes_of(dofs) + bytes_of(joints) + bytes_of(follows_dof);
 }
 
 size_t World::bytes() const {
-  return sizeof *this + state_.bytes() + caches_.size() * (node_bytes + sizeof(PairCache));
+  return sizeof *this + model_->bytes() + settings_->bytes() + state_.bytes() +
+         scratch_.caches.size() * (node_bytes + sizeof(PairCache));
 }
 
 }  // namespace clench

@@ -36,11 +36,11 @@ static void add(Hasher& h, const std::vector<VirtualContactSpec>& contacts) {
 uint64_t World::hash() const {
   Hasher h;
   const auto flag = [&](bool on) { h.add(static_cast<uint64_t>(on)); };
-  for (const auto id : state_.body_order) {
+  for (const auto id : bodies()) {
     const Body& b = body(id);
     h.add(b.name);
     h.add(static_cast<uint64_t>(b.kind));
-    add(h, b.X_WB);
+    add(h, pose(id));
     h.add(static_cast<uint64_t>(b.material));
     h.add(b.mass);
     for (const double x : b.com) h.add(x);
@@ -48,13 +48,13 @@ uint64_t World::hash() const {
     h.add(b.elastic_modulus.value_or(0));
     h.add(b.soft_layer);
     h.add(b.poisson_ratio);
-    flag(state_.switched_off.contains(id));
+    flag(settings_->switched_off.contains(id));
     h.add(b.shape ? b.shape->hash() : 0);
   }
-  for (const auto id : state_.robot_order) {
+  for (const auto id : robots()) {
     const Robot& r = robot(id);
     h.add(r.name);
-    for (const double x : r.q) h.add(x);
+    for (const double x : dofs(id)) h.add(x);
     for (const auto& range : r.limits) h.add(range[0]), h.add(range[1]);
     add(h, r.X_BA);
     flag(r.eigengrasps != nullptr);
@@ -67,18 +67,18 @@ uint64_t World::hash() const {
       h.add(static_cast<uint64_t>(r.mounting->link));
       add(h, r.mounting->X_LB);
     }
-    for (const Apart& own : r.apart) flag(own.has_value()), h.add(own.value_or(0));
+    for (const Apart& own : apart(id)) flag(own.has_value()), h.add(own.value_or(0));
   }
-  for (const auto& name : state_.materials.names()) h.add(name);
-  const int count = static_cast<int>(state_.materials.names().size());
+  for (const auto& name : settings_->materials.names()) h.add(name);
+  const int count = static_cast<int>(settings_->materials.names().size());
   for (int i = 0; i < count; ++i)
     for (int j = 0; j <= i; ++j) {
-      const Friction f = state_.materials.friction(i, j);
+      const Friction f = settings_->materials.friction(i, j);
       h.add(f.statics), h.add(f.kinetic);
     }
-  for (const auto& [a, b] : state_.pairs_off) h.add(body(a).name), h.add(body(b).name);
-  h.add(state_.contact_threshold);
-  flag(state_.collision_on);
+  for (const auto& [a, b] : settings_->pairs_off) h.add(body(a).name), h.add(body(b).name);
+  h.add(settings_->contact_threshold);
+  flag(settings_->collision_on);
   return h.value();
 }
 

@@ -32,7 +32,7 @@ struct Advancing {
   // a distance of the pair at s, or a lower bound of it that leaves the pair well apart [m]
   double measure(const PairBound& watch, double s, int& queries) const {
     const Body &a = world.body(watch.a), &b = world.body(watch.b);
-    const double spheres = sphere_gap(a, b);
+    const double spheres = sphere_gap(world, watch.a, watch.b);
     if (spheres > 0.1 * (a.shape->radius() + b.shape->radius())) return spheres;
     // beyond what the rest of the motion can cover, the distance is of no interest
     const double reach = watch.speed * (end - s) + 2 * threshold;
@@ -58,7 +58,7 @@ void check_precision(const World& world, const std::vector<PairBound>& watches) 
   const double threshold = world.contact_threshold();
   for (const PairBound& watch : watches)
     for (const auto id : {watch.a, watch.b}) {
-      const double far = world.body(id).X_WB.position.cwiseAbs().maxCoeff();
+      const double far = world.pose(id).position.cwiseAbs().maxCoeff();
       if (far * std::numeric_limits<double>::epsilon() > precise * threshold)
         fail(
             "moving near '{}': {} m from the origin, a contact threshold of {} m is lost in "

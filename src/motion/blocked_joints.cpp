@@ -13,9 +13,8 @@ Eigen::Vector3d contact_velocity(const World& world, Id<Robot> id, const RobotFr
   const bool moves_body = joint_moves(world, id, joint, contact.body);
   if (moves_body == joint_moves(world, id, joint, contact.other)) return Eigen::Vector3d::Zero();
   const Robot& robot = world.robot(id);
-  const Pose& X_WB = world.body(robot.base).X_WB;
-  const Eigen::Vector3d axis = X_WB.rotation * frames.axis(robot, joint);
-  const Eigen::Vector3d arm = contact.p_W - X_WB * frames.joints[joint].position;
+  const Eigen::Vector3d axis = frames.axis(robot, joint);
+  const Eigen::Vector3d arm = contact.p_W - frames.joints[joint].position;
   const bool turns = robot.joints[joint].kind == JointKind::revolute;
   return (moves_body ? 1 : -1) * (turns ? Eigen::Vector3d(axis.cross(arm)) : axis);
 }
@@ -49,7 +48,7 @@ static std::vector<Share> shares_of(const World& world, Id<Robot> id, const Robo
 
 BlockedJoints blocked_joints(const World& world, Id<Robot> id, const JointSpeeds& speeds,
                              std::span<const Contact> touching, double closed) {
-  const auto frames = robot_frames(world.robot(id));
+  const auto frames = world.frames(id);
   BlockedJoints out;
   std::set<BodyPair> seen;
   for (const Contact& contact : touching) {

@@ -26,7 +26,7 @@ BlockedJoints blocked_joints(const World& world, Id<Robot> robot, const JointSpe
                              std::span<const Contact> touching, double closed);
 
 /// How fast the contact's body moves against the other at their point, one joint at unit speed: 0 when the joint moves
-/// neither or both.   frames  of the robot;   returns  world axes [m per unit of the joint]
+/// neither or both.   frames  of the robot, in the world;   returns  world axes [m per unit of the joint]
 Eigen::Vector3d contact_velocity(const World& world, Id<Robot> robot, const RobotFrames& frames,
                                  int joint, const Contact& contact);
 

@@ -121,8 +121,8 @@ Advance follow(Drive& drive, const Eigen::VectorXd& rates, int& queries) {
 }
 
 void check(const Robot& robot, const DofMotion& motion) {
-  if (motion.targets.size() != robot.q.size())
-    fail("driving '{}': expected {} DOF values, got {}", excerpt(robot.name), robot.q.size(),
+  if (motion.targets.size() != static_cast<Eigen::Index>(robot.dofs.size()))
+    fail("driving '{}': expected {} DOF values, got {}", excerpt(robot.name), robot.dofs.size(),
          motion.targets.size());
   if (motion.rates.size() != motion.targets.size())
     fail("driving '{}': expected {} paces, got {}", excerpt(robot.name), motion.targets.size(),
@@ -140,11 +140,8 @@ void check(const Robot& robot, const DofMotion& motion) {
   }
 }
 
-bool any_moved(const Robot& before, const Robot& now) {
-  if ((now.q - before.q).lpNorm<Eigen::Infinity>() > no_motion) return true;
-  for (int j = 0; j < static_cast<int>(now.joints.size()); ++j)
-    if (std::abs(joint_value(now, j) - joint_value(before, j)) > no_motion) return true;
-  return false;
+bool any_moved(const Eigen::VectorXd& before, const Eigen::VectorXd& now) {
+  return before.size() > 0 && (now - before).lpNorm<Eigen::Infinity>() > no_motion;
 }
 
 // all that were on their way
@@ -216,22 +213,22 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
   // the path does not depend on the pace: the fastest DOF counts as 1
   const double fastest = motion.rates.lpNorm<Eigen::Infinity>();
   const double pace = fastest > 0 ? fastest : 1;
-  const Robot start = robot;
+  const Eigen::VectorXd dofs = world.dofs(id), joints = world.joints(id);
   DriveResult result;
   result.stops.assign(robot.dofs.size(), DofStop::not_driven);
   drive_on(drive, motion.rates / pace, options, result);
   drive.place();
-  result.moved = any_moved(start, drive.robot());
+  result.moved = any_moved(dofs, world.dofs(id)) || any_moved(joints, world.joints(id));
   return result;
 }
 
 DriveResult drive_to(World& world, Id<Robot> id, const Eigen::VectorXd& targets,
                      const DriveOptions& options) {
   const Robot& robot = world.robot(id);
-  if (targets.size() != robot.q.size())
-    fail("driving '{}': expected {} DOF values, got {}", excerpt(robot.name), robot.q.size(),
+  if (targets.size() != static_cast<Eigen::Index>(robot.dofs.size()))
+    fail("driving '{}': expected {} DOF values, got {}", excerpt(robot.name), robot.dofs.size(),
          targets.size());
-  return drive(world, id, {.targets = targets, .rates = targets - robot.q}, options);
+  return drive(world, id, {.targets = targets, .rates = targets - world.dofs(id)}, options);
 }
 
 }  // namespace clench

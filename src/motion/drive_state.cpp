@@ -31,8 +31,8 @@ double lever(const Drive& drive, int joint, Id<Body> id) {
   const Body& body = drive.world.body(id);
   int link = carrying_link(drive.world, drive.id, id);
   // a carried robot is rigid on its link
-  const Pose X_WL = drive.world.body(robot.links[link].body).X_WB;
-  const Eigen::Vector3d centre = X_WL.inverse() * (body.X_WB * body.shape->centre());
+  const Pose X_WL = drive.world.pose(robot.links[link].body);
+  const Eigen::Vector3d centre = X_WL.inverse() * (drive.world.pose(id) * body.shape->centre());
   double length = centre.norm() + body.shape->radius();
   while (true) {
     const Link& l = robot.links[link];
@@ -73,8 +73,7 @@ std::vector<PairBound> all_pairs(const Drive& drive) {
 }  // namespace
 
 Drive begin_drive(World& world, Id<Robot> id) {
-  const Robot& robot = world.robot(id);
-  Drive drive{world, id, movable_bodies(world, id), robot.q, robot.apart, {}};
+  Drive drive{world, id, movable_bodies(world, id), world.dofs(id), world.apart(id), {}};
   drive.pairs = all_pairs(drive);
   return drive;
 }

@@ -12,12 +12,12 @@ using Eigen::VectorXd;
 
 static EigengraspSet set_of(const Robot& robot) {
   return robot.eigengrasps ? *robot.eigengrasps
-                           : identity_eigengrasps(static_cast<int>(robot.q.size()));
+                           : identity_eigengrasps(static_cast<int>(robot.dofs.size()));
 }
 
 Eigengrasps::Eigengrasps(const Robot& robot) {
   // a hand without DOFs has no posture to choose
-  if (robot.q.size() > 0) *this = Eigengrasps(set_of(robot), robot.limits);
+  if (!robot.dofs.empty()) *this = Eigengrasps(set_of(robot), robot.limits);
 }
 
 Eigengrasps::Eigengrasps(const EigengraspSet& set, const std::vector<Range>& limits)

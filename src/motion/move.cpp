@@ -28,8 +28,9 @@ struct Way {
 };
 
 // bound of the distance of the body's points from the origin that the motion turns about
-double reach_from(const Body& body, const Eigen::Vector3d& origin) {
-  return (body.X_WB * body.shape->centre() - origin).norm() + body.shape->radius();
+double reach_from(const World& world, Id<Body> id, const Eigen::Vector3d& origin) {
+  const Shape& shape = *world.body(id).shape;
+  return (world.pose(id) * shape.centre() - origin).norm() + shape.radius();
 }
 
 std::vector<PairBound> watch_pairs(const World& world, const Way& way, double length,
@@ -39,9 +40,8 @@ std::vector<PairBound> watch_pairs(const World& world, const Way& way, double le
   for (const auto a : way.moving)
     for (const auto b : world.bodies())
       if (!mine.contains(b) && world.may_collide(a, b))
-        watches.push_back({.a = a,
-                           .b = b,
-                           .speed = length + angle * reach_from(world.body(a), way.from.position)});
+        watches.push_back(
+            {.a = a, .b = b, .speed = length + angle * reach_from(world, a, way.from.position)});
   return watches;
 }
 
@@ -104,7 +104,7 @@ std::vector<Id<Body>> carried_bodies(const World& world, Id<Robot> robot) {
 }  // namespace
 
 MoveResult move_body(World& world, Id<Body> body, const Pose& X_WB) {
-  const Pose from = world.body(body).X_WB;
+  const Pose from = world.pose(body);
   world.set_pose(body, X_WB);  // refuses a part of a robot and a pose that is not finite
   world.set_pose(body, from);
   Way way{from, X_WB, {body}, [&](const Pose& X) { world.set_pose(body, X); }};
@@ -113,7 +113,7 @@ MoveResult move_body(World& world, Id<Body> body, const Pose& X_WB) {
 }
 
 MoveResult move_robot(World& world, Id<Robot> robot, const Pose& X_WB) {
-  const Pose from = world.body(world.robot(robot).base).X_WB;
+  const Pose from = world.pose(world.robot(robot).base);
   world.set_pose(robot, X_WB);  // refuses a carried robot and a pose that is not finite
   world.set_pose(robot, from);
   Way way{from, X_WB, carried_bodies(world, robot),
@@ -133,7 +133,7 @@ MoveResult approach(World& world, Id<Robot> robot, double reach) {
   const Robot& hand = world.robot(robot);
   if (!(reach >= 0) || !std::isfinite(reach))
     fail("approach of '{}': the reach must be >= 0 [m], got {}", excerpt(hand.name), reach);
-  const Pose X_WB = world.body(hand.base).X_WB;
+  const Pose X_WB = world.pose(hand.base);
   const Eigen::Vector3d direction = X_WB.rotation * (hand.X_BA.rotation * Eigen::Vector3d::UnitZ());
   return move_robot(world, robot, Pose{X_WB.rotation, X_WB.position + reach * direction});
 }

@@ -19,7 +19,7 @@ double within_limits(const Drive& drive, const JointSpeeds& way) {
   double part = 1;
   for (int j = 0; j < static_cast<int>(way.size()); ++j) {
     const Joint& joint = drive.robot().joints[j];
-    const double q = joint_value(drive.robot(), j);
+    const double q = drive.world.joints(drive.id)[j];
     const double room = way[j] > 0 ? joint.max - q : joint.min - q;
     if (way[j] != 0 && std::abs(way[j]) > std::abs(room))
       part = std::min(part, std::max(0.0, room / way[j]));
@@ -31,7 +31,7 @@ double within_limits(const Drive& drive, const JointSpeeds& way) {
 Advance follow_springs(Drive& drive, const JointSpeeds& way, int& queries) {
   std::vector<double> start;
   for (int j = 0; j < static_cast<int>(way.size()); ++j)
-    start.push_back(joint_value(drive.robot(), j));
+    start.push_back(drive.world.joints(drive.id)[j]);
   const auto place = [&](double s) {
     for (size_t j = 0; j < way.size(); ++j)
       if (way[j] != 0) drive.apart[j] = start[j] + s * way[j];

@@ -66,7 +66,7 @@ SpringBalance::SpringBalance(const World& world, Id<Robot> id, std::span<const C
     const Joint& joint = robot.joints[j];
     if (robot.dofs[joint.dof].kind != DofKind::compliant) continue;
     joints_.push_back({j, joint.dof, joint.ratio, all_sprung(robot, joint.dof) ? joint.spring : 1,
-                       joint.ratio * robot.q[joint.dof] - joint_value(robot, j)});
+                       joint.ratio * world.dofs(id)[joint.dof] - world.joints(id)[j]});
   }
   add_reactions(world, id, touching, sliding);
 }
@@ -81,7 +81,7 @@ void SpringBalance::add_reactions(const World& world, Id<Robot> id,
     columns.push_back(torques);
     opens.push_back(open);
   };
-  const auto frames = robot_frames(robot);
+  const auto frames = world.frames(id);
   for (const Contact& contact : touching) {
     Eigen::Matrix3Xd velocities(3, count);
     for (int i = 0; i < count; ++i)
@@ -93,7 +93,7 @@ void SpringBalance::add_reactions(const World& world, Id<Robot> id,
   }
   for (int i = 0; i < count; ++i) {
     const Joint& joint = robot.joints[joints_[i].number];
-    const double q = joint_value(robot, joints_[i].number);
+    const double q = world.joints(id)[joints_[i].number];
     if (q <= joint.min + at_limit) add(VectorXd::Unit(count, i), 0);
     if (q >= joint.max - at_limit) add(-VectorXd::Unit(count, i), 0);
   }

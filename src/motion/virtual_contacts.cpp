@@ -34,15 +34,17 @@ constexpr double fineness = 1.0 / 16;  // longest edge of a piece, of the mesh's
 constexpr int deepest = 5;             // each step cuts a triangle in four
 constexpr double around = 0.25;        // the normal is a mean over this, of the swept area's size
 
-// the hand as far open as its closing DOFs go, the others as near zero as they can
-Robot opened(Robot robot) {
-  for (int i = 0; i < robot.q.size(); ++i) {
-    const double v = robot.dofs[i].default_velocity;
-    const auto [low, high] = robot.limits[i];
-    robot.q[i] = v > 0 ? low : v < 0 ? high : std::clamp(0.0, low, high);
+// the hand as far open as its closing DOFs go, the others as near zero as they can; in the base frame
+RobotFrames frames_opened(const Robot& robot) {
+  std::vector<double> q;
+  for (const Joint& joint : robot.joints) {
+    const double v = robot.dofs[joint.dof].default_velocity;
+    const auto [low, high] = robot.limits[joint.dof];
+    q.push_back(joint.ratio * (v > 0 ? low : v < 0 ? high : std::clamp(0.0, low, high)));
   }
-  for (Apart& own : robot.apart) own.reset();
-  return robot;
+  RobotFrames out;
+  find_frames(robot, {}, q, out);
+  return out;
 }
 
 // how a link moves while the hand closes, in its own frame
@@ -204,8 +206,8 @@ std::vector<VirtualContactSpec> find_virtual_contacts(const World& world, Id<Rob
   if (options.count_per_link < 1 || options.count_per_link > 100)
     fail("virtual contacts: count_per_link: expected 1 to 100, got {}", options.count_per_link);
   const int against = world.materials().index(options.object_material);
-  const Robot robot = opened(world.robot(id));
-  const auto frames = robot_frames(robot);
+  const Robot& robot = world.robot(id);
+  const auto frames = frames_opened(robot);
   const bool closes = std::any_of(robot.dofs.begin(), robot.dofs.end(),
                                   [](const DofSpec& dof) { return dof.default_velocity != 0; });
   std::vector<VirtualContactSpec> out;
@@ -244,14 +246,15 @@ Id<Body> body_of(const Robot& robot, const VirtualContactSpec& contact) {
 
 VirtualContactSpec marked(const World& world, Id<Robot> id, const Contact& contact) {
   for (const bool touched : {false, true}) {
-    const Body& body = world.body(touched ? contact.body : contact.other);
+    const auto part = touched ? contact.body : contact.other;
+    const Body& body = world.body(part);
     if (body.robot != id || (body.kind != BodyKind::link && body.kind != BodyKind::base)) continue;
     // out of the link: along the normal, which points into the touched one
     const Vector3d n_W = touched ? Vector3d(-contact.n_W) : contact.n_W;
     const Vector3d p_W = touched ? contact.p_W : Vector3d(contact.p_W - contact.gap * contact.n_W);
     const Pose X_WC{Eigen::Quaterniond(contact_frame(n_W)).normalized(), p_W};
     const ChainPlace place = place_of(world.robot(id).chains, body.link);
-    return {place.chain, place.link, body.X_WB.inverse() * X_WC, contact.friction.statics,
+    return {place.chain, place.link, world.pose(part).inverse() * X_WC, contact.friction.statics,
             friction_edges()};
   }
   fail("virtual contacts: the contact of '{}' and '{}' is on no link of '{}'",

@@ -21,11 +21,10 @@ const ShapePtr& drawn(const Body& body) {
   return body.appearance.visual ? body.appearance.visual : body.shape;
 }
 
-DrawMesh draw_body(const Body& body, const SceneOptions& options) {
+DrawMesh draw_body(const Body& body, const Pose& X_WB, const SceneOptions& options) {
   const palette::Entry entry = palette::of(body.kind);
   const Appearance& looks = body.appearance;
-  DrawMesh mesh{
-      .shape = drawn(body), .X_WM = body.X_WB, .color = entry.color, .triangle_colors = {}};
+  DrawMesh mesh{.shape = drawn(body), .X_WM = X_WB, .color = entry.color, .triangle_colors = {}};
   if (options.file_colors && looks.given) {
     mesh.color = looks.color;
     mesh.triangle_colors = looks.triangle_colors;
@@ -38,10 +37,10 @@ DrawMesh draw_body(const Body& body, const SceneOptions& options) {
   return mesh;
 }
 
-Bounds bounds_in_world(const Body& body) {
+Bounds bounds_in_world(const Body& body, const Pose& X_WB) {
   Bounds bounds;
   if (drawn(body))
-    for (const Eigen::Vector3d& p : drawn(body)->mesh().vertices) bounds.add(body.X_WB * p);
+    for (const Eigen::Vector3d& p : drawn(body)->mesh().vertices) bounds.add(X_WB * p);
   return bounds;
 }
 
@@ -156,7 +155,8 @@ void draw_patches(const World& world, std::vector<DrawMesh>& out) {
 
 Scene make_scene(const World& world, const SceneOptions& options) {
   std::vector<Bounds> bounds;
-  for (const Id<Body> id : world.bodies()) bounds.push_back(bounds_in_world(world.body(id)));
+  for (const Id<Body> id : world.bodies())
+    bounds.push_back(bounds_in_world(world.body(id), world.pose(id)));
 
   Scene scene;
   bool floor = false;
@@ -164,7 +164,7 @@ Scene make_scene(const World& world, const SceneOptions& options) {
   for (size_t i = 0; i < bounds.size(); ++i) {
     const Body& body = world.body(world.bodies()[i]);
     if (!drawn(body)) continue;
-    scene.meshes.push_back(draw_body(body, options));
+    scene.meshes.push_back(draw_body(body, world.pose(world.bodies()[i]), options));
     scene.meshes.back().background = body.kind == BodyKind::obstacle && is_floor(bounds[i], bounds);
     floor = floor || scene.meshes.back().background;
     all.add(bounds[i].low), all.add(bounds[i].high);

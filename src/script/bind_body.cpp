@@ -14,7 +14,10 @@ static int set_name(lua_State* L) {
   return 0;
 }
 
-static int get_pose(lua_State* L) { return push(L, self<BodyHandle>(L)->X_WB); }
+static int get_pose(lua_State* L) {
+  const auto& body = self<BodyHandle>(L);
+  return push(L, body.world->pose(body.id));
+}
 
 static int set_pose(lua_State* L) {
   const auto& body = self<BodyHandle>(L);

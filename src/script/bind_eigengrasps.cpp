@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 EigengraspSet EigengraspsHandle::value() const {
   if (set) return *set;
   return robot->eigengrasps ? *robot->eigengrasps
-                            : identity_eigengrasps(static_cast<int>(robot->q.size()));
+                            : identity_eigengrasps(static_cast<int>(robot->dofs.size()));
 }
 
 static VectorXd vector_of(const std::vector<double>& x) {
@@ -99,7 +99,8 @@ static int push_ranges(lua_State* L, const std::vector<Range>& ranges) {
 static int get_limits(lua_State* L) {
   const auto& handle = self<EigengraspsHandle>(L);
   const Eigengrasps grasps = handle.ready();
-  return push_ranges(L, grasps.limits(handle.robot.world ? handle.robot->q : grasps.origin()));
+  return push_ranges(L, grasps.limits(handle.robot.world ? handle.robot.world->dofs(handle.robot.id)
+                                                         : grasps.origin()));
 }
 
 static int get_range(lua_State* L) { return push_ranges(L, ready(L).range()); }
@@ -122,7 +123,8 @@ static int amplitudes(lua_State* L) {
   check_count(L, 1);
   const auto& handle = self<EigengraspsHandle>(L);
   const Eigengrasps grasps = handle.ready();
-  if (!given(L, 2) && handle.robot.world) return push_vector(L, grasps.amplitudes(handle.robot->q));
+  if (!given(L, 2) && handle.robot.world)
+    return push_vector(L, grasps.amplitudes(handle.robot.world->dofs(handle.robot.id)));
   const auto values = check_numbers(L, 2, "dofs");
   return push_vector(L, grasps.amplitudes(check_posture(values, subject(L), grasps)));
 }

@@ -220,7 +220,7 @@ static int balance(lua_State* L) {
 
 // from forces along the axes of contact.frame to those of the grasp map
 static Eigen::MatrixXd turns_of(const GraspHandle& g, const GraspMap& map) {
-  return frame_turns(map, g.grasp.points, g.world->body(g.grasp.object).X_WB.matrix());
+  return frame_turns(map, g.grasp.points, g.world->pose(g.grasp.object).matrix());
 }
 
 static int map_rows(lua_State* L) {

@@ -39,7 +39,7 @@ static int set_eigengrasps(lua_State* L) {
 
 static int get_amplitudes(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  return push_vector(L, Eigengrasps(*robot).amplitudes(robot->q));
+  return push_vector(L, Eigengrasps(*robot).amplitudes(robot.world->dofs(robot.id)));
 }
 
 // the posture that amplitudes stand for, each DOF brought to its nearest limit
@@ -54,7 +54,7 @@ static Expected expected_posture(lua_State* L, const RobotHandle& robot, Table& 
   const bool keep = options.boolean("keep", false);
   if (options.has("fixed")) {
     // these stay as they are, whatever is asked for
-    const VectorXd now = grasps.amplitudes(robot->q);
+    const VectorXd now = grasps.amplitudes(robot.world->dofs(robot.id));
     for (const double x : options.numbers("fixed")) {
       if (!(x >= 1 && x <= grasps.size() && x == std::floor(x)))
         fail("{}: fixed: expected one of {} eigengrasps, got {}", options.subject(), grasps.size(),
@@ -63,7 +63,9 @@ static Expected expected_posture(lua_State* L, const RobotHandle& robot, Table& 
     }
   }
   options.done();
-  Expected out{keep ? grasps.posture(amplitudes, robot->q) : grasps.posture(amplitudes), {}};
+  Expected out{
+      keep ? grasps.posture(amplitudes, robot.world->dofs(robot.id)) : grasps.posture(amplitudes),
+      {}};
   for (int d = 0; d < out.dofs.size(); ++d) {
     const auto [low, high] = robot->limits[d];
     const double inside = std::clamp(out.dofs[d], low, high);

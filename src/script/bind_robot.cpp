@@ -18,7 +18,7 @@ static int get_class_name(lua_State* L) { return push(L, self<RobotHandle>(L)->c
 
 static int get_pose(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  return push(L, robot.world->body(robot->base).X_WB);
+  return push(L, robot.world->pose(robot->base));
 }
 
 static int set_pose(lua_State* L) {
@@ -48,8 +48,9 @@ static int get_links(lua_State* L) {
   return push_bodies(L, robot.world, links_of(*robot));
 }
 
-static void push_joint(lua_State* L, const Robot& robot, int joint) {
-  const Joint& spec = robot.joints[joint];
+static void push_joint(lua_State* L, const RobotHandle& robot, int joint) {
+  const Joint& spec = robot->joints[joint];
+  const double q = robot.world->joints(robot.id)[joint];
   push_list(L, 0, 11);
   if (!spec.name.empty()) set_field(L, "name", std::string_view(spec.name));
   set_field(L, "kind", spec.kind == JointKind::revolute ? "revolute" : "prismatic");
@@ -57,11 +58,11 @@ static void push_joint(lua_State* L, const Robot& robot, int joint) {
   set_field(L, "ratio", spec.ratio);
   set_field(L, "min", spec.min);
   set_field(L, "max", spec.max);
-  set_field(L, "value", joint_value(robot, joint));
-  const bool apart = robot.apart[joint].has_value();
-  const DofKind kind = robot.dofs[spec.dof].kind;
+  set_field(L, "value", q);
+  const bool apart = !robot.world->follows_dof(robot.id, joint);
+  const DofKind kind = robot->dofs[spec.dof].kind;
   set_field(L, "broken_away", apart && kind == DofKind::breakaway);
-  set_field(L, "spring_deflection", spec.ratio * robot.q[spec.dof] - joint_value(robot, joint));
+  set_field(L, "spring_deflection", spec.ratio * robot.world->dofs(robot.id)[spec.dof] - q);
   if (spec.spring > 0) set_field(L, "spring", spec.spring), set_field(L, "rest", spec.rest);
 }
 
@@ -86,19 +87,22 @@ static int get_chains(lua_State* L) {
     for (const int l : chain.links) links.push_back(robot->links[l].body);
     push_bodies(L, robot.world, links);
     lua_setfield(L, -2, "links");
-    push_list_of(L, joints_of(*robot, chain), [&](int j) { push_joint(L, *robot, j); });
+    push_list_of(L, joints_of(*robot, chain), [&](int j) { push_joint(L, robot, j); });
     lua_setfield(L, -2, "joints");
   });
 }
 
-static int get_dofs(lua_State* L) { return push_vector(L, self<RobotHandle>(L)->q); }
+static int get_dofs(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push_vector(L, robot.world->dofs(robot.id));
+}
 
 // DOF values of an argument; a wrong count names the robot
 static Eigen::VectorXd check_dofs(lua_State* L, int i, const Robot& robot) {
   const auto values = read_numbers(L, i, {L, {}, "values"});
-  if (static_cast<int>(values.size()) != robot.q.size())
-    fail("{}: robot '{}': expected {} DOF values, got {}", subject(L), robot.name, robot.q.size(),
-         values.size());
+  if (values.size() != robot.dofs.size())
+    fail("{}: robot '{}': expected {} DOF values, got {}", subject(L), robot.name,
+         robot.dofs.size(), values.size());
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<int>(values.size()));
 }
 
@@ -134,7 +138,7 @@ static int set_dofs(lua_State* L) {
   options.done();
   robot.world->set_dofs(robot.id, values);
   if (!apart.empty()) {
-    const Eigen::VectorXd q = robot->q;
+    const Eigen::VectorXd q = robot.world->dofs(robot.id);
     robot.world->set_dofs_unchecked(robot.id, q, apart);
   }
   return 0;
@@ -174,7 +178,7 @@ static int get_dof_info(lua_State* L) {
 
 static int get_approach(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  const Pose frame = robot.world->body(robot->base).X_WB * robot->X_BA;
+  const Pose frame = robot.world->pose(robot->base) * robot->X_BA;
   push_list(L, 0, 3);
   set_field(L, "point", frame.position);
   set_field(L, "direction", Eigen::Vector3d(frame.rotation * Eigen::Vector3d::UnitZ()));
@@ -315,7 +319,7 @@ static int text(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   if (!robot.world->alive(robot.id)) return push(L, "removed robot");
   return push(L, fmt::format("robot '{}' of {} DOFs, {} chains, {} links", robot->name,
-                             robot->q.size(), robot->chains.size(), links_of(*robot).size()));
+                             robot->dofs.size(), robot->chains.size(), links_of(*robot).size()));
 }
 
 static int equal(lua_State* L) {

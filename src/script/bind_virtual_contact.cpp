@@ -113,7 +113,10 @@ static BodyHandle link_of(const VirtualContactHandle& c) {
   return {c.robot.world, body_of(*c.robot, c.contact)};
 }
 
-static Pose frame_of(const VirtualContactHandle& c) { return link_of(c)->X_WB * c.contact.X_LC; }
+static Pose frame_of(const VirtualContactHandle& c) {
+  const BodyHandle link = link_of(c);
+  return link.world->pose(link.id) * c.contact.X_LC;
+}
 
 static int get_link(lua_State* L) { return push(L, link_of(self<VirtualContactHandle>(L))); }
 static int get_chain(lua_State* L) {

@@ -142,15 +142,13 @@ static int clone(lua_State* L) {
 static int snapshot(lua_State* L) {
   check_count(L, 0);
   const auto& handle = self<WorldHandle>(L);
-  return push_object(L, SnapshotHandle{handle.world, handle.world->snapshot()});
+  return push_object(L, SnapshotHandle{handle.world->snapshot()});
 }
 
 static int restore(lua_State* L) {
   check_count(L, 1);
   const auto& handle = self<WorldHandle>(L);
-  const auto& moment = check_object<SnapshotHandle>(L, 2, "snapshot");
-  if (moment.world != handle.world) fail("{}: the snapshot was taken of another world", subject(L));
-  handle.world->restore(*moment.state);
+  handle.world->restore(*check_object<SnapshotHandle>(L, 2, "snapshot").moment);
   return 0;
 }
 
@@ -261,8 +259,8 @@ static int equal(lua_State* L) {
 }
 
 static int snapshot_text(lua_State* L) {
-  return push(
-      L, fmt::format("snapshot of {} bodies", self<SnapshotHandle>(L).state->body_order.size()));
+  return push(L, fmt::format("snapshot of {} bodies",
+                             self<SnapshotHandle>(L).moment->model->body_order.size()));
 }
 
 // --- tables ---
@@ -375,7 +373,8 @@ The state of the world now, exact to the bit.
 @return snapshot
 > world:snapshot() ~= nil  --> true)"},
     {"restore", guarded<restore>, R"(
-Back to a snapshot of this world: what was removed since is back, what was added since is gone.
+Back to a snapshot of this world, of a clone of it, or of one that it is a clone of: what was removed since is back, what was
+added since is gone.
 @param snapshot snapshot
 > before, moment = world:hash(), world:snapshot()
 > hand:open()

@@ -40,8 +40,7 @@ void add_owned_bodies(lua_State* L, int index, std::span<const Id<Body>> bodies)
 
 /// A moment of a world.
 struct SnapshotHandle {
-  WorldPtr world;
-  std::shared_ptr<const WorldState> state;
+  std::shared_ptr<const Snapshot> moment;
 };
 
 extern const Class world_class, body_class, robot_class, snapshot_class;
@@ -64,7 +63,7 @@ inline const Class& class_of<SnapshotHandle>() {
   return snapshot_class;
 }
 
-inline size_t owned_bytes(const SnapshotHandle& moment) { return moment.state->bytes(); }
+inline size_t owned_bytes(const SnapshotHandle& moment) { return moment.moment->state.bytes(); }
 
 inline int push(lua_State* L, const BodyHandle& body) { return push_object(L, body); }
 inline int push(lua_State* L, const RobotHandle& robot) { return push_object(L, robot); }

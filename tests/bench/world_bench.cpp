@@ -32,8 +32,8 @@ static std::vector<BodyPair> colliding_of_all(const World& world) {
   for (size_t i = 0; i < all.size(); ++i)
     for (size_t j = i + 1; j < all.size(); ++j) {
       const Body &a = world.body(all[i]), &b = world.body(all[j]);
-      if (world.may_collide(all[i], all[j]) && sphere_gap(a, b) <= 0 &&
-          colliding(*a.shape, *b.shape, a.X_WB.inverse() * b.X_WB))
+      if (world.may_collide(all[i], all[j]) && sphere_gap(world, all[i], all[j]) <= 0 &&
+          colliding(*a.shape, *b.shape, world.pose(all[i]).inverse() * world.pose(all[j])))
         out.emplace_back(all[i], all[j]);
     }
   return out;

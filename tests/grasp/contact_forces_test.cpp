@@ -27,7 +27,7 @@ static double sum_of_normals(const ForceResult& r) {
 static void check_forces(const Held& h, const ForceOptions& options, const ForceResult& r) {
   REQUIRE(r.status == ForceStatus::optimal);
   REQUIRE(r.forces.size() == h.grasp.points.size());
-  const Pose& X_WO = h.world.body(h.grasp.object).X_WB;
+  const Pose& X_WO = h.world.pose(h.grasp.object);
   Vector6d sum = options.load;
   double largest = options.load.norm();
   for (const ContactForce& f : r.forces) largest = std::max(largest, f.force_W.norm());
@@ -59,7 +59,7 @@ static void check_certificate(const Held& h, const ForceOptions& options, const 
   const ForceCertificate& c = *r.certificate;
   CHECK(c.power > c.capacity);
   CHECK(std::abs(c.power - options.load.dot(c.twist)) < 1e-9 * options.load.norm());
-  const Pose& X_WO = h.world.body(h.grasp.object).X_WB;
+  const Pose& X_WO = h.world.pose(h.grasp.object);
   double resisted = 0;
   for (size_t i = 0; i < h.grasp.points.size(); ++i) {
     const PointContact& point = h.grasp.points[i];

@@ -285,7 +285,7 @@ static Jaws upright_jaws(double mass, double max_effort) {
   Jaws j = jaws(DofKind::rigid, 0.5, max_effort);
   const Pose up = Pose::turn(-std::numbers::pi / 2, Vector3d::UnitY());  // x to z
   j.world.set_pose(j.grasp.hand, up);
-  j.world.set_pose(j.grasp.object, up * j.world.body(j.grasp.object).X_WB);
+  j.world.set_pose(j.grasp.object, up * j.world.pose(j.grasp.object));
   for (Contact& contact : j.grasp.contacts) {
     contact.p_W = up * contact.p_W;
     contact.n_W = up.rotation * contact.n_W;

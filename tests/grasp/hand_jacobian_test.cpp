@@ -35,9 +35,9 @@ Arranged arrange(const std::string& hand, bool on_arm, Random& random) {
   }
   a.grasp.object = a.world.add_body(test::body_spec("thing", test::box(0.1, 0.1, 0.1)),
                                     BodyKind::object, Pose::translation({3, 1, 2}));
-  const Pose X_OW = a.world.body(a.grasp.object).X_WB.inverse();
+  const Pose X_OW = a.world.pose(a.grasp.object).inverse();
   for (const auto robot : a.world.robots()) {
-    VectorXd q = a.world.robot(robot).q;
+    VectorXd q = a.world.dofs(robot);
     for (int i = 0; i < q.size(); ++i) {
       const auto [low, high] = a.world.robot(robot).limits[i];
       q[i] = random.uniform(low, high);
@@ -45,7 +45,7 @@ Arranged arrange(const std::string& hand, bool on_arm, Random& random) {
     a.world.set_dofs(robot, q);
   }
   for (const auto part : a.world.bodies_of(a.grasp.hand)) {
-    const Pose& X_WL = a.world.body(part).X_WB;
+    const Pose& X_WL = a.world.pose(part);
     a.p_L.push_back(0.05 * draw());
     a.n_L.push_back(draw().normalized());
     Contact contact;
@@ -66,8 +66,8 @@ Arranged arrange(const std::string& hand, bool on_arm, Random& random) {
 VectorXd measured_column(const Arranged& a, Id<Robot> robot, int dof) {
   const double h = 1e-6;
   World plus = a.world, minus = a.world;
-  const auto broken = a.world.robot(robot).apart;
-  VectorXd q = a.world.robot(robot).q;
+  const auto broken = a.world.apart(robot);
+  VectorXd q = a.world.dofs(robot);
   q[dof] += h;
   plus.set_dofs_unchecked(robot, q, broken);
   q[dof] -= 2 * h;
@@ -75,12 +75,12 @@ VectorXd measured_column(const Arranged& a, Id<Robot> robot, int dof) {
   VectorXd column(4 * a.p_L.size());
   for (size_t i = 0; i < a.p_L.size(); ++i) {
     const auto part = a.grasp.contacts[i].other;
-    const Pose X_plus = plus.body(part).X_WB, X_minus = minus.body(part).X_WB;
+    const Pose X_plus = plus.pose(part), X_minus = minus.pose(part);
     const Vector3d v = (X_plus * a.p_L[i] - X_minus * a.p_L[i]) / (2 * h);
     const Eigen::AngleAxisd turn(X_plus.rotation * X_minus.rotation.conjugate());
     const Vector3d w = turn.angle() * turn.axis() / (2 * h);
     const Eigen::Matrix3d frame =
-        a.world.body(a.grasp.object).X_WB.matrix() * contact_frame(a.grasp.points[i].n_O);
+        a.world.pose(a.grasp.object).matrix() * contact_frame(a.grasp.points[i].n_O);
     column.segment<4>(4 * i) << frame.col(2).dot(v), frame.col(0).dot(v), frame.col(1).dot(v),
         frame.col(2).dot(w);
   }
@@ -105,7 +105,7 @@ TEST_CASE("the hand Jacobian is what the contacts do when a DOF moves") {
       if (!on_arm) continue;
       const auto arm = a.world.robot(a.grasp.hand).mounting->parent;
       const Robot& robot = a.world.robot(arm);
-      MatrixXd arms = MatrixXd::Zero(dofs.rows(), robot.q.size());
+      MatrixXd arms = MatrixXd::Zero(dofs.rows(), a.world.dofs(arm).size());
       for (size_t k = 0; k < jacobian.joints.size(); ++k) {
         const JointRef& ref = jacobian.joints[k];
         if (ref.robot != arm) continue;
@@ -121,12 +121,12 @@ TEST_CASE("a joint that has broken away is moved by no DOF, and held by its clut
   Random random(2);
   Arranged a = arrange("barrett/barrett.cfg", false, random);
   const Robot& robot = a.world.robot(a.grasp.hand);
-  auto broken = robot.apart;
+  auto broken = a.world.apart(a.grasp.hand);
   int joint = 0;
   while (robot.dofs[robot.joints.at(joint).dof].kind != DofKind::breakaway) ++joint;
-  broken[joint] = joint_value(robot, joint);
+  broken[joint] = a.world.joints(a.grasp.hand)[joint];
   const int dof = robot.joints[joint].dof;
-  a.world.set_dofs_unchecked(a.grasp.hand, robot.q, broken);
+  a.world.set_dofs_unchecked(a.grasp.hand, a.world.dofs(a.grasp.hand), broken);
   const HandJacobian jacobian = hand_jacobian(a.world, a.grasp);
   const MatrixXd dofs = dof_jacobian(a.world, a.grasp, jacobian);
   CHECK((dofs.col(dof) - measured_column(a, a.grasp.hand, dof)).cwiseAbs().maxCoeff() < 1e-8);
@@ -193,7 +193,7 @@ double height_energy(const World& world) {
   double sum = 0;
   for (const Id<Body> id : world.bodies()) {
     const Body& body = world.body(id);
-    if (body.robot) sum += standard_gravity * body.mass * (body.X_WB * body.com).z();
+    if (body.robot) sum += standard_gravity * body.mass * (world.pose(id) * body.com).z();
   }
   return sum;
 }
@@ -209,13 +209,12 @@ TEST_CASE("what links weigh in a joint is how their height changes with it") {
     double heaviest = 0;
     for (const JointRef& ref : jacobian.joints) {
       const double h = 1e-6;
-      const Robot& robot = a.world.robot(ref.robot);
       double energy[2];
       for (const int side : {0, 1}) {
         World moved = a.world;
-        auto apart = robot.apart;
-        apart[ref.joint] = joint_value(robot, ref.joint) + (side ? h : -h);
-        moved.set_dofs_unchecked(ref.robot, robot.q, apart);
+        auto apart = moved.apart(ref.robot);
+        apart[ref.joint] = moved.joints(ref.robot)[ref.joint] + (side ? h : -h);
+        moved.set_dofs_unchecked(ref.robot, moved.dofs(ref.robot), apart);
         energy[side] = height_energy(moved);
       }
       // some 20 kg at a metre: 200 J, rounding of 1e-13 over 1e-6
@@ -242,7 +241,7 @@ TEST_CASE("a grasp that no longer stands as it was measured is told") {
   const Pose X =
       Pose::translation({3, 2, 1}) * Pose::turn(1, Eigen::Vector3d(1, 2, 3).normalized());
   world.set_pose(hand, X);
-  world.set_pose(object, X * world.body(object).X_WB);
+  world.set_pose(object, X * world.pose(object));
   CHECK_NOTHROW(hand_jacobian(world, grasp));
   world.set_dofs(hand, Eigen::Vector2d(0.1, 0));
   CHECK_THROWS_WITH_AS(hand_jacobian(world, grasp),

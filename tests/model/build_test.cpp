@@ -24,7 +24,7 @@ static WorldSpec arm_and_hand(double off) {
   const auto arm = alone.add_robot(spec.robots[0].robot, {});
   alone.set_dofs(arm, Eigen::Vector2d(0.5, 0));
   spec.robots[1].X_WB =
-      alone.body(link_of(alone.robot(arm), 0, 1)).X_WB * Pose::translation({0.1 + off, 0, 0});
+      alone.pose(link_of(alone.robot(arm), 0, 1)) * Pose::translation({0.1 + off, 0, 0});
   spec.connections.push_back(c);
   return spec;
 }
@@ -43,7 +43,7 @@ TEST_CASE(
   std::vector<std::string> warnings;
   const World world =
       build_world(spec, {.warn = [&](const std::string& w) { warnings.push_back(w); }});
-  const Pose X = world.body(world.robot(world.robots()[1]).base).X_WB;
+  const Pose X = world.pose(world.robot(world.robots()[1]).base);
   CHECK((X.position - spec.robots[1].X_WB.position).norm() < 1e-15);
   CHECK(warnings.empty());
 }
@@ -63,7 +63,7 @@ TEST_CASE("a start outside the limits is brought to the limit, with a warning be
   std::vector<std::string> warnings;
   const World world =
       build_world(spec, {.warn = [&](const std::string& w) { warnings.push_back(w); }});
-  CHECK(world.robot(world.robots()[1]).q == Eigen::Vector2d(0, 0));
+  CHECK(world.dofs(world.robots()[1]) == Eigen::Vector2d(0, 0));
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0] ==
         "robot 'gripper_2': DOF 2 starts at -0.1, outside [0, 1.5707963267948966]; moved to the "
@@ -88,9 +88,9 @@ TEST_CASE("breakaway states are taken over") {
   spec.robots[1].dofs = {0.6, 0};
   spec.robots[1].apart = {0.2, std::nullopt, std::nullopt, std::nullopt};
   const World world = build_world(spec);
-  const Robot& hand = world.robot(world.robots()[1]);
-  CHECK(joint_value(hand, 0) == 0.2);
-  CHECK(joint_value(hand, 1) == doctest::Approx(0.3));
+  const auto hand = world.robots()[1];
+  CHECK(world.joints(hand)[0] == 0.2);
+  CHECK(world.joints(hand)[1] == doctest::Approx(0.3));
 }
 
 TEST_CASE(
@@ -104,10 +104,10 @@ TEST_CASE(
   std::vector<std::string> warnings;
   const World world =
       build_world(spec, {.warn = [&](const std::string& w) { warnings.push_back(w); }});
-  const Robot& hand = world.robot(world.robots()[1]);
-  CHECK(joint_value(hand, 0) == 0.6);
-  CHECK(joint_value(hand, 1) == doctest::Approx(0.3));
-  CHECK(joint_value(hand, 3) == 0.1);
+  const auto hand = world.robots()[1];
+  CHECK(world.joints(hand)[0] == 0.6);
+  CHECK(world.joints(hand)[1] == doctest::Approx(0.3));
+  CHECK(world.joints(hand)[3] == 0.1);
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0] ==
         "robot 'gripper_2': joint 2 broke away at -3, outside [0, 1.5707963267948966]; "

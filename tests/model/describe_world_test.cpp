@@ -37,10 +37,10 @@ static World any_world(uint64_t seed) {
     } else {
       const auto id = world.add_robot(two_finger(DofKind::breakaway), any_pose(random));
       world.set_dofs(id, Eigen::Vector2d(random.uniform(0, 1), random.uniform(0, 1)));
-      auto broken = world.robot(id).apart;
+      auto broken = world.apart(id);
       // behind where its DOF has gone
-      broken[0] = 0.5 * world.robot(id).q[0];
-      world.set_dofs_unchecked(id, world.robot(id).q, broken);
+      broken[0] = 0.5 * world.dofs(id)[0];
+      world.set_dofs_unchecked(id, world.dofs(id), broken);
       if (!robots.empty() && chance(0.7)) {
         const BodySpec ring = body_spec("ring", box(0.01, 0.01, 0.01));
         world.mount(id, robots.back(), chance(0.5) ? 1 : 0, any_pose(random),
@@ -134,9 +134,9 @@ TEST_CASE("each difference of two worlds has its phrase") {
   CHECK(only([&](World& w) { w.set_collision(false, cup); }) == phrase("which bodies may collide"));
   CHECK(only([&](World& w) { w.set_collision(false); }) == phrase("which bodies may collide"));
   CHECK(only([&](World& w) {
-          auto broken = w.robot(hand).apart;
+          auto broken = w.apart(hand);
           broken[0] = 0.5;
-          w.set_dofs_unchecked(hand, w.robot(hand).q, broken);
+          w.set_dofs_unchecked(hand, w.dofs(hand), broken);
         }) == phrase("the joints of 'gripper' that do not follow their DOFs"));
   CHECK(only([&](World& w) { w.remove(cup); }) == phrase("its number of bodies"));
 }

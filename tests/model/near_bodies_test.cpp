@@ -75,7 +75,7 @@ TEST_CASE("colliding pairs are those of all pairs, far from the origin as well")
   CHECK(near_origin == nearer_than(world, all_pairs(world, world.bodies(), world.bodies()), 0));
   CHECK(near_origin.size() > 10);
   for (const auto id : world.bodies()) {
-    Pose X = world.body(id).X_WB;
+    Pose X = world.pose(id);
     X.position += Eigen::Vector3d(5e5, -3e5, 8e5);
     world.set_pose(id, X);
   }

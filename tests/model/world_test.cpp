@@ -116,10 +116,10 @@ TEST_CASE("links stand where Denavit and Hartenberg put them") {
   const Eigen::Vector3d first = knuckle + 0.05 * Eigen::Vector3d(-std::sin(q), std::cos(q), 0);
   const Eigen::Vector3d second =
       first + 0.05 * Eigen::Vector3d(-std::sin(1.5 * q), std::cos(1.5 * q), 0);
-  CHECK((world.body(link_of(robot, 0, 0)).X_WB.position - first).norm() < 1e-15);
-  CHECK((world.body(link_of(robot, 0, 1)).X_WB.position - second).norm() < 1e-15);
+  CHECK((world.pose(link_of(robot, 0, 0)).position - first).norm() < 1e-15);
+  CHECK((world.pose(link_of(robot, 0, 1)).position - second).norm() < 1e-15);
   // the other finger mirrors it: straight up at rest
-  CHECK((world.body(link_of(robot, 1, 1)).X_WB.position - Eigen::Vector3d(-0.03, 0.1, 1)).norm() <
+  CHECK((world.pose(link_of(robot, 1, 1)).position - Eigen::Vector3d(-0.03, 0.1, 1)).norm() <
         1e-15);
 }
 
@@ -128,10 +128,10 @@ TEST_CASE("moving a robot moves its links rigidly") {
   const auto id = world.add_robot(two_finger(), {});
   world.set_dofs(id, Eigen::Vector2d(0.4, 0.7));
   const auto link = link_of(world.robot(id), 1, 1);
-  const Pose before = world.body(link).X_WB;
+  const Pose before = world.pose(link);
   const Pose X{Eigen::Quaterniond(Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 2) / 3)), {1, 2, 3}};
   world.set_pose(id, X);
-  const Pose off = (X * before).inverse() * world.body(link).X_WB;
+  const Pose off = (X * before).inverse() * world.pose(link);
   CHECK(off.position.norm() < 1e-15);
   CHECK(off.angle() < 1e-15);
 }
@@ -195,7 +195,7 @@ TEST_CASE("a copy shares meshes and nothing else") {
   World copy = world;
   copy.set_dofs(robot, Eigen::Vector2d(1, 1));
   copy.set_friction("wood", "metal", {0.9, 0.8});
-  CHECK(world.robot(robot).q == Eigen::Vector2d(0, 0));
+  CHECK(world.dofs(robot) == Eigen::Vector2d(0, 0));
   CHECK(world.materials().friction(4, 2).statics == doctest::Approx(0.3));
   CHECK(world.body(world.robot(robot).base).shape == copy.body(copy.robot(robot).base).shape);
   CHECK(world.hash() != copy.hash());
@@ -233,9 +233,9 @@ TEST_CASE("an arm carries a hand: it follows, and what is rigidly joined never c
   const auto base = world.robot(hand).base;
   for (const double q : {0.0, 0.5}) {
     world.set_dofs(arm, Eigen::Vector2d(q, 0));
-    const Pose off = (world.body(last).X_WB * X_LB).inverse() * world.body(base).X_WB;
+    const Pose off = (world.pose(last) * X_LB).inverse() * world.pose(base);
     CHECK(off.position.norm() < 1e-15);
-    CHECK(world.body(*world.robot(hand).mounting->piece).X_WB == world.body(base).X_WB);
+    CHECK(world.pose(*world.robot(hand).mounting->piece) == world.pose(base));
   }
   CHECK_FALSE(world.may_collide(last, base));
   CHECK_FALSE(world.may_collide(last, *world.robot(hand).mounting->piece));
@@ -332,7 +332,7 @@ TEST_CASE(
   World slides;
   const auto slider = slides.add_robot(sliding, {});
   const uint64_t before = slides.hash();
-  Eigen::VectorXd q = slides.robot(slider).q;
+  Eigen::VectorXd q = slides.dofs(slider);
   q[0] = 1e15;
   CHECK_THROWS_AS(slides.set_dofs(slider, q), Error);
   CHECK(slides.hash() == before);
@@ -383,7 +383,7 @@ TEST_CASE("the hash knows shapes and mountings") {
     for (int i = 0; i < 2; ++i) world->add_robot(two_finger(), {});
   const Pose X_LB = Pose::translation({0.1, 0, 0});
   const auto last = link_of(apart.robot(apart.robots()[0]), 0, 1);
-  apart.set_pose(apart.robots()[1], apart.body(last).X_WB * X_LB);
+  apart.set_pose(apart.robots()[1], apart.pose(last) * X_LB);
   apart.set_collision(false, last, apart.robot(apart.robots()[1]).base);
   mounted.mount(mounted.robots()[1], mounted.robots()[0], 0, X_LB);
   CHECK(apart.hash() != mounted.hash());

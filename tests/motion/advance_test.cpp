@@ -22,5 +22,5 @@ TEST_CASE("a way that would take for ever ends, and says that it gave up") {
   CHECK(end.s < 1);
   // steps of half the gap, or what it exceeds the aim by: about 30 um each
   CHECK(end.s * 10 == doctest::Approx(1000 * 3e-5).epsilon(0.01));
-  CHECK(world.body(block).X_WB.position.x() == 10 * end.s);
+  CHECK(world.pose(block).position.x() == 10 * end.s);
 }

@@ -17,7 +17,7 @@ TEST_CASE("a falling box stops on the table, however long the fall") {
     add(world, "table", moved(box(1, 1, 0.1), {0, 0, -0.05}), {0, 0, 0});
     const auto block = add(world, "block", box(0.02, 0.02, 0.02), {0, 0, height});
     const auto result = move_body(world, block, Pose::translation({0, 0, -height}));
-    const double gap = world.body(block).X_WB.position.z() - 0.01;
+    const double gap = world.pose(block).position.z() - 0.01;
     CHECK(result.touched);
     REQUIRE(result.stopped_by.size() == 1);
     CHECK(gap > 0);
@@ -33,7 +33,7 @@ TEST_CASE("a bullet does not tunnel through a sheet, turning as it flies") {
   const Pose target{Eigen::Quaterniond(Eigen::AngleAxisd(3, Eigen::Vector3d::UnitX())), {0, 0, -1}};
   const auto result = move_body(world, bullet, target);
   CHECK(result.touched);
-  CHECK(world.body(bullet).X_WB.position.z() > 0);
+  CHECK(world.pose(bullet).position.z() > 0);
 }
 
 TEST_CASE("a free way is gone to its exact end") {
@@ -45,18 +45,18 @@ TEST_CASE("a free way is gone to its exact end") {
   const auto result = move_body(world, block, target);
   CHECK(result.fraction == 1);
   CHECK_FALSE(result.touched);
-  CHECK(world.body(block).X_WB == target);
+  CHECK(world.pose(block) == target);
 }
 
 TEST_CASE("a body in contact may slide and leave but not be pushed in") {
   World world;
   add(world, "table", moved(box(1, 1, 0.1), {0, 0, -0.05}), {0, 0, 0});
   const auto block = add(world, "block", box(0.02, 0.02, 0.02), {0, 0, 0.01 + 5e-5});
-  const Pose start = world.body(block).X_WB;
+  const Pose start = world.pose(block);
   const auto pushed = move_body(world, block, Pose::translation({0, 0, 0}));
   CHECK(pushed.touched);
   CHECK(pushed.fraction == 0);
-  CHECK(world.body(block).X_WB == start);
+  CHECK(world.pose(block) == start);
   const Pose aside = Pose::translation({0.01, 0, start.position.z()});
   CHECK(move_body(world, block, aside).fraction == 1);
   const Pose up = Pose::translation({0.01, 0, 0.3});
@@ -106,7 +106,7 @@ TEST_CASE("a hand approaches along its direction until it touches") {
   add(world, "wall", box(1, 0.1, 1), {0, 0.5, 0});
   const auto result = approach(world, hand, 2);
   CHECK(result.touched);
-  const double tip = world.body(world.robot(hand).base).X_WB.position.y() + 0.1 - 0.003;
+  const double tip = world.pose(world.robot(hand).base).position.y() + 0.1 - 0.003;
   CHECK(tip < 0.45);
   CHECK(tip >= 0.45 - world.contact_threshold());
   CHECK(approach(world, hand, 1).fraction == 0);

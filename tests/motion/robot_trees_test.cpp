@@ -46,7 +46,7 @@ Eigen::Matrix4d turn(double angle, const Eigen::Vector3d& axis) {
 /// The values of all DOFs by name, at random within the limits.
 std::map<std::string, double> move_at_random(World& world, Id<Robot> id, Random& random) {
   const Robot& robot = world.robot(id);
-  Eigen::VectorXd q(robot.q.size());
+  Eigen::VectorXd q(robot.dofs.size());
   std::map<std::string, double> named;
   for (int i = 0; i < q.size(); ++i) {
     q[i] = random.uniform(robot.limits[i][0], robot.limits[i][1]);
@@ -79,7 +79,7 @@ void check_below(const World& world, const std::string& robot, const urdf::Link&
   INFO(link.name);
   const auto body = world.find_body(robot + "_" + link.name);
   REQUIRE(body);
-  check_equal(world.body(body).X_WB, X);
+  check_equal(world.pose(body), X);
   ++count;
   for (const auto& joint : link.child_joints) {
     Eigen::Matrix4d X_child = X * matrix(joint->parent_to_joint_origin_transform);
@@ -291,11 +291,11 @@ TEST_CASE(
                again = add_robot(other, read_robot(folder.path() / "again.urdf"), Pose{});
     REQUIRE(other.bodies_of(again).size() == world.bodies_of(id).size());
     move_at_random(world, id, random);
-    REQUIRE(other.robot(again).q.size() == world.robot(id).q.size());
-    other.set_dofs(again, world.robot(id).q);
+    REQUIRE(other.dofs(again).size() == world.dofs(id).size());
+    other.set_dofs(again, world.dofs(id));
     for (const auto body : world.bodies_of(id)) {
-      const Pose& X = world.body(body).X_WB;
-      const Pose& Y = other.body(other.find_body(world.body(body).name)).X_WB;
+      const Pose& X = world.pose(body);
+      const Pose& Y = other.pose(other.find_body(world.body(body).name));
       CHECK((X.inverse() * Y).angle() < urdf_rounding);
       CHECK((X.position - Y.position).norm() < urdf_rounding * std::max(1.0, X.position.norm()));
     }
@@ -314,7 +314,7 @@ TEST_CASE("links of a random MJCF tree stand where the file's tree puts them") {
     for (int k = 0; k < 5; ++k) {
       const auto poses = model.poses(move_at_random(world, id, random));
       for (size_t b = 0; b < poses.size(); ++b)
-        check_equal(world.body(world.find_body("random_" + model.bodies[b].name)).X_WB, poses[b]);
+        check_equal(world.pose(world.find_body("random_" + model.bodies[b].name)), poses[b]);
     }
   }
 }
@@ -327,7 +327,7 @@ TEST_CASE("our gripper closes until its fingers meet, and holds what stands betw
   // drawn shut: at its limit already
   CHECK(autograsp(world, id).stops == std::vector<DofStop>{DofStop::limit});
   autograsp(world, id, -1);
-  CHECK(world.robot(id).q[0] == 0.05);
+  CHECK(world.dofs(id)[0] == 0.05);
   BodySpec spec;
   spec.name = "bar";
   spec.shape = Shape::make(box(0.04, 0.04, 0.02));
@@ -344,10 +344,10 @@ TEST_CASE("pads that turn back as their levers turn in open after they have clos
   CHECK(colliding_pairs(world).empty());
   // the pads met where the levers, 8 cm long, have brought each 4.7 cm inward, and then some of their thickness
   const double meeting = std::asin((0.05 - 0.003) / 0.08);
-  CHECK(world.robot(id).q[0] == doctest::Approx(meeting).epsilon(2e-3));  // the contact threshold
+  CHECK(world.dofs(id)[0] == doctest::Approx(meeting).epsilon(2e-3));  // the contact threshold
   const DriveResult opened = open_hand(world, id);
   CHECK(opened.moved);
-  CHECK(world.robot(id).q[0] == 0);
+  CHECK(world.dofs(id)[0] == 0);
 }
 
 TEST_CASE("our hand closes without self-collision") {
@@ -368,7 +368,7 @@ TEST_CASE("the hands of today close without self-collision") {
     INFO(file);
     World world;
     const auto id = add_robot(world, read_robot(folder / file), Pose{});
-    CHECK(world.robot(id).q.size() == dofs);
+    CHECK(world.dofs(id).size() == dofs);
     CHECK(autograsp(world, id).moved);
     CHECK(colliding_pairs(world).empty());
   }

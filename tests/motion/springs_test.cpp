@@ -32,8 +32,12 @@ struct SpringBench {
     object = world.add_body(body, BodyKind::object, Pose::translation(at));
   }
   const Robot& robot() const { return world.robot(hand); }
+  Eigen::VectorXd dofs() const { return world.dofs(hand); }
+  Apart apart(int chain, int joint) const {
+    return world.apart(hand)[joint_number(robot(), chain, joint)];
+  }
   double q(int chain, int joint) const {
-    return joint_value(robot(), joint_number(robot(), chain, joint));
+    return world.joints(hand)[joint_number(robot(), chain, joint)];
   }
   std::vector<Contact> touching() const {
     return contacts(world, world.bodies(), world.bodies_of(hand));
@@ -70,7 +74,7 @@ double min_energy_nearby(const SpringBench& bench, int chain, double q, double r
       const double e = energy(bench.robot(), chain, q, first, second);
       if (e >= best) continue;
       apart[2 * chain] = first, apart[2 * chain + 1] = second;
-      world.set_dofs_unchecked(bench.hand, world.robot(bench.hand).q, apart);
+      world.set_dofs_unchecked(bench.hand, world.dofs(bench.hand), apart);
       if (colliding_pairs(world, finger, world.bodies()).empty()) best = e;
     }
   return best;
@@ -88,7 +92,7 @@ TEST_CASE("without friction a finger comes to rest where its springs hold least"
     REQUIRE(colliding_pairs(bench.world).empty());
     CHECK(bench.unrest() <= 1e-5);  // where a drive takes springs for at rest
     for (const int c : {0, 1}) {
-      const double q = bench.robot().q[c];
+      const double q = bench.dofs()[c];
       const double here = energy(bench.robot(), c, q, bench.q(c, 0), bench.q(c, 1));
       // torques of up to 8 N m on levers of 30 mm and more press with at most 260 N through a gap of 0.1 mm
       CHECK(here <= min_energy_nearby(bench, c, q, 0.02) + 0.026);
@@ -112,13 +116,13 @@ TEST_CASE("a finger that is opened again follows its tendon back") {
   for (const char* material : {"frictionless", "plastic", "rubber"}) {
     SpringBench bench({1, 2}, material, {0.004, 0.06, 0});
     autograsp(bench.world, bench.hand);
-    CHECK(apart_of(bench.robot(), 0, 0));
+    CHECK(bench.apart(0, 0));
     const auto result = autograsp(bench.world, bench.hand, -1);
-    CHECK(bench.robot().q.isZero(0));
+    CHECK(bench.dofs().isZero(0));
     for (const int c : {0, 1})
       for (const int j : {0, 1}) {
         CHECK(bench.q(c, j) == 0);
-        CHECK_FALSE(apart_of(bench.robot(), c, j));
+        CHECK_FALSE(bench.apart(c, j));
         CHECK(result.stops[c] == DofStop::limit);
       }
   }
@@ -132,7 +136,7 @@ TEST_CASE("the weaker of two joints gives way more") {
     const auto result = autograsp(bench.world, bench.hand);
     CHECK(result.moved);
     const auto& joints = bench.robot().joints;
-    const double q = bench.robot().q[0];
+    const double q = bench.dofs()[0];
     return Eigen::Vector2d(joints[0].ratio * q - bench.q(0, 0),
                            joints[1].ratio * q - bench.q(0, 1));
   };
@@ -146,7 +150,7 @@ TEST_CASE("closing a hand on springs is the same wherever its world stands, and 
   const Pose X(Eigen::Quaterniond(Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized())),
                {0.3, -0.2, 0.1});
   moved.world.set_pose(moved.hand, X);
-  moved.world.set_pose(moved.object, X * moved.world.body(moved.object).X_WB);
+  moved.world.set_pose(moved.object, X * moved.world.pose(moved.object));
   for (SpringBench* b : {&bench, &again, &moved}) autograsp(b->world, b->hand);
   CHECK(bench.world.hash() == again.world.hash());
   // the threshold lets gaps differ by 0.1 mm, on fingers of 50 mm
@@ -159,5 +163,5 @@ TEST_CASE("a drive that is to stop at a touch stops where springs would go on") 
   const auto result = autograsp(bench.world, bench.hand, 1, {.stop_at_contact = true});
   CHECK(result.stops[0] == DofStop::contact);
   CHECK(bench.touching().size() > 0);
-  CHECK(std::abs(bench.q(0, 0) - bench.robot().q[0]) < 1e-12);
+  CHECK(std::abs(bench.q(0, 0) - bench.dofs()[0]) < 1e-12);
 }

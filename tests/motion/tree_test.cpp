@@ -79,7 +79,7 @@ TEST_CASE("links of a tree stand where the product of all motions before them pu
     world.set_dofs(id, q);
     const auto poses = link_poses(spec, {q.begin(), q.end()});
     for (int l = 0; l < 10; ++l) {
-      const Pose& X_WL = world.body(world.robot(id).links[l].body).X_WB;
+      const Pose& X_WL = world.pose(world.robot(id).links[l].body);
       // thirty products of numbers near 1
       CHECK((matrix(X_WL) - slow_link(spec, q, l)).cwiseAbs().maxCoeff() < 1e-13);
       CHECK((matrix(poses[l]) - slow_link(spec, q, l)).cwiseAbs().maxCoeff() < 1e-13);
@@ -94,11 +94,11 @@ TEST_CASE("a joint moves the links that turning it moves") {
   const auto id = world.add_robot(spec, {});
   for (int j = 0; j < joint_count(spec); ++j) {
     World after = world;
-    Eigen::VectorXd q = world.robot(id).q;
+    Eigen::VectorXd q = world.dofs(id);
     q[world.robot(id).joints[j].dof] += 0.1;
     after.set_dofs(id, q);
     for (const auto body : world.bodies_of(id)) {
-      const bool moved = !(world.body(body).X_WB == after.body(body).X_WB);
+      const bool moved = !(world.pose(body) == after.pose(body));
       CHECK(joint_moves(world, id, j, body) == moved);
     }
   }
@@ -114,7 +114,7 @@ TEST_CASE("a hand closes the same wherever its links' frames are") {
                      Pose::translation({0, 0.07, 0}));
       autograsp(world, hand);
       CHECK(colliding_pairs(world).empty());
-      return world.robot(hand).q;
+      return Eigen::VectorXd(world.dofs(hand));
     };
     RobotSpec moved = two_finger(kind);
     for (LinkSpec& link : moved.links) {

@@ -192,11 +192,12 @@ TEST_CASE("a real contact is marked on the link's side, facing what it touches")
     REQUIRE(!found.empty());
     for (const Contact& c : found) {
       const auto site = marked(s.world, s.hand, c);
-      const Body& link = s.world.body(body_of(s.world.robot(s.hand), site));
+      const auto id = body_of(s.world.robot(s.hand), site);
+      const Body& link = s.world.body(id);
       // no farther from its link than a contact is wide, and out of it means into the cube
       CHECK(closest_point(*link.shape, site.X_LC.position).distance <= 1e-9);
-      const Vector3d p_W = link.X_WB * site.X_LC.position,
-                     n_W = link.X_WB.rotation * normal_of(site);
+      const Vector3d p_W = s.world.pose(id) * site.X_LC.position,
+                     n_W = s.world.pose(id).rotation * normal_of(site);
       CHECK(n_W.dot(Vector3d(0, 0.06, 0) - p_W) > 0);
       CHECK(site.mu == 0.4);
     }

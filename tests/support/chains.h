@@ -33,8 +33,4 @@ inline int joint_number(const Robot& robot, int chain, int joint) {
 inline const Joint& joint_of(const Robot& robot, int chain, int joint) {
   return robot.joints[joint_number(robot, chain, joint)];
 }
-inline const Apart& apart_of(const Robot& robot, int chain, int joint) {
-  return robot.apart[joint_number(robot, chain, joint)];
-}
-
 }  // namespace clench::test

@@ -1,0 +1,70 @@
+// The parts of a world: what its things are, what is set for them, and how they are now.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "contact/materials.h"
+#include "model/robot.h"
+
+namespace clench {
+
+using BodyPair = std::pair<Id<Body>, Id<Body>>;
+/// Every query runs on a pair in one order, so that (a, b) and (b, a) give the same bits.
+inline BodyPair ordered(Id<Body> a, Id<Body> b) { return std::minmax(a, b); }
+
+/// A place for a T and the serial number of who sits there.
+template <class T>
+struct Slot {
+  uint32_t serial = 0;
+  bool used = false;
+  T value;  ///< of the last occupant; its name outlives it, for errors
+};
+
+/// What is there. Shared by clones and snapshots, and copied by who changes it while it is shared.
+struct WorldModel {
+  std::vector<Slot<Body>> bodies;
+  std::vector<Slot<Robot>> robots;
+  std::vector<Id<Body>> body_order;  ///< alive, in creation order
+  std::vector<Id<Robot>> robot_order;
+  std::string source;
+  std::map<std::string, int> counts;  ///< how often a name was numbered
+
+  size_t bytes() const;  ///< that it takes, about; meshes, which are shared, left out
+};
+
+/// What is set for all; shared likewise.
+struct WorldSettings {
+  MaterialTable materials;
+  double contact_threshold = 1e-4;  ///< [m]
+  bool collision_on = true;
+  std::set<Id<Body>> switched_off;  ///< bodies that collide with nothing
+  std::set<BodyPair> pairs_off;      ///< as ordered gives them
+  std::optional<Camera> camera;
+
+  size_t bytes() const;
+};
+
+/// How it is now, in flat arrays. Removed things keep their places.
+struct WorldState {
+  std::vector<Pose> X_WB;                 ///< by the index of the body's id
+  std::vector<double> dofs;               ///< of all robots, from Robot::first_dof on [rad or m]
+  std::vector<double> joints;             ///< q, from Robot::first_joint on [rad or m]
+  std::vector<unsigned char> follows_dof; ///< of each joint: is it engaged, and stands where its DOF has it?
+
+  size_t bytes() const;
+};
+
+/// A world at some moment.
+struct Snapshot {
+  std::shared_ptr<const void> lineage;  ///< one for a world and all clones of it, and of clones
+  std::shared_ptr<const WorldModel> model;
+  std::shared_ptr<const WorldSettings> settings;
+  WorldState state;
+};
+
+}  // namespace clench
