@@ -145,6 +145,10 @@ function world:save(path, options) end
 ---@return string # 16 hexadecimal digits
 function world:hash() end
 
+---Does anything collide that may? The quickest verdict: it ends at the first pair that is found.
+---@return boolean
+function world:collides() end
+
 ---Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
 ---@param a? body|robot
 ---@param b? body|robot

@@ -80,13 +80,15 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
 
 std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot, double closer_than) {
   const auto own = world.bodies_of(robot);
-  auto pairs = colliding_pairs(world, own, own);
+  auto pairs = colliding_pairs(world, own, own, &world.context());
   for (size_t i = 0; closer_than > 0 && i < own.size(); ++i)
     for (size_t j = i + 1; j < own.size(); ++j) {
       const BodyPair pair{own[i], own[j]};
       if (!world.may_collide(own[i], own[j]) || std::ranges::find(pairs, pair) != pairs.end())
         continue;
-      if (distance(world, std::span(&pair.first, 1), std::span(&pair.second, 1), closer_than).a)
+      if (distance(world, std::span(&pair.first, 1), std::span(&pair.second, 1), closer_than,
+                   &world.context())
+              .a)
         pairs.push_back(pair);
     }
   for (const auto& [a, b] : pairs) world.set_collision(false, a, b);

@@ -1,5 +1,7 @@
 #include "model/find.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/text.h"
 #include "contact/contact_set.h"
@@ -10,29 +12,61 @@ static Pose relative(const World& world, Id<Body> a, Id<Body> b) {
   return world.pose(a).inverse() * world.pose(b);
 }
 
-static bool pair_collides(const World& world, Id<Body> a, Id<Body> b) {
+// the caller's context, or one of its own
+class Remember {
+ public:
+  Remember(const World& world, QueryContext* context) : context_(context ? *context : own_) {
+    context_.attend(world.lineage());
+  }
+  QueryContext& operator*() { return context_; }
+  QueryContext* operator->() { return &context_; }
+
+ private:
+  QueryContext own_;
+  QueryContext& context_;
+};
+
+static bool pair_collides(const World& world, Id<Body> a, Id<Body> b, QueryContext& context) {
   std::tie(a, b) = ordered(a, b);
-  if (sphere_gap(world, a, b) > 0) return false;
   return colliding(*world.body(a).shape, *world.body(b).shape, relative(world, a, b),
-                   &world.cache(a, b));
+                   &context.pair(a, b));
 }
 
-static std::vector<BodyPair> colliding_of(const World& world, std::vector<BodyPair> pairs) {
-  std::erase_if(pairs, [&](const BodyPair& p) { return !pair_collides(world, p.first, p.second); });
+static std::vector<BodyPair> colliding_of(const World& world, std::vector<BodyPair> pairs,
+                                          QueryContext& context) {
+  std::erase_if(
+      pairs, [&](const BodyPair& p) { return !pair_collides(world, p.first, p.second, context); });
   return pairs;
 }
 
-std::vector<BodyPair> colliding_pairs(const World& world) {
-  return colliding_of(world, near_bodies(world, 0));
+std::vector<BodyPair> colliding_pairs(const World& world, QueryContext* context) {
+  Remember memory(world, context);
+  return colliding_of(world, near_bodies(world, 0, *memory), *memory);
 }
 
 std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Body>> a,
-                                      std::span<const Id<Body>> b) {
-  return colliding_of(world, near_bodies(world, a, b, 0));
+                                      std::span<const Id<Body>> b, QueryContext* context) {
+  Remember memory(world, context);
+  return colliding_of(world, near_bodies(world, a, b, 0, *memory), *memory);
+}
+
+bool collides(const World& world, QueryContext* context) {
+  Remember memory(world, context);
+  const auto near = near_bodies(world, 0, *memory);
+  // who collided last is asked first
+  const auto likely = std::ranges::find_if(near, [&](const BodyPair& p) {
+    const auto [a, b] = ordered(p.first, p.second);
+    return memory->pair(a, b).hit_a >= 0;
+  });
+  if (likely != near.end() && pair_collides(world, likely->first, likely->second, *memory))
+    return true;
+  return std::ranges::any_of(
+      near, [&](const BodyPair& p) { return pair_collides(world, p.first, p.second, *memory); });
 }
 
 BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,
-                      double limit) {
+                      double limit, QueryContext* context) {
+  Remember memory(world, context);
   BodyDistance best;
   best.distance = limit;
   best.p_a = best.p_b = Eigen::Vector3d::Zero();
@@ -43,7 +77,7 @@ BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span
       if (i == j || !one.shape || !two.shape || sphere_gap(world, first, second) > best.distance)
         continue;
       const Distance d = distance(*one.shape, *two.shape, relative(world, first, second),
-                                  best.distance, &world.cache(first, second));
+                                  best.distance, &memory->pair(first, second));
       if (!(d.distance < best.distance)) continue;
       const Pose& X_W = world.pose(first);
       const Eigen::Vector3d p_one = X_W * d.p_a, p_two = X_W * d.p_b;
@@ -95,9 +129,10 @@ static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
   }
 }
 
-std::vector<Contact> contacts(const World& world) {
+std::vector<Contact> contacts(const World& world, QueryContext* context) {
+  Remember memory(world, context);
   std::vector<Contact> out;
-  for (auto [a, b] : near_bodies(world, world.contact_threshold())) {
+  for (auto [a, b] : near_bodies(world, world.contact_threshold(), *memory)) {
     if (first_is_held(world.body(a), world.body(b))) std::swap(a, b);
     add_contacts(world, a, b, out);
   }
@@ -105,9 +140,10 @@ std::vector<Contact> contacts(const World& world) {
 }
 
 std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> others,
-                              std::span<const Id<Body>> bodies) {
+                              std::span<const Id<Body>> bodies, QueryContext* context) {
+  Remember memory(world, context);
   std::vector<Contact> out;
-  for (const auto& [a, b] : near_bodies(world, others, bodies, world.contact_threshold()))
+  for (const auto& [a, b] : near_bodies(world, others, bodies, world.contact_threshold(), *memory))
     add_contacts(world, a, b, out);
   return out;
 }

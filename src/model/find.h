@@ -1,4 +1,5 @@
-// Who collides, how far apart, where they touch: queries over a world.
+// Who collides, how far apart, where they touch: queries over a world, which may be asked from many threads, each with a
+// context of its own. Without one nothing is remembered; the answers are the same.
 #pragma once
 #include <span>
 #include <vector>
@@ -9,10 +10,12 @@
 namespace clench {
 
 /// Pairs that may collide and do, in creation order.
-std::vector<BodyPair> colliding_pairs(const World& world);
+std::vector<BodyPair> colliding_pairs(const World& world, QueryContext* context = nullptr);
 /// Only pairs with one body from each group.
 std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Body>> a,
-                                      std::span<const Id<Body>> b);
+                                      std::span<const Id<Body>> b, QueryContext* context = nullptr);
+/// Does any? It ends at the first that is found.
+bool collides(const World& world, QueryContext* context = nullptr);
 
 struct BodyDistance {
   double distance = 0;       ///< [m]; 0 when colliding; infinite when a body has no geometry
@@ -23,7 +26,8 @@ struct BodyDistance {
 /// Least distance between the bodies of two groups, if it is below `limit` [m]; infinite otherwise.
 /// Switched-off pairs are measured too.
 BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,
-                      double limit = std::numeric_limits<double>::infinity());
+                      double limit = std::numeric_limits<double>::infinity(),
+                      QueryContext* context = nullptr);
 
 /// soft: there is friction, and at least one of the bodies is elastic
 enum class ContactKind { point, frictionless, soft };
@@ -44,9 +48,9 @@ struct Contact {
 };
 
 /// Contacts of all pairs that may collide; `body` is the later group's.
-std::vector<Contact> contacts(const World& world);
+std::vector<Contact> contacts(const World& world, QueryContext* context = nullptr);
 std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> others,
-                              std::span<const Id<Body>> bodies);
+                              std::span<const Id<Body>> bodies, QueryContext* context = nullptr);
 
 /// "DLR_chain0_link1 and flask, palm and flask"
 std::string describe(const World& world, std::span<const BodyPair> pairs);

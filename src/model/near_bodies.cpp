@@ -1,6 +1,7 @@
 #include "model/near_bodies.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace clench {
@@ -15,47 +16,28 @@ double sphere_gap(const World& world, Id<Body> a, Id<Body> b) {
 
 namespace {
 
-// A body of a list: the box along the world's axes that holds it, its rounding included, and its sphere.
+// A body of a list.
 struct Item {
-  Vector3d low, high, centre;
-  double radius;
+  BodyBox box;
   int position;  // in its list
   bool second;   // of the two lists
 };
 
 void add_items(const World& world, std::span<const Id<Body>> list, bool second,
-               std::vector<Item>& out) {
-  for (size_t i = 0; i < list.size(); ++i) {
-    const Body& body = world.body(list[i]);
-    if (!body.shape) continue;
-    const Bounds& bounds = body.shape->bounds();
-    const Pose& X_WB = world.pose(list[i]);
-    const Eigen::Matrix3d R = X_WB.rotation.normalized().toRotationMatrix();
-    const Vector3d middle = X_WB * bounds.centre(),
-                   half = R.cwiseAbs() * (0.5 * bounds.size()) +
-                          Vector3d::Constant(1e-12 *
-                                             (X_WB.position.cwiseAbs().maxCoeff() +
-                                              body.shape->centre().norm() + body.shape->radius()));
-    out.push_back({middle - half, middle + half, X_WB * body.shape->centre(), body.shape->radius(),
-                   static_cast<int>(i), second});
-  }
+               QueryContext& context, std::vector<Item>& out) {
+  for (size_t i = 0; i < list.size(); ++i)
+    if (const Body& body = world.body(list[i]); body.shape)
+      out.push_back({context.box(list[i], body, world.pose(list[i])), static_cast<int>(i), second});
 }
 
 // the axis along which the boxes stand farthest apart
 int widest_axis(const std::vector<Item>& items) {
   Vector3d mean = Vector3d::Zero(), spread = Vector3d::Zero();
-  for (const Item& item : items) mean += item.centre / static_cast<double>(items.size());
-  for (const Item& item : items) spread += (item.centre - mean).cwiseAbs();
+  for (const Item& item : items) mean += item.box.centre / static_cast<double>(items.size());
+  for (const Item& item : items) spread += (item.box.centre - mean).cwiseAbs();
   int axis;
   spread.maxCoeff(&axis);
   return axis;
-}
-
-bool within(const Item& x, const Item& y, double reach) {
-  for (int k = 0; k < 3; ++k)
-    if (x.low[k] - y.high[k] > reach || y.low[k] - x.high[k] > reach) return false;
-  const double rounding = 1e-12 * (x.centre.norm() + y.centre.norm() + x.radius + y.radius);
-  return (x.centre - y.centre).norm() - x.radius - y.radius <= reach + rounding;
 }
 
 // Visits all pairs within the reach, whichever first.
@@ -63,19 +45,35 @@ template <class Visit>
 void sweep(std::vector<Item>& items, double reach, Visit visit) {
   const int axis = widest_axis(items);
   std::sort(items.begin(), items.end(),
-            [axis](const Item& x, const Item& y) { return x.low[axis] < y.low[axis]; });
+            [axis](const Item& x, const Item& y) { return x.box.low[axis] < y.box.low[axis]; });
   for (size_t i = 0; i < items.size(); ++i)
-    for (size_t j = i + 1; j < items.size() && items[j].low[axis] - items[i].high[axis] <= reach;
-         ++j)
-      if (within(items[i], items[j], reach)) visit(items[i], items[j]);
+    for (size_t j = i + 1;
+         j < items.size() && items[j].box.low[axis] - items[i].box.high[axis] <= reach; ++j)
+      if (within_reach(items[i].box, items[j].box, reach)) visit(items[i], items[j]);
+}
+
+// with so few bodies the pairs that may collide are looked at one by one, with more a sweep finds them
+constexpr size_t few = 64;
+
+std::vector<BodyPair> near_of_few(const World& world, double reach, QueryContext& context) {
+  context.attend(world.lineage());
+  const auto& [bodies, pairs] = context.candidates(world.model(), world.settings());
+  std::array<BodyBox, few> boxes;
+  for (size_t i = 0; i < bodies.size(); ++i)
+    boxes[i] = context.box(bodies[i], world.body(bodies[i]), world.pose(bodies[i]));
+  std::vector<BodyPair> out;
+  for (const auto& [i, j] : pairs)
+    if (within_reach(boxes[i], boxes[j], reach)) out.emplace_back(bodies[i], bodies[j]);
+  return out;
 }
 
 }  // namespace
 
-std::vector<BodyPair> near_bodies(const World& world, double reach) {
+std::vector<BodyPair> near_bodies(const World& world, double reach, QueryContext& context) {
+  if (world.bodies().size() <= few) return near_of_few(world, reach, context);
   const auto& all = world.bodies();
   std::vector<Item> items;
-  add_items(world, all, false, items);
+  add_items(world, all, false, context, items);
   std::vector<std::pair<int, int>> near;
   sweep(items, reach,
         [&](const Item& x, const Item& y) { near.push_back(std::minmax(x.position, y.position)); });
@@ -87,10 +85,11 @@ std::vector<BodyPair> near_bodies(const World& world, double reach) {
 }
 
 std::vector<BodyPair> near_bodies(const World& world, std::span<const Id<Body>> a,
-                                  std::span<const Id<Body>> b, double reach) {
+                                  std::span<const Id<Body>> b, double reach,
+                                  QueryContext& context) {
   std::vector<Item> items;
-  add_items(world, a, false, items);
-  add_items(world, b, true, items);
+  add_items(world, a, false, context, items);
+  add_items(world, b, true, context, items);
   std::vector<std::pair<int, int>> near;
   sweep(items, reach, [&](const Item& x, const Item& y) {
     if (x.second != y.second)

@@ -14,10 +14,10 @@ double sphere_gap(const World& world, Id<Body> a, Id<Body> b);
 
 /// Pairs of the world that may collide and may be as near as reach [m]: the earlier body first, in
 /// creation order. None that is as near is missing.
-std::vector<BodyPair> near_bodies(const World& world, double reach);
+std::vector<BodyPair> near_bodies(const World& world, double reach, QueryContext& context);
 
 /// One of each group, each pair once, in the groups' order.
 std::vector<BodyPair> near_bodies(const World& world, std::span<const Id<Body>> a,
-                                  std::span<const Id<Body>> b, double reach);
+                                  std::span<const Id<Body>> b, double reach, QueryContext& context);
 
 }  // namespace clench

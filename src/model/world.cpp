@@ -50,8 +50,16 @@ static Part& own(std::shared_ptr<Part>& part) {
   return *part;
 }
 
-WorldModel& World::edit_model() { return own(model_); }
-WorldSettings& World::edit_settings() { return own(settings_); }
+WorldModel& World::edit_model() {
+  own(model_).stamp = ++lineage_->stamps;
+  return *model_;
+}
+
+WorldSettings& World::edit_settings() {
+  own(settings_).stamp = ++lineage_->stamps;
+  return *settings_;
+}
+
 Body& World::edit(Id<Body> id) { return body(id), edit_model().bodies[id.index].value; }
 Robot& World::edit(Id<Robot> id) { return robot(id), edit_model().robots[id.index].value; }
 bool World::alive(Id<Body> id) const { return holds(model_->bodies, id); }
@@ -269,9 +277,7 @@ void World::erase(Id<Body> id) {
   settings.switched_off.erase(id);
   std::erase_if(settings.pairs_off,
                 [&](const auto& pair) { return pair.first == id || pair.second == id; });
-  std::erase_if(scratch_.caches, [&](const auto& entry) {
-    return entry.first.first == id || entry.first.second == id;
-  });
+  scratch_.context.forget(id);
 }
 
 void World::remove(Id<Body> id) {
@@ -530,10 +536,7 @@ void World::set_collision(bool on, Id<Body> a, Id<Body> b) {
 }
 
 bool World::may_collide(Id<Body> a, Id<Body> b) const {
-  const WorldSettings& set = *settings_;
-  return a != b && set.collision_on && body(a).shape && body(b).shape &&
-         !set.switched_off.contains(a) && !set.switched_off.contains(b) &&
-         !set.pairs_off.contains(ordered(a, b));
+  return a != b && body(a).shape && body(b).shape && settings_->may_collide(a, b);
 }
 
 // --- time machine ---

@@ -2,14 +2,12 @@
 // It is used by one thread; copy it for another. A copy shares what neither changes from then on.
 #pragma once
 #include <atomic>
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "geometry/queries.h"
-#include "model/world_model.h"
+#include "model/query_context.h"
 
 namespace clench {
 
@@ -115,20 +113,23 @@ class World {
   /// what was removed since is back, what was added since is gone.
   /// throws Error when it was taken of another world
   void restore(const Snapshot& snapshot);
+  /// the same object for a world and all clones of it
+  std::shared_ptr<const void> lineage() const { return lineage_; }
+  const WorldModel& model() const { return *model_; }
   const WorldSettings& settings() const { return *settings_; }
   /// Fingerprint of poses, DOFs, masses, materials, switches: equal for equal bits.
   uint64_t hash() const;
   size_t bytes() const;  ///< that it takes, about
 
-  /// Coherence memory of a pair; changes no answer.
-  PairCache& cache(Id<Body> a, Id<Body> b) const { return scratch_.caches[{a, b}]; }
+  /// That of the thread that owns the world; no copy takes it over.
+  QueryContext& context() { return scratch_.context; }
 
  private:
   WorldModel& edit_model();
   WorldSettings& edit_settings();
   Body& edit(Id<Body> id);
   Robot& edit(Id<Robot> id);
-  uint32_t next_serial() { return ++*lineage_; }
+  uint32_t next_serial() { return ++lineage_->serials; }
   Id<Body> insert(Body body, const Pose& X_WB, const std::string& name);
   std::string unique_name(const std::string& expected);
   void switch_off_neighbours(const Robot& robot, bool chain_links_collide);
@@ -142,20 +143,25 @@ class World {
   std::shared_ptr<WorldModel> model_ = std::make_shared<WorldModel>();
   std::shared_ptr<WorldSettings> settings_ = std::make_shared<WorldSettings>();
   WorldState state_;
-  /// The last serial number that was given; it never goes back, so that a restored world cannot revive a stale id.
-  std::shared_ptr<std::atomic<uint32_t>> lineage_ = std::make_shared<std::atomic<uint32_t>>(0);
+  /// Of a world and all its clones: the last numbers that were given. They never go back, so that a restored world cannot
+  /// revive a stale id.
+  struct Lineage {
+    std::atomic<uint32_t> serials = 0;
+    std::atomic<uint64_t> stamps = 0;
+  };
+  std::shared_ptr<Lineage> lineage_ = std::make_shared<Lineage>();
   /// What no copy takes over.
   struct Scratch {
     Scratch() = default;
     Scratch(const Scratch&) {}
     Scratch& operator=(const Scratch&) { return *this; }
-    std::map<std::pair<Id<Body>, Id<Body>>, PairCache> caches;
+    QueryContext context;
     std::vector<std::pair<Id<Body>, Pose>> places;
     std::vector<double> dofs, joints;
     std::vector<unsigned char> follows_dof;
     RobotFrames frames;
   };
-  mutable Scratch scratch_;
+  Scratch scratch_;
 };
 
 }  // namespace clench

@@ -47,7 +47,7 @@ size_t WorldState::bytes() const {
 
 size_t World::bytes() const {
   return sizeof *this + model_->bytes() + settings_->bytes() + state_.bytes() +
-         scratch_.caches.size() * (node_bytes + sizeof(PairCache));
+         scratch_.context.bytes();
 }
 
 }  // namespace clench

@@ -34,6 +34,8 @@ struct WorldModel {
   std::string source;
   std::map<std::string, int> counts;  ///< how often a name was numbered
 
+  uint64_t stamp = 0;  ///< another one after each change, in all worlds of a family
+
   size_t bytes() const;  ///< that it takes, about; meshes, which are shared, left out
 };
 
@@ -43,18 +45,25 @@ struct WorldSettings {
   double contact_threshold = 1e-4;  ///< [m]
   bool collision_on = true;
   std::set<Id<Body>> switched_off;  ///< bodies that collide with nothing
-  std::set<BodyPair> pairs_off;      ///< as ordered gives them
+  std::set<BodyPair> pairs_off;     ///< as ordered gives them
   std::optional<Camera> camera;
+  uint64_t stamp = 0;  ///< as the model's
 
+  /// as far as the settings go
+  bool may_collide(Id<Body> a, Id<Body> b) const {
+    return collision_on && !switched_off.contains(a) && !switched_off.contains(b) &&
+           !pairs_off.contains(ordered(a, b));
+  }
   size_t bytes() const;
 };
 
 /// How it is now, in flat arrays. Removed things keep their places.
 struct WorldState {
-  std::vector<Pose> X_WB;                 ///< by the index of the body's id
-  std::vector<double> dofs;               ///< of all robots, from Robot::first_dof on [rad or m]
-  std::vector<double> joints;             ///< q, from Robot::first_joint on [rad or m]
-  std::vector<unsigned char> follows_dof; ///< of each joint: is it engaged, and stands where its DOF has it?
+  std::vector<Pose> X_WB;      ///< by the index of the body's id
+  std::vector<double> dofs;    ///< of all robots, from Robot::first_dof on [rad or m]
+  std::vector<double> joints;  ///< q, from Robot::first_joint on [rad or m]
+  std::vector<unsigned char>
+      follows_dof;  ///< of each joint: is it engaged, and stands where its DOF has it?
 
   size_t bytes() const;
 };

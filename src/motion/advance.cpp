@@ -20,7 +20,7 @@ static constexpr double precise = 1e-3;
 namespace {
 
 struct Advancing {
-  const World& world;
+  World& world;
   double end;
   double threshold = world.contact_threshold();
 
@@ -38,7 +38,7 @@ struct Advancing {
     const double reach = watch.speed * (end - s) + 2 * threshold;
     ++queries;
     const std::array one{watch.a}, other{watch.b};
-    return std::min(distance(world, one, other, reach).distance, reach);
+    return std::min(distance(world, one, other, reach, &world.context()).distance, reach);
   }
 
   // measures the pair at s.   returns whether it stops the motion there
@@ -69,7 +69,7 @@ void check_precision(const World& world, const std::vector<PairBound>& watches) 
 
 }  // namespace
 
-Advance advance(const World& world, std::vector<PairBound>& watches, double end,
+Advance advance(World& world, std::vector<PairBound>& watches, double end,
                 const std::function<void(double)>& place, int& queries, int max_steps) {
   const Advancing run{world, end};
   const auto later = [&](PairBound& watch, double s) {

@@ -39,7 +39,7 @@ inline constexpr double nearly_closed = 1.0 / 64;
 /// queries  counts the distance queries made
 /// max_steps  a motion that needs more grazes for metres within micrometres: it gives up where it is
 /// throws   Error when the bodies stand so far out that rounding hides the threshold
-Advance advance(const World& world, std::vector<PairBound>& watches, double end,
+Advance advance(World& world, std::vector<PairBound>& watches, double end,
                 const std::function<void(double)>& place, int& queries, int max_steps = 1000000);
 
 }  // namespace clench

@@ -64,7 +64,7 @@ bool dof_can_advance(Drive& drive, int dof, double rate, const BlockedJoints& bl
 // returns  the pairs whose contacts do
 std::vector<BodyPair> stop_blocked(Drive& drive, Eigen::VectorXd& rates, double closed,
                                    std::vector<DofStop>& stops) {
-  const auto touching = contacts(drive.world, drive.world.bodies(), drive.moving);
+  const auto touching = contacts(drive.world, drive.world.bodies(), drive.moving, &drive.world.context());
   const SpringBalance springs(drive.world, drive.id, touching);
   std::vector<BodyPair> pairs;
   for (bool changed = true; changed;) {

@@ -33,9 +33,9 @@ static void open_until_free(World& world, Id<Robot> id) {
     if (v != 0) open[i] = robot.limits[i][v < 0];
   }
   const auto before = world.snapshot();
-  for (int step = 0; !colliding_pairs(world, moving, world.bodies()).empty(); ++step) {
+  for (int step = 0; !colliding_pairs(world, moving, world.bodies(), &world.context()).empty(); ++step) {
     if (step == steps) {
-      const auto pairs = colliding_pairs(world, moving, world.bodies());
+      const auto pairs = colliding_pairs(world, moving, world.bodies(), &world.context());
       const std::string sentence = fmt::format("opening '{}': it is never free of collision: {}",
                                                excerpt(robot.name), describe(world, pairs));
       world.restore(*before);

@@ -11,9 +11,9 @@
 
 namespace clench {
 
-void refuse_collision(const World& world, std::span<const Id<Body>> moving,
+void refuse_collision(World& world, std::span<const Id<Body>> moving,
                       const std::string& subject) {
-  const auto pairs = colliding_pairs(world, moving, world.bodies());
+  const auto pairs = colliding_pairs(world, moving, world.bodies(), &world.context());
   if (!pairs.empty())
     fail("{}: the motion starts in collision: {}", subject, describe(world, pairs));
 }
@@ -46,13 +46,13 @@ std::vector<PairBound> watch_pairs(const World& world, const Way& way, double le
 }
 
 // contacts that the very first motion would push into
-std::vector<BodyPair> blocked_pairs(const World& world, const Way& way,
+std::vector<BodyPair> blocked_pairs(World& world, const Way& way,
                                     const Eigen::Vector3d& linear, const Eigen::Vector3d& angular,
                                     const std::vector<PairBound>& watches) {
   std::vector<BodyPair> blocked;
   for (const PairBound& watch : watches) {
     const std::array a{watch.a}, b{watch.b};
-    const auto touching = contacts(world, b, a);
+    const auto touching = contacts(world, b, a, &world.context());
     const bool pushed = std::any_of(touching.begin(), touching.end(), [&](const Contact& contact) {
       const Eigen::Vector3d velocity = linear + angular.cross(contact.p_W - way.from.position);
       return velocity.dot(contact.n_W) < -grazing * velocity.norm();
@@ -122,7 +122,7 @@ MoveResult move_robot(World& world, Id<Robot> robot, const Pose& X_WB) {
   std::vector<Id<Body>> others;
   for (const auto b : world.bodies())
     if (std::find(way.moving.begin(), way.moving.end(), b) == way.moving.end()) others.push_back(b);
-  const auto pairs = colliding_pairs(world, way.moving, others);
+  const auto pairs = colliding_pairs(world, way.moving, others, &world.context());
   if (!pairs.empty())
     fail("moving '{}': the motion starts in collision: {}", excerpt(world.robot(robot).name),
          describe(world, pairs));

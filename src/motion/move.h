@@ -27,7 +27,7 @@ MoveResult move_robot(World& world, Id<Robot> robot, const Pose& X_WB);
 MoveResult approach(World& world, Id<Robot> robot, double reach);
 
 /// throws Error  "hand:autograsp: the motion starts in collision: palm and flask" when one of the bodies collides
-void refuse_collision(const World& world, std::span<const Id<Body>> moving,
+void refuse_collision(World& world, std::span<const Id<Body>> moving,
                       const std::string& subject);
 
 }  // namespace clench

@@ -159,20 +159,27 @@ static int hash(lua_State* L) {
 
 // --- who touches whom ---
 
+static int collides(lua_State* L) {
+  check_count(L, 0);
+  World& world = *self<WorldHandle>(L).world;
+  return push(L, clench::collides(world, &world.context()));
+}
+
 static int colliding(lua_State* L) {
   check_count(L, 2);
   const auto& world = self<WorldHandle>(L).world;
-  if (!given(L, 2)) return push_pairs(L, world, colliding_pairs(*world));
+  if (!given(L, 2)) return push_pairs(L, world, colliding_pairs(*world, &world->context()));
   const auto a = check_bodies(L, 2, "a", world);
   const auto b = given(L, 3) ? check_bodies(L, 3, "b", world) : world->bodies();
-  return push_pairs(L, world, colliding_pairs(*world, a, b));
+  return push_pairs(L, world, colliding_pairs(*world, a, b, &world->context()));
 }
 
 static int measure_distance(lua_State* L) {
   check_count(L, 2);
   const auto& world = self<WorldHandle>(L).world;
   const auto a = check_bodies(L, 2, "a", world), b = check_bodies(L, 3, "b", world);
-  const BodyDistance d = distance(*world, a, b);
+  const BodyDistance d = distance(
+      *world, a, b, std::numeric_limits<double>::infinity(), &world->context());
   push_unbounded(L, d.distance);
   push(L, d.p_a);
   push(L, d.p_b);
@@ -182,11 +189,12 @@ static int measure_distance(lua_State* L) {
 static int find_contacts(lua_State* L) {
   check_count(L, 2);
   const auto& world = self<WorldHandle>(L).world;
-  if (!given(L, 2)) return push_contacts(L, world, contacts(*world));
+  if (!given(L, 2)) return push_contacts(L, world, contacts(*world, &world->context()));
   const auto a = check_bodies(L, 2, "a", world);
   const auto b = given(L, 3) ? check_bodies(L, 3, "b", world) : world->bodies();
   // one argument: the contacts on it
-  return push_contacts(L, world, given(L, 3) ? contacts(*world, a, b) : contacts(*world, b, a));
+  return push_contacts(L, world, given(L, 3) ? contacts(*world, a, b, &world->context())
+                                            : contacts(*world, b, a, &world->context()));
 }
 
 static int set_collision(lua_State* L) {
@@ -395,6 +403,10 @@ new one has been read again; what the format cannot hold is told in a warning.
 Fingerprint of the state: equal bits, equal text.
 @return string  16 hexadecimal digits
 > #world:hash()  --> 16)"},
+    {"collides", guarded<collides>, R"(
+Does anything collide that may? The quickest verdict: it ends at the first pair that is found.
+@return boolean
+> world:collides()  --> false)"},
     {"colliding", guarded<colliding>, R"(
 Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
 @param a? body|robot

@@ -51,8 +51,9 @@ void measure_worlds(int most, Report& report) {
     };
     const auto name = fmt::format("{} bodies", count);
     std::vector<BodyPair> found;
+    QueryContext context;
     for (int i = 0; i < 5; ++i) {
-      per_body(sweep, "ours", [&] { return near_bodies(world, 0); });
+      per_body(sweep, "ours", [&] { return near_bodies(world, 0, context); });
       found = per_body(all, "ours", [&] { return colliding_pairs(world); });
     }
     if (count <= 1000) {

@@ -49,18 +49,21 @@ World heap(Random& random, int count, double room) {
 TEST_CASE("the sweep finds all pairs within its reach, in the order of all pairs") {
   Random random(1);
   size_t found = 0, looked_at = 0, possible = 0;
-  for (const double reach : {0.0, 0.01, 0.2}) {
-    World world = heap(random, 40, 0.3);
+  // few enough to be looked at one by one, and more
+  for (const auto& [reach, count] :
+       {std::pair(0.0, 40), {0.01, 40}, {0.2, 40}, {0.0, 90}, {0.05, 90}}) {
+    World world = heap(random, count, 0.3);
     world.set_collision(false, world.bodies()[3]);
     world.set_collision(false, world.bodies()[5], world.bodies()[6]);
     const auto& all = world.bodies();
-    const auto every = all_pairs(world, all, all), near = near_bodies(world, reach);
+    const auto every = all_pairs(world, all, all),
+               near = near_bodies(world, reach, world.context());
     const auto expected = nearer_than(world, every, reach);
     CHECK(nearer_than(world, near, reach) == expected);
     // two groups that share bodies, one of them in disorder and with a body twice
     std::vector<Id<Body>> a(all.begin(), all.begin() + 25), b(all.rbegin(), all.rbegin() + 25);
     b.push_back(b[2]);
-    CHECK(nearer_than(world, near_bodies(world, a, b, reach), reach) ==
+    CHECK(nearer_than(world, near_bodies(world, a, b, reach, world.context()), reach) ==
           nearer_than(world, all_pairs(world, a, b), reach));
     found += expected.size(), looked_at += near.size(), possible += every.size();
   }
@@ -85,12 +88,12 @@ TEST_CASE("colliding pairs are those of all pairs, far from the origin as well")
 
 TEST_CASE("bodies without geometry and empty groups are near nothing") {
   World world;
-  CHECK(near_bodies(world, 1).empty());
+  CHECK(near_bodies(world, 1, world.context()).empty());
   BodySpec nothing;
   nothing.name = "nothing";
   const auto one = world.add_body(body_spec("box", box(1, 1, 1)), BodyKind::object, {});
   world.add_body(nothing, BodyKind::object, {});
-  CHECK(near_bodies(world, 1).empty());
-  CHECK(near_bodies(world, std::array{one}, {}, 1).empty());
-  CHECK(near_bodies(world, std::array{one}, std::array{one}, 1).empty());
+  CHECK(near_bodies(world, 1, world.context()).empty());
+  CHECK(near_bodies(world, std::array{one}, {}, 1, world.context()).empty());
+  CHECK(near_bodies(world, std::array{one}, std::array{one}, 1, world.context()).empty());
 }

@@ -1,0 +1,81 @@
+#include "model/query_context.h"
+
+namespace clench {
+
+using Eigen::Vector3d;
+
+// do the boxes along the bodies' own axes lie apart along one of these?
+static bool apart_along_axes(const BodyBox& a, const BodyBox& b, double reach) {
+  const Vector3d between = b.middle - a.middle;
+  const Eigen::Matrix3d turn = (a.axes.transpose() * b.axes).cwiseAbs();
+  const Vector3d along_a = (a.axes.transpose() * between).cwiseAbs() - a.half - turn * b.half;
+  const Vector3d along_b =
+      (b.axes.transpose() * between).cwiseAbs() - b.half - turn.transpose() * a.half;
+  return std::max(along_a.maxCoeff(), along_b.maxCoeff()) > reach;
+}
+
+bool within_reach(const BodyBox& a, const BodyBox& b, double reach) {
+  for (int k = 0; k < 3; ++k)
+    if (a.low[k] - b.high[k] > reach || b.low[k] - a.high[k] > reach) return false;
+  const double rounding = 1e-12 * (a.centre.norm() + b.centre.norm() + a.radius + b.radius);
+  const double far = reach + rounding + a.radius + b.radius;
+  return far >= 0 && (a.centre - b.centre).squaredNorm() <= far * far * (1 + 1e-12) &&
+         !apart_along_axes(a, b, reach);
+}
+
+static BodyBox box_of(const Shape& shape, const Pose& X_WB) {
+  const Bounds& bounds = shape.bounds();
+  const Eigen::Matrix3d R = X_WB.rotation.normalized().toRotationMatrix();
+  const double rounding =
+      1e-12 * (X_WB.position.cwiseAbs().maxCoeff() + shape.centre().norm() + shape.radius());
+  const Vector3d middle = X_WB * bounds.centre(), half = 0.5 * bounds.size(),
+                 slack = Vector3d::Constant(rounding), extent = R.cwiseAbs() * half + slack;
+  return {middle - extent,       middle + extent, R, middle, half + slack,
+          X_WB * shape.centre(), shape.radius()};
+}
+
+void QueryContext::attend(const std::shared_ptr<const void>& lineage) {
+  if (lineage_ == lineage) return;
+  *this = {};
+  lineage_ = lineage;
+}
+
+const BodyBox& QueryContext::box(Id<Body> id, const Body& body, const Pose& X_WB) {
+  if (boxes_.size() <= id.index) boxes_.resize(id.index + 1);
+  Box& known = boxes_[id.index];
+  if (known.id != id || !(known.X_WB == X_WB)) known = {id, X_WB, box_of(*body.shape, X_WB)};
+  return known.box;
+}
+
+const QueryContext::Candidates& QueryContext::candidates(const WorldModel& model,
+                                                         const WorldSettings& settings) {
+  if (model_stamp_ == model.stamp && settings_stamp_ == settings.stamp) return candidates_;
+  candidates_ = {};
+  for (const Id<Body> id : model.body_order)
+    if (model.bodies[id.index].value.shape) candidates_.bodies.push_back(id);
+  const int count = static_cast<int>(candidates_.bodies.size());
+  for (int i = 0; i < count; ++i)
+    for (int j = i + 1; j < count; ++j)
+      if (settings.may_collide(candidates_.bodies[i], candidates_.bodies[j]))
+        candidates_.pairs.emplace_back(i, j);
+  model_stamp_ = model.stamp, settings_stamp_ = settings.stamp;
+  return candidates_;
+}
+
+PairCache& QueryContext::pair(Id<Body> a, Id<Body> b) {
+  Pair& known = pairs_[uint64_t{a.index} << 32 | b.index];
+  // another body may have had the place
+  if (known.a != a || known.b != b) known = {a, b, {}};
+  return known.cache;
+}
+
+void QueryContext::forget(Id<Body> body) {
+  std::erase_if(
+      pairs_, [&](const auto& entry) { return entry.second.a == body || entry.second.b == body; });
+}
+
+size_t QueryContext::bytes() const {
+  return boxes_.capacity() * sizeof(Box) + pairs_.size() * (sizeof(Pair) + 4 * sizeof(void*));
+}
+
+}  // namespace clench
