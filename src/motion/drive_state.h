@@ -2,7 +2,7 @@
 #pragma once
 #include <functional>
 
-#include "motion/advance.h"
+#include "model/advance.h"
 #include "motion/blocked_joints.h"
 
 namespace clench {

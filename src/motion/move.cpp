@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "motion/advance.h"
+#include "model/advance.h"
 #include "motion/blocked_joints.h"
 
 namespace clench {

@@ -1,4 +1,4 @@
-#include "motion/advance.h"
+#include "model/advance.h"
 
 #include <algorithm>
 #include <array>
