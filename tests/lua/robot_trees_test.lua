@@ -75,3 +75,44 @@ test("a text world that holds no folders of packages says so, and which format d
   local all = table.concat(said, "\n") .. tostring(message)
   t.ok(all:find("does not hold the option 'package' that robot 'gripper' was read with; .lua does", 1, true), all)
 end)
+
+test("a robot is fixed to any link by its name, and to the last of a chain by number", function(t)
+  local world = clench.world()
+  local arm = world:add_robot "models/hands/dlr/dlr.cfg"
+  local hand = world:add_robot("models/hands/parallel_jaw/parallel_jaw.cfg", {name = "jaw"})
+  t.fails(function() hand:mount_on(arm, {link = "chain0_link0", chain = 1}) end, "expected chain or link, got both")
+  t.fails(function() hand:mount_on(arm, {link = "chain0_lnk0"}) end, "robot 'dlr' has no link 'chain0_lnk0'")
+  t.fails(function() hand:mount_on(arm, {link = arm.base.name}) end, "link: expected a link, got the base of")
+  hand:mount_on(arm, {link = "chain0_link0", pose = clench.pose {xyz = {0.1, 0, 0}}})
+  local carrier = arm:link "chain0_link0"
+  local before = hand.pose
+  local dofs = arm.dofs
+  for i, limits in ipairs(arm.dof_limits) do dofs[i] = 0.5 * (limits[1] + limits[2]) + 0.1 * (limits[2] - limits[1]) end
+  arm.dofs = dofs
+  t.ok(hand.pose ~= before)
+  t.ok(((carrier.pose:inverse() * hand.pose).position - clench.vec3(0.1, 0, 0)):norm() < 1e-12)
+  local file = os.tmpname()
+  world:save(file .. ".lua", {root = "."})
+  t.equal(clench.load(file .. ".lua", {root = "."}):hash(), world:hash())
+  -- the formats of the original know the last links of chains alone
+  t.fails(function() world:save(file .. ".wld", {root = "."}) end, "which ends no chain")
+  os.remove(file .. ".lua")
+  os.remove(file)
+end)
+
+test("a snapshot restores into clones, and into no other world", function(t)
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local clone, moment, before = world:clone(), world:snapshot(), world:hash()
+  clone.robots[1]:autograsp()
+  clone:add_object "models/objects/flask.iv"
+  clone.objects[1].mass = 2
+  t.equal(world:hash(), before)
+  t.ok(clone:collides() == (#clone:colliding() > 0))
+  local later = clone:snapshot()
+  clone:restore(moment)
+  t.equal(clone:hash(), before)
+  world:restore(later)
+  t.equal(#world.objects, 2)
+  t.equal(world.objects[1].mass, 2)
+  t.fails(function() clench.world():restore(moment) end, "taken of another world, of which this is no clone")
+end)
