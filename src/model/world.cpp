@@ -1,7 +1,6 @@
 #include "model/world.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.h"
 #include "base/suggest.h"
@@ -33,7 +32,7 @@ static Id<T> insert_slot(std::vector<Slot<T>>& slots, T value, uint32_t serial) 
   return {static_cast<uint32_t>(slots.size() - 1), serial};
 }
 
-static std::string the_body(const std::string& name) {
+std::string World::the_body(const std::string& name) {
   return fmt::format("body '{}'", excerpt(name));
 }
 
@@ -308,123 +307,7 @@ std::vector<Id<Body>> World::bodies_of(Id<Robot> id) const {
   return out;
 }
 
-// --- poses and DOFs ---
-
-void World::set_pose(Id<Body> id, const Pose& X_WB) {
-  if (body(id).robot)
-    fail("body '{}' is a part of robot '{}': move the robot", excerpt(body(id).name),
-         excerpt(robot(body(id).robot).name));
-  check_place(X_WB, the_body(body(id).name));
-  state_.X_WB[id.index] = X_WB;
-}
-
-void World::set_pose(Id<Robot> id, const Pose& X_WB) {
-  if (robot(id).mounting)
-    fail("robot '{}' is carried by '{}': move that one", excerpt(robot(id).name),
-         excerpt(robot(robot(id).mounting->parent).name));
-  check_place(X_WB, fmt::format("robot '{}'", excerpt(robot(id).name)));
-  place(id, X_WB);
-}
-
-void World::find_places(Id<Robot> id, const Pose& X_WB) {
-  const Robot& r = robot(id);
-  auto& places = scratch_.places;
-  places.emplace_back(r.base, X_WB);
-  if (r.mounting && r.mounting->piece) places.emplace_back(*r.mounting->piece, X_WB);
-  const Values q = joints(id);
-  find_frames(r, X_WB, {q.data(), r.joints.size()}, scratch_.frames);
-  const size_t first = places.size();
-  for (size_t l = 0; l < r.links.size(); ++l)
-    places.emplace_back(r.links[l].body, scratch_.frames.links[l]);
-  for (const auto other : robots()) {
-    const auto& mounting = robot(other).mounting;
-    if (mounting && mounting->parent == id)
-      find_places(other, Pose(places[first + mounting->link].second) * mounting->X_LB);
-  }
-}
-
-void World::place(Id<Robot> id, const Pose& X_WB) {
-  scratch_.places.clear();
-  find_places(id, X_WB);
-  for (const auto& [part, X] : scratch_.places)
-    if (!is_place(X)) check_place(X, the_body(body(part).name));
-  for (const auto& [part, X] : scratch_.places) state_.X_WB[part.index] = X;
-}
-
-World::Values World::dofs(Id<Robot> id) const {
-  const Robot& r = robot(id);
-  return {state_.dofs.data() + r.first_dof, static_cast<Eigen::Index>(r.dofs.size())};
-}
-
-World::Values World::joints(Id<Robot> id) const {
-  const Robot& r = robot(id);
-  return {state_.joints.data() + r.first_joint, static_cast<Eigen::Index>(r.joints.size())};
-}
-
-bool World::follows_dof(Id<Robot> id, int joint) const {
-  return state_.follows_dof[robot(id).first_joint + joint];
-}
-
-std::vector<Apart> World::apart(Id<Robot> id) const {
-  const Values q = joints(id);
-  std::vector<Apart> out(q.size());
-  for (int j = 0; j < q.size(); ++j)
-    if (!follows_dof(id, j)) out[j] = q[j];
-  return out;
-}
-
-RobotFrames World::frames(Id<Robot> id) const {
-  RobotFrames out;
-  const Robot& r = robot(id);
-  find_frames(r, pose(r.base), {joints(id).data(), r.joints.size()}, out);
-  return out;
-}
-
-void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
-  const Robot& r = robot(id);
-  if (q.size() != static_cast<Eigen::Index>(r.dofs.size()))
-    fail("robot '{}': expected {} DOF values, got {}", excerpt(r.name), r.dofs.size(), q.size());
-  Eigen::VectorXd inside = q;
-  for (int i = 0; i < q.size(); ++i) {
-    const auto [low, high] = r.limits[i];
-    if (!std::isfinite(q[i]))
-      fail("robot '{}': DOF {} must be finite, got {}", excerpt(r.name), i + 1, q[i]);
-    // a limit that went through degrees and back is still the limit
-    const double slack = 1e-9 * std::max(1.0, std::max(std::abs(low), std::abs(high)));
-    if (q[i] < low - slack || q[i] > high + slack)
-      fail("robot '{}': DOF {} must lie in [{}, {}], got {}", excerpt(r.name), i + 1, low, high,
-           q[i]);
-    inside[i] = std::clamp(q[i], low, high);
-  }
-  // a value set by hand re-engages every joint
-  set_dofs_unchecked(id, inside, {});
-}
-
-void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
-                               std::span<const Apart> apart) {
-  const Robot& r = robot(id);
-  const auto dofs = state_.dofs.begin() + static_cast<std::ptrdiff_t>(r.first_dof);
-  const auto joints = state_.joints.begin() + static_cast<std::ptrdiff_t>(r.first_joint);
-  const auto follows = state_.follows_dof.begin() + static_cast<std::ptrdiff_t>(r.first_joint);
-  const auto count = static_cast<std::ptrdiff_t>(r.joints.size());
-  scratch_.dofs.assign(dofs, dofs + q.size());
-  scratch_.joints.assign(joints, joints + count);
-  scratch_.follows_dof.assign(follows, follows + count);
-  std::copy(q.begin(), q.end(), dofs);
-  for (std::ptrdiff_t j = 0; j < count; ++j) {
-    const bool own = !apart.empty() && apart[j];
-    joints[j] = own ? *apart[j] : r.joints[j].ratio * q[r.joints[j].dof];
-    follows[j] = !own;
-  }
-  try {
-    place(id, pose(r.base));
-  } catch (const Error&) {
-    std::ranges::copy(scratch_.dofs, dofs);
-    std::ranges::copy(scratch_.joints, joints);
-    std::ranges::copy(scratch_.follows_dof, follows);
-    throw;
-  }
-}
+// --- what things are ---
 
 void World::set_eigengrasps(Id<Robot> id, std::shared_ptr<const EigengraspSet> set) {
   const Robot& r = robot(id);

@@ -125,6 +125,7 @@ class World {
   QueryContext& context() { return scratch_.context; }
 
  private:
+  static std::string the_body(const std::string& name);  ///< "body 'flask'", for sentences
   WorldModel& edit_model();
   WorldSettings& edit_settings();
   Body& edit(Id<Body> id);
