@@ -296,7 +296,7 @@ function hand:save_virtual_contacts(path) end
 ---@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m].
 ---@field dof_names string[] # Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
 ---@field links body[] # Its links, chain by chain, without the base.
----@field chains table[] # Its chains: `parent`, the base or the link that it begins on; `pose` in the parent, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, wound: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, of joints that have one).
+---@field chains table[] # Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, of joints that have one).
 ---@field base body # Its base: palm or stand.
 ---@field bodies body[] # Base, links, and mount if it has one.
 ---@field approach {point: vec3, direction: vec3, frame: pose} # How it approaches what it grasps, in the world frame: `point` on the palm, `direction`, `frame` with +z along it.

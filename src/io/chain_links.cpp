@@ -2,20 +2,20 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "base/suggest.h"
 #include "base/text.h"
 #include "spec/valid.h"
 
 namespace clench {
 
-int link_kind(std::string_view word, const std::function<void(const std::string&)>& wrong) {
+int joints_of_kind(std::string_view word) {
   const std::vector<std::string> names = {"Revolute", "Prismatic", "Universal", "Ball", "Fixed"};
   constexpr int joints[] = {1, 1, 2, 3, 0};
   for (size_t i = 0; i < names.size(); ++i)
     if (lower_case(names[i]) == lower_case(word)) return joints[i];
-  wrong(fmt::format("expected Revolute, Prismatic, Universal, Ball or Fixed, got {}{}",
-                    in_quotes(word), did_you_mean(word, names)));
-  return 0;
+  fail("expected Revolute, Prismatic, Universal, Ball or Fixed, got {}{}", in_quotes(word),
+       did_you_mean(word, names));
 }
 
 // Rz(theta) Tz(d) Tx(a) Rx(alpha)

@@ -1,7 +1,5 @@
 // Chains of files of the original, joints after Denavit and Hartenberg, become links of a tree.
 #pragma once
-#include <functional>
-
 #include "spec/chains.h"
 
 namespace clench {
@@ -14,14 +12,14 @@ struct DenavitHartenberg {
 };
 
 /// Number of joints that the dynamics of the original give a link of a kind: Revolute, Prismatic, Universal, Ball, Fixed.
-/// wrong  is told what is wrong with another word, and does not return
-int link_kind(std::string_view word, const std::function<void(const std::string&)>& wrong);
+/// throws Error "expected Revolute, Prismatic, Universal, Ball or Fixed, got 'Revolut'; did you mean 'Revolute'?"
+int joints_of_kind(std::string_view word);
 
 /// Joints and links of one chain, as they come.
 class ChainLinks {
  public:
   explicit ChainLinks(const Pose& X_BC) : at_(X_BC) {}
-  /// throws Error "joint 2: angle: ..."
+  /// throws Error "joint 2: theta: expected a number from -1e+09 to 1e+09 [rad], got 1e+20"
   void add_joint(const JointSpec& joint, const DenavitHartenberg& numbers);
   int joints() const { return static_cast<int>(joints_.size()); }
   int last_joint() const { return used_ - 1; }  ///< that moves the last link; -1: none

@@ -228,8 +228,11 @@ void CfgReader::read_joint(ChainLinks& chain, int number) {
 
 void CfgReader::read_link(ChainLinks& chain, int number, const std::string& name) {
   const Line kind_line = expected(fmt::format("the joint type of link {}", number));
-  link_kind(kind_line.word(0),
-            [&](const std::string& wrong) { kind_line.fail("link {}: {}", number, wrong); });
+  try {
+    joints_of_kind(kind_line.word(0));
+  } catch (const Error& error) {
+    kind_line.fail("link {}: {}", number, error.what());
+  }
   used_up(kind_line, 1);
   const Line line = expected(fmt::format("the file of link {}", number));
   used_up(line, 2);

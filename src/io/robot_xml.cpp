@@ -315,9 +315,13 @@ void XmlRobotReader::read_losses(const XmlElement& element, JointSpec& joint,
 void XmlRobotReader::read_link(const XmlElement& element, ChainLinks& chain, ChainPlace place) {
   element.check({.attributes = {"dynamicJointType", "collisionRule", "targetChain", "targetLink"}},
                 warn());
-  const int joints =
-      link_kind(element.expected_attribute("dynamicJointType"),
-                [&](const std::string& wrong) { element.fail("link {}: {}", place.link, wrong); });
+  const std::string kind = element.expected_attribute("dynamicJointType");
+  int joints = 0;
+  try {
+    joints = joints_of_kind(kind);
+  } catch (const Error& error) {
+    element.fail("link {}: {}", place.link, error.what());
+  }
   const int last = chain.last_joint() + joints;
   if (last >= chain.joints())
     element.fail("link {}: expected {} joints for the links up to it, got {}", place.link, last + 1,

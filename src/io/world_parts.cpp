@@ -11,20 +11,6 @@ namespace clench {
 
 namespace {
 
-/// Number and chain of a joint, and its place in the spec's order.
-struct JointOfDof : NumberedJoint {
-  size_t index;
-};
-
-/// Joints of a DOF, in the order in which worlds count them.
-std::vector<JointOfDof> joints_of_dof(const RobotSpec& robot, int dof) {
-  std::vector<JointOfDof> out;
-  const auto joints = joints_of(robot);
-  for (size_t j = 0; j < joints.size(); ++j)
-    if (joints[j].joint->dof == dof) out.push_back({joints[j], j});
-  return out;
-}
-
 /// A DOF counts in the unit of its first joint: rad or mm.
 double unit_of(const RobotSpec& robot, int dof) {
   return dof_slides(robot, dof) ? units::millimetre : 1.0;
@@ -53,7 +39,8 @@ void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& lis
   if (!plain && !short_line && line.size() < least)
     line.fail("expected {} numbers for the {} DOFs of {}, got {}", least, dofs, robot.name,
               line.size());
-  placed.apart.resize(joint_count(robot));
+  const auto joints = joints_of(robot);
+  placed.apart.resize(joints.size());
   int next = 0;
   for (int d = 0; d < dofs; ++d) {
     if (short_line && d >= line.size()) {
@@ -63,11 +50,13 @@ void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& lis
     const double unit = unit_of(robot, d);
     placed.dofs.push_back(line.number(next++, fmt::format("DOF {} of {}", d, dofs)) * unit);
     if (robot.dofs[d].kind != DofKind::breakaway || plain) continue;
-    for (const JointOfDof& at : joints_of_dof(robot, d)) {
-      const std::string what = fmt::format("DOF {}: joint {} of chain {}", d, at.number, at.chain);
+    for (size_t j = 0; j < joints.size(); ++j) {
+      const auto& [chain, number, joint] = joints[j];
+      if (joint->dof != d) continue;
+      const std::string what = fmt::format("DOF {}: joint {} of chain {}", d, number, chain);
       if (line.integer(next++, what + ": broken away (0 or 1)", 0, 1) == 0) continue;
       // written as the value of the DOF at which the joint stopped
-      placed.apart[at.index] = line.number(next++, what) * unit * at.joint->ratio;
+      placed.apart[j] = line.number(next++, what) * unit * joint->ratio;
     }
   }
   if (short_line) repair(dofs, "the others start at their defaults");
@@ -76,6 +65,7 @@ void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& lis
 
 std::string dof_values(const PlacedRobot& placed) {
   const RobotSpec& robot = placed.robot;
+  const auto joints = joints_of(robot);
   std::string out;
   const auto add = [&](const std::string& word) { out += (out.empty() ? "" : " ") + word; };
   for (size_t d = 0; d < robot.dofs.size(); ++d) {
@@ -83,9 +73,10 @@ std::string dof_values(const PlacedRobot& placed) {
     const double value = d < placed.dofs.size() ? placed.dofs[d] : robot.dofs[d].default_value;
     add(number_in(value, unit));
     if (robot.dofs[d].kind != DofKind::breakaway) continue;
-    for (const JointOfDof& at : joints_of_dof(robot, static_cast<int>(d))) {
-      const Apart broken = placed.apart.empty() ? Apart() : placed.apart[at.index];
-      add(broken ? "1 " + number_in(*broken, unit, at.joint->ratio) : "0");
+    for (size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].joint->dof != static_cast<int>(d)) continue;
+      const Apart broken = placed.apart.empty() ? Apart() : placed.apart[j];
+      add(broken ? "1 " + number_in(*broken, unit, joints[j].joint->ratio) : "0");
     }
   }
   return out;

@@ -26,10 +26,11 @@ static std::vector<Apart> checked_apart(const Robot& robot, const Eigen::VectorX
     const bool beyond = sprung || (joint.ratio * q[joint.dof] - *out[j]) * joint.ratio > 0;
     if (beyond && *out[j] >= joint.min - digits && *out[j] <= joint.max + digits) continue;
     if (listeners.warn && beyond)
-      listeners.warn(
-          fmt::format("robot '{}': joint {} {} at {}, outside [{}, {}]; it follows its DOF",
-                      excerpt(robot.name), j + 1, sprung ? "stands" : "broke away", *out[j],
-                      joint.min, joint.max));
+      listeners.warn(fmt::format(
+          "robot '{}': joint {} of chain {} {} at {}, outside [{}, {}]; it follows its DOF",
+          excerpt(robot.name), number_in_chain(robot, static_cast<int>(j)) + 1,
+          place_of(robot.chains, joint.link).chain + 1, sprung ? "stands" : "broke away", *out[j],
+          joint.min, joint.max));
     out[j].reset();
   }
   return out;

@@ -53,7 +53,7 @@ std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Bod
 bool collides(const World& world, QueryContext* context) {
   Remember memory(world, context);
   const auto near = near_bodies(world, 0, *memory);
-  // who collided last is asked first
+  // a pair that once collided is asked first
   const auto likely = std::ranges::find_if(near, [&](const BodyPair& p) {
     const auto [a, b] = ordered(p.first, p.second);
     return memory->pair(a, b).hit_a >= 0;

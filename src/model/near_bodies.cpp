@@ -58,12 +58,13 @@ constexpr size_t few = 64;
 std::vector<BodyPair> near_of_few(const World& world, double reach, QueryContext& context) {
   context.attend(world.lineage());
   const auto& [bodies, pairs] = context.candidates(world.model(), world.settings());
-  std::array<BodyBox, few> boxes;
-  for (size_t i = 0; i < bodies.size(); ++i)
-    boxes[i] = context.box(bodies[i], world.body(bodies[i]), world.pose(bodies[i]));
+  std::array<const BodyBox*, few> boxes;
+  // from the last one, which has the largest index: so the context makes room once
+  for (size_t i = bodies.size(); i-- > 0;)
+    boxes[i] = &context.box(bodies[i], world.body(bodies[i]), world.pose(bodies[i]));
   std::vector<BodyPair> out;
   for (const auto& [i, j] : pairs)
-    if (within_reach(boxes[i], boxes[j], reach)) out.emplace_back(bodies[i], bodies[j]);
+    if (within_reach(*boxes[i], *boxes[j], reach)) out.emplace_back(bodies[i], bodies[j]);
   return out;
 }
 

@@ -4,10 +4,11 @@
 
 namespace clench {
 
-// A pose that is put together of many; its rotation is made unit once, at the end.
+// A pose that is put together of many; its rotation is made unit once, at the end. Half of what joints of the original
+// stand in is where the joint before ends, and not turned.
 static void append(Pose& X, const Pose& next) {
-  X.position += X.rotation * next.position;
-  X.rotation = X.rotation * next.rotation;
+  if (!next.position.isZero(0)) X.position += X.rotation * next.position;
+  if (!next.rotation.vec().isZero(0)) X.rotation = X.rotation * next.rotation;
 }
 
 static void move(Pose& X, const Joint& joint, double q) {
@@ -34,6 +35,16 @@ void find_frames(const Robot& robot, const Pose& X_base, std::span<const double>
     append(X, link.X_JL);
     out.links[l] = {X.rotation.normalized(), X.position};
   }
+}
+
+int number_in_chain(const Robot& robot, int joint) {
+  int number = joint - robot.links[robot.joints[joint].link].first_joint;
+  const ChainPlace place = place_of(robot.chains, robot.joints[joint].link);
+  for (int l = 0; l < place.link; ++l) {
+    const Link& before = robot.links[robot.chains[place.chain].links[l]];
+    number += before.end_joint - before.first_joint;
+  }
+  return number;
 }
 
 bool joint_moves_link(const Robot& robot, int joint, int link) {

@@ -71,6 +71,9 @@ struct RobotFrames {
 void find_frames(const Robot& robot, const Pose& X_base, std::span<const double> q,
                  RobotFrames& out);
 
+/// Number of a joint in its chain, as users count it.
+int number_in_chain(const Robot& robot, int joint);
+
 /// Does a joint move a link: is it on the way from the base to the link?   link  -1: the base
 bool joint_moves_link(const Robot& robot, int joint, int link);
 

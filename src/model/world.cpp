@@ -104,8 +104,10 @@ Id<Body> World::insert(Body body, const Pose& X_WB, const std::string& name) {
     fail("the name '{}' is taken in this world", excerpt(name));
   body.name = name.empty() ? unique_name(body.name) : name;
   const auto id = insert_slot(edit_model().bodies, std::move(body), next_serial());
+  // by index: where memory ends between the two, the next body still has the place of its own
+  state_.X_WB.resize(id.index + 1);
+  state_.X_WB[id.index] = X_WB;
   model_->body_order.push_back(id);
-  state_.X_WB.push_back(X_WB);
   return id;
 }
 
@@ -323,16 +325,13 @@ void World::set_eigengrasps(Id<Robot> id, std::shared_ptr<const EigengraspSet> s
 void World::set_virtual_contacts(Id<Robot> id,
                                  std::shared_ptr<const std::vector<VirtualContactSpec>> contacts) {
   const Robot& r = robot(id);
-  const int chains = static_cast<int>(r.chains.size());
   for (size_t i = 0; contacts && i < contacts->size(); ++i) {
     const VirtualContactSpec& c = (*contacts)[i];
     const std::string subject =
         fmt::format("virtual contact {} of robot '{}'", i + 1, excerpt(r.name));
     check_virtual_contact(c, subject);
-    const bool on_base = c.chain == -1 && c.link == 0;
-    const bool on_link = c.chain >= 0 && c.chain < chains && c.link >= 0 &&
-                         c.link < static_cast<int>(r.chains[c.chain].links.size());
-    if (!on_base && !on_link)
+    const ChainPlace place{c.chain, c.link};
+    if (place != ChainPlace{} && (c.chain < 0 || !link_at(r.chains, place)))
       fail("{}: there is no link {} of chain {}", subject, c.link + 1, c.chain + 1);
   }
   edit(id).virtual_contacts = std::move(contacts);
@@ -428,9 +427,18 @@ std::shared_ptr<const Snapshot> World::snapshot() const {
   return std::make_shared<Snapshot>(Snapshot{lineage_, model_, settings_, state_});
 }
 
+void WorldState::make_room_for(const WorldState& other) {
+  X_WB.reserve(other.X_WB.size());
+  dofs.reserve(other.dofs.size());
+  joints.reserve(other.joints.size());
+  follows_dof.reserve(other.follows_dof.size());
+}
+
 void World::restore(const Snapshot& snapshot) {
   if (snapshot.lineage != lineage_)
-    fail("the snapshot was taken of another world, of which this is no clone");
+    fail("world: the snapshot was taken of another one, of which this is no clone");
+  // where memory ends nothing has happened yet
+  state_.make_room_for(snapshot.state);
   // both are copied before they are changed
   model_ = std::const_pointer_cast<WorldModel>(snapshot.model);
   settings_ = std::const_pointer_cast<WorldSettings>(snapshot.settings);

@@ -65,6 +65,8 @@ struct WorldState {
   std::vector<unsigned char>
       follows_dof;  ///< of each joint: is it engaged, and stands where its DOF has it?
 
+  /// so that a copy of the other one allocates nothing
+  void make_room_for(const WorldState& other);
   size_t bytes() const;
 };
 
@@ -74,6 +76,9 @@ struct Snapshot {
   std::shared_ptr<const WorldModel> model;
   std::shared_ptr<const WorldSettings> settings;
   WorldState state;
+
+  /// That it may be the last to hold, about.
+  size_t bytes() const { return model->bytes() + settings->bytes() + state.bytes(); }
 };
 
 }  // namespace clench

@@ -361,7 +361,7 @@ Its links, chain by chain, without the base.
 @type body[]
 > #hand.links  --> 12)"},
     {"chains", guarded<get_chains>, R"(
-Its chains: `parent`, the base or the link that it begins on; `pose` in the parent, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, wound: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, of joints that have one).
+Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, of joints that have one).
 @type table[]
 > #hand.chains  --> 4
 > hand.chains[1].joints[1].kind  --> revolute)"},

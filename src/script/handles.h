@@ -63,7 +63,7 @@ inline const Class& class_of<SnapshotHandle>() {
   return snapshot_class;
 }
 
-inline size_t owned_bytes(const SnapshotHandle& moment) { return moment.moment->state.bytes(); }
+inline size_t owned_bytes(const SnapshotHandle& moment) { return moment.moment->bytes(); }
 
 inline int push(lua_State* L, const BodyHandle& body) { return push_object(L, body); }
 inline int push(lua_State* L, const RobotHandle& robot) { return push_object(L, robot); }

@@ -66,13 +66,14 @@ std::optional<int> chain_ending_at(const RobotSpec& robot, int link) {
 
 std::vector<NumberedJoint> joints_of(const RobotSpec& robot) {
   const auto chains = chains_of(robot);
+  std::vector<int> chain_of(robot.links.size());
+  for (size_t c = 0; c < chains.size(); ++c)
+    for (const int link : chains[c].links) chain_of[link] = static_cast<int>(c);
   std::vector<int> counts(chains.size());
   std::vector<NumberedJoint> out;
-  for (int l = 0; l < static_cast<int>(robot.links.size()); ++l) {
-    const int chain = place_of(chains, l).chain;
+  for (size_t l = 0; l < robot.links.size(); ++l)
     for (const JointSpec& joint : robot.links[l].joints)
-      out.push_back({chain, counts[chain]++, &joint});
-  }
+      out.push_back({chain_of[l], counts[chain_of[l]]++, &joint});
   return out;
 }
 

@@ -97,20 +97,17 @@ void check_fit(const RobotSpec& robot, const EigengraspSet& set) {
          robot.dofs.size());
 }
 
-void check_fit(const std::vector<Chain>& chains, const std::string& robot,
-               const std::vector<VirtualContactSpec>& contacts) {
-  for (size_t i = 0; i < contacts.size(); ++i) {
-    const auto [chain, link] = std::pair(contacts[i].chain, contacts[i].link);
-    if (chain == -1 && link == 0) continue;
-    if (chain < 0 || chain >= static_cast<int>(chains.size()))
-      fail("contact {}: '{}' has no chain {}", i + 1, excerpt(robot), chain);
-    if (!link_at(chains, {chain, link}))
-      fail("contact {}: chain {} of '{}' has no link {}", i + 1, chain, excerpt(robot), link);
-  }
-}
-
 void check_fit(const RobotSpec& robot, const VirtualContactSet& set) {
-  check_fit(chains_of(robot), robot.name, set.contacts);
+  const auto chains = chains_of(robot);
+  for (size_t i = 0; i < set.contacts.size(); ++i) {
+    const ChainPlace place{set.contacts[i].chain, set.contacts[i].link};
+    if (place == ChainPlace{}) continue;
+    if (place.chain < 0 || place.chain >= static_cast<int>(chains.size()))
+      fail("contact {}: '{}' has no chain {}", i + 1, excerpt(robot.name), place.chain);
+    if (!link_at(chains, place))
+      fail("contact {}: chain {} of '{}' has no link {}", i + 1, place.chain, excerpt(robot.name),
+           place.link);
+  }
 }
 
 void check_fit(const RobotSpec& robot, const GloveCalibration& glove) {

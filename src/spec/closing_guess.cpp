@@ -25,7 +25,7 @@ constexpr double nearly_axis = 0.94;  // cosine of 20 degrees: a direction this 
 constexpr double endless = 1.5 * 2 * std::numbers::pi;
 
 struct Finger {
-  int tip = 0;            // link
+  int tip = 0;             // link
   std::vector<int> links;  // between palm and tip, from the palm on, and the tip
   Eigen::Vector3d p_tip;   // in the tip's frame
 };
@@ -99,8 +99,8 @@ struct Hand {
   const RobotSpec& robot;
   int palm = -1;
   std::vector<Finger> fingers;
-  std::vector<int> dofs;  // that can move
-  Posture rest;           // at first
+  std::vector<int> dofs;                      // that can move
+  Posture rest;                               // at first
   std::vector<std::array<double, 2>> ranges;  // one per DOF
 
   /// Does the DOF go round and round?

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "spec/chains.h"
 
 namespace clench {
 
@@ -51,13 +52,12 @@ void check_plausible(const RobotSpec& robot, const std::string& file, const List
     if (body.mass > max_mass) heavy.push_back(body.name);
   };
   look(robot.base);
-  for (const LinkSpec& link : robot.links) {
-    look(link.body);
-    for (const JointSpec& joint : link.joints)
-      if (joint.kind == JointKind::revolute &&
-          std::max(std::abs(joint.min), std::abs(joint.max)) > max_turn)
-        turning.push_back(joint.name.empty() ? "that of " + link.body.name : joint.name);
-  }
+  for (const LinkSpec& link : robot.links) look(link.body);
+  for (const auto& [chain, number, joint] : joints_of(robot))
+    if (joint->kind == JointKind::revolute &&
+        std::max(std::abs(joint->min), std::abs(joint->max)) > max_turn)
+      turning.push_back(joint->name.empty() ? fmt::format("{} of chain {}", number, chain)
+                                            : joint->name);
   const auto tell_of = [&](const std::vector<std::string>& names, const char* what,
                            const char* question) {
     if (!names.empty())

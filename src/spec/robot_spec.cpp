@@ -34,12 +34,6 @@ std::array<double, 2> dof_range(const RobotSpec& robot, int dof) {
   return {low, high};
 }
 
-int joint_count(const RobotSpec& robot) {
-  int count = 0;
-  each_joint(robot, [&](const JointSpec&) { ++count; });
-  return count;
-}
-
 bool dof_slides(const RobotSpec& robot, int dof) {
   std::optional<JointKind> first;
   each_joint(robot, [&](const JointSpec& joint) {

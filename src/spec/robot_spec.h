@@ -111,10 +111,7 @@ std::array<double, 2> dof_range(const RobotSpec& robot, int dof);
 /// The end of a sentence about a range that is none.
 std::string no_range(const std::array<double, 2>& range);
 
-/// Number of joints, counted link by link.
-int joint_count(const RobotSpec& robot);
-
-/// Visits all joints in that order.
+/// Visits all joints, link by link.
 template <class Visit>
 void each_joint(const RobotSpec& robot, Visit visit) {
   for (const LinkSpec& link : robot.links)

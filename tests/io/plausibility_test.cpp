@@ -78,7 +78,7 @@ TEST_CASE("a joint that turns more than four times is suspicious, one that slide
   CHECK(suspicions_of(robot_of(link, {.min = -4 * turn, .max = 4 * turn})).empty());
   CHECK(suspicions_of(robot_of(link, {.kind = JointKind::prismatic, .min = 0, .max = 90})).empty());
   CHECK(suspicions_of(robot_of(link, {.min = 0, .max = 90})) ==
-        Sentences{"a.cfg: joints that turn more than four times: 'that of box': is the unit of "
+        Sentences{"a.cfg: joints that turn more than four times: '0 of chain 0': is the unit of "
                   "their limits right?"});
   JointSpec named{.min = -90, .max = 0};
   named.name = "knuckle";

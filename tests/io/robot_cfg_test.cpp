@@ -193,8 +193,7 @@ TEST_CASE("limits of more than four turns are suspicious") {
   Warnings warnings;
   cfg.read(warnings.options());
   CHECK(warnings.list ==
-        std::vector<std::string>{"hand.cfg: joints that turn more than four times: 'that of "
-                                 "hand_chain0_link0': "
+        std::vector<std::string>{"hand.cfg: joints that turn more than four times: '0 of chain 0': "
                                  "is the unit of their limits right?"});
 }
 

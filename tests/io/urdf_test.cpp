@@ -177,7 +177,7 @@ TEST_CASE("a follower that does not follow stays at its offset") {
 <joint name="stays" type="continuous"><parent link="b"/><child link="c"/><axis xyz="0 0 1"/>
 <mimic joint="lead" multiplier="0" offset="0.5"/></joint></robot>)");
   const ToldRobot told(file);
-  CHECK(joint_count(told.robot) == 1);
+  CHECK(joints_of(told.robot).size() == 1);
   CHECK(told.link("c").X_JL.angle() == doctest::Approx(0.5));
   CHECK(told.warned("joint 'stays': its multiplier is 0; it stays at 0.5"));
 }

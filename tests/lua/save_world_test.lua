@@ -273,8 +273,9 @@ test("worlds of the original come back from every format, and are the same in bo
     for _, ending in ipairs {".wld", ".xml", ".lua"} do
       world:save(folder .. "/original" .. ending, {root = root})
       local again = clench.load(folder .. "/original" .. ending, {root = root})
-      if ending == ".lua" then t.equal(again:hash(), world:hash()) end
-      -- not every length in metres has a decimal in millimetres that is read as it: a last digit may be lost
+      -- the hand of the first one is carried: its place there and in the world are written both, and not every length in
+      -- metres has a decimal in millimetres that is read as it
+      if ending == ".lua" or i > 1 then t.equal(again:hash(), world:hash()) end
       for k, body in ipairs(world.bodies) do
         local off = body.pose:inverse() * again.bodies[k].pose
         t.ok(off.position:norm() < 1e-15 and off:angle() < 1e-15, body.name)

@@ -110,7 +110,7 @@ TEST_CASE(
   CHECK(world.joints(hand)[3] == 0.1);
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0] ==
-        "robot 'gripper_2': joint 2 broke away at -3, outside [0, 1.5707963267948966]; "
+        "robot 'gripper_2': joint 2 of chain 1 broke away at -3, outside [0, 1.5707963267948966]; "
         "it follows its DOF");
 }
 

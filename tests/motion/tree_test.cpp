@@ -92,7 +92,7 @@ TEST_CASE("a joint moves the links that turning it moves") {
   const RobotSpec spec = random_tree(random, 12);
   World world;
   const auto id = world.add_robot(spec, {});
-  for (int j = 0; j < joint_count(spec); ++j) {
+  for (int j = 0; j < static_cast<int>(joints_of(spec).size()); ++j) {
     World after = world;
     Eigen::VectorXd q = world.dofs(id);
     q[world.robot(id).joints[j].dof] += 0.1;
