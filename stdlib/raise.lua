@@ -1,5 +1,7 @@
 -- stdlib/raise.lua
 -- more is a name or a word that nobody reads to its end
+local error_value = require "clench.error_value"
+
 local longest, kept_end = 1000, 250
 
 -- as people read it: no control characters, and of a long text both ends
@@ -15,9 +17,13 @@ return function(text)
   text = sentence(text)
   local level = 2
   while true do
-    local info = debug.getinfo(level, "S")
-    if not info then error(text, 0) end
-    if info.what ~= "C" and not info.source:find "^@stdlib/" then error(text, level) end
+    local info = debug.getinfo(level, "Sl")
+    if info and info.what ~= "C" and not info.source:find "^@stdlib/" then
+      text = ("%s:%d: %s"):format(info.short_src, info.currentline, text)
+    end
+    if not info or info.what ~= "C" and not info.source:find "^@stdlib/" then
+      error(setmetatable({text = text, kind = "input"}, error_value), 0)
+    end
     level = level + 1
   end
 end

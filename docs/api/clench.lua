@@ -572,6 +572,20 @@ function picture:save(path) end
 ---@return integer blue
 function picture:pixel(x, y) end
 
+---How far a script's loop is, as `clench.progress` shows it.
+---@class progress
+---@field done number # Steps that are done.
+---@field total number # Steps in all; 0 when that is not known.
+local progress = {}
+
+---So many steps more are done.
+---@param count? number # default 1
+---@param text? string # shown beside the bar from now on
+function progress:step(count, text) end
+
+---Takes the bar away. A progress in a variable that is declared <close> does so by itself.
+function progress:close() end
+
 ---Simulates, judges and plans robotic grasps. Lengths are metres, angles radians, masses kilograms, forces newtons; poses and vectors are in the world frame unless a text says otherwise.
 ---@class clench
 ---@field version string # Version of the engine, major.minor.patch.
@@ -673,6 +687,12 @@ function clench.render(world, options) end
 ---@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
 ---@return picture
 function clench.chart(options) end
+
+---Shows how far a loop is: a bar on a terminal, with the time that is left; nothing in a pipe or a file. Over a number or a list it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It goes with the loop's end, or `close`.
+---@param total? integer|any[] # how many steps, or what to go through; without, only the text is shown
+---@param text? string
+---@return progress
+function clench.progress(total, text) end
 
 ---Values as JSON text, and back.
 ---@class clench.json

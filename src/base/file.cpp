@@ -45,13 +45,14 @@ class OpenFile {
 constexpr size_t max_bytes = size_t{1} << 30;
 
 [[noreturn]] void fail_read(const fs::path& path, int error) {
-  if (error == ENOENT) fail("no such file: {}", path.generic_string());
-  fail("{}: the file cannot be read: {}", path.generic_string(), system_reason(error));
+  if (error == ENOENT) fail(ErrorKind::file, "no such file: {}", path.generic_string());
+  fail(ErrorKind::file, "{}: the file cannot be read: {}", path.generic_string(),
+       system_reason(error));
 }
 
 void check_regular(const fs::path& path, const struct stat& status) {
   if (!S_ISREG(status.st_mode))
-    fail("{}: expected a file, got a {}", path.generic_string(),
+    fail(ErrorKind::file, "{}: expected a file, got a {}", path.generic_string(),
          S_ISDIR(status.st_mode) ? "folder" : "special file");
 }
 
@@ -81,8 +82,8 @@ std::string read_bytes(const fs::path& path) {
   struct stat status;
   std::string out = read_at_most(path, max_bytes, status);
   if (static_cast<size_t>(status.st_size) > max_bytes)
-    fail("{}: expected a file of at most 1 GB, got {} bytes", path.generic_string(),
-         status.st_size);
+    fail(ErrorKind::file, "{}: expected a file of at most 1 GB, got {} bytes",
+         path.generic_string(), status.st_size);
   return out;
 }
 
@@ -96,7 +97,8 @@ std::string read_start(const fs::path& path, size_t count) {
 namespace {
 
 [[noreturn]] void fail_write(const fs::path& path, int error) {
-  fail("{}: the file cannot be written: {}", path.generic_string(), system_reason(error));
+  fail(ErrorKind::file, "{}: the file cannot be written: {}", path.generic_string(),
+       system_reason(error));
 }
 
 fs::path folder_of(const fs::path& path) {
@@ -174,15 +176,15 @@ void check_folder_of(const fs::path& file) {
   struct stat status;
   if (::stat(folder_of(file).c_str(), &status) == 0) return;
   if (errno != ENOENT) fail_write(file, errno);
-  fail("{}: the file cannot be written: no such folder: {}", file.generic_string(),
+  fail(ErrorKind::file, "{}: the file cannot be written: no such folder: {}", file.generic_string(),
        folder_of(file).generic_string());
 }
 
 void write_file(const fs::path& path, std::string_view text) {
   struct stat before;
-  if (path.empty()) fail("expected the name of a file, got nothing");
+  if (path.empty()) fail(ErrorKind::file, "expected the name of a file, got nothing");
   if (path.filename().empty() || (::stat(path.c_str(), &before) == 0 && S_ISDIR(before.st_mode)))
-    fail("{}: expected a file to write, got a folder", path.generic_string());
+    fail(ErrorKind::file, "{}: expected a file to write, got a folder", path.generic_string());
   check_folder_of(path);
   try {
     const fs::path target = target_of(path);
@@ -192,7 +194,8 @@ void write_file(const fs::path& path, std::string_view text) {
       return;
     }
     if (!S_ISREG(before.st_mode))
-      fail("{}: expected a file to write, got a special file", path.generic_string());
+      fail(ErrorKind::file, "{}: expected a file to write, got a special file",
+           path.generic_string());
     if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) fail_write(path, errno);
     write_over(target, text, before.st_mode);
   } catch (const fs::filesystem_error& error) {

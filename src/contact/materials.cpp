@@ -52,7 +52,8 @@ int MaterialTable::find_or_add(std::string_view name) {
   if (found != names_.end()) return static_cast<int>(found - names_.begin());
 
   const size_t count = names_.size();
-  if (count == max_materials) fail("material '{}': expected at most {} materials", name, count);
+  if (count == max_materials)
+    fail(ErrorKind::limit, "material '{}': expected at most {} materials", name, count);
   // one more row and column, without friction
   std::vector<Friction> grown((count + 1) * (count + 1));
   for (size_t i = 0; i < count; ++i)

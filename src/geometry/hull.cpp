@@ -57,7 +57,7 @@ int rank_of(const Normalised& n, double tolerance) {
 class Qhull {
  public:
   Qhull() : said_(open_memstream(&text_, &length_)) {
-    if (!said_) fail("convex_hull: no memory for qhull's messages");
+    if (!said_) fail(ErrorKind::limit, "convex_hull: no memory for qhull's messages");
     qh_zero(&state, said_);
   }
   ~Qhull() {
@@ -133,8 +133,8 @@ Hull convex_hull(const Eigen::MatrixXd& points) {
     }
     refusal = qhull.first_line();
   }
-  fail("convex_hull: qhull refuses {} points in {} dimensions: {}", points.cols(), hull.dimension,
-       refusal);
+  fail(ErrorKind::internal, "convex_hull: qhull refuses {} points in {} dimensions: {}",
+       points.cols(), hull.dimension, refusal);
 }
 
 int affine_rank(const Eigen::MatrixXd& points, double tolerance) {

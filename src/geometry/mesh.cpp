@@ -151,12 +151,14 @@ std::string MeshFaults::describe() const {
   return text.empty() ? "no faults" : text;
 }
 
-MeshFaults find_faults(const Mesh& mesh) {
+MeshFaults find_faults(const Mesh& mesh, const Progress& progress) {
   check_indices(mesh, "find_faults");
   MeshFaults faults;
   for (size_t i = 0; i < mesh.triangles.size(); ++i)
     faults.degenerate_triangles += without_area(mesh, static_cast<int>(i));
+  progress.check();
   count_edges(mesh, faults);
+  progress.check();
   faults.duplicate_triangles = count_duplicates(mesh);
   faults.unused_vertices = count_unused(mesh);
   return faults;

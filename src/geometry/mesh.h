@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
+
 namespace clench {
 
 using Triangle = std::array<int, 3>;  ///< vertex indices, counter-clockwise from outside
@@ -58,7 +60,8 @@ struct MeshFaults {
 /// Has the triangle a vertex twice, or no more area than rounding leaves of three points in a line?
 bool without_area(const Mesh& mesh, int triangle);
 
-MeshFaults find_faults(const Mesh& mesh);
+/// throws Stopped
+MeshFaults find_faults(const Mesh& mesh, const Progress& progress = {});
 
 /// Vertices nearer than tolerance [m] become one (exactly equal ones when 0); triangles keep their
 /// order; those left with a vertex twice are dropped, and counted in `dropped`.

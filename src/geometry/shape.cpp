@@ -88,17 +88,21 @@ void Shape::find_parts() {
     part_extremes_.push_back(farthest_along_axes(mesh_, members));
 }
 
-std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject) {
+std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject,
+                                         const Progress& progress) {
   check_mesh(mesh, subject);
   const std::shared_ptr<Shape> shape(new Shape);
   shape->mesh_ = std::move(mesh);
-  shape->faults_ = find_faults(shape->mesh_);
+  shape->faults_ = find_faults(shape->mesh_, progress);
+  progress.check();
   shape->solid_ = solid_mass(shape->mesh_);
   for (const Triangle& t : shape->mesh_.triangles)
     for (const int v : t) shape->bounds_.add(shape->mesh_.vertices[v]);
   shape->centre_ = shape->bounds_.centre();
   shape->radius_ = largest_radius(shape->mesh_, shape->centre_);
+  progress.check();
   shape->find_parts();
+  progress.check();
   Hasher hasher;
   for (const Eigen::Vector3d& v : shape->mesh_.vertices)
     for (const double x : v) hasher.add(x);
@@ -115,10 +119,10 @@ size_t Shape::bytes() const {
          part_extremes_.capacity() * sizeof(Extremes);
 }
 
-const Tree& Shape::build_tree() const {
+const Tree& Shape::build_tree(const Progress& progress) const {
   const std::lock_guard lock(building_);
   if (!tree_) {
-    tree_ = std::make_unique<const Tree>(mesh_);
+    tree_ = std::make_unique<const Tree>(mesh_, progress);
     built_.store(tree_.get(), std::memory_order_release);
   }
   return *tree_;

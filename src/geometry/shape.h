@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 
+#include "base/progress.h"
 #include "geometry/mass.h"
 #include "geometry/mesh.h"
 
@@ -17,8 +18,9 @@ class Shape {
  public:
   using Extremes = std::array<Eigen::Vector3d, 6>;
 
-  /// throws Error when check_mesh does; `subject` names the mesh in it
-  static std::shared_ptr<const Shape> make(Mesh mesh, const std::string& subject = "mesh");
+  /// throws Error when check_mesh does, `subject` names the mesh in it; Stopped
+  static std::shared_ptr<const Shape> make(Mesh mesh, const std::string& subject = "mesh",
+                                           const Progress& progress = {});
   ~Shape();
 
   const Mesh& mesh() const { return mesh_; }
@@ -41,15 +43,16 @@ class Shape {
   /// that it takes, about, with its tree
   size_t bytes() const;
   /// built when first asked: who reads, checks or converts a mesh needs none. Any thread may ask.
-  const Tree& tree() const {
+  /// throws Stopped, and then has none
+  const Tree& tree(const Progress& progress = {}) const {
     const Tree* const built = built_.load(std::memory_order_acquire);
-    return built ? *built : build_tree();
+    return built ? *built : build_tree(progress);
   }
 
  private:
   Shape();
   void find_parts();
-  const Tree& build_tree() const;
+  const Tree& build_tree(const Progress& progress) const;
   Mesh mesh_;
   MeshFaults faults_;
   MassProperties solid_;

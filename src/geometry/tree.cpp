@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
 #include <limits>
 #include <numeric>
+#include "base/progress.h"
 
 #include "base/convert.h"
 #include "geometry/lanes.h"
@@ -36,7 +38,8 @@ static double surface(const Vector3d& size) {
 // then each of them likewise, down to eight triangles.
 class TreeBuilder {
  public:
-  TreeBuilder(const Mesh& mesh, Tree& tree) : mesh_(mesh), tree_(tree) {
+  TreeBuilder(const Mesh& mesh, Tree& tree, const Progress& progress)
+      : mesh_(mesh), tree_(tree), progress_(progress) {
     const int count = static_cast<int>(mesh.triangles.size());
     // unused vertices count for nothing
     Bounds bounds;
@@ -91,6 +94,7 @@ class TreeBuilder {
 
   // a bundle of the groups' boxes, then what is below
   void fill(int bundle, const std::vector<Group>& groups) {
+    progress_.check();
     BoxBundle out;
     for (int lane = 0; lane < 8; ++lane) {
       out.child[lane] = -1;
@@ -381,6 +385,7 @@ class TreeBuilder {
 
   const Mesh& mesh_;
   Tree& tree_;
+  const Progress& progress_;
   std::vector<Vector3d> points_;  // vertices about the centre
   std::vector<Item> items_;
   std::array<std::vector<double>, 3> corners_;  // of the group that is fitted
@@ -388,8 +393,8 @@ class TreeBuilder {
   int fitted_ = 0;                              // groups so far
 };
 
-Tree::Tree(const Mesh& mesh) {
-  TreeBuilder(mesh, *this);
+Tree::Tree(const Mesh& mesh, const Progress& progress) {
+  TreeBuilder(mesh, *this, progress);
   boxes_.shrink_to_fit();
   leaves_.shrink_to_fit();
 }

@@ -11,6 +11,7 @@
 namespace clench {
 
 struct Mesh;
+class Progress;
 
 /// Eight boxes side by side: the children of a node.
 struct alignas(32) BoxBundle {
@@ -29,8 +30,8 @@ struct alignas(32) TriangleBundle {
 
 class Tree {
  public:
-  /// at least one triangle; coordinates finite
-  explicit Tree(const Mesh& mesh);
+  /// at least one triangle; coordinates finite   throws Stopped
+  Tree(const Mesh& mesh, const Progress& progress);
 
   /// number 0 holds one box alone, that of the whole mesh
   const BoxBundle& boxes(int i) const { return boxes_[i]; }

@@ -73,8 +73,8 @@ std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, b
     return out;
   }
   if (n > max_concave_corners)
-    fail("expected at most {} corners of a face that is not convex, got {}", max_concave_corners,
-         n);
+    fail(ErrorKind::limit, "expected at most {} corners of a face that is not convex, got {}",
+         max_concave_corners, n);
 
   // cut off ears; where a crooked outline has none, any corner will do, and soon all of them
   constexpr int max_failures = 8;

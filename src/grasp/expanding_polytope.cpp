@@ -181,7 +181,7 @@ Ball Growing<D>::ball(const BallOptions& options) {
     if (options.at_least > 0 && (lower - slack() >= options.at_least || upper_ < options.at_least))
       return ended(BallEnd::decided, lower);
     if (complex_.point_count() >= options.max_points ||
-        complex_.alive_count() >= options.max_facets)
+        complex_.alive_count() >= options.max_facets || options.progress.stop_asked())
       return ended(BallEnd::stopped, lower);
     // a shifted point may lie below what the set reaches
     if (!(std::min(reach, dot<D>(facet.plane.x, p)) - facet.offset() > 10 * seen))
@@ -225,6 +225,7 @@ Facets Growing<D>::hull(const FacetsOptions& options) {
       continue;
     }
     grow(next, p);
+    options.progress.check();
     if (complex_.alive_count() > options.max_facets) {
       out.end = FacetsEnd::too_many;
       return out;

@@ -14,6 +14,7 @@
 #pragma once
 #include <vector>
 
+#include "base/progress.h"
 #include "grasp/support_set.h"
 
 namespace clench {
@@ -26,6 +27,7 @@ struct BallOptions {
   double at_least = 0;         ///< > 0: enough to know whether the radius is below this
   int max_points = 100000;     ///< of the polytope
   int max_facets = 2'000'000;  ///< at once
+  Progress progress = {};      ///< a stop ends it as max_points does
 };
 
 enum class BallEnd {
@@ -61,10 +63,11 @@ struct Facets {
 struct FacetsOptions {
   double tolerance = 1e-12;    ///< how far the set may reach beyond a facet
   int max_facets = 2'000'000;  ///< then it ends with too_many
+  Progress progress = {};
 };
 
 /// Facets are simplices; one with more corners comes as several. `failed`: rounding broke the
-/// surface even after all points were shifted a little.
+/// surface even after all points were shifted a little.   throws Stopped
 Facets all_facets(const SupportSet& set, const FacetsOptions& options = {});
 
 }  // namespace clench

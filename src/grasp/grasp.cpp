@@ -47,10 +47,11 @@ void check_unmoved(const World& world, const Grasp& grasp) {
     return f.statics != c.friction.statics;
   });
   if (friction)
-    fail("grasp of {} by {}: friction has changed since it was measured; measure it anew",
+    fail(ErrorKind::stale,
+         "grasp of {} by {}: friction has changed since it was measured; measure it anew",
          world.body(grasp.object).name, world.robot(grasp.hand).name);
   if (object || joints)
-    fail("grasp of {} by {}: {} since it was measured; measure it anew",
+    fail(ErrorKind::stale, "grasp of {} by {}: {} since it was measured; measure it anew",
          world.body(grasp.object).name, world.robot(grasp.hand).name,
          joints ? "joints of the hand have moved" : "hand and object have moved apart");
 }

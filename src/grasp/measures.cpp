@@ -45,8 +45,9 @@ const World& MeasuredGrasp::world() const {
   return world_;
 }
 
-MeasuredGrasp::MeasuredGrasp(const World& world, const Grasp& grasp, SpaceSource spaces)
-    : world_(world), grasp_(grasp), spaces_(std::move(spaces)) {
+MeasuredGrasp::MeasuredGrasp(const World& world, const Grasp& grasp, SpaceSource spaces,
+                             const Progress& progress)
+    : world_(world), grasp_(grasp), progress_(progress), spaces_(std::move(spaces)) {
   if (!spaces_)
     spaces_ = [this](const GraspSpaceOptions& options) -> const WrenchSpace& {
       return own_space(options);
@@ -211,35 +212,37 @@ double coplanarity(MeasuredGrasp& g) {
 double contact_position_tolerance(MeasuredGrasp& g) {
   double force = 1;
   for (const PointContact& c : g.grasp().points) force = std::max(force, std::hypot(1, c.mu));
-  return g.space().epsilon() * g.grasp().rho / force;
+  return g.space().epsilon(g.progress()) * g.grasp().rho / force;
 }
 
-double volume(MeasuredGrasp& g) { return g.space({}).volume(); }
+double volume(MeasuredGrasp& g) { return g.space({}).volume(g.progress()); }
 
 const Measure all_measures[] = {
     {"epsilon",
      "radius of the largest ball of wrenches that contact forces resist whose normal parts sum to "
      "one; 0 unless force closure",
      "0 to sqrt(1 + mu^2)", "1", true, "Ferrari and Canny (1992)",
-     [](MeasuredGrasp& g) { return g.space().epsilon(); }},
+     [](MeasuredGrasp& g) { return g.space().epsilon(g.progress()); }},
     {"epsilon_linf", "the same with each normal part at most one", ">= 0", "1", true,
      "Ferrari and Canny (1992)",
-     [](MeasuredGrasp& g) { return g.space({.space = {.norm = WrenchNorm::linf}}).epsilon(); }},
+     [](MeasuredGrasp& g) {
+       return g.space({.space = {.norm = WrenchNorm::linf}}).epsilon(g.progress());
+     }},
     {"epsilon_exact", "epsilon with round friction cones", "0 to sqrt(1 + mu^2)", "1", true,
      "Ferrari and Canny (1992)",
-     [](MeasuredGrasp& g) { return g.space({.edges = round_edges}).epsilon(); }},
+     [](MeasuredGrasp& g) { return g.space({.edges = round_edges}).epsilon(g.progress()); }},
     {"epsilon_force",
      "radius of the largest ball of forces that such contact forces reach, whatever their torque",
      "0 to sqrt(1 + mu^2)", "1", true, "Mirtich and Canny (1994)",
      [](MeasuredGrasp& g) {
-       return g.space({.space = {.coordinates = {0, 1, 2}}}).epsilon();
+       return g.space({.space = {.coordinates = {0, 1, 2}}}).epsilon(g.progress());
      }},
     {"epsilon_torque",
      "radius of the largest ball of torques, over rho, that such contact forces reach, whatever "
      "their force",
      ">= 0", "1", true, "Mirtich and Canny (1994)",
      [](MeasuredGrasp& g) {
-       return g.space({.space = {.coordinates = {3, 4, 5}}}).epsilon();
+       return g.space({.space = {.coordinates = {3, 4, 5}}}).epsilon(g.progress());
      }},
     {"volume", "of the hull of all unit wrenches in its six dimensions; 0 where it is flat", ">= 0",
      "1", true, "Miller and Allen (1999)", volume},
@@ -316,7 +319,9 @@ const Measure all_measures[] = {
      "the same, the largest over all choices of contacts that slip or let go; of many contacts the "
      "largest that 400 steps of the search find",
      ">= 0", "N", true, "Pozzi, Malvezzi and Prattichizzo (2017)",
-     [](MeasuredGrasp& g) { return grasp_robustness(g.robustness_problem(), 400).radius; }},
+     [](MeasuredGrasp& g) {
+       return grasp_robustness(g.robustness_problem(), 400, g.progress()).radius;
+     }},
 };
 
 }  // namespace

@@ -21,10 +21,12 @@ class MeasuredGrasp {
   /// Gives a wrench space of the grasp, and keeps it as long as it is needed.
   using SpaceSource = std::function<const WrenchSpace&(const GraspSpaceOptions&)>;
   /// spaces  default: made for this alone
-  MeasuredGrasp(const World& world, const Grasp& grasp, SpaceSource spaces = {});
+  MeasuredGrasp(const World& world, const Grasp& grasp, SpaceSource spaces = {},
+                const Progress& progress = {});
 
   /// throws  Error as check_unmoved does
   const World& world() const;
+  const Progress& progress() const { return progress_; }
   const Grasp& grasp() const { return grasp_; }
   const WrenchSpace& space(const GraspSpaceOptions& options = {}) { return spaces_(options); }
   const ContactPolygon& polygon();  ///< of the contact points, object frame; at least one contact
@@ -46,6 +48,7 @@ class MeasuredGrasp {
 
   const World& world_;
   const Grasp& grasp_;
+  const Progress progress_;
   std::list<std::pair<GraspSpaceOptions, WrenchSpace>> own_spaces_;
   SpaceSource spaces_;
   std::optional<ContactPolygon> polygon_;

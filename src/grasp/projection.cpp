@@ -104,7 +104,9 @@ Projection project(const WrenchSpace& space, const ProjectionOptions& options) {
     fail("wrench space: project: no wrench of it has {}", all);
   };
   const FacetsOptions facets_options{
-      .tolerance = space.is_round() ? options.tolerance : slice_tolerance, .max_facets = max_faces};
+      .tolerance = space.is_round() ? options.tolerance : slice_tolerance,
+      .max_facets = max_faces,
+      .progress = options.progress};
   Facets facets;
   if (seen.scaled_reach().empty()) {
     if (!values.isZero(0)) nothing();
@@ -118,8 +120,9 @@ Projection project(const WrenchSpace& space, const ProjectionOptions& options) {
     facets = all_facets(slice, facets_options);
   }
   if (facets.end == FacetsEnd::too_many)
-    fail("wrench space: project: it has more than {} faces", max_faces);
-  if (facets.end == FacetsEnd::failed) fail("wrench space: project: rounding broke its surface");
+    fail(ErrorKind::limit, "wrench space: project: it has more than {} faces", max_faces);
+  if (facets.end == FacetsEnd::failed)
+    fail(ErrorKind::internal, "wrench space: project: rounding broke its surface");
   if (facets.end == FacetsEnd::flat) return out;
   out.volume = std::ldexp(facets.volume, 3 * exponent);
   out.mesh = mesh_of(facets, exponent);

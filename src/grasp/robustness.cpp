@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "math/solve_cone_program.h"
 #include "math/decompositions.h"
+#include "math/solve_cone_program.h"
 #include "spec/valid.h"
 
 namespace clench {
@@ -233,8 +233,9 @@ constexpr ContactHold all_holds[] = {ContactHold::sticks, ContactHold::slips,
 // Depth first over the states of the contacts, the undecided ones counted on for all they could do.
 class RobustnessSearch {
  public:
-  RobustnessSearch(const EvenProblem& problem, int steps)
+  RobustnessSearch(const EvenProblem& problem, int steps, const Progress& progress)
       : problem_(problem),
+        progress_(progress),
         steps_(steps),
         states_(static_cast<size_t>(problem.mu.size()), ContactHold::sticks) {
     best_ = robustness_of(problem_, states_);
@@ -245,6 +246,11 @@ class RobustnessSearch {
   const Robustness& best() const { return best_; }
 
  private:
+  bool takes_step() {
+    if (progress_.stop_asked()) steps_ = 0;
+    return steps_-- > 0;
+  }
+
   // from state to state, each another contact's, while that gains
   void climb() {
     std::vector<ContactHold> at = states_;
@@ -253,7 +259,7 @@ class RobustnessSearch {
       for (size_t i = 0; i < at.size(); ++i)
         for (const ContactHold state : all_holds) {
           if (state == at[i]) continue;
-          if (steps_-- <= 0) return;
+          if (!takes_step()) return;
           auto tried = at;
           tried[i] = state;
           const Robustness found = robustness_of(problem_, tried);
@@ -274,7 +280,7 @@ class RobustnessSearch {
     }
     for (const ContactHold state : all_holds) {
       states_[decided] = state;
-      const double most = steps_-- > 0 ? bound(decided + 1) : bounds_[decided];
+      const double most = takes_step() ? bound(decided + 1) : bounds_[decided];
       // a bound is as good as the solver's answer, which is good to 1e-9
       if (!(most > best_.radius * (1 + 1e-8))) continue;
       if (steps_ <= 0) {
@@ -317,6 +323,7 @@ class RobustnessSearch {
   }
 
   const EvenProblem& problem_;
+  const Progress& progress_;
   int steps_;  // that are left
   std::vector<ContactHold> states_;
   std::vector<double> bounds_ = {std::numeric_limits<double>::infinity()};  // of the way here
@@ -341,10 +348,11 @@ Robustness contact_robustness(const RobustnessProblem& problem) {
       std::vector<ContactHold>(static_cast<size_t>(problem.mu.size()), ContactHold::sticks));
 }
 
-Robustness grasp_robustness(const RobustnessProblem& problem, int max_steps) {
+Robustness grasp_robustness(const RobustnessProblem& problem, int max_steps,
+                            const Progress& progress) {
   check_robustness_problem(problem);
   const EvenProblem even(problem);
-  return RobustnessSearch(even, max_steps).best();
+  return RobustnessSearch(even, max_steps, progress).best();
 }
 
 }  // namespace clench

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "base/progress.h"
 #include "math/pose.h"
 
 namespace clench {
@@ -52,7 +53,9 @@ Robustness contact_robustness(const RobustnessProblem& problem);
 
 /// The largest contact robustness over all states of the contacts, by branch and bound from the best that single changes
 /// of state lead to. Exact when the search ends within its steps, each a cone program; else the best found, and `most`.
+/// Told to stop, the best found so far, too.
 /// throws  Error as contact_robustness
-Robustness grasp_robustness(const RobustnessProblem& problem, int max_steps = 100000);
+Robustness grasp_robustness(const RobustnessProblem& problem, int max_steps = 100000,
+                            const Progress& progress = {});
 
 }  // namespace clench

@@ -230,7 +230,8 @@ Surroundings look_around(const LiftedPoints& points, const Cell& cell) {
   return out;
 }
 
-SumVolume cut_into_cells(const LiftedPoints& points, Random& random, int max_cells) {
+SumVolume cut_into_cells(const LiftedPoints& points, Random& random, int max_cells,
+                         const Progress& progress) {
   SumVolume out{SumVolume::complete, 0, 0};
   std::vector<Cell> cells = {first_cell(points, random)};
   // number of a cell, and how many that have looked around have seen it
@@ -240,6 +241,7 @@ SumVolume cut_into_cells(const LiftedPoints& points, Random& random, int max_cel
   };
   std::unordered_map<Cell, Entry, CellHash> entries = {{cells[0], {0, 0}}};
   for (size_t k = 0; k < cells.size(); ++k) {
+    progress.check();
     const auto [volume, neighbours] = look_around(points, cells[k]);
     out.volume += volume;
     int known = 0;
@@ -259,7 +261,8 @@ SumVolume cut_into_cells(const LiftedPoints& points, Random& random, int max_cel
 
 }  // namespace
 
-SumVolume sum_volume(std::span<const Eigen::MatrixXd> summands, int max_cells) {
+SumVolume sum_volume(std::span<const Eigen::MatrixXd> summands, int max_cells,
+                     const Progress& progress) {
   const Eigen::Index d = summands[0].rows();
   Eigen::Index count = 0, column = 0;
   for (const Eigen::MatrixXd& columns : summands) count += columns.cols();
@@ -274,7 +277,8 @@ SumVolume sum_volume(std::span<const Eigen::MatrixXd> summands, int max_cells) {
   for (int attempt = 0; attempt < max_lifts; ++attempt) {
     Random random(static_cast<uint64_t>(attempt));
     try {
-      SumVolume out = cut_into_cells(lift(summands, coordinates, random), random, max_cells);
+      SumVolume out =
+          cut_into_cells(lift(summands, coordinates, random), random, max_cells, progress);
       out.volume *= lengths.prod();
       return out;
     } catch (const BrokenCells&) {

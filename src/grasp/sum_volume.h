@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "base/progress.h"
+
 namespace clench {
 
 struct SumVolume {
@@ -26,7 +28,9 @@ struct SumVolume {
 /// cancels; cells that do not see each other alike across a wall betray rounding.
 ///
 /// returns  0 where the sum is flat
+/// throws   Stopped
 /// source   Huber & Sturmfels (1995), A polyhedral method for solving sparse polynomial systems
-SumVolume sum_volume(std::span<const Eigen::MatrixXd> summands, int max_cells);
+SumVolume sum_volume(std::span<const Eigen::MatrixXd> summands, int max_cells,
+                     const Progress& progress = {});
 
 }  // namespace clench

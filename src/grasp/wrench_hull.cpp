@@ -45,8 +45,8 @@ Hull wrench_hull(const Eigen::MatrixXd& points) {
       for (auto& facet : hull.facets)
         for (int& corner : facet) corner = kept[corner];
       return hull;
-    } catch (const Error&) {
-      if (shift == *std::rbegin(shifts)) throw;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::internal || shift == *std::rbegin(shifts)) throw;
     }
   }
   return {};

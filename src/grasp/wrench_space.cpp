@@ -262,12 +262,13 @@ int WrenchSpace::rank() const {
 }
 
 WrenchSpace::Bracket WrenchSpace::bracket_of(const WrenchSupport& reach, double tolerance,
-                                             double at_least) const {
+                                             double at_least, const Progress& progress) const {
   const Ball ball =
       largest_ball(reach, {.tolerance = std::max(tolerance, flat_tolerance),
                            .zero = prepared().zero,
                            .at_least = at_least,
-                           .max_facets = is_round() ? max_round_facets : BallOptions().max_facets});
+                           .max_facets = is_round() ? max_round_facets : BallOptions().max_facets,
+                           .progress = progress});
   Bracket out{ball.lower, ball.upper, tolerance,
               Eigen::Map<const Eigen::VectorXd>(ball.direction, dimension()),
               ball.end == BallEnd::outside || ball.end == BallEnd::flat};
@@ -275,12 +276,15 @@ WrenchSpace::Bracket WrenchSpace::bracket_of(const WrenchSupport& reach, double 
   return out;
 }
 
-const WrenchSpace::Bracket& WrenchSpace::final_bracket() const {
+const WrenchSpace::Bracket& WrenchSpace::final_bracket(const Progress& progress) const {
   // whatever was asked before, the same answer to the bit
   if (final_) return *final_;
   if (bracket_ && bracket_->outside) return *bracket_;
   const double round = std::min(round_tolerance, std::ldexp(round_tolerance, -prepared().exponent));
-  final_ = bracket_of(prepared().reach, is_round() ? round : flat_tolerance, 0);
+  const Bracket found =
+      bracket_of(prepared().reach, is_round() ? round : flat_tolerance, 0, progress);
+  progress.check();
+  final_ = found;
   const double width = final_->upper - final_->lower;
   if (width > poor && !is_round() && options_.norm == WrenchNorm::l1) {
     // rounding broke every surface that was tried: the hull whole, by qhull
@@ -298,7 +302,7 @@ const WrenchSpace::Bracket& WrenchSpace::final_bracket() const {
   return *final_;
 }
 
-bool WrenchSpace::is_force_closure() const {
+bool WrenchSpace::is_force_closure(const Progress& progress) const {
   if (closure_) return *closure_;
   if (contacts_.empty()) return closure_.emplace(false);
   // each normal force at most one resists the same directions as their sum at most one
@@ -307,33 +311,36 @@ bool WrenchSpace::is_force_closure() const {
   Bracket b = bracket_ && l1 ? *bracket_
                              : bracket_of(l1 ? prepared().reach
                                              : reach_in(WrenchNorm::l1, prepared().exponent),
-                                          0.5, inside);
+                                          0.5, inside, progress);
+  progress.check();
   if (b.outside) {
     if (l1) bracket_ = b, bracket_->tolerance = 0;
     return closure_.emplace(false);
   }
   if (b.lower < inside)
-    b = l1 ? final_bracket()
-           : bracket_of(reach_in(WrenchNorm::l1, prepared().exponent), flat_tolerance, 0);
+    b = l1 ? final_bracket(progress)
+           : bracket_of(reach_in(WrenchNorm::l1, prepared().exponent), flat_tolerance, 0, progress);
+  progress.check();
   if (b.outside || b.upper <= prepared().zero) return closure_.emplace(false);
   return closure_.emplace(b.lower > surely_spanned || rank() == dimension());
 }
 
-double WrenchSpace::epsilon() const {
+double WrenchSpace::epsilon(const Progress& progress) const {
   if (contacts_.empty()) return 0;
-  if (options_.norm == WrenchNorm::linf && !is_force_closure()) return 0;
-  const Bracket& b = final_bracket();
-  if (!is_force_closure()) return 0;
+  if (options_.norm == WrenchNorm::linf && !is_force_closure(progress)) return 0;
+  const Bracket& b = final_bracket(progress);
+  if (!is_force_closure(progress)) return 0;
   const bool converged = b.upper - b.lower <= std::max(b.tolerance, 1e-9);
   return std::ldexp(std::max(0.0, converged ? b.upper : b.lower), prepared().exponent);
 }
 
-EpsilonBounds WrenchSpace::epsilon_bounds(const EpsilonOptions& options) const {
+EpsilonBounds WrenchSpace::epsilon_bounds(const EpsilonOptions& options,
+                                          const Progress& progress) const {
   if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
     fail("wrench space: tolerance must be >= 0, got {}", options.tolerance);
   if (options.at_least && !std::isfinite(*options.at_least))
     fail("wrench space: at_least must be finite, got {}", *options.at_least);
-  if (!is_force_closure()) return {0, 0, true};
+  if (!is_force_closure(progress)) return {0, 0, true};
   const int exponent = prepared().exponent;
   const double tolerance = std::max(std::ldexp(options.tolerance, -exponent), flat_tolerance);
   const double at_least = options.at_least ? std::ldexp(*options.at_least, -exponent) : 0;
@@ -342,7 +349,7 @@ EpsilonBounds WrenchSpace::epsilon_bounds(const EpsilonOptions& options) const {
            (options.at_least && (b.lower >= at_least || b.upper < at_least));
   };
   if (!bracket_ || !decides(*bracket_)) {
-    Bracket found = bracket_of(prepared().reach, tolerance, std::max(0.0, at_least));
+    Bracket found = bracket_of(prepared().reach, tolerance, std::max(0.0, at_least), progress);
     // how near it came is what counts later
     found.tolerance = std::max(found.upper - found.lower, flat_tolerance);
     if (bracket_) {
@@ -357,7 +364,7 @@ EpsilonBounds WrenchSpace::epsilon_bounds(const EpsilonOptions& options) const {
 }
 
 // without force closure: a wrench that nothing, or less than nothing, answers
-Weakest WrenchSpace::unresisted() const {
+Weakest WrenchSpace::unresisted(const Progress& progress) const {
   Weakest out;
   out.direction = Vector6d::Unit(options_.coordinates[0]);
   if (rank() == 0) return out;
@@ -373,7 +380,8 @@ Weakest WrenchSpace::unresisted() const {
   if (nearest.distance > 10 * prepared().zero)
     direction = nearest.point / nearest.distance;
   else
-    direction = -bracket_of(l1, flat_tolerance, 0).direction;
+    direction = -bracket_of(l1, flat_tolerance, 0, progress).direction;
+  progress.check();
   const Eigen::VectorXd answer = -direction;
   const double reach = l1.support(answer.data(), far.data());
   out.direction = in_all_coordinates(direction);
@@ -383,12 +391,12 @@ Weakest WrenchSpace::unresisted() const {
   return out;
 }
 
-const Weakest& WrenchSpace::weakest() const {
+const Weakest& WrenchSpace::weakest(const Progress& progress) const {
   if (weakest_) return *weakest_;
-  if (!is_force_closure()) return weakest_.emplace(unresisted());
+  if (!is_force_closure(progress)) return weakest_.emplace(unresisted(progress));
   Weakest out;
-  out.resistance = epsilon();
-  const Eigen::VectorXd answer = final_bracket().direction;
+  out.resistance = epsilon(progress);
+  const Eigen::VectorXd answer = final_bracket(progress).direction;
   out.direction = in_all_coordinates(-answer);
   std::vector<double> pushes;
   for (size_t i = 0; i < contacts_.size(); ++i)
@@ -417,33 +425,35 @@ Hull WrenchSpace::hull() const {
   return out;
 }
 
-double WrenchSpace::volume() const {
+double WrenchSpace::volume(const Progress& progress) const {
   if (volume_) return *volume_;
   if (is_round()) {
-    const VolumeBounds bounds = volume_bounds();
+    const VolumeBounds bounds = volume_bounds(32, progress);
     return volume_.emplace((bounds.lower + bounds.upper) / 2);
   }
   if (rank() < dimension()) return volume_.emplace(0);
-  const double scaled = options_.norm == WrenchNorm::l1 ? hull_volume() : sum_of_hulls_volume();
+  const double scaled =
+      options_.norm == WrenchNorm::l1 ? hull_volume(progress) : sum_of_hulls_volume(progress);
   return volume_.emplace(std::ldexp(scaled, dimension() * prepared().exponent));
 }
 
 // of the space in L1, scaled
-double WrenchSpace::hull_volume() const {
+double WrenchSpace::hull_volume(const Progress& progress) const {
   if (affine_rank(spanning(), rank_tolerance) < dimension()) return 0;
-  const Facets facets = all_facets(prepared().reach, {.max_facets = max_facets});
+  const Facets facets =
+      all_facets(prepared().reach, {.max_facets = max_facets, .progress = progress});
   if (facets.end == FacetsEnd::too_many)
-    fail(
-        "wrench space: volume: the hull of {} contact{} has more than {} facets; give fewer "
-        "edges",
-        contacts_.size(), contacts_.size() == 1 ? "" : "s", max_facets);
+    fail(ErrorKind::limit,
+         "wrench space: volume: the hull of {} contact{} has more than {} facets; give fewer "
+         "edges",
+         contacts_.size(), contacts_.size() == 1 ? "" : "s", max_facets);
   if (facets.end == FacetsEnd::complete) return facets.volume;
   if (facets.end == FacetsEnd::flat) return 0;
   return std::ldexp(hull().volume, -dimension() * prepared().exponent);
 }
 
 // of the space in L-infinity, scaled
-double WrenchSpace::sum_of_hulls_volume() const {
+double WrenchSpace::sum_of_hulls_volume(const Progress& progress) const {
   const Eigen::MatrixXd all = spanning();
   std::vector<Eigen::MatrixXd> hulls;
   Eigen::Index column = 0;
@@ -453,27 +463,28 @@ double WrenchSpace::sum_of_hulls_volume() const {
     points.rightCols(count) = all.middleCols(column, count);
     column += count;
   }
-  const SumVolume sum = sum_volume(hulls, max_cells);
+  const SumVolume sum = sum_volume(hulls, max_cells, progress);
   if (sum.end == SumVolume::too_many)
     fail(
+        ErrorKind::limit,
         "wrench space: volume: in L-infinity the space of {} contacts has more than {} cells; give "
         "fewer edges",
         contacts_.size(), max_cells);
   if (sum.end == SumVolume::failed)
-    fail("wrench space: volume: rounding broke the cells in L-infinity");
+    fail(ErrorKind::internal, "wrench space: volume: rounding broke the cells in L-infinity");
   return sum.volume;
 }
 
-VolumeBounds WrenchSpace::volume_bounds(int edges) const {
+VolumeBounds WrenchSpace::volume_bounds(int edges, const Progress& progress) const {
   if (edges < 4 || edges > max_edges)
     fail("wrench space: edges must be 4 to {}, got {}", max_edges, edges);
-  if (!is_round()) return {volume(), volume()};
+  if (!is_round()) return {volume(progress), volume(progress)};
   if (volume_bounds_ && volume_bounds_->first == edges) return volume_bounds_->second;
   const auto replaced = [&](bool around) {
     std::vector<UnitWrenches> contacts = contacts_;
     for (UnitWrenches& contact : contacts)
       if (contact.round) contact = {pyramid_of(*contact.round, edges, around), {}};
-    return WrenchSpace(std::move(contacts), options_).volume();
+    return WrenchSpace(std::move(contacts), options_).volume(progress);
   };
   return volume_bounds_.emplace(edges, VolumeBounds{replaced(false), replaced(true)}).second;
 }

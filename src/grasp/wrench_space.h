@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/progress.h"
 #include "contact/cone.h"
 #include "geometry/hull.h"
 #include "grasp/wrench_support.h"
@@ -50,7 +51,7 @@ struct EpsilonBounds {
   double lower = 0, upper = 0;
   bool converged =
       true;  ///< upper - lower is within the tolerance; else at_least was known before, or it is as near as it
-      ///< came
+             ///< came
 };
 
 /// lower <= volume <= upper: of the space with round cones replaced by pyramids within, and by the same
@@ -64,7 +65,8 @@ struct VolumeBounds {
 /// sum of the hulls of zero and each contact's unit wrenches.
 ///
 /// Known by its support function: nothing is calculated before it is asked for, and then kept. One
-/// thread at a time.   source  Ferrari & Canny (1992)
+/// thread at a time. What takes long throws Stopped when its progress is told to stop.
+/// source  Ferrari & Canny (1992)
 class WrenchSpace {
  public:
   /// contacts  empty: nothing is resisted. Any number, size or rank of wrenches
@@ -75,21 +77,22 @@ class WrenchSpace {
   /// Radius of the largest ball about the origin inside the space; 0 unless force closure. In
   /// [0, sqrt(1 + mu^2)] in L1. Within 1e-12 of the space's size; with round cones within 1e-9,
   /// or, where 500,000 facets do not show that much (rings of alike contacts, huge friction), a certain lower bound.
-  double epsilon() const;
-  /// An epsilon that is less certain, and found sooner.   throws Error when tolerance < 0 or not finite
-  EpsilonBounds epsilon_bounds(const EpsilonOptions& options) const;
+  double epsilon(const Progress& progress = {}) const;
+  /// An epsilon that is less certain, and found sooner; told to stop, the bounds found so far.
+  /// throws Error when tolerance < 0 or not finite
+  EpsilonBounds epsilon_bounds(const EpsilonOptions& options, const Progress& progress = {}) const;
   /// Of the space in its coordinates; 0 when it is flat. With round cones the middle of its bounds.
   /// throws  Error when the hull has more than a million facets or, in L-infinity, the sum more than
   ///         60,000 cells, which is known within some two seconds: five hard contacts of eight edges or
   ///         three soft ones have fewer
-  double volume() const;
+  double volume(const Progress& progress = {}) const;
   /// edges   of the pyramids for round cones, 4 to max_edges; a soft contact's are those of
   ///         friction_edges with half as many directions. Without round cones both bounds are the volume
   /// throws  Error as volume, or when edges are out of range
-  VolumeBounds volume_bounds(int edges = 32) const;
-  bool is_force_closure() const;
+  VolumeBounds volume_bounds(int edges = 32, const Progress& progress = {}) const;
+  bool is_force_closure(const Progress& progress = {}) const;
   int rank() const;  ///< dimension that the wrenches span, 0 to that of the space
-  const Weakest& weakest() const;
+  const Weakest& weakest(const Progress& progress = {}) const;
 
   const std::vector<UnitWrenches>& contacts() const { return contacts_; }
   const WrenchSpaceOptions& options() const { return options_; }
@@ -119,11 +122,12 @@ class WrenchSpace {
   };
   const Prepared& prepared() const;
   WrenchSupport reach_in(WrenchNorm norm, int exponent) const;
-  Bracket bracket_of(const WrenchSupport& reach, double tolerance, double at_least) const;
-  const Bracket& final_bracket() const;
-  Weakest unresisted() const;
-  double hull_volume() const;
-  double sum_of_hulls_volume() const;
+  Bracket bracket_of(const WrenchSupport& reach, double tolerance, double at_least,
+                     const Progress& progress) const;
+  const Bracket& final_bracket(const Progress& progress) const;
+  Weakest unresisted(const Progress& progress) const;
+  double hull_volume(const Progress& progress) const;
+  double sum_of_hulls_volume(const Progress& progress) const;
   Eigen::MatrixXd spanning() const;
   Vector6d in_all_coordinates(const Eigen::VectorXd& x) const;
 

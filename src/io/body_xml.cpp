@@ -188,7 +188,8 @@ BodySpec read_body_element(const XmlElement& element, const fs::path& path, Libr
     return body;
   }
   try {
-    body.shape = Shape::make(std::move(geometry.mesh), path.filename().string());
+    body.shape = Shape::make(std::move(geometry.mesh), path.filename().string(),
+                                  library.options().progress);
   } catch (const Error& error) {
     file.fail("{}", error.what());
   }

@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 #include "base/text.h"
+#include "io/file_errors.h"
 #include "io/repairs.h"
 #include "io/xml.h"
 
@@ -294,10 +295,12 @@ std::string eigengrasps_xml(const EigengraspSet& set) {
 }
 
 EigengraspSet read_eigengrasps(const fs::path& path, const ReadOptions& options) {
-  std::string text = read_text(path);
-  const std::string file = path.filename().string();
-  if (trim(text).starts_with('<')) return EigengraspXml(file, text, options).read();
-  return EgrReader(file, std::move(text), options).read();
+  return of_file([&] {
+    std::string text = read_text(path);
+    const std::string file = path.filename().string();
+    if (trim(text).starts_with('<')) return EigengraspXml(file, text, options).read();
+    return EgrReader(file, std::move(text), options).read();
+  });
 }
 
 std::string eigengrasps_text(const EigengraspSet& set, const fs::path& path) {

@@ -164,7 +164,7 @@ FileKind file_kind(const std::filesystem::path& path) {
   // any of these lists is whole in so many bytes
   if (const auto kind = kind_of_numbers(plain_text(read_start(path, size_t{4} << 20))))
     return *kind;
-  fail("{}: expected a model, a world, or a file that goes with one, got {}",
+  fail(ErrorKind::file, "{}: expected a model, a world, or a file that goes with one, got {}",
        path.filename().string(), in_quotes(ending));
 }
 

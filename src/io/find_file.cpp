@@ -74,16 +74,16 @@ bool is_readable(const fs::path& file, const ReadOptions& options) {
 }
 
 void fail_outside(const std::string& name, const ReadOptions& options) {
-  fail("'{}' lies outside of {}, to which reading is confined", name,
+  fail(ErrorKind::file, "'{}' lies outside of {}, to which reading is confined", name,
        options.confine.generic_string());
 }
 
 fs::path find_file(const std::string& name, const fs::path& referrer, const ReadOptions& options) {
   std::string slashed = name;
   std::replace(slashed.begin(), slashed.end(), '\\', '/');
-  if (trim(name).empty()) fail("expected the name of a file, got nothing");
+  if (trim(name).empty()) fail(ErrorKind::file, "expected the name of a file, got nothing");
   if (slashed.find('\0') != std::string::npos || slashed.size() > 4096)
-    fail("no such file: {}", in_quotes(name));
+    fail(ErrorKind::file, "no such file: {}", in_quotes(name));
 
   auto places = places_of(slashed, referrer, options);
   // of what lies outside nothing is asked, so that no answer tells what is there
@@ -99,13 +99,13 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
   for (const auto& place : places)
     if (const fs::path found = exact_or_case(place);
         !found.empty() && lies_within(found, options.confine))
-      fail("expected a file, got a {}: {}",
+      fail(ErrorKind::file, "expected a file, got a {}: {}",
            fs::is_directory(found, code) ? "folder" : "special file", shown);
   // what the system does not let us see may be there
   for (const auto& place : places)
     if (fs::status(place, code).type() == fs::file_type::none)
-      fail("{}: the file cannot be read: {}", shown, system_reason(code.value()));
-  fail("no such file: {}{}", shown, suggestion(places, options));
+      fail(ErrorKind::file, "{}: the file cannot be read: {}", shown, system_reason(code.value()));
+  fail(ErrorKind::file, "no such file: {}{}", shown, suggestion(places, options));
 }
 
 std::string absolute_name(const fs::path& path) {

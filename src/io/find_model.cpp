@@ -23,8 +23,8 @@ static fs::path try_endings(const std::string& name, const fs::path& referrer, M
   for (const auto& expected : names) {
     try {
       return find_file(expected, referrer, options);
-    } catch (const Error&) {
-      // the next one
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::file) throw;  // else the next one
     }
   }
   return {};

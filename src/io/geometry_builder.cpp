@@ -187,6 +187,7 @@ void GeometryBuilder::check_reach(const std::string& subject) const {
 int GeometryBuilder::add_vertex(const Vector3d& p, int line) {
   if (mesh_.vertices.size() >= max_mesh_vertices)
     fail("expected at most {} vertices", max_mesh_vertices);
+  if (mesh_.vertices.size() % 1024 == 0) progress.check();
   mesh_.vertices.push_back(p);
   note_far(p, line);
   return static_cast<int>(mesh_.vertices.size()) - 1;
@@ -224,6 +225,7 @@ void GeometryBuilder::add_triangle(const Triangle& t, const Eigen::Vector3f& giv
   const Eigen::Vector3f color = given.unaryExpr(&clamped_share);
   if (mesh_.triangles.size() >= max_mesh_triangles)
     fail("expected at most {} triangles", max_mesh_triangles);
+  if (mesh_.triangles.size() % 1024 == 0) progress.check();
   mesh_.triangles.push_back(t);
   colors_.push_back(color);
 
@@ -283,14 +285,17 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
     out.report.unused_vertices = static_cast<int>(gathered - s.mesh.vertices.size());
     out.report.vertices_read = static_cast<int>(s.mesh.vertices.size());
   }
+  progress.check();
   const size_t used = s.mesh.vertices.size();
   check_mesh(s.mesh, subject);
 
   // repair what is open; a loose triangle has only open edges, so its file connects by place alone
-  if (!loose_) s.faults = find_faults(s.mesh);
+  if (!loose_) s.faults = find_faults(s.mesh, progress);
   if (loose_ || !s.faults.closed()) weld_places(s, loose_);
-  if (loose_ && s.mesh.vertices.size() == used) s.faults = find_faults(s.mesh);
+  if (loose_ && s.mesh.vertices.size() == used) s.faults = find_faults(s.mesh, progress);
+  progress.check();
   if (s.faults.open_edges > 0) weld_seams(s);
+  progress.check();
   if (!keeps_triangles && !s.faults.closed() && s.faults.degenerate_triangles > 0)
     drop_flat_triangles(s);
   if (!keeps_triangles && !s.faults.closed() && s.faults.duplicate_triangles > 0)
@@ -299,6 +304,7 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
   out.report.dropped_triangles =
       out.report.triangles_read - static_cast<int>(s.mesh.triangles.size());
 
+  progress.check();
   out.report.flipped = turn_outward(s.mesh);
   if (out.report.flipped) options.repaired(subject + inside_out);
   if (colors_given) out.appearance = mean_appearance(s.kept);

@@ -54,6 +54,8 @@ class GeometryBuilder {
   /// throws  Error naming line and vertex that lie too far out, "huge.off:4: vertex 2: ..."
   Geometry finish(bool colors_given, const std::string& subject, const ReadOptions& options);
 
+  /// Asked whether to go on; it throws Stopped.
+  Progress progress = {};
   MeshReport report;  ///< format, unit and axes are the reader's to say
   /// Is every triangle kept but those with a corner twice?
   bool keeps_triangles = false;

@@ -1,4 +1,5 @@
 #include "io/glove_files.h"
+#include "io/file_errors.h"
 
 #include "base/units.h"
 #include "io/number_reader.h"
@@ -10,20 +11,22 @@ namespace fs = std::filesystem;
 static constexpr int max_entries = 1000;  // DOFs, sensors of a glove
 
 GloveCalibration read_glove_calibration(const fs::path& path, const ReadOptions& options) {
-  LineReader lines(path.filename().string(), read_text(path));
-  NumberReader numbers(lines);
-  const int dofs = numbers.integer("number of DOFs", 1, max_entries);
-  const int sensors = numbers.integer("number of sensors", 1, max_entries);
-  std::vector<double> slopes;  // grows with the file, not with what it promises
-  for (int d = 0; d < dofs; ++d)
-    for (int s = 0; s < sensors; ++s)
-      slopes.push_back(numbers.number(fmt::format("DOF {}: slope {}", d + 1, s + 1)));
-  GloveCalibration out;
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  out.slopes = Eigen::Map<const Rows>(slopes.data(), dofs, sensors);
-  out.intercepts = numbers.numbers(dofs, "intercepts");
-  numbers.finish(options.warn);
-  return out;
+  return of_file([&] {
+    LineReader lines(path.filename().string(), read_text(path));
+    NumberReader numbers(lines);
+    const int dofs = numbers.integer("number of DOFs", 1, max_entries);
+    const int sensors = numbers.integer("number of sensors", 1, max_entries);
+    std::vector<double> slopes;  // grows with the file, not with what it promises
+    for (int d = 0; d < dofs; ++d)
+      for (int s = 0; s < sensors; ++s)
+        slopes.push_back(numbers.number(fmt::format("DOF {}: slope {}", d + 1, s + 1)));
+    GloveCalibration out;
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    out.slopes = Eigen::Map<const Rows>(slopes.data(), dofs, sensors);
+    out.intercepts = numbers.numbers(dofs, "intercepts");
+    numbers.finish(options.warn);
+    return out;
+  });
 }
 
 // a flag, then n items when it is 1
@@ -66,14 +69,16 @@ static GlovePose read_pose(NumberReader& numbers, const std::string& what) {
 }
 
 std::vector<GlovePose> read_glove_poses(const fs::path& path, const ReadOptions& options) {
-  LineReader lines(path.filename().string(), read_text(path));
-  NumberReader numbers(lines);
-  const int count = numbers.integer("number of poses", 0);
-  std::vector<GlovePose> poses;
-  for (int i = 0; i < count; ++i)
-    poses.push_back(read_pose(numbers, fmt::format("pose {}", i + 1)));
-  numbers.finish(options.warn);
-  return poses;
+  return of_file([&] {
+    LineReader lines(path.filename().string(), read_text(path));
+    NumberReader numbers(lines);
+    const int count = numbers.integer("number of poses", 0);
+    std::vector<GlovePose> poses;
+    for (int i = 0; i < count; ++i)
+      poses.push_back(read_pose(numbers, fmt::format("pose {}", i + 1)));
+    numbers.finish(options.warn);
+    return poses;
+  });
 }
 
 }  // namespace clench

@@ -1,4 +1,5 @@
 #include "io/grasp_lists.h"
+#include "io/file_errors.h"
 
 #include "base/file.h"
 #include "base/text.h"
@@ -39,10 +40,12 @@ static Pregrasp read_pregrasp(const Line& line) {
 }
 
 std::vector<Pregrasp> read_pregrasps(const fs::path& path, const ReadOptions&) {
-  LineReader lines(path.filename().string(), read_text(path));
-  std::vector<Pregrasp> out;
-  while (lines.skip_to_full()) out.push_back(read_pregrasp(lines.next().before('#')));
-  return out;
+  return of_file([&] {
+    LineReader lines(path.filename().string(), read_text(path));
+    std::vector<Pregrasp> out;
+    while (lines.skip_to_full()) out.push_back(read_pregrasp(lines.next().before('#')));
+    return out;
+  });
 }
 
 void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const fs::path& path) {
@@ -60,31 +63,34 @@ void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const fs::path& pat
 static constexpr const char* run_mark = "0 0 0 0 0 0 0 0 -2";
 
 std::vector<PlannedGrasp> read_planned_grasps(const fs::path& path, const ReadOptions& options) {
-  LineReader lines(path.filename().string(), read_text(path));
-  std::vector<PlannedGrasp> out;
-  int run = -1;
-  while (lines.skip_to_full()) {
-    const Line line = lines.next().before('#');
-    if (line.size() < 9)
-      line.fail("expected 9 numbers: x y z qw qx qy qz spread quality, got {}", line.size());
-    if (const std::string more = line.surplus(9); options.warn && !more.empty()) options.warn(more);
-    constexpr const char* names[] = {"x", "y", "z", "qw", "qx", "qy", "qz", "spread", "quality"};
-    double x[9];
-    for (int i = 0; i < 9; ++i) x[i] = line.number(i, names[i]);
-    if (x[8] == -2 && std::all_of(x, x + 8, [](double v) { return v == 0; })) {
-      ++run;
-      continue;
+  return of_file([&] {
+    LineReader lines(path.filename().string(), read_text(path));
+    std::vector<PlannedGrasp> out;
+    int run = -1;
+    while (lines.skip_to_full()) {
+      const Line line = lines.next().before('#');
+      if (line.size() < 9)
+        line.fail("expected 9 numbers: x y z qw qx qy qz spread quality, got {}", line.size());
+      if (const std::string more = line.surplus(9); options.warn && !more.empty())
+        options.warn(more);
+      constexpr const char* names[] = {"x", "y", "z", "qw", "qx", "qy", "qz", "spread", "quality"};
+      double x[9];
+      for (int i = 0; i < 9; ++i) x[i] = line.number(i, names[i]);
+      if (x[8] == -2 && std::all_of(x, x + 8, [](double v) { return v == 0; })) {
+        ++run;
+        continue;
+      }
+      const auto q = made_unit({x[3], x[4], x[5], x[6]});
+      if (!q)
+        line.fail("expected a quaternion of length 1, got ({} {} {} {})", x[3], x[4], x[5], x[6]);
+      out.push_back({.run = std::max(run, 0),
+                     .X_OH = {*q, Vector3d(x[0], x[1], x[2]) * units::millimetre},
+                     .spread = x[7] * units::degree,
+                     .quality = x[8]});
+      run = std::max(run, 0);
     }
-    const auto q = made_unit({x[3], x[4], x[5], x[6]});
-    if (!q)
-      line.fail("expected a quaternion of length 1, got ({} {} {} {})", x[3], x[4], x[5], x[6]);
-    out.push_back({.run = std::max(run, 0),
-                   .X_OH = {*q, Vector3d(x[0], x[1], x[2]) * units::millimetre},
-                   .spread = x[7] * units::degree,
-                   .quality = x[8]});
-    run = std::max(run, 0);
-  }
-  return out;
+    return out;
+  });
 }
 
 void write_planned_grasps(const std::vector<PlannedGrasp>& grasps, const fs::path& path) {

@@ -75,6 +75,7 @@ Geometry read_inventor(const std::filesystem::path& path, const std::string& tex
   const std::string file = path.filename().string();
   const double unit = options.mesh_scale.value_or(units::millimetre);
   GeometryBuilder builder;
+  builder.progress = options.progress;
   builder.keeps_triangles = true;
   MeshReport& report = builder.report;
   report.format = text.starts_with("#VRML") ? "VRML" : "Inventor";

@@ -56,7 +56,7 @@ const InventorNode* InventorLoader::include(const std::string& name, const fs::p
   try {
     if (path.empty()) path = fs::weakly_canonical(find_file(name, referrer, options_));
   } catch (const Error& error) {
-    fail("{}: {}", place, error.what());
+    fail(error.kind(), "{}: {}", place, error.what());
   }
   for (const auto& above : open_)
     if (above == path) fail("{}: {} includes itself", place, in_quotes(name));
@@ -72,14 +72,14 @@ const InventorNode* InventorLoader::load_part(const fs::path& path, const std::s
   try {
     text = read_text(path);
   } catch (const Error& error) {
-    fail("{}: {}", place, error.what());
+    fail(error.kind(), "{}: {}", place, error.what());
   }
   const bool outermost = open_.size() == 1;
   try {
     return load(path, text);
   } catch (const Error& error) {
     // of a chain of files the first and the last are told
-    if (outermost) fail("{}: {}", place, error.what());
+    if (outermost) fail(error.kind(), "{}: {}", place, error.what());
     throw;
   }
 }

@@ -1,4 +1,5 @@
 #include "io/inventor_primitives.h"
+#include "io/file_errors.h"
 
 #include "base/text.h"
 #include "base/units.h"
@@ -115,38 +116,40 @@ InventorMatrix placement_of(const PlacedFile& file) {
 }  // namespace
 
 std::vector<Primitive> read_primitives(const fs::path& path, const ReadOptions& options) {
-  // what somebody has simplified already
-  const fs::path beside =
-      path.parent_path() / "primitives" / fs::path(path.filename()).replace_extension(".iv");
-  PlacedFile source{.path = path};
-  if (is_readable(beside, options))
-    source.path = beside;
-  else if (ending_of(path) == ".xml")
-    source = geometry_of_body(path, options);
-  if (source.path.empty()) return {};
-  const std::string file = source.path.filename().string(), ending = ending_of(source.path);
-  if (source.format == GeometryFormat::none) source.format = geometry_format(ending);
-  if (source.format != GeometryFormat::inventor)
-    fail("{}: expected primitives from {}, got {}", file,
-         one_of(endings_of(GeometryFormat::inventor)), in_quotes(ending));
+  return of_file([&]() -> std::vector<Primitive> {
+    // what somebody has simplified already
+    const fs::path beside =
+        path.parent_path() / "primitives" / fs::path(path.filename()).replace_extension(".iv");
+    PlacedFile source{.path = path};
+    if (is_readable(beside, options))
+      source.path = beside;
+    else if (ending_of(path) == ".xml")
+      source = geometry_of_body(path, options);
+    if (source.path.empty()) return {};
+    const std::string file = source.path.filename().string(), ending = ending_of(source.path);
+    if (source.format == GeometryFormat::none) source.format = geometry_format(ending);
+    if (source.format != GeometryFormat::inventor)
+      fail("{}: expected primitives from {}, got {}", file,
+           one_of(endings_of(GeometryFormat::inventor)), in_quotes(ending));
 
-  std::vector<Primitive> found;
-  const InventorGraph graph = read_inventor_graph(source.path, read_text(source.path), options);
-  InventorWalk walk;
-  walk.max_visits = max_primitive_visits;
-  walk.shape = [&](const InventorNode& shape, const InventorState& state) {
-    if (found.size() >= max_primitives) fail("expected at most {} primitives", max_primitives);
-    if (const auto solid = primitive_of(shape))
-      found.push_back(placed(*solid, state.X, file, walk.warnings));
-    else
-      walk.warnings.add(
-          file, fmt::format("{}: {} is no primitive and is not used", file, shape.type->name));
-  };
-  InventorState start;
-  start.X = placement_of(source);
-  walk_inventor(graph, start, walk);
-  tell_inventor_warnings(graph, walk, options);
-  return found;
+    std::vector<Primitive> found;
+    const InventorGraph graph = read_inventor_graph(source.path, read_text(source.path), options);
+    InventorWalk walk;
+    walk.max_visits = max_primitive_visits;
+    walk.shape = [&](const InventorNode& shape, const InventorState& state) {
+      if (found.size() >= max_primitives) fail("expected at most {} primitives", max_primitives);
+      if (const auto solid = primitive_of(shape))
+        found.push_back(placed(*solid, state.X, file, walk.warnings));
+      else
+        walk.warnings.add(
+            file, fmt::format("{}: {} is no primitive and is not used", file, shape.type->name));
+    };
+    InventorState start;
+    start.X = placement_of(source);
+    walk_inventor(graph, start, walk);
+    tell_inventor_warnings(graph, walk, options);
+    return found;
+  });
 }
 
 }  // namespace clench

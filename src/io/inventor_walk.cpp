@@ -193,7 +193,7 @@ void InventorWalker::visit_shape(const InventorNode& node, InventorState state) 
     count_listed(node);
     walk_.shape(node, state);
   } catch (const Error& error) {
-    fail("{}: {}", graph_.place(node), error.what());
+    fail(error.kind(), "{}: {}", graph_.place(node), error.what());
   }
 }
 

@@ -8,12 +8,14 @@ namespace clench {
 namespace fs = std::filesystem;
 
 const BodySpec& Library::body(const fs::path& path) {
+  options_.progress.tell(-1, path.filename().string());
   auto found = bodies_.find(path);
   if (found == bodies_.end()) found = bodies_.emplace(path, loaders_.body(path, *this)).first;
   return found->second;
 }
 
 const RobotSpec& Library::robot(const fs::path& path) {
+  options_.progress.tell(-1, path.filename().string());
   auto found = robots_.find(path);
   if (found == robots_.end()) found = robots_.emplace(path, loaders_.robot(path, *this)).first;
   return found->second;
@@ -26,7 +28,7 @@ BodySpec Library::named_body(const std::string& name, const fs::path& referrer,
     out.source = name;
     return out;
   } catch (const Error& error) {
-    fail("{}: {}", place, error.what());
+    fail(error.kind(), "{}: {}", place, error.what());
   }
 }
 
@@ -37,7 +39,7 @@ RobotSpec Library::named_robot(const std::string& name, const fs::path& referrer
     out.source = name;
     return out;
   } catch (const Error& error) {
-    fail("{}: {}", place, error.what());
+    fail(error.kind(), "{}: {}", place, error.what());
   }
 }
 
@@ -49,13 +51,14 @@ fs::path Library::find_part(const std::string& name, const fs::path& robot,
   for (const auto& folder : folders) {
     try {
       return find_file(name, folder / "x", options_.beside_only());
-    } catch (const Error&) {
-      // the next one
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::file) throw;  // else the next one
     }
   }
   try {
     return find_file(name, robot, options_);
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::file) throw;
     return find_converted(name, folders.back() / "x", ModelKind::body, place,
                           options_.beside_only());
   }
@@ -68,7 +71,7 @@ BodySpec Library::part(const std::string& name, const fs::path& robot, const std
     out.source = found.generic_string();
     return out;
   } catch (const Error& error) {
-    fail("{}: {}", place, error.what());
+    fail(error.kind(), "{}: {}", place, error.what());
   }
 }
 

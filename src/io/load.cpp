@@ -40,7 +40,7 @@ static BodySpec load_body(const fs::path& path, Library& library) {
     if (geometry.mesh.triangles.empty())
       options.suspected(file + ": no surface: the body is a frame, which touches nothing");
     else
-      body.shape = Shape::make(std::move(geometry.mesh), file);
+      body.shape = Shape::make(std::move(geometry.mesh), file, library.options().progress);
   }
   body.name = path.stem().string();
   repair_names(body, file, options);

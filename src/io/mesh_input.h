@@ -35,7 +35,7 @@ bool run_reader(const MeshInput& input, MakeReader make) {
     // what the builder refuses does not name the file
     const std::string what = error.what();
     if (what.starts_with(file)) throw;
-    fail("{}: {}", file, what);
+    fail(error.kind(), "{}: {}", file, what);
   }
 }
 

@@ -216,7 +216,7 @@ void ObjReader::add_faces() {
     try {
       builder_.add_face(corners, look.color, look.transparency);
     } catch (const Error& error) {
-      fail("{}:{}: {}", words_.file(), face.line, error.what());
+      fail(error.kind(), "{}:{}: {}", words_.file(), face.line, error.what());
     }
   }
 }

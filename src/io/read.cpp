@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "io/file_errors.h"
 #include "io/load.h"
 #include "io/robot_files.h"
 #include "io/tree_files.h"
@@ -26,43 +27,50 @@ static void check_options(const ReadOptions& options) {
 
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
-  BodySpec body = Library(options, all_formats).body(find_file(path.string(), "", options));
-  body.source = path.generic_string();
-  return body;
+  return of_file([&] {
+    BodySpec body = Library(options, all_formats).body(find_file(path.string(), "", options));
+    body.source = path.generic_string();
+    return body;
+  });
 }
 
 RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
-  RobotSpec robot = Library(options, all_formats).robot(find_file(path.string(), "", options));
-  robot.source = path.generic_string();
-  read_chosen_files(robot, options);
-  return robot;
+  return of_file([&] {
+    RobotSpec robot = Library(options, all_formats).robot(find_file(path.string(), "", options));
+    robot.source = path.generic_string();
+    read_chosen_files(robot, options);
+    return robot;
+  });
 }
 
 WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
-  Library library(options, all_formats);
-  const auto found = find_file(path.string(), "", options);
-  const std::string extension = lower_case(found.extension().string());
-  WorldSpec world;
-  if (is_robot_tree(found))
-    fail("{}: expected a world, got a robot; world:add_robot loads it", found.filename().string());
-  if (extension == ".wld")
-    world = read_world_wld(found, library);
-  else if (extension == ".xml")
-    world = read_world_xml(found, library);
-  else
-    fail("{}: expected a world from .wld or .xml, got {}", found.filename().string(),
-         in_quotes(extension));
-  std::set<std::string> told;  // of what stands there more than once, one
-  for (const PlacedBody& placed : world.bodies)
-    if (placed.role == Role::object && told.insert(placed.body.file).second)
-      check_plausible_object(
-          placed.body,
-          fmt::format("{}: '{}'", found.filename().string(), excerpt(placed.body.name)),
-          options.listeners());
-  world.source = path.generic_string();
-  return world;
+  return of_file([&] {
+    Library library(options, all_formats);
+    const auto found = find_file(path.string(), "", options);
+    const std::string extension = lower_case(found.extension().string());
+    WorldSpec world;
+    if (is_robot_tree(found))
+      fail("{}: expected a world, got a robot; world:add_robot loads it",
+           found.filename().string());
+    if (extension == ".wld")
+      world = read_world_wld(found, library);
+    else if (extension == ".xml")
+      world = read_world_xml(found, library);
+    else
+      fail("{}: expected a world from .wld or .xml, got {}", found.filename().string(),
+           in_quotes(extension));
+    std::set<std::string> told;  // of what stands there more than once, one
+    for (const PlacedBody& placed : world.bodies)
+      if (placed.role == Role::object && told.insert(placed.body.file).second)
+        check_plausible_object(
+            placed.body,
+            fmt::format("{}: '{}'", found.filename().string(), excerpt(placed.body.name)),
+            options.listeners());
+    world.source = path.generic_string();
+    return world;
+  });
 }
 
 }  // namespace clench

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/listeners.h"
+#include "base/progress.h"
 #include "math/pose.h"
 
 namespace clench {
@@ -42,6 +43,8 @@ struct ReadOptions {
   std::optional<Pose> approach = {};
   /// .dae .gltf .glb: turn what the file calls up to z? (A URDF takes the axes as they stand.)
   bool turn_mesh_up = true;
+  /// told of each file; what reads it throws Stopped
+  Progress progress = {};
 
   Listeners listeners() const { return {warn, note, repair, suspect}; }
   /// As these, but names count from the folder of their file alone.

@@ -39,7 +39,7 @@ void check_read_robot(RobotSpec& robot, const std::string& place, const ReadOpti
   try {
     check_robot(robot);
   } catch (const Error& error) {
-    fail("{}: {}", place, error.what());
+    fail(error.kind(), "{}: {}", place, error.what());
   }
 }
 

@@ -30,7 +30,7 @@ static std::optional<Value> read_named(Value (*read)(const fs::path&, const Read
     file = path.generic_string();
     return value;
   } catch (const Error& error) {
-    fail("{}: {}", named.place, error.what());
+    fail(error.kind(), "{}: {}", named.place, error.what());
   }
 }
 
@@ -45,7 +45,7 @@ static void read_chosen(Value (*read)(const fs::path&, const ReadOptions&), cons
   try {
     check_fit(robot, value);
   } catch (const Error& error) {
-    fail("{}: {}", path.filename().string(), error.what());
+    fail(error.kind(), "{}: {}", path.filename().string(), error.what());
   }
   target = std::move(value);
   file = path.generic_string();

@@ -54,7 +54,8 @@ bool SavedFiles::finds(const std::string& name, const std::string& file) const {
   try {
     std::error_code code;
     return fs::equivalent(find_file(name, path_, {.root = root_}), file, code) && !code;
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::file) throw;
     return false;
   }
 }
@@ -107,7 +108,7 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
       read = &(given_[robot.name] = Library(options, all_formats).robot(robot.file));
     }
   } catch (const Error& error) {
-    fail("robot '{}' cannot be saved: {}", excerpt(robot.name), error.what());
+    fail(error.kind(), "robot '{}' cannot be saved: {}", excerpt(robot.name), error.what());
   }
   const bool same = read->dofs.size() == robot.dofs.size() &&
                     std::ranges::equal(read->links, robot.links, [](const auto& a, const auto& b) {

@@ -1,4 +1,5 @@
 #include "io/virtual_contacts.h"
+#include "io/file_errors.h"
 
 #include "base/file.h"
 #include "base/text.h"
@@ -239,14 +240,16 @@ std::string virtual_contacts_xml(const VirtualContactSet& set) {
 }
 
 VirtualContactSet read_virtual_contacts(const fs::path& path, const ReadOptions& options) {
-  std::string text = read_text(path);
-  const std::string file = path.filename().string();
-  Repairs repairs(options.listeners());
-  VirtualContactSet set = trim(text).starts_with('<')
-                              ? read_xml(file, text, options.warn, repairs)
-                              : read_vgr(file, std::move(text), options.warn, repairs);
-  repairs.tell();
-  return set;
+  return of_file([&] {
+    std::string text = read_text(path);
+    const std::string file = path.filename().string();
+    Repairs repairs(options.listeners());
+    VirtualContactSet set = trim(text).starts_with('<')
+                                ? read_xml(file, text, options.warn, repairs)
+                                : read_vgr(file, std::move(text), options.warn, repairs);
+    repairs.tell();
+    return set;
+  });
 }
 
 std::string virtual_contacts_text(const VirtualContactSet& set, const fs::path& path) {
@@ -288,25 +291,28 @@ static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed, 
 }
 
 std::vector<ObjectContact> read_object_contacts(const fs::path& path, const ReadOptions& options) {
-  const std::string text = read_text(path), file = path.filename().string();
-  // only one of the two layouts uses the numbers up, to the last one
-  LineReader bare_lines(file, text), lines(file, text);
-  NumberReader bare_numbers(bare_lines), numbers(lines);
-  try {
-    auto contacts = read_list(bare_numbers, false, nullptr);
-    if (!bare_numbers.more() && !contacts.empty()) {
-      if (options.warn)
-        options.warn(file + ": the points of the contacts are left out; they are not placed");
-      return contacts;
+  return of_file([&] {
+    const std::string text = read_text(path), file = path.filename().string();
+    // only one of the two layouts uses the numbers up, to the last one
+    LineReader bare_lines(file, text), lines(file, text);
+    NumberReader bare_numbers(bare_lines), numbers(lines);
+    try {
+      auto contacts = read_list(bare_numbers, false, nullptr);
+      if (!bare_numbers.more() && !contacts.empty()) {
+        if (options.warn)
+          options.warn(file + ": the points of the contacts are left out; they are not placed");
+        return contacts;
+      }
+    } catch (const Error& error) {
+      // then it is the other one, whose errors are told
+      if (error.kind() != ErrorKind::input) throw;
     }
-  } catch (const Error&) {
-    // then it is the other one, whose errors are told
-  }
-  Repairs repairs(options.listeners());
-  auto contacts = read_list(numbers, true, &repairs);
-  repairs.tell();
-  numbers.finish(options.warn);
-  return contacts;
+    Repairs repairs(options.listeners());
+    auto contacts = read_list(numbers, true, &repairs);
+    repairs.tell();
+    numbers.finish(options.warn);
+    return contacts;
+  });
 }
 
 void write_object_contacts(const std::vector<ObjectContact>& contacts, const fs::path& path) {

@@ -252,7 +252,7 @@ void check_writable(const RobotSpec& robot, const std::string& file) {
   try {
     check_robot(robot);
   } catch (const Error& error) {
-    fail("{} cannot be written: {}", file, error.what());
+    fail(error.kind(), "{} cannot be written: {}", file, error.what());
   }
 }
 

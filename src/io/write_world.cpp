@@ -31,7 +31,7 @@ void write_world(const WorldSpec& world, const fs::path& path, const WriteOption
       const std::string own = draft.path().filename().string();
       for (size_t at; (at = what.find(own)) != std::string::npos;)
         what.replace(at, own.size(), file);
-      fail("{} cannot be saved: {}", file, what);
+      fail(error.kind(), "{} cannot be saved: {}", file, what);
     }
   }
   write_file(path, text);

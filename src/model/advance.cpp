@@ -101,6 +101,7 @@ Advance advance(World& world, std::vector<PairBound>& watches, double end,
       go(end);
       return arrive(std::nullopt);
     }
+    world.context().progress().check();
     go(next->safe);
     const bool stop = run.stops(*next, s, queries);
     if (stop || step == max_steps) return arrive(*next, !stop);

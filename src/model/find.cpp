@@ -133,6 +133,7 @@ std::vector<Contact> contacts(const World& world, QueryContext* context) {
   Remember memory(world, context);
   std::vector<Contact> out;
   for (auto [a, b] : near_bodies(world, world.contact_threshold(), *memory)) {
+    memory->progress().check();
     if (first_is_held(world.body(a), world.body(b))) std::swap(a, b);
     add_contacts(world, a, b, out);
   }
@@ -143,8 +144,11 @@ std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> othe
                               std::span<const Id<Body>> bodies, QueryContext* context) {
   Remember memory(world, context);
   std::vector<Contact> out;
-  for (const auto& [a, b] : near_bodies(world, others, bodies, world.contact_threshold(), *memory))
+  for (const auto& [a, b] :
+       near_bodies(world, others, bodies, world.contact_threshold(), *memory)) {
+    memory->progress().check();
     add_contacts(world, a, b, out);
+  }
   return out;
 }
 

@@ -36,7 +36,9 @@ static BodyBox box_of(const Shape& shape, const Pose& X_WB) {
 
 void QueryContext::attend(const std::shared_ptr<const void>& lineage) {
   if (lineage_ == lineage) return;
+  Progress progress = std::move(progress_);
   *this = {};
+  progress_ = std::move(progress);
   lineage_ = lineage;
 }
 

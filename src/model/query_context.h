@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/progress.h"
 #include "geometry/queries.h"
 #include "model/world_model.h"
 
@@ -40,6 +41,9 @@ class QueryContext {
   /// Coherence memory of a pair, as ordered() gives it.
   PairCache& pair(Id<Body> a, Id<Body> b);
   void forget(Id<Body> body);
+  /// Who watches the queries, and the motions of a world that has this context; they throw Stopped.
+  void watch(Progress progress) { progress_ = std::move(progress); }
+  const Progress& progress() const { return progress_; }
   size_t bytes() const;
 
  private:
@@ -52,6 +56,7 @@ class QueryContext {
     Id<Body> a, b;
     PairCache cache;
   };
+  Progress progress_;
   std::shared_ptr<const void> lineage_;
   std::vector<Box> boxes_;                         // by index of the id
   uint64_t model_stamp_ = 0, settings_stamp_ = 0;  // of the candidates

@@ -22,8 +22,9 @@ template <class T>
 static const T& follow(const std::vector<Slot<T>>& slots, Id<T> id, const char* what) {
   if (holds(slots, id)) return slots[id.index].value;
   if (id.index < slots.size() && slots[id.index].serial == id.serial)
-    fail("{} '{}' was removed from its world", what, excerpt(slots[id.index].value.name));
-  fail("this {} is no longer in its world", what);
+    fail(ErrorKind::stale, "{} '{}' was removed from its world", what,
+         excerpt(slots[id.index].value.name));
+  fail(ErrorKind::stale, "this {} is no longer in its world", what);
 }
 
 template <class T>

@@ -64,7 +64,8 @@ bool dof_can_advance(Drive& drive, int dof, double rate, const BlockedJoints& bl
 // returns  the pairs whose contacts do
 std::vector<BodyPair> stop_blocked(Drive& drive, Eigen::VectorXd& rates, double closed,
                                    std::vector<DofStop>& stops) {
-  const auto touching = contacts(drive.world, drive.world.bodies(), drive.moving, &drive.world.context());
+  const auto touching =
+      contacts(drive.world, drive.world.bodies(), drive.moving, &drive.world.context());
   const SpringBalance springs(drive.world, drive.id, touching);
   std::vector<BodyPair> pairs;
   for (bool changed = true; changed;) {
@@ -171,6 +172,7 @@ void drive_on(Drive& drive, const Eigen::VectorXd& all_rates, const DriveOptions
   const double closed = 2 * nearly_closed * drive.world.contact_threshold();
   int unrest = 0;
   while (true) {
+    drive.world.context().progress().check();
     re_engage(drive);
     const Springs springs = sprung ? relax_springs(drive, options, result) : Springs::at_rest;
     if (springs == Springs::stopped) return stop_all(result, all_rates, DofStop::contact);

@@ -50,7 +50,9 @@ double longest(const JointSpeeds& way) {
 
 Springs relax_springs(Drive& drive, const DriveOptions& options, DriveResult& result) {
   for (int turn = 0; turn < max_turns; ++turn) {
-    const auto touching = contacts(drive.world, drive.world.bodies(), drive.moving, &drive.world.context());
+    drive.world.context().progress().check();
+    const auto touching =
+        contacts(drive.world, drive.world.bodies(), drive.moving, &drive.world.context());
     const JointSpeeds way = SpringBalance(drive.world, drive.id, touching, turn > 0).displacement();
     if (longest(way) <= at_rest) return Springs::at_rest;
     const Advance end = follow_springs(drive, way, result.queries);

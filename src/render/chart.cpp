@@ -46,15 +46,16 @@ void check_chart(const Chart& chart, const ChartOptions& options) {
       fail("chart: series '{}': expected {} values, as the first has, got {}", series.name, items,
            series.values.size());
   if (items > max_items)
-    fail("chart: expected at most {} values a series, got {}", max_items, items);
+    fail(ErrorKind::limit, "chart: expected at most {} values a series, got {}", max_items, items);
   if (items * chart.series.size() > max_values)
-    fail("chart: expected at most {} values in all, got {} series of {}", max_values,
-         chart.series.size(), items);
+    fail(ErrorKind::limit, "chart: expected at most {} values in all, got {} series of {}",
+         max_values, chart.series.size(), items);
   size_t letters = chart.title.size();
   for (const std::string& label : chart.labels) letters += label.size();
   for (const ChartSeries& series : chart.series) letters += series.name.size();
   if (letters > max_letters)
-    fail("chart: expected texts of at most {} bytes in all, got {}", max_letters, letters);
+    fail(ErrorKind::limit, "chart: expected texts of at most {} bytes in all, got {}", max_letters,
+         letters);
   if (!chart.labels.empty() && chart.labels.size() != items)
     fail("chart: expected {} label{}, one per value, got {}", items, items == 1 ? "" : "s",
          chart.labels.size());

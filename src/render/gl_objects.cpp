@@ -26,7 +26,7 @@ Object compile(GLenum kind, const std::string& source) {
   if (good) return shader;
   char words[1024] = "";
   glGetShaderInfoLog(shader, sizeof words, nullptr, words);
-  fail("picture: the OpenGL driver refuses a shader: {}", words);
+  fail(ErrorKind::internal, "picture: the OpenGL driver refuses a shader: {}", words);
 }
 
 void filter(GLenum target, GLint mode) {
@@ -96,7 +96,7 @@ Object make_framebuffer(const std::vector<unsigned>& colors, unsigned depth) {
   }
   glDrawBuffers(static_cast<int>(places.size()), places.data());
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    fail("picture: the OpenGL driver cannot draw to floating-point numbers");
+    fail(ErrorKind::internal, "picture: the OpenGL driver cannot draw to floating-point numbers");
   return framebuffer;
 }
 
@@ -114,7 +114,7 @@ Object make_program(const std::string& head, const std::string& vertex,
   if (good) return program;
   char words[1024] = "";
   glGetProgramInfoLog(program, sizeof words, nullptr, words);
-  fail("picture: the OpenGL driver refuses a program: {}", words);
+  fail(ErrorKind::internal, "picture: the OpenGL driver refuses a program: {}", words);
 }
 
 Object make_buffer(const void* data, size_t bytes, bool indices) {

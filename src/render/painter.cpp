@@ -72,6 +72,7 @@ class Painter {
   std::vector<Light> lamp_;
   std::vector<Eigen::Vector2d> shifts_;
   float open_light_ = 0;
+  double done_ = 0;  // pixels
 
   LoadedList loaded_;
   gl::Object sorted_;  // indices of what is seen through
@@ -113,9 +114,9 @@ Painter::Painter(const DrawList& list, const Eye& eye, const RenderOptions& opti
   const auto room =
       place_room(std::clamp(int(options.samples * room_lights_per_sample * fine), 24, 512));
   Shadows coarse(list, loaded_, room_map_size);
-  room_light_ = gather(list, coarse, room);
+  room_light_ = gather(list, coarse, room, options.progress);
   if (!list.clear.empty())
-    lamp_light_ = gather(list, coarse, place_lamp(view_axes(eye), Shadows::most));
+    lamp_light_ = gather(list, coarse, place_lamp(view_axes(eye), Shadows::most), options.progress);
   open_light_ = light_on_floor(room) + light_on_floor(lamp_);
 }
 
@@ -239,6 +240,10 @@ void Painter::paint(const Tile& tile, Picture& out) {
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
   for (int s = 0; s < options_.samples; ++s) {
+    glFinish();  // or a stop would wait for all that was drawn before
+    options_.progress.tell((done_ + double(s) / options_.samples * tile.width * tile.height) /
+                               (double(out.width) * out.height),
+                           "drawing");
     shadows_.cast(
         std::span(lamp_).subspan(static_cast<size_t>(s) * lamps_per_sample, lamps_per_sample));
     glViewport(0, 0, tile.width, tile.height);
@@ -252,6 +257,8 @@ void Painter::paint(const Tile& tile, Picture& out) {
   glBindFramebuffer(GL_FRAMEBUFFER, canvas.developed);
   gl::bind(develop_, "light", 1, canvas.sum);
   cover_.draw(develop_);
+
+  done_ += double(tile.width) * tile.height;
 
   // rows from the bottom to rows from the top
   std::vector<uint8_t> pixels(4 * static_cast<size_t>(tile.width) * tile.height);
@@ -277,7 +284,7 @@ Picture paint(const DrawList& list, const Eye& eye, const RenderOptions& options
           {x, y, std::min(largest_tile, out.width - x), std::min(largest_tile, out.height - y)},
           out);
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-    fail("picture: the OpenGL driver reports error {:#x}", error);
+    fail(ErrorKind::internal, "picture: the OpenGL driver reports error {:#x}", error);
   return out;
 }
 

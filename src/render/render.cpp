@@ -23,7 +23,8 @@ Picture render(const Scene& scene, const RenderOptions& options, const Font& fon
     fail("picture: samples must be between 1 and 256, got {}", options.samples);
   const int64_t drawn = int64_t{options.width} * options.height * options.samples;
   if (drawn > max_drawn)
-    fail("picture: expected at most {} pixels times samples, got {}", max_drawn, drawn);
+    fail(ErrorKind::limit, "picture: expected at most {} pixels times samples, got {}", max_drawn,
+         drawn);
   if (scene.eye) view_axes(*scene.eye);
 
   const DrawList list = make_draw_list(scene);

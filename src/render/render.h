@@ -8,7 +8,7 @@
 
 namespace clench {
 
-/// throws  Error that says what to install when there is no EGL or no OpenGL 3.3, on a size out of
+/// throws  Stopped; Error that says what to install when there is no EGL or no OpenGL 3.3, on a size out of
 ///         range, and on a number of the scene out of range, naming the mesh or cone
 Picture render(const Scene& scene, const RenderOptions& options = {}, const Font& font = Font());
 

@@ -109,12 +109,14 @@ void Shadows::give(unsigned program) const {
   gl::bind(program, "maps", 0, maps_, true);
 }
 
-gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Light>& lights) {
+gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Light>& lights,
+                  const Progress& progress) {
   const int rows = std::max<int>(1, (list.corners.size() + gathered_width - 1) / gathered_width);
   GLint max_rows = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_rows);
   if (rows > max_rows)
-    fail("picture: {} corners of triangles are more than the {} that OpenGL takes here",
+    fail(ErrorKind::limit,
+         "picture: {} corners of triangles are more than the {} that OpenGL takes here",
          list.corners.size(), static_cast<size_t>(max_rows) * gathered_width);
 
   // corners as textures, four numbers each
@@ -136,6 +138,9 @@ gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Ligh
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
   for (size_t i = 0; i < lights.size(); i += Shadows::most) {
+    if (list.corners.size() > 100000)
+      glFinish();  // or a stop would wait for all that was drawn before
+    progress.check();
     shadows.cast(std::span(lights).subspan(i, std::min<size_t>(Shadows::most, lights.size() - i)));
     shadows.give(program);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);

@@ -50,6 +50,8 @@ class Shadows {
 
 /// Light at each corner, as `surface_vertex` reads it: front and back, and how open each lies.
 /// throws Error when there are more corners than a texture holds
-gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Light>& lights);
+/// throws Stopped
+gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Light>& lights,
+                  const Progress& progress);
 
 }  // namespace clench

@@ -49,7 +49,8 @@ static bool belongs(const fs::path& path, FileKind kind, const fs::path& confine
     return false;
   try {
     return file_kind(path) == kind;
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::file) throw;
     return false;  // a note, a picture
   }
 }

@@ -9,6 +9,7 @@
 #include "script/guard.h"
 #include "script/push.h"
 #include "script/table.h"
+#include "script/watching.h"
 
 namespace clench {
 
@@ -24,7 +25,8 @@ static int quality(lua_State* L) {
   auto& g = self<GraspHandle>(L);
   const std::string name = check_string(L, 2, "measure");
   const Measure& measure = find_measure(name);
-  MeasuredGrasp measured(*g.world, g.grasp, spaces_of(g));
+  const Watching watching(L);
+  MeasuredGrasp measured(*g.world, g.grasp, spaces_of(g), watching.progress());
   return push_unbounded(L, measure.of(measured));
 }
 
@@ -33,7 +35,8 @@ static std::optional<double> value_if(const Measure& measure, MeasuredGrasp& gra
   try {
     const double value = measure.of(grasp);
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::limit) throw;
     return {};
   }
 }
@@ -42,7 +45,8 @@ static int quality_all(lua_State* L) {
   check_count(L, 0);
   auto& g = self<GraspHandle>(L);
   check_unmoved(*g.world, g.grasp);
-  MeasuredGrasp measured(*g.world, g.grasp, spaces_of(g));
+  const Watching watching(L);
+  MeasuredGrasp measured(*g.world, g.grasp, spaces_of(g), watching.progress());
   push_list(L, 0, static_cast<int>(measures().size()));
   for (const Measure& measure : measures()) {
     const auto value = value_if(measure, measured);

@@ -8,6 +8,7 @@
 #include "script/guard.h"
 #include "script/handles.h"
 #include "script/push.h"
+#include "script/watching.h"
 
 namespace clench {
 
@@ -31,6 +32,8 @@ int project_space(lua_State* L) {
   if (auto projected = read_coordinates(table, "projected"))
     options.projected = std::move(*projected);
   table.done();
+  const Watching watching(L);
+  options.progress = watching.progress();
   ProjectionHandle handle{std::make_shared<Projection>(project(s, options)), nullptr,
                           self<WrenchSpacePtr>(L)};
   if (!handle.projection->mesh.triangles.empty())

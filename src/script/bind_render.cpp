@@ -9,6 +9,7 @@
 #include "script/handles.h"
 #include "script/push.h"
 #include "script/table.h"
+#include "script/watching.h"
 
 namespace clench {
 
@@ -97,6 +98,8 @@ Picture draw_scene(lua_State* L, Table& options, Scene scene) {
   options.done();
   const Font font;
   if (!scene.labels.empty() || !scene.caption.empty()) warn_without_letters(L, font);
+  const Watching watching(L);
+  rendering.progress = watching.progress();
   return render(scene, rendering, font);
 }
 

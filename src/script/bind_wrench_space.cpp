@@ -8,6 +8,7 @@
 #include "script/guard.h"
 #include "script/handles.h"
 #include "script/push.h"
+#include "script/watching.h"
 
 namespace clench {
 
@@ -96,7 +97,7 @@ static UnitWrenches read_contact(lua_State* L, int i, const What& what, const Co
     try {
       return unit_wrenches(point, cone);
     } catch (const Error& error) {
-      fail("{}: {}", what.text(), error.what());
+      fail(error.kind(), "{}: {}", what.text(), error.what());
     }
   }
   const auto rows = read_rows(L, i, what, 6);
@@ -127,7 +128,8 @@ static int new_wrench_space(lua_State* L) {
     lua_pop(L, 1);
     edges += contacts.back().edges.cols();
     if (edges > max_space_edges)
-      fail("{}: contacts: expected at most {} edges in all, got more", subject(L), max_space_edges);
+      fail(ErrorKind::limit, "{}: contacts: expected at most {} edges in all, got more", subject(L),
+           max_space_edges);
   }
   lua_pop(L, 1);
   options.done();
@@ -154,7 +156,7 @@ int push_coordinate_names(lua_State* L, std::span<const int> coordinates) {
 
 static int epsilon(lua_State* L) {
   check_count(L, 0);
-  return push(L, space(L).epsilon());
+  return push(L, space(L).epsilon(Watching(L).progress()));
 }
 
 static int epsilon_bounds(lua_State* L) {
@@ -164,7 +166,7 @@ static int epsilon_bounds(lua_State* L) {
   options.tolerance = table.number("tolerance", options.tolerance);
   if (table.has("at_least")) options.at_least = table.number("at_least");
   table.done();
-  const EpsilonBounds bounds = space(L).epsilon_bounds(options);
+  const EpsilonBounds bounds = space(L).epsilon_bounds(options, Watching(L).progress());
   push_list(L, 0, 4);
   set_field(L, "lower", bounds.lower);
   set_field(L, "upper", bounds.upper);
@@ -175,7 +177,7 @@ static int epsilon_bounds(lua_State* L) {
 
 static int volume(lua_State* L) {
   check_count(L, 0);
-  return push(L, space(L).volume());
+  return push(L, space(L).volume(Watching(L).progress()));
 }
 
 static int volume_bounds(lua_State* L) {
@@ -183,7 +185,7 @@ static int volume_bounds(lua_State* L) {
   Table table(L, 2);
   const int edges = table.integer("edges", 32);
   table.done();
-  const VolumeBounds bounds = space(L).volume_bounds(edges);
+  const VolumeBounds bounds = space(L).volume_bounds(edges, Watching(L).progress());
   push_list(L, 0, 2);
   set_field(L, "lower", bounds.lower);
   set_field(L, "upper", bounds.upper);
@@ -192,7 +194,7 @@ static int volume_bounds(lua_State* L) {
 
 static int closes_force(lua_State* L) {
   check_count(L, 0);
-  return push(L, space(L).is_force_closure());
+  return push(L, space(L).is_force_closure(Watching(L).progress()));
 }
 
 static int get_rank(lua_State* L) { return push(L, space(L).rank()); }
@@ -203,7 +205,7 @@ static int get_coordinates(lua_State* L) {
 
 static int weakest(lua_State* L) {
   check_count(L, 0);
-  const Weakest& w = space(L).weakest();
+  const Weakest& w = space(L).weakest(Watching(L).progress());
   push_list(L, 0, 3);
   push_vector(L, w.direction);
   lua_setfield(L, -2, "direction");
@@ -224,8 +226,9 @@ static int wrenches(lua_State* L) {
 
 static int space_text(lua_State* L) {
   const WrenchSpace& s = space(L);
-  return push(L, fmt::format("{} wrench space of {} contacts, rank {}, epsilon {:.6g}",
-                             norm_name(s), s.contacts().size(), s.rank(), s.epsilon()));
+  return push(L,
+              fmt::format("{} wrench space of {} contacts, rank {}, epsilon {:.6g}", norm_name(s),
+                          s.contacts().size(), s.rank(), s.epsilon(Watching(L).progress())));
 }
 
 static const Entry functions[] = {

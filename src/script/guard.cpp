@@ -6,10 +6,28 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "base/progress.h"
 #include "script/entry.h"
 #include "script/object.h"
+#include "script/watching.h"
 
 namespace clench {
+
+// its address names the place of the metatable of error values
+static const char error_key = 0;
+
+void set_error_metatable(lua_State* L) { lua_rawsetp(L, LUA_REGISTRYINDEX, &error_key); }
+
+void make_error_value(lua_State* L, const char* kind) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &error_key) != LUA_TTABLE) return lua_pop(L, 1);
+  lua_createtable(L, 0, 2);
+  lua_rotate(L, -3, -1);  // metatable, value, text
+  lua_setfield(L, -2, "text");
+  lua_pushstring(L, kind);
+  lua_setfield(L, -2, "kind");
+  lua_rotate(L, -2, 1);  // value, metatable
+  lua_setmetatable(L, -2);
+}
 
 static const char raised_key = 0;  // its address names the place of the waiting error value
 
@@ -54,22 +72,45 @@ struct Message {
   }
 };
 
-enum class Failure { none, raised, message };
+enum class Failure { none, raised, stopped, message };
 
-static Failure run_caught(lua_State* L, lua_CFunction fn, int& results, Message& message) {
+static const char* name_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::input:
+      return "input";
+    case ErrorKind::file:
+      return "file";
+    case ErrorKind::stale:
+      return "stale";
+    case ErrorKind::limit:
+      return "limit";
+    case ErrorKind::internal:
+      return "internal";
+  }
+  return "internal";
+}
+
+static Failure run_caught(lua_State* L, lua_CFunction fn, int& results, Message& message,
+                          ErrorKind& kind) {
   try {
     results = fn(L);
     return Failure::none;
   } catch (const Raised&) {
     return Failure::raised;
+  } catch (const Stopped&) {
+    return Failure::stopped;
   } catch (const Error& e) {
     message.copy(e.what());
+    kind = e.kind();
   } catch (const std::bad_alloc&) {
     message.copy(L, "not enough memory");
+    kind = ErrorKind::limit;
   } catch (const std::length_error&) {  // of what is larger than any memory
     message.copy(L, "not enough memory");
+    kind = ErrorKind::limit;
   } catch (const std::exception& e) {
     message.copy(L, e.what());
+    kind = ErrorKind::internal;
   }
   return Failure::message;
 }
@@ -77,7 +118,8 @@ static Failure run_caught(lua_State* L, lua_CFunction fn, int& results, Message&
 int run_guarded(lua_State* L, lua_CFunction fn) {
   int results = 0;
   Message message;
-  const Failure failure = run_caught(L, fn, results, message);
+  ErrorKind kind = ErrorKind::input;
+  const Failure failure = run_caught(L, fn, results, message, kind);
   if (failure == Failure::none) {
     // the results are on the stack, and nothing of C++ is alive
     collect_owned(L);
@@ -86,6 +128,7 @@ int run_guarded(lua_State* L, lua_CFunction fn) {
 
   // the handler is left: nothing but plain memory is alive
   lua_settop(L, 0);
+  if (failure == Failure::stopped) bar_of(L)->take_stop();
   if (failure == Failure::raised) {
     lua_rawgetp(L, LUA_REGISTRYINDEX, &raised_key);
     lua_pushnil(L);
@@ -94,8 +137,10 @@ int run_guarded(lua_State* L, lua_CFunction fn) {
     // a field's getter is called by the lookup, and that by the script
     luaL_where(L, 1);
     if (lua_rawlen(L, -1) == 0) luaL_where(L, 2);
-    lua_pushstring(L, message.text);
+    const bool stopped = failure == Failure::stopped;
+    lua_pushstring(L, stopped ? "interrupted" : message.text);
     lua_concat(L, lua_gettop(L));
+    make_error_value(L, stopped ? "stopped" : name_of(kind));
   }
   return -1;
 }

@@ -25,6 +25,11 @@ void protected_call(lua_State* L, int arguments, int results);
 /// returns  what fn returned, or -1 with an error value on top of the stack
 int run_guarded(lua_State* L, lua_CFunction fn);
 
+/// Pops what error values have as their metatable.
+void set_error_metatable(lua_State* L);
+/// Makes the text on top of the stack an error's value, that tells its kind. Raises Lua errors only for want of memory.
+void make_error_value(lua_State* L, const char* kind);
+
 /// fn as Lua may call it: a std::exception becomes a Lua error with the calling script's line.
 template <lua_CFunction fn>
 int guarded(lua_State* L) {

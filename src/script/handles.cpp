@@ -2,10 +2,12 @@
 
 #include "base/error.h"
 #include "script/push.h"
+#include "script/watching.h"
 
 namespace clench {
 
 int push_world(lua_State* L, const WorldPtr& world) {
+  world->context().watch(Progress(bar_of(L)));
   push_object(L, WorldHandle{world});
   add_owned<WorldHandle>(L, -1, world->bytes());
   return 1;
@@ -13,11 +15,16 @@ int push_world(lua_State* L, const WorldPtr& world) {
 
 void add_owned_bodies(lua_State* L, int index, std::span<const Id<Body>> bodies) {
   const World& world = *to<WorldHandle>(L, index)->world;
+  constexpr size_t many_triangles = 100000;  // whose tree takes longer than a blink
   size_t bytes = 0;
   for (const auto id : bodies) {
     const Body& body = world.body(id);
     bytes += sizeof body + body.appearance.triangle_colors.size() * sizeof(Eigen::Vector3f);
-    if (body.shape) bytes += body.shape->bytes();
+    if (!body.shape) continue;
+    bytes += body.shape->bytes();
+    // here it can be stopped, in the first query not
+    if (body.shape->mesh().triangles.size() > many_triangles)
+      body.shape->tree(Progress(bar_of(L)));
   }
   add_owned<WorldHandle>(L, index, bytes);
 }

@@ -17,6 +17,7 @@
 #include "script/bind_mesh.h"
 #include "script/bind_patch.h"
 #include "script/bind_pose.h"
+#include "script/bind_progress.h"
 #include "script/bind_projection.h"
 #include "script/bind_random.h"
 #include "script/bind_render.h"
@@ -36,7 +37,7 @@ std::span<const Library* const> all_libraries() {
       &catalog_library,      &convert_library,     &entries_library, &json_library,
       &log_library,          &world_library,       &grasp_library,   &measures_library,
       &wrench_space_library, &eigengrasps_library, &files_library,   &render_library,
-      &chart_library,
+      &chart_library,        &progress_library,
   };
   return libraries;
 }
@@ -48,6 +49,7 @@ std::span<const Class* const> all_classes() {
       &hand_class,     &robot_class,        &eigengrasps_class, &virtual_contact_class,
       &contact_class,  &forces_class,       &measures_class,    &patch_class,
       &grasp_class,    &wrench_space_class, &projection_class,  &picture_class,
+      &progress_class,
   };
   return classes;
 }

@@ -87,11 +87,12 @@ void add_owned(lua_State* L, int index, size_t bytes) {
 }
 
 /// Leaves a userdata with the value on the stack.
+/// user_values  Lua values that it keeps besides, nil at first
 /// returns  1
 template <class T>
-int push_object(lua_State* L, T value) {
+int push_object(lua_State* L, T value, int user_values = 0) {
   const Class& kind = class_of<T>();
-  auto* box = Box<T>::in(lua_newuserdatauv(L, box_bytes<T>, 0));
+  auto* box = Box<T>::in(lua_newuserdatauv(L, box_bytes<T>, user_values));
   box->kind = &kind;
   box->alive = false;  // until the value is in it
   box->owned_kb = 0;

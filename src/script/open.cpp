@@ -3,6 +3,7 @@
 #include <lua.hpp>
 
 #include "script/chunks.h"
+#include "script/guard.h"
 #include "script/library.h"
 #include "script/packed.h"
 
@@ -31,6 +32,8 @@ int clench_open(lua_State* L) {
   lua_pushcfunction(L, load_member);
   set_library_fallback(L, module);
   add_packed_searcher(L, module);
+  push_packed(L, "error_value");
+  set_error_metatable(L);
   return 1;
 }
 

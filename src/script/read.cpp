@@ -101,7 +101,7 @@ std::string read_string(lua_State* L, int i, const What& what) {
 
 // leaves the item of a list on the stack; metamethods are not asked
 static void push_item(lua_State* L, int list, int item) {
-  if (!lua_checkstack(L, 4)) fail("too many values on the stack");
+  if (!lua_checkstack(L, 4)) fail(ErrorKind::limit, "too many values on the stack");
   lua_rawgeti(L, list, item);
 }
 
@@ -129,7 +129,7 @@ int read_list_size(lua_State* L, int i, const What& what, std::string_view expec
   i = lua_absindex(L, i);
   const auto size = lua_rawlen(L, i);
   if (size > INT_MAX) fail_expected(what, expected, i);
-  if (!lua_checkstack(L, 4)) fail("too many values on the stack");
+  if (!lua_checkstack(L, 4)) fail(ErrorKind::limit, "too many values on the stack");
   const std::string key = foreign_key(L, i, static_cast<lua_Integer>(size), extra);
   if (!key.empty())
     fail("{}: expected {}, got a table with the key {}", what.text(), expected, key);

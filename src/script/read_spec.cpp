@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "script/bind_log.h"
 #include "script/setting.h"
+#include "script/watching.h"
 
 namespace clench {
 
@@ -42,6 +43,7 @@ ReadOptions read_options(lua_State* L, Table& options) {
     fail("{}: root: expected a folder, got '{}'", options.subject(), out.root.string());
   out.confine = read_confine(L, options);
   out.mesh_scale = read_unit(options);
+  out.progress = Progress(bar_of(L));
   out.warn = [L](const std::string& message) { log(L, LogLevel::warning, message, "ignored"); };
   out.note = [L](const std::string& message) { log(L, LogLevel::info, message, "inferred"); };
   out.repair = [L](const std::string& message) { log(L, LogLevel::warning, message, "repaired"); };

@@ -10,10 +10,12 @@
 #include "base/error.h"
 #include "script/bind_log.h"
 #include "script/chunks.h"
+#include "script/guard.h"
 #include "script/modules.h"
 #include "script/open.h"
 #include "script/packed.h"
 #include "script/setting.h"
+#include "script/watching.h"
 
 namespace clench {
 
@@ -80,14 +82,17 @@ State::State() {
   const auto pages = static_cast<size_t>(sysconf(_SC_PHYS_PAGES));
   memory_.limit = pages / 4 * 3 * static_cast<size_t>(sysconf(_SC_PAGESIZE));
   L_ = lua_newstate(allocate, &memory_);
-  if (!L_) fail("clench: no memory for Lua");
+  if (!L_) fail(ErrorKind::limit, "clench: no memory for Lua");
   running_ = L_;
   lua_atpanic(L_, panic);
   lua_setwarnf(L_, warn, &memory_);
   lua_pushcfunction(L_, open_all);
   lua_pushlightuserdata(L_, this);
   lua_pushcclosure(L_, track, 1);
-  if (lua_pcall(L_, 1, 0, 0) == LUA_OK) return;
+  if (lua_pcall(L_, 1, 0, 0) == LUA_OK) {
+    bar_ = bar_of(L_);
+    return;
+  }
   const char* text = lua_tostring(L_, -1);
   const std::string message = text ? text : "cannot open Lua's libraries";
   lua_close(L_);
@@ -161,10 +166,17 @@ void State::refuse_exit(std::string& asked) {
 
 static void interrupted(lua_State* L, lua_Debug*) {
   lua_sethook(L, nullptr, 0, 0);
-  luaL_error(L, "interrupted");
+  // another coroutine, or a call of the engine, may have ended for it
+  if (!bar_of(L)->take_stop()) return;
+  luaL_where(L, 0);
+  lua_pushliteral(L, "interrupted");
+  lua_concat(L, 2);
+  make_error_value(L, "stopped");
+  lua_error(L);
 }
 
 void State::interrupt() {
+  bar_->stop();
   const int events = LUA_MASKCALL | LUA_MASKRET | LUA_MASKCOUNT;
   lua_sethook(L_, interrupted, events, 1);
   if (running_ != L_) lua_sethook(running_, interrupted, events, 1);
@@ -173,6 +185,7 @@ void State::interrupt() {
 // takes what a call left above base off the stack
 State::Result State::finish(int status, int base) {
   lua_sethook(L_, nullptr, 0, 0);
+  bar_->take_stop();
   running_ = L_;
   Result result;
   result.ok = status == LUA_OK;

@@ -1,12 +1,15 @@
 // A Lua of one's own, with clench in it: what the command runs scripts in. Every call is protected;
 // a script can neither end the process by an error nor take all of the machine's memory.
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
 struct lua_State;
 
 namespace clench {
+
+class Bar;
 
 class State {
  public:
@@ -67,6 +70,7 @@ class State {
 
   Memory memory_;
   lua_State* L_ = nullptr;
+  std::shared_ptr<Bar> bar_;               // what watches the engine
   lua_State* volatile running_ = nullptr;  // the coroutine that runs, for interrupt
 };
 

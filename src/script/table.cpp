@@ -16,7 +16,7 @@ Table::Table(lua_State* L, int index, std::string subject)
 }
 
 int Table::push(const char* key) {
-  if (!lua_checkstack(L_, 4)) fail("{}: too many values on the stack", subject_);
+  if (!lua_checkstack(L_, 4)) fail(ErrorKind::limit, "{}: too many values on the stack", subject_);
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   if (!index_) {
     lua_pushnil(L_);

@@ -13,6 +13,7 @@
 #include "script/read_spec.h"
 #include "script/setting.h"
 #include "script/table.h"
+#include "script/watching.h"
 
 namespace clench {
 
@@ -71,7 +72,7 @@ class Running {
 // folder that it lies in.
 static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& root) {
   const std::string file = path.filename().string();
-  if (!lua_checkstack(L, 12)) fail("too many values on the stack");
+  if (!lua_checkstack(L, 12)) fail(ErrorKind::limit, "too many values on the stack");
   const Running running(L, path);
   const std::string folder = fs::absolute(path).parent_path().lexically_normal().generic_string();
   const ScopedSetting modules(L, Setting::modules, folder);
@@ -86,6 +87,7 @@ static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& r
 }
 
 WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& reading) {
+  const Watching watching(L);
   if (is_script(path)) {
     if (!reading.confine.empty())
       fail(

@@ -77,7 +77,7 @@ void measure_building(const std::string& name, const Shape& shape, Report& repor
   Times build, bytes;
   for (int i = 0; i < 5; ++i) {
     std::vector<double> time;
-    const auto again = timed(time, [&] { return Tree(shape.mesh()); });
+    const auto again = timed(time, [&] { return Tree(shape.mesh(), Progress()); });
     build["ours"].push_back(time[0] / count);
     const double mesh = static_cast<double>(shape.mesh().vertices.size() * sizeof(Eigen::Vector3d) +
                                             shape.mesh().triangles.size() * sizeof(Triangle));

@@ -51,7 +51,7 @@ static void lend_lua() {
     assert(#clench.shapes.sphere{1, subdivisions = 0}.triangles == 20)
     return clench.version)";
   const bool ok = luaL_dostring(L, script) == LUA_OK;
-  if (!ok) std::printf("%s\n", lua_tostring(L, -1));
+  if (!ok) std::printf("%s\n", luaL_tolstring(L, -1, nullptr));
   require(ok && lua_isstring(L, -1), "a script runs in the host's Lua");
   lua_close(L);
 }

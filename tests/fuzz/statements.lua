@@ -108,6 +108,7 @@ function makers.operators(self, n)
   local maker = self.maker
   maker.words, maker.entry = {}, step.entry
   if unary[step.name] then return ("v[%d] = " .. unary[step.name]):format(n, a), step, n end
+  if step.name == "__call" then return ("v[%d] = (%s)(%s)"):format(n, a, maker:number()), step, n end
   if step.name == "__index" then return ("v[%d] = %s[%s]"):format(n, a, maker:number()), step, n end
   local b = partners[step.name] and step.class == "vec3" and one_of(partners[step.name]) or object_of(self, step.class)
   if random() < maker.hostility + 0.1 then b = maker:make(one_of(self.api.types)) end

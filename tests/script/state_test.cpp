@@ -148,6 +148,32 @@ TEST_CASE("an interruption ends an endless loop, in coroutines and their kin too
   CHECK(state.run_code("local n = 0 for i = 1, 1e5 do n = n + i end", "=test").ok);
 }
 
+TEST_CASE("an interruption ends what the engine is at") {
+  State state;
+  const std::string ball = R"(
+    local clench, contacts = require "clench", {}
+    local random = clench.random(1)
+    for i = 1, 400 do
+      local p = random:direction()
+      contacts[i] = {point = p, normal = -p, mu = 0.5}
+    end
+    local space = clench.wrench_space {contacts = contacts, edges = 8}
+  )";
+  // each would take seconds, and then end with something else
+  for (const char* code :
+       {"space:volume()", "clench.wrench_space {contacts = contacts, edges = 'exact'}:volume()",
+        "clench.render(clench.world(), {size = {4000, 4000}, samples = 60}) error 'done'"}) {
+    const auto result = interrupted(state, ball + code);
+    CHECK(!result.ok);
+    CHECK_MESSAGE(says(result.error, "interrupted"), result.error);
+  }
+  CHECK(state.run_code("assert(require('clench').rad(180) == math.pi)", "=test").ok);
+  const auto caught = interrupted(
+      state,
+      ball + "local ok, e = pcall(space.volume, space) assert(e.kind == 'stopped', e) error(e)");
+  CHECK(says(caught.error, "interrupted"));
+}
+
 TEST_CASE("coroutines are Lua's own in all else") {
   State state;
   const auto result = state.run_code(R"(

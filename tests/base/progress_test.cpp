@@ -1,0 +1,47 @@
+#include "base/progress.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+using namespace clench;
+
+namespace {
+
+struct Record : Watcher {
+  void show(double fraction, std::string_view text) override {
+    fractions.push_back(fraction);
+    last = text;
+  }
+  std::vector<double> fractions;
+  std::string last;
+};
+
+}  // namespace
+
+TEST_CASE("progress of a part is told as a part of the whole") {
+  const auto watcher = std::make_shared<Record>();
+  const Progress whole(watcher), second = whole.part(0.5, 1);
+  whole.tell(0.25, "first");
+  second.tell(0, "second");
+  second.part(0, 0.5).tell(1, "half of it");
+  second.tell(-1, "not known");
+  CHECK(watcher->fractions == std::vector<double>{0.25, 0.5, 0.75, -1});
+  CHECK(watcher->last == "not known");
+}
+
+TEST_CASE("a stop is thrown until it is taken, and nobody stops what nobody watches") {
+  const auto watcher = std::make_shared<Record>();
+  const Progress progress(watcher);
+  progress.check();
+  watcher->stop();
+  CHECK_THROWS_AS(progress.check(), Stopped);
+  CHECK_THROWS_AS(progress.part(0, 0.5).tell(1, "text"), Stopped);
+  CHECK(watcher->fractions.empty());
+  CHECK(watcher->take_stop());
+  CHECK_FALSE(watcher->take_stop());
+  progress.check();
+  Progress().check();
+  Progress().tell(0.5, "text");
+}

@@ -1,0 +1,78 @@
+// Long calls that are told to stop end, and leave nothing half done behind.
+#include <doctest/doctest.h>
+
+#include "base/progress.h"
+#include "base/random.h"
+#include "grasp/projection.h"
+#include "grasp/robustness.h"
+#include "grasp/sum_volume.h"
+#include "grasp/wrench_space.h"
+
+using namespace clench;
+
+namespace {
+
+struct Silent : Watcher {
+  void show(double, std::string_view) override {}
+};
+
+// contacts all around a ball
+WrenchSpace ball_of(int count, int edges, WrenchNorm norm) {
+  Random random(3);
+  std::vector<UnitWrenches> contacts;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d n =
+        Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+    contacts.push_back(
+        unit_wrenches({.p_O = n, .n_O = -n, .mu = 0.5, .torsion_radius = 0.1}, {.edges = edges}));
+  }
+  return WrenchSpace(std::move(contacts), {.norm = norm});
+}
+
+}  // namespace
+
+TEST_CASE("a wrench space that was stopped gives the same bits afterwards as one that was not") {
+  const auto watcher = std::make_shared<Silent>();
+  const Progress progress(watcher);
+  for (const auto norm : {WrenchNorm::l1, WrenchNorm::linf})
+    for (const int edges : {6, round_edges}) {
+      const int count = norm == WrenchNorm::l1 ? 8 : 4;
+      const bool measured = norm == WrenchNorm::l1 || edges != round_edges;  // else too many cells
+      const WrenchSpace stopped = ball_of(count, edges, norm), fresh = ball_of(count, edges, norm);
+      watcher->stop();
+      CHECK_THROWS_AS(stopped.epsilon(progress), Stopped);
+      CHECK_THROWS_AS(stopped.weakest(progress), Stopped);
+      CHECK_THROWS_AS(stopped.is_force_closure(progress), Stopped);
+      if (measured) CHECK_THROWS_AS(stopped.volume(progress), Stopped);
+      watcher->take_stop();
+      CHECK(stopped.epsilon(progress) == fresh.epsilon());
+      CHECK(stopped.is_force_closure() == fresh.is_force_closure());
+      if (measured) CHECK(stopped.volume(progress) == fresh.volume());
+      CHECK(stopped.weakest().direction == fresh.weakest().direction);
+      CHECK(fresh.epsilon() > 0);
+    }
+}
+
+TEST_CASE("bounds of epsilon that were stopped hold") {
+  const auto watcher = std::make_shared<Silent>();
+  const WrenchSpace space = ball_of(8, round_edges, WrenchNorm::l1);
+  CHECK(space.is_force_closure());
+  watcher->stop();
+  const EpsilonBounds early = space.epsilon_bounds({.tolerance = 1e-9}, Progress(watcher));
+  CHECK_FALSE(early.converged);
+  const double epsilon = ball_of(8, round_edges, WrenchNorm::l1).epsilon();
+  CHECK(early.lower <= epsilon);
+  CHECK(epsilon <= early.upper);
+  CHECK(space.epsilon() == epsilon);
+}
+
+TEST_CASE("a projection that is stopped is none") {
+  const auto watcher = std::make_shared<Silent>();
+  watcher->stop();
+  ProjectionOptions options{.projected = {3, 4, 5}};
+  options.progress = Progress(watcher);
+  const WrenchSpace space = ball_of(8, 8, WrenchNorm::l1);
+  CHECK_THROWS_AS(project(space, options), Stopped);
+  watcher->take_stop();
+  CHECK(project(space, options).volume > 0);
+}

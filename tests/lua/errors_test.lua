@@ -1,0 +1,79 @@
+-- Errors tell their kind, and are as good as the text that they say.
+local test, clench = require "test", require "clench"
+
+local function error_of(fn, ...)
+  local ok, message = pcall(fn, ...)
+  assert(not ok, "expected an error")
+  return message
+end
+
+test("an error tells its kind", function(t)
+  local world = clench.load("worlds/dlr_flask.wld")
+  local hand, flask = world.robots[1], world.objects[1]
+  hand:autograsp()
+  local grasp = clench.grasp(hand, flask)
+  hand:open()
+  local kinds = {
+    {"input", clench.pose, {xzy = {1, 2, 3}}},
+    {"input", function() return hand.no_such_field end},
+    {"input", function() clench.shapes.box {-1, 1, 1} end},
+    {"file", clench.load, "worlds/no_such.wld"},
+    {"file", clench.load, "README.md"},
+    {"file", function() world:save "no_such_folder/w.wld" end},
+    {"file", clench.files.eigengrasps, "models/objects/mug.iv"},
+    {"stale", function() grasp:quality "gravity_effort" end},
+    {"limit", function() clench.render(world, {size = {8000, 8000}, samples = 256}) end},
+  }
+  for i, case in ipairs(kinds) do
+    local message = error_of(table.unpack(case, 2))
+    t.equal(message.kind, case[1], ("%d: %s"):format(i, message))
+  end
+  world:remove(flask)
+  t.equal(error_of(function() return flask.mass end).kind, "stale")
+end)
+
+test("a faulty file is an error of the file, wherever it is noticed", function(t)
+  local path = os.tmpname()
+  for _, text in ipairs {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 x\n3 0 1 2\n", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "OFF\n0 0 0\n"} do
+    local file = assert(io.open(path .. ".off", "w"))
+    file:write(text)
+    file:close()
+    t.equal(error_of(function() clench.world():add_object(path .. ".off") end).kind, "file")
+  end
+  os.remove(path .. ".off")
+  os.remove(path)
+end)
+
+test("an error prints, joins and is searched as its text", function(t)
+  local message = error_of(clench.rad, "x")
+  t.equal(tostring(message), message.text)
+  t.equal(message .. "!", message.text .. "!")
+  t.equal("so: " .. message, "so: " .. message.text)
+  t.equal(#message, #message.text)
+  t.ok(message:find("clench.rad", 1, true) and message:match "expected a number" and message:gsub("expected", ""))
+  t.equal(("%s"):format(message), message.text)
+  t.ok(message.text:find "^[^\n]*errors_test%.lua:%d+: ", message)
+end)
+
+test("an error that is raised again, and one out of a coroutine, keep their kind", function(t)
+  local function again() error(error_of(clench.load, "no.wld")) end
+  t.equal(error_of(again).kind, "file")
+  local ok, message = coroutine.resume(coroutine.create(function() clench.load "no.wld" end))
+  t.ok(not ok and message.kind == "file")
+  t.equal(select(2, xpcall(clench.load, function(m) return m.kind end, "no.wld")), "file")
+end)
+
+test("a loop's progress is the loop, and shows nothing where nobody looks", function(t)
+  local seen = {}
+  for i, name in clench.progress({"a", "b", "c"}, "names") do seen[i] = name end
+  t.equal(table.concat(seen), "abc")
+  local count = 0
+  for i in clench.progress(5) do count = count + i end
+  t.equal(count, 15)
+  local p <close> = clench.progress(4)
+  p:step(3)
+  p:step(3)
+  t.equal(p.done, 4.0)
+  t.fails(function() p:step(-1) end, "expected a number >= 0")
+  t.fails(function() clench.progress("many") end, "expected a number")
+end)
