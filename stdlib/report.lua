@@ -156,6 +156,19 @@ local readers = {
     for _, grasp in ipairs(list) do best = math.max(best or grasp.quality, grasp.quality) end
     return {count = #list, runs = list[1] and list[#list].run or 0, best = best}
   end,
+  grasps = function(path, options)
+    local list = clench.grasps(path, {root = options.root, confine = options.confine})
+    local hands, best = {}, nil
+    for _, grasp in ipairs(list) do
+      hands[grasp.hand_name .. " on " .. grasp.object_name] = true
+      local epsilon = grasp.measures.epsilon
+      if epsilon then best = math.max(best or epsilon, epsilon) end
+    end
+    local names = {}
+    for name in pairs(hands) do names[#names + 1] = name end
+    table.sort(names)
+    return {count = #list, of = names, best_epsilon = best}
+  end,
   ["glove calibration"] = function(path, options)
     local glove = clench.files.glove_calibration(path, options)
     return {dofs = #glove.slopes, sensors = #glove.slopes[1]}

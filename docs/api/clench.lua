@@ -482,12 +482,24 @@ function patch:torsion_limit(options) end
 ---@class grasp: measures
 ---@field hand robot # The robot that grasps.
 ---@field object body # The body that is grasped.
+---@field hand_name string # Name of the robot that grasps; a grasp that was read from a file has it, too.
+---@field object_name string # Name of the body that is grasped.
+---@field pose pose # Where the hand's base stood in the object's frame when the grasp was measured.
+---@field dofs number[] # Values of the hand's DOFs when the grasp was measured. [rad or m]
+---@field joint_positions number[] # Positions of the hand's joints when the grasp was measured. [rad or m]
+---@field measures table<string, number> # Measures that were asked for so far, by name; in a file they are kept with the grasp.
+---@field info table<string, number> # What its maker notes, by name: a seed, an energy, the number of a run. It may be set, and is kept in files.
 ---@field contacts contact[] # The contacts on the object when the grasp was measured.
 ---@field points {point: vec3, normal: vec3, mu: number, torsion_radius: number}[] # The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers. [m]
 ---@field rho number # Length that torques are divided by. [m]
 ---@field edges integer|string # Edges of each friction pyramid, or "exact".
 ---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # What clench.grasp takes to measure another grasp alike. rho [m], normal_force [N]
 local grasp = {}
+
+---Puts the hand where it stood about the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by name. Nothing else moves, and nothing is asked of what may be in the way: see `world:collides`.
+---@param world? world # default: its own
+---@return grasp
+function grasp:apply(world) end
 
 ---Can it resist every wrench?
 ---@return boolean
@@ -585,6 +597,19 @@ function progress:step(count, text) end
 
 ---Takes the bar away. A progress in a variable that is declared <close> does so by itself.
 function progress:close() end
+
+---A list of grasps, made by `clench.grasps`: `list[1]`, `#list`, `ipairs(list)`.
+---@class grasps
+local grasps = {}
+
+---Adds a grasp at the end: its value as it is now, measures included.
+---@param grasp grasp
+---@return integer count
+function grasps:add(grasp) end
+
+---Writes the list as JSON lines: a head with the version, then a grasp on each line, numbers to the bit. The same list gives the same bytes.
+---@param path string
+function grasps:save(path) end
 
 ---Simulates, judges and plans robotic grasps. Lengths are metres, angles radians, masses kilograms, forces newtons; poses and vectors are in the world frame unless a text says otherwise.
 ---@class clench
@@ -693,6 +718,12 @@ function clench.chart(options) end
 ---@param text? string
 ---@return progress
 function clench.progress(total, text) end
+
+---A list of grasps: an empty one, or one from a file that `save` wrote. Its grasps stand in no world: they tell contacts, posture, measures and wrench spaces, and `apply` puts them into one.
+---@param path? string
+---@param options? {root?: string, confine?: string}
+---@return grasps
+function clench.grasps(path, options) end
 
 ---Values as JSON text, and back.
 ---@class clench.json

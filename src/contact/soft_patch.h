@@ -10,6 +10,7 @@
 #include "contact/patch_fit.h"
 #include "contact/patch_rings.h"
 #include "contact/patch_room.h"
+#include "spec/grasp_spec.h"
 
 namespace clench {
 
@@ -90,12 +91,6 @@ struct SoftPatch {
 /// throws  Error when an option is out of range, the fit is not in this build, or there is not enough
 ///         within a radius that was asked for
 SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options = {});
-
-/// How two elastic bodies act together.
-enum class ModulusRule {
-  series,  ///< each gives way: sums of layer (1 - poisson^2) / modulus
-  larger   ///< as the original: the layer of the stiffer elastic body alone, poisson's ratio unused
-};
 
 /// Where two bodies press on each other: an ellipse along the patch's directions.
 struct ContactEllipse {

@@ -23,23 +23,18 @@ static void add_torsion(Grasp& grasp, const GraspOptions& options) {
   }
 }
 
-static GraspPosture posture_of(const World& world, Id<Robot> hand, Id<Body> object) {
-  const Robot& robot = world.robot(hand);
-  GraspPosture out{world.pose(robot.base).inverse() * world.pose(object), {}};
-  const auto q = world.joints(hand);
-  out.joints.assign(q.begin(), q.end());
-  return out;
+static Pose hand_in_object(const World& world, Id<Robot> hand, Id<Body> object) {
+  return world.pose(object).inverse() * world.pose(world.robot(hand).base);
 }
 
 void check_unmoved(const World& world, const Grasp& grasp) {
   // of metres and radians: a hundredth of the usual contact threshold, far above rounding
   constexpr double moved = 1e-6;
-  if (!grasp.posture) return;
-  const GraspPosture now = posture_of(world, grasp.hand, grasp.object);
-  const Pose off = grasp.posture->X_BO.inverse() * now.X_BO;
+  if (!grasp.X_OH) return;
+  const Pose off = grasp.X_OH->inverse() * hand_in_object(world, grasp.hand, grasp.object);
   const bool object = off.position.norm() > moved || off.angle() > moved;
   const bool joints =
-      !std::ranges::equal(grasp.posture->joints, now.joints,
+      !std::ranges::equal(grasp.joints, world.joints(grasp.hand),
                           [](double a, double b) { return std::abs(a - b) <= moved; });
   const bool friction = std::ranges::any_of(grasp.contacts, [&](const Contact& c) {
     const Friction f =
@@ -78,9 +73,15 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   Grasp grasp;
   grasp.hand = hand;
   grasp.object = object;
-  grasp.posture = posture_of(world, hand, object);
+  grasp.hand_name = hand_name;
+  grasp.object_name = held.name;
+  grasp.hand_file = world.robot(hand).source;
+  grasp.object_file = held.source;
+  grasp.X_OH = hand_in_object(world, hand, object);
+  const auto dofs = world.dofs(hand), joints = world.joints(hand);
+  grasp.dofs.assign(dofs.begin(), dofs.end());
+  grasp.joints.assign(joints.begin(), joints.end());
   grasp.com = held.com;
-  grasp.edges = options.edges;
   grasp.options = options;
   // a body without extent has no contacts either: any length will do
   const double radius = held.max_radius();
@@ -92,10 +93,12 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   const auto parts = world.bodies_of(hand);
   grasp.contacts = contacts(world, parts, std::span(&object, 1));
   const Pose X_OW = world.pose(object).inverse();
-  for (const Contact& contact : grasp.contacts)
+  for (const Contact& contact : grasp.contacts) {
+    grasp.links.push_back(world.body(contact.other).name);
     grasp.points.push_back({.p_O = X_OW * contact.p_W,
                             .n_O = (X_OW.rotation * contact.n_W).normalized(),
                             .mu = contact.friction.statics});
+  }
   if (forces.empty() || !options.normal_force.fits(grasp.contacts.size()))
     refuse(fmt::format("normal_force: expected one number or {}, one per contact, got {}",
                        grasp.contacts.size(), forces.size()));
@@ -103,13 +106,46 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   return grasp;
 }
 
-WrenchSpace wrench_space(const Grasp& grasp, const GraspSpaceOptions& options) {
-  const ConeOptions cone{.edges = options.edges.value_or(grasp.edges),
+void apply_grasp(World& world, const GraspSpec& grasp) {
+  const auto refuse = [&](const std::string& why) {
+    fail("grasp of {} by {}: {}", grasp.object_name, grasp.hand_name, why);
+  };
+  const auto hand = world.find_robot(grasp.hand_name);
+  const auto object = world.find_body(grasp.object_name);
+  if (!hand) refuse("there is no such hand in this world");
+  if (!object) refuse("there is no such object in this world");
+  if (!grasp.X_OH) refuse("it was put together by hand and says not how the hand stands");
+  const Robot& robot = world.robot(hand);
+  if (grasp.dofs.size() != robot.dofs.size() || grasp.joints.size() != robot.joints.size())
+    refuse(fmt::format("it has {} DOFs and {} joints, the hand {} and {}", grasp.dofs.size(),
+                       grasp.joints.size(), robot.dofs.size(), robot.joints.size()));
+  const Pose before = world.pose(robot.base);
+  world.set_pose(hand, world.pose(object) * *grasp.X_OH);
+  const auto q = Eigen::Map<const Eigen::VectorXd>(grasp.dofs.data(), std::ssize(grasp.dofs));
+  try {
+    world.set_dofs(hand, q);
+  } catch (const Error&) {
+    world.set_pose(hand, before);
+    throw;
+  }
+  std::vector<Apart> apart(grasp.joints.size());
+  for (size_t j = 0; j < apart.size(); ++j)
+    if (grasp.joints[j] != world.joints(hand)[static_cast<Eigen::Index>(j)])
+      apart[j] = grasp.joints[j];
+  world.set_dofs_unchecked(hand, q, apart);
+}
+
+WrenchSpace wrench_space(const GraspSpec& grasp, const GraspSpaceOptions& options) {
+  const ConeOptions cone{.edges = options.edges.value_or(grasp.options.edges),
                          .rho = options.rho.value_or(grasp.rho),
                          .p_OM = grasp.com};
   std::vector<UnitWrenches> contacts;
   for (const PointContact& point : grasp.points) contacts.push_back(unit_wrenches(point, cone));
   return WrenchSpace(std::move(contacts), options.space);
+}
+
+const WrenchSpacePtr& space_of(const Grasp& grasp, const GraspSpaceOptions& options) {
+  return grasp.spaces.get(options, [&] { return wrench_space(grasp, options); });
 }
 
 }  // namespace clench

@@ -45,21 +45,8 @@ const World& MeasuredGrasp::world() const {
   return world_;
 }
 
-MeasuredGrasp::MeasuredGrasp(const World& world, const Grasp& grasp, SpaceSource spaces,
-                             const Progress& progress)
-    : world_(world), grasp_(grasp), progress_(progress), spaces_(std::move(spaces)) {
-  if (!spaces_)
-    spaces_ = [this](const GraspSpaceOptions& options) -> const WrenchSpace& {
-      return own_space(options);
-    };
-}
-
-const WrenchSpace& MeasuredGrasp::own_space(const GraspSpaceOptions& options) {
-  for (const auto& [known, space] : own_spaces_)
-    if (known == options) return space;
-  own_spaces_.emplace_back(options, wrench_space(grasp_, options));
-  return own_spaces_.back().second;
-}
+MeasuredGrasp::MeasuredGrasp(const World& world, const Grasp& grasp, const Progress& progress)
+    : world_(world), grasp_(grasp), progress_(progress) {}
 
 const ContactPolygon& MeasuredGrasp::polygon() {
   if (!polygon_) {

@@ -1,7 +1,5 @@
 // What a grasp is worth: numbers by name, from which planners and people choose.
 #pragma once
-#include <functional>
-#include <list>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -18,17 +16,16 @@ class MeasuredGrasp {
  public:
   MeasuredGrasp(const MeasuredGrasp&) = delete;
   MeasuredGrasp& operator=(const MeasuredGrasp&) = delete;
-  /// Gives a wrench space of the grasp, and keeps it as long as it is needed.
-  using SpaceSource = std::function<const WrenchSpace&(const GraspSpaceOptions&)>;
-  /// spaces  default: made for this alone
-  MeasuredGrasp(const World& world, const Grasp& grasp, SpaceSource spaces = {},
-                const Progress& progress = {});
+  /// Wrench spaces are those that the grasp keeps.
+  MeasuredGrasp(const World& world, const Grasp& grasp, const Progress& progress = {});
 
   /// throws  Error as check_unmoved does
   const World& world() const;
   const Progress& progress() const { return progress_; }
   const Grasp& grasp() const { return grasp_; }
-  const WrenchSpace& space(const GraspSpaceOptions& options = {}) { return spaces_(options); }
+  const WrenchSpace& space(const GraspSpaceOptions& options = {}) {
+    return *space_of(grasp_, options);
+  }
   const ContactPolygon& polygon();  ///< of the contact points, object frame; at least one contact
   /// of the grasp map, torques over rho, descending; 6, the last ones 0 where it has fewer columns
   const Vector6d& singular_values();
@@ -44,13 +41,10 @@ class MeasuredGrasp {
     std::vector<int> starts;
   };
   const Maps& maps();
-  const WrenchSpace& own_space(const GraspSpaceOptions& options);
 
   const World& world_;
   const Grasp& grasp_;
   const Progress progress_;
-  std::list<std::pair<GraspSpaceOptions, WrenchSpace>> own_spaces_;
-  SpaceSource spaces_;
   std::optional<ContactPolygon> polygon_;
   std::optional<Maps> maps_;
   std::optional<Vector6d> values_, hand_values_;

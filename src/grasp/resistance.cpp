@@ -38,7 +38,7 @@ double ellipsoid_resistance(const World& world, const Grasp& grasp, const Vector
   to_ball.bottomRightCorner<3, 3>() = R_WO;
   to_ball = axes.cwiseInverse().asDiagonal() * to_ball;
 
-  const ConeOptions cone{.edges = grasp.edges, .rho = 1, .p_OM = grasp.com};
+  const ConeOptions cone{.edges = grasp.options.edges, .rho = 1, .p_OM = grasp.com};
   std::vector<UnitWrenches> contacts;
   for (const PointContact& point : grasp.points) {
     UnitWrenches unit = unit_wrenches(point, cone);

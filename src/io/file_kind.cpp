@@ -31,6 +31,7 @@ constexpr Ending known_endings[] = {
     {".mjcf", FileKind::robot},
     {".egr", FileKind::eigengrasps},
     {".vgr", FileKind::virtual_contacts},
+    {".jsonl", FileKind::grasps},
     {".iv", FileKind::body, Format::inventor},
     {".wrl", FileKind::body, Format::inventor},
     {".vrml", FileKind::body, Format::inventor},
@@ -178,7 +179,8 @@ const char* kind_name(FileKind kind) {
                                           "pre-grasps",
                                           "planned grasps",
                                           "glove calibration",
-                                          "glove poses"};
+                                          "glove poses",
+                                          "grasps"};
   return names[static_cast<int>(kind)];
 }
 

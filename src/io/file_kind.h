@@ -19,7 +19,8 @@ enum class FileKind {
   pregrasps,
   planned_grasps,
   glove_calibration,
-  glove_poses
+  glove_poses,
+  grasps
 };
 
 /// path  of a file that exists. One whose ending says nothing is known by how its numbers stand.
@@ -30,7 +31,7 @@ FileKind file_kind(const std::filesystem::path& path);
 std::optional<FileKind> kind_of_numbers(const std::string& text);
 
 /// "body", "robot", "world", "eigengrasps", "virtual contacts", "object contacts", "pre-grasps",
-/// "planned grasps", "glove calibration", "glove poses"
+/// "planned grasps", "glove calibration", "glove poses", "grasps"
 const char* kind_name(FileKind kind);
 
 /// Who reads a file of geometry.

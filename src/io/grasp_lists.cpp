@@ -1,6 +1,7 @@
 #include "io/grasp_lists.h"
 #include "io/file_errors.h"
 
+#include "base/convert.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "base/units.h"
@@ -62,10 +63,10 @@ void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const fs::path& pat
 
 static constexpr const char* run_mark = "0 0 0 0 0 0 0 0 -2";
 
-std::vector<PlannedGrasp> read_planned_grasps(const fs::path& path, const ReadOptions& options) {
+std::vector<GraspSpec> read_planned_grasps(const fs::path& path, const ReadOptions& options) {
   return of_file([&] {
     LineReader lines(path.filename().string(), read_text(path));
-    std::vector<PlannedGrasp> out;
+    std::vector<GraspSpec> out;
     int run = -1;
     while (lines.skip_to_full()) {
       const Line line = lines.next().before('#');
@@ -83,26 +84,35 @@ std::vector<PlannedGrasp> read_planned_grasps(const fs::path& path, const ReadOp
       const auto q = made_unit({x[3], x[4], x[5], x[6]});
       if (!q)
         line.fail("expected a quaternion of length 1, got ({} {} {} {})", x[3], x[4], x[5], x[6]);
-      out.push_back({.run = std::max(run, 0),
-                     .X_OH = {*q, Vector3d(x[0], x[1], x[2]) * units::millimetre},
-                     .spread = x[7] * units::degree,
-                     .quality = x[8]});
       run = std::max(run, 0);
+      GraspSpec& grasp = out.emplace_back();
+      grasp.X_OH = Pose{*q, Vector3d(x[0], x[1], x[2]) * units::millimetre};
+      grasp.measures["quality"] = x[8];
+      grasp.info["run"] = run + 1;
+      grasp.info["spread"] = x[7] * units::degree;
     }
     return out;
   });
 }
 
-void write_planned_grasps(const std::vector<PlannedGrasp>& grasps, const fs::path& path) {
+void write_planned_grasps(const std::vector<GraspSpec>& grasps, const fs::path& path) {
+  const std::string file = path.filename().string();
+  const auto note = [](const std::map<std::string, double>& named, const char* name, double other) {
+    const auto found = named.find(name);
+    return found == named.end() ? other : found->second;
+  };
   std::string out;
-  int run = -1;
-  for (const PlannedGrasp& g : grasps) {
-    if (g.run < run) fail("{}: expected runs in their order", path.filename().string());
-    for (; run < g.run; ++run) out += fmt::format("{}\n", run_mark);
-    const Vector3d p = g.X_OH.position / units::millimetre;
-    const Eigen::Quaterniond& q = g.X_OH.rotation;
-    out += fmt::format("{} {} {} {} {} {} {} {} {}\n", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(),
-                       q.z(), g.spread / units::degree, g.quality);
+  int run = 0;
+  for (const GraspSpec& g : grasps) {
+    if (!g.X_OH) fail("{}: expected grasps with a pose, got one without", file);
+    const int of = floor_int(note(g.info, "run", 1));
+    if (of < run) fail("{}: expected runs in their order", file);
+    for (; run < of; ++run) out += fmt::format("{}\n", run_mark);
+    const Vector3d p = g.X_OH->position / units::millimetre;
+    const Eigen::Quaterniond& q = g.X_OH->rotation;
+    out +=
+        fmt::format("{} {} {} {} {} {} {} {} {}\n", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(),
+                    note(g.info, "spread", 0) / units::degree, note(g.measures, "quality", 0));
   }
   write_file(path, out);
 }

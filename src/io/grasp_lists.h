@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "io/find_file.h"
+#include "spec/grasp_spec.h"
 
 namespace clench {
 
@@ -20,18 +21,12 @@ std::vector<Pregrasp> read_pregrasps(const std::filesystem::path& path,
                                      const ReadOptions& options = {});
 void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const std::filesystem::path& path);
 
-struct PlannedGrasp {
-  int run = 0;         ///< of the planner, from 0: a file collects several
-  Pose X_OH;           ///< hand in the object's frame
-  double spread = 0;   ///< [rad]
-  double quality = 0;  ///< <= 0: no grasp
-};
-
-/// Lines of `x y z qw qx qy qz spread quality`, millimetres and degrees; a line of zeros that ends
-/// in -2 begins a run.
-std::vector<PlannedGrasp> read_planned_grasps(const std::filesystem::path& path,
-                                              const ReadOptions& options = {});
-void write_planned_grasps(const std::vector<PlannedGrasp>& grasps,
-                          const std::filesystem::path& path);
+/// Grasps that have no more than a pose, the measure "quality" (<= 0: no grasp), and the notes "run", from 1, for a file
+/// collects several, and "spread" [rad]. Lines of `x y z qw qx qy qz spread quality`, millimetres and degrees; a line of
+/// zeros that ends in -2 begins a run.
+std::vector<GraspSpec> read_planned_grasps(const std::filesystem::path& path,
+                                           const ReadOptions& options = {});
+/// throws Error when a grasp has no pose, or runs are not in their order
+void write_planned_grasps(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path);
 
 }  // namespace clench

@@ -1,5 +1,6 @@
 #include "script/bind_files.h"
 
+#include "base/convert.h"
 #include "contact/friction_edges.h"
 #include "io/eigengrasps.h"
 #include "io/glove_files.h"
@@ -135,12 +136,12 @@ static int pregrasps(lua_State* L) {
 }
 
 static int planned_grasps(lua_State* L) {
-  return push_list_of(L, read_with(L, read_planned_grasps), [L](const PlannedGrasp& g) {
+  return push_list_of(L, read_with(L, read_planned_grasps), [L](const GraspSpec& g) {
     push_list(L, 0, 4);
-    set_field(L, "run", g.run + 1);
-    set_field(L, "pose", g.X_OH);
-    set_field(L, "spread", g.spread);
-    set_field(L, "quality", g.quality);
+    set_field(L, "run", floor_int(g.info.at("run")));
+    set_field(L, "pose", *g.X_OH);
+    set_field(L, "spread", g.info.at("spread"));
+    set_field(L, "quality", g.measures.at("quality"));
   });
 }
 
@@ -161,15 +162,15 @@ static int save_pregrasps(lua_State* L) {
 static int save_planned_grasps(lua_State* L) {
   check_count(L, 2);
   const std::string path = check_string(L, 1, "path");
-  std::vector<PlannedGrasp> list;
+  std::vector<GraspSpec> list;
   each_table(L, [&](Table& item) {
     const int run = item.integer("run", 1);
     if (run < 1 || run > 1'000'000)
       fail("{}: run: expected a number from 1 to 1000000, got {}", item.subject(), run);
-    list.push_back({.run = run - 1,
-                    .X_OH = item.pose("pose"),
-                    .spread = item.number("spread", 0),
-                    .quality = item.number("quality")});
+    GraspSpec& grasp = list.emplace_back();
+    grasp.X_OH = item.pose("pose");
+    grasp.measures["quality"] = item.number("quality");
+    grasp.info = {{"run", run}, {"spread", item.number("spread", 0)}};
   });
   write_planned_grasps(list, path);
   return 0;

@@ -174,7 +174,7 @@ static int forces(lua_State* L) {
   asked.objective = read_objective(options);
   asked.nearest = options.choice("balance", {"exact", "nearest"}, "exact") == "nearest";
   options.done();
-  const ForceResult r = contact_forces(*g.world, g.grasp, asked);
+  const ForceResult r = contact_forces(world_of(L, g), g.grasp, asked);
   push_result(L, g, r, status_name(r.status));
   if (!asked.nearest && r.status == ForceStatus::optimal) set_field(L, "objective", r.objective);
   return 1;
@@ -189,7 +189,7 @@ static int largest(lua_State* L) {
   read_caps(options, asked);
   read_joints(options, asked);
   options.done();
-  const ForceResult r = max_load(*g.world, g.grasp, asked);
+  const ForceResult r = max_load(world_of(L, g), g.grasp, asked);
   push_result(L, g, r, r.status == ForceStatus::unbounded ? "unlimited" : status_name(r.status));
   if (r.status == ForceStatus::optimal) set_field(L, "load", r.load_factor);
   return 1;
@@ -213,29 +213,30 @@ static int balance(lua_State* L) {
   else
     asked.joints.efforts = vector_if(options, "torques");
   options.done();
-  const Equilibrium e = equilibrium(*g.world, g.grasp, asked);
+  const Equilibrium e = equilibrium(world_of(L, g), g.grasp, asked);
   push_result(L, g, e.result, status_name(e.status));
   return 1;
 }
 
 // from forces along the axes of contact.frame to those of the grasp map
-static Eigen::MatrixXd turns_of(const GraspHandle& g, const GraspMap& map) {
-  return frame_turns(map, g.grasp.points, g.world->pose(g.grasp.object).matrix());
+static Eigen::MatrixXd turns_of(lua_State* L, const GraspHandle& g, const GraspMap& map) {
+  return frame_turns(map, g.grasp.points, world_of(L, g).pose(g.grasp.object).matrix());
 }
 
 static int map_rows(lua_State* L) {
   check_count(L, 0);
   const auto& g = self<GraspHandle>(L);
   const GraspMap map = grasp_map(g.grasp.points, g.grasp.com);
-  return push_rows(L, map.matrix * turns_of(g, map));
+  return push_rows(L, map.matrix * turns_of(L, g, map));
 }
 
 static int jacobian_rows(lua_State* L) {
   check_count(L, 0);
   const auto& g = self<GraspHandle>(L);
   const GraspMap map = grasp_map(g.grasp.points, g.grasp.com);
-  const Eigen::MatrixXd dofs = dof_jacobian(*g.world, g.grasp, hand_jacobian(*g.world, g.grasp));
-  return push_rows(L, turns_of(g, map).transpose() * dofs);
+  const Eigen::MatrixXd dofs =
+      dof_jacobian(world_of(L, g), g.grasp, hand_jacobian(world_of(L, g), g.grasp));
+  return push_rows(L, turns_of(L, g, map).transpose() * dofs);
 }
 
 static const Entry methods[] = {

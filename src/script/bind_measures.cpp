@@ -13,21 +13,16 @@
 
 namespace clench {
 
-// wrench spaces are those that the grasp keeps
-static MeasuredGrasp::SpaceSource spaces_of(GraspHandle& g) {
-  return [&g](const GraspSpaceOptions& options) -> const WrenchSpace& {
-    return *space_of(g, options);
-  };
-}
-
 static int quality(lua_State* L) {
   check_count(L, 1);
   auto& g = self<GraspHandle>(L);
   const std::string name = check_string(L, 2, "measure");
   const Measure& measure = find_measure(name);
   const Watching watching(L);
-  MeasuredGrasp measured(*g.world, g.grasp, spaces_of(g), watching.progress());
-  return push_unbounded(L, measure.of(measured));
+  MeasuredGrasp measured(world_of(L, g), g.grasp, watching.progress());
+  const double value = measure.of(measured);
+  g.grasp.measures[name] = value;
+  return push_unbounded(L, value);
 }
 
 // empty: infinite, or beyond what can be had, as the volume of a hull of millions of facets
@@ -44,13 +39,15 @@ static std::optional<double> value_if(const Measure& measure, MeasuredGrasp& gra
 static int quality_all(lua_State* L) {
   check_count(L, 0);
   auto& g = self<GraspHandle>(L);
-  check_unmoved(*g.world, g.grasp);
+  check_unmoved(world_of(L, g), g.grasp);
   const Watching watching(L);
-  MeasuredGrasp measured(*g.world, g.grasp, spaces_of(g), watching.progress());
+  MeasuredGrasp measured(world_of(L, g), g.grasp, watching.progress());
   push_list(L, 0, static_cast<int>(measures().size()));
   for (const Measure& measure : measures()) {
     const auto value = value_if(measure, measured);
-    if (value) set_field(L, std::string(measure.name).c_str(), *value);
+    if (!value) continue;
+    g.grasp.measures[std::string(measure.name)] = *value;
+    set_field(L, std::string(measure.name).c_str(), *value);
   }
   return 1;
 }
@@ -74,7 +71,7 @@ static int resist(lua_State* L) {
     if (wrench.isZero(0))
       fail("{}: {}: expected a wrench that is not zero: there is nothing to resist", subject(L),
            key);
-    return resistance(*g.world, g.grasp, wrench, resisting);
+    return resistance(world_of(L, g), g.grasp, wrench, resisting);
   };
   double least = INFINITY;
   if (one) least = times(vector6(options.numbers("wrench", 6)), "wrench");
@@ -83,7 +80,7 @@ static int resist(lua_State* L) {
   for (size_t i = 0; i < rows.size(); ++i)
     least = std::min(least, times(vector6(rows[i]), fmt::format("wrenches[{}]", i + 1)));
   if (ellipsoid)
-    least = ellipsoid_resistance(*g.world, g.grasp, vector6(options.numbers("ellipsoid", 6)),
+    least = ellipsoid_resistance(world_of(L, g), g.grasp, vector6(options.numbers("ellipsoid", 6)),
                                  resisting);
   options.done();
   return push_unbounded(L, least);

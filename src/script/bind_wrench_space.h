@@ -4,13 +4,11 @@
 #include <optional>
 #include <span>
 
-#include "grasp/wrench_space.h"
+#include "grasp/kept_spaces.h"
 #include "script/bind_mesh.h"
 #include "script/table.h"
 
 namespace clench {
-
-using WrenchSpacePtr = std::shared_ptr<const WrenchSpace>;
 
 /// `edges`: an integer or "exact"; empty when absent.
 /// throws  Error "...: edges must be 3 to 1000 or 'exact', got 2"

@@ -10,6 +10,7 @@
 #include "script/bind_files.h"
 #include "script/bind_forces.h"
 #include "script/bind_grasp.h"
+#include "script/bind_grasps.h"
 #include "script/bind_hand.h"
 #include "script/bind_json.h"
 #include "script/bind_log.h"
@@ -37,7 +38,7 @@ std::span<const Library* const> all_libraries() {
       &catalog_library,      &convert_library,     &entries_library, &json_library,
       &log_library,          &world_library,       &grasp_library,   &measures_library,
       &wrench_space_library, &eigengrasps_library, &files_library,   &render_library,
-      &chart_library,        &progress_library,
+      &chart_library,        &progress_library,    &grasps_library,
   };
   return libraries;
 }
@@ -49,7 +50,7 @@ std::span<const Class* const> all_classes() {
       &hand_class,     &robot_class,        &eigengrasps_class, &virtual_contact_class,
       &contact_class,  &forces_class,       &measures_class,    &patch_class,
       &grasp_class,    &wrench_space_class, &projection_class,  &picture_class,
-      &progress_class,
+      &progress_class, &grasps_class,
   };
   return classes;
 }

@@ -143,6 +143,11 @@ print_kind["planned grasps"] = function(list)
   print(("  %d in %s%s"):format(list.count, several(list.runs, "run"), list.best and (", the best of quality %.4g"):format(list.best) or ""))
 end
 
+print_kind.grasps = function(list)
+  print(("  %d%s%s"):format(list.count, list.of[1] and ": " .. name_list(list.of) or "",
+                            list.best_epsilon and ("; the largest epsilon %.4g"):format(list.best_epsilon) or ""))
+end
+
 print_kind["glove calibration"] = function(glove) print(("  %d sensors for %d DOFs"):format(glove.sensors, glove.dofs)) end
 
 print_kind["glove poses"] = function(list)

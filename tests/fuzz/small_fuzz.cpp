@@ -3,6 +3,7 @@
 #include "fuzz_files.h"
 #include "io/eigengrasps.h"
 #include "io/glove_files.h"
+#include "io/grasp_lines.h"
 #include "io/grasp_lists.h"
 #include "io/virtual_contacts.h"
 
@@ -23,6 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     check(path, read_pregrasps);
     check(path, read_planned_grasps);
   } else {
+    check(path, read_grasps);
     check(path, read_glove_calibration);
     check(path, read_glove_poses);
   }

@@ -29,7 +29,7 @@ TEST_CASE("two fingers of one newton hold 2 mu across them, 1 newton along them"
 TEST_CASE("no wrench of length one is resisted less than epsilon, and the weakest just so much") {
   for (const WrenchNorm norm : {WrenchNorm::l1, WrenchNorm::linf}) {
     Held h = held(around_ball(6, 0.7, 3));
-    h.grasp.edges = round_edges;
+    h.grasp.options.edges = round_edges;
     h.grasp.com = Vector3d(0.003, -0.002, 0.001);
     const WrenchSpace space = wrench_space(h.grasp, {.space = {.norm = norm}});
     REQUIRE(space.epsilon() > 0);
@@ -53,7 +53,7 @@ TEST_CASE("an ellipsoid with torques of rho newton metres is the ball of epsilon
   for (const int edges : {8, round_edges}) {
     Held h = held(around_ball(7, 0.6, 5),
                   {Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1).normalized(), {1, 2, 3}});
-    h.grasp.edges = edges;
+    h.grasp.options.edges = edges;
     const double rho = h.grasp.rho, epsilon = wrench_space(h.grasp).epsilon();
     REQUIRE(epsilon > 0);
     CHECK(ellipsoid_resistance(h.world, h.grasp, wrench(1, 1, 1, rho, rho, rho)) ==
@@ -65,7 +65,7 @@ TEST_CASE("an ellipsoid with torques of rho newton metres is the ball of epsilon
 
 TEST_CASE("what lies in the ellipsoid that is resisted is resisted") {
   Held h = held(around_ball(6, 0.7, 11), {Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {0, 0, 1}});
-  h.grasp.edges = round_edges;
+  h.grasp.options.edges = round_edges;
   const Vector6d axes = wrench(1, 2, 0.5, 0.02, 0.05, 0.1);
   const double multiple = ellipsoid_resistance(h.world, h.grasp, axes);
   REQUIRE(multiple > 0);

@@ -89,7 +89,8 @@ TEST_CASE("a file of numbers is known by how they stand") {
 TEST_CASE("what the lists hold that Clench writes is known again") {
   const test::TemporaryFolder folder;
   write_pregrasps({{.spread = 1}}, folder.path() / "a.txt");
-  write_planned_grasps({{.X_OH = Pose{}, .quality = 1}}, folder.path() / "b.txt");
+  write_planned_grasps({GraspSpec{.X_OH = Pose{}, .measures = {{"quality", 1.0}}}},
+                       folder.path() / "b.txt");
   ObjectContact contact;
   contact.edges = FrictionEdges::Identity(6, 8);
   write_object_contacts({contact, contact}, folder.path() / "c.txt");

@@ -48,32 +48,33 @@ TEST_CASE("a marker begins another run of planned grasps") {
       "a.txt",
       mark + "1 2 3 1 0 0 0 60 0.25\n4 5 6 0 1 0 0 0 -1\n" + mark + "1 2 3 1 0 0 0 0 0\n"));
   REQUIRE(list.size() == 3);
-  CHECK(list[0].run == 0);
-  CHECK(list[0].quality == 0.25);
-  CHECK(list[1].X_OH.rotation.x() == 1);
-  CHECK(list[2].run == 1);
+  CHECK(list[0].info.at("run") == 1);
+  CHECK(list[0].measures.at("quality") == 0.25);
+  CHECK(list[1].X_OH->rotation.x() == 1);
+  CHECK(list[2].info.at("run") == 2);
   // files of one run may do without
-  CHECK(read_planned_grasps(folder.write("b.txt", "1 2 3 1 0 0 0 60 0.25\n"))[0].run == 0);
+  CHECK(read_planned_grasps(folder.write("b.txt", "1 2 3 1 0 0 0 60 0.25\n"))[0].info.at("run") ==
+        1);
 }
 
 TEST_CASE("planned grasps written and read again are the same, runs and all") {
   TemporaryFolder folder;
   Random random(8, 1);
-  std::vector<PlannedGrasp> list;
-  for (int i = 0; i < 50; ++i)
-    list.push_back({.run = i / 20,
-                    .X_OH = random_pose(random, 0.1),
-                    .spread = random.uniform(),
-                    .quality = random.uniform()});
+  std::vector<GraspSpec> list(50);
+  for (size_t i = 0; i < list.size(); ++i) {
+    list[i].X_OH = random_pose(random, 0.1);
+    list[i].info = {{"run", 1.0 + static_cast<double>(i / 20)}, {"spread", random.uniform()}};
+    list[i].measures = {{"quality", random.uniform()}};
+  }
   write_planned_grasps(list, folder.path() / "a.txt");
   const auto back = read_planned_grasps(folder.path() / "a.txt");
   REQUIRE(back.size() == list.size());
   for (size_t i = 0; i < list.size(); ++i) {
-    CHECK(back[i].run == list[i].run);
-    CHECK((back[i].X_OH.position - list[i].X_OH.position).norm() < unit_rounding);
-    CHECK(back[i].X_OH.rotation.coeffs() == list[i].X_OH.rotation.coeffs());
-    CHECK(std::abs(back[i].spread - list[i].spread) < unit_rounding);
-    CHECK(back[i].quality == list[i].quality);
+    CHECK(back[i].info.at("run") == list[i].info.at("run"));
+    CHECK((back[i].X_OH->position - list[i].X_OH->position).norm() < unit_rounding);
+    CHECK(back[i].X_OH->rotation.coeffs() == list[i].X_OH->rotation.coeffs());
+    CHECK(std::abs(back[i].info.at("spread") - list[i].info.at("spread")) < unit_rounding);
+    CHECK(back[i].measures == list[i].measures);
   }
   std::swap(list.front(), list.back());
   CHECK_THROWS_WITH_AS(write_planned_grasps(list, folder.path() / "a.txt"),

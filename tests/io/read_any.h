@@ -3,6 +3,7 @@
 #include "io/eigengrasps.h"
 #include "io/file_kind.h"
 #include "io/glove_files.h"
+#include "io/grasp_lines.h"
 #include "io/grasp_lists.h"
 #include "io/read.h"
 #include "io/virtual_contacts.h"
@@ -34,6 +35,9 @@ inline void read_any(const std::filesystem::path& file, const ReadOptions& optio
       break;
     case FileKind::planned_grasps:
       read_planned_grasps(file, options);
+      break;
+    case FileKind::grasps:
+      read_grasps(file, options);
       break;
     case FileKind::glove_calibration:
       read_glove_calibration(file, options);

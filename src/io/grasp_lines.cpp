@@ -1,0 +1,270 @@
+#include "io/grasp_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "base/suggest.h"
+#include "base/text.h"
+#include "io/file_errors.h"
+#include "io/find_file.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Eigen::Vector3d;
+
+static constexpr const char* format_name = "clench grasps";
+static constexpr int version = 1;
+static constexpr size_t max_grasps = 10'000'000, max_values = 10'000;  // of a list in a grasp
+
+// --- writing ---
+
+static Json list_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+static Json numbers_of(const std::map<std::string, double>& named) {
+  Json out = Json::object();
+  for (const auto& [name, x] : named)
+    if (std::isfinite(x)) out[name] = x;
+  return out;
+}
+
+static Json json_of(const GraspSpec& g) {
+  Json out = {{"hand", g.hand_name}, {"object", g.object_name}};
+  if (!g.hand_file.empty()) out["hand_file"] = g.hand_file;
+  if (!g.object_file.empty()) out["object_file"] = g.object_file;
+  if (g.X_OH) {
+    const Eigen::Quaterniond& q = g.X_OH->rotation;
+    out["pose"] = {{"xyz", list_of(g.X_OH->position)}, {"quat", {q.w(), q.x(), q.y(), q.z()}}};
+  }
+  out["dofs"] = g.dofs;
+  out["joints"] = g.joints;
+  Json points = Json::array();
+  for (size_t i = 0; i < g.points.size(); ++i) {
+    const PointContact& p = g.points[i];
+    Json point = {{"point", list_of(p.p_O)}, {"normal", list_of(p.n_O)}, {"mu", p.mu}};
+    if (p.torsion_radius > 0) point["torsion_radius"] = p.torsion_radius;
+    if (i < g.links.size()) point["link"] = g.links[i];
+    points.push_back(std::move(point));
+  }
+  out["points"] = std::move(points);
+  out["com"] = list_of(g.com);
+  out["rho"] = g.rho;
+  out["largest_radius"] = g.largest_radius;
+  out["gyration_radius"] = g.gyration_radius;
+  out["edges"] = g.options.edges;
+  out["soft"] = g.options.soft;
+  out["normal_force"] = g.options.normal_force.values;
+  out["modulus"] = g.options.modulus == ModulusRule::larger ? "larger" : "series";
+  out["measures"] = numbers_of(g.measures);
+  out["info"] = numbers_of(g.info);
+  return out;
+}
+
+void write_grasps(const std::vector<GraspSpec>& grasps, const fs::path& path) {
+  // text that is no UTF-8 is no reason to lose the rest
+  const auto line = [](const Json& value) {
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  };
+  std::string text = line({{"format", format_name},
+                           {"version", version},
+                           {"units", "m, kg, s, rad, N"},
+                           {"pose", "of the hand's base in the object's frame; quat is w x y z"}});
+  for (const GraspSpec& grasp : grasps) text += line(json_of(grasp));
+  write_file(path, text);
+}
+
+// --- reading ---
+
+namespace {
+
+/// An object of a line, key by key; a key that nobody asked for is an error.
+class Fields {
+ public:
+  Fields(const Json& json, std::string place) : json_(json), place_(std::move(place)) {
+    if (!json.is_object()) refuse("an object", json);
+  }
+
+  const Json* find(const char* key) {
+    known_.push_back(key);
+    const auto found = json_.find(key);
+    return found == json_.end() ? nullptr : &*found;
+  }
+  const Json& get(const char* key) {
+    if (const Json* found = find(key)) return *found;
+    fail("{}: expected a key '{}', got none", place_, key);
+  }
+  double number(const char* key, double low) {
+    const Json& value = get(key);
+    if (!value.is_number() || !(value.get<double>() >= low))
+      Fields::refuse(at(key), low == 0 ? "a number >= 0" : "a number", value);
+    return value.get<double>();
+  }
+  double positive(const char* key) {
+    const double x = number(key, 0);
+    if (x == 0) refuse(at(key), "a number > 0", get(key));
+    return x;
+  }
+  std::string text(const char* key, bool needed) {
+    const Json* value = needed ? &get(key) : find(key);
+    if (!value) return "";
+    if (!value->is_string()) refuse(at(key), "a string", *value);
+    return value->get<std::string>();
+  }
+  std::vector<double> numbers(const char* key, int count = -1) {
+    const Json& list = get(key);
+    const std::string expected = count < 0 ? "a list of numbers" : fmt::format("{} numbers", count);
+    if (!list.is_array() || (count >= 0 ? list.size() != size_t(count) : list.size() > max_values))
+      refuse(at(key), expected, list);
+    for (const Json& x : list)
+      if (!x.is_number()) refuse(at(key), expected, x);
+    return list.get<std::vector<double>>();
+  }
+  Vector3d vec3(const char* key) {
+    const auto x = numbers(key, 3);
+    return Vector3d::Map(x.data());
+  }
+  std::map<std::string, double> named(const char* key) {
+    std::map<std::string, double> out;
+    const Json& object = get(key);
+    if (!object.is_object()) refuse(at(key), "an object of numbers", object);
+    for (const auto& [name, x] : object.items()) {
+      if (!x.is_number()) refuse(at(key) + "." + excerpt(name), "a number", x);
+      out[name] = x.get<double>();
+    }
+    return out;
+  }
+  std::string at(const char* key) const { return fmt::format("{}: {}", place_, key); }
+  void done() const {
+    for (const auto& [key, value] : json_.items())
+      if (std::find(known_.begin(), known_.end(), key) == known_.end())
+        fail("{}: unknown key {}{}", place_, in_quotes(key), did_you_mean(key, known_));
+  }
+  [[noreturn]] static void refuse(const std::string& place, const std::string& expected,
+                                  const Json& got) {
+    fail("{}: expected {}, got {}", place, expected,
+         excerpt(got.dump(-1, ' ', false, Json::error_handler_t::replace)));
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& expected, const Json& got) const {
+    refuse(place_, expected, got);
+  }
+
+  const Json& json_;
+  std::string place_;
+  std::vector<std::string> known_;
+};
+
+PointContact read_point(Fields& fields) {
+  PointContact out{
+      .p_O = fields.vec3("point"), .n_O = fields.vec3("normal"), .mu = fields.number("mu", 0)};
+  // a normal that was written is one up to rounding
+  if (!(std::abs(out.n_O.norm() - 1) < 1e-6))
+    Fields::refuse(fields.at("normal"), "a vector of length 1", fields.get("normal"));
+  if (fields.find("torsion_radius")) out.torsion_radius = fields.number("torsion_radius", 0);
+  return out;
+}
+
+Pose read_pose(Fields fields) {
+  const auto q = fields.numbers("quat", 4);
+  Pose out;
+  out.position = fields.vec3("xyz");
+  out.rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  if (!(std::abs(out.rotation.norm() - 1) < 1e-6))
+    Fields::refuse(fields.at("quat"), "a quaternion of length 1", fields.get("quat"));
+  fields.done();
+  return out;
+}
+
+GraspSpec read_line(const Json& json, const std::string& place) {
+  Fields fields(json, place);
+  GraspSpec out;
+  out.hand_name = fields.text("hand", true);
+  out.object_name = fields.text("object", true);
+  out.hand_file = fields.text("hand_file", false);
+  out.object_file = fields.text("object_file", false);
+  if (const Json* pose = fields.find("pose")) out.X_OH = read_pose({*pose, fields.at("pose")});
+  out.dofs = fields.numbers("dofs");
+  out.joints = fields.numbers("joints");
+  const Json& points = fields.get("points");
+  if (!points.is_array() || points.size() > max_values)
+    Fields::refuse(fields.at("points"), "a list of contacts", points);
+  for (const Json& item : points) {
+    Fields point(item, fmt::format("{}: points[{}]", place, out.points.size() + 1));
+    out.points.push_back(read_point(point));
+    out.links.push_back(point.text("link", false));
+    point.done();
+  }
+  out.com = fields.vec3("com");
+  out.rho = fields.positive("rho");
+  out.largest_radius = fields.positive("largest_radius");
+  out.gyration_radius = fields.positive("gyration_radius");
+  const double edges = fields.number("edges", 0);
+  if (edges != std::floor(edges) || edges > max_edges || (edges < 3 && edges != round_edges))
+    Fields::refuse(fields.at("edges"), fmt::format("a number from 3 to {}, or 0", max_edges),
+                   fields.get("edges"));
+  out.options.edges = static_cast<int>(edges);
+  out.options.rho = out.rho;
+  const Json& soft = fields.get("soft");
+  if (!soft.is_boolean()) Fields::refuse(fields.at("soft"), "true or false", soft);
+  out.options.soft = soft.get<bool>();
+  out.options.normal_force = fields.numbers("normal_force");
+  const std::string modulus = fields.text("modulus", true);
+  if (modulus != "series" && modulus != "larger")
+    Fields::refuse(fields.at("modulus"), "'series' or 'larger'", fields.get("modulus"));
+  out.options.modulus = modulus == "larger" ? ModulusRule::larger : ModulusRule::series;
+  out.measures = fields.named("measures");
+  out.info = fields.named("info");
+  fields.done();
+  return out;
+}
+
+void check_head(const Json& json, const std::string& place) {
+  const bool ours = json.is_object() && json.contains("format") && json["format"] == format_name;
+  if (!ours)
+    Fields::refuse(place, fmt::format("a list of grasps, \"format\": \"{}\"", format_name), json);
+  const Json* number = json.contains("version") ? &json["version"] : nullptr;
+  if (!number || *number != version)
+    fail("{}: expected version {}, got {}", place, version,
+         number ? excerpt(number->dump()) : "none");
+}
+
+}  // namespace
+
+std::vector<GraspSpec> read_grasps(const fs::path& path, const ReadOptions& options) {
+  return of_file([&] {
+    const fs::path found = find_file(path.string(), "", options);
+    LineReader lines(path.filename().string(), read_text(found));
+    std::vector<GraspSpec> out;
+    bool head = false;
+    while (!lines.done()) {
+      const Line line = lines.next();
+      if (line.blank()) continue;
+      options.progress.check();
+      Json value;
+      try {
+        // what is nested deeper is no grasp, and would be gone through by calls within calls
+        value = Json::parse(line.text(), [&](int depth, Json::parse_event_t, const Json&) {
+          if (depth > 8) line.fail("expected lists and objects at most 8 deep, got more");
+          return true;
+        });
+      } catch (const Json::exception&) {
+        line.fail("expected a line of JSON, got {}", in_quotes(line.text()));
+      }
+      if (!head) {
+        check_head(value, line.place());
+        head = true;
+        continue;
+      }
+      if (out.size() == max_grasps) line.fail("expected at most {} grasps", max_grasps);
+      out.push_back(read_line(value, line.place()));
+    }
+    if (!head) fail("{}: expected a list of grasps, got an empty file", path.filename().string());
+    return out;
+  });
+}
+
+}  // namespace clench

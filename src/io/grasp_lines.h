@@ -1,0 +1,20 @@
+// Lists of grasps as JSON lines: what kind of file it is on the first, a grasp on each that follows.
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "io/read_options.h"
+#include "spec/grasp_spec.h"
+
+namespace clench {
+
+/// Numbers come back to the bit.
+/// throws Error  "grasps.jsonl:3: points[2].mu: expected a number >= 0, got -1"
+std::vector<GraspSpec> read_grasps(const std::filesystem::path& path,
+                                   const ReadOptions& options = {});
+
+/// The same list gives the same bytes. Measures and notes that are not finite are left out.
+/// throws Error as write_file does
+void write_grasps(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path);
+
+}  // namespace clench

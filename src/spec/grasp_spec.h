@@ -1,0 +1,57 @@
+// A grasp as a value: what a planner yields, a file keeps and a list shows. It needs no world.
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "math/pose.h"
+#include "spec/per_contact.h"
+#include "spec/point_contact.h"
+
+namespace clench {
+
+/// Lengths of an object that torques may be divided by.
+enum class TorqueLength {
+  largest_radius,   ///< of its surface, from its centre of mass
+  gyration_radius,  ///< root mean square of its mass, from its centre of mass
+};
+
+/// How two elastic bodies act together.
+enum class ModulusRule {
+  series,  ///< each gives way: sums of layer (1 - poisson^2) / modulus
+  larger   ///< as the original: the layer of the stiffer elastic body alone, poisson's ratio unused
+};
+
+struct GraspOptions {
+  int edges = 8;                   ///< of the friction pyramids; round_edges: round cones
+  std::optional<double> rho = {};  ///< torque length [m]; default: that of the object
+  TorqueLength length = TorqueLength::largest_radius;
+  bool soft = true;             ///< soft contacts transmit torsional friction; else all are points
+  PerContact normal_force = 5;  ///< at which they are judged, > 0, one per contact >= 0 [N]
+  ModulusRule modulus = ModulusRule::series;
+};
+
+struct GraspSpec {
+  std::string hand_name = {}, object_name = {};
+  std::string hand_file = {}, object_file = {};  ///< where they come from; empty: not known
+  std::optional<Pose> X_OH = {};    ///< the hand's base in the object; empty: put together by hand
+  std::vector<double> dofs = {};    ///< values of all [rad or m]
+  std::vector<double> joints = {};  ///< positions of all [rad or m]
+  std::vector<PointContact> points = {};
+  std::vector<std::string> links = {};             ///< one per contact: what touches there
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();   ///< of the object, object frame [m]
+  double rho = 1;                                  ///< that torques are divided by [m]
+  double largest_radius = 1, gyration_radius = 1;  ///< of the object; 1 when it has no extent [m]
+  GraspOptions options = {};                       ///< that it was measured with
+  std::map<std::string, double> measures =
+      {};  ///< of the grasp, by name, as far as they were asked for
+  std::map<std::string, double> info =
+      {};  ///< what its maker notes: energy, seed, run, spread [rad]
+
+  double length(TorqueLength which) const {
+    return which == TorqueLength::largest_radius ? largest_radius : gyration_radius;
+  }
+};
+
+}  // namespace clench
