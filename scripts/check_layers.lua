@@ -1,5 +1,5 @@
--- Holds the sources against the two tables of docs/architecture.md: which module may include which, and where
--- each library may be seen. Finds circles of includes, too. Runs in a stock interpreter:
+-- Holds the sources against the three tables of docs/architecture.md: which module may include which, in which order
+-- the rooms within a module stand, and where each library may be seen. Finds circles of includes, too. Runs in a stock interpreter:
 --   lua5.4 scripts/check_layers.lua [ROOT]
 -- One sentence a fault, file:line first; exit code 1 when there is any.
 local root = arg[1] or "."
@@ -149,11 +149,14 @@ local function read_sources()
   local sources = {}
   for found in list:lines() do
     local path = found:match "^%./(.*)$"
-    local source = {path = path, module = path:match "^([^/]+)/" or "", lines = {}, includes = {}}
+    local source = {path = path, module = path:match "^([^/]+)/" or "", room = path:match "^[^/]+/([^/]+)/",
+                    unit = path:match "^(.*)%.", lines = {}, includes = {}}
     for text in (code_of(read("src/" .. path)) .. "\n"):gmatch "(.-)\r?\n" do
       local line = #source.lines + 1
       local opened, name = text:match '^%s*#%s*include%s*([<"])([^>"]+)[>"]'
-      if name then table.insert(source.includes, {line = line, name = name, quoted = opened == '"'}) end
+      -- sources are named from include/, where clench is this folder
+      local ours = name and name:match "^clench/(.*)$"
+      if name then table.insert(source.includes, {line = line, name = ours or name, quoted = opened == '"'}) end
       source.lines[line] = name and "" or text
     end
     sources[#sources + 1], sources[path] = source, source
@@ -164,44 +167,86 @@ end
 
 local function at(source, line) return ("src/%s:%d"):format(source.path, line) end
 
-local function check_modules(sources, modules)
+--- module -> its rooms by name, each with its place in their order
+local function read_rooms(path, modules)
+  local rooms = {}
+  for _, row in ipairs(read_table(path, "rooms, lower ones first")) do
+    local name = quoted(row.module)[1] or row.module
+    if not modules[name] then fault(path .. ":" .. row.line, "module '%s' has rooms and no row above", name) end
+    rooms[name] = {}
+    for i, room in ipairs(quoted(row["rooms, lower ones first"])) do rooms[name][room] = i end
+  end
+  return rooms
+end
+
+-- what stands in no room is the module's door, above all of them
+local function check_rooms(source, other, include, rooms)
+  local order = rooms[source.module] or {}
+  for _, one in ipairs {source, other} do
+    if one.room and not order[one.room] then
+      return fault(at(one, 1), "room '%s' of module '%s' has no place in docs/architecture.md", one.room, one.module)
+    end
+  end
+  if source.room and (order[other.room] or math.huge) > order[source.room] then
+    fault(at(source, include.line), "room %s of %s may not include \"%s\": it lies higher", source.room, source.module,
+          include.name)
+  end
+end
+
+local function check_modules(sources, modules, rooms)
   for _, source in ipairs(sources) do
     local module = modules[source.module]
-    if not module then fault(at(source, 1), "module '%s' has no row in docs/architecture.md", source.module) end
+    local public = source.module == ""  -- clench.h, which includes for others
+    if not module and not public then
+      fault(at(source, 1), "module '%s' has no row in docs/architecture.md", source.module)
+    end
     for _, include in ipairs(source.includes) do
       local other = include.name:match "^([^/]+)/"
       if include.quoted and not sources[include.name] then
-        fault(at(source, include.line), 'no such file: "%s"; includes are named from src/, as "module/file.h"',
+        fault(at(source, include.line), 'no such file: "%s"; includes are named as "clench/module/file.h"',
               include.name)
       elseif sources[include.name] and module and not module.may[other] then
         fault(at(source, include.line), 'module %s may not include "%s": its row names %s', source.module,
               include.name, #module.direct > 0 and table.concat(module.direct, ", ") or "nothing")
+      elseif sources[include.name] and other == source.module then
+        check_rooms(source, sources[include.name], include, rooms)
       end
     end
   end
 end
 
--- depth first; an include of a file that is still open closes a circle
+-- depth first over units, a header and its source together; an include of one that is still open closes a circle
 local function check_circles(sources)
-  local state, trail = {}, {}
-  local function visit(source)
-    state[source.path] = "open"
-    trail[#trail + 1] = source.path
+  local units, names = {}, {}
+  for _, source in ipairs(sources) do
+    if not units[source.unit] then
+      units[source.unit] = {}
+      names[#names + 1] = source.unit
+    end
     for _, include in ipairs(source.includes) do
-      if state[include.name] == "open" then
+      local other = sources[include.name] and sources[include.name].unit
+      if other and other ~= source.unit then table.insert(units[source.unit], {source, include.line, other}) end
+    end
+  end
+  local state, trail = {}, {}
+  local function visit(unit)
+    state[unit] = "open"
+    trail[#trail + 1] = unit
+    for _, edge in ipairs(units[unit]) do
+      local source, line, other = table.unpack(edge)
+      if state[other] == "open" then
         local from = 1
-        while trail[from] ~= include.name do from = from + 1 end
-        fault(at(source, include.line), "circle of includes: %s -> %s", table.concat(trail, " -> ", from),
-              include.name)
-      elseif sources[include.name] and not state[include.name] then
-        visit(sources[include.name])
+        while trail[from] ~= other do from = from + 1 end
+        fault(at(source, line), "circle of includes: %s -> %s", table.concat(trail, " -> ", from), other)
+      elseif not state[other] then
+        visit(other)
       end
     end
     trail[#trail] = nil
-    state[source.path] = "done"
+    state[unit] = "done"
   end
-  for _, source in ipairs(sources) do
-    if not state[source.path] then visit(source) end
+  for _, unit in ipairs(names) do
+    if not state[unit] then visit(unit) end
   end
 end
 
@@ -222,7 +267,7 @@ end
 
 local modules, libraries = read_modules "docs/architecture.md", read_libraries "docs/architecture.md"
 local sources = read_sources()
-check_modules(sources, modules)
+check_modules(sources, modules, read_rooms("docs/architecture.md", modules))
 check_circles(sources)
 for _, source in ipairs(sources) do
   for _, library in ipairs(libraries) do

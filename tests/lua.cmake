@@ -66,6 +66,7 @@ if(NOT CLENCH_SANITIZE)
            ${LUA54} tests/embed/stock_lua.lua)
 
   # a project of its own finds the package, lends its Lua, and runs
+  lua_test("installed headers are whole" tests/embed/installed.sh ${PROJECT_BINARY_DIR} ${CMAKE_CXX_COMPILER})
   lua_test("a C++ host builds and runs with the package"
            ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/embed ${CMAKE_CURRENT_BINARY_DIR}/embed
            --build-generator ${CMAKE_GENERATOR} --build-options -Dclench_DIR=${PROJECT_BINARY_DIR}

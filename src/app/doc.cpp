@@ -2,10 +2,10 @@
 #include <filesystem>
 #include <system_error>
 
-#include "app/verbs.h"
-#include "base/error.h"
-#include "base/file.h"
-#include "script/state.h"
+#include "clench/app/verbs.h"
+#include "clench/base/error.h"
+#include "clench/base/file.h"
+#include "clench/script/host/state.h"
 
 namespace clench {
 

@@ -3,9 +3,9 @@
 
 #include <cstdio>
 
-#include "app/interrupt.h"
-#include "app/verbs.h"
-#include "script/state.h"
+#include "clench/app/interrupt.h"
+#include "clench/app/verbs.h"
+#include "clench/script/host/state.h"
 
 namespace clench {
 

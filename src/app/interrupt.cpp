@@ -1,8 +1,8 @@
-#include "app/interrupt.h"
+#include "clench/app/interrupt.h"
 
 #include <csignal>
 
-#include "script/state.h"
+#include "clench/script/host/state.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "app/kept_terminal.h"
+#include "clench/app/kept_terminal.h"
 
 #include <termios.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "app/line.h"
+#include "clench/app/line.h"
 
 #include <histedit.h>
 #include <poll.h>
@@ -13,8 +13,8 @@
 #include <cwchar>
 #include <system_error>
 
-#include "app/interrupt.h"
-#include "app/kept_terminal.h"
+#include "clench/app/interrupt.h"
+#include "clench/app/kept_terminal.h"
 
 namespace clench {
 

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <new>
 
-#include "app/verbs.h"
-#include "base/suggest.h"
+#include "clench/app/verbs.h"
+#include "clench/base/suggest.h"
 
 namespace clench {
 

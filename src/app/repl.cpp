@@ -1,4 +1,4 @@
-#include "app/repl.h"
+#include "clench/app/repl.h"
 
 #include <unistd.h>
 
@@ -7,9 +7,9 @@
 #include <iostream>
 #include <string>
 
-#include "app/interrupt.h"
-#include "app/line.h"
-#include "script/state.h"
+#include "clench/app/interrupt.h"
+#include "clench/app/line.h"
+#include "clench/script/host/state.h"
 
 namespace clench {
 

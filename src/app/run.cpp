@@ -2,10 +2,10 @@
 
 #include <cstdio>
 
-#include "app/interrupt.h"
-#include "app/repl.h"
-#include "app/verbs.h"
-#include "script/state.h"
+#include "clench/app/interrupt.h"
+#include "clench/app/repl.h"
+#include "clench/app/verbs.h"
+#include "clench/script/host/state.h"
 
 namespace clench {
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <system_error>
 
-#include "app/interrupt.h"
-#include "app/verbs.h"
-#include "script/state.h"
+#include "clench/app/interrupt.h"
+#include "clench/app/verbs.h"
+#include "clench/script/host/state.h"
 
 namespace clench {
 

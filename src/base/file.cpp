@@ -1,4 +1,4 @@
-#include "base/file.h"
+#include "clench/base/file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 
 namespace clench {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "base/hash.h"
+#include "clench/base/hash.h"
 
 namespace clench {
 

@@ -1,11 +1,11 @@
-#include "base/text.h"
+#include "clench/base/text.h"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
 
-#include "base/file.h"
+#include "clench/base/file.h"
 
 namespace clench {
 

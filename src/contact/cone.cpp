@@ -1,12 +1,12 @@
-#include "contact/cone.h"
+#include "clench/contact/cone.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
-#include "contact/friction_edges.h"
-#include "spec/valid.h"
+#include "clench/base/error.h"
+#include "clench/contact/friction_edges.h"
+#include "clench/spec/valid.h"
 
 namespace clench {
 

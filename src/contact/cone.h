@@ -2,7 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "spec/point_contact.h"
+#include "clench/spec/point_contact.h"
 
 namespace clench {
 

@@ -1,14 +1,14 @@
-#include "contact/contact_set.h"
+#include "clench/contact/contact_set.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
-#include "base/error.h"
-#include "contact/cone.h"
-#include "contact/near_points.h"
-#include "contact/outline.h"
+#include "clench/base/error.h"
+#include "clench/contact/cone.h"
+#include "clench/contact/near_points.h"
+#include "clench/contact/outline.h"
 
 namespace clench {
 

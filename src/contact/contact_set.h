@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "geometry/queries.h"
+#include "clench/geometry/query/queries.h"
 
 namespace clench {
 

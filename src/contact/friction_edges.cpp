@@ -1,4 +1,4 @@
-#include "contact/friction_edges.h"
+#include "clench/contact/friction_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/convert.h"
-#include "base/error.h"
+#include "clench/base/convert.h"
+#include "clench/base/error.h"
 
 namespace clench {
 

@@ -1,6 +1,6 @@
 // The friction that a contact can carry under a unit normal force, as a few generators in its frame.
 #pragma once
-#include "spec/virtual_contact_spec.h"
+#include "clench/spec/virtual_contact_spec.h"
 
 namespace clench {
 

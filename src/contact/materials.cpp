@@ -1,11 +1,11 @@
-#include "contact/materials.h"
+#include "clench/contact/materials.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/suggest.h"
-#include "spec/material_names.h"
-#include "spec/valid.h"
+#include "clench/base/error.h"
+#include "clench/base/suggest.h"
+#include "clench/spec/material_names.h"
+#include "clench/spec/valid.h"
 
 namespace clench {
 

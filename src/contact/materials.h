@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/hash.h"
+#include "clench/base/hash.h"
 
 namespace clench {
 

@@ -1,11 +1,11 @@
-#include "contact/near_points.h"
+#include "clench/contact/near_points.h"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
 #include <tuple>
 
-#include "contact/near_surface.h"
+#include "clench/contact/near_surface.h"
 
 namespace clench {
 

@@ -3,8 +3,8 @@
 #pragma once
 #include <vector>
 
-#include "geometry/queries.h"
-#include "geometry/triangle.h"
+#include "clench/geometry/query/queries.h"
+#include "clench/geometry/query/triangle.h"
 
 namespace clench {
 

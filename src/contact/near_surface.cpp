@@ -1,4 +1,4 @@
-#include "contact/near_surface.h"
+#include "clench/contact/near_surface.h"
 
 #include <algorithm>
 #include <numeric>

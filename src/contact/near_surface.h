@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "geometry/mesh.h"
-#include "geometry/triangle.h"
-#include "math/pose.h"
+#include "clench/geometry/mesh/mesh.h"
+#include "clench/geometry/query/triangle.h"
+#include "clench/math/pose.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "contact/outline.h"
+#include "clench/contact/outline.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,10 +1,10 @@
-#include "contact/patch_fit.h"
+#include "clench/contact/patch_fit.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "math/decompositions.h"
+#include "clench/base/error.h"
+#include "clench/math/decompositions.h"
 
 namespace clench {
 

@@ -1,5 +1,5 @@
-#include "base/error.h"
-#include "contact/patch_fit.h"
+#include "clench/base/error.h"
+#include "clench/contact/patch_fit.h"
 
 #ifdef CLENCH_CGAL
 #include <CGAL/Monge_via_jet_fitting.h>

@@ -1,6 +1,6 @@
 // Two surfaces around a contact, over places on circles in the tangent plane.
 #pragma once
-#include "contact/patch_sheet.h"
+#include "clench/contact/patch_sheet.h"
 
 namespace clench {
 

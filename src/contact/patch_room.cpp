@@ -1,9 +1,9 @@
-#include "contact/patch_room.h"
+#include "clench/contact/patch_room.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "contact/outline.h"
+#include "clench/contact/outline.h"
 
 namespace clench {
 

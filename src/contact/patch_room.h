@@ -1,6 +1,6 @@
 // How wide two surfaces are around a contact, and the ellipses that find room on them.
 #pragma once
-#include "contact/patch_sheet.h"
+#include "clench/contact/patch_sheet.h"
 
 namespace clench {
 

@@ -1,12 +1,12 @@
-#include "contact/patch_sheet.h"
+#include "clench/contact/patch_sheet.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "contact/near_points.h"
-#include "geometry/queries.h"
+#include "clench/contact/near_points.h"
+#include "clench/geometry/query/queries.h"
 
 namespace clench {
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "contact/near_surface.h"
-#include "geometry/shape.h"
-#include "math/pose.h"
+#include "clench/contact/near_surface.h"
+#include "clench/geometry/tree/shape.h"
+#include "clench/math/pose.h"
 
 namespace clench {
 

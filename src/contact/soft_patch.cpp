@@ -1,4 +1,4 @@
-#include "contact/soft_patch.h"
+#include "clench/contact/soft_patch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "base/error.h"
-#include "contact/cone.h"
-#include "math/decompositions.h"
+#include "clench/base/error.h"
+#include "clench/contact/cone.h"
+#include "clench/math/decompositions.h"
 
 namespace clench {
 

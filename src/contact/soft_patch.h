@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "contact/contact_set.h"
-#include "contact/patch_fit.h"
-#include "contact/patch_rings.h"
-#include "contact/patch_room.h"
-#include "spec/grasp_spec.h"
+#include "clench/contact/contact_set.h"
+#include "clench/contact/patch_fit.h"
+#include "clench/contact/patch_rings.h"
+#include "clench/contact/patch_room.h"
+#include "clench/spec/grasp_spec.h"
 
 namespace clench {
 

@@ -1,13 +1,13 @@
-#include "io/convert.h"
+#include "clench/io/convert.h"
 
 #include <cassert>
 
-#include "base/error.h"
-#include "io/eigengrasps.h"
-#include "io/read.h"
-#include "io/virtual_contacts.h"
-#include "io/write_body.h"
-#include "io/write_robot.h"
+#include "clench/base/error.h"
+#include "clench/io/graspit/eigengrasps.h"
+#include "clench/io/graspit/virtual_contacts.h"
+#include "clench/io/read.h"
+#include "clench/io/write_body.h"
+#include "clench/io/write_robot.h"
 
 namespace clench {
 

@@ -1,8 +1,8 @@
 // A file read and written as another format.
 #pragma once
-#include "io/file_kind.h"
-#include "io/find_file.h"
-#include "io/write_world.h"
+#include "clench/io/text/file_kind.h"
+#include "clench/io/text/find_file.h"
+#include "clench/io/write_world.h"
 
 namespace clench {
 

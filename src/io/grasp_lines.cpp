@@ -1,14 +1,14 @@
-#include "io/grasp_lines.h"
+#include "clench/io/grasp_lines.h"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/file.h"
-#include "base/suggest.h"
-#include "base/text.h"
-#include "io/file_errors.h"
-#include "io/find_file.h"
+#include "clench/base/file.h"
+#include "clench/base/suggest.h"
+#include "clench/base/text.h"
+#include "clench/io/text/file_errors.h"
+#include "clench/io/text/find_file.h"
 
 namespace clench {
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "io/read_options.h"
-#include "spec/grasp_spec.h"
+#include "clench/io/text/read_options.h"
+#include "clench/spec/grasp_spec.h"
 
 namespace clench {
 

@@ -1,6 +1,6 @@
 // Bodies and robots from their files, by what these hold.
 #pragma once
-#include "io/library.h"
+#include "clench/io/text/library.h"
 
 namespace clench {
 

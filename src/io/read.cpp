@@ -1,18 +1,18 @@
-#include "io/read.h"
+#include "clench/io/read.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <set>
 
-#include "base/text.h"
-#include "io/file_errors.h"
-#include "io/load.h"
-#include "io/robot_files.h"
-#include "io/tree_files.h"
-#include "io/world_wld.h"
-#include "io/world_xml.h"
-#include "spec/plausibility.h"
+#include "clench/base/text.h"
+#include "clench/io/graspit/robot_files.h"
+#include "clench/io/graspit/world_wld.h"
+#include "clench/io/graspit/world_xml.h"
+#include "clench/io/load.h"
+#include "clench/io/text/file_errors.h"
+#include "clench/io/tree_files.h"
+#include "clench/spec/plausibility.h"
 
 namespace clench {
 

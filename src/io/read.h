@@ -1,7 +1,7 @@
 // Files to specs: the only door. Each format has its own file behind it.
 #pragma once
-#include "io/find_file.h"
-#include "spec/world_spec.h"
+#include "clench/io/text/find_file.h"
+#include "clench/spec/world_spec.h"
 
 namespace clench {
 

@@ -1,13 +1,13 @@
-#include "io/robot_folder.h"
+#include "clench/io/robot_folder.h"
 
 #include <algorithm>
 #include <cctype>
 #include <iterator>
 
-#include "base/error.h"
-#include "base/hash.h"
-#include "io/eigengrasps.h"
-#include "io/virtual_contacts.h"
+#include "clench/base/error.h"
+#include "clench/base/hash.h"
+#include "clench/io/graspit/eigengrasps.h"
+#include "clench/io/graspit/virtual_contacts.h"
 
 namespace clench {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/file.h"
-#include "io/write_world.h"
+#include "clench/base/file.h"
+#include "clench/io/write_world.h"
 
 namespace clench {
 

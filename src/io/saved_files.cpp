@@ -1,19 +1,19 @@
-#include "io/saved_files.h"
+#include "clench/io/saved_files.h"
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 
-#include "base/hash.h"
-#include "base/text.h"
-#include "base/units.h"
-#include "io/confine.h"
-#include "io/load.h"
-#include "io/world_parts.h"
-#include "io/write_mesh.h"
-#include "io/xml.h"
-#include "spec/material_names.h"
+#include "clench/base/hash.h"
+#include "clench/base/text.h"
+#include "clench/base/units.h"
+#include "clench/io/graspit/world_parts.h"
+#include "clench/io/load.h"
+#include "clench/io/mesh/write_mesh.h"
+#include "clench/io/text/confine.h"
+#include "clench/io/text/xml.h"
+#include "clench/spec/material_names.h"
 
 namespace clench {
 

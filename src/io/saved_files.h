@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
-#include "base/file.h"
-#include "io/library.h"
-#include "io/write_options.h"
+#include "clench/base/file.h"
+#include "clench/io/text/library.h"
+#include "clench/io/text/write_options.h"
 
 namespace clench {
 

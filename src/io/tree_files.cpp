@@ -1,9 +1,9 @@
-#include "io/tree_files.h"
+#include "clench/io/tree_files.h"
 
-#include "base/text.h"
-#include "io/mjcf.h"
-#include "io/urdf.h"
-#include "io/xml.h"
+#include "clench/base/text.h"
+#include "clench/io/mjcf/mjcf.h"
+#include "clench/io/text/xml.h"
+#include "clench/io/urdf/urdf.h"
 
 namespace clench {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <filesystem>
 
-#include "io/library.h"
+#include "clench/io/text/library.h"
 
 namespace clench {
 

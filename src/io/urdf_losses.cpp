@@ -1,8 +1,8 @@
-#include "io/urdf_losses.h"
+#include "clench/io/urdf_losses.h"
 
 #include <algorithm>
 
-#include "spec/chains.h"
+#include "clench/spec/chains.h"
 
 namespace clench {
 

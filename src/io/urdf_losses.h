@@ -1,6 +1,6 @@
 // What a URDF cannot hold of a robot.
 #pragma once
-#include "io/robot_folder.h"
+#include "clench/io/robot_folder.h"
 
 namespace clench {
 

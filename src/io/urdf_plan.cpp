@@ -1,12 +1,12 @@
-#include "io/urdf_plan.h"
+#include "clench/io/urdf_plan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "base/text.h"
-#include "io/tree_robot.h"
+#include "clench/base/text.h"
+#include "clench/io/tree/tree_robot.h"
 
 namespace clench {
 

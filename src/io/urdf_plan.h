@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "spec/chains.h"
+#include "clench/spec/chains.h"
 
 namespace clench {
 

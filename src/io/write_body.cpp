@@ -1,18 +1,18 @@
-#include "io/write_body.h"
+#include "clench/io/write_body.h"
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
 
-#include "base/file.h"
-#include "base/text.h"
-#include "base/units.h"
-#include "io/mesh_files.h"
-#include "io/saved_files.h"
-#include "io/world_parts.h"
-#include "io/write_mesh.h"
-#include "spec/material_names.h"
+#include "clench/base/file.h"
+#include "clench/base/text.h"
+#include "clench/base/units.h"
+#include "clench/io/graspit/world_parts.h"
+#include "clench/io/mesh/mesh_files.h"
+#include "clench/io/mesh/write_mesh.h"
+#include "clench/io/saved_files.h"
+#include "clench/spec/material_names.h"
 
 namespace clench {
 

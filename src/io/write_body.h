@@ -1,6 +1,6 @@
 // Bodies to files: the other side of read_body.
 #pragma once
-#include "io/write_world.h"
+#include "clench/io/write_world.h"
 
 namespace clench {
 

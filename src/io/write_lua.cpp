@@ -2,11 +2,11 @@
 #include <bit>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "io/eigengrasps.h"
-#include "io/virtual_contacts.h"
-#include "io/write_text_worlds.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/io/graspit/eigengrasps.h"
+#include "clench/io/graspit/virtual_contacts.h"
+#include "clench/io/write_text_worlds.h"
 
 namespace clench {
 

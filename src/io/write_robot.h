@@ -1,6 +1,6 @@
 // Robots to files: the other side of read_robot.
 #pragma once
-#include "io/write_world.h"
+#include "clench/io/write_world.h"
 
 namespace clench {
 

@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "io/saved_files.h"
-#include "spec/world_spec.h"
+#include "clench/io/saved_files.h"
+#include "clench/spec/world_spec.h"
 
 namespace clench {
 

@@ -1,15 +1,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/file.h"
-#include "base/text.h"
-#include "io/find_file.h"
-#include "io/read.h"
-#include "io/urdf_losses.h"
-#include "io/urdf_plan.h"
-#include "io/write_robot.h"
-#include "io/xml.h"
-#include "spec/check_robot.h"
+#include "clench/base/file.h"
+#include "clench/base/text.h"
+#include "clench/io/read.h"
+#include "clench/io/text/find_file.h"
+#include "clench/io/text/xml.h"
+#include "clench/io/urdf_losses.h"
+#include "clench/io/urdf_plan.h"
+#include "clench/io/write_robot.h"
+#include "clench/spec/check_robot.h"
 
 namespace clench {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "base/units.h"
-#include "io/world_parts.h"
-#include "io/write_text_worlds.h"
-#include "spec/material_names.h"
+#include "clench/base/units.h"
+#include "clench/io/graspit/world_parts.h"
+#include "clench/io/write_text_worlds.h"
+#include "clench/spec/material_names.h"
 
 namespace clench {
 

@@ -1,8 +1,8 @@
-#include "io/write_world.h"
+#include "clench/io/write_world.h"
 
-#include "base/file.h"
-#include "base/text.h"
-#include "io/write_text_worlds.h"
+#include "clench/base/file.h"
+#include "clench/base/text.h"
+#include "clench/io/write_text_worlds.h"
 
 namespace clench {
 

@@ -1,7 +1,7 @@
 // Worlds to files: the other side of read_world.
 #pragma once
-#include "io/write_options.h"
-#include "spec/world_spec.h"
+#include "clench/io/text/write_options.h"
+#include "clench/spec/world_spec.h"
 
 namespace clench {
 

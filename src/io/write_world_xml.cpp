@@ -1,7 +1,7 @@
-#include "base/units.h"
-#include "io/world_parts.h"
-#include "io/write_text_worlds.h"
-#include "io/xml.h"
+#include "clench/base/units.h"
+#include "clench/io/graspit/world_parts.h"
+#include "clench/io/text/xml.h"
+#include "clench/io/write_text_worlds.h"
 
 namespace clench {
 

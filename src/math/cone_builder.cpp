@@ -1,4 +1,4 @@
-#include "math/cone_builder.h"
+#include "clench/math/cone_builder.h"
 
 namespace clench {
 

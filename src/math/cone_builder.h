@@ -1,6 +1,6 @@
 // A cone program put together block by block.
 #pragma once
-#include "math/cone_program.h"
+#include "clench/math/cone_program.h"
 
 namespace clench {
 

@@ -1,9 +1,9 @@
-#include "math/cone_check.h"
+#include "clench/math/cone_check.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "math/cones.h"
+#include "clench/math/cones.h"
 
 namespace clench {
 namespace {

@@ -1,7 +1,7 @@
 // How far an answer to a cone program is from what its status says, measured at the program itself.
 #pragma once
-#include "math/cone_program.h"
-#include "math/scale_program.h"
+#include "clench/math/cone_program.h"
+#include "clench/math/scale_program.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "math/cone_embedding.h"
+#include "clench/math/cone_embedding.h"
 
 #include <cmath>
 #include <limits>

@@ -2,8 +2,8 @@
 #pragma once
 #include <algorithm>
 
-#include "math/cone_kkt.h"
-#include "math/cone_program.h"
+#include "clench/math/cone_kkt.h"
+#include "clench/math/cone_program.h"
 
 namespace clench {
 

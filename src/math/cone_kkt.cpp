@@ -1,4 +1,4 @@
-#include "math/cone_kkt.h"
+#include "clench/math/cone_kkt.h"
 
 namespace clench {
 

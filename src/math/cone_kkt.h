@@ -3,9 +3,9 @@
 #include <Eigen/SparseCore>
 #include <optional>
 
-#include "math/cones.h"
-#include "math/decompositions.h"
-#include "math/sparse_ldl.h"
+#include "clench/math/cones.h"
+#include "clench/math/decompositions.h"
+#include "clench/math/sparse_ldl.h"
 
 namespace clench {
 

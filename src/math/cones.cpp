@@ -1,4 +1,4 @@
-#include "math/cones.h"
+#include "clench/math/cones.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "math/decompositions.h"
+#include "clench/math/decompositions.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

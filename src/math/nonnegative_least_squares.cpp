@@ -1,8 +1,8 @@
-#include "math/nonnegative_least_squares.h"
+#include "clench/math/nonnegative_least_squares.h"
 
 #include <vector>
 
-#include "math/decompositions.h"
+#include "clench/math/decompositions.h"
 
 namespace clench {
 

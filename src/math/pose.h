@@ -2,7 +2,7 @@
 #pragma once
 #include <Eigen/Geometry>
 
-#include "base/hash.h"
+#include "clench/base/hash.h"
 
 namespace clench {
 

@@ -1,9 +1,9 @@
-#include "math/scale_program.h"
+#include "clench/math/scale_program.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "math/decompositions.h"
+#include "clench/math/decompositions.h"
 
 namespace clench {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "math/cone_program.h"
+#include "clench/math/cone_program.h"
 
 namespace clench {
 

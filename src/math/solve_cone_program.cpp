@@ -1,11 +1,11 @@
-#include "math/solve_cone_program.h"
+#include "clench/math/solve_cone_program.h"
 
 #include <limits>
 
-#include "base/error.h"
-#include "math/cone_check.h"
-#include "math/cone_embedding.h"
-#include "math/decompositions.h"
+#include "clench/base/error.h"
+#include "clench/math/cone_check.h"
+#include "clench/math/cone_embedding.h"
+#include "clench/math/decompositions.h"
 
 namespace clench {
 namespace {

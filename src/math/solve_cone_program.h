@@ -1,6 +1,6 @@
 // Solves cone programs.
 #pragma once
-#include "math/cone_program.h"
+#include "clench/math/cone_program.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "math/sparse_ldl.h"
+#include "clench/math/sparse_ldl.h"
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>

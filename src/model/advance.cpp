@@ -1,12 +1,12 @@
-#include "model/advance.h"
+#include "clench/model/advance.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
 
 namespace clench {
 

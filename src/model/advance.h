@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/find.h"
+#include "clench/model/find.h"
 
 namespace clench {
 

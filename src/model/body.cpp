@@ -1,4 +1,4 @@
-#include "model/body.h"
+#include "clench/model/body.h"
 
 namespace clench {
 

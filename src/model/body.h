@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "base/id.h"
-#include "math/pose.h"
-#include "spec/body_spec.h"
+#include "clench/base/id.h"
+#include "clench/math/pose.h"
+#include "clench/spec/body_spec.h"
 
 namespace clench {
 

@@ -1,9 +1,9 @@
-#include "model/build.h"
+#include "clench/model/build.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
 
 namespace clench {
 

@@ -1,7 +1,7 @@
 // A world from its description.
 #pragma once
-#include "base/listeners.h"
-#include "model/find.h"
+#include "clench/base/listeners.h"
+#include "clench/model/find.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "model/carrying.h"
+#include "clench/model/carrying.h"
 
 namespace clench {
 

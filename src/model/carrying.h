@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "model/world.h"
+#include "clench/model/world.h"
 
 namespace clench {
 

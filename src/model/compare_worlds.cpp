@@ -1,4 +1,4 @@
-#include "model/compare_worlds.h"
+#include "clench/model/compare_worlds.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "model/world.h"
+#include "clench/model/world.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "model/describe_world.h"
+#include "clench/model/describe_world.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // The description of a world as it is now: what is saved, and what builds an equal one.
 #pragma once
-#include "model/world.h"
+#include "clench/model/world.h"
 
 namespace clench {
 

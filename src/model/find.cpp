@@ -1,10 +1,10 @@
-#include "model/find.h"
+#include "clench/model/find.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "contact/contact_set.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/contact/contact_set.h"
 
 namespace clench {
 

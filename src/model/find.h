@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/soft_patch.h"
-#include "model/near_bodies.h"
+#include "clench/contact/soft_patch.h"
+#include "clench/model/near_bodies.h"
 
 namespace clench {
 

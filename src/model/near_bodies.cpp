@@ -1,4 +1,4 @@
-#include "model/near_bodies.h"
+#include "clench/model/near_bodies.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "model/world.h"
+#include "clench/model/world.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "model/query_context.h"
+#include "clench/model/query_context.h"
 
 namespace clench {
 

@@ -4,9 +4,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/progress.h"
-#include "geometry/queries.h"
-#include "model/world_model.h"
+#include "clench/base/progress.h"
+#include "clench/geometry/query/queries.h"
+#include "clench/model/world_model.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "model/robot.h"
+#include "clench/model/robot.h"
 
 #include <cmath>
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "model/body.h"
-#include "spec/chains.h"
-#include "spec/world_spec.h"
+#include "clench/model/body.h"
+#include "clench/spec/chains.h"
+#include "clench/spec/world_spec.h"
 
 namespace clench {
 

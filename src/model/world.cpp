@@ -1,12 +1,12 @@
-#include "model/world.h"
+#include "clench/model/world.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/suggest.h"
-#include "base/text.h"
-#include "spec/check_robot.h"
-#include "spec/inertia.h"
+#include "clench/base/error.h"
+#include "clench/base/suggest.h"
+#include "clench/base/text.h"
+#include "clench/spec/check_robot.h"
+#include "clench/spec/inertia.h"
 
 namespace clench {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "model/query_context.h"
+#include "clench/model/query_context.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "model/world.h"
+#include "clench/model/world.h"
 
 namespace clench {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/materials.h"
-#include "model/robot.h"
+#include "clench/contact/materials.h"
+#include "clench/model/robot.h"
 
 namespace clench {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "model/world.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/model/world.h"
 
 namespace clench {
 

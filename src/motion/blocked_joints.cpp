@@ -1,4 +1,4 @@
-#include "motion/blocked_joints.h"
+#include "clench/motion/blocked_joints.h"
 
 #include <algorithm>
 #include <cmath>

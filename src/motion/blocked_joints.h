@@ -3,8 +3,8 @@
 #include <set>
 #include <vector>
 
-#include "model/carrying.h"
-#include "model/find.h"
+#include "clench/model/carrying.h"
+#include "clench/model/find.h"
 
 namespace clench {
 

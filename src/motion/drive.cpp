@@ -1,13 +1,13 @@
-#include "motion/drive.h"
+#include "clench/motion/drive.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "motion/move.h"
-#include "motion/relax_springs.h"
-#include "motion/springs.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/motion/move.h"
+#include "clench/motion/relax_springs.h"
+#include "clench/motion/springs.h"
 
 namespace clench {
 

@@ -1,6 +1,6 @@
 // Driving the DOFs of a robot until contact stops them: rigid, breakaway and compliant couplings. Continuous, never tunnelling.
 #pragma once
-#include "motion/drive_result.h"
+#include "clench/motion/drive_result.h"
 
 namespace clench {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "model/find.h"
+#include "clench/model/find.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "motion/drive_state.h"
+#include "clench/motion/drive_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #pragma once
 #include <functional>
 
-#include "model/advance.h"
-#include "motion/blocked_joints.h"
+#include "clench/model/advance.h"
+#include "clench/motion/blocked_joints.h"
 
 namespace clench {
 

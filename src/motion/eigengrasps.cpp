@@ -1,9 +1,9 @@
-#include "motion/eigengrasps.h"
+#include "clench/motion/eigengrasps.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "math/decompositions.h"
+#include "clench/base/error.h"
+#include "clench/math/decompositions.h"
 
 namespace clench {
 

@@ -1,6 +1,6 @@
 // Eigengrasps: a hand's posture by a few amplitudes, and back.
 #pragma once
-#include "model/robot.h"
+#include "clench/model/robot.h"
 
 namespace clench {
 

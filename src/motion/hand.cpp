@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "motion/blocked_joints.h"
-#include "motion/drive.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/motion/blocked_joints.h"
+#include "clench/motion/drive.h"
 
 namespace clench {
 
@@ -33,7 +33,8 @@ static void open_until_free(World& world, Id<Robot> id) {
     if (v != 0) open[i] = robot.limits[i][v < 0];
   }
   const auto before = world.snapshot();
-  for (int step = 0; !colliding_pairs(world, moving, world.bodies(), &world.context()).empty(); ++step) {
+  for (int step = 0; !colliding_pairs(world, moving, world.bodies(), &world.context()).empty();
+       ++step) {
     if (step == steps) {
       const auto pairs = colliding_pairs(world, moving, world.bodies(), &world.context());
       const std::string sentence = fmt::format("opening '{}': it is never free of collision: {}",

@@ -1,18 +1,17 @@
-#include "motion/move.h"
+#include "clench/motion/move.h"
 
 #include <algorithm>
 #include <array>
 #include <set>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "model/advance.h"
-#include "motion/blocked_joints.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/model/advance.h"
+#include "clench/motion/blocked_joints.h"
 
 namespace clench {
 
-void refuse_collision(World& world, std::span<const Id<Body>> moving,
-                      const std::string& subject) {
+void refuse_collision(World& world, std::span<const Id<Body>> moving, const std::string& subject) {
   const auto pairs = colliding_pairs(world, moving, world.bodies(), &world.context());
   if (!pairs.empty())
     fail("{}: the motion starts in collision: {}", subject, describe(world, pairs));
@@ -46,8 +45,8 @@ std::vector<PairBound> watch_pairs(const World& world, const Way& way, double le
 }
 
 // contacts that the very first motion would push into
-std::vector<BodyPair> blocked_pairs(World& world, const Way& way,
-                                    const Eigen::Vector3d& linear, const Eigen::Vector3d& angular,
+std::vector<BodyPair> blocked_pairs(World& world, const Way& way, const Eigen::Vector3d& linear,
+                                    const Eigen::Vector3d& angular,
                                     const std::vector<PairBound>& watches) {
   std::vector<BodyPair> blocked;
   for (const PairBound& watch : watches) {

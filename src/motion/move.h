@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "model/find.h"
+#include "clench/model/find.h"
 
 namespace clench {
 
@@ -27,7 +27,6 @@ MoveResult move_robot(World& world, Id<Robot> robot, const Pose& X_WB);
 MoveResult approach(World& world, Id<Robot> robot, double reach);
 
 /// throws Error  "hand:autograsp: the motion starts in collision: palm and flask" when one of the bodies collides
-void refuse_collision(World& world, std::span<const Id<Body>> moving,
-                      const std::string& subject);
+void refuse_collision(World& world, std::span<const Id<Body>> moving, const std::string& subject);
 
 }  // namespace clench

@@ -1,9 +1,9 @@
-#include "motion/relax_springs.h"
+#include "clench/motion/relax_springs.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "motion/springs.h"
+#include "clench/motion/springs.h"
 
 namespace clench {
 

@@ -1,7 +1,7 @@
 // The springs of compliant DOFs come to rest.
 #pragma once
-#include "motion/drive_result.h"
-#include "motion/drive_state.h"
+#include "clench/motion/drive_result.h"
+#include "clench/motion/drive_state.h"
 
 namespace clench {
 

@@ -1,11 +1,11 @@
-#include "motion/springs.h"
+#include "clench/motion/springs.h"
 
 #include <cmath>
 #include <optional>
 
-#include "contact/cone.h"
-#include "contact/friction_edges.h"
-#include "math/nonnegative_least_squares.h"
+#include "clench/contact/cone.h"
+#include "clench/contact/friction_edges.h"
+#include "clench/math/nonnegative_least_squares.h"
 
 namespace clench {
 

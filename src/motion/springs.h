@@ -1,6 +1,6 @@
 // Joints of compliant DOFs among contacts: where their springs draw them, and what holds them.
 #pragma once
-#include "motion/blocked_joints.h"
+#include "clench/motion/blocked_joints.h"
 
 namespace clench {
 

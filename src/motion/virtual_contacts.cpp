@@ -1,13 +1,13 @@
-#include "motion/virtual_contacts.h"
+#include "clench/motion/virtual_contacts.h"
 
 #include <algorithm>
 
-#include "base/convert.h"
-#include "base/error.h"
-#include "base/text.h"
-#include "contact/cone.h"
-#include "contact/friction_edges.h"
-#include "math/decompositions.h"
+#include "clench/base/convert.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/contact/cone.h"
+#include "clench/contact/friction_edges.h"
+#include "clench/math/decompositions.h"
 
 namespace clench {
 

@@ -1,6 +1,6 @@
 // Virtual contacts of a hand that brings none: places on the side of its links that closes.
 #pragma once
-#include "model/find.h"
+#include "clench/model/find.h"
 
 namespace clench {
 

@@ -1,9 +1,9 @@
-#include "render/canvas.h"
+#include "clench/render/canvas.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/convert.h"
+#include "clench/base/convert.h"
 
 namespace clench {
 

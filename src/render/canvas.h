@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <string_view>
 
-#include "render/lettering.h"
-#include "render/picture.h"
+#include "clench/render/lettering.h"
+#include "clench/render/picture.h"
 
 namespace clench {
 

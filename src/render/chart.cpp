@@ -1,4 +1,4 @@
-#include "render/chart.h"
+#include "clench/render/chart.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <functional>
 #include <limits>
 
-#include "base/convert.h"
-#include "base/error.h"
-#include "math/round_step.h"
-#include "render/canvas.h"
+#include "clench/base/convert.h"
+#include "clench/base/error.h"
+#include "clench/math/round_step.h"
+#include "clench/render/canvas.h"
 
 namespace clench {
 

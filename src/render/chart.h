@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "render/lettering.h"
-#include "render/picture.h"
+#include "clench/render/lettering.h"
+#include "clench/render/picture.h"
 
 namespace clench {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "geometry/mesh.h"
+#include "clench/geometry/mesh/mesh.h"
 
 namespace clench {
 

@@ -1,15 +1,15 @@
-#include "render/draw_list.h"
+#include "clench/render/draw_list.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
 
-#include "base/convert.h"
-#include "base/error.h"
-#include "render/corner_normals.h"
-#include "render/pieces.h"
-#include "render/refine.h"
+#include "clench/base/convert.h"
+#include "clench/base/error.h"
+#include "clench/render/corner_normals.h"
+#include "clench/render/pieces.h"
+#include "clench/render/refine.h"
 
 namespace clench {
 namespace {

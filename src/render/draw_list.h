@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "render/corner.h"
-#include "scene/scene.h"
+#include "clench/render/corner.h"
+#include "clench/scene/scene.h"
 
 namespace clench {
 

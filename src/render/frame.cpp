@@ -1,12 +1,12 @@
-#include "render/frame.h"
+#include "clench/render/frame.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "base/convert.h"
-#include "base/error.h"
+#include "clench/base/convert.h"
+#include "clench/base/error.h"
 
 namespace clench {
 namespace {

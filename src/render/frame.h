@@ -1,6 +1,6 @@
 // Where to look from: the view that holds a whole scene, and the matrix of a view.
 #pragma once
-#include "render/draw_list.h"
+#include "clench/render/draw_list.h"
 
 namespace clench {
 

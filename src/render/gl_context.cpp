@@ -1,4 +1,4 @@
-#include "render/gl_context.h"
+#include "clench/render/gl_context.h"
 
 #include <dlfcn.h>
 #include <epoxy/egl.h>
@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 
 namespace clench {
 namespace {

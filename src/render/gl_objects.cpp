@@ -1,10 +1,10 @@
-#include "render/gl_objects.h"
+#include "clench/render/gl_objects.h"
 
 #include <epoxy/gl.h>
 
 #include <string>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 
 namespace clench::gl {
 namespace {

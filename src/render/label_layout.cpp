@@ -1,10 +1,10 @@
-#include "render/label_layout.h"
+#include "clench/render/label_layout.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "render/frame.h"
+#include "clench/render/frame.h"
 
 namespace clench {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "render/lettering.h"
-#include "scene/scene.h"
+#include "clench/render/lettering.h"
+#include "clench/scene/scene.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "render/lettering.h"
+#include "clench/render/lettering.h"
 
 #include <fmt/format.h>
 #include <ft2build.h>
@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/text.h"
+#include "clench/base/error.h"
+#include "clench/base/file.h"
+#include "clench/base/text.h"
 
 namespace clench {
 

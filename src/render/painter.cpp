@@ -1,4 +1,4 @@
-#include "render/painter.h"
+#include "clench/render/painter.h"
 
 #include <epoxy/gl.h>
 
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "base/error.h"
-#include "render/frame.h"
-#include "render/shaders.h"
-#include "render/shadows.h"
+#include "clench/base/error.h"
+#include "clench/render/frame.h"
+#include "clench/render/shaders.h"
+#include "clench/render/shadows.h"
 
 namespace clench {
 namespace {

@@ -1,8 +1,8 @@
 // A draw list to pixels, tile by tile and pass by pass.
 #pragma once
-#include "render/draw_list.h"
-#include "render/picture.h"
-#include "render/render_options.h"
+#include "clench/render/draw_list.h"
+#include "clench/render/picture.h"
+#include "clench/render/render_options.h"
 
 namespace clench {
 

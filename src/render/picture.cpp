@@ -1,11 +1,11 @@
-#include "render/picture.h"
+#include "clench/render/picture.h"
 
 #include <png.h>
 
 #include <string_view>
 
-#include "base/error.h"
-#include "base/file.h"
+#include "clench/base/error.h"
+#include "clench/base/file.h"
 
 namespace clench {
 

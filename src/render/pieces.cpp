@@ -1,9 +1,9 @@
-#include "render/pieces.h"
+#include "clench/render/pieces.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 
 namespace clench {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "scene/scene.h"
+#include "clench/scene/scene.h"
 
 namespace clench {
 

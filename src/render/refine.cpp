@@ -1,4 +1,4 @@
-#include "render/refine.h"
+#include "clench/render/refine.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "render/corner.h"
+#include "clench/render/corner.h"
 
 namespace clench {
 

@@ -1,13 +1,13 @@
-#include "render/render.h"
+#include "clench/render/render.h"
 
 #include <cmath>
 
-#include "base/error.h"
-#include "render/canvas.h"
-#include "render/frame.h"
-#include "render/gl_context.h"
-#include "render/label_layout.h"
-#include "render/painter.h"
+#include "clench/base/error.h"
+#include "clench/render/canvas.h"
+#include "clench/render/frame.h"
+#include "clench/render/gl_context.h"
+#include "clench/render/label_layout.h"
+#include "clench/render/painter.h"
 
 namespace clench {
 

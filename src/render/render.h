@@ -1,10 +1,10 @@
 // A scene as a picture, by OpenGL 3.3 through EGL without display: the same bytes for the same
 // scene.
 #pragma once
-#include "render/lettering.h"
-#include "render/picture.h"
-#include "render/render_options.h"
-#include "scene/scene.h"
+#include "clench/render/lettering.h"
+#include "clench/render/picture.h"
+#include "clench/render/render_options.h"
+#include "clench/scene/scene.h"
 
 namespace clench {
 

@@ -1,6 +1,6 @@
 // How large and how smooth a picture is.
 #pragma once
-#include "base/progress.h"
+#include "clench/base/progress.h"
 
 namespace clench {
 

@@ -1,5 +1,5 @@
-#include "base/error.h"
-#include "render/render.h"
+#include "clench/base/error.h"
+#include "clench/render/render.h"
 
 namespace clench {
 namespace {

@@ -1,12 +1,12 @@
-#include "render/shadows.h"
+#include "clench/render/shadows.h"
 
 #include <epoxy/gl.h>
 
 #include <cmath>
 #include <cstddef>
 
-#include "base/error.h"
-#include "render/shaders.h"
+#include "clench/base/error.h"
+#include "clench/render/shaders.h"
 
 namespace clench {
 namespace {

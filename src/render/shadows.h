@@ -2,9 +2,9 @@
 #pragma once
 #include <span>
 
-#include "render/draw_list.h"
-#include "render/gl_objects.h"
-#include "render/lights.h"
+#include "clench/render/draw_list.h"
+#include "clench/render/gl_objects.h"
+#include "clench/render/lights.h"
 
 namespace clench {
 

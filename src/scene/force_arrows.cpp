@@ -1,10 +1,10 @@
-#include "scene/force_arrows.h"
+#include "clench/scene/force_arrows.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "scene/palette.h"
+#include "clench/scene/palette.h"
 
 namespace clench {
 

@@ -1,6 +1,6 @@
 // Every colour of our pictures of worlds, in one table. Colours are as a screen shows them (sRGB).
 #pragma once
-#include "model/body.h"
+#include "clench/model/body.h"
 
 namespace clench::palette {
 

@@ -1,4 +1,4 @@
-#include "scene/scene.h"
+#include "clench/scene/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "model/find.h"
-#include "scene/palette.h"
+#include "clench/model/find.h"
+#include "clench/scene/palette.h"
 
 namespace clench {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/world.h"
+#include "clench/model/world.h"
 
 namespace clench {
 

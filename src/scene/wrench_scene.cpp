@@ -1,13 +1,13 @@
-#include "scene/wrench_scene.h"
+#include "clench/scene/wrench_scene.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "base/convert.h"
-#include "math/round_step.h"
-#include "scene/palette.h"
+#include "clench/base/convert.h"
+#include "clench/math/round_step.h"
+#include "clench/scene/palette.h"
 
 namespace clench {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "scene/scene.h"
+#include "clench/scene/scene.h"
 
 namespace clench {
 

@@ -10,7 +10,7 @@ foreach(path IN LISTS paths)
   endif()
   string(APPEND entries "    {\"${path}\", R\"clench_lua(${text})clench_lua\"},\n")
 endforeach()
-file(WRITE ${OUT}.new "#include \"script/packed.h\"
+file(WRITE ${OUT}.new "#include \"clench/script/lua/packed.h\"
 
 namespace clench {
 

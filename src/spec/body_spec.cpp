@@ -1,10 +1,10 @@
-#include "spec/body_spec.h"
+#include "clench/spec/body_spec.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "spec/inertia.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/spec/inertia.h"
 
 namespace clench {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "spec/mesh_report.h"
-#include "spec/valid.h"
+#include "clench/spec/mesh_report.h"
+#include "clench/spec/valid.h"
 
 namespace clench {
 

@@ -1,6 +1,6 @@
 // A robot's links in rows, as users think of fingers: a view of its tree.
 #pragma once
-#include "spec/robot_spec.h"
+#include "clench/spec/robot_spec.h"
 
 namespace clench {
 

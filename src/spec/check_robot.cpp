@@ -1,9 +1,9 @@
-#include "spec/check_robot.h"
+#include "clench/spec/check_robot.h"
 
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
 
 namespace clench {
 

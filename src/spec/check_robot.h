@@ -1,6 +1,6 @@
 // Is a robot's description in order?
 #pragma once
-#include "spec/chains.h"
+#include "clench/spec/chains.h"
 
 namespace clench {
 

@@ -1,11 +1,11 @@
-#include "spec/closing_guess.h"
+#include "clench/spec/closing_guess.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "base/random.h"
+#include "clench/base/random.h"
 
 namespace clench {
 

@@ -10,7 +10,7 @@
 // axes that do not lie along that of its last joint, stay when they swing as far to either side or
 // bring the tip hardly nearer.
 #pragma once
-#include "spec/robot_spec.h"
+#include "clench/spec/robot_spec.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "spec/compliant_coupling.h"
+#include "clench/spec/compliant_coupling.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Joints that one tendon pulls against their springs: how far each goes before anything is touched.
 #pragma once
-#include "spec/robot_spec.h"
+#include "clench/spec/robot_spec.h"
 
 namespace clench {
 

@@ -1,9 +1,9 @@
-#include "spec/eigengrasp_spec.h"
+#include "clench/spec/eigengrasp_spec.h"
 
 #include <algorithm>
 #include <cmath>
-#include "base/error.h"
-#include "spec/valid.h"
+#include "clench/base/error.h"
+#include "clench/spec/valid.h"
 
 namespace clench {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "math/pose.h"
-#include "spec/per_contact.h"
-#include "spec/point_contact.h"
+#include "clench/math/pose.h"
+#include "clench/spec/per_contact.h"
+#include "clench/spec/point_contact.h"
 
 namespace clench {
 

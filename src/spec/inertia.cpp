@@ -1,8 +1,8 @@
-#include "spec/inertia.h"
+#include "clench/spec/inertia.h"
 
-#include "base/error.h"
-#include "math/decompositions.h"
-#include "spec/valid.h"
+#include "clench/base/error.h"
+#include "clench/math/decompositions.h"
+#include "clench/spec/valid.h"
 
 namespace clench {
 

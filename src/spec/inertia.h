@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/listeners.h"
+#include "clench/base/listeners.h"
 
 namespace clench {
 

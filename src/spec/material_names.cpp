@@ -1,10 +1,10 @@
-#include "spec/material_names.h"
+#include "clench/spec/material_names.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/suggest.h"
-#include "base/text.h"
+#include "clench/base/error.h"
+#include "clench/base/suggest.h"
+#include "clench/base/text.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "spec/mesh_report.h"
+#include "clench/spec/mesh_report.h"
 
 #include <fmt/format.h>
 

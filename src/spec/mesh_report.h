@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/shape.h"
+#include "clench/geometry/tree/shape.h"
 
 namespace clench {
 

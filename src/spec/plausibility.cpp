@@ -1,11 +1,11 @@
-#include "spec/plausibility.h"
+#include "clench/spec/plausibility.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "spec/chains.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/spec/chains.h"
 
 namespace clench {
 

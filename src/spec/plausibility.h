@@ -1,7 +1,7 @@
 // What is used as it stands and looks like a unit mistaken for another: one rule each.
 #pragma once
-#include "base/listeners.h"
-#include "spec/robot_spec.h"
+#include "clench/base/listeners.h"
+#include "clench/spec/robot_spec.h"
 
 namespace clench {
 

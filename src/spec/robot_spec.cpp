@@ -1,9 +1,9 @@
-#include "spec/robot_spec.h"
+#include "clench/spec/robot_spec.h"
 
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 
 namespace clench {
 

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "math/pose.h"
-#include "spec/body_spec.h"
-#include "spec/eigengrasp_spec.h"
-#include "spec/glove_spec.h"
-#include "spec/tendon_spec.h"
-#include "spec/virtual_contact_spec.h"
+#include "clench/math/pose.h"
+#include "clench/spec/body_spec.h"
+#include "clench/spec/eigengrasp_spec.h"
+#include "clench/spec/glove_spec.h"
+#include "clench/spec/tendon_spec.h"
+#include "clench/spec/virtual_contact_spec.h"
 
 namespace clench {
 

@@ -1,8 +1,8 @@
-#include "spec/valid.h"
+#include "clench/spec/valid.h"
 
 #include <cmath>
 
-#include "base/text.h"
+#include "clench/base/text.h"
 
 namespace clench {
 

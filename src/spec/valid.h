@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "geometry/mesh.h"
-#include "math/pose.h"
+#include "clench/geometry/mesh/mesh.h"
+#include "clench/math/pose.h"
 
 namespace clench {
 

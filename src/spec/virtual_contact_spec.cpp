@@ -1,7 +1,7 @@
-#include "spec/virtual_contact_spec.h"
+#include "clench/spec/virtual_contact_spec.h"
 
-#include "base/error.h"
-#include "spec/valid.h"
+#include "clench/base/error.h"
+#include "clench/spec/valid.h"
 
 namespace clench {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "math/pose.h"
+#include "clench/math/pose.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "spec/world_spec.h"
+#include "clench/spec/world_spec.h"
 
 namespace clench {
 

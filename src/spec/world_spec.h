@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "spec/robot_spec.h"
+#include "clench/spec/robot_spec.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "base/convert.h"
+#include "clench/base/convert.h"
 
 #include <doctest/doctest.h>
 

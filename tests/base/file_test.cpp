@@ -1,4 +1,4 @@
-#include "base/file.h"
+#include "clench/base/file.h"
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 #include <csignal>
 #include <functional>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "support/folder.h"
 #include "support/plain_user.h"
 

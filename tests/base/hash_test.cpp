@@ -1,4 +1,4 @@
-#include "base/hash.h"
+#include "clench/base/hash.h"
 
 #include <set>
 

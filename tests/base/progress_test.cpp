@@ -1,4 +1,4 @@
-#include "base/progress.h"
+#include "clench/base/progress.h"
 
 #include <doctest/doctest.h>
 

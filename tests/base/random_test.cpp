@@ -1,4 +1,4 @@
-#include "base/random.h"
+#include "clench/base/random.h"
 
 #include <set>
 

@@ -1,4 +1,4 @@
-#include "base/suggest.h"
+#include "clench/base/suggest.h"
 
 using namespace clench;
 

@@ -1,4 +1,4 @@
-#include "base/text.h"
+#include "clench/base/text.h"
 
 #include <malloc.h>
 

@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "grasp/grasp.h"
-#include "io/read.h"
-#include "model/build.h"
-#include "motion/drive.h"
+#include "clench/grasp/wrench/grasp.h"
+#include "clench/io/read.h"
+#include "clench/model/build.h"
+#include "clench/motion/drive.h"
 
 using namespace clench;
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "bench/peers.h"
-#include "geometry/triangle.h"
+#include "clench/geometry/query/triangle.h"
 
 namespace clench::bench {
 

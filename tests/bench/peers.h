@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/queries.h"
+#include "clench/geometry/query/queries.h"
 
 namespace clench::bench {
 

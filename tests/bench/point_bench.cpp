@@ -5,12 +5,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/random.h"
 #include "bench/peers.h"
-#include "geometry/tree.h"
-#include "geometry/triangle.h"
-#include "io/mesh_files.h"
-#include "io/write_mesh.h"
+#include "clench/base/random.h"
+#include "clench/geometry/query/triangle.h"
+#include "clench/geometry/tree/tree.h"
+#include "clench/io/mesh/mesh_files.h"
+#include "clench/io/mesh/write_mesh.h"
 #include "support/meshes.h"
 
 namespace clench::bench {

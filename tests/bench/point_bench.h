@@ -3,7 +3,7 @@
 #include <string>
 
 #include "bench/report.h"
-#include "geometry/shape.h"
+#include "clench/geometry/tree/shape.h"
 
 namespace clench::bench {
 

@@ -3,10 +3,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "io/read.h"
-#include "model/build.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/io/read.h"
+#include "clench/model/build.h"
 #include "support/meshes.h"
 
 namespace clench::bench {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/queries.h"
+#include "clench/geometry/query/queries.h"
 
 namespace clench::bench {
 

@@ -11,15 +11,15 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/error.h"
 #include "bench/peer_qhull.h"
 #include "bench/report.h"
-#include "geometry/hull.h"
-#include "grasp/grasp.h"
+#include "clench/base/error.h"
+#include "clench/geometry/mesh/hull.h"
+#include "clench/grasp/wrench/grasp.h"
+#include "clench/io/read.h"
+#include "clench/model/build.h"
+#include "clench/motion/drive.h"
 #include "grasp/wrench_sets.h"
-#include "io/read.h"
-#include "model/build.h"
-#include "motion/drive.h"
 
 using namespace clench;
 using namespace clench::bench;

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "base/random.h"
-#include "model/find.h"
+#include "clench/base/random.h"
+#include "clench/model/find.h"
 #include "support/meshes.h"
 #include "support/robots.h"
 

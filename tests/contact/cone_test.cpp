@@ -1,10 +1,10 @@
-#include "contact/cone.h"
+#include "clench/contact/cone.h"
 
 #include <limits>
 #include <numbers>
 
-#include "base/error.h"
-#include "base/random.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
 #include "support/measured.h"
 #include "support/shared.h"
 

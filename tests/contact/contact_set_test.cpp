@@ -1,12 +1,12 @@
-#include "contact/contact_set.h"
+#include "clench/contact/contact_set.h"
 
 #include <algorithm>
 #include <ctime>
 #include <limits>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "math/decompositions.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/math/decompositions.h"
 #include "support/shapes.h"
 
 using namespace clench;

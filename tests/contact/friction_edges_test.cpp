@@ -1,6 +1,6 @@
-#include "contact/friction_edges.h"
+#include "clench/contact/friction_edges.h"
 
-#include "base/error.h"
+#include "clench/base/error.h"
 
 using namespace clench;
 

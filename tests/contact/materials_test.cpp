@@ -1,8 +1,8 @@
-#include "contact/materials.h"
+#include "clench/contact/materials.h"
 
 #include <limits>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 
 using namespace clench;
 

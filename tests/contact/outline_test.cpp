@@ -1,11 +1,11 @@
-#include "contact/outline.h"
+#include "clench/contact/outline.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
 
-#include "base/random.h"
+#include "clench/base/random.h"
 
 using namespace clench;
 using Eigen::Vector2d;

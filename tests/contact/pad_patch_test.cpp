@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "contact/soft_patch.h"
-#include "math/decompositions.h"
+#include "clench/base/error.h"
+#include "clench/contact/soft_patch.h"
+#include "clench/math/decompositions.h"
 #include "support/cases.h"
 #include "support/curved.h"
 

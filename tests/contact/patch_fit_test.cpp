@@ -1,6 +1,6 @@
-#include "contact/patch_fit.h"
+#include "clench/contact/patch_fit.h"
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "support/curved.h"
 
 using namespace clench;

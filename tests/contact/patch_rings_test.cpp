@@ -1,4 +1,4 @@
-#include "contact/patch_rings.h"
+#include "clench/contact/patch_rings.h"
 
 #include <numbers>
 

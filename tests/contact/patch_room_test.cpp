@@ -1,4 +1,4 @@
-#include "contact/patch_room.h"
+#include "clench/contact/patch_room.h"
 
 #include <numbers>
 

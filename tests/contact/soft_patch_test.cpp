@@ -1,10 +1,10 @@
-#include "contact/soft_patch.h"
+#include "clench/contact/soft_patch.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "base/error.h"
-#include "math/decompositions.h"
+#include "clench/base/error.h"
+#include "clench/math/decompositions.h"
 #include "support/cases.h"
 #include "support/curved.h"
 

@@ -1,8 +1,8 @@
 // Soft patches of shapes with curvatures known at every point, under irregular meshes.
 #include <algorithm>
 
-#include "contact/soft_patch.h"
-#include "math/decompositions.h"
+#include "clench/contact/soft_patch.h"
+#include "clench/math/decompositions.h"
 #include "support/cases.h"
 #include "support/curved.h"
 

@@ -5,11 +5,11 @@
 #include <cstring>
 #include <lua.hpp>
 
-#include "base/error.h"
-#include "base/suggest.h"
-#include "math/pose.h"
-#include "model/world.h"
-#include "script/open.h"
+#include <clench/base/error.h>
+#include <clench/base/suggest.h>
+#include <clench/math/pose.h>
+#include <clench/model/world.h>
+#include <clench/script/host/open.h>
 
 static void require(bool ok, const char* claim) {
   if (ok) return;

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
-#include "io/read.h"
+#include "clench/base/error.h"
+#include "clench/io/read.h"
 
 namespace clench::fuzz {
 

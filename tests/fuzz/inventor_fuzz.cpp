@@ -1,7 +1,7 @@
 // An Inventor or VRML file of any bytes, as a body and as a planner's primitives, with files beside it
 // that it may include, itself among them: a spec or an Error.
+#include "clench/io/graspit/inventor_primitives.h"
 #include "fuzz_files.h"
-#include "io/inventor_primitives.h"
 
 using namespace clench;
 using namespace clench::fuzz;

@@ -1,9 +1,9 @@
 // Trees of Inventor or VRML nodes that are well formed, and odd in what they say: the bytes choose
 // nodes, fields, numbers, names and PROTOs. As a body and as a planner's primitives: a spec or an
 // Error.
+#include "clench/io/graspit/inventor_primitives.h"
+#include "clench/io/inventor/inventor_types.h"
 #include "fuzz_files.h"
-#include "io/inventor_primitives.h"
-#include "io/inventor_types.h"
 
 using namespace clench;
 using namespace clench::fuzz;

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "base/error.h"
-#include "io/mesh_files.h"
+#include "clench/base/error.h"
+#include "clench/io/mesh/mesh_files.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::filesystem::path path = "fuzz." FORMAT;

@@ -1,7 +1,7 @@
 // A robot, body or world of any bytes, and small files around it that it may name, is a spec or an
 // Error. Which of the three a file is meant to be, its ending says, or its outermost element.
+#include "clench/io/text/xml.h"
 #include "fuzz_files.h"
-#include "io/xml.h"
 
 using namespace clench;
 using namespace clench::fuzz;

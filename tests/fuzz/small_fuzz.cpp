@@ -1,11 +1,11 @@
 // The small files around hands and planners, of any bytes: a value or an Error. Where two kinds have
 // one ending, both readers are tried.
+#include "clench/io/grasp_lines.h"
+#include "clench/io/graspit/eigengrasps.h"
+#include "clench/io/graspit/glove_files.h"
+#include "clench/io/graspit/grasp_lists.h"
+#include "clench/io/graspit/virtual_contacts.h"
 #include "fuzz_files.h"
-#include "io/eigengrasps.h"
-#include "io/glove_files.h"
-#include "io/grasp_lines.h"
-#include "io/grasp_lists.h"
-#include "io/virtual_contacts.h"
 
 using namespace clench;
 using namespace clench::fuzz;

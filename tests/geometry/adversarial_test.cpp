@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "geometry/box_lanes.h"
-#include "geometry/queries.h"
-#include "geometry/triangle.h"
-#include "geometry/triangle_lanes.h"
+#include "clench/geometry/query/queries.h"
+#include "clench/geometry/query/triangle.h"
+#include "clench/geometry/tree/box_lanes.h"
+#include "clench/geometry/tree/triangle_lanes.h"
 #include "support/meshes.h"
 
 using namespace clench;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "geometry/queries.h"
-#include "geometry/triangle.h"
+#include "clench/base/error.h"
+#include "clench/geometry/query/queries.h"
+#include "clench/geometry/query/triangle.h"
 #include "support/meshes.h"
 #include "support/shared.h"
 

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "base/error.h"
-#include "geometry/queries.h"
+#include "clench/base/error.h"
+#include "clench/geometry/query/queries.h"
 #include "support/meshes.h"
 
 using namespace clench;

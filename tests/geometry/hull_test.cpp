@@ -1,9 +1,9 @@
-#include "geometry/hull.h"
+#include "clench/geometry/mesh/hull.h"
 
 #include <cmath>
 
-#include "base/error.h"
-#include "base/random.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
 #include "support/linear.h"
 
 using namespace clench;

@@ -1,4 +1,4 @@
-#include "geometry/mass.h"
+#include "clench/geometry/mesh/mass.h"
 
 #include <doctest/doctest.h>
 

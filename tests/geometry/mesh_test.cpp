@@ -1,10 +1,10 @@
-#include "geometry/mesh.h"
+#include "clench/geometry/mesh/mesh.h"
 
 #include <doctest/doctest.h>
 
 #include <limits>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "support/meshes.h"
 
 using namespace clench;

@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
-#include "geometry/placement.h"
-#include "geometry/queries.h"
-#include "geometry/tree.h"
+#include "clench/geometry/query/placement.h"
+#include "clench/geometry/query/queries.h"
+#include "clench/geometry/tree/tree.h"
 #include "support/meshes.h"
 #include "support/shared.h"
 

@@ -1,11 +1,11 @@
-#include "geometry/shape.h"
+#include "clench/geometry/tree/shape.h"
 
 #include <doctest/doctest.h>
 
 #include <latch>
 #include <thread>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "support/meshes.h"
 
 using namespace clench;

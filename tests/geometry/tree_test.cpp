@@ -1,13 +1,13 @@
-#include "geometry/tree.h"
+#include "clench/geometry/tree/tree.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
-#include "geometry/box_lanes.h"
-#include "geometry/placement.h"
-#include "geometry/queries.h"
-#include "geometry/triangle_lanes.h"
+#include "clench/geometry/query/placement.h"
+#include "clench/geometry/query/queries.h"
+#include "clench/geometry/tree/box_lanes.h"
+#include "clench/geometry/tree/triangle_lanes.h"
 #include "support/meshes.h"
 
 using namespace clench;

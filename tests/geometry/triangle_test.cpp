@@ -1,10 +1,10 @@
-#include "geometry/triangle.h"
+#include "clench/geometry/query/triangle.h"
 
 #include <doctest/doctest.h>
 
 #include <limits>
 
-#include "base/random.h"
+#include "clench/base/random.h"
 #include "support/meshes.h"
 
 using namespace clench;

@@ -1,10 +1,10 @@
-#include "geometry/triangulate.h"
+#include "clench/geometry/mesh/triangulate.h"
 
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "base/error.h"
-#include "base/random.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
 
 using namespace clench;
 using Points = std::vector<Eigen::Vector3d>;

@@ -3,12 +3,12 @@
 
 #include <array>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "grasp/grasp.h"
-#include "io/read.h"
-#include "model/build.h"
-#include "motion/drive.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/grasp/wrench/grasp.h"
+#include "clench/io/read.h"
+#include "clench/model/build.h"
+#include "clench/motion/drive.h"
 #include "support/meshes.h"
 
 using namespace clench;

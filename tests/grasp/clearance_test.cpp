@@ -1,4 +1,4 @@
-#include "grasp/clearance.h"
+#include "clench/grasp/measure/clearance.h"
 
 #include <doctest/doctest.h>
 

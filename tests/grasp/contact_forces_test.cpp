@@ -1,9 +1,9 @@
-#include "grasp/contact_forces.h"
+#include "clench/grasp/force/contact_forces.h"
 
 #include <coin/ClpSimplex.hpp>
 
-#include "base/error.h"
-#include "geometry/hull.h"
+#include "clench/base/error.h"
+#include "clench/geometry/mesh/hull.h"
 #include "grasp/held_object.h"
 
 using namespace clench;

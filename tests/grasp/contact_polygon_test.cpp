@@ -1,10 +1,10 @@
-#include "grasp/contact_polygon.h"
+#include "clench/grasp/measure/contact_polygon.h"
 
 #include <doctest/doctest.h>
 
 #include <numbers>
 
-#include "base/random.h"
+#include "clench/base/random.h"
 #include "support/meshes.h"
 
 using namespace clench;

@@ -1,6 +1,6 @@
-#include "grasp/equilibrium.h"
+#include "clench/grasp/force/equilibrium.h"
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "grasp/jaws.h"
 
 using namespace clench;

@@ -1,11 +1,11 @@
-#include "grasp/expanding_polytope.h"
+#include "clench/grasp/wrench/expanding_polytope.h"
 
 #include <numbers>
 
-#include "base/random.h"
-#include "grasp/wrench_hull.h"
+#include "clench/base/random.h"
+#include "clench/grasp/wrench/wrench_hull.h"
+#include "clench/grasp/wrench/wrench_support.h"
 #include "grasp/wrench_sets.h"
-#include "grasp/wrench_support.h"
 #include "support/linear.h"
 
 using namespace clench;

@@ -1,11 +1,11 @@
-#include "grasp/facet_complex.h"
+#include "clench/grasp/wrench/facet_complex.h"
 
 #include <Eigen/Core>
 #include <optional>
 
-#include "base/random.h"
-#include "grasp/facet_plane.h"
-#include "grasp/first_simplex.h"
+#include "clench/base/random.h"
+#include "clench/grasp/wrench/facet_plane.h"
+#include "clench/grasp/wrench/first_simplex.h"
 
 using namespace clench;
 

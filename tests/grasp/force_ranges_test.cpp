@@ -1,10 +1,10 @@
 // Every number that contact forces are asked with, over 25 orders of magnitude: what is called optimal, infeasible or
 // stable is, by plain sums and closed formulas, and between 1e-6 and 1e6 there is an answer.
-#include "base/error.h"
-#include "grasp/equilibrium.h"
+#include "clench/base/error.h"
+#include "clench/grasp/force/equilibrium.h"
+#include "clench/grasp/force/resistance.h"
+#include "clench/grasp/measure/measures.h"
 #include "grasp/jaws.h"
-#include "grasp/measures.h"
-#include "grasp/resistance.h"
 
 using namespace clench;
 using Eigen::Vector2d, Eigen::Vector3d, Eigen::VectorXd;

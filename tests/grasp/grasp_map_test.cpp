@@ -1,4 +1,4 @@
-#include "grasp/grasp_map.h"
+#include "clench/grasp/wrench/grasp_map.h"
 
 #include "grasp/held_object.h"
 

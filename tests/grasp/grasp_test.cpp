@@ -1,10 +1,10 @@
-#include "grasp/grasp.h"
+#include "clench/grasp/wrench/grasp.h"
 
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "support/shapes.h"
 
 using namespace clench;

@@ -1,9 +1,9 @@
-#include "grasp/hand_jacobian.h"
+#include "clench/grasp/force/hand_jacobian.h"
 
-#include "base/random.h"
-#include "grasp/contact_forces.h"
-#include "grasp/link_weight.h"
-#include "io/read.h"
+#include "clench/base/random.h"
+#include "clench/grasp/force/contact_forces.h"
+#include "clench/grasp/force/link_weight.h"
+#include "clench/io/read.h"
 #include "support/chains.h"
 #include "support/robots.h"
 

@@ -1,7 +1,7 @@
 // Grasps put together from points, without a hand that could hold them so.
 #pragma once
-#include "base/random.h"
-#include "grasp/contact_forces.h"
+#include "clench/base/random.h"
+#include "clench/grasp/force/contact_forces.h"
 #include "support/robots.h"
 
 namespace clench::test {

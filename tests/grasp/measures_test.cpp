@@ -1,12 +1,12 @@
-#include "grasp/measures.h"
+#include "clench/grasp/measure/measures.h"
 
-#include "grasp/contact_polygon.h"
+#include "clench/grasp/measure/contact_polygon.h"
 
 #include <set>
 
-#include "base/error.h"
+#include "clench/base/error.h"
+#include "clench/io/read.h"
 #include "grasp/held_object.h"
-#include "io/read.h"
 
 using namespace clench;
 using namespace clench::test;

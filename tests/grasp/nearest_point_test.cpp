@@ -1,7 +1,7 @@
-#include "grasp/nearest_point.h"
+#include "clench/grasp/wrench/nearest_point.h"
 
+#include "clench/grasp/wrench/wrench_support.h"
 #include "grasp/wrench_sets.h"
-#include "grasp/wrench_support.h"
 
 using namespace clench;
 using namespace clench::test;

@@ -1,9 +1,9 @@
-#include "grasp/offset_list.h"
+#include "clench/grasp/wrench/offset_list.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "base/random.h"
+#include "clench/base/random.h"
 
 using namespace clench;
 

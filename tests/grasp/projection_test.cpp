@@ -1,10 +1,10 @@
-#include "grasp/projection.h"
+#include "clench/grasp/wrench/projection.h"
 
 #include <limits>
 
-#include "base/error.h"
-#include "geometry/shape.h"
-#include "grasp/slice.h"
+#include "clench/base/error.h"
+#include "clench/geometry/tree/shape.h"
+#include "clench/grasp/wrench/slice.h"
 #include "grasp/wrench_sets.h"
 
 using namespace clench;

@@ -1,8 +1,8 @@
-#include "grasp/resistance.h"
+#include "clench/grasp/force/resistance.h"
 
 #include <limits>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "grasp/held_object.h"
 
 using namespace clench;

@@ -1,12 +1,12 @@
-#include "grasp/robustness.h"
+#include "clench/grasp/measure/robustness.h"
 
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "contact/cone.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/contact/cone.h"
 
 using namespace clench;
 using Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;

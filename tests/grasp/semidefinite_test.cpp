@@ -7,7 +7,7 @@
 #include <array>
 #include <deque>
 
-#include "grasp/contact_forces.h"
+#include "clench/grasp/force/contact_forces.h"
 #include "grasp/held_object.h"
 
 using namespace clench;

@@ -1,12 +1,12 @@
 // Long calls that are told to stop end, and leave nothing half done behind.
 #include <doctest/doctest.h>
 
-#include "base/progress.h"
-#include "base/random.h"
-#include "grasp/projection.h"
-#include "grasp/robustness.h"
-#include "grasp/sum_volume.h"
-#include "grasp/wrench_space.h"
+#include "clench/base/progress.h"
+#include "clench/base/random.h"
+#include "clench/grasp/measure/robustness.h"
+#include "clench/grasp/wrench/projection.h"
+#include "clench/grasp/wrench/sum_volume.h"
+#include "clench/grasp/wrench/wrench_space.h"
 
 using namespace clench;
 

@@ -1,8 +1,8 @@
-#include "grasp/sum_volume.h"
+#include "clench/grasp/wrench/sum_volume.h"
 
 #include <algorithm>
 
-#include "geometry/hull.h"
+#include "clench/geometry/mesh/hull.h"
 #include "grasp/wrench_sets.h"
 #include "support/cases.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "base/random.h"
-#include "grasp/wrench_space.h"
+#include "clench/base/random.h"
+#include "clench/grasp/wrench/wrench_space.h"
 
 namespace clench::test {
 

@@ -1,4 +1,4 @@
-#include "grasp/wrench_space.h"
+#include "clench/grasp/wrench/wrench_space.h"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,10 @@
 #include <numbers>
 #include <numeric>
 
-#include "base/error.h"
-#include "base/random.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/math/decompositions.h"
 #include "grasp/wrench_sets.h"
-#include "math/decompositions.h"
 #include "support/linear.h"
 #include "support/measured.h"
 #include "support/shared.h"

@@ -1,6 +1,6 @@
-#include "grasp/wrench_support.h"
+#include "clench/grasp/wrench/wrench_support.h"
 
-#include "base/random.h"
+#include "clench/base/random.h"
 #include "grasp/wrench_sets.h"
 
 using namespace clench;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
 
 namespace clench::test {
 

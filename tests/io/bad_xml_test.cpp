@@ -1,7 +1,7 @@
 // Every file of tests/data/bad/xml/ is refused with the sentence that stands beside it. What it is
 // meant to be begins its name: body, robot or world.
 #include "bad_files.h"
-#include "io/read.h"
+#include "clench/io/read.h"
 
 using namespace clench;
 using clench::test::check_bad_files;

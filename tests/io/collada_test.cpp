@@ -1,7 +1,7 @@
-#include "io/collada.h"
+#include "clench/io/mesh/collada.h"
 
-#include "base/error.h"
-#include "io/mesh_files.h"
+#include "clench/base/error.h"
+#include "clench/io/mesh/mesh_files.h"
 #include "mesh_writers.h"
 #include "support/meshes.h"
 #include "temporary.h"

@@ -1,13 +1,13 @@
 // Reading that is confined to a folder: nothing outside is read, however a file names it, and no
 // answer tells what is there.
-#include "io/confine.h"
+#include "clench/io/text/confine.h"
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
-#include "base/error.h"
-#include "io/inventor_primitives.h"
-#include "io/write_world.h"
+#include "clench/base/error.h"
+#include "clench/io/graspit/inventor_primitives.h"
+#include "clench/io/write_world.h"
 #include "read_any.h"
 #include "support/meshes.h"
 #include "temporary.h"

@@ -1,7 +1,7 @@
-#include "io/eigengrasps.h"
+#include "clench/io/graspit/eigengrasps.h"
 
-#include "base/random.h"
-#include "base/text.h"
+#include "clench/base/random.h"
+#include "clench/base/text.h"
 #include "support/shared.h"
 #include "temporary.h"
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <set>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/text.h"
-#include "io/file_kind.h"
+#include "clench/base/error.h"
+#include "clench/base/file.h"
+#include "clench/base/text.h"
+#include "clench/io/text/file_kind.h"
 #include "read_any.h"
 #include "temporary.h"
 

@@ -1,9 +1,9 @@
-#include "io/file_kind.h"
+#include "clench/io/text/file_kind.h"
 
-#include "base/error.h"
-#include "io/find_model.h"
-#include "io/grasp_lists.h"
-#include "io/virtual_contacts.h"
+#include "clench/base/error.h"
+#include "clench/io/graspit/grasp_lists.h"
+#include "clench/io/graspit/virtual_contacts.h"
+#include "clench/io/text/find_model.h"
 #include "temporary.h"
 
 using namespace clench;

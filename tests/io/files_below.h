@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/text.h"
+#include "clench/base/text.h"
 
 namespace clench::test {
 

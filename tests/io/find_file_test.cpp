@@ -1,6 +1,6 @@
-#include "base/error.h"
-#include "base/text.h"
-#include "io/read.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/io/read.h"
 #include "support/plain_user.h"
 #include "temporary.h"
 

@@ -1,11 +1,11 @@
-#include "io/grasp_lines.h"
+#include "clench/io/grasp_lines.h"
 
 #include <doctest/doctest.h>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/random.h"
-#include "io/file_kind.h"
+#include "clench/base/error.h"
+#include "clench/base/file.h"
+#include "clench/base/random.h"
+#include "clench/io/text/file_kind.h"
 #include "support/folder.h"
 #include "support/meshes.h"
 

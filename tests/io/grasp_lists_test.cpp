@@ -1,7 +1,7 @@
-#include "io/grasp_lists.h"
+#include "clench/io/graspit/grasp_lists.h"
 
-#include "base/error.h"
-#include "base/random.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
 #include "support/meshes.h"
 #include "temporary.h"
 

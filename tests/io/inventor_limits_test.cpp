@@ -1,7 +1,7 @@
 // Inventor and VRML files made to crash, to run code, to hang or to fill all memory: a sentence, or
 // the body without what was hostile.
-#include "base/error.h"
-#include "io/read.h"
+#include "clench/base/error.h"
+#include "clench/io/read.h"
 #include "temporary.h"
 
 using namespace clench;

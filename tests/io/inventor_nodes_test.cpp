@@ -1,6 +1,6 @@
 // What single nodes of Inventor and VRML do to triangles.
-#include "base/error.h"
-#include "io/read.h"
+#include "clench/base/error.h"
+#include "clench/io/read.h"
 #include "temporary.h"
 
 using namespace clench;

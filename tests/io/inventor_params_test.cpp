@@ -1,5 +1,5 @@
-#include "base/error.h"
-#include "io/read.h"
+#include "clench/base/error.h"
+#include "clench/io/read.h"
 #include "temporary.h"
 
 using namespace clench;

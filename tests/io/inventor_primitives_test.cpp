@@ -1,8 +1,8 @@
-#include "io/inventor_primitives.h"
+#include "clench/io/graspit/inventor_primitives.h"
 
 #include <numbers>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "support/shared.h"
 #include "temporary.h"
 

@@ -1,8 +1,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "base/error.h"
-#include "io/read.h"
+#include "clench/base/error.h"
+#include "clench/io/read.h"
 #include "temporary.h"
 
 using namespace clench;

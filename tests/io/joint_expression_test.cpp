@@ -1,4 +1,4 @@
-#include "io/joint_expression.h"
+#include "clench/io/text/joint_expression.h"
 
 using namespace clench;
 

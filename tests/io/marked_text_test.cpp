@@ -1,10 +1,10 @@
 // Text files that begin with the mark some editors put before UTF-8.
-#include "base/text.h"
-#include "io/eigengrasps.h"
-#include "io/file_kind.h"
-#include "io/glove_files.h"
-#include "io/read.h"
-#include "io/virtual_contacts.h"
+#include "clench/base/text.h"
+#include "clench/io/graspit/eigengrasps.h"
+#include "clench/io/graspit/glove_files.h"
+#include "clench/io/graspit/virtual_contacts.h"
+#include "clench/io/read.h"
+#include "clench/io/text/file_kind.h"
 #include "temporary.h"
 
 using namespace clench;

@@ -1,11 +1,11 @@
-#include "io/mesh_files.h"
+#include "clench/io/mesh/mesh_files.h"
 
 #include <fmt/format.h>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "geometry/triangulate.h"
-#include "io/geometry_builder.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/geometry/mesh/triangulate.h"
+#include "clench/io/mesh/geometry_builder.h"
 #include "mesh_writers.h"
 #include "support/meshes.h"
 #include "support/shared.h"

@@ -2,9 +2,9 @@
 // names the file, in no time.
 #include <limits>
 
-#include "base/error.h"
-#include "geometry/shape.h"
-#include "io/mesh_files.h"
+#include "clench/base/error.h"
+#include "clench/geometry/tree/shape.h"
+#include "clench/io/mesh/mesh_files.h"
 #include "mesh_writers.h"
 #include "support/meshes.h"
 #include "support/mutate.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh.h"
+#include "clench/geometry/mesh/mesh.h"
 
 namespace clench::test {
 

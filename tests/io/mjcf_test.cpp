@@ -1,9 +1,9 @@
 // Robots from MJCF as specs.
-#include "io/mjcf.h"
+#include "clench/io/mjcf/mjcf.h"
 
 #include <numbers>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "support/chains.h"
 #include "temporary.h"
 #include "told_robot.h"

@@ -1,6 +1,6 @@
-#include "io/obj.h"
+#include "clench/io/mesh/obj.h"
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "temporary.h"
 
 using namespace clench;

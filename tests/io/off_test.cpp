@@ -1,6 +1,6 @@
-#include "io/off.h"
+#include "clench/io/mesh/off.h"
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "temporary.h"
 
 using namespace clench;

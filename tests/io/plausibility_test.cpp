@@ -1,8 +1,8 @@
-#include "spec/plausibility.h"
+#include "clench/spec/plausibility.h"
 
 #include <fmt/format.h>
 
-#include "io/eigengrasps.h"
+#include "clench/io/graspit/eigengrasps.h"
 #include "support/shapes.h"
 #include "temporary.h"
 #include "told_robot.h"

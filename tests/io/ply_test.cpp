@@ -1,6 +1,6 @@
-#include "io/ply.h"
+#include "clench/io/mesh/ply.h"
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "mesh_writers.h"
 #include "support/meshes.h"
 #include "temporary.h"

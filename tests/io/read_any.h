@@ -1,12 +1,12 @@
 // A file of any kind read, as its name and its beginning say.
 #pragma once
-#include "io/eigengrasps.h"
-#include "io/file_kind.h"
-#include "io/glove_files.h"
-#include "io/grasp_lines.h"
-#include "io/grasp_lists.h"
-#include "io/read.h"
-#include "io/virtual_contacts.h"
+#include "clench/io/grasp_lines.h"
+#include "clench/io/graspit/eigengrasps.h"
+#include "clench/io/graspit/glove_files.h"
+#include "clench/io/graspit/grasp_lists.h"
+#include "clench/io/graspit/virtual_contacts.h"
+#include "clench/io/read.h"
+#include "clench/io/text/file_kind.h"
 
 namespace clench::test {
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "io/repairs.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/io/text/repairs.h"
 #include "read_any.h"
 #include "support/shared.h"
 #include "temporary.h"

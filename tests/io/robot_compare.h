@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "base/random.h"
-#include "spec/robot_spec.h"
+#include "clench/base/random.h"
+#include "clench/spec/robot_spec.h"
 #include "support/chains.h"
 
 namespace clench::test {

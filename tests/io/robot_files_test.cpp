@@ -1,6 +1,6 @@
-#include "io/robot_files.h"
+#include "clench/io/graspit/robot_files.h"
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "support/shared.h"
 #include "temporary.h"
 

@@ -1,7 +1,7 @@
 #include <numbers>
 
-#include "base/error.h"
-#include "io/read.h"
+#include "clench/base/error.h"
+#include "clench/io/read.h"
 #include "support/chains.h"
 #include "temporary.h"
 

@@ -1,9 +1,9 @@
 // Files cut short anywhere and files with bytes changed at random: a spec or an Error, never a
 // crash or a hang.
-#include "base/error.h"
-#include "base/random.h"
-#include "base/text.h"
-#include "io/read.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/base/text.h"
+#include "clench/io/read.h"
 #include "support/mutate.h"
 #include "temporary.h"
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <map>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/io/read.h"
 #include "files_below.h"
-#include "io/read.h"
 #include "support/measured.h"
 #include "support/shared.h"
 

@@ -1,10 +1,10 @@
 // The XML models of the original's last generation, where they are at hand, against its text models.
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "io/read.h"
-#include "io/xml.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/io/read.h"
+#include "clench/io/text/xml.h"
 #include "support/shared.h"
 
 using namespace clench;

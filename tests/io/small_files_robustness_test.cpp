@@ -2,14 +2,14 @@
 // beside them; cut short anywhere or changed at random they are values or Errors that name the file.
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "base/text.h"
-#include "io/eigengrasps.h"
-#include "io/glove_files.h"
-#include "io/grasp_lists.h"
-#include "io/inventor_primitives.h"
-#include "io/virtual_contacts.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/base/text.h"
+#include "clench/io/graspit/eigengrasps.h"
+#include "clench/io/graspit/glove_files.h"
+#include "clench/io/graspit/grasp_lists.h"
+#include "clench/io/graspit/inventor_primitives.h"
+#include "clench/io/graspit/virtual_contacts.h"
 #include "support/mutate.h"
 #include "temporary.h"
 

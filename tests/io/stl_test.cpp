@@ -1,6 +1,6 @@
-#include "io/stl.h"
+#include "clench/io/mesh/stl.h"
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "mesh_writers.h"
 #include "support/meshes.h"
 #include "temporary.h"

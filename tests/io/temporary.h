@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "io/read.h"
+#include "clench/io/read.h"
 #include "support/folder.h"
 
 namespace clench::test {

@@ -2,7 +2,7 @@
 #pragma once
 #include <doctest/doctest.h>
 
-#include "io/read.h"
+#include "clench/io/read.h"
 #include "support/chains.h"
 
 namespace clench::test {

@@ -1,8 +1,8 @@
-#include "io/transform_list.h"
+#include "clench/io/graspit/transform_list.h"
 
 #include <numbers>
 
-#include "io/transform_tags.h"
+#include "clench/io/graspit/transform_tags.h"
 
 using namespace clench;
 

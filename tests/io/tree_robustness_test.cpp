@@ -2,10 +2,10 @@
 // Error that names the file, never a crash or a hang.
 #include <cmath>
 
-#include "base/random.h"
-#include "base/text.h"
-#include "io/read.h"
-#include "spec/check_robot.h"
+#include "clench/base/random.h"
+#include "clench/base/text.h"
+#include "clench/io/read.h"
+#include "clench/spec/check_robot.h"
 #include "support/mutate.h"
 #include "temporary.h"
 

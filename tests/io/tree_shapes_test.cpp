@@ -1,8 +1,8 @@
-#include "io/tree_shapes.h"
+#include "clench/io/tree/tree_shapes.h"
 
 #include <numbers>
 
-#include "geometry/shape.h"
+#include "clench/geometry/tree/shape.h"
 
 using namespace clench;
 

@@ -1,11 +1,11 @@
 // Robots from URDF as specs.
-#include "io/urdf.h"
+#include "clench/io/urdf/urdf.h"
 
 #include <fmt/format.h>
 
 #include <numbers>
 
-#include "base/text.h"
+#include "clench/base/text.h"
 #include "support/chains.h"
 #include "support/shared.h"
 #include "temporary.h"

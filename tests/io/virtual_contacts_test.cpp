@@ -1,7 +1,7 @@
-#include "io/virtual_contacts.h"
+#include "clench/io/graspit/virtual_contacts.h"
 
-#include "base/error.h"
-#include "base/random.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
 #include "support/meshes.h"
 #include "support/shared.h"
 #include "temporary.h"

@@ -1,10 +1,10 @@
-#include "io/write_body.h"
+#include "clench/io/write_body.h"
 
 #include <limits>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "io/write_mesh.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/io/mesh/write_mesh.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
 #include "temporary.h"

@@ -1,14 +1,14 @@
-#include "io/write_robot.h"
+#include "clench/io/write_robot.h"
 
 #include <algorithm>
 #include <fstream>
 #include <map>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/text.h"
+#include "clench/base/error.h"
+#include "clench/base/file.h"
+#include "clench/base/text.h"
+#include "clench/io/read.h"
 #include "files_below.h"
-#include "io/read.h"
 #include "robot_compare.h"
 #include "support/chains.h"
 #include "support/plain_user.h"

@@ -2,12 +2,12 @@
 #include <fstream>
 #include <numbers>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/text.h"
-#include "io/read.h"
-#include "io/urdf_plan.h"
-#include "io/write_robot.h"
+#include "clench/base/error.h"
+#include "clench/base/file.h"
+#include "clench/base/text.h"
+#include "clench/io/read.h"
+#include "clench/io/urdf_plan.h"
+#include "clench/io/write_robot.h"
 #include "robot_compare.h"
 #include "support/chains.h"
 #include "support/shapes.h"

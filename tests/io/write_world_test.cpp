@@ -1,12 +1,12 @@
-#include "io/write_world.h"
+#include "clench/io/write_world.h"
 
 #include <cmath>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "base/text.h"
-#include "io/read.h"
-#include "io/world_parts.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/base/text.h"
+#include "clench/io/graspit/world_parts.h"
+#include "clench/io/read.h"
 #include "support/meshes.h"
 #include "support/plain_user.h"
 #include "support/shapes.h"

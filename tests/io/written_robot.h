@@ -2,8 +2,8 @@
 #pragma once
 #include <algorithm>
 
-#include "io/read.h"
-#include "io/write_robot.h"
+#include "clench/io/read.h"
+#include "clench/io/write_robot.h"
 
 namespace clench::test {
 

@@ -1,8 +1,8 @@
 // XML files cut short anywhere and with words exchanged at random: a spec or an Error that names the
 // file, never a crash or a hang.
-#include "base/error.h"
-#include "base/random.h"
-#include "io/read.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/io/read.h"
 #include "support/mutate.h"
 #include "temporary.h"
 

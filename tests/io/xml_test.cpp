@@ -1,6 +1,6 @@
-#include "io/xml.h"
+#include "clench/io/text/xml.h"
 
-#include "base/random.h"
+#include "clench/base/random.h"
 
 using namespace clench;
 

@@ -1,6 +1,6 @@
-#include "math/cones.h"
+#include "clench/math/cones.h"
 
-#include "base/random.h"
+#include "clench/base/random.h"
 
 using namespace clench;
 using Eigen::VectorXd;

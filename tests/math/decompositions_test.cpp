@@ -1,7 +1,7 @@
-#include "math/decompositions.h"
+#include "clench/math/decompositions.h"
 
-#include "base/random.h"
-#include "math/sparse_ldl.h"
+#include "clench/base/random.h"
+#include "clench/math/sparse_ldl.h"
 
 using namespace clench;
 using Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d;

@@ -1,10 +1,10 @@
-#include "math/nonnegative_least_squares.h"
+#include "clench/math/nonnegative_least_squares.h"
 
 #include <doctest/doctest.h>
 
 #include <random>
 
-#include "math/decompositions.h"
+#include "clench/math/decompositions.h"
 
 using namespace clench;
 using Eigen::MatrixXd;

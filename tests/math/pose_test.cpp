@@ -1,8 +1,8 @@
-#include "math/pose.h"
+#include "clench/math/pose.h"
 
 #include <numbers>
 
-#include "base/random.h"
+#include "clench/base/random.h"
 
 using namespace clench;
 

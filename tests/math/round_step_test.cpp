@@ -1,4 +1,4 @@
-#include "math/round_step.h"
+#include "clench/math/round_step.h"
 
 #include <doctest/doctest.h>
 

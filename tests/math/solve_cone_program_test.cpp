@@ -1,11 +1,11 @@
-#include "math/solve_cone_program.h"
+#include "clench/math/solve_cone_program.h"
 
 #include <coin/ClpSimplex.hpp>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "math/cones.h"
-#include "math/scale_program.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/math/cones.h"
+#include "clench/math/scale_program.h"
 
 using namespace clench;
 using Eigen::MatrixXd, Eigen::VectorXd;

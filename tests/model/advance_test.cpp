@@ -1,4 +1,4 @@
-#include "model/advance.h"
+#include "clench/model/advance.h"
 
 #include "support/robots.h"
 

@@ -1,6 +1,6 @@
-#include "model/build.h"
+#include "clench/model/build.h"
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "support/chains.h"
 #include "support/robots.h"
 

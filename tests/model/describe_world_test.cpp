@@ -1,8 +1,8 @@
-#include "model/describe_world.h"
+#include "clench/model/describe_world.h"
 
-#include "base/random.h"
-#include "model/build.h"
-#include "model/compare_worlds.h"
+#include "clench/base/random.h"
+#include "clench/model/build.h"
+#include "clench/model/compare_worlds.h"
 #include "support/chains.h"
 #include "support/robots.h"
 

@@ -1,6 +1,6 @@
 // Eigengrasps and virtual contacts as part of a robot: refused when they do not fit, in clones,
 // snapshots and hashes.
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "support/robots.h"
 
 using namespace clench;

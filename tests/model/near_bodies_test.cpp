@@ -1,8 +1,8 @@
-#include "model/near_bodies.h"
+#include "clench/model/near_bodies.h"
 
 #include <set>
 
-#include "model/find.h"
+#include "clench/model/find.h"
 #include "support/meshes.h"
 #include "support/robots.h"
 

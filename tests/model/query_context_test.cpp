@@ -1,10 +1,10 @@
 // What a context remembers changes no bit of an answer.
-#include "model/query_context.h"
+#include "clench/model/query_context.h"
 
 #include <thread>
 
-#include "base/random.h"
-#include "model/find.h"
+#include "clench/base/random.h"
+#include "clench/model/find.h"
 #include "support/meshes.h"
 #include "support/robots.h"
 

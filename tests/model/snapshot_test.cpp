@@ -2,9 +2,9 @@
 #include <map>
 #include <thread>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "model/find.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/model/find.h"
 #include "support/robots.h"
 
 using namespace clench;
@@ -116,7 +116,8 @@ TEST_CASE("a snapshot of another world is refused") {
   World world, other;
   const auto hash = world.hash();
   CHECK_THROWS_WITH_AS(world.restore(*other.snapshot()),
-                       "world: the snapshot was taken of another one, of which this is no clone", Error);
+                       "world: the snapshot was taken of another one, of which this is no clone",
+                       Error);
   CHECK(world.hash() == hash);
   World clone = world, second = clone;
   clone.add_body(body_spec("a", box(1, 1, 1)), BodyKind::object, {});

@@ -1,8 +1,8 @@
-#include "model/world.h"
+#include "clench/model/world.h"
 
-#include "base/error.h"
-#include "model/build.h"
-#include "model/find.h"
+#include "clench/base/error.h"
+#include "clench/model/build.h"
+#include "clench/model/find.h"
 #include "support/chains.h"
 #include "support/robots.h"
 

@@ -1,8 +1,8 @@
-#include "motion/drive.h"
+#include "clench/motion/drive.h"
 
 #include <array>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 #include "support/chains.h"
 #include "support/robots.h"
 

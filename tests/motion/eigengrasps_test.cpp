@@ -1,8 +1,8 @@
-#include "motion/eigengrasps.h"
+#include "clench/motion/eigengrasps.h"
 
-#include "base/error.h"
-#include "base/random.h"
-#include "io/read.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/io/read.h"
 #include "support/measured.h"
 #include "support/robots.h"
 #include "support/shared.h"

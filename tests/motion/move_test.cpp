@@ -1,7 +1,7 @@
-#include "motion/move.h"
+#include "clench/motion/move.h"
 
-#include "base/error.h"
-#include "base/random.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
 #include "support/robots.h"
 
 using namespace clench;

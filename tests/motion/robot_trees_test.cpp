@@ -6,13 +6,13 @@
 #include <map>
 #include <numbers>
 
-#include "base/random.h"
-#include "base/text.h"
-#include "io/read.h"
+#include "clench/base/random.h"
+#include "clench/base/text.h"
+#include "clench/io/read.h"
+#include "clench/io/write_robot.h"
+#include "clench/model/build.h"
+#include "clench/motion/drive.h"
 #include "io/temporary.h"
-#include "io/write_robot.h"
-#include "model/build.h"
-#include "motion/drive.h"
 #include "support/meshes.h"
 #include "support/shared.h"
 

@@ -1,9 +1,9 @@
-#include "motion/springs.h"
+#include "clench/motion/springs.h"
 
 #include <array>
 #include <random>
 
-#include "motion/drive.h"
+#include "clench/motion/drive.h"
 #include "support/cases.h"
 #include "support/chains.h"
 #include "support/robots.h"

@@ -2,9 +2,9 @@
 #include <array>
 #include <random>
 
-#include "base/error.h"
-#include "motion/blocked_joints.h"
-#include "motion/drive.h"
+#include "clench/base/error.h"
+#include "clench/motion/blocked_joints.h"
+#include "clench/motion/drive.h"
 #include "support/chains.h"
 #include "support/robots.h"
 

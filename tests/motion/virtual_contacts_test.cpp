@@ -1,8 +1,8 @@
-#include "motion/virtual_contacts.h"
+#include "clench/motion/virtual_contacts.h"
 
-#include "base/error.h"
-#include "base/random.h"
-#include "motion/drive.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "clench/motion/drive.h"
 #include "support/chains.h"
 #include "support/meshes.h"
 #include "support/robots.h"

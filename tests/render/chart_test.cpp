@@ -1,12 +1,12 @@
-#include "render/chart.h"
+#include "clench/render/chart.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
-#include "render/canvas.h"
+#include "clench/base/error.h"
+#include "clench/render/canvas.h"
 
 using namespace clench;
 using Eigen::Vector2f;

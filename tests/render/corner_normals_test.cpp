@@ -1,4 +1,4 @@
-#include "render/corner_normals.h"
+#include "clench/render/corner_normals.h"
 
 #include <numbers>
 

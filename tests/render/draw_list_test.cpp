@@ -1,10 +1,10 @@
-#include "render/draw_list.h"
+#include "clench/render/draw_list.h"
 
 #include <limits>
 #include <numbers>
 
+#include "clench/render/pieces.h"
 #include "pictures.h"
-#include "render/pieces.h"
 
 using namespace clench;
 using namespace clench::test;

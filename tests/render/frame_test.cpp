@@ -1,8 +1,8 @@
-#include "render/frame.h"
+#include "clench/render/frame.h"
 
 #include <limits>
 
-#include "math/decompositions.h"
+#include "clench/math/decompositions.h"
 #include "pictures.h"
 
 using namespace clench;

@@ -1,11 +1,11 @@
-#include "render/label_layout.h"
+#include "clench/render/label_layout.h"
 
 #include <doctest/doctest.h>
 
-#include "base/random.h"
-#include "render/render.h"
-#include "scene/force_arrows.h"
-#include "scene/wrench_scene.h"
+#include "clench/base/random.h"
+#include "clench/render/render.h"
+#include "clench/scene/force_arrows.h"
+#include "clench/scene/wrench_scene.h"
 #include "support/shapes.h"
 
 using namespace clench;

@@ -1,4 +1,4 @@
-#include "render/lettering.h"
+#include "clench/render/lettering.h"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <thread>
 
-#include "render/chart.h"
+#include "clench/render/chart.h"
 
 using namespace clench;
 using Eigen::Vector2f;

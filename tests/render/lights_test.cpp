@@ -1,4 +1,4 @@
-#include "render/lights.h"
+#include "clench/render/lights.h"
 
 #include <cmath>
 

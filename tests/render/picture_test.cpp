@@ -1,10 +1,10 @@
-#include "render/picture.h"
+#include "clench/render/picture.h"
 
 #include <png.h>
 
 #include <filesystem>
 
-#include "base/error.h"
+#include "clench/base/error.h"
 
 using namespace clench;
 

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "base/error.h"
-#include "render/render.h"
+#include "clench/base/error.h"
+#include "clench/render/render.h"
 #include "support/shapes.h"
 #include "support/skip.h"
 

@@ -1,11 +1,11 @@
-#include "render/refine.h"
+#include "clench/render/refine.h"
 
 #include <algorithm>
 #include <map>
 #include <tuple>
 
-#include "base/random.h"
-#include "render/draw_list.h"
+#include "clench/base/random.h"
+#include "clench/render/draw_list.h"
 #include "support/shapes.h"
 
 using namespace clench;

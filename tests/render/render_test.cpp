@@ -1,10 +1,10 @@
-#include "render/render.h"
+#include "clench/render/render.h"
 
 #include <limits>
 #include <thread>
 
+#include "clench/render/frame.h"
 #include "pictures.h"
-#include "render/frame.h"
 
 using namespace clench;
 using namespace clench::test;

@@ -1,4 +1,4 @@
-#include "scene/force_arrows.h"
+#include "clench/scene/force_arrows.h"
 
 using namespace clench;
 using Eigen::Vector3d;

@@ -1,9 +1,9 @@
-#include "scene/scene.h"
+#include "clench/scene/scene.h"
 
 #include <cmath>
 
-#include "model/find.h"
-#include "scene/palette.h"
+#include "clench/model/find.h"
+#include "clench/scene/palette.h"
 #include "support/robots.h"
 #include "support/shapes.h"
 

@@ -1,4 +1,4 @@
-#include "scene/wrench_scene.h"
+#include "clench/scene/wrench_scene.h"
 
 #include <doctest/doctest.h>
 

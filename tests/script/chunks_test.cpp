@@ -1,9 +1,9 @@
-#include "script/chunks.h"
+#include "clench/script/lua/chunks.h"
 
 #include <filesystem>
 #include <fstream>
 
-#include "script/state.h"
+#include "clench/script/host/state.h"
 #include "script_state.h"
 #include "support/folder.h"
 

@@ -1,4 +1,4 @@
-#include "script/guard.h"
+#include "clench/script/lua/guard.h"
 
 #include <new>
 #include <stdexcept>

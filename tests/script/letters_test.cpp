@@ -1,4 +1,4 @@
-#include "script/bind_render.h"
+#include "clench/script/bind/bind.h"
 #include "script_state.h"
 
 using namespace clench;

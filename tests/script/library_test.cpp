@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/random.h"
+#include "clench/base/random.h"
 #include "script_state.h"
 #include "support/folder.h"
 

@@ -1,8 +1,8 @@
-#include "script/object.h"
+#include "clench/script/lua/object.h"
 
-#include "script/check.h"
-#include "script/guard.h"
-#include "script/push.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
 #include "script_state.h"
 
 using namespace clench;

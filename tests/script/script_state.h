@@ -5,7 +5,7 @@
 #include <lua.hpp>
 #include <string>
 
-#include "script/open.h"
+#include "clench/script/host/open.h"
 
 namespace clench::test {
 

@@ -1,4 +1,4 @@
-#include "script/state.h"
+#include "clench/script/host/state.h"
 #include "support/folder.h"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
-#include "script/table.h"
+#include "clench/script/lua/table.h"
 
-#include "script/guard.h"
-#include "script/push.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
 #include "script_state.h"
 
 using namespace clench;

@@ -22,13 +22,18 @@ end
 fails_with("lua5.4 scripts/check_layers.lua tests/data/layers/bad", {
   "docs/architecture.md:6: module 'twin' of rank 2 names 'high' of rank 2; a rank names lower ones only",
   "docs/architecture.md:7: module 'upside' names 'top', which has no row above",
+  "docs/architecture.md:12: module 'nowhere' has rooms and no row above",
+  "src/high/attic/box.h:1: room 'attic' of module 'high' has no place in docs/architecture.md",
+  'src/high/cellar/stairs.h:2: room cellar of high may not include "high/roof/tiles.h": it lies higher',
+  'src/high/roof/tiles.h:2: room roof of high may not include "high/tall.h": it lies higher',
   "src/lone/lone.cpp:1: module 'lone' has no row in docs/architecture.md",
   'src/low/upward.cpp:1: module low may not include "high/tall.h": its row names nothing',
-  'src/low/upward.cpp:2: no such file: "second.h"; includes are named from src/, as "module/file.h"',
-  "src/low/first.h:3: circle of includes: low/second.h -> low/first.h -> low/second.h",
+  'src/low/upward.cpp:2: no such file: "second.h"; includes are named as "clench/module/file.h"',
+  "src/low/first.h:3: circle of includes: low/second -> low/first -> low/second",
+  "src/low/hen.cpp:1: circle of includes: low/egg -> low/hen -> low/egg",
   "src/high/tall.h:4: 'SoSeparator' belongs to Coin, which is seen only by low/inventor*.cpp",
   "src/low/upward.cpp:3: <lua.h> belongs to Lua, which is seen only by high",
-  "layers: 6 files, 8 faults",
+  "layers: 13 files, 13 faults",
 })
 
 fails_with("lua5.4 scripts/check_packages.lua tests/data/packages/bad", {

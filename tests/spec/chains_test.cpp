@@ -1,4 +1,4 @@
-#include "spec/chains.h"
+#include "clench/spec/chains.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "spec/closing_guess.h"
+#include "clench/spec/closing_guess.h"
 
 #include <numbers>
 
@@ -20,7 +20,9 @@ struct Sketch {
                        const Eigen::Vector3d& centre) {
     BodySpec out;
     out.name = name;
-    if (size.x() > 0) out.shape = Shape::make(test::moved(test::box(size.x(), size.y(), size.z()), Pose::translation(centre)));
+    if (size.x() > 0)
+      out.shape = Shape::make(
+          test::moved(test::box(size.x(), size.y(), size.z()), Pose::translation(centre)));
     return out;
   }
   int add(const std::string& name, int parent, const Pose& X_PL, const Eigen::Vector3d& size,
@@ -33,15 +35,14 @@ struct Sketch {
             JointKind kind = JointKind::revolute) {
     LinkSpec& link = robot.links[number - 1];
     const int dof = static_cast<int>(robot.dofs.size());
-    robot.dofs.push_back({.name = link.body.name + "_joint", .default_value = std::clamp(0.0, min, max)});
+    robot.dofs.push_back(
+        {.name = link.body.name + "_joint", .default_value = std::clamp(0.0, min, max)});
     link.joints.push_back(
         {.kind = kind, .X_PJ = link.X_JL, .axis = axis, .dof = dof, .min = min, .max = max});
     link.X_JL = Pose{};
     return dof;
   }
-  ClosingGuess guess() const {
-    return guess_closing(robot, std::vector<bool>(robot.dofs.size()));
-  }
+  ClosingGuess guess() const { return guess_closing(robot, std::vector<bool>(robot.dofs.size())); }
   /// The links of another one behind those here, its palm moved by the same joints as the link was.
   void append(const Sketch& other, int carrier) {
     const int links = static_cast<int>(robot.links.size()),

@@ -1,11 +1,11 @@
-#include "spec/compliant_coupling.h"
+#include "clench/spec/compliant_coupling.h"
 #include "support/chains.h"
 
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
 
-#include "spec/chains.h"
+#include "clench/spec/chains.h"
 
 using namespace clench;
 

@@ -1,6 +1,6 @@
-#include "spec/eigengrasp_spec.h"
+#include "clench/spec/eigengrasp_spec.h"
 
-#include "base/error.h"
+#include "clench/base/error.h"
 
 using namespace clench;
 using Eigen::VectorXd;

@@ -1,6 +1,6 @@
-#include "spec/material_names.h"
+#include "clench/spec/material_names.h"
 
-#include "base/error.h"
+#include "clench/base/error.h"
 
 using namespace clench;
 

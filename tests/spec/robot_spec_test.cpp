@@ -1,7 +1,7 @@
-#include "spec/check_robot.h"
+#include "clench/spec/check_robot.h"
 
-#include "base/error.h"
-#include "base/random.h"
+#include "clench/base/error.h"
+#include "clench/base/random.h"
 #include "support/chains.h"
 
 using namespace clench;

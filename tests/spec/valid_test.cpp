@@ -1,11 +1,11 @@
-#include "spec/valid.h"
+#include "clench/spec/valid.h"
 
 #include <functional>
 
-#include "base/error.h"
-#include "spec/check_robot.h"
-#include "spec/inertia.h"
-#include "spec/world_spec.h"
+#include "clench/base/error.h"
+#include "clench/spec/check_robot.h"
+#include "clench/spec/inertia.h"
+#include "clench/spec/world_spec.h"
 #include "support/chains.h"
 #include "support/shapes.h"
 

@@ -1,6 +1,6 @@
-#include "spec/virtual_contact_spec.h"
+#include "clench/spec/virtual_contact_spec.h"
 
-#include "base/error.h"
+#include "clench/base/error.h"
 
 using namespace clench;
 

@@ -1,6 +1,6 @@
 // Links and joints of robots by chain and number, as tests name them.
 #pragma once
-#include "model/robot.h"
+#include "clench/model/robot.h"
 
 namespace clench::test {
 

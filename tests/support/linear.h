@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "base/random.h"
+#include "clench/base/random.h"
 
 namespace clench::test {
 

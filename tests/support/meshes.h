@@ -4,9 +4,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/random.h"
-#include "geometry/shape.h"
-#include "math/pose.h"
+#include "clench/base/random.h"
+#include "clench/geometry/tree/shape.h"
+#include "clench/math/pose.h"
 #include "support/shapes.h"
 
 namespace clench::test {

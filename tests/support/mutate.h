@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/random.h"
+#include "clench/base/random.h"
 
 namespace clench::test {
 

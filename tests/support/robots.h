@@ -2,7 +2,7 @@
 #pragma once
 #include <numbers>
 
-#include "model/world.h"
+#include "clench/model/world.h"
 #include "support/chains.h"
 #include "support/shapes.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/shape.h"
+#include "clench/geometry/tree/shape.h"
 
 namespace clench::test {
 

@@ -1,5 +1,5 @@
 // require "clench" from any Lua 5.4: this file alone makes the loadable module.
-#include "script/open.h"
+#include "clench/script/host/open.h"
 
 extern "C" __attribute__((visibility("default"))) int luaopen_clench(lua_State* L) {
   return clench_open(L);

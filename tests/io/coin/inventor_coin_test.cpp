@@ -1,10 +1,10 @@
 // Our reader of Inventor and VRML against Coin: the same triangles, to the bit.
 #include <cstdlib>
 
-#include "base/text.h"
-#include "base/units.h"
+#include "clench/base/text.h"
+#include "clench/base/units.h"
+#include "clench/io/inventor/inventor.h"
 #include "coin_reader.h"
-#include "io/inventor.h"
 #include "support/shared.h"
 
 using namespace clench;

@@ -1,5 +1,5 @@
 #pragma once
-#include "low/second.h"
+#include "clench/low/second.h"
 struct lua_State;
 class SoSeparator;
 struct Solid;

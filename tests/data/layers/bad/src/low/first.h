@@ -1,3 +1,3 @@
 // Includes second.h, which includes this one: a circle of two.
 #pragma once
-#include "low/second.h"
+#include "clench/low/second.h"

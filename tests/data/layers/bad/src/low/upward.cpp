@@ -1,3 +1,3 @@
-#include "high/tall.h"
-#include "second.h"
+#include "clench/high/tall.h"
+#include "clench/second.h"
 #include <lua.h>

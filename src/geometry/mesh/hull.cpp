@@ -1,0 +1,145 @@
+#include "clench/geometry/mesh/hull.h"
+
+#include <libqhull_r/qhull_ra.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+#include "clench/base/error.h"
+#include "clench/math/decompositions.h"
+
+namespace clench {
+
+namespace {
+
+// Points moved to their mean and divided by their spread, so that no digits go to a far origin and
+// tolerances mean the same at every size.
+struct Normalised {
+  Eigen::MatrixXd points;
+  Eigen::VectorXd centre;
+  double scale = 1;
+  double noise = 0;  // rounding of the given coordinates, in units of scale
+
+  explicit Normalised(const Eigen::MatrixXd& given) {
+    const double largest = given.size() > 0 ? given.cwiseAbs().maxCoeff() : 0;
+    centre = Eigen::VectorXd::Zero(given.rows());
+    points = given;
+    if (largest == 0) return;
+    centre = (given / largest).rowwise().mean() * largest;
+    points.colwise() -= centre;
+    const double spread = points.cwiseAbs().maxCoeff();
+    if (spread == 0) return;
+    scale = spread;
+    points /= scale;
+    noise = 8 * std::numeric_limits<double>::epsilon() * largest / scale;
+  }
+};
+
+void check_points(const Eigen::MatrixXd& points, const char* subject) {
+  for (int column = 0; column < points.cols(); ++column)
+    for (int row = 0; row < points.rows(); ++row)
+      if (!(std::abs(points(row, column)) <= 1e50))  // the sixth power is a volume
+        fail("{}: point {}: coordinates must be finite and within 1e50, got {}", subject, column,
+             points(row, column));
+}
+
+int rank_of(const Normalised& n, double tolerance) {
+  if (n.points.cols() < 2 || n.points.rows() < 1) return 0;
+  const Eigen::VectorXd values = singular_value_decomposition(n.points).values;
+  return static_cast<int>((values.array() > std::max(tolerance, n.noise) * values[0]).count());
+}
+
+// qhull's state and what it says, given back whatever happens
+class Qhull {
+ public:
+  Qhull() : said_(open_memstream(&text_, &length_)) {
+    if (!said_) fail(ErrorKind::limit, "convex_hull: no memory for qhull's messages");
+    qh_zero(&state, said_);
+  }
+  ~Qhull() {
+    qh_freeqhull(&state, !qh_ALL);
+    int pieces = 0, bytes = 0;
+    qh_memfreeshort(&state, &pieces, &bytes);
+    std::fclose(said_);
+    std::free(text_);
+  }
+  Qhull(const Qhull&) = delete;
+  Qhull& operator=(const Qhull&) = delete;
+
+  /// false when qhull refuses
+  bool run(Eigen::MatrixXd& points, const char* options) {
+    std::string command = options;
+    return qh_new_qhull(&state, static_cast<int>(points.rows()), static_cast<int>(points.cols()),
+                        points.data(), False, command.data(), nullptr, said_) == qh_ERRnone;
+  }
+  std::string first_line() {
+    std::fflush(said_);
+    const std::string all = text_ ? text_ : "";
+    return all.substr(0, all.find('\n'));
+  }
+
+  qhT state{};
+
+ private:
+  char* text_ = nullptr;
+  size_t length_ = 0;
+  FILE* said_;
+};
+
+void read_facets(qhT* qh, const Normalised& n, Hull& hull) {
+  facetT* facet;
+  vertexT *vertex, **vertexp;
+  int count = 0;
+  FORALLfacets++ count;
+  hull.normals.resize(hull.dimension, count);
+  hull.offsets.resize(count);
+  int column = 0;
+  FORALLfacets {
+    const Eigen::Map<const Eigen::VectorXd> normal(facet->normal, hull.dimension);
+    hull.normals.col(column) = normal;
+    hull.offsets[column] = -facet->offset * n.scale + normal.dot(n.centre);
+    std::vector<int>& corners = hull.facets.emplace_back();
+    FOREACHvertex_(facet->vertices) corners.push_back(qh_pointid(qh, vertex->point));
+    ++column;
+  }
+  hull.volume = qh->totvol * std::pow(n.scale, hull.dimension);
+  hull.area = qh->totarea * std::pow(n.scale, hull.dimension - 1);
+}
+
+}  // namespace
+
+Hull convex_hull(const Eigen::MatrixXd& points) {
+  Hull hull;
+  hull.dimension = static_cast<int>(points.rows());
+  if (hull.dimension < 2 || hull.dimension > 6)
+    fail("convex_hull: dimension must be in 2..6, got {}", hull.dimension);
+  check_points(points, "convex_hull");
+  Normalised n(points);
+  hull.rank = rank_of(n, 1e-10);
+  if (!hull.full()) return hull;
+
+  // Qt: simplices; FA: area and volume; Pp: no warning about precision;
+  // Qs: the widest first simplex
+  std::string refusal;
+  for (const char* options : {"qhull Qt FA Pp", "qhull Qt FA Pp Qs"}) {
+    Qhull qhull;
+    if (qhull.run(n.points, options)) {
+      read_facets(&qhull.state, n, hull);
+      return hull;
+    }
+    refusal = qhull.first_line();
+  }
+  fail(ErrorKind::internal, "convex_hull: qhull refuses {} points in {} dimensions: {}",
+       points.cols(), hull.dimension, refusal);
+}
+
+int affine_rank(const Eigen::MatrixXd& points, double tolerance) {
+  check_points(points, "affine_rank");
+  return rank_of(Normalised(points), tolerance);
+}
+
+}  // namespace clench

@@ -1,0 +1,202 @@
+#include "clench/geometry/mesh/mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "clench/base/error.h"
+#include "clench/base/hash.h"
+
+namespace clench {
+
+using Eigen::Vector3d;
+
+namespace {
+
+double doubled_area(const std::array<Vector3d, 3>& c) {
+  return (c[1] - c[0]).cross(c[2] - c[0]).norm();
+}
+
+bool repeats_a_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+void count_edges(const Mesh& mesh, MeshFaults& faults) {
+  // each edge as (lower, higher, backwards), sorted, so that its triangles stand together
+  std::vector<std::array<int, 3>> edges;
+  for (const Triangle& t : mesh.triangles) {
+    if (repeats_a_vertex(t)) continue;  // it covers no side of any edge
+    for (int i = 0; i < 3; ++i) {
+      const int from = t[i], to = t[(i + 1) % 3];
+      edges.push_back({std::min(from, to), std::max(from, to), from > to});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (size_t i = 0; i < edges.size();) {
+    size_t end = i + 1;
+    while (end < edges.size() && edges[end][0] == edges[i][0] && edges[end][1] == edges[i][1])
+      ++end;
+    if (end - i == 1)
+      ++faults.open_edges;
+    else if (end - i > 2 || edges[i][2] == edges[i + 1][2])
+      ++faults.tangled_edges;
+    i = end;
+  }
+}
+
+int count_duplicates(const Mesh& mesh) {
+  std::vector<Triangle> sorted = mesh.triangles;
+  for (Triangle& t : sorted) std::sort(t.begin(), t.end());
+  std::sort(sorted.begin(), sorted.end());
+  const auto unique = std::unique(sorted.begin(), sorted.end());
+  return static_cast<int>(sorted.end() - unique);
+}
+
+int count_unused(const Mesh& mesh) {
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for (const Triangle& t : mesh.triangles)
+    for (const int v : t) used[v] = 1;
+  return static_cast<int>(std::count(used.begin(), used.end(), 0));
+}
+
+// Kept vertices by the cell of a grid; only looked up, never walked through.
+class VertexGrid {
+ public:
+  explicit VertexGrid(double tolerance) : tolerance_(tolerance) {}
+
+  /// first kept vertex within the tolerance of p, or -1
+  int find(const Vector3d& p, const std::vector<Vector3d>& kept) const {
+    const Cell low = cell(p, -tolerance_), high = cell(p, tolerance_);
+    int found = -1;
+    for (int corner = 0; corner < 8; ++corner) {
+      Cell c = low;
+      bool repeated = false;
+      for (int i = 0; i < 3; ++i) {
+        if (!(corner >> i & 1)) continue;
+        repeated = repeated || low[i] == high[i];
+        c[i] = high[i];
+      }
+      const auto members = repeated ? cells_.end() : cells_.find(c);
+      if (members == cells_.end()) continue;
+      for (const int v : members->second)
+        if ((kept[v] - p).norm() <= tolerance_ && (found < 0 || v < found)) found = v;
+    }
+    return found;
+  }
+  void add(const Vector3d& p, int vertex) { cells_[cell(p, 0)].push_back(vertex); }
+
+ private:
+  using Cell = std::array<double, 3>;
+  struct CellHash {
+    size_t operator()(const Cell& cell) const {
+      Hasher hasher;
+      for (const double x : cell) hasher.add(x);
+      return hasher.value();
+    }
+  };
+  // without tolerance a cell is a position; adding zero makes -0 and 0 one
+  Cell cell(const Vector3d& p, double shift) const {
+    if (tolerance_ == 0) return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};
+    const double width = std::max(4 * tolerance_, 1e-200);
+    return {std::floor((p.x() + shift) / width) + 0.0, std::floor((p.y() + shift) / width) + 0.0,
+            std::floor((p.z() + shift) / width) + 0.0};
+  }
+
+  double tolerance_;
+  std::unordered_map<Cell, std::vector<int>, CellHash> cells_;
+};
+
+void check_indices(const Mesh& mesh, const std::string& subject) {
+  const int count = static_cast<int>(mesh.vertices.size());
+  for (size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (const int v : mesh.triangles[i])
+      if (v < 0 || v >= count)
+        fail("{}: triangle {}: vertex index must be in 0..{}, got {}", subject, i, count - 1, v);
+}
+
+void append(std::string& text, int count, const char* one, const char* many) {
+  if (count == 0) return;
+  text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, count == 1 ? one : many);
+}
+
+}  // namespace
+
+bool without_area(const Mesh& mesh, int triangle) {
+  if (repeats_a_vertex(mesh.triangles[triangle])) return true;
+  const auto c = mesh.corners(triangle);
+  const double longest = std::max(
+      {(c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm()});
+  // what rounding leaves of three points in a line
+  return doubled_area(c) <= 8 * std::numeric_limits<double>::epsilon() * longest;
+}
+
+Bounds Mesh::bounds() const {
+  Bounds b;
+  for (const Vector3d& p : vertices) b.add(p);
+  return b;
+}
+
+double Mesh::area() const {
+  double sum = 0;
+  for (size_t i = 0; i < triangles.size(); ++i) sum += doubled_area(corners(static_cast<int>(i)));
+  return 0.5 * sum;
+}
+
+std::string MeshFaults::describe() const {
+  std::string text;
+  append(text, open_edges, "open edge", "open edges");
+  append(text, tangled_edges, "tangled edge", "tangled edges");
+  append(text, degenerate_triangles, "degenerate triangle", "degenerate triangles");
+  append(text, duplicate_triangles, "duplicate triangle", "duplicate triangles");
+  append(text, unused_vertices, "unused vertex", "unused vertices");
+  return text.empty() ? "no faults" : text;
+}
+
+MeshFaults find_faults(const Mesh& mesh, const Progress& progress) {
+  check_indices(mesh, "find_faults");
+  MeshFaults faults;
+  for (size_t i = 0; i < mesh.triangles.size(); ++i)
+    faults.degenerate_triangles += without_area(mesh, static_cast<int>(i));
+  progress.check();
+  count_edges(mesh, faults);
+  progress.check();
+  faults.duplicate_triangles = count_duplicates(mesh);
+  faults.unused_vertices = count_unused(mesh);
+  return faults;
+}
+
+Mesh weld(const Mesh& mesh, double tolerance, int* dropped) {
+  if (!(tolerance >= 0)) fail("weld: tolerance must be >= 0 [m], got {}", tolerance);
+  check_indices(mesh, "weld");
+  Mesh out;
+  VertexGrid grid(tolerance);
+  std::vector<int> renamed;
+  renamed.reserve(mesh.vertices.size());
+  for (const Vector3d& p : mesh.vertices) {
+    int v = grid.find(p, out.vertices);
+    if (v < 0) {
+      v = static_cast<int>(out.vertices.size());
+      grid.add(p, v);
+      out.vertices.push_back(p);
+    }
+    renamed.push_back(v);
+  }
+  for (const Triangle& t : mesh.triangles) {
+    const Triangle r = {renamed[t[0]], renamed[t[1]], renamed[t[2]]};
+    if (!repeats_a_vertex(r)) out.triangles.push_back(r);
+  }
+  if (dropped) *dropped = static_cast<int>(mesh.triangles.size() - out.triangles.size());
+  return out;
+}
+
+void check_mesh(const Mesh& mesh, const std::string& subject) {
+  if (mesh.triangles.empty()) fail("{}: at least one triangle expected, got none", subject);
+  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vector3d& p = mesh.vertices[i];
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > largest_coordinate)
+      fail("{}: vertex {}: coordinates must be finite and within {} [m], got ({}, {}, {})", subject,
+           i, largest_coordinate, p.x(), p.y(), p.z());
+  }
+  check_indices(mesh, subject);
+}
+
+}  // namespace clench

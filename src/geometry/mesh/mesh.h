@@ -1,0 +1,74 @@
+// Triangle meshes as values: positions, triangles, and what follows from them.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "clench/base/progress.h"
+
+namespace clench {
+
+using Triangle = std::array<int, 3>;  ///< vertex indices, counter-clockwise from outside
+
+/// Of a vertex, as of where things stand in a world; a thousand times beyond it queries lose digits [m].
+inline constexpr double largest_coordinate = 1e9;
+
+/// Axis-aligned bounds; empty when low > high.
+struct Bounds {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d high = -low;
+
+  void add(const Eigen::Vector3d& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); }
+  bool holds(const Eigen::Vector3d& p) const {
+    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+  }
+  bool empty() const { return (low.array() > high.array()).any(); }
+  Eigen::Vector3d centre() const { return 0.5 * (low + high); }
+  Eigen::Vector3d size() const { return high - low; }
+};
+
+/// Vertices [m] and triangles. Plain data: build it, then hand it to Shape::make.
+struct Mesh {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Triangle> triangles;
+
+  std::array<Eigen::Vector3d, 3> corners(int triangle) const {
+    const auto& t = triangles[triangle];
+    return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+  }
+  Bounds bounds() const;
+  double area() const;  ///< [m^2]
+};
+
+/// What is wrong with a mesh, counted. A closed mesh has no open or tangled edge.
+struct MeshFaults {
+  int degenerate_triangles = 0;  ///< no area, or a vertex twice
+  int duplicate_triangles = 0;   ///< same three vertices as an earlier one
+  int open_edges = 0;            ///< edges of one triangle only
+  int tangled_edges = 0;         ///< edges of more than two triangles, or run twice the same way
+  int unused_vertices = 0;
+
+  bool closed() const { return open_edges == 0 && tangled_edges == 0; }
+  bool none() const {
+    return closed() && degenerate_triangles + duplicate_triangles + unused_vertices == 0;
+  }
+  std::string describe() const;  ///< "2 open edges, 1 degenerate triangle", or "no faults"
+};
+
+/// Has the triangle a vertex twice, or no more area than rounding leaves of three points in a line?
+bool without_area(const Mesh& mesh, int triangle);
+
+/// throws Stopped
+MeshFaults find_faults(const Mesh& mesh, const Progress& progress = {});
+
+/// Vertices nearer than tolerance [m] become one (exactly equal ones when 0); triangles keep their
+/// order; those left with a vertex twice are dropped, and counted in `dropped`.
+Mesh weld(const Mesh& mesh, double tolerance = 0, int* dropped = nullptr);
+
+/// Positions finite, indices in range, at least one triangle.
+/// throws  Error naming the vertex or triangle where it is not so
+void check_mesh(const Mesh& mesh, const std::string& subject);
+
+}  // namespace clench

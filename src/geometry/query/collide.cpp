@@ -1,0 +1,27 @@
+#include "clench/geometry/query/containment.h"
+#include "clench/geometry/query/queries.h"
+
+namespace clench {
+
+bool colliding(const Shape& a, const Shape& b, const Pose& X_AB, PairCache* cache) {
+  const Placement placement(a, b, X_AB);
+  const auto meet = [&](int triangle_a, int triangle_b) {
+    return triangles_meet(placement.corners_a(triangle_a), placement.corners_b(triangle_b));
+  };
+  if (cache && cache->measured.shapes == fingerprint(a, b) &&
+      motion_bound(b, cache->measured.X_AB, X_AB) < cache->measured.clear)
+    return false;
+  // what met last time often still does
+  if (cache && a.has_triangle(cache->hit_a) && b.has_triangle(cache->hit_b) &&
+      meet(cache->hit_a, cache->hit_b))
+    return true;
+  if (placement.clearly_apart(0, cache)) return false;
+  const bool hit = for_meeting_pairs(placement.trees(), [&](int triangle_a, int triangle_b) {
+    if (!meet(triangle_a, triangle_b)) return false;
+    if (cache) cache->hit_a = triangle_a, cache->hit_b = triangle_b;
+    return true;
+  });
+  return hit || find_containment(a, b, placement).has_value();
+}
+
+}  // namespace clench

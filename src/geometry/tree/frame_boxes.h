@@ -1,0 +1,73 @@
+// The boxes of a tree in the frame of a query: a bundle is moved when first asked for, and kept, as a
+// query comes back to most of them. For the walks only.
+#pragma once
+#include <cstring>
+
+#include "clench/geometry/tree/box_lanes.h"
+
+namespace clench {
+
+/// Eight boxes by rows of eight numbers: nine of axes, three of centres, three of half extents.
+template <class Real>
+using BoxRows = const Real*;
+
+inline constexpr int box_rows = 15;
+
+template <class F>
+CLENCH_INLINE BoxOf<F> eight_of(BoxRows<typename F::Real> rows) {
+  BoxOf<F> out;
+  static_assert(sizeof out == 8 * box_rows * sizeof *rows);
+  std::memcpy(&out, rows, sizeof out);
+  return out;
+}
+
+template <class Real>
+CLENCH_INLINE BoxOf<Real> one_of(BoxRows<Real> rows, int lane) {
+  const auto triple = [&](int row) {
+    return Triple<Real>{rows[8 * row + lane], rows[8 * row + 8 + lane], rows[8 * row + 16 + lane]};
+  };
+  return {{triple(0), triple(3), triple(6)},
+          triple(9),
+          {rows[8 * 12 + lane], rows[8 * 13 + lane], rows[8 * 14 + lane]}};
+}
+
+/// Moved: into the frame of the other tree; else about the tree's own centre.
+template <class F, bool Moved>
+class FrameBoxes {
+  using Real = typename F::Real;
+  static constexpr bool as_stored = !Moved && sizeof(Real) == sizeof(float);
+  static constexpr int kept = as_stored ? 1 : 32;
+
+ public:
+  CLENCH_INLINE FrameBoxes(const Tree& tree, const Move<Real>& move) : tree_(tree), move_(move) {
+    for (int& number : numbers_) number = -1;
+  }
+
+  /// valid until the next call
+  CLENCH_INLINE BoxRows<Real> operator()(int bundle) {
+    if constexpr (as_stored) {
+      static_assert(offsetof(BoxBundle, centre) == 9 * 8 * sizeof(float) &&
+                    offsetof(BoxBundle, half) == 12 * 8 * sizeof(float));
+      return reinterpret_cast<const float*>(&tree_.boxes(bundle));
+    } else {
+      const int slot = bundle % kept;
+      if (numbers_[slot] != bundle) fetch(bundle, slot);
+      return rows_[slot];
+    }
+  }
+
+ private:
+  CLENCH_INLINE void fetch(int bundle, int slot) {
+    numbers_[slot] = bundle;
+    BoxOf<F> eight = load_boxes<F>(tree_.boxes(bundle));
+    if constexpr (Moved) eight = moved(eight, move_);
+    std::memcpy(rows_[slot], &eight, sizeof eight);
+  }
+
+  const Tree& tree_;
+  const Move<Real> move_;
+  int numbers_[kept];
+  alignas(64) Real rows_[kept][8 * box_rows];
+};
+
+}  // namespace clench

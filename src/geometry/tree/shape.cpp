@@ -1,0 +1,131 @@
+#include "clench/geometry/tree/shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "clench/base/hash.h"
+#include "clench/geometry/tree/tree.h"
+
+namespace clench {
+
+namespace {
+
+// Union and find over vertices: the lowest index stands for the whole part.
+class Parts {
+ public:
+  explicit Parts(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  int find(int v) {
+    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    return v;
+  }
+  void join(int u, int v) {
+    u = find(u), v = find(v);
+    parent_[std::max(u, v)] = std::min(u, v);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+Parts parts_of(const Mesh& mesh) {
+  Parts parts(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles) parts.join(t[0], t[1]), parts.join(t[0], t[2]);
+
+  // files without shared vertices are connected by position
+  std::vector<int> order(mesh.vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int v) {
+    const Eigen::Vector3d& p = mesh.vertices[v];
+    return std::array<double, 3>{p.x(), p.y(), p.z()};
+  };
+  std::sort(order.begin(), order.end(), [&](int u, int v) { return key(u) < key(v); });
+  for (size_t i = 1; i < order.size(); ++i)
+    if (mesh.vertices[order[i - 1]] == mesh.vertices[order[i]]) parts.join(order[i - 1], order[i]);
+  return parts;
+}
+
+Shape::Extremes farthest_along_axes(const Mesh& mesh, const std::vector<int>& vertices) {
+  Shape::Extremes out;
+  out.fill(mesh.vertices[vertices[0]]);
+  for (const int v : vertices) {
+    const Eigen::Vector3d& p = mesh.vertices[v];
+    for (int k = 0; k < 3; ++k) {
+      if (p[k] < out[2 * k][k]) out[2 * k] = p;
+      if (p[k] > out[2 * k + 1][k]) out[2 * k + 1] = p;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Shape::Shape() = default;
+Shape::~Shape() = default;
+
+bool Shape::has_volume() const {
+  return closed() && std::abs(solid_.volume) > 1e-9 * radius_ * radius_ * radius_;
+}
+
+void Shape::find_parts() {
+  // beyond that many, their extremes would take more room than the mesh
+  constexpr size_t few = 64;
+  Parts parts = parts_of(mesh_);
+  // the number of the part by the vertex that stands for it
+  std::vector<int> numbers(mesh_.vertices.size(), -1);
+  for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    int& number = numbers[parts.find(mesh_.triangles[i][0])];
+    if (number >= 0) continue;
+    number = static_cast<int>(parts_.size());
+    parts_.push_back(static_cast<int>(i));
+  }
+  if (parts_.size() > few) return;
+  std::vector<std::vector<int>> vertices(parts_.size());
+  for (int v = 0; v < static_cast<int>(numbers.size()); ++v)
+    if (const int number = numbers[parts.find(v)]; number >= 0) vertices[number].push_back(v);
+  for (const auto& members : vertices)
+    part_extremes_.push_back(farthest_along_axes(mesh_, members));
+}
+
+std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject,
+                                         const Progress& progress) {
+  check_mesh(mesh, subject);
+  const std::shared_ptr<Shape> shape(new Shape);
+  shape->mesh_ = std::move(mesh);
+  shape->faults_ = find_faults(shape->mesh_, progress);
+  progress.check();
+  shape->solid_ = solid_mass(shape->mesh_);
+  for (const Triangle& t : shape->mesh_.triangles)
+    for (const int v : t) shape->bounds_.add(shape->mesh_.vertices[v]);
+  shape->centre_ = shape->bounds_.centre();
+  shape->radius_ = largest_radius(shape->mesh_, shape->centre_);
+  progress.check();
+  shape->find_parts();
+  progress.check();
+  Hasher hasher;
+  for (const Eigen::Vector3d& v : shape->mesh_.vertices)
+    for (const double x : v) hasher.add(x);
+  for (const Triangle& t : shape->mesh_.triangles)
+    for (const int v : t) hasher.add(static_cast<uint64_t>(v));
+  shape->hash_ = hasher.value();
+  return shape;
+}
+
+size_t Shape::bytes() const {
+  constexpr size_t tree_bytes = 100;  // of a triangle, in bundles that are not full
+  return sizeof *this + mesh_.vertices.capacity() * sizeof(Eigen::Vector3d) +
+         mesh_.triangles.capacity() * (sizeof(Triangle) + tree_bytes) +
+         part_extremes_.capacity() * sizeof(Extremes);
+}
+
+const Tree& Shape::build_tree(const Progress& progress) const {
+  const std::lock_guard lock(building_);
+  if (!tree_) {
+    tree_ = std::make_unique<const Tree>(mesh_, progress);
+    built_.store(tree_.get(), std::memory_order_release);
+  }
+  return *tree_;
+}
+
+}  // namespace clench

@@ -1,0 +1,72 @@
+// A mesh ready to be queried: immutable, shared between worlds and threads.
+#pragma once
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+
+#include "clench/base/progress.h"
+#include "clench/geometry/mesh/mass.h"
+#include "clench/geometry/mesh/mesh.h"
+
+namespace clench {
+
+// bounding volumes over the triangles; its layout is nobody's business but the queries'
+class Tree;
+
+class Shape {
+ public:
+  using Extremes = std::array<Eigen::Vector3d, 6>;
+
+  /// throws Error when check_mesh does, `subject` names the mesh in it; Stopped
+  static std::shared_ptr<const Shape> make(Mesh mesh, const std::string& subject = "mesh",
+                                           const Progress& progress = {});
+  ~Shape();
+
+  const Mesh& mesh() const { return mesh_; }
+  const MeshFaults& faults() const { return faults_; }
+  const MassProperties& solid() const { return solid_; }
+  bool has_triangle(int i) const { return i >= 0 && i < static_cast<int>(mesh_.triangles.size()); }
+  const Bounds& bounds() const { return bounds_; }
+  bool closed() const { return faults_.closed(); }
+  /// Is it closed, with a volume that its surface can hold? A sheet folded on itself has none.
+  bool has_volume() const;
+  /// centre and radius [m] of a sphere that holds the mesh
+  const Eigen::Vector3d& centre() const { return centre_; }
+  double radius() const { return radius_; }
+  /// one triangle of each connected part (vertices at one place connect), in index order
+  const std::vector<int>& parts() const { return parts_; }
+  /// of each part, its vertices farthest along -x, x, -y, y, -z and z; empty where parts are many
+  const std::vector<Extremes>& part_extremes() const { return part_extremes_; }
+  /// fingerprint of vertices and triangles: equal for equal bits
+  uint64_t hash() const { return hash_; }
+  /// that it takes, about, with its tree
+  size_t bytes() const;
+  /// built when first asked: who reads, checks or converts a mesh needs none. Any thread may ask.
+  /// throws Stopped, and then has none
+  const Tree& tree(const Progress& progress = {}) const {
+    const Tree* const built = built_.load(std::memory_order_acquire);
+    return built ? *built : build_tree(progress);
+  }
+
+ private:
+  Shape();
+  void find_parts();
+  const Tree& build_tree(const Progress& progress) const;
+  Mesh mesh_;
+  MeshFaults faults_;
+  MassProperties solid_;
+  Bounds bounds_;
+  Eigen::Vector3d centre_;
+  double radius_ = 0;
+  std::vector<int> parts_;
+  uint64_t hash_ = 0;
+  std::vector<Extremes> part_extremes_;
+  mutable std::mutex building_;
+  mutable std::unique_ptr<const Tree> tree_;
+  mutable std::atomic<const Tree*> built_ = nullptr;
+};
+
+using ShapePtr = std::shared_ptr<const Shape>;
+
+}  // namespace clench

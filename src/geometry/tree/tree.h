@@ -1,0 +1,63 @@
+// A tree of oriented boxes, eight children a node, over the triangles of a mesh: single precision,
+// outward. Boxes and corners are about the tree's centre. Includes no Eigen, as lanes.h does not.
+// source  Gottschalk, Lin & Manocha (1996), OBBTree; Dammertz, Hanika & Keller (2008), wide trees
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "clench/geometry/tree/bounding_polytope.h"
+
+namespace clench {
+
+struct Mesh;
+class Progress;
+
+/// Eight boxes side by side: the children of a node.
+struct alignas(32) BoxBundle {
+  float axes[9][8];  ///< component m of axis k of box i at [3 k + m][i]; unit up to rounding
+  float centre[3][8];
+  float half[3][8];  ///< half extents along the axes, rounded up
+  float size[8];     ///< half the diagonal
+  int32_t child[8];  ///< leaf: 2 * number + 1, node: 2 * number; -1 where there is none
+};
+
+/// Up to eight triangles: a leaf. Lanes without one repeat the first.
+struct alignas(32) TriangleBundle {
+  float corners[9][8];  ///< coordinate m of corner k of triangle i at [3 k + m][i], rounded
+  int32_t triangle[8];  ///< in the mesh; -1 where there is none
+};
+
+class Tree {
+ public:
+  /// at least one triangle; coordinates finite   throws Stopped
+  Tree(const Mesh& mesh, const Progress& progress);
+
+  /// number 0 holds one box alone, that of the whole mesh
+  const BoxBundle& boxes(int i) const { return boxes_[i]; }
+  const TriangleBundle& leaf(int i) const { return leaves_[i]; }
+  /// asks for the memory of a child, which will be needed soon
+  void prefetch(int child) const {
+    const void* at = child & 1 ? static_cast<const void*>(&leaf(child >> 1)) : &boxes(child >> 1);
+    // every other line: the next one comes along
+    for (int line = 0; line < 3; ++line)
+      __builtin_prefetch(static_cast<const char*>(at) + 128 * line);
+  }
+  const BoundingPolytope& bounding_polytope() const { return bounding_polytope_; }
+  const double* centre() const { return centre_; }  ///< in the mesh's frame [m]
+  double radius() const { return radius_; }         ///< no vertex is farther from the centre [m]
+  std::size_t bytes() const;
+
+ private:
+  friend class TreeBuilder;
+  std::vector<BoxBundle> boxes_;
+  std::vector<TriangleBundle> leaves_;
+  BoundingPolytope bounding_polytope_;
+  double centre_[3] = {};
+  double radius_ = 0;
+};
+
+/// no path from the root passes more bundles
+inline constexpr int deepest_tree = 70;
+
+}  // namespace clench

@@ -1,0 +1,85 @@
+#include "clench/grasp/force/hand_jacobian.h"
+
+#include <cmath>
+
+namespace clench {
+
+namespace {
+
+// a robot on the way from the ground to the hand, and the link of it that carries the next one; the hand: none
+struct Carrier {
+  Id<Robot> robot;
+  int link = -1;
+};
+
+std::vector<Carrier> carriers(const World& world, Id<Robot> hand, bool arms) {
+  std::vector<Carrier> out = {{hand}};
+  while (arms) {
+    const auto& mounting = world.robot(out.back().robot).mounting;
+    if (!mounting) break;
+    out.push_back({mounting->parent, mounting->link});
+  }
+  return out;
+}
+
+// a joint's axis in the world
+struct Axis {
+  bool turns;
+  Eigen::Vector3d along, point;
+};
+
+// the column of one joint
+void fill_column(Eigen::Ref<Eigen::VectorXd> column, const Grasp& grasp, const GraspMap& map, int i,
+                 const Pose& X_WO, const Axis& axis) {
+  const Eigen::Vector3d& z = axis.along;
+  const Eigen::Vector3d p_W = X_WO * grasp.points[i].p_O;
+  const Eigen::Vector3d v = axis.turns ? Eigen::Vector3d(z.cross(p_W - axis.point)) : z;
+  const Eigen::Matrix3d frame = X_WO.matrix() * contact_frame(grasp.points[i].n_O);
+  const int start = map.starts[i], count = map.starts[i + 1] - start;
+  for (int k = 0; k < std::min(count, 3); ++k) column[start + k] = frame.col((k + 2) % 3).dot(v);
+  if (count == 4) column[start + 3] = axis.turns ? frame.col(2).dot(z) : 0;
+}
+
+}  // namespace
+
+HandJacobian hand_jacobian(const World& world, const Grasp& grasp, const JacobianOptions& options) {
+  check_unmoved(world, grasp);
+  const GraspMap map = grasp_map(grasp.points, grasp.com);
+  const Pose& X_WO = world.pose(grasp.object);
+  std::vector<Eigen::VectorXd> columns;
+  HandJacobian out;
+  for (const Carrier& carrier : carriers(world, grasp.hand, options.arms)) {
+    const Robot& robot = world.robot(carrier.robot);
+    const auto frames = world.frames(carrier.robot);
+    for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
+      const Axis axis = {robot.joints[j].kind == JointKind::revolute, frames.axis(robot, j),
+                         frames.joints[j].position};
+      Eigen::VectorXd column = Eigen::VectorXd::Zero(map.forces());
+      for (int i = 0; i < map.contacts(); ++i) {
+        const bool own = carrier.robot == grasp.hand;
+        const int link = own ? world.body(grasp.contacts[i].other).link : carrier.link;
+        if (joint_moves_link(robot, j, link)) fill_column(column, grasp, map, i, X_WO, axis);
+      }
+      out.joints.push_back({carrier.robot, j});
+      columns.push_back(std::move(column));
+    }
+  }
+  out.of_joints.resize(map.forces(), static_cast<int>(columns.size()));
+  for (size_t k = 0; k < columns.size(); ++k) out.of_joints.col(static_cast<int>(k)) = columns[k];
+  return out;
+}
+
+Eigen::MatrixXd dof_jacobian(const World& world, const Grasp& grasp, const HandJacobian& jacobian) {
+  const Robot& hand = world.robot(grasp.hand);
+  Eigen::MatrixXd out =
+      Eigen::MatrixXd::Zero(jacobian.of_joints.rows(), static_cast<int>(hand.dofs.size()));
+  for (size_t k = 0; k < jacobian.joints.size(); ++k) {
+    const JointRef& ref = jacobian.joints[k];
+    if (ref.robot != grasp.hand || !world.follows_dof(grasp.hand, ref.joint)) continue;
+    const Joint& joint = hand.joints[ref.joint];
+    out.col(joint.dof) += joint.ratio * jacobian.of_joints.col(static_cast<int>(k));
+  }
+  return out;
+}
+
+}  // namespace clench

@@ -1,0 +1,71 @@
+// What a grasp is worth: numbers by name, from which planners and people choose.
+#pragma once
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "clench/grasp/measure/contact_polygon.h"
+#include "clench/grasp/measure/robustness.h"
+#include "clench/grasp/wrench/grasp.h"
+
+namespace clench {
+
+/// A grasp being judged: what several measures need is calculated once. The world must stand as it did
+/// when the grasp was measured.
+class MeasuredGrasp {
+ public:
+  MeasuredGrasp(const MeasuredGrasp&) = delete;
+  MeasuredGrasp& operator=(const MeasuredGrasp&) = delete;
+  /// Wrench spaces are those that the grasp keeps.
+  MeasuredGrasp(const World& world, const Grasp& grasp, const Progress& progress = {});
+
+  /// throws  Error as check_unmoved does
+  const World& world() const;
+  const Progress& progress() const { return progress_; }
+  const Grasp& grasp() const { return grasp_; }
+  const WrenchSpace& space(const GraspSpaceOptions& options = {}) {
+    return *space_of(grasp_, options);
+  }
+  const ContactPolygon& polygon();  ///< of the contact points, object frame; at least one contact
+  /// of the grasp map, torques over rho, descending; 6, the last ones 0 where it has fewer columns
+  const Vector6d& singular_values();
+  /// of the map from velocities of the DOFs to the object's twist (v, rho omega), descending [m]
+  const Vector6d& hand_singular_values();
+  /// with all contacts sticking, the object's weight and at most 10 N a contact
+  const Robustness& robustness();
+  RobustnessProblem robustness_problem();
+
+ private:
+  struct Maps {
+    Eigen::MatrixXd G, J;  // torques and turns by rho
+    std::vector<int> starts;
+  };
+  const Maps& maps();
+
+  const World& world_;
+  const Grasp& grasp_;
+  const Progress progress_;
+  std::optional<ContactPolygon> polygon_;
+  std::optional<Maps> maps_;
+  std::optional<Vector6d> values_, hand_values_;
+  std::optional<Robustness> robustness_;
+};
+
+struct Measure {
+  std::string_view name;
+  std::string_view what;
+  std::string_view range;
+  std::string_view unit;  ///< "1": a bare number
+  bool higher_is_better;
+  std::string_view source;
+  /// finite, or infinite where there is nothing to measure
+  double (*of)(MeasuredGrasp&);
+};
+
+/// All of them, in the order of the pages.
+std::span<const Measure> measures();
+
+/// throws Error with a near name when there is none
+const Measure& find_measure(std::string_view name);
+
+}  // namespace clench

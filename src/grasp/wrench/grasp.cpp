@@ -1,0 +1,151 @@
+#include "clench/grasp/wrench/grasp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "clench/base/error.h"
+
+namespace clench {
+
+// contacts that share a site have one patch
+static void add_torsion(Grasp& grasp, const GraspOptions& options) {
+  std::map<const SoftSite*, SoftPatch> known;
+  for (size_t i = 0; i < grasp.contacts.size(); ++i) {
+    const SoftSite* const site = grasp.contacts[i].site.get();
+    if (!site) continue;
+    const auto [found, is_new] = known.try_emplace(site);
+    SoftPatch& patch = found->second;
+    if (is_new) patch = soft_patch(*site);
+    grasp.points[i].torsion_radius =
+        torsion_radius(patch, options.normal_force.of(static_cast<int>(i)), options.modulus);
+    grasp.contacts_at_edges += patch.at_edge;
+  }
+}
+
+static Pose hand_in_object(const World& world, Id<Robot> hand, Id<Body> object) {
+  return world.pose(object).inverse() * world.pose(world.robot(hand).base);
+}
+
+void check_unmoved(const World& world, const Grasp& grasp) {
+  // of metres and radians: a hundredth of the usual contact threshold, far above rounding
+  constexpr double moved = 1e-6;
+  if (!grasp.X_OH) return;
+  const Pose off = grasp.X_OH->inverse() * hand_in_object(world, grasp.hand, grasp.object);
+  const bool object = off.position.norm() > moved || off.angle() > moved;
+  const bool joints =
+      !std::ranges::equal(grasp.joints, world.joints(grasp.hand),
+                          [](double a, double b) { return std::abs(a - b) <= moved; });
+  const bool friction = std::ranges::any_of(grasp.contacts, [&](const Contact& c) {
+    const Friction f =
+        world.materials().friction(world.body(c.body).material, world.body(c.other).material);
+    return f.statics != c.friction.statics;
+  });
+  if (friction)
+    fail(ErrorKind::stale,
+         "grasp of {} by {}: friction has changed since it was measured; measure it anew",
+         world.body(grasp.object).name, world.robot(grasp.hand).name);
+  if (object || joints)
+    fail(ErrorKind::stale, "grasp of {} by {}: {} since it was measured; measure it anew",
+         world.body(grasp.object).name, world.robot(grasp.hand).name,
+         joints ? "joints of the hand have moved" : "hand and object have moved apart");
+}
+
+Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
+                    const GraspOptions& options) {
+  const Body& held = world.body(object);
+  const std::string& hand_name = world.robot(hand).name;
+  const auto refuse = [&](const std::string& why) {
+    fail("grasp of {} by {}: {}", held.name, hand_name, why);
+  };
+  if (held.robot)
+    refuse(fmt::format("{} is a part of {}", held.name, world.robot(held.robot).name));
+  if ((options.edges < 3 || options.edges > max_edges) && options.edges != round_edges)
+    refuse(fmt::format("edges must be 3 to {}, got {}", max_edges, options.edges));
+  if (options.rho && !(std::isfinite(*options.rho) && *options.rho > 0))
+    refuse(fmt::format("rho must be > 0 [m], got {}", *options.rho));
+  // of many contacts some may carry nothing
+  const auto& forces = options.normal_force.values;
+  for (const double force : forces)
+    if (!(std::isfinite(force) && (force > 0 || (force == 0 && forces.size() > 1))))
+      refuse(fmt::format("the normal force must be > 0 [N], got {}", force));
+
+  Grasp grasp;
+  grasp.hand = hand;
+  grasp.object = object;
+  grasp.hand_name = hand_name;
+  grasp.object_name = held.name;
+  grasp.hand_file = world.robot(hand).source;
+  grasp.object_file = held.source;
+  grasp.X_OH = hand_in_object(world, hand, object);
+  const auto dofs = world.dofs(hand), joints = world.joints(hand);
+  grasp.dofs.assign(dofs.begin(), dofs.end());
+  grasp.joints.assign(joints.begin(), joints.end());
+  grasp.com = held.com;
+  grasp.options = options;
+  // a body without extent has no contacts either: any length will do
+  const double radius = held.max_radius();
+  const double gyration = std::sqrt(std::max(0.0, held.inertia_per_mass.trace() / 2));
+  grasp.largest_radius = radius > 0 ? radius : 1;
+  grasp.gyration_radius = gyration > 0 ? gyration : 1;
+  grasp.rho = options.rho.value_or(grasp.length(options.length));
+
+  const auto parts = world.bodies_of(hand);
+  grasp.contacts = contacts(world, parts, std::span(&object, 1));
+  const Pose X_OW = world.pose(object).inverse();
+  for (const Contact& contact : grasp.contacts) {
+    grasp.links.push_back(world.body(contact.other).name);
+    grasp.points.push_back({.p_O = X_OW * contact.p_W,
+                            .n_O = (X_OW.rotation * contact.n_W).normalized(),
+                            .mu = contact.friction.statics});
+  }
+  if (forces.empty() || !options.normal_force.fits(grasp.contacts.size()))
+    refuse(fmt::format("normal_force: expected one number or {}, one per contact, got {}",
+                       grasp.contacts.size(), forces.size()));
+  if (options.soft) add_torsion(grasp, options);
+  return grasp;
+}
+
+void apply_grasp(World& world, const GraspSpec& grasp) {
+  const auto refuse = [&](const std::string& why) {
+    fail("grasp of {} by {}: {}", grasp.object_name, grasp.hand_name, why);
+  };
+  const auto hand = world.find_robot(grasp.hand_name);
+  const auto object = world.find_body(grasp.object_name);
+  if (!hand) refuse("there is no such hand in this world");
+  if (!object) refuse("there is no such object in this world");
+  if (!grasp.X_OH) refuse("it was put together by hand and says not how the hand stands");
+  const Robot& robot = world.robot(hand);
+  if (grasp.dofs.size() != robot.dofs.size() || grasp.joints.size() != robot.joints.size())
+    refuse(fmt::format("it has {} DOFs and {} joints, the hand {} and {}", grasp.dofs.size(),
+                       grasp.joints.size(), robot.dofs.size(), robot.joints.size()));
+  const Pose before = world.pose(robot.base);
+  world.set_pose(hand, world.pose(object) * *grasp.X_OH);
+  const auto q = Eigen::Map<const Eigen::VectorXd>(grasp.dofs.data(), std::ssize(grasp.dofs));
+  try {
+    world.set_dofs(hand, q);
+  } catch (const Error&) {
+    world.set_pose(hand, before);
+    throw;
+  }
+  std::vector<Apart> apart(grasp.joints.size());
+  for (size_t j = 0; j < apart.size(); ++j)
+    if (grasp.joints[j] != world.joints(hand)[static_cast<Eigen::Index>(j)])
+      apart[j] = grasp.joints[j];
+  world.set_dofs_unchecked(hand, q, apart);
+}
+
+WrenchSpace wrench_space(const GraspSpec& grasp, const GraspSpaceOptions& options) {
+  const ConeOptions cone{.edges = options.edges.value_or(grasp.options.edges),
+                         .rho = options.rho.value_or(grasp.rho),
+                         .p_OM = grasp.com};
+  std::vector<UnitWrenches> contacts;
+  for (const PointContact& point : grasp.points) contacts.push_back(unit_wrenches(point, cone));
+  return WrenchSpace(std::move(contacts), options.space);
+}
+
+const WrenchSpacePtr& space_of(const Grasp& grasp, const GraspSpaceOptions& options) {
+  return grasp.spaces.get(options, [&] { return wrench_space(grasp, options); });
+}
+
+}  // namespace clench

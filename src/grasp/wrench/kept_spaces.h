@@ -1,0 +1,52 @@
+// The wrench spaces of a grasp that somebody has asked for.
+#pragma once
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "clench/grasp/wrench/wrench_space.h"
+
+namespace clench {
+
+/// Of the unit wrenches about the centre of mass. Edges and torque length are those of the grasp
+/// unless the options say otherwise.
+struct GraspSpaceOptions {
+  WrenchSpaceOptions space = {};
+  std::optional<int> edges = {};
+  std::optional<double> rho = {};  ///< [m]
+
+  bool operator==(const GraspSpaceOptions&) const = default;
+};
+
+using WrenchSpacePtr = std::shared_ptr<const WrenchSpace>;
+
+/// The last few, for spaces keep what they have found. A copy begins with none: a space is for one thread.
+class KeptSpaces {
+ public:
+  KeptSpaces() = default;
+  KeptSpaces(const KeptSpaces&) {}
+  KeptSpaces(KeptSpaces&&) = default;
+  KeptSpaces& operator=(const KeptSpaces&) { return spaces_.clear(), *this; }
+  KeptSpaces& operator=(KeptSpaces&&) = default;
+
+  /// That of the options; `make` gives one that is not there.
+  template <class Make>
+  const WrenchSpacePtr& get(const GraspSpaceOptions& options, Make make) {
+    // the last one used is the last one
+    for (auto known = spaces_.begin(); known != spaces_.end(); ++known)
+      if (known->first == options) {
+        std::rotate(known, known + 1, spaces_.end());
+        return spaces_.back().second;
+      }
+    if (spaces_.size() == most) spaces_.erase(spaces_.begin());
+    return spaces_.emplace_back(options, std::make_shared<const WrenchSpace>(make())).second;
+  }
+
+ private:
+  static constexpr size_t most = 16;  // more than any measure looks at side by side
+  std::vector<std::pair<GraspSpaceOptions, WrenchSpacePtr>> spaces_;
+};
+
+}  // namespace clench

@@ -1,0 +1,492 @@
+#include "clench/grasp/wrench/wrench_space.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/base/error.h"
+#include "clench/contact/friction_edges.h"
+#include "clench/grasp/wrench/expanding_polytope.h"
+#include "clench/grasp/wrench/nearest_point.h"
+#include "clench/grasp/wrench/sum_volume.h"
+#include "clench/grasp/wrench/wrench_hull.h"
+#include "clench/math/decompositions.h"
+
+namespace clench {
+
+namespace {
+
+// A direction in which the wrenches reach less than this part of the strongest is not spanned: far
+// above the rounding of hundreds of wrenches (1e-15), far below any lever or friction that could
+// hold something.
+constexpr double rank_tolerance = 1e-10;
+
+// A set that reaches this far in every direction, of size one, spans them all.
+constexpr double surely_spanned = 1e-6;
+
+// A facet nearer to the origin than this part of the largest wrench goes through it: planes are good
+// to some 1e-14 of the wrenches' extent.
+constexpr double on_boundary = 1e-12;
+
+// What epsilon is found to, for size one: of polytopes as far as doubles go, of round cones as far as is
+// worth its time, some twenty points a digit.
+constexpr double flat_tolerance = 1e-12, round_tolerance = 1e-9;
+
+// A bracket wider than this is not good enough for a polytope: only the larger shifts of points leave one.
+constexpr double poor = 3e-10;
+
+// How near to the most a contact's answer must come to count as it.
+constexpr double carries = 1e-9;
+
+constexpr int max_facets = 1'000'000;
+
+// Cells of a sum take some 15 to 30 us each: a second or two at most.
+constexpr int max_cells = 60'000;
+
+// Around a curved set whose nearest points to the origin are many, brackets close slowly: so many facets take a
+// third of a second and 160 MB, and what they certify is what there is.
+constexpr int max_round_facets = 500'000;
+
+// of the two unit vectors along a line the one whose largest component is positive
+Eigen::VectorXd upright(const Eigen::VectorXd& direction) {
+  int largest = 0;
+  direction.cwiseAbs().maxCoeff(&largest);
+  return direction[largest] < 0 ? Eigen::VectorXd(-direction) : direction;
+}
+
+void check_finite(const Eigen::Ref<const Wrenches>& wrenches, size_t contact) {
+  if (wrenches.allFinite()) return;
+  for (Eigen::Index k = 0; k < wrenches.cols(); ++k)
+    for (const double x : wrenches.col(k))
+      if (!std::isfinite(x))
+        fail("wrench space: contact {}, wrench {}: numbers must be finite, got {}", contact + 1,
+             k + 1, x);
+}
+
+void check_coordinates(const std::vector<int>& coordinates) {
+  if (coordinates.size() < 2 || coordinates.size() > 6)
+    fail("wrench space: expected 2 to 6 coordinates, got {}", coordinates.size());
+  for (size_t i = 0; i < coordinates.size(); ++i) {
+    if (coordinates[i] < 0 || coordinates[i] > 5)
+      fail("wrench space: coordinates must be 0 to 5, got {}", coordinates[i]);
+    if (std::count(coordinates.begin(), coordinates.end(), coordinates[i]) > 1)
+      fail("wrench space: coordinate {} is there twice", coordinates[i]);
+  }
+}
+
+std::vector<UnitWrenches> edges_only(std::vector<Wrenches> contacts) {
+  std::vector<UnitWrenches> out;
+  for (Wrenches& edges : contacts) out.push_back({std::move(edges), {}});
+  return out;
+}
+
+// Are all directions spanned, surely? By Gram and Schmidt, the longest column first.
+bool surely_full_rank(Eigen::MatrixXd m) {
+  double first = 0;
+  for (int k = 0; k < m.rows(); ++k) {
+    Eigen::Index longest = 0;
+    const double length = std::sqrt(m.colwise().squaredNorm().maxCoeff(&longest));
+    if (k == 0) first = length;
+    if (!(length > surely_spanned * first)) return false;
+    const Eigen::VectorXd q = m.col(longest) / length;
+    m -= q * (q.transpose() * m).eval();
+  }
+  return true;
+}
+
+// Points of the unit sphere in two or three dimensions, and the radius of the ball within their hull.
+struct SpherePoints {
+  Eigen::MatrixXd points;
+  double within;
+};
+
+SpherePoints sphere_points(Eigen::Index dimension, int edges) {
+  // the circle, or half as many on the equator and rings beside it
+  const FrictionEdges on =
+      dimension == 2 ? friction_edges(0, edges) : friction_edges(1, std::max(3, edges / 2), 1);
+  SpherePoints out{Eigen::MatrixXd(dimension, on.cols()), 0};
+  out.points.topRows(2) = on.topRows(2);
+  if (dimension == 3) out.points.row(2) = on.row(5);
+  const ContactPart part{.points = out.points.data(), .count = static_cast<int>(on.cols())};
+  const WrenchSupport reach(static_cast<int>(dimension), WrenchNorm::l1, std::span(&part, 1));
+  out.within = largest_ball(reach).lower;
+  return out;
+}
+
+// a pyramid within a round cone, or around it
+Wrenches pyramid_of(const RoundCone& cone, int edges, bool around) {
+  if (cone.spread.cols() == 0) return cone.axis;
+  const SpherePoints sphere = sphere_points(cone.spread.cols(), edges);
+  return (cone.spread * (around ? sphere.points / sphere.within : sphere.points)).colwise() +
+         cone.axis;
+}
+
+}  // namespace
+
+UnitWrenches unit_wrenches(const PointContact& contact, const ConeOptions& options) {
+  if (options.edges != round_edges) return {cone_wrenches(contact, options), {}};
+  return {Wrenches(6, 0), round_cone(contact, options)};
+}
+
+WrenchSpace::WrenchSpace(std::vector<UnitWrenches> contacts, WrenchSpaceOptions options)
+    : contacts_(std::move(contacts)), options_(std::move(options)) {
+  check_coordinates(options_.coordinates);
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    check_finite(contacts_[i].edges, i);
+    if (contacts_[i].round) {
+      check_finite(contacts_[i].round->axis, i);
+      check_finite(contacts_[i].round->spread, i);
+    }
+  }
+}
+
+WrenchSpace::WrenchSpace(std::vector<Wrenches> contacts, WrenchSpaceOptions options)
+    : WrenchSpace(edges_only(std::move(contacts)), std::move(options)) {}
+
+bool WrenchSpace::is_round() const {
+  return std::any_of(contacts_.begin(), contacts_.end(),
+                     [](const UnitWrenches& c) { return c.round.has_value(); });
+}
+
+Vector6d WrenchSpace::in_all_coordinates(const Eigen::VectorXd& x) const {
+  Vector6d out = Vector6d::Zero();
+  for (int i = 0; i < dimension(); ++i) out[options_.coordinates[i]] = x[i];
+  return out;
+}
+
+const WrenchSpace::Prepared& WrenchSpace::prepared() const {
+  if (prepared_) return *prepared_;
+  double largest = 0, square = 0;
+  for (const UnitWrenches& contact : contacts_)
+    for (const int row : options_.coordinates) {
+      if (contact.edges.cols() > 0)
+        largest = std::max(largest, contact.edges.row(row).cwiseAbs().maxCoeff());
+      if (contact.round) {
+        largest = std::max(largest, std::abs(contact.round->axis[row]));
+        if (contact.round->spread.cols() > 0)
+          largest = std::max(largest, contact.round->spread.row(row).cwiseAbs().maxCoeff());
+      }
+    }
+  // a power of two changes no digit
+  int exponent = largest > 0 ? std::ilogb(largest) + 1 : 0;
+  for (const UnitWrenches& contact : contacts_) {
+    const auto add = [&](const auto& column) {
+      double sum = 0;
+      for (const int row : options_.coordinates) {
+        const double x = std::ldexp(column[row], -exponent);
+        sum += x * x;
+      }
+      square = std::max(square, sum);
+    };
+    for (const auto& column : contact.edges.colwise()) add(column);
+    if (contact.round) {
+      add(contact.round->axis);
+      for (const auto& column : contact.round->spread.colwise()) add(column);
+    }
+  }
+  double zero = on_boundary * std::sqrt(square);
+  // sums of many contacts are of size one, too
+  if (options_.norm == WrenchNorm::linf && contacts_.size() > 1) {
+    const int more = std::ilogb(static_cast<double>(contacts_.size()));
+    exponent += more;
+    zero = std::ldexp(zero, -more);
+  }
+  prepared_.emplace(Prepared{exponent, zero, reach_in(options_.norm, exponent)});
+  return *prepared_;
+}
+
+WrenchSupport WrenchSpace::reach_in(WrenchNorm norm, int exponent) const {
+  const int d = dimension();
+  size_t count = 0;
+  for (const UnitWrenches& contact : contacts_)
+    count += static_cast<size_t>(contact.round ? 1 + contact.round->spread.cols()
+                                               : contact.edges.cols());
+  std::vector<double> numbers;
+  numbers.reserve(count * d);  // parts point into it
+  std::vector<ContactPart> parts;
+  // ldexp is slow, and a product with a power of two is the same unless it leaves the doubles
+  const bool common = std::abs(exponent) < 500;
+  const double scale = common ? std::ldexp(1.0, -exponent) : 0;
+  const auto add = [&](const auto& column) {
+    for (const int row : options_.coordinates)
+      numbers.push_back(common ? column[row] * scale : std::ldexp(column[row], -exponent));
+  };
+  for (const UnitWrenches& contact : contacts_) {
+    ContactPart part;
+    const double* start = numbers.data() + numbers.size();
+    if (contact.round) {
+      add(contact.round->axis);
+      for (const auto& column : contact.round->spread.colwise()) add(column);
+      part.axis = start;
+      part.spread = start + d;
+      part.width = static_cast<int>(contact.round->spread.cols());
+    } else {
+      for (const auto& column : contact.edges.colwise()) add(column);
+      part.points = start;
+      part.count = static_cast<int>(contact.edges.cols());
+    }
+    parts.push_back(part);
+  }
+  return WrenchSupport(d, norm, parts);
+}
+
+// the columns that span what all wrenches span, scaled
+Eigen::MatrixXd WrenchSpace::spanning() const {
+  Eigen::Index count = 0, column = 0;
+  for (const UnitWrenches& contact : contacts_)
+    count += contact.round ? 1 + contact.round->spread.cols() : contact.edges.cols();
+  Eigen::MatrixXd all(dimension(), count);
+  const int exponent = prepared().exponent;
+  const auto add = [&](const auto& wrench) {
+    for (int i = 0; i < dimension(); ++i)
+      all(i, column) = std::ldexp(wrench[options_.coordinates[i]], -exponent);
+    ++column;
+  };
+  for (const UnitWrenches& contact : contacts_) {
+    for (const auto& wrench : contact.edges.colwise()) add(wrench);
+    if (contact.round) {
+      add(contact.round->axis);
+      for (const auto& wrench : contact.round->spread.colwise()) add(wrench);
+    }
+  }
+  return all;
+}
+
+int WrenchSpace::rank() const {
+  if (rank_) return *rank_;
+  if (bracket_ && bracket_->lower > surely_spanned) return rank_.emplace(dimension());
+  const Eigen::MatrixXd all = spanning();
+  if (all.size() == 0 || all.isZero(0)) return rank_.emplace(0);
+  if (surely_full_rank(all)) return rank_.emplace(dimension());
+  const Eigen::VectorXd values = singular_value_decomposition(all).values;
+  return rank_.emplace(static_cast<int>((values.array() > rank_tolerance * values[0]).count()));
+}
+
+WrenchSpace::Bracket WrenchSpace::bracket_of(const WrenchSupport& reach, double tolerance,
+                                             double at_least, const Progress& progress) const {
+  const Ball ball =
+      largest_ball(reach, {.tolerance = std::max(tolerance, flat_tolerance),
+                           .zero = prepared().zero,
+                           .at_least = at_least,
+                           .max_facets = is_round() ? max_round_facets : BallOptions().max_facets,
+                           .progress = progress});
+  Bracket out{ball.lower, ball.upper, tolerance,
+              Eigen::Map<const Eigen::VectorXd>(ball.direction, dimension()),
+              ball.end == BallEnd::outside || ball.end == BallEnd::flat};
+  if (out.outside) out.lower = out.upper = 0;
+  return out;
+}
+
+const WrenchSpace::Bracket& WrenchSpace::final_bracket(const Progress& progress) const {
+  // whatever was asked before, the same answer to the bit
+  if (final_) return *final_;
+  if (bracket_ && bracket_->outside) return *bracket_;
+  const double round = std::min(round_tolerance, std::ldexp(round_tolerance, -prepared().exponent));
+  const Bracket found =
+      bracket_of(prepared().reach, is_round() ? round : flat_tolerance, 0, progress);
+  progress.check();
+  final_ = found;
+  const double width = final_->upper - final_->lower;
+  if (width > poor && !is_round() && options_.norm == WrenchNorm::l1) {
+    // rounding broke every surface that was tried: the hull whole, by qhull
+    const Hull all = hull();
+    if (all.full()) {
+      int facet = 0;
+      const double offset = std::ldexp(all.offsets.minCoeff(&facet), -prepared().exponent);
+      final_->lower = final_->upper = std::max(0.0, offset);
+      final_->direction = all.normals.col(facet);
+      final_->outside = offset <= prepared().zero;
+    }
+  }
+  if (!bracket_ || bracket_->upper - bracket_->lower > final_->upper - final_->lower)
+    bracket_ = final_;
+  return *final_;
+}
+
+bool WrenchSpace::is_force_closure(const Progress& progress) const {
+  if (closure_) return *closure_;
+  if (contacts_.empty()) return closure_.emplace(false);
+  // each normal force at most one resists the same directions as their sum at most one
+  const bool l1 = options_.norm == WrenchNorm::l1;
+  const double inside = 2 * prepared().zero;
+  Bracket b = bracket_ && l1 ? *bracket_
+                             : bracket_of(l1 ? prepared().reach
+                                             : reach_in(WrenchNorm::l1, prepared().exponent),
+                                          0.5, inside, progress);
+  progress.check();
+  if (b.outside) {
+    if (l1) bracket_ = b, bracket_->tolerance = 0;
+    return closure_.emplace(false);
+  }
+  if (b.lower < inside)
+    b = l1 ? final_bracket(progress)
+           : bracket_of(reach_in(WrenchNorm::l1, prepared().exponent), flat_tolerance, 0, progress);
+  progress.check();
+  if (b.outside || b.upper <= prepared().zero) return closure_.emplace(false);
+  return closure_.emplace(b.lower > surely_spanned || rank() == dimension());
+}
+
+double WrenchSpace::epsilon(const Progress& progress) const {
+  if (contacts_.empty()) return 0;
+  if (options_.norm == WrenchNorm::linf && !is_force_closure(progress)) return 0;
+  const Bracket& b = final_bracket(progress);
+  if (!is_force_closure(progress)) return 0;
+  const bool converged = b.upper - b.lower <= std::max(b.tolerance, 1e-9);
+  return std::ldexp(std::max(0.0, converged ? b.upper : b.lower), prepared().exponent);
+}
+
+EpsilonBounds WrenchSpace::epsilon_bounds(const EpsilonOptions& options,
+                                          const Progress& progress) const {
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
+    fail("wrench space: tolerance must be >= 0, got {}", options.tolerance);
+  if (options.at_least && !std::isfinite(*options.at_least))
+    fail("wrench space: at_least must be finite, got {}", *options.at_least);
+  if (!is_force_closure(progress)) return {0, 0, true};
+  const int exponent = prepared().exponent;
+  const double tolerance = std::max(std::ldexp(options.tolerance, -exponent), flat_tolerance);
+  const double at_least = options.at_least ? std::ldexp(*options.at_least, -exponent) : 0;
+  const auto decides = [&](const Bracket& b) {
+    return b.upper - b.lower <= tolerance ||
+           (options.at_least && (b.lower >= at_least || b.upper < at_least));
+  };
+  if (!bracket_ || !decides(*bracket_)) {
+    Bracket found = bracket_of(prepared().reach, tolerance, std::max(0.0, at_least), progress);
+    // how near it came is what counts later
+    found.tolerance = std::max(found.upper - found.lower, flat_tolerance);
+    if (bracket_) {
+      found.lower = std::max(found.lower, bracket_->lower);
+      if (bracket_->upper < found.upper)
+        found.upper = bracket_->upper, found.direction = bracket_->direction;
+    }
+    bracket_ = found;
+  }
+  return {std::ldexp(std::max(0.0, bracket_->lower), exponent),
+          std::ldexp(bracket_->upper, exponent), bracket_->upper - bracket_->lower <= tolerance};
+}
+
+// without force closure: a wrench that nothing, or less than nothing, answers
+Weakest WrenchSpace::unresisted(const Progress& progress) const {
+  Weakest out;
+  out.direction = Vector6d::Unit(options_.coordinates[0]);
+  if (rank() == 0) return out;
+  if (rank() < dimension()) {
+    const Svd svd = singular_value_decomposition(spanning());
+    out.direction = in_all_coordinates(upright(svd.u.col(dimension() - 1)));
+    return out;
+  }
+  const int exponent = prepared().exponent;
+  const WrenchSupport l1 = reach_in(WrenchNorm::l1, exponent);
+  const NearestPoint nearest = nearest_point(l1, Eigen::VectorXd::Zero(dimension()));
+  Eigen::VectorXd direction, far(dimension());
+  if (nearest.distance > 10 * prepared().zero)
+    direction = nearest.point / nearest.distance;
+  else
+    direction = -bracket_of(l1, flat_tolerance, 0, progress).direction;
+  progress.check();
+  const Eigen::VectorXd answer = -direction;
+  const double reach = l1.support(answer.data(), far.data());
+  out.direction = in_all_coordinates(direction);
+  // no contact need push at all in L-infinity
+  if (options_.norm == WrenchNorm::l1 && std::abs(reach) > prepared().zero)
+    out.resistance = std::ldexp(reach, exponent);
+  return out;
+}
+
+const Weakest& WrenchSpace::weakest(const Progress& progress) const {
+  if (weakest_) return *weakest_;
+  if (!is_force_closure(progress)) return weakest_.emplace(unresisted(progress));
+  Weakest out;
+  out.resistance = epsilon(progress);
+  const Eigen::VectorXd answer = final_bracket(progress).direction;
+  out.direction = in_all_coordinates(-answer);
+  std::vector<double> pushes;
+  for (size_t i = 0; i < contacts_.size(); ++i)
+    pushes.push_back(prepared().reach.support_of(static_cast<int>(i), answer.data()));
+  const double most = *std::max_element(pushes.begin(), pushes.end());
+  const double enough = options_.norm == WrenchNorm::l1 ? most - carries : carries;
+  for (size_t i = 0; i < pushes.size(); ++i)
+    if (pushes[i] >= enough) out.contacts.push_back(static_cast<int>(i));
+  return weakest_.emplace(out);
+}
+
+Hull WrenchSpace::hull() const {
+  if (options_.norm != WrenchNorm::l1) fail("wrench space: no hull of points in L-infinity");
+  if (is_round()) fail("wrench space: no hull of points with round cones, give edges");
+  Hull out;
+  out.dimension = dimension();
+  const Eigen::MatrixXd all = spanning();
+  if (all.size() == 0 || all.isZero(0)) return out;
+  out.rank = affine_rank(all, rank_tolerance);
+  if (out.rank < dimension()) return out;
+  const int exponent = prepared().exponent;
+  out = wrench_hull(all);
+  for (double& x : out.offsets) x = std::ldexp(x, exponent);
+  out.volume = std::ldexp(out.volume, dimension() * exponent);
+  out.area = std::ldexp(out.area, (dimension() - 1) * exponent);
+  return out;
+}
+
+double WrenchSpace::volume(const Progress& progress) const {
+  if (volume_) return *volume_;
+  if (is_round()) {
+    const VolumeBounds bounds = volume_bounds(32, progress);
+    return volume_.emplace((bounds.lower + bounds.upper) / 2);
+  }
+  if (rank() < dimension()) return volume_.emplace(0);
+  const double scaled =
+      options_.norm == WrenchNorm::l1 ? hull_volume(progress) : sum_of_hulls_volume(progress);
+  return volume_.emplace(std::ldexp(scaled, dimension() * prepared().exponent));
+}
+
+// of the space in L1, scaled
+double WrenchSpace::hull_volume(const Progress& progress) const {
+  if (affine_rank(spanning(), rank_tolerance) < dimension()) return 0;
+  const Facets facets =
+      all_facets(prepared().reach, {.max_facets = max_facets, .progress = progress});
+  if (facets.end == FacetsEnd::too_many)
+    fail(ErrorKind::limit,
+         "wrench space: volume: the hull of {} contact{} has more than {} facets; give fewer "
+         "edges",
+         contacts_.size(), contacts_.size() == 1 ? "" : "s", max_facets);
+  if (facets.end == FacetsEnd::complete) return facets.volume;
+  if (facets.end == FacetsEnd::flat) return 0;
+  return std::ldexp(hull().volume, -dimension() * prepared().exponent);
+}
+
+// of the space in L-infinity, scaled
+double WrenchSpace::sum_of_hulls_volume(const Progress& progress) const {
+  const Eigen::MatrixXd all = spanning();
+  std::vector<Eigen::MatrixXd> hulls;
+  Eigen::Index column = 0;
+  for (const UnitWrenches& contact : contacts_) {
+    const Eigen::Index count = contact.edges.cols();
+    auto& points = hulls.emplace_back(Eigen::MatrixXd::Zero(dimension(), count + 1));
+    points.rightCols(count) = all.middleCols(column, count);
+    column += count;
+  }
+  const SumVolume sum = sum_volume(hulls, max_cells, progress);
+  if (sum.end == SumVolume::too_many)
+    fail(
+        ErrorKind::limit,
+        "wrench space: volume: in L-infinity the space of {} contacts has more than {} cells; give "
+        "fewer edges",
+        contacts_.size(), max_cells);
+  if (sum.end == SumVolume::failed)
+    fail(ErrorKind::internal, "wrench space: volume: rounding broke the cells in L-infinity");
+  return sum.volume;
+}
+
+VolumeBounds WrenchSpace::volume_bounds(int edges, const Progress& progress) const {
+  if (edges < 4 || edges > max_edges)
+    fail("wrench space: edges must be 4 to {}, got {}", max_edges, edges);
+  if (!is_round()) return {volume(progress), volume(progress)};
+  if (volume_bounds_ && volume_bounds_->first == edges) return volume_bounds_->second;
+  const auto replaced = [&](bool around) {
+    std::vector<UnitWrenches> contacts = contacts_;
+    for (UnitWrenches& contact : contacts)
+      if (contact.round) contact = {pyramid_of(*contact.round, edges, around), {}};
+    return WrenchSpace(std::move(contacts), options_).volume(progress);
+  };
+  return volume_bounds_.emplace(edges, VolumeBounds{replaced(false), replaced(true)}).second;
+}
+
+}  // namespace clench

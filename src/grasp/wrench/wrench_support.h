@@ -1,0 +1,61 @@
+// What contacts can do together, as a set known by its support function. Includes no Eigen.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "clench/grasp/wrench/support_set.h"
+
+namespace clench {
+
+/// How the normal forces of all contacts are bounded: their sum by one, or each by one.
+enum class WrenchNorm { l1, linf };
+
+/// The unit wrenches of a contact: points, or the round set {axis + spread x, |x| <= 1}.
+struct ContactPart {
+  const double* points = nullptr;  ///< dimension x count, column after column
+  int count = 0;
+  const double* axis = nullptr;    ///< null: points
+  const double* spread = nullptr;  ///< dimension x width, column after column
+  int width = 0;                   ///< 0 to 3
+};
+
+/// L1: the convex hull of all unit wrenches. L-infinity: the sum over the contacts of the convex hulls
+/// of zero and their unit wrenches.   source  Ferrari & Canny (1992), Pollard (1994)
+class WrenchSupport final : public SupportSet {
+ public:
+  /// copies what the parts point to
+  WrenchSupport(int dimension, WrenchNorm norm, std::span<const ContactPart> parts);
+
+  int dimension() const override { return dimension_; }
+  double support(const double* direction, double* point) const override;
+  /// of one contact alone; minus infinity when it has no wrench
+  double support_of(int contact, const double* direction) const;
+  bool empty() const { return blocks_.empty() && rounds_.empty(); }
+
+ private:
+  // points as structure of arrays, padded by the first one
+  struct Block {
+    int begin, count, padded;
+  };
+  struct Round {
+    double axis[max_dimensions], spread[3][max_dimensions];
+    int width;
+  };
+  struct Place {
+    int block, round;  // -1: none
+  };
+  double farthest(const Block& block, const double* direction, int& column) const;
+  double farthest(const Round& round, const double* direction, double* along) const;
+  void add_point(const Block& block, int column, double* point) const;
+  void add_point(const Round& round, const double* along, double* point) const;
+
+  int dimension_;
+  WrenchNorm norm_;
+  std::vector<double> coordinates_;  // of block after block, coordinate after coordinate
+  std::vector<Block> blocks_;
+  std::vector<Round> rounds_;
+  std::vector<Block> contact_blocks_;  // of each contact, for support_of
+  std::vector<Place> contacts_;
+};
+
+}  // namespace clench

@@ -1,0 +1,216 @@
+#include "clench/io/graspit/body_xml.h"
+
+#include <algorithm>
+#include <array>
+
+#include "clench/base/units.h"
+#include "clench/io/graspit/transform_xml.h"
+#include "clench/io/inventor/read_geometry.h"
+#include "clench/io/text/repairs.h"
+#include "clench/spec/inertia.h"
+#include "clench/spec/material_names.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const XmlKnown known = {.once = {"material", "youngs", "normalCompliance", "shearCompliance",
+                                 "useFlockOfBirds", "geometryFile", "geometryScaling",
+                                 "geometryScalingX", "geometryScalingY", "geometryScalingZ",
+                                 "geometryOffset", "mass", "cog", "inertia_matrix"}};
+
+/// absent  what stands for 0; 0: nothing does
+double number_of(const XmlElement& element, const Quantity& quantity, Repairs& repairs,
+                 double absent = 0) {
+  const std::string subject = fmt::format("{}: {}", element.place(), element.name());
+  double value = repairs.magnitude(element.number(), subject);
+  if (absent > 0) value = repairs.not_zero(value, absent, subject);
+  if (const auto wrong = fault(quantity, value); !wrong.empty())
+    element.fail("{}: {}", element.name(), wrong);
+  return value;
+}
+
+/// Factors along x, y and z.
+Eigen::Vector3d read_scaling(const XmlElement& body, Repairs& repairs) {
+  Eigen::Vector3d scaling = Eigen::Vector3d::Ones();
+  const XmlElement all = body.child("geometryScaling");
+  if (all) scaling.setConstant(number_of(all, scale_rule, repairs));
+  constexpr const char* names[] = {"geometryScalingX", "geometryScalingY", "geometryScalingZ"};
+  for (int i = 0; i < 3; ++i)
+    if (const XmlElement one = body.child(names[i])) {
+      if (all)
+        repairs.add("scaling",
+                    fmt::format("{}: {} and geometryScaling are given; {} is used for its "
+                                "axis",
+                                one.place(), names[i], names[i]));
+      scaling[i] = number_of(one, scale_rule, repairs);
+    }
+  return scaling;
+}
+
+/// By the file's ending; where nobody knows that, by the attribute `type`.
+GeometryFormat read_format(const XmlElement& file, const ReadOptions& options) {
+  const GeometryFormat format = geometry_format(ending_of(file.text()));
+  const auto type = file.attribute("type");
+  if (!type) return format;
+  const std::string word = lower_case(*type);
+  const GeometryFormat said =
+      word == "inventor" ? GeometryFormat::inventor : geometry_format("." + word);
+  if (format == GeometryFormat::none && said == GeometryFormat::none)
+    file.fail("geometryFile: expected type Inventor, off, ply or that of another mesh, got {}",
+              in_quotes(*type));
+  if (format == GeometryFormat::none) return said;
+  if (said != format && options.warn)
+    options.warn(fmt::format("{}: geometryFile: type {} is not that of {}; its ending counts",
+                             file.place(), in_quotes(*type), in_quotes(file.text())));
+  return format;
+}
+
+/// Triangles in the body frame; coordinates of the file count as millimetres.
+Geometry read_scaled(const XmlElement& element, const PlacedFile& file, Library& library) {
+  Eigen::Vector3d scaling = file.scaling;
+  ReadOptions options = library.options();
+  options.mesh_scale.reset();
+  if (file.format != GeometryFormat::inventor) {
+    // one factor for both, so that metres scaled by 1000 lose no digit
+    options.mesh_scale = units::millimetre * scaling.x();
+    scaling /= scaling.x();
+  }
+  Geometry geometry;
+  try {
+    geometry = read_geometry(file.path, options, file.format);
+  } catch (const Error& error) {
+    element.fail("{}", error.what());
+  }
+  if (scaling != Eigen::Vector3d::Ones())
+    for (auto& v : geometry.mesh.vertices) v = scaling.cwiseProduct(v);
+  if (file.X_BG)
+    for (auto& v : geometry.mesh.vertices) v = *file.X_BG * v;
+  return geometry;
+}
+
+void read_compliance(const XmlElement& body, const Library& library, Repairs& repairs) {
+  const std::array both = {body.child("normalCompliance"), body.child("shearCompliance")};
+  for (int i = 0; i < 2; ++i) {
+    if (!both[i]) continue;
+    number_of(both[i], positive_rule, repairs);
+    if (i == 0 || !both[0])
+      library.warn(
+          fmt::format("{}: normalCompliance and shearCompliance are not used", both[i].place()));
+  }
+}
+
+void read_mass(const XmlElement& body, const Library& library, Repairs& repairs, BodySpec& out) {
+  if (const XmlElement mass = body.child("mass"))
+    out.mass =
+        number_of(mass, mass_rule.in("g", units::gram), repairs, BodySpec().mass / units::gram) *
+        units::gram;
+  if (const XmlElement cog = body.child("cog")) {
+    out.com = cog.vector() * units::millimetre;
+    check(coordinate_rule.called("cog"), *out.com, cog.place());
+  }
+  if (const XmlElement inertia = body.child("inertia_matrix")) {
+    const auto x = inertia.numbers(9);
+    Eigen::Matrix3d rows;
+    for (int i = 0; i < 9; ++i) rows(i / 3, i % 3) = x[i] * units::square_millimetre;
+    out.inertia_per_mass = checked_inertia(rows, inertia.place(), library.options().listeners());
+  }
+}
+
+void read_matter(const XmlElement& body, const Library& library, Repairs& repairs, BodySpec& out) {
+  if (const XmlElement material = body.child("material")) {
+    out.material = material.text();
+    try {
+      check_material(out.material);
+    } catch (const Error& error) {
+      material.fail("{}", error.what());
+    }
+  }
+  if (const XmlElement youngs = body.child("youngs")) {
+    out.elastic_modulus = number_of(youngs, elastic_modulus_rule, repairs);
+    if (*out.elastic_modulus < 1e4)
+      library.suspected(
+          fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
+                      youngs.place(), *out.elastic_modulus));
+  }
+  if (const XmlElement bird = body.child("useFlockOfBirds"))
+    out.tracker = repairs.count(bird.text(), bird.place() + ": useFlockOfBirds");
+  read_compliance(body, library, repairs);
+}
+
+}  // namespace
+
+std::optional<PlacedFile> read_placed_file(const XmlElement& body, const fs::path& path,
+                                           const ReadOptions& options) {
+  const XmlElement element = body.child("geometryFile");
+  if (!element) return {};
+  element.check({.attributes = {"type"}}, options.warn);
+  PlacedFile out;
+  out.format = read_format(element, options);
+  Repairs repairs(options.listeners());
+  out.scaling = read_scaling(body, repairs);
+  repairs.tell();
+  try {
+    out.path = find_file(element.text(), path, options);
+  } catch (const Error& error) {
+    element.fail("{}", error.what());
+  }
+  if (const XmlElement offset = body.child("geometryOffset")) {
+    out.X_BG = read_transform_of(offset, options.listeners());
+    offset.check({.once = {"transform"}}, options.warn);
+  }
+  return out;
+}
+
+BodySpec read_body_element(const XmlElement& element, const fs::path& path, Library& library) {
+  element.check(known, library.options().warn);
+  BodySpec body;
+  Repairs repairs(library.options().listeners());
+  read_matter(element, library, repairs, body);
+  read_mass(element, library, repairs, body);
+  repairs.tell();
+  const XmlElement file = element.child("geometryFile");
+  if (!file) {
+    library.suspected(fmt::format("{}: no <geometryFile>: the body is a frame without a surface",
+                                  element.place()));
+    return body;
+  }
+  Geometry geometry =
+      read_scaled(file, *read_placed_file(element, path, library.options()), library);
+  body.appearance = std::move(geometry.appearance);
+  body.mesh_report = std::move(geometry.report);
+  if (geometry.mesh.triangles.empty()) {
+    library.suspected(
+        fmt::format("{}: no surface in {}: the body is a frame, which touches nothing",
+                    file.place(), in_quotes(file.text())));
+    return body;
+  }
+  try {
+    body.shape =
+        Shape::make(std::move(geometry.mesh), path.filename().string(), library.options().progress);
+  } catch (const Error& error) {
+    file.fail("{}", error.what());
+  }
+  return body;
+}
+
+void check_body_root(const XmlFile& file) {
+  for (const char* other : {"robot", "world", "mujoco", "EigenGrasps", "virtual_contacts"})
+    if (file.root().name() == other)
+      file.root().fail("expected a body, got <{}>", excerpt(file.root().name()));
+  const auto children = file.root().children();
+  if (std::ranges::none_of(
+          children, [](const XmlElement& e) { return std::ranges::count(known.once, e.name()); }))
+    file.root().fail("expected a body with geometryFile, mass or the like, got <{}> without any",
+                     excerpt(file.root().name()));
+}
+
+BodySpec read_body_xml(const fs::path& path, Library& library) {
+  const XmlFile file(path);
+  check_body_root(file);
+  return read_body_element(file.root(), path, library);
+}
+
+}  // namespace clench

@@ -1,0 +1,327 @@
+#include "clench/io/graspit/eigengrasps.h"
+
+#include <algorithm>
+
+#include "clench/base/file.h"
+#include "clench/base/text.h"
+#include "clench/io/text/file_errors.h"
+#include "clench/io/text/repairs.h"
+#include "clench/io/text/xml.h"
+
+namespace clench {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::VectorXd;
+
+constexpr int max_dofs = 1000;  // as of robots
+
+void warn(const ReadOptions& options, const std::string& sentence) {
+  if (options.warn && !sentence.empty()) options.warn(sentence);
+}
+
+void check_plausible_eigenvalues(const EigengraspSet& set, const EigengraspPlaces& places,
+                                 const ReadOptions& options) {
+  for (size_t i = 0; i < set.grasps.size(); ++i)
+    if (const double x = set.grasps[i].eigenvalue; x < 0)
+      options.suspected(
+          fmt::format("{}: eigengrasp {}: its eigenvalue is {}, and variances are >= 0",
+                      places.grasps[i], i + 1, x));
+}
+
+void tell_count(Repairs& repairs, const std::string& place, int declared, int given) {
+  repairs.add("count",
+              fmt::format("{}: {} DOF{} declared, and numbers of {} are given; {} are used", place,
+                          declared, declared == 1 ? " is" : "s are", given, given));
+}
+
+/// There are at most as many as DOFs.
+void add_grasp(EigengraspSpec grasp, const std::string& place, EigengraspSet& set,
+               EigengraspPlaces& places, Repairs& repairs) {
+  if (static_cast<int>(set.grasps.size()) >= set.dofs) {
+    repairs.add("surplus",
+                fmt::format("{}: expected at most {} eigengrasps, one per DOF; this one is "
+                            "not used",
+                            place, set.dofs));
+    return;
+  }
+  set.grasps.push_back(std::move(grasp));
+  places.grasps.push_back(place);
+}
+
+// --- text ---
+
+bool begins_block(std::string_view keyword) {
+  return keyword == "eg" || keyword == "origin" || keyword == "norm";
+}
+
+/// With how many numbers the lines of values begin, all of them at least.
+int given_dofs(const std::string& text) {
+  LineReader lines("", text);
+  std::optional<int> least;
+  while (lines.skip_to_full()) {
+    if (!begins_block(lower_case(lines.next().word(0))) || !lines.skip_to_full()) continue;
+    lines.next();  // the eigenvalue
+    if (!lines.skip_to_full()) continue;
+    const Line line = lines.next();
+    int count = 0;
+    while (parse_number(line.word(count))) ++count;
+    least = std::min(least.value_or(count), count);
+  }
+  return least.value_or(0);
+}
+
+class EgrReader {
+ public:
+  EgrReader(const std::string& file, std::string text, const ReadOptions& options)
+      : options_(options),
+        repairs_(options.listeners()),
+        given_(given_dofs(text)),
+        lines_(file, std::move(text)) {}
+  EigengraspSet read();
+
+ private:
+  double read_eigenvalue(const std::string& what);
+  VectorXd read_values(const std::string& what);
+  void read_block(const std::string& keyword, const Line& line);
+  void note_junk(const Line& line);
+
+  const ReadOptions& options_;
+  Repairs repairs_;
+  int given_;  // so many numbers every block begins with
+  LineReader lines_;
+  EigengraspSet set_;
+  EigengraspPlaces places_;
+  int junk_lines_ = 0;
+  std::string junk_;  // the first, as it will be told
+};
+
+EigengraspSet EgrReader::read() {
+  const Line head = lines_.next_full("DIMENSIONS and the number of DOFs");
+  if (lower_case(head.word(0)) != "dimensions")
+    head.fail("expected DIMENSIONS and the number of DOFs, got {}", in_quotes(head.word(0)));
+  set_.dofs = head.integer(1, "DIMENSIONS", 1, max_dofs);
+  warn(options_, head.surplus(2));
+  // what is declared counts for less than what all blocks have
+  if (given_ > set_.dofs && given_ <= max_dofs) {
+    tell_count(repairs_, head.place(), set_.dofs, given_);
+    set_.dofs = given_;
+  }
+  while (lines_.skip_to_full()) {
+    const Line line = lines_.next();
+    const std::string keyword = lower_case(line.word(0));
+    if (begins_block(keyword))
+      read_block(keyword, line);
+    else
+      note_junk(line);
+  }
+  if (junk_lines_ == 1) warn(options_, junk_ + " belongs to no block and is not used");
+  if (junk_lines_ > 1)
+    warn(options_,
+         fmt::format("{} and {} more belong to no block and are not used", junk_, junk_lines_ - 1));
+  repairs_.tell();
+  check_eigengrasps(set_, lines_.file(), places_);
+  check_plausible_eigenvalues(set_, places_, options_);
+  return std::move(set_);
+}
+
+void EgrReader::note_junk(const Line& line) {
+  if (junk_lines_++ > 0) return;
+  junk_ = fmt::format("{}: the line {}", line.place(), in_quotes(line.text()));
+}
+
+double EgrReader::read_eigenvalue(const std::string& what) {
+  const Line line = lines_.next_full(what + ": its eigenvalue");
+  warn(options_, line.surplus(1));
+  return line.number(0, what + ": eigenvalue");
+}
+
+// a line that is too short goes on in the next one
+VectorXd EgrReader::read_values(const std::string& what) {
+  VectorXd values(set_.dofs);
+  for (int i = 0; i < set_.dofs;) {
+    const Line line =
+        lines_.next_full(fmt::format("{}: number {} of {}", what, i + 1, set_.dofs)).before('#');
+    int k = 0;
+    while (k < line.size() && i < set_.dofs) values[i++] = line.number(k++, what);
+    warn(options_, line.surplus(k));
+  }
+  return values;
+}
+
+void EgrReader::read_block(const std::string& keyword, const Line& line) {
+  warn(options_, line.surplus(1));
+  if (keyword == "eg") {
+    EigengraspSpec grasp;
+    const std::string what = fmt::format("eigengrasp {}", set_.grasps.size() + 1);
+    grasp.eigenvalue = read_eigenvalue(what);
+    grasp.vector = read_values(what);
+    add_grasp(std::move(grasp), line.place(), set_, places_, repairs_);
+    return;
+  }
+  auto& target = keyword == "norm" ? set_.norm : set_.origin;
+  if (target)
+    warn(options_, fmt::format("{}: a second {}; the first one counts", line.place(), keyword));
+  read_eigenvalue(keyword);  // stands there, and means nothing
+  const VectorXd values = read_values(keyword);
+  if (!target) (keyword == "norm" ? places_.norm : places_.origin) = line.place();
+  if (!target) target = values;
+}
+
+// --- XML ---
+
+class EigengraspXml {
+ public:
+  EigengraspXml(const std::string& file, const std::string& text, const ReadOptions& options)
+      : file_(file, text), options_(options), repairs_(options.listeners()) {}
+  EigengraspSet read();
+
+ private:
+  void count_dofs(const XmlElement& root);
+  VectorXd read_values(const XmlElement& block, double missing);
+  EigengraspSpec read_grasp(const XmlElement& block);
+
+  XmlFile file_;
+  const ReadOptions& options_;
+  Repairs repairs_;
+  EigengraspSet set_;
+  EigengraspPlaces places_;
+};
+
+EigengraspSet EigengraspXml::read() {
+  const XmlElement root = file_.root();
+  if (root.name() != "EigenGrasps")
+    root.fail("expected an element <EigenGrasps>, got <{}>", excerpt(root.name()));
+  root.check({.once = {"ORIGIN", "NORM"}, .many = {"EG"}, .attributes = {"dimensions"}},
+             options_.warn);
+  count_dofs(root);
+  for (const XmlElement& block : root.children("EG"))
+    add_grasp(read_grasp(block), block.place(), set_, places_, repairs_);
+  for (const auto& [name, target, missing] :
+       {std::tuple("ORIGIN", &set_.origin, 0.0), {"NORM", &set_.norm, 1.0}})
+    if (const XmlElement block = root.child(name)) {
+      block.check({.once = {"EigenValue", "DimVals"}}, options_.warn);
+      *target = read_values(block, missing);
+      (target == &set_.norm ? places_.norm : places_.origin) = block.place();
+    }
+  repairs_.tell();
+  check_eigengrasps(set_, file_.file(), places_);
+  check_plausible_eigenvalues(set_, places_, options_);
+  return std::move(set_);
+}
+
+/// The number of DOF that an attribute "d3" names; empty when it names none.
+std::optional<int> numbered_dof(const std::string& name) {
+  const auto number = name.starts_with('d') ? parse_integer(name.substr(1)) : std::nullopt;
+  return number && *number >= 0 && *number < max_dofs ? number : std::nullopt;
+}
+
+/// What is declared counts for less than what is given.
+void EigengraspXml::count_dofs(const XmlElement& root) {
+  set_.dofs = root.integer_attribute("dimensions", 1, max_dofs);
+  int given = set_.dofs;
+  for (const char* kind : {"EG", "ORIGIN", "NORM"})
+    for (const XmlElement& block : root.children(kind))
+      if (const XmlElement list = block.child("DimVals"))
+        for (const std::string& name : list.attributes())
+          given = std::max(given, numbered_dof(name).value_or(-1) + 1);
+  if (given > set_.dofs) tell_count(repairs_, root.place(), set_.dofs, given);
+  set_.dofs = given;
+}
+
+EigengraspSpec EigengraspXml::read_grasp(const XmlElement& block) {
+  block.check({.once = {"EigenValue", "Limits", "DimVals"}}, options_.warn);
+  EigengraspSpec grasp;
+  if (const XmlElement value = block.child("EigenValue")) {
+    value.check({.attributes = {"value"}}, options_.warn);
+    if (value.attribute("value")) grasp.eigenvalue = value.number_attribute("value");
+  }
+  if (const XmlElement limits = block.child("Limits")) {
+    limits.check({.attributes = {"min", "max"}}, options_.warn);
+    double low = limits.number_attribute("min"), high = limits.number_attribute("max");
+    repairs_.order(low, high, limits.place() + ": Limits");
+    grasp.limits = {low, high};
+  }
+  grasp.vector = read_values(block, 0);
+  return grasp;
+}
+
+// values that are not there are `missing`
+VectorXd EigengraspXml::read_values(const XmlElement& block, double missing) {
+  VectorXd values = VectorXd::Constant(set_.dofs, missing);
+  const XmlElement list = block.expected("DimVals");
+  for (const std::string& name : list.attributes()) {
+    const auto number = numbered_dof(name);
+    if (!number) list.fail("DimVals: expected d0 to d{}, got {}", set_.dofs - 1, in_quotes(name));
+    values[*number] = list.number_attribute(name);
+  }
+  return values;
+}
+
+// --- writing ---
+
+std::string text_of(const EigengraspSet& set) {
+  std::string out = fmt::format("DIMENSIONS {}\n", set.dofs);
+  const auto block = [&](const char* keyword, double eigenvalue, const VectorXd& values) {
+    out += fmt::format("\n{}\n{}\n", keyword, eigenvalue);
+    for (int i = 0; i < values.size(); ++i) out += fmt::format("{}{}", i ? " " : "", values[i]);
+    out += '\n';
+  };
+  for (const auto& grasp : set.grasps) block("EG", grasp.eigenvalue, grasp.vector);
+  if (set.origin) block("ORIGIN", 0, *set.origin);
+  if (set.norm) block("NORM", 0, *set.norm);
+  return out;
+}
+
+}  // namespace
+
+std::string eigengrasps_xml(const EigengraspSet& set) {
+  std::string out =
+      fmt::format("<?xml version=\"1.0\"?>\n<EigenGrasps dimensions=\"{}\">\n", set.dofs);
+  const auto block = [&](const char* name, double eigenvalue, const VectorXd& values,
+                         const std::optional<std::array<double, 2>>& limits) {
+    out += fmt::format("  <{}>\n    <EigenValue value=\"{}\"/>\n", name, eigenvalue);
+    if (limits)
+      out += fmt::format("    <Limits min=\"{}\" max=\"{}\"/>\n", (*limits)[0], (*limits)[1]);
+    out += "    <DimVals";
+    for (int i = 0; i < values.size(); ++i) out += fmt::format(" d{}=\"{}\"", i, values[i]);
+    out += fmt::format("/>\n  </{}>\n", name);
+  };
+  for (const auto& grasp : set.grasps) block("EG", grasp.eigenvalue, grasp.vector, grasp.limits);
+  if (set.origin) block("ORIGIN", 0, *set.origin, {});
+  if (set.norm) block("NORM", 0, *set.norm, {});
+  return out + "</EigenGrasps>\n";
+}
+
+EigengraspSet read_eigengrasps(const fs::path& path, const ReadOptions& options) {
+  return of_file([&] {
+    std::string text = read_text(path);
+    const std::string file = path.filename().string();
+    if (trim(text).starts_with('<')) return EigengraspXml(file, text, options).read();
+    return EgrReader(file, std::move(text), options).read();
+  });
+}
+
+std::string eigengrasps_text(const EigengraspSet& set, const fs::path& path) {
+  const std::string file = path.filename().string();
+  check_eigengrasps(set, file);
+  const std::string ending = lower_case(path.extension().string());
+  if (ending == ".xml") return eigengrasps_xml(set);
+  if (ending != ".egr")
+    fail("{}: expected a file of eigengrasps, .egr or .xml, got {}", file, in_quotes(ending));
+  return text_of(set);
+}
+
+void write_eigengrasps(const EigengraspSet& set, const fs::path& path,
+                       const std::function<void(const std::string&)>& warn) {
+  const std::string text = eigengrasps_text(set, path);
+  const bool limited = std::ranges::any_of(
+      set.grasps, [](const EigengraspSpec& grasp) { return grasp.limits.has_value(); });
+  if (limited && warn && lower_case(path.extension().string()) == ".egr")
+    warn(fmt::format("{}: the text format has no place for limits of amplitudes; .xml has",
+                     path.filename().string()));
+  write_file(path, text);
+}
+
+}  // namespace clench

@@ -1,0 +1,120 @@
+#include "clench/io/graspit/grasp_lists.h"
+#include "clench/io/text/file_errors.h"
+
+#include "clench/base/convert.h"
+#include "clench/base/file.h"
+#include "clench/base/text.h"
+#include "clench/base/units.h"
+#include "clench/io/text/number_reader.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+static Vector3d direction(const Line& line, const double* x, const char* what) {
+  const Vector3d v(x[0], x[1], x[2]);
+  const double length = v.stableNorm();
+  if (!(length > 1e-9) || !std::isfinite(length))
+    line.fail("{}: expected a direction, got ({}, {}, {})", what, x[0], x[1], x[2]);
+  return v / length;
+}
+
+static Pregrasp read_pregrasp(const Line& line) {
+  // the brackets in their order, then the numbers between them
+  std::string shape;
+  for (const char c : line.text())
+    if (c == '[' || c == ']') shape += c;
+  const auto words = split_words(line.text(), "[],", 11);
+  if (shape != "[][][]" || words.size() != 10 || line.text().front() != '[')
+    line.fail("expected [x y z][x y z][x y z] and a spread angle, got {}", in_quotes(line.text()));
+  double x[10];
+  for (int i = 0; i < 10; ++i) {
+    const auto value = parse_number(words[i]);
+    if (!value) line.fail("expected a number, got {}", in_quotes(words[i]));
+    x[i] = *value;
+  }
+  return {.point = Vector3d(x[0], x[1], x[2]) * units::millimetre,
+          .direction = direction(line, x + 3, "approach direction"),
+          .thumb = direction(line, x + 6, "thumb direction"),
+          .spread = x[9] * units::degree};
+}
+
+std::vector<Pregrasp> read_pregrasps(const fs::path& path, const ReadOptions&) {
+  return of_file([&] {
+    LineReader lines(path.filename().string(), read_text(path));
+    std::vector<Pregrasp> out;
+    while (lines.skip_to_full()) out.push_back(read_pregrasp(lines.next().before('#')));
+    return out;
+  });
+}
+
+void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const fs::path& path) {
+  std::string out;
+  for (const Pregrasp& p : pregrasps) {
+    for (const Vector3d& v : {Vector3d(p.point / units::millimetre), p.direction, p.thumb})
+      out += fmt::format("[{} {} {}]", v.x(), v.y(), v.z());
+    out += fmt::format("{}\n", p.spread / units::degree);
+  }
+  write_file(path, out);
+}
+
+// --- results ---
+
+static constexpr const char* run_mark = "0 0 0 0 0 0 0 0 -2";
+
+std::vector<GraspSpec> read_planned_grasps(const fs::path& path, const ReadOptions& options) {
+  return of_file([&] {
+    LineReader lines(path.filename().string(), read_text(path));
+    std::vector<GraspSpec> out;
+    int run = -1;
+    while (lines.skip_to_full()) {
+      const Line line = lines.next().before('#');
+      if (line.size() < 9)
+        line.fail("expected 9 numbers: x y z qw qx qy qz spread quality, got {}", line.size());
+      if (const std::string more = line.surplus(9); options.warn && !more.empty())
+        options.warn(more);
+      constexpr const char* names[] = {"x", "y", "z", "qw", "qx", "qy", "qz", "spread", "quality"};
+      double x[9];
+      for (int i = 0; i < 9; ++i) x[i] = line.number(i, names[i]);
+      if (x[8] == -2 && std::all_of(x, x + 8, [](double v) { return v == 0; })) {
+        ++run;
+        continue;
+      }
+      const auto q = made_unit({x[3], x[4], x[5], x[6]});
+      if (!q)
+        line.fail("expected a quaternion of length 1, got ({} {} {} {})", x[3], x[4], x[5], x[6]);
+      run = std::max(run, 0);
+      GraspSpec& grasp = out.emplace_back();
+      grasp.X_OH = Pose{*q, Vector3d(x[0], x[1], x[2]) * units::millimetre};
+      grasp.measures["quality"] = x[8];
+      grasp.info["run"] = run + 1;
+      grasp.info["spread"] = x[7] * units::degree;
+    }
+    return out;
+  });
+}
+
+void write_planned_grasps(const std::vector<GraspSpec>& grasps, const fs::path& path) {
+  const std::string file = path.filename().string();
+  const auto note = [](const std::map<std::string, double>& named, const char* name, double other) {
+    const auto found = named.find(name);
+    return found == named.end() ? other : found->second;
+  };
+  std::string out;
+  int run = 0;
+  for (const GraspSpec& g : grasps) {
+    if (!g.X_OH) fail("{}: expected grasps with a pose, got one without", file);
+    const int of = floor_int(note(g.info, "run", 1));
+    if (of < run) fail("{}: expected runs in their order", file);
+    for (; run < of; ++run) out += fmt::format("{}\n", run_mark);
+    const Vector3d p = g.X_OH->position / units::millimetre;
+    const Eigen::Quaterniond& q = g.X_OH->rotation;
+    out +=
+        fmt::format("{} {} {} {} {} {} {} {} {}\n", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(),
+                    note(g.info, "spread", 0) / units::degree, note(g.measures, "quality", 0));
+  }
+  write_file(path, out);
+}
+
+}  // namespace clench

@@ -1,0 +1,32 @@
+// Lists of grasps as the primitive planner reads and writes them: one per line, as text.
+#pragma once
+#include <filesystem>
+
+#include "clench/io/text/find_file.h"
+#include "clench/spec/grasp_spec.h"
+
+namespace clench {
+
+/// Where a hand starts from and how; in the object's frame.
+struct Pregrasp {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();       ///< of the palm [m]
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< of approach, unit
+  Eigen::Vector3d thumb = Eigen::Vector3d::UnitX();      ///< where the thumb points, unit
+  double spread = 0;                                     ///< of the fingers [rad]
+};
+
+/// Lines of `[point][direction][thumb]spread`, millimetres and degrees.
+/// throws Error  "list.txt:3: expected [x y z][x y z][x y z] and a spread angle, got '...'"
+std::vector<Pregrasp> read_pregrasps(const std::filesystem::path& path,
+                                     const ReadOptions& options = {});
+void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const std::filesystem::path& path);
+
+/// Grasps that have no more than a pose, the measure "quality" (<= 0: no grasp), and the notes "run", from 1, for a file
+/// collects several, and "spread" [rad]. Lines of `x y z qw qx qy qz spread quality`, millimetres and degrees; a line of
+/// zeros that ends in -2 begins a run.
+std::vector<GraspSpec> read_planned_grasps(const std::filesystem::path& path,
+                                           const ReadOptions& options = {});
+/// throws Error when a grasp has no pose, or runs are not in their order
+void write_planned_grasps(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path);
+
+}  // namespace clench

@@ -1,0 +1,343 @@
+#include "clench/io/graspit/robot_cfg.h"
+
+#include "clench/base/suggest.h"
+#include "clench/base/text.h"
+#include "clench/base/units.h"
+#include "clench/io/graspit/chain_links.h"
+#include "clench/io/graspit/robot_classes.h"
+#include "clench/io/graspit/robot_files.h"
+#include "clench/io/graspit/transform_list.h"
+#include "clench/io/text/joint_expression.h"
+#include "clench/io/text/repair_names.h"
+#include "clench/io/text/repairs.h"
+#include "clench/spec/compliant_coupling.h"
+
+namespace clench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int most =
+    1000;  // DOFs, chains, joints, links: far above any hand, far below what fills the memory
+
+/// Numbers of a DOF line as written; their units depend on the kind of its joints, which come
+/// later.
+struct DofLine {
+  Line line;
+  DofKind kind = DofKind::rigid;
+  double velocity = 0, effort = 0, kp = 0, kd = 0, scale = 0, breakaway = 0;
+};
+
+class CfgReader {
+ public:
+  CfgReader(const fs::path& path, Library& library)
+      : path_(path),
+        library_(library),
+        repairs_(library.options().listeners()),
+        lines_(path.filename().string(), read_text(path)) {}
+  RobotSpec read();
+
+ private:
+  Line expected(std::string_view what) { return lines_.next_full(what).before('#'); }
+  /// warns of words behind the first `used`
+  void used_up(const Line& line, int used) {
+    if (const std::string sentence = line.surplus(used); !sentence.empty()) library_.warn(sentence);
+  }
+  int count(const char* what, int low);
+  void read_dofs();
+  void read_chain(int number);
+  void read_joint(ChainLinks& chain, int number);
+  void read_link(ChainLinks& chain, int number, const std::string& name);
+  void read_optional_blocks();
+  void read_tracker();
+  void read_approach();
+  NamedFile named_file(const char* what);
+  BodySpec body(const Line& line, const std::string& name);
+  void set_dof_units();
+  void check_ranges();
+
+  const fs::path& path_;
+  Library& library_;
+  Repairs repairs_;
+  LineReader lines_;
+  std::vector<DofLine> dof_lines_;
+  std::vector<std::optional<JointKind>> dof_kinds_;  // of its first joint
+  NamedFiles named_;
+  RobotSpec robot_;
+};
+
+int CfgReader::count(const char* what, int low) {
+  const Line line = expected(what);
+  const int value = line.integer(0, what, low, most);
+  used_up(line, 1);
+  return value;
+}
+
+BodySpec CfgReader::body(const Line& line, const std::string& name) {
+  BodySpec out = library_.part(std::string(line.word(0)), path_, line.place());
+  out.name = name;
+  return out;
+}
+
+RobotSpec CfgReader::read() {
+  robot_.name = path_.stem().string();
+  robot_.source = path_.generic_string();
+  const Line head = expected("the robot's class");
+  robot_.class_name = head.word(0);
+  check_class(robot_.class_name, head.place(), library_.options().warn);
+  used_up(head, 1);
+  const Line palm = expected("the palm's file");
+  used_up(palm, 1);
+  robot_.base = body(palm, robot_.name + "_base");
+  read_dofs();
+  const int chains = count("number of chains", 0);
+  for (int c = 0; c < chains; ++c) read_chain(c);
+  set_dof_units();
+  couple_by_springs(robot_);
+  check_ranges();
+  read_optional_blocks();
+  check_read_robot(robot_, head.place(), library_.options());
+  repairs_.tell();
+  read_robot_files(robot_, named_, path_, library_.options());
+  return std::move(robot_);
+}
+
+/// What it is for is known to check_robot; until then its products must not overflow.
+static void check_size(const Line& line, double x, const std::string& what) {
+  if (const auto wrong = fault(number_rule, x); !wrong.empty()) line.fail("{}: {}", what, wrong);
+}
+
+void CfgReader::read_dofs() {
+  const int dofs = count("number of DOFs", 0);
+  for (int i = 0; i < dofs; ++i) {
+    DofLine d;
+    d.line = expected(fmt::format("the line of DOF {}", i));
+    const std::string_view kind = d.line.word(0);
+    if (kind == "r")
+      d.kind = DofKind::rigid;
+    else if (kind == "b")
+      d.kind = DofKind::breakaway;
+    else if (kind == "c")
+      d.kind = DofKind::compliant;
+    else
+      d.line.fail("DOF {}: expected type r, b or c, got {}", i, in_quotes(kind));
+    const auto number = [&](int k, const char* what) {
+      const std::string subject = fmt::format("DOF {}: {}", i, what);
+      if (k > 2 && k >= d.line.size()) {
+        repairs_.add("missing",
+                     fmt::format("{}: {} is missing; 0 is used", d.line.place(), subject));
+        return 0.0;
+      }
+      const double x = d.line.number(k, subject);
+      check_size(d.line, x, subject);
+      return x;
+    };
+    d.velocity = number(1, "default velocity");
+    const auto magnitude = [&](int k, const char* what) {
+      return repairs_.magnitude(number(k, what),
+                                fmt::format("{}: DOF {}: {}", d.line.place(), i, what));
+    };
+    d.effort = magnitude(2, "max effort");
+    d.kp = number(3, "Kp");
+    d.kd = number(4, "Kd");
+    d.scale = number(5, "dragger scale");
+    if (d.kind == DofKind::breakaway) d.breakaway = magnitude(6, "breakaway torque");
+    used_up(d.line, d.kind == DofKind::breakaway ? 7 : 6);
+    dof_lines_.push_back(std::move(d));
+  }
+  dof_kinds_.resize(dofs);
+}
+
+void CfgReader::read_chain(int number) {
+  const int joints = count("number of joints", 0), links = count("number of links", 1);
+  const Line transform = lines_.peek();
+  ChainLinks chain(read_transform_list(lines_, library_.options().listeners()));
+  for (int j = 0; j < joints; ++j) read_joint(chain, j);
+  for (int l = 0; l < links; ++l)
+    read_link(chain, l, fmt::format("{}_chain{}_link{}", robot_.name, number, l));
+  if (chain.last_joint() + 1 < joints)
+    library_.warn(fmt::format("{}: chain {}: joints from {} on move no link, and are not used",
+                              transform.place(), number, chain.last_joint() + 1));
+}
+
+void CfgReader::read_joint(ChainLinks& chain, int number) {
+  const Line line = expected(fmt::format("the line of joint {}", number));
+  const auto value = [&](int i, const char* what) {
+    const double x = line.number(i, fmt::format("joint {}: {}", number, what));
+    check_size(line, x, fmt::format("joint {}: {}", number, what));
+    return x;
+  };
+  JointSpec joint;
+
+  // the DOF stands in the theta column of a revolute joint, in the d column of a prismatic one
+  joint.kind = line.word(0).starts_with('d') ? JointKind::revolute : JointKind::prismatic;
+  const bool revolute = joint.kind == JointKind::revolute;
+  const std::string_view text = line.word(revolute ? 0 : 1);
+  const auto expression = parse_joint_expression(text);
+  if (!expression) {
+    if (!revolute) value(0, "theta");
+    line.fail("joint {}: expected a joint expression such as d0*0.5+90 for {}, got {}", number,
+              revolute ? "theta" : "d", in_quotes(text));
+  }
+  joint.dof = expression->dof;
+  if (joint.dof >= static_cast<int>(dof_lines_.size()))
+    line.fail("joint {}: expected a DOF below {}, got d{}", number, dof_lines_.size(), joint.dof);
+  if (expression->ratio == 0)
+    line.fail("joint {}: expected a ratio other than 0, got {}", number, in_quotes(text));
+
+  check_size(line, expression->offset, fmt::format("joint {}: offset", number));
+  check_size(line, expression->ratio, fmt::format("joint {}: ratio", number));
+
+  // degrees and millimetres to radians and metres
+  const double unit = revolute ? units::degree : units::millimetre;
+  const DenavitHartenberg numbers = {
+      .theta = revolute ? expression->offset * units::degree : value(0, "theta") * units::degree,
+      .d = revolute ? value(1, "d") * units::millimetre : expression->offset * units::millimetre,
+      .a = value(2, "a") * units::millimetre,
+      .alpha = value(3, "alpha") * units::degree};
+  double low = value(4, "min"), high = value(5, "max");
+  repairs_.order(low, high, fmt::format("{}: joint {}", line.place(), number));
+  joint.min = low * unit;
+  joint.max = high * unit;
+  const auto loss = [&](int i, const char* what, double loss_unit) {
+    if (line.size() <= i) return 0.0;
+    return loss_unit * repairs_.magnitude(value(i, what), fmt::format("{}: joint {}: {}",
+                                                                      line.place(), number, what));
+  };
+  joint.viscous =
+      loss(6, "viscous friction", revolute ? units::gram_square_millimetre : units::gram);
+  joint.coulomb = loss(7, "Coulomb friction",
+                       revolute ? units::gram_square_millimetre : units::gram_millimetre);
+  joint.spring = loss(8, "spring stiffness",
+                      revolute ? units::newton_millimetre : units::newton_per_millimetre);
+  if (line.size() > 9) joint.rest = value(9, "rest value") * (revolute ? 1.0 : units::millimetre);
+  used_up(line, 10);
+
+  // a DOF counts in the unit of its first joint: rad or mm
+  auto& kind = dof_kinds_[joint.dof];
+  if (!kind) kind = joint.kind;
+  joint.ratio = expression->ratio;
+  if (*kind != joint.kind) joint.ratio *= revolute ? 1 / units::millimetre : units::millimetre;
+  try {
+    chain.add_joint(joint, numbers);
+  } catch (const Error& error) {
+    line.fail("{}", error.what());
+  }
+}
+
+void CfgReader::read_link(ChainLinks& chain, int number, const std::string& name) {
+  const Line kind_line = expected(fmt::format("the joint type of link {}", number));
+  try {
+    joints_of_kind(kind_line.word(0));
+  } catch (const Error& error) {
+    kind_line.fail("link {}: {}", number, error.what());
+  }
+  used_up(kind_line, 1);
+  const Line line = expected(fmt::format("the file of link {}", number));
+  used_up(line, 2);
+  const int before = chain.last_joint(), joints = chain.joints();
+  int last = before + 1;
+  if (line.size() > 1) {
+    // a link stands on the one before: what moves that, moves it, too
+    last = line.integer(1, fmt::format("link {}: last joint", number), before, joints - 1);
+  } else {
+    library_.note(fmt::format("{}: link {}: its last joint is not given; joint {} moves it",
+                              line.place(), number, last));
+  }
+  if (last >= joints)
+    line.fail("link {}: expected a joint to move it, got {} joints for {} links", number, joints,
+              number + 1);
+  chain.add_link(body(line, name), last, robot_);
+}
+
+void CfgReader::set_dof_units() {
+  for (size_t i = 0; i < dof_lines_.size(); ++i) {
+    const DofLine& d = dof_lines_[i];
+    const bool slides = dof_kinds_[i] == JointKind::prismatic;
+    if (!dof_kinds_[i])
+      library_.suspected(fmt::format("{}: DOF {} moves no joint", d.line.place(), i));
+    DofSpec dof;
+    dof.kind = d.kind;
+    dof.default_velocity = d.velocity * (slides ? units::millimetre : 1.0);
+    dof.max_effort = d.effort * (slides ? units::gram_millimetre : units::gram_square_millimetre);
+    dof.kp = d.kp * (slides ? units::gram_per_square_second : units::gram_square_millimetre);
+    dof.kd = d.kd * (slides ? units::gram : units::gram_square_millimetre);
+    dof.dragger_scale = d.scale * units::millimetre;
+    dof.breakaway_torque = d.breakaway;
+    robot_.dofs.push_back(dof);
+  }
+}
+
+void CfgReader::check_ranges() {
+  for (size_t i = 0; i < dof_lines_.size(); ++i) {
+    const auto range = dof_range(robot_, static_cast<int>(i));
+    if (range[0] > range[1]) dof_lines_[i].line.fail("DOF {}: {}", i, no_range(range));
+  }
+}
+
+NamedFile CfgReader::named_file(const char* what) {
+  const Line line = expected(fmt::format("the file of {}", what));
+  return {std::string(line.text()), fmt::format("{}: {}", line.place(), what)};
+}
+
+void CfgReader::read_tracker() {
+  TrackerSpec tracker;
+  // some files leave the number out
+  if (lines_.skip_to_full() && begins_transform(lines_.peek())) {
+    library_.note(
+        fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
+  } else {
+    const Line line = expected("a bird number");
+    tracker.number = repairs_.count(line.word(0), line.place() + ": FlockOfBirds");
+  }
+  tracker.X_BS = read_transform_list(lines_, library_.options().listeners());
+  robot_.tracker = tracker;
+}
+
+void CfgReader::read_approach() {
+  const auto vector = [&](const char* what) {
+    const Line line = expected(what);
+    used_up(line, 3);
+    return std::pair(
+        line, Eigen::Vector3d(line.number(0, what), line.number(1, what), line.number(2, what)));
+  };
+  const Eigen::Vector3d point = vector("approach point").second * units::millimetre;
+  const auto [line, direction] = vector("approach direction");
+  try {
+    robot_.X_BA = approach_frame(point, direction);
+  } catch (const Error& error) {
+    line.fail("{}", error.what());
+  }
+}
+
+void CfgReader::read_optional_blocks() {
+  while (lines_.skip_to_full()) {
+    const Line line = lines_.next().before('#');
+    const std::string_view key = line.word(0);
+    if (key == "EigenGrasps")
+      named_.eigengrasps = named_file("EigenGrasps");
+    else if (key == "VirtualContacts")
+      named_.virtual_contacts = named_file("VirtualContacts");
+    else if (key == "CyberGlove")
+      named_.glove_calibration = named_file("CyberGlove");
+    else if (key == "FlockOfBirds")
+      read_tracker();
+    else if (key == "Approach")
+      read_approach();
+    else {
+      const std::vector<std::string> known = {"EigenGrasps", "FlockOfBirds", "Approach",
+                                              "VirtualContacts", "CyberGlove"};
+      library_.warn(fmt::format("{}: unknown keyword {} is not used{}", line.place(),
+                                in_quotes(key), did_you_mean(key, known)));
+    }
+  }
+}
+
+}  // namespace
+
+RobotSpec read_robot_cfg(const fs::path& path, Library& library) {
+  return CfgReader(path, library).read();
+}
+
+}  // namespace clench

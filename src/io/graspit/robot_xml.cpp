@@ -1,0 +1,423 @@
+#include "clench/io/graspit/robot_xml.h"
+
+#include <algorithm>
+
+#include "clench/base/suggest.h"
+#include "clench/base/units.h"
+#include "clench/io/graspit/chain_links.h"
+#include "clench/io/graspit/robot_classes.h"
+#include "clench/io/graspit/robot_files.h"
+#include "clench/io/graspit/tendons_xml.h"
+#include "clench/io/graspit/transform_xml.h"
+#include "clench/io/text/joint_expression.h"
+#include "clench/io/text/repair_names.h"
+#include "clench/io/text/repairs.h"
+#include "clench/io/text/xml.h"
+#include "clench/spec/compliant_coupling.h"
+
+namespace clench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t max_parts = 1000;  // DOFs, chains, joints, links: far above any hand
+
+class XmlRobotReader {
+ public:
+  XmlRobotReader(const XmlElement& root, const fs::path& path, Library& library)
+      : root_(root), path_(path), library_(library), repairs_(library.options().listeners()) {}
+  RobotSpec read();
+
+ private:
+  struct PairOff {
+    XmlElement element;
+    ChainPlace a, b;
+  };
+
+  const std::function<void(const std::string&)>& warn() const { return library_.options().warn; }
+  void read_type();
+  void read_dof(const XmlElement& element);
+  void read_chain(const XmlElement& element);
+  void read_joint(const XmlElement& element, ChainLinks& chain);
+  DenavitHartenberg read_expression(const XmlElement& element, JointSpec& joint,
+                                    const std::string& subject);
+  void read_limits(const XmlElement& element, JointSpec& joint, const std::string& subject);
+  void read_losses(const XmlElement& element, JointSpec& joint, const std::string& subject);
+  double magnitude(const XmlElement& element, const std::string& subject);
+  double number_or_zero(const XmlElement& parent, const char* name, const std::string& subject);
+  void read_link(const XmlElement& element, ChainLinks& chain, ChainPlace place);
+  void read_rule(const XmlElement& link, ChainPlace place);
+  void read_disabled_pair(const XmlElement& element);
+  void set_dof_units();
+  void read_approach();
+  void read_tracker();
+  void read_files();
+  int part(const XmlElement& element, ChainPlace place) const;
+  NamedFile named(const char* name) const;
+
+  const XmlElement root_;
+  const fs::path& path_;
+  Library& library_;
+  Repairs repairs_;
+  std::vector<XmlElement> dofs_;
+  std::vector<std::optional<JointKind>> dof_kinds_;  // of its first joint
+  std::vector<Chain> chains_;
+  std::vector<PairOff> pairs_off_;  // to be looked at when all links are known
+  RobotSpec robot_;
+};
+
+RobotSpec XmlRobotReader::read() {
+  root_.check({.once = {"palm", "approachDirection", "eigenGrasps", "virtualContacts", "cyberGlove",
+                        "flockOfBirds"},
+               .many = {"dof", "chain", "disableCollision", "tendon", "tendonWrapper"},
+               .attributes = {"type", "DBName"}},
+              warn());
+  robot_.name = path_.stem().string();
+  robot_.source = path_.generic_string();
+  read_type();
+  robot_.database_name = root_.attribute("DBName").value_or("");
+  const XmlElement palm = root_.expected("palm");
+  palm.check({}, warn());
+  robot_.base = library_.part(palm.text(), path_, palm.place());
+  robot_.base.name = robot_.name + "_base";
+  dofs_ = root_.children("dof");
+  const auto chains = root_.children("chain");
+  if (dofs_.size() > max_parts || chains.size() > max_parts)
+    root_.fail("expected at most {} DOFs and chains, got {} and {}", max_parts, dofs_.size(),
+               chains.size());
+  dof_kinds_.resize(dofs_.size());
+  for (const XmlElement& e : chains) read_chain(e);
+  for (const XmlElement& e : dofs_) read_dof(e);
+  couple_by_springs(robot_);
+  set_dof_units();
+  for (const XmlElement& e : root_.children("disableCollision")) read_disabled_pair(e);
+  for (const auto& [element, a, b] : pairs_off_)
+    robot_.collision_rules.pairs_off.push_back({part(element, a), part(element, b)});
+  robot_.collision_rules.near_pairs_off = true;
+  read_tendons(
+      root_, [&](const XmlElement& e, ChainPlace place) { return part(e, place); }, warn(),
+      repairs_, robot_);
+  read_approach();
+  read_tracker();
+  check_read_robot(robot_, root_.place(), library_.options());
+  repairs_.tell();
+  read_files();
+  return std::move(robot_);
+}
+
+void XmlRobotReader::read_type() {
+  robot_.class_name = root_.attribute("type").value_or("");
+  if (robot_.class_name.empty()) {
+    library_.note(fmt::format("{}: robot: no type; it is taken for a Hand", root_.place()));
+    robot_.class_name = "Hand";
+  } else {
+    check_class(robot_.class_name, root_.place(), warn());
+  }
+}
+
+int XmlRobotReader::part(const XmlElement& element, ChainPlace place) const {
+  if (place.chain >= static_cast<int>(chains_.size()))
+    element.fail("{}: expected one of {} chains, got {}", element.name(), chains_.size(),
+                 place.chain);
+  const auto link = link_at(chains_, place);
+  if (!link)
+    element.fail("{}: expected one of {} links of chain {}, got {}", element.name(),
+                 chains_[place.chain].links.size(), place.chain, place.link);
+  return *link;
+}
+
+// --- DOFs; their units depend on the kind of their joints ---
+
+/// What it is for is known to check_robot; until then its products must not overflow.
+static double bounded(const XmlElement& element, const std::string& subject) {
+  const double x = element.number();
+  if (const auto wrong = fault(number_rule, x); !wrong.empty())
+    element.fail("{}: {}: {}", subject, element.name(), wrong);
+  return x;
+}
+
+/// Of what is never negative.
+double XmlRobotReader::magnitude(const XmlElement& element, const std::string& subject) {
+  return repairs_.magnitude(bounded(element, subject),
+                            fmt::format("{}: {}: {}", element.place(), subject, element.name()));
+}
+
+/// Of what counts as 0 when it is missing.
+double XmlRobotReader::number_or_zero(const XmlElement& parent, const char* name,
+                                      const std::string& subject) {
+  if (const XmlElement child = parent.child(name)) return bounded(child, subject);
+  repairs_.add("missing",
+               fmt::format("{}: {}: <{}> is missing; 0 is used", parent.place(), subject, name));
+  return 0;
+}
+
+void XmlRobotReader::read_dof(const XmlElement& element) {
+  element.check({.once = {"defaultVelocity", "defaultValue", "maxEffort", "Kp", "Kd",
+                          "draggerScale", "breakAwayTorque"},
+                 .attributes = {"type"}},
+                warn());
+  const size_t i = robot_.dofs.size();
+  const bool slides = dof_kinds_[i] == JointKind::prismatic;
+  if (!dof_kinds_[i])
+    library_.suspected(fmt::format("{}: DOF {} moves no joint", element.place(), i));
+  DofSpec dof;
+  const std::string kind = element.attribute("type").value_or("");
+  if (kind.empty())
+    repairs_.add("kind", fmt::format("{}: DOF {}: no type; it is taken for r", element.place(), i));
+  else if (kind == "b")
+    dof.kind = DofKind::breakaway;
+  else if (kind == "c")
+    dof.kind = DofKind::compliant;
+  else if (kind != "r")
+    element.fail("DOF {}: expected type r, b or c, got {}", i, in_quotes(kind));
+  const std::string subject = fmt::format("DOF {}", i);
+  const auto number = [&](const char* name, double unit) {
+    const XmlElement child = element.child(name);
+    return child ? bounded(child, subject) * unit : 0.0;
+  };
+  const auto positive = [&](const char* name, double unit) {
+    const XmlElement child = element.child(name);
+    return child ? magnitude(child, subject) * unit : 0.0;
+  };
+  const double force = slides ? units::gram_millimetre : units::gram_square_millimetre;
+  dof.default_velocity =
+      number_or_zero(element, "defaultVelocity", subject) * (slides ? units::millimetre : 1.0);
+  dof.default_value = number("defaultValue", slides ? units::millimetre : units::degree);
+  dof.max_effort = positive("maxEffort", force);
+  dof.kp = number("Kp", slides ? units::gram_per_square_second : units::gram_square_millimetre);
+  dof.kd = number("Kd", slides ? units::gram : units::gram_square_millimetre);
+  dof.dragger_scale = number("draggerScale", units::millimetre);
+  if (dof.kind == DofKind::breakaway) dof.breakaway_torque = positive("breakAwayTorque", 1.0);
+  robot_.dofs.push_back(dof);
+}
+
+void XmlRobotReader::set_dof_units() {
+  for (size_t i = 0; i < dofs_.size(); ++i) {
+    const auto range = dof_range(robot_, static_cast<int>(i));
+    const auto [low, high] = range;
+    if (low > high) dofs_[i].fail("DOF {}: {}", i, no_range(range));
+    DofSpec& dof = robot_.dofs[i];
+    if (dof.default_value < low || dof.default_value > high) {
+      // 0 is only what nobody chose
+      if (const XmlElement given = dofs_[i].child("defaultValue"))
+        library_.repaired(
+            fmt::format("{}: DOF {}: defaultValue {} is outside its range; moved to the limit",
+                        given.place(), i, given.text()));
+      dof.default_value = std::clamp(dof.default_value, low, high);
+    }
+  }
+}
+
+// --- chains ---
+
+void XmlRobotReader::read_chain(const XmlElement& element) {
+  element.check({.once = {"transform"}, .many = {"joint", "link", "filter"}}, warn());
+  const int number = static_cast<int>(chains_.size());
+  const auto joints = element.children("joint"), links = element.children("link");
+  if (joints.size() > max_parts || links.size() > max_parts)
+    element.fail("chain: expected at most {} joints and links, got {} and {}", max_parts,
+                 joints.size(), links.size());
+  if (links.empty()) element.fail("chain: expected a link, got none");
+  ChainLinks chain(read_transform_of(element, library_.options().listeners()));
+  for (const XmlElement& e : joints) read_joint(e, chain);
+  chains_.emplace_back();
+  for (int l = 0; l < static_cast<int>(links.size()); ++l) {
+    chains_.back().links.push_back(static_cast<int>(robot_.links.size()));
+    read_link(links[l], chain, {number, l});
+  }
+  if (chain.last_joint() + 1 < chain.joints())
+    library_.warn(fmt::format("{}: chain {}: joints from {} on move no link, and are not used",
+                              element.place(), number, chain.last_joint() + 1));
+  read_tactile(
+      element, number, [&](const XmlElement& e, ChainPlace place) { return part(e, place); },
+      warn(), repairs_, robot_);
+}
+
+void XmlRobotReader::read_joint(const XmlElement& element, ChainLinks& chain) {
+  element.check({.once = {"theta", "d", "a", "alpha", "minValue", "maxValue", "viscousFriction",
+                          "CoulombFriction", "springStiffness", "restValue"},
+                 .attributes = {"type"}},
+                warn());
+  const std::string subject = fmt::format("joint {}", chain.joints());
+  JointSpec joint;
+  const std::string type = element.expected_attribute("type");
+  if (lower_case(type) == "prismatic")
+    joint.kind = JointKind::prismatic;
+  else if (lower_case(type) != "revolute")
+    element.fail("{}: expected type Revolute or Prismatic, got {}{}", subject, in_quotes(type),
+                 did_you_mean(type, {"Revolute", "Prismatic"}));
+  DenavitHartenberg numbers = read_expression(element, joint, subject);
+  numbers.a = number_or_zero(element, "a", subject) * units::millimetre;
+  numbers.alpha = number_or_zero(element, "alpha", subject) * units::degree;
+  read_limits(element, joint, subject);
+  read_losses(element, joint, subject);
+
+  // a DOF counts in the unit of its first joint: rad or mm
+  auto& kind = dof_kinds_[joint.dof];
+  if (!kind) kind = joint.kind;
+  if (*kind != joint.kind)
+    joint.ratio *= joint.kind == JointKind::revolute ? 1 / units::millimetre : units::millimetre;
+  try {
+    chain.add_joint(joint, numbers);
+  } catch (const Error& error) {
+    element.fail("{}", error.what());
+  }
+}
+
+DenavitHartenberg XmlRobotReader::read_expression(const XmlElement& element, JointSpec& joint,
+                                                  const std::string& subject) {
+  const bool revolute = joint.kind == JointKind::revolute;
+  const XmlElement moved = element.expected(revolute ? "theta" : "d");
+  const std::string text = moved.text();
+  const auto expression = parse_joint_expression(text);
+  if (!expression)
+    moved.fail("{}: expected a joint expression such as d0*0.5+90 for {}, got {}", subject,
+               moved.name(), in_quotes(text));
+  if (expression->dof >= static_cast<int>(dofs_.size()))
+    moved.fail("{}: expected a DOF below {}, got d{}", subject, dofs_.size(), expression->dof);
+  if (expression->ratio == 0)
+    moved.fail("{}: expected a ratio other than 0, got {}", subject, in_quotes(text));
+  joint.dof = expression->dof;
+  joint.ratio = expression->ratio;
+  const double other = number_or_zero(element, revolute ? "d" : "theta", subject);
+  return {.theta = (revolute ? expression->offset : other) * units::degree,
+          .d = (revolute ? other : expression->offset) * units::millimetre};
+}
+
+void XmlRobotReader::read_limits(const XmlElement& element, JointSpec& joint,
+                                 const std::string& subject) {
+  const XmlElement low = element.expected("minValue"), high = element.expected("maxValue");
+  double min = bounded(low, subject), max = bounded(high, subject);
+  // some files write the limits in the direction of a DOF that the joint runs against
+  repairs_.order(min, max, fmt::format("{}: {}", low.place(), subject), {"minValue", "maxValue"});
+  const double unit = joint.kind == JointKind::revolute ? units::degree : units::millimetre;
+  joint.min = min * unit;
+  joint.max = max * unit;
+}
+
+void XmlRobotReader::read_losses(const XmlElement& element, JointSpec& joint,
+                                 const std::string& subject) {
+  const bool revolute = joint.kind == JointKind::revolute;
+  const auto number = [&](const char* name, double unit) {
+    const XmlElement child = element.child(name);
+    return child ? magnitude(child, subject) * unit : 0.0;
+  };
+  joint.viscous = number("viscousFriction", revolute ? units::gram_square_millimetre : units::gram);
+  joint.coulomb =
+      number("CoulombFriction", revolute ? units::gram_square_millimetre : units::gram_millimetre);
+  joint.spring =
+      number("springStiffness", revolute ? units::newton_millimetre : units::newton_per_millimetre);
+  if (const XmlElement rest = element.child("restValue"))
+    joint.rest = rest.number() * (revolute ? 1.0 : units::millimetre);
+}
+
+void XmlRobotReader::read_link(const XmlElement& element, ChainLinks& chain, ChainPlace place) {
+  element.check({.attributes = {"dynamicJointType", "collisionRule", "targetChain", "targetLink"}},
+                warn());
+  const std::string kind = element.expected_attribute("dynamicJointType");
+  int joints = 0;
+  try {
+    joints = joints_of_kind(kind);
+  } catch (const Error& error) {
+    element.fail("link {}: {}", place.link, error.what());
+  }
+  const int last = chain.last_joint() + joints;
+  if (last >= chain.joints())
+    element.fail("link {}: expected {} joints for the links up to it, got {}", place.link, last + 1,
+                 chain.joints());
+  BodySpec body = library_.part(element.text(), path_, element.place());
+  body.name = fmt::format("{}_chain{}_link{}", robot_.name, place.chain, place.link);
+  chain.add_link(body, last, robot_);
+  read_rule(element, place);
+}
+
+// --- what never collides ---
+
+void XmlRobotReader::read_rule(const XmlElement& link, ChainPlace place) {
+  const auto rule = link.attribute("collisionRule");
+  if (!rule) return;
+  if (lower_case(*rule) == "off") {
+    robot_.collision_rules.parts_off.push_back(static_cast<int>(robot_.links.size()) - 1);
+  } else if (lower_case(*rule) == "overlappingpair") {
+    ChainPlace target;
+    const auto chain = link.attribute("targetChain");
+    if (!chain)
+      repairs_.add("target",
+                   fmt::format("{}: link {}: OverlappingPair without a targetChain; its own "
+                               "chain, {}, is used",
+                               link.place(), place.link, place.chain));
+    if (!chain || lower_case(*chain) != "base")
+      target = {chain ? link.integer_attribute("targetChain", 0) : place.chain,
+                link.integer_attribute("targetLink", 0)};
+    pairs_off_.push_back({link, place, target});
+  } else {
+    repairs_.add(
+        "rule", fmt::format("{}: link {}: collisionRule {} is neither Off nor OverlappingPair, and "
+                            "not used{}",
+                            link.place(), place.link, in_quotes(*rule),
+                            did_you_mean(*rule, {"Off", "OverlappingPair"})));
+  }
+}
+
+void XmlRobotReader::read_disabled_pair(const XmlElement& element) {
+  element.check({.attributes = {"body1_link", "body1_chain", "body2_link", "body2_chain"}}, warn());
+  const auto place = [&](const char* chain, const char* link) {
+    const ChainPlace out{element.integer_attribute(chain), element.integer_attribute(link)};
+    return out.chain < 0 ? ChainPlace() : out;
+  };
+  const ChainPlace a = place("body1_chain", "body1_link");
+  pairs_off_.push_back({element, a, place("body2_chain", "body2_link")});
+}
+
+// --- the rest ---
+
+void XmlRobotReader::read_approach() {
+  const XmlElement element = root_.child("approachDirection");
+  if (!element) return;
+  element.check({.once = {"referenceLocation", "direction"}}, warn());
+  const Eigen::Vector3d point = element.expected("referenceLocation").vector() * units::millimetre;
+  const XmlElement direction = element.expected("direction");
+  const Eigen::Vector3d along = direction.vector();
+  try {
+    robot_.X_BA = approach_frame(point, along);
+  } catch (const Error& error) {
+    direction.fail("{}", error.what());
+  }
+}
+
+void XmlRobotReader::read_tracker() {
+  const XmlElement element = root_.child("flockOfBirds");
+  if (!element) return;
+  element.check({.once = {"transform"}, .attributes = {"number"}}, warn());
+  TrackerSpec tracker;
+  if (const auto number = element.attribute("number"))
+    tracker.number = repairs_.count(*number, element.place() + ": flockOfBirds: number");
+  else
+    library_.note(fmt::format("{}: flockOfBirds: no bird number, 0 is used", element.place()));
+  tracker.X_BS = read_transform_of(element, library_.options().listeners());
+  robot_.tracker = tracker;
+}
+
+NamedFile XmlRobotReader::named(const char* name) const {
+  const XmlElement element = root_.child(name);
+  if (!element) return {};
+  element.check({}, warn());
+  return {element.text(), fmt::format("{}: {}", element.place(), name)};
+}
+
+void XmlRobotReader::read_files() {
+  read_robot_files(robot_, {named("eigenGrasps"), named("virtualContacts"), named("cyberGlove")},
+                   path_, library_.options());
+}
+
+}  // namespace
+
+RobotSpec read_robot_xml(const fs::path& path, Library& library) {
+  const XmlFile file(path);
+  const XmlElement root = file.root();
+  if (root.name() != "robot") root.fail("expected a <robot>, got <{}>", excerpt(root.name()));
+  return XmlRobotReader(root, path, library).read();
+}
+
+}  // namespace clench

@@ -1,0 +1,20 @@
+// Transforms as the XML files write them, where they stand in a text file.
+#pragma once
+#include "clench/base/text.h"
+#include "clench/io/graspit/transform_list.h"
+#include "clench/math/pose.h"
+
+namespace clench {
+
+/// What an element <tag>value</tag> of a transform says: translation "x y z" [mm], rotation "degrees
+/// axis", rotationMatrix (9 numbers), fullTransform "(w x y z)[x y z]".
+/// throws Error at the line when it is none of these
+Pose read_transform_element(const Line& line, std::string_view tag, std::string_view value,
+                            const Listeners& listeners = {});
+
+/// `<transform> <fullTransform>(w x y z)[x y z]</fullTransform> ... </transform>`, or one of the
+/// inner elements alone, composed left to right. `line` is the first line; reads on to the closing
+/// tag.
+Pose read_tagged_transform(const Line& line, LineReader& lines, const Listeners& listeners = {});
+
+}  // namespace clench

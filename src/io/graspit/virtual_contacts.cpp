@@ -1,0 +1,334 @@
+#include "clench/io/graspit/virtual_contacts.h"
+#include "clench/io/text/file_errors.h"
+
+#include "clench/base/file.h"
+#include "clench/base/text.h"
+#include "clench/base/units.h"
+#include "clench/io/text/number_reader.h"
+#include "clench/io/text/repairs.h"
+#include "clench/io/text/xml.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+using Tell = std::function<void(const std::string&)>;
+
+namespace {
+
+constexpr int max_chains = 1000;  // as of robots
+
+// forces have no unit, torques per force are lengths
+Vector6d edge_in_metres(Vector6d edge) {
+  edge.tail<3>() *= units::millimetre;
+  return edge;
+}
+
+/// What a file says of the place, as it says it: some of it twice.
+struct Place {
+  Vector3d location, translation, normal;  // millimetres
+  Eigen::Quaterniond rotation;
+};
+
+// the two ways to say it should agree to the digits that files hold
+constexpr double same_length = 0.01;  // [mm]
+constexpr double same_angle = 0.01;   // [rad]
+
+Pose contact_pose(const Place& place, const std::string& subject, const Tell& warn) {
+  if (warn && !((place.location - place.translation).norm() <= same_length))
+    warn(subject + ": location and translation differ; the translation is used");
+  const Vector3d z = place.rotation * Vector3d::UnitZ();
+  const double angle = std::atan2(z.cross(place.normal).norm(), z.dot(place.normal));
+  if (warn && !(angle <= same_angle))
+    warn(fmt::format("{}: normal and rotation differ by {:.3g} rad; the rotation is used", subject,
+                     angle));
+  return {place.rotation, place.translation * units::millimetre};
+}
+
+/// The palm has no links: files write -1 or anything.
+int min_link(const VirtualContactSpec& contact) {
+  return contact.chain < 0 ? std::numeric_limits<int>::min() : 0;
+}
+
+// --- text ---
+
+FrictionEdges read_edges(NumberReader& numbers, const std::string& what) {
+  const int count = numbers.integer(what + ": number of friction edges", 0, max_friction_edges);
+  FrictionEdges edges(6, count);
+  for (int e = 0; e < count; ++e)
+    edges.col(e) =
+        edge_in_metres(numbers.numbers(6, fmt::format("{}: friction edge {}", what, e + 1)));
+  return edges;
+}
+
+/// `repairs`: null where a number < 0 says that the file is another one
+double read_mu(NumberReader& numbers, const std::string& what, Repairs* repairs) {
+  const double mu = numbers.number(what + ": friction coefficient");
+  if (mu < 0 && !repairs)
+    numbers.line().fail("{}: friction coefficient: expected >= 0, got {}", what, mu);
+  if (!repairs) return mu;
+  return repairs->magnitude(
+      mu, fmt::format("{}: {}: friction coefficient", numbers.line().place(), what));
+}
+
+VirtualContactSpec read_vgr_contact(NumberReader& numbers, int number, const Tell& warn,
+                                    Repairs& repairs) {
+  const std::string what = fmt::format("contact {}", number);
+  VirtualContactSpec contact;
+  contact.chain = numbers.integer(what + ": finger", -1, max_chains);
+  contact.link = numbers.integer(what + ": link", min_link(contact), max_chains);
+  contact.edges = read_edges(numbers, what);
+  Place place;
+  place.location = numbers.vector(what + ": location");
+  place.rotation = numbers.quaternion(what + ": rotation");
+  place.translation = numbers.vector(what + ": translation");
+  place.normal = numbers.vector(what + ": normal");
+  contact.X_LC = contact_pose(place, fmt::format("{}: {}", numbers.line().place(), what), warn);
+  contact.mu = read_mu(numbers, what, &repairs);
+  if (contact.chain < 0) contact.link = 0;
+  check_virtual_contact(contact, fmt::format("{}: {}", numbers.line().place(), what));
+  return contact;
+}
+
+VirtualContactSet read_vgr(const std::string& file, std::string text, const Tell& warn,
+                           Repairs& repairs) {
+  LineReader lines(file, std::move(text));
+  VirtualContactSet set;
+  set.robot = lines.next_full("the robot's name").text();
+  NumberReader numbers(lines);
+  const int count = numbers.integer("number of contacts", 0);
+  for (int i = 0; i < count; ++i)
+    set.contacts.push_back(read_vgr_contact(numbers, i + 1, warn, repairs));
+  numbers.finish(warn);
+  return set;
+}
+
+// --- XML ---
+
+/// What is there counts, not what is declared.
+void check_count(const XmlElement& declared, int given, const char* what, Repairs& repairs) {
+  if (const std::string text = declared.text(); parse_integer(text) != given)
+    repairs.add("count",
+                fmt::format("{}: {}: expected {}, as there are as many {}, got {}; those count",
+                            declared.place(), declared.name(), given, what, in_quotes(text)));
+}
+
+VirtualContactSpec read_xml_contact(const XmlElement& e, const Tell& warn, Repairs& repairs) {
+  e.check({.once = {"finger_number", "link_number", "num_friction_edges", "friction_edges",
+                    "location", "rotation", "translation", "normal", "sCof"}},
+          warn);
+  VirtualContactSpec contact;
+  contact.chain = e.expected("finger_number").integer(-1, max_chains);
+  contact.link = e.expected("link_number").integer(min_link(contact), max_chains);
+  if (contact.chain < 0) contact.link = 0;
+
+  const XmlElement list = e.expected("friction_edges");
+  list.check({.many = {"friction_edge"}}, warn);
+  const auto edges = list.children("friction_edge");
+  const int count = static_cast<int>(edges.size());
+  if (count > max_friction_edges)
+    list.fail("expected at most {} friction edges, got {}", max_friction_edges, count);
+  if (const XmlElement said = e.child("num_friction_edges"))
+    check_count(said, count, "friction edges", repairs);
+  contact.edges.resize(6, count);
+  for (int i = 0; i < count; ++i)
+    contact.edges.col(i) = edge_in_metres(Vector6d(edges[i].numbers(6).data()));
+
+  const XmlElement rotation = e.expected("rotation");
+  const auto x = rotation.numbers(4);
+  const auto q = made_unit(Eigen::Vector4d(x.data()));
+  if (!q)
+    rotation.fail("rotation: expected a quaternion of length 1, got ({} {} {} {})", x[0], x[1],
+                  x[2], x[3]);
+  const Place place{.location = e.expected("location").vector(),
+                    .translation = e.expected("translation").vector(),
+                    .normal = e.expected("normal").vector(),
+                    .rotation = *q};
+  contact.X_LC = contact_pose(place, e.place(), warn);
+  const XmlElement mu = e.expected("sCof");
+  contact.mu = repairs.magnitude(mu.number(), mu.place() + ": sCof");
+  check_virtual_contact(contact, e.place());
+  return contact;
+}
+
+VirtualContactSet read_xml(const std::string& name, const std::string& text, const Tell& warn,
+                           Repairs& repairs) {
+  const XmlFile file(name, text);
+  const XmlElement root = file.root();
+  if (root.name() != "virtual_contacts")
+    root.fail("expected an element <virtual_contacts>, got <{}>", excerpt(root.name()));
+  root.check({.once = {"robot_name", "num_contacts"}, .many = {"virtual_contact"}}, warn);
+  VirtualContactSet set;
+  if (const XmlElement robot = root.child("robot_name")) set.robot = robot.text();
+  for (const XmlElement& e : root.children("virtual_contact"))
+    set.contacts.push_back(read_xml_contact(e, warn, repairs));
+  if (const XmlElement count = root.child("num_contacts"))
+    check_count(count, static_cast<int>(set.contacts.size()), "contacts", repairs);
+  return set;
+}
+
+// --- writing ---
+
+template <class Vector>
+std::string listed(const Vector& x) {
+  std::string out;
+  for (int i = 0; i < x.size(); ++i) out += fmt::format("{}{}", i ? " " : "", x[i]);
+  return out;
+}
+
+/// The numbers of a contact as both formats write them.
+struct Written {
+  explicit Written(const Pose& X_LC, const FrictionEdges& friction) {
+    const Eigen::Quaterniond& q = X_LC.rotation;
+    rotation = fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z());
+    location = listed(Vector3d(X_LC.position / units::millimetre));
+    normal = listed(Vector3d(q * Vector3d::UnitZ()));
+    for (int e = 0; e < friction.cols(); ++e) {
+      Vector6d edge = friction.col(e);
+      edge.tail<3>() /= units::millimetre;
+      edges.push_back(listed(edge));
+    }
+  }
+  std::string rotation, location, normal;
+  std::vector<std::string> edges;
+};
+
+std::string text_of(const VirtualContactSet& set) {
+  // the first line is the name, whatever it is, but no comment and only one line
+  std::string name = set.robot.empty() || set.robot.front() == '#' ? '_' + set.robot : set.robot;
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ') c = '_';
+  std::string out = fmt::format("{}\n{}\n", name, set.contacts.size());
+  for (const auto& contact : set.contacts) {
+    const Written w(contact.X_LC, contact.edges);
+    out += fmt::format("{} {}\n{}\n", contact.chain, contact.link, w.edges.size());
+    for (const auto& edge : w.edges) out += edge + '\n';
+    for (const auto* line : {&w.location, &w.rotation, &w.location, &w.normal}) out += *line + '\n';
+    out += fmt::format("{}\n", contact.mu);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string virtual_contacts_xml(const VirtualContactSet& set) {
+  std::string out = fmt::format(
+      "<?xml version=\"1.0\"?>\n<virtual_contacts>\n  <robot_name>{}</robot_name>\n  "
+      "<num_contacts>{}</num_contacts>\n",
+      xml_escaped(set.robot), set.contacts.size());
+  const auto add = [&](const char* name, const std::string& text, const char* indent = "    ") {
+    out += fmt::format("{}<{}>{}</{}>\n", indent, name, text, name);
+  };
+  for (const auto& contact : set.contacts) {
+    const Written w(contact.X_LC, contact.edges);
+    out += "  <virtual_contact>\n";
+    add("finger_number", fmt::format("{}", contact.chain));
+    add("link_number", fmt::format("{}", contact.link));
+    add("num_friction_edges", fmt::format("{}", w.edges.size()));
+    out += "    <friction_edges>\n";
+    for (const auto& edge : w.edges) add("friction_edge", edge, "      ");
+    out += "    </friction_edges>\n";
+    add("location", w.location);
+    add("rotation", w.rotation);
+    add("translation", w.location);
+    add("normal", w.normal);
+    add("sCof", fmt::format("{}", contact.mu));
+    out += "  </virtual_contact>\n";
+  }
+  return out + "</virtual_contacts>\n";
+}
+
+VirtualContactSet read_virtual_contacts(const fs::path& path, const ReadOptions& options) {
+  return of_file([&] {
+    std::string text = read_text(path);
+    const std::string file = path.filename().string();
+    Repairs repairs(options.listeners());
+    VirtualContactSet set = trim(text).starts_with('<')
+                                ? read_xml(file, text, options.warn, repairs)
+                                : read_vgr(file, std::move(text), options.warn, repairs);
+    repairs.tell();
+    return set;
+  });
+}
+
+std::string virtual_contacts_text(const VirtualContactSet& set, const fs::path& path) {
+  const std::string file = path.filename().string();
+  for (size_t i = 0; i < set.contacts.size(); ++i)
+    check_virtual_contact(set.contacts[i], fmt::format("{}: contact {}", file, i + 1));
+  const std::string ending = lower_case(path.extension().string());
+  if (ending != ".vgr" && ending != ".xml")
+    fail("{}: expected a file of virtual contacts, .vgr or .xml, got {}", file, in_quotes(ending));
+  return ending == ".xml" ? virtual_contacts_xml(set) : text_of(set);
+}
+
+void write_virtual_contacts(const VirtualContactSet& set, const fs::path& path) {
+  write_file(path, virtual_contacts_text(set, path));
+}
+
+// --- contacts on objects ---
+
+static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed, Repairs* repairs) {
+  const int count = numbers.integer("number of contacts", 0);
+  std::vector<ObjectContact> contacts;
+  for (int i = 0; i < count; ++i) {
+    const std::string what = fmt::format("contact {}", i + 1);
+    ObjectContact c;
+    c.placed = placed;
+    c.edges = read_edges(numbers, what);
+    c.X_OC.rotation = numbers.quaternion(what + ": rotation");
+    if (placed) c.X_OC.position = numbers.vector(what + ": translation") * units::millimetre;
+    const Vector3d normal = numbers.vector(what + ": normal");
+    const double length = normal.stableNorm();
+    if (!(length > 1e-6)) numbers.line().fail("{}: normal: expected a direction, got zero", what);
+    c.n_O = normal / length;
+    c.mu = read_mu(numbers, what, repairs);
+    check_virtual_contact({.X_LC = c.X_OC, .mu = c.mu, .edges = c.edges},
+                          fmt::format("{}: {}", numbers.line().place(), what));
+    contacts.push_back(std::move(c));
+  }
+  return contacts;
+}
+
+std::vector<ObjectContact> read_object_contacts(const fs::path& path, const ReadOptions& options) {
+  return of_file([&] {
+    const std::string text = read_text(path), file = path.filename().string();
+    // only one of the two layouts uses the numbers up, to the last one
+    LineReader bare_lines(file, text), lines(file, text);
+    NumberReader bare_numbers(bare_lines), numbers(lines);
+    try {
+      auto contacts = read_list(bare_numbers, false, nullptr);
+      if (!bare_numbers.more() && !contacts.empty()) {
+        if (options.warn)
+          options.warn(file + ": the points of the contacts are left out; they are not placed");
+        return contacts;
+      }
+    } catch (const Error& error) {
+      // then it is the other one, whose errors are told
+      if (error.kind() != ErrorKind::input) throw;
+    }
+    Repairs repairs(options.listeners());
+    auto contacts = read_list(numbers, true, &repairs);
+    repairs.tell();
+    numbers.finish(options.warn);
+    return contacts;
+  });
+}
+
+void write_object_contacts(const std::vector<ObjectContact>& contacts, const fs::path& path) {
+  std::string out = fmt::format("{}\n", contacts.size());
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const ObjectContact& c = contacts[i];
+    const std::string subject = fmt::format("{}: contact {}", path.filename().string(), i + 1);
+    if (!c.placed) fail("{}: expected a contact with a point", subject);
+    check_virtual_contact({.X_LC = c.X_OC, .mu = c.mu, .edges = c.edges}, subject);
+    const Written w(c.X_OC, c.edges);
+    out += fmt::format("{}\n", w.edges.size());
+    for (const auto& edge : w.edges) out += edge + '\n';
+    for (const auto* line : {&w.rotation, &w.location}) out += *line + '\n';
+    out += fmt::format("{}\n{}\n", listed(c.n_O), c.mu);
+  }
+  write_file(path, out);
+}
+
+}  // namespace clench

@@ -1,0 +1,14 @@
+// Worlds from the text files of GraspIt! up to 2.0.
+#pragma once
+#include <filesystem>
+
+#include "clench/io/text/library.h"
+#include "clench/spec/world_spec.h"
+
+namespace clench {
+
+/// throws Error  "mug.wld:12: ..." where a line is not as expected, or a file that it names cannot be
+/// read
+WorldSpec read_world_wld(const std::filesystem::path& path, Library& library);
+
+}  // namespace clench

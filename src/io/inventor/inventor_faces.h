@@ -1,0 +1,20 @@
+// Faces of the Inventor and VRML shapes that list their points.
+#pragma once
+#include "clench/io/inventor/inventor_walk.h"
+
+namespace clench {
+
+/// Takes the faces of one shape, one after the other.
+struct InventorSurface {
+  bool convex = false;                       ///< the file says that all are
+  bool clockwise = false;                    ///< corners run clockwise seen from outside
+  std::vector<Eigen::Vector3f> colors = {};  ///< empty: the colours of the material in force
+  /// Corners of a face, and the number of its colour.
+  std::function<void(std::span<const InventorVector>, int)> add = {};
+};
+
+/// Gives the faces of a shape that lists its points.   returns  is it such a shape?
+/// throws Error  "IndexedFaceSet: number 7 of coordIndex: expected -1 or one of 8 points, got 12"
+bool list_faces(const InventorNode& shape, const InventorState& state, InventorSurface& surface);
+
+}  // namespace clench

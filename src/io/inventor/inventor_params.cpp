@@ -1,0 +1,107 @@
+#include "clench/io/inventor/inventor_params.h"
+
+#include <algorithm>
+
+#include "clench/base/text.h"
+#include "clench/base/units.h"
+#include "clench/io/text/repairs.h"
+#include "clench/spec/inertia.h"
+#include "clench/spec/material_names.h"
+
+namespace clench {
+
+namespace {
+
+constexpr const char* keys[] = {"material", "youngs", "useFlockOfBirds",
+                                "mass",     "cog",    "inertia_matrix"};
+
+/// Does each line begin with '#', with no blank before it?
+std::vector<bool> marked_lines(std::string_view text) {
+  std::vector<bool> out;
+  for (size_t start = 0; start < text.size();
+       start = std::min(text.find('\n', start), text.size()) + 1)
+    out.push_back(text[start] == '#');
+  return out;
+}
+
+/// absent  what stands for 0; 0: nothing does
+double number_of(const Line& line, const Quantity& quantity, Repairs& repairs, double absent = 0) {
+  const std::string subject = fmt::format("{}: {}", line.place(), quantity.name);
+  double value = repairs.magnitude(line.number(1, quantity.name), subject);
+  if (absent > 0) value = repairs.not_zero(value, absent, subject);
+  check(quantity, value, line.place());
+  return value;
+}
+
+/// Empty, with a warning, when no body has such an inertia.
+std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
+                                            const ReadOptions& options) {
+  // three rows on the next three lines, each after a '#'
+  Eigen::Matrix3d rows;
+  for (int i = 0; i < 3; ++i) {
+    const Line line = lines.next();
+    if (!line.text().starts_with('#') || line.number() == head.number())
+      line.fail("inertia_matrix: expected row {} of 3 as '#a b c', got {}", i + 1,
+                in_quotes(line.text()));
+    const Line row = Line(&lines.file(), line.number(), line.text().substr(1)).before('#');
+    if (row.size() > 3)
+      line.fail("inertia_matrix: expected 3 numbers in a row, got {}", row.size());
+    for (int j = 0; j < 3; ++j) {
+      const auto value = parse_number(row.word(j));
+      if (!value)
+        line.fail("inertia_matrix: expected three numbers [mm^2], got {}", in_quotes(row.word(j)));
+      rows(i, j) = *value * units::square_millimetre;
+    }
+  }
+  return checked_inertia(rows, head.place(), options.listeners());
+}
+
+}  // namespace
+
+void read_inventor_params(const std::string& text, const std::string& file,
+                          const ReadOptions& options, BodySpec& body) {
+  const std::vector<bool> marked = marked_lines(text);
+  LineReader lines(file, text);
+  Repairs repairs(options.listeners());
+  while (!lines.done()) {
+    const Line line = lines.next();
+    if (!line.text().starts_with('#')) continue;
+    const std::string_view key = line.word(0).substr(1);
+    if (!marked[line.number() - 1]) {
+      if (std::ranges::count(keys, key) && options.warn)
+        options.warn(
+            fmt::format("{}: #{} is a comment, for it does not begin its line", line.place(), key));
+      continue;
+    }
+    if (key == "material") {
+      try {
+        check_material(line.word(1));
+      } catch (const Error& error) {
+        line.fail("{}", error.what());
+      }
+      body.material = line.word(1);
+    } else if (key == "youngs") {
+      body.elastic_modulus = number_of(line, elastic_modulus_rule.called("youngs"), repairs);
+      if (*body.elastic_modulus < 1e4 && options.warn)
+        options.suspected(
+            fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
+                        line.place(), *body.elastic_modulus));
+    } else if (key == "useFlockOfBirds") {
+      body.tracker = repairs.count(line.word(1), line.place() + ": useFlockOfBirds");
+    } else if (key == "mass") {
+      body.mass =
+          number_of(line, mass_rule.in("g", units::gram), repairs, BodySpec().mass / units::gram) *
+          units::gram;
+    } else if (key == "cog") {
+      body.com =
+          Eigen::Vector3d(line.number(1, "cog"), line.number(2, "cog"), line.number(3, "cog")) *
+          units::millimetre;
+      check(coordinate_rule.called("cog"), *body.com, line.place());
+    } else if (key == "inertia_matrix") {
+      body.inertia_per_mass = inertia_rows(lines, line, options);
+    }
+  }
+  repairs.tell();
+}
+
+}  // namespace clench

@@ -1,0 +1,315 @@
+#include "clench/io/mesh/geometry_builder.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "clench/base/error.h"
+#include "clench/base/hash.h"
+#include "clench/geometry/mesh/triangulate.h"
+
+namespace clench {
+
+using Eigen::Vector3d;
+
+namespace {
+
+bool repeats_a_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+/// A surface, and which of the gathered triangles its own are.
+struct Surface {
+  Mesh mesh;
+  std::vector<int> kept;
+  MeshFaults faults;
+};
+
+/// For each point the first one at the same place.
+std::vector<int> first_at_place(const std::vector<Vector3d>& points) {
+  size_t size = 16;
+  while (size < 2 * points.size()) size *= 2;
+  std::vector<int> table(size, -1), first(points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    Hasher hasher;
+    for (const double x : points[i]) hasher.add(x + 0.0);  // makes -0 and 0 one
+    size_t slot = hasher.value() & (size - 1);
+    while (table[slot] >= 0 && points[table[slot]] != points[i]) slot = (slot + 1) & (size - 1);
+    if (table[slot] < 0) table[slot] = static_cast<int>(i);
+    first[i] = table[slot];
+  }
+  return first;
+}
+
+/// Vertex i becomes vertex to[i] <= i. Triangles left with a vertex twice go, and so do vertices
+/// that no triangle uses; the others keep their order.
+Surface with_vertices_merged(const Surface& from, const std::vector<int>& to) {
+  Surface out;
+  for (size_t i = 0; i < from.mesh.triangles.size(); ++i) {
+    const Triangle& t = from.mesh.triangles[i];
+    const Triangle merged = {to[t[0]], to[t[1]], to[t[2]]};
+    if (repeats_a_vertex(merged)) continue;
+    out.mesh.triangles.push_back(merged);
+    out.kept.push_back(from.kept[i]);
+  }
+  std::vector<int> number(from.mesh.vertices.size(), -1);
+  for (const Triangle& t : out.mesh.triangles)
+    for (const int v : t) number[v] = 0;
+  for (size_t v = 0; v < number.size(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<int>(out.mesh.vertices.size());
+    out.mesh.vertices.push_back(from.mesh.vertices[v]);
+  }
+  for (Triangle& t : out.mesh.triangles)
+    for (int& v : t) v = number[v];
+  return out;
+}
+
+Surface without_unused_vertices(const Surface& from) {
+  std::vector<int> same(from.mesh.vertices.size());
+  std::iota(same.begin(), same.end(), 0);
+  return with_vertices_merged(from, same);
+}
+
+void weld_places(Surface& s, bool always) {
+  const auto first = first_at_place(s.mesh.vertices);
+  bool any = false;
+  for (size_t i = 0; i < first.size() && !any; ++i) any = first[i] != static_cast<int>(i);
+  if (!any) return;
+  Surface welded = with_vertices_merged(s, first);
+  if (welded.mesh.triangles.empty()) return;
+  welded.faults = find_faults(welded.mesh);
+  if (always || welded.faults.open_edges < s.faults.open_edges) s = std::move(welded);
+}
+
+/// Seams of round shapes end in points that differ in their last bits: joins them where that repairs
+/// edges. The tolerance is a few units in the last place of the 32-bit numbers that the points
+/// were.
+void weld_seams(Surface& s) {
+  const Bounds bounds = s.mesh.bounds();
+  const double largest =
+      std::max(bounds.low.cwiseAbs().maxCoeff(), bounds.high.cwiseAbs().maxCoeff());
+  int dropped = 0;
+  Mesh joined = weld(s.mesh, 4e-7 * largest, &dropped);
+  if (dropped > 0 || joined.vertices.size() == s.mesh.vertices.size()) return;
+  const MeshFaults faults = find_faults(joined);
+  if (faults.open_edges >= s.faults.open_edges) return;
+  s.mesh = std::move(joined);
+  s.faults = faults;
+}
+
+/// Drops triangles if that leaves fewer faulty edges.
+void drop_if_better(Surface& s, const std::vector<char>& dropped) {
+  Surface rest;
+  rest.mesh.vertices = s.mesh.vertices;
+  for (size_t i = 0; i < s.mesh.triangles.size(); ++i) {
+    if (dropped[i]) continue;
+    rest.mesh.triangles.push_back(s.mesh.triangles[i]);
+    rest.kept.push_back(s.kept[i]);
+  }
+  if (rest.mesh.triangles.empty()) return;
+  rest = without_unused_vertices(rest);
+  rest.faults = find_faults(rest.mesh);
+  if (rest.faults.open_edges + rest.faults.tangled_edges <
+      s.faults.open_edges + s.faults.tangled_edges)
+    s = std::move(rest);
+}
+
+void drop_flat_triangles(Surface& s) {
+  std::vector<char> flat(s.mesh.triangles.size());
+  for (size_t i = 0; i < flat.size(); ++i) flat[i] = without_area(s.mesh, static_cast<int>(i));
+  drop_if_better(s, flat);
+}
+
+/// Of triangles over the same vertices two that face opposite ways are a fold without inside, and go
+/// both; of those that are left one stays.
+void drop_doubled_triangles(Surface& s) {
+  const auto& triangles = s.mesh.triangles;
+  std::vector<std::pair<Triangle, int>> sorted;  // lowest vertex first, and the triangle
+  std::vector<char> odd(triangles.size()), dropped(triangles.size(), 0);
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    Triangle t = triangles[i];
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    if ((odd[i] = t[1] > t[2])) std::swap(t[1], t[2]);
+    sorted.emplace_back(t, static_cast<int>(i));
+  }
+  std::sort(sorted.begin(), sorted.end());
+  for (size_t i = 0; i < sorted.size();) {
+    size_t end = i;
+    int sum = 0;
+    for (; end < sorted.size() && sorted[end].first == sorted[i].first; ++end)
+      sum += odd[sorted[end].second] ? -1 : 1;
+    bool stays = sum != 0;
+    for (; i < end; ++i) {
+      const int t = sorted[i].second;
+      const bool this_one = stays && (odd[t] != 0) == (sum < 0);
+      dropped[t] = !this_one;
+      if (this_one) stays = false;
+    }
+  }
+  drop_if_better(s, dropped);
+}
+
+}  // namespace
+
+void GeometryBuilder::add(const std::array<Vector3d, 3>& corners, const Eigen::Vector3f& color,
+                          float transparency, int line) {
+  ++report.triangles_read;
+  report.vertices_read += 3;
+  if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
+  const int first = static_cast<int>(mesh_.vertices.size());
+  for (int k = 0; k < 3; ++k) {
+    mesh_.vertices.push_back(corners[k]);
+    note_far(corners[k], line);
+  }
+  loose_ = true;
+  add_triangle({first, first + 1, first + 2}, color, transparency);
+}
+
+// few vertices ever are so far out that their lines are worth keeping
+void GeometryBuilder::note_far(const Vector3d& p, int line) {
+  if (line > 0 && p.cwiseAbs().maxCoeff() > largest_coordinate)
+    far_lines_[static_cast<int>(mesh_.vertices.size()) - 1] = line;
+}
+
+void GeometryBuilder::check_reach(const std::string& subject) const {
+  for (const Triangle& t : mesh_.triangles)
+    for (const int v : t) {
+      const Vector3d& p = mesh_.vertices[v];
+      if (p.cwiseAbs().maxCoeff() <= largest_coordinate) continue;
+      const auto line = far_lines_.find(v);
+      const std::string place =
+          line == far_lines_.end() ? subject : fmt::format("{}:{}", subject, line->second);
+      fail("{}: vertex {}: expected coordinates within {} m, got ({}, {}, {})", place, v,
+           largest_coordinate, p.x(), p.y(), p.z());
+    }
+}
+
+int GeometryBuilder::add_vertex(const Vector3d& p, int line) {
+  if (mesh_.vertices.size() >= max_mesh_vertices)
+    fail("expected at most {} vertices", max_mesh_vertices);
+  if (mesh_.vertices.size() % 1024 == 0) progress.check();
+  mesh_.vertices.push_back(p);
+  note_far(p, line);
+  return static_cast<int>(mesh_.vertices.size()) - 1;
+}
+
+void GeometryBuilder::add_face(std::span<const int> corners, const Eigen::Vector3f& color,
+                               float transparency) {
+  if (++faces_ > max_mesh_faces) fail("expected at most {} faces", max_mesh_faces);
+  if (corners.size() == 3) {
+    ++report.triangles_read;
+    const Triangle t = {corners[0], corners[1], corners[2]};
+    if (!repeats_a_vertex(t)) add_triangle(t, color, transparency);
+    return;
+  }
+  std::vector<Vector3d> points;
+  for (const int v : corners) points.push_back(mesh_.vertices[v]);
+  for (const Triangle& t : cut(points)) {
+    ++report.triangles_read;
+    const Triangle named = {corners[t[0]], corners[t[1]], corners[t[2]]};
+    if (!repeats_a_vertex(named)) add_triangle(named, color, transparency);
+  }
+}
+
+std::vector<Triangle> GeometryBuilder::cut(const std::vector<Vector3d>& outline, bool convex) {
+  constexpr size_t max_work = 1'000'000'000;  // some seconds
+  if (cutting_work_ > max_work) fail("expected fewer faces of many corners that are not convex");
+  return triangulate(outline, convex, &cutting_work_);
+}
+
+// files go beyond what can be shown
+static float clamped_share(float x) { return x >= 0 ? std::min(x, 1.0f) : 0.0f; }
+
+void GeometryBuilder::add_triangle(const Triangle& t, const Eigen::Vector3f& given,
+                                   float transparency) {
+  const Eigen::Vector3f color = given.unaryExpr(&clamped_share);
+  if (mesh_.triangles.size() >= max_mesh_triangles)
+    fail("expected at most {} triangles", max_mesh_triangles);
+  if (mesh_.triangles.size() % 1024 == 0) progress.check();
+  mesh_.triangles.push_back(t);
+  colors_.push_back(color);
+
+  // the whole body's colour is the mean over its area
+  const Vector3d& p = mesh_.vertices[t[0]];
+  const double area = (mesh_.vertices[t[1]] - p).cross(mesh_.vertices[t[2]] - p).norm();
+  if (!std::isfinite(area)) return;
+  weighted_color_ += area * color.cast<double>();
+  weighted_transparency_ += area * clamped_share(transparency);
+  weight_ += area;
+}
+
+Bounds GeometryBuilder::bounds() const {
+  Bounds bounds;
+  for (const Triangle& t : mesh_.triangles)
+    for (const int v : t) bounds.add(mesh_.vertices[v]);
+  return bounds;
+}
+
+void GeometryBuilder::transform(double factor, const Eigen::Matrix3d& turn) {
+  const bool turns = turn != Eigen::Matrix3d::Identity();
+  for (Vector3d& p : mesh_.vertices) {
+    if (turns) p = turn * p;
+    if (factor != 1) p *= factor;
+  }
+}
+
+Appearance GeometryBuilder::mean_appearance(const std::vector<int>& kept) const {
+  Appearance out;
+  out.given = true;
+  if (!(weight_ > 0)) return out;
+  out.color = (weighted_color_ / weight_).cast<float>();
+  out.transparency = static_cast<float>(weighted_transparency_ / weight_);
+  bool differ = false;
+  for (const int i : kept) differ = differ || colors_[i] != colors_[kept.front()];
+  if (!differ)
+    out.color = colors_[kept.front()];
+  else
+    for (const int i : kept) out.triangle_colors.push_back(colors_[i]);
+  return out;
+}
+
+Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
+                                 const ReadOptions& options) {
+  Geometry out;
+  out.report = report;
+  if (mesh_.triangles.empty()) return out;
+  check_reach(subject);
+
+  Surface s;
+  s.kept.resize(mesh_.triangles.size());
+  std::iota(s.kept.begin(), s.kept.end(), 0);
+  s.mesh = std::move(mesh_);
+  const size_t gathered = s.mesh.vertices.size();
+  if (!loose_) {
+    s = without_unused_vertices(s);
+    out.report.unused_vertices = static_cast<int>(gathered - s.mesh.vertices.size());
+    out.report.vertices_read = static_cast<int>(s.mesh.vertices.size());
+  }
+  progress.check();
+  const size_t used = s.mesh.vertices.size();
+  check_mesh(s.mesh, subject);
+
+  // repair what is open; a loose triangle has only open edges, so its file connects by place alone
+  if (!loose_) s.faults = find_faults(s.mesh, progress);
+  if (loose_ || !s.faults.closed()) weld_places(s, loose_);
+  if (loose_ && s.mesh.vertices.size() == used) s.faults = find_faults(s.mesh, progress);
+  progress.check();
+  if (s.faults.open_edges > 0) weld_seams(s);
+  progress.check();
+  if (!keeps_triangles && !s.faults.closed() && s.faults.degenerate_triangles > 0)
+    drop_flat_triangles(s);
+  if (!keeps_triangles && !s.faults.closed() && s.faults.duplicate_triangles > 0)
+    drop_doubled_triangles(s);
+  out.report.welded_vertices = static_cast<int>(used - s.mesh.vertices.size());
+  out.report.dropped_triangles =
+      out.report.triangles_read - static_cast<int>(s.mesh.triangles.size());
+
+  progress.check();
+  out.report.flipped = turn_outward(s.mesh);
+  if (out.report.flipped) options.repaired(subject + inside_out);
+  if (colors_given) out.appearance = mean_appearance(s.kept);
+  out.mesh = std::move(s.mesh);
+  return out;
+}
+
+}  // namespace clench

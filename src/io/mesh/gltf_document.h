@@ -1,0 +1,68 @@
+// A glTF file's JSON and buffers, checked: every index, count and byte before it is used.
+#pragma once
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "clench/base/error.h"
+#include "clench/io/mesh/mesh_input.h"
+
+namespace clench {
+
+/// A value of the file and its name in errors: "meshes[2].primitives[0]".
+struct GltfValue {
+  const nlohmann::json* json = nullptr;
+  std::string name;
+
+  explicit operator bool() const { return json; }
+};
+
+class GltfDocument {
+ public:
+  /// throws Error when it is no glTF 2, or needs an extension that changes its geometry
+  explicit GltfDocument(const MeshInput& input);
+
+  template <class... Args>
+  [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
+    throw Error(file_ + ": " + fmt::format(format, std::forward<Args>(args)...));
+  }
+  /// A member of an object, or none.
+  GltfValue member(const GltfValue& object, const char* key) const;
+  /// Item i of the file's array of that name, "meshes" say.   throws Error when there is none
+  GltfValue item(const char* array, int i, const std::string& expected_by) const;
+  int count(const char* array) const;  ///< 0 when there is no such array
+  /// Items of an array; none when there is none.
+  std::vector<GltfValue> items(const GltfValue& array) const;
+  GltfValue root() const { return {&json_, ""}; }
+
+  int integer(const GltfValue& object, const char* key, int fallback, int low = 0) const;
+  int expected_integer(const GltfValue& object, const char* key, int low = 0) const;
+  /// `count` finite numbers
+  std::vector<double> numbers(const GltfValue& array, int count) const;
+
+  /// What an accessor stands for: `components` finite numbers each, in order.
+  std::vector<double> read_floats(int accessor, int components, const std::string& expected_by);
+  std::vector<int> read_indices(int accessor, const std::string& expected_by);
+
+ private:
+  struct Span {
+    const char* first;
+    int count, stride, component_type;
+    bool normalized;
+    std::string name;
+  };
+  Span span(int accessor, const char* type, int components, const std::string& expected_by);
+  const std::string& buffer(int i, const std::string& expected_by);
+  void split_glb(const std::string& bytes, std::string& text);
+  void check_version() const;
+
+  const MeshInput& input_;
+  std::string file_;
+  nlohmann::json json_;
+  bool binary_ = false;     // a .glb
+  std::string glb_buffer_;  // buffer 0 of a .glb
+  std::map<int, std::string> buffers_;
+};
+
+}  // namespace clench

@@ -1,0 +1,103 @@
+#include "clench/io/mesh/mesh_files.h"
+
+#include "clench/base/file.h"
+#include "clench/base/text.h"
+#include "clench/base/units.h"
+#include "clench/io/mesh/collada.h"
+#include "clench/io/mesh/gltf.h"
+#include "clench/io/mesh/obj.h"
+#include "clench/io/mesh/off.h"
+#include "clench/io/mesh/ply.h"
+#include "clench/io/mesh/stl.h"
+
+namespace clench {
+
+double guess_mesh_unit(double largest_side) {
+  // Mesh files are in metres (robots, games) or in millimetres (machines, scanners, printers).
+  // What hands grasp and stand beside measures between a nut's 1 cm and a room's 10 m. Of the two
+  // units the one that brings the mesh nearer to the middle of that range, 0.32 m, by its ratio,
+  // is metres up to 10 units.
+  constexpr double max_metres = 10;
+  return largest_side <= max_metres ? 1 : units::millimetre;
+}
+
+static void set_unit(GeometryBuilder& builder, const std::string& file,
+                     const ReadOptions& options) {
+  MeshReport& report = builder.report;
+  const bool silent = report.unit_source == UnitSource::guess;
+  if (options.mesh_scale) {
+    report.unit = *options.mesh_scale;
+    report.unit_source = UnitSource::option;
+  } else if (silent && options.silent_mesh_unit) {
+    report.unit = *options.silent_mesh_unit;
+    report.unit_source = UnitSource::format;
+  } else if (silent) {
+    const Eigen::Vector3d size = builder.bounds().size();
+    report.unit = guess_mesh_unit(size.maxCoeff());
+    if (options.note)
+      options.note(
+          fmt::format("{}: it names no unit; its size, {:.4g} x {:.4g} x {:.4g}, is taken for {} "
+                      "(the option unit says otherwise)",
+                      file, size.x(), size.y(), size.z(), unit_name(report.unit)));
+  }
+}
+
+/// The turn that brings the file's upward axis to z, its front to -y.
+static Eigen::Matrix3d turn_up(char up) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  if (up == 'y') turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  if (up == 'x') turn << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return turn;
+}
+
+/// returns  do colours come from the file?
+static bool read_triangles(const MeshInput& input, GeometryBuilder& builder) {
+  const std::string ending = ending_of(input.path);
+  const bool given = input.format != GeometryFormat::none;
+  switch (given ? input.format : geometry_format(ending)) {
+    case GeometryFormat::obj:
+      return read_obj(input, builder);
+    case GeometryFormat::ply:
+      return read_ply(input, builder);
+    case GeometryFormat::off:
+      return read_off(input, builder);
+    case GeometryFormat::collada:
+      return read_collada(input, builder);
+    case GeometryFormat::gltf:
+      return read_gltf(input, builder);
+    case GeometryFormat::stl:
+      read_stl(input, builder);
+      return false;
+    case GeometryFormat::none:
+    case GeometryFormat::inventor:
+      break;
+  }
+  std::vector<std::string> expected = geometry_endings();
+  std::erase_if(expected, [](const auto& e) { return is_inventor(e); });
+  fail("{}: expected a mesh from {}, got {}", input.file(), one_of(expected), in_quotes(ending));
+}
+
+Geometry read_mesh(const MeshInput& input) {
+  const ReadOptions& options = input.options;
+  const std::string file = input.file();
+  GeometryBuilder builder;
+  builder.progress = options.progress;
+  builder.report.unit_source = UnitSource::guess;  // until the file says it
+  const bool colors_given = read_triangles(input, builder);
+  if (builder.triangle_count() == 0) fail("{}: expected triangles, got none", file);
+  set_unit(builder, file, options);
+  MeshReport& report = builder.report;
+  if (!options.turn_mesh_up) report.up = 'z';
+  if (options.note && report.up != 'z')
+    options.note(fmt::format("{}: its {} axis is up, and was turned to z", file, report.up));
+  builder.transform(report.unit, turn_up(report.up));
+  return builder.finish(colors_given, file, options);
+}
+
+Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options,
+                        GeometryFormat format) {
+  const std::string bytes = read_bytes(path);
+  return read_mesh({path, bytes, options, format});
+}
+
+}  // namespace clench

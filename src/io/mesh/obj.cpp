@@ -1,0 +1,250 @@
+#include "clench/io/mesh/obj.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+
+#include "clench/io/text/word_reader.h"
+
+namespace clench {
+
+namespace {
+
+struct Material {
+  Eigen::Vector3f color = Appearance().color;
+  float transparency = 0;
+};
+
+constexpr size_t max_material_files = 1000;  // looked for
+
+/// What a face needs when all points are known.
+struct Face {
+  int first;  // of its corners
+  int line;
+  int material;  // number of its name, or -1
+};
+
+struct UsedMaterial {
+  int number;
+  std::string place;  // where it is used first
+};
+
+class ObjReader {
+ public:
+  ObjReader(const MeshInput& input, const std::string& text, GeometryBuilder& builder)
+      : input_(input), builder_(builder), words_(input.file(), text, true) {}
+  bool read();
+
+ private:
+  void read_point();
+  void read_face();
+  void read_other(std::string_view keyword);
+  void use_material(const std::string& name);
+  void read_materials(const std::string& names);
+  void read_material_file(const std::filesystem::path& path);
+  void add_faces();
+  void warn_once(const std::string& about, const std::string& sentence) {
+    warn_once(about, words_.place(), sentence);
+  }
+  void warn_once(const std::string& about, const std::string& place, const std::string& sentence);
+
+  const MeshInput& input_;
+  GeometryBuilder& builder_;
+  WordReader words_;
+  std::vector<Eigen::Vector3f> point_colors_;
+  std::vector<int> corners_;
+  std::vector<Face> faces_;
+  int material_ = -1;
+  std::map<std::string, UsedMaterial> used_materials_;  // by the names that faces use
+  std::map<std::string, Material> materials_;           // by the names that MTL files define
+  size_t material_files_ = 0;                           // that were looked for
+  std::set<std::string> told_;
+  std::vector<std::string> warnings_;
+};
+
+void ObjReader::warn_once(const std::string& about, const std::string& place,
+                          const std::string& sentence) {
+  constexpr size_t max_warnings = 10;
+  if (told_.size() < max_warnings && told_.insert(about).second)
+    warnings_.push_back(place + ": " + sentence);
+}
+
+void ObjReader::read_point() {
+  double numbers[7];
+  int count = 0;
+  for (auto word = words_.word(); !word.empty() || count < 3; word = words_.word()) {
+    const auto value = parse_number(word);
+    if (!value) words_.fail("expected three numbers after v, got {}", in_quotes(word));
+    if (count == 7) {
+      warn_once("point",
+                "expected at most a point, a weight and a colour after v; only the point is "
+                "used");
+      words_.rest();
+      count = 3;
+      break;
+    }
+    numbers[count++] = *value;
+  }
+  builder_.add_vertex({numbers[0], numbers[1], numbers[2]}, words_.line());
+  // x y z [w] [r g b]
+  if (count < 6) return;
+  const double* c = numbers + count - 3;
+  point_colors_.push_back(Eigen::Vector3d(c[0], c[1], c[2]).cast<float>());
+}
+
+void ObjReader::read_face() {
+  const int first = static_cast<int>(corners_.size()),
+            points = static_cast<int>(builder_.vertex_count());
+  for (auto word = words_.word(); !word.empty(); word = words_.word()) {
+    const auto number = parse_integer(word.substr(0, word.find('/')));
+    if (!number || word.find_first_not_of("+-0123456789/") != std::string_view::npos)
+      words_.fail("expected numbers of points after f, got {}", in_quotes(word));
+    // points that come later are counted when all are known
+    if (*number == 0 || *number < -points)
+      words_.fail("expected one of {} points after f, got {}", points, *number);
+    corners_.push_back(*number > 0 ? *number - 1 : points + *number);
+  }
+  if (corners_.size() - first < 3) {
+    warn_once("short face", "a face of fewer than three points is not used");
+    corners_.resize(first);
+    return;
+  }
+  if (faces_.size() >= max_mesh_triangles)
+    words_.fail("expected at most {} faces", max_mesh_triangles);
+  faces_.push_back({first, words_.line(), material_});
+}
+
+void ObjReader::use_material(const std::string& name) {
+  const UsedMaterial next{static_cast<int>(used_materials_.size()), words_.place()};
+  material_ = used_materials_.emplace(name, next).first->second.number;
+}
+
+void ObjReader::read_other(std::string_view keyword) {
+  static const std::set<std::string_view> silent = {
+      "vt",     "vn",         "vp",        "g",        "o",        "s",   "mg",   "usemap",
+      "maplib", "shadow_obj", "trace_obj", "d_interp", "c_interp", "lod", "bevel"};
+  static const std::set<std::string_view> free_form = {
+      "cstype", "deg",  "bmat", "step", "curv", "curv2", "surf",  "parm",
+      "trim",   "hole", "scrv", "sp",   "end",  "con",   "ctech", "stech"};
+  if (silent.contains(keyword)) return;
+  if (keyword == "usemtl")
+    use_material(std::string(words_.rest()));
+  else if (keyword == "mtllib")
+    read_materials(std::string(words_.rest()));
+  else if (keyword == "l" || keyword == "p")
+    warn_once("lines", "lines and points are not used as geometry");
+  else if (free_form.contains(keyword))
+    warn_once("free form", "free-form curves and surfaces are not used");
+  else
+    warn_once(std::string(keyword), in_quotes(keyword) + " is not known, and its line not used");
+}
+
+void ObjReader::read_materials(const std::string& names) {
+  // one name, with blanks in it perhaps, or several
+  std::vector<std::string> candidates = {names};
+  for (const auto word : split_words(names, "", max_material_files)) candidates.emplace_back(word);
+  material_files_ += candidates.size();
+  if (material_files_ > max_material_files)
+    return warn_once("mtllib", fmt::format("expected at most {} files of materials; this one and "
+                                           "what follows are not read",
+                                           max_material_files));
+  std::string missing;
+  bool found = false;
+  for (const auto& name : candidates) {
+    try {
+      read_material_file(find_file(name, input_.path, input_.options));
+      found = true;
+    } catch (const Error& error) {
+      if (missing.empty()) missing = error.what();
+    }
+    if (found && name == names) break;
+  }
+  if (!found && input_.options.note)
+    input_.options.note(words_.place() + ": " + missing + "; the body has no colours of its own");
+}
+
+void ObjReader::read_material_file(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  WordReader words(path.filename().string(), text);
+  Material* material = nullptr;
+  while (words.next_line()) {
+    const auto keyword = words.word();
+    if (keyword == "newmtl") {
+      material = &materials_[std::string(words.rest())];
+      *material = {};
+      continue;
+    }
+    const bool color = keyword == "Kd", opaque = keyword == "d", transparent = keyword == "Tr";
+    if (!material || !(color || opaque || transparent)) continue;
+    const auto a = parse_number(words.word());
+    const auto b = parse_number(words.word()), c = parse_number(words.word());
+    if (color && a && b && c)
+      material->color = Eigen::Vector3d(*a, *b, *c).cwiseMax(0).cwiseMin(1).cast<float>();
+    else if (!color && a)
+      material->transparency = static_cast<float>(std::clamp(opaque ? 1 - *a : *a, 0.0, 1.0));
+    else
+      input_.warn(fmt::format("{}: expected {} after {}; not used", words.place(),
+                              color ? "three numbers" : "a number", keyword));
+  }
+}
+
+void ObjReader::add_faces() {
+  std::vector<Material> by_number(used_materials_.size());
+  for (const auto& [name, used] : used_materials_)
+    if (const auto found = materials_.find(name); found != materials_.end())
+      by_number[used.number] = found->second;
+    else if (!materials_.empty())
+      warn_once("usemtl" + name, used.place,
+                fmt::format("usemtl: no material {} is defined", in_quotes(name)));
+  const int points = static_cast<int>(builder_.vertex_count());
+  const bool colored = !point_colors_.empty() && point_colors_.size() == builder_.vertex_count();
+  for (size_t f = 0; f < faces_.size(); ++f) {
+    const Face& face = faces_[f];
+    const size_t end = f + 1 < faces_.size() ? faces_[f + 1].first : corners_.size();
+    const std::span<const int> corners(corners_.data() + face.first, end - face.first);
+    for (const int v : corners)
+      if (v >= points)
+        fail("{}:{}: expected one of {} points after f, got {}", words_.file(), face.line, points,
+             int64_t{v} + 1);
+    Material look = face.material < 0 ? Material() : by_number[face.material];
+    if (colored) {
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      for (const int v : corners) sum += point_colors_[v];
+      look.color = (sum / static_cast<float>(corners.size())).cwiseMax(0.0f).cwiseMin(1.0f);
+    }
+    try {
+      builder_.add_face(corners, look.color, look.transparency);
+    } catch (const Error& error) {
+      fail(error.kind(), "{}:{}: {}", words_.file(), face.line, error.what());
+    }
+  }
+}
+
+bool ObjReader::read() {
+  while (words_.next_line()) {
+    const auto keyword = words_.word();
+    if (keyword == "v")
+      read_point();
+    else if (keyword == "f" || keyword == "fo")
+      read_face();
+    else
+      read_other(keyword);
+  }
+  add_faces();
+  for (const auto& warning : warnings_) input_.warn(warning);
+  if (!point_colors_.empty()) return point_colors_.size() == builder_.vertex_count();
+  for (const auto& [name, used] : used_materials_)
+    if (materials_.contains(name)) return true;
+  return false;
+}
+
+}  // namespace
+
+bool read_obj(const MeshInput& input, GeometryBuilder& builder) {
+  const std::string text = plain_text(input.bytes);
+  builder.report.format = "OBJ";
+  return ObjReader(input, text, builder).read();
+}
+
+}  // namespace clench

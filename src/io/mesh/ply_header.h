@@ -1,0 +1,38 @@
+// The header of a PLY file: which elements and properties follow, and how they are written.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "clench/io/text/word_reader.h"
+
+namespace clench {
+
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::float32;
+  bool list = false;
+  PlyType count_type = PlyType::uint8;  ///< of a list
+};
+
+struct PlyElement {
+  std::string name;
+  int count = 0;
+  std::vector<PlyProperty> properties;
+  int find(std::string_view property) const;  ///< -1: none
+};
+
+struct PlyHeader {
+  enum class Format { ascii, little_endian, big_endian } format = Format::ascii;
+  std::vector<PlyElement> elements;
+};
+
+int ply_bytes(PlyType type);
+bool is_whole(PlyType type);
+
+/// The lines from "ply" to "end_header".
+/// throws Error  "part.ply:3: expected ascii, binary_little_endian or binary_big_endian, got 'x'"
+PlyHeader read_ply_header(WordReader& words);
+
+}  // namespace clench

@@ -1,0 +1,346 @@
+#include "clench/io/mjcf/mjcf_couplings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "clench/base/suggest.h"
+
+namespace clench {
+
+namespace {
+
+struct Tendon {
+  XmlElement element;
+  std::vector<std::pair<int, double>> joints;  // and coefficients, none 0
+  bool whole = true;                           // are all its joints read?
+};
+
+class Couplings {
+ public:
+  Couplings(MjcfDocument& document, Library& library, TreeModel& tree)
+      : document_(document), library_(library), tree_(tree) {
+    for (size_t j = 0; j < tree.joints.size(); ++j)
+      numbers_[tree.joints[j].name] = static_cast<int>(j);
+    for (const MjcfNode* node : document.section("worldbody")) find_names(*node, false);
+  }
+  void read() {
+    read_tendons();
+    for (const MjcfNode* node : document_.section("equality")) read_equality(node->element);
+    for (const MjcfNode* node : document_.section("actuator")) read_actuator(node->element);
+    mark_passive();
+  }
+
+ private:
+  void warn(const XmlElement& at, const std::string& what) const {
+    library_.warn(at.place() + ": " + what);
+  }
+  void find_names(const MjcfNode& node, bool copied);
+  std::string why_not(const std::string& name) const;
+  std::optional<int> joint(const XmlValues& values, const char* attribute);
+  const Tendon& tendon(const XmlValues& values, const char* attribute) const;
+  int leader_of(int joint) const;
+  void follow(const XmlElement& at, int follower, int leader, double ratio, double offset);
+  void read_tendons();
+  void read_equality(const XmlElement& element);
+  void tie_joint(const XmlElement& element, const XmlValues& values);
+  void tie_tendon(const XmlElement& element, const XmlValues& values);
+  void read_actuator(const XmlElement& element);
+  void drive_joint(const XmlElement& element, const XmlValues& values, int joint);
+  void drive_tendon(const XmlElement& element, const Tendon& tendon);
+  void take_control_range(const XmlElement& element, const XmlValues& values, TreeJoint& joint,
+                          double gear);
+  void mark_passive();
+
+  MjcfDocument& document_;
+  Library& library_;
+  TreeModel& tree_;
+  std::map<std::string, int> numbers_;
+  std::map<std::string, bool>
+      others_;                       // joints in the file by another name or none: are they free?
+  std::vector<std::string> copied_;  // beginnings of the names of joints in <replicate>
+  bool attaches_ = false;            // are there joints whose names another file gives?
+  std::map<std::string, Tendon> tendons_;
+  std::vector<int> driven_;
+  std::vector<int> turns_of_balls_;  // what became of balls that were asked for
+  bool has_actuators_ = false;
+};
+
+/// Names of joints that are no joints of the robot, or not under their names.
+void Couplings::find_names(const MjcfNode& node, bool copied) {
+  const std::string kind = node.name();
+  if (kind == "joint" || kind == "freejoint") {
+    const std::string name = node.element.attribute("name").value_or("");
+    const bool free = kind == "freejoint" || node.element.attribute("type").value_or("") == "free";
+    if (!name.empty() && !numbers_.contains(name)) others_[name] = free;
+    if (!name.empty() && copied) copied_.push_back(name);
+  }
+  attaches_ = attaches_ || kind == "attach" || kind == "composite" || kind == "flexcomp";
+  for (const MjcfNode& child : node.children) find_names(child, copied || kind == "replicate");
+}
+
+/// Why a name of the file is none of the robot's joints; empty: it stands nowhere.
+std::string Couplings::why_not(const std::string& name) const {
+  if (numbers_.contains(name + "_x")) return "is a ball, which became three turns";
+  if (const auto found = others_.find(name); found != others_.end())
+    return found->second ? "is free, and no joint of the robot" : "is of a body that is not read";
+  for (const std::string& first : copied_)
+    if (name.starts_with(first)) return "is of a <replicate>, which is not read";
+  return attaches_ ? "may be of an <attach> or <composite>, which are not read" : "";
+}
+
+/// Empty, with a warning, when the joint is in the file but not in the robot.
+std::optional<int> Couplings::joint(const XmlValues& values, const char* attribute) {
+  const std::string name = values.text(attribute);
+  const auto found = numbers_.find(name);
+  if (found != numbers_.end()) return found->second;
+  if (const std::string why = why_not(name); !why.empty()) {
+    warn(values.element(), fmt::format("{}: joint {} {}; this is not used",
+                                       excerpt(values.element().name()), in_quotes(name), why));
+    // what moves it does move it
+    for (const char* axis : {"_x", "_y", "_z"})
+      if (const auto turn = numbers_.find(name + axis); turn != numbers_.end())
+        turns_of_balls_.push_back(turn->second);
+    return {};
+  }
+  std::vector<std::string> known;
+  for (const auto& [other, number] : numbers_) known.push_back(other);
+  values.fail(attribute, "no joint {}{}", in_quotes(name), did_you_mean(name, known));
+}
+
+const Tendon& Couplings::tendon(const XmlValues& values, const char* attribute) const {
+  const std::string name = values.text(attribute);
+  const auto found = tendons_.find(name);
+  if (found != tendons_.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [other, t] : tendons_) known.push_back(other);
+  values.fail(attribute, "no tendon {}{}", in_quotes(name), did_you_mean(name, known));
+}
+
+/// The joint at the end of the row of leaders; -1 when the row runs in a circle.
+int Couplings::leader_of(int joint) const {
+  for (size_t i = 0; i <= tree_.joints.size(); ++i) {
+    if (tree_.joints[joint].leader < 0) return joint;
+    joint = tree_.joints[joint].leader;
+  }
+  return -1;
+}
+
+void Couplings::follow(const XmlElement& at, int follower, int leader, double ratio,
+                       double offset) {
+  TreeJoint& joint = tree_.joints[follower];
+  if (joint.leader >= 0 || leader_of(leader) == follower) {
+    warn(at, fmt::format("joint '{}' is tied already; this does not tie it to '{}'",
+                         excerpt(joint.name), excerpt(tree_.joints[leader].name)));
+    return;
+  }
+  joint.leader = leader;
+  joint.ratio = ratio;
+  joint.offset = offset;
+}
+
+// --- tendons and equalities ---
+
+void Couplings::read_tendons() {
+  for (const MjcfNode* node : document_.section("tendon")) {
+    if (node->name() != "fixed") {
+      document_.unused().element(node->element);
+      // its name is known all the same
+      if (const auto name = node->element.attribute("name")) tendons_[*name] = {node->element, {}};
+      continue;
+    }
+    document_.unused().attributes(node->element, {"name", "class"});
+    Tendon tendon{node->element, {}};
+    for (const auto& child : node->children) {
+      const XmlValues values(child.element);
+      const double coefficient = values.number("coef");
+      if (child.name() != "joint")
+        document_.unused().element(child.element);
+      else if (const auto number = joint(values, "joint"); !number)
+        tendon.whole = false;
+      else if (coefficient != 0)
+        tendon.joints.emplace_back(*number, coefficient);
+    }
+    tendons_[XmlValues(node->element).text("name", "")] = std::move(tendon);
+  }
+}
+
+void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
+  document_.unused().attributes(element,
+                                {"name", "class", "joint1", "joint2", "polycoef", "active"});
+  const auto found = joint(values, "joint1");
+  if (!found) return;
+  const int follower = *found;
+  std::vector<double> c = {0, 1, 0, 0, 0};
+  if (values.has("polycoef")) c = values.numbers("polycoef", 1, 5);
+  c.resize(5);
+  TreeJoint& tied = tree_.joints[follower];
+  if (!values.has("joint2")) {
+    tied.min = tied.max = tied.start = tied.zero + c[0];
+    return;
+  }
+  if (c[2] != 0 || c[3] != 0 || c[4] != 0)
+    warn(element,
+         fmt::format("joint '{}': polycoef: only its linear part is used", excerpt(tied.name)));
+  const auto second = joint(values, "joint2");
+  if (!second) return;
+  const int leader = *second;
+  if (leader == follower) values.fail("joint2", "expected another joint than joint1");
+  if (c[1] == 0)
+    library_.suspected(
+        fmt::format("{}: joint '{}': polycoef has no linear part: it stands still when "
+                    "'{}' moves",
+                    element.place(), excerpt(tied.name), excerpt(tree_.joints[leader].name)));
+  // both count from where the model stands at first
+  follow(element, follower, leader, c[1], tied.zero + c[0] - c[1] * tree_.joints[leader].zero);
+}
+
+/// A tendon of two joints whose length stays ties them: c1 q1 + c2 q2 is constant, polycoef's first
+/// number more than where the model stands at first.
+void Couplings::tie_tendon(const XmlElement& element, const XmlValues& values) {
+  document_.unused().attributes(element,
+                                {"name", "class", "tendon1", "tendon2", "polycoef", "active"});
+  const Tendon& held = tendon(values, "tendon1");
+  if (values.has("tendon2") || held.joints.size() != 2 || !held.whole) {
+    warn(element, "equality of tendons: only a fixed tendon of two joints ties them; not used");
+    return;
+  }
+  const auto [a, c_a] = held.joints[0];
+  const auto [b, c_b] = held.joints[1];
+  if (a == b) return;
+  const double ratio = -c_a / c_b;
+  const double longer = values.has("polycoef") ? values.numbers("polycoef", 1, 5)[0] : 0;
+  follow(element, b, a, ratio, tree_.joints[b].zero - ratio * tree_.joints[a].zero + longer / c_b);
+}
+
+void Couplings::read_equality(const XmlElement& element) {
+  const XmlValues values = document_.values(element, "", "equality");
+  if (!values.boolean("active", true)) {
+    warn(element, fmt::format("equality: <{}> is not active; not used", excerpt(element.name())));
+    return;
+  }
+  if (element.name() == "joint")
+    tie_joint(element, values);
+  else if (element.name() == "tendon")
+    tie_tendon(element, values);
+  else
+    warn(element, fmt::format("equality: <{}> would close a loop of bodies; it is left open",
+                              excerpt(element.name())));
+}
+
+// --- actuators ---
+
+/// What a position servo is told, it cannot exceed.
+void Couplings::take_control_range(const XmlElement& element, const XmlValues& values,
+                                   TreeJoint& joint, double gear) {
+  if (!values.has("ctrlrange") || values.text("ctrllimited", "auto") == "false") return;
+  const auto range = values.range("ctrlrange", document_.repairs());
+  // two zeros undo what a class says
+  const bool zeros = range[0] == 0 && range[1] == 0;
+  if (zeros && values.text("ctrllimited", "auto") != "true") return;
+  const double a = range[0] / gear, b = range[1] / gear;
+  const double low = std::max(joint.min, std::min(a, b)),
+               high = std::min(joint.max, std::max(a, b));
+  if (low < high || (low == high && range[0] == range[1])) {
+    joint.min = low, joint.max = high;
+    joint.start = std::clamp(joint.start, low, high);
+    if (low == high)
+      library_.note(fmt::format("{}: joint '{}' may only stand at {:.4g}, as ctrlrange says",
+                                element.place(), excerpt(joint.name), low));
+  } else if (range[0] < range[1]) {
+    warn(element, fmt::format("position: ctrlrange has nothing in common with the range of joint "
+                              "'{}'; not used",
+                              excerpt(joint.name)));
+  }
+}
+
+void Couplings::drive_joint(const XmlElement& element, const XmlValues& values, int number) {
+  TreeJoint& joint = tree_.joints[number];
+  driven_.push_back(number);
+  const double gear = values.has("gear") ? values.numbers("gear", 1, 6)[0] : 1;
+  if (gear == 0) return;
+  if (values.has("forcerange") && values.text("forcelimited", "auto") != "false") {
+    const auto range = values.numbers("forcerange", 2, 2);
+    joint.effort = std::max(std::abs(range[0]), std::abs(range[1])) * std::abs(gear);
+  }
+  if (element.name() == "motor" && values.has("ctrlrange") && joint.effort == 0) {
+    const auto range = values.numbers("ctrlrange", 2, 2);
+    joint.effort = std::max(std::abs(range[0]), std::abs(range[1])) * std::abs(gear);
+  }
+  if (element.name() != "position") return;
+  joint.kp = values.number("kp", 1) * gear * gear;
+  joint.kd = values.number("kv", 0) * gear * gear;
+  take_control_range(element, values, joint, gear);
+}
+
+/// A motor on a tendon moves its joints together: nothing else is said of how they share its length,
+/// so each takes its part in proportion to its coefficient.
+void Couplings::drive_tendon(const XmlElement& element, const Tendon& tendon) {
+  if (tendon.joints.empty()) {
+    warn(element, fmt::format("{}: drives a tendon that is not used", excerpt(element.name())));
+    return;
+  }
+  const auto [first, c_first] = tendon.joints.front();
+  const int leader = leader_of(first);
+  driven_.push_back(first);
+  for (const auto& [number, c] : tendon.joints) {
+    driven_.push_back(number);
+    if (number == first || tree_.joints[number].leader >= 0 || leader_of(number) == leader)
+      continue;
+    const double ratio = c / c_first;
+    follow(element, number, first, ratio,
+           tree_.joints[number].zero - ratio * tree_.joints[first].zero);
+    library_.note(
+        fmt::format("{}: joints '{}' and '{}' share a tendon; they are taken to turn as "
+                    "1 to {:.4g}",
+                    element.place(), excerpt(tree_.joints[first].name),
+                    excerpt(tree_.joints[number].name), ratio));
+  }
+}
+
+void Couplings::read_actuator(const XmlElement& element) {
+  const XmlValues values = document_.values(element, "", "general");
+  values.tell_unused(document_.unused(),
+                     {"name", "class", "joint", "jointinparent", "tendon", "ctrlrange",
+                      "ctrllimited", "forcerange", "forcelimited", "kp", "kv", "gear"});
+  if (values.has("joint") || values.has("jointinparent")) {
+    has_actuators_ = true;
+    turns_of_balls_.clear();
+    const auto number = joint(values, values.has("joint") ? "joint" : "jointinparent");
+    if (number)
+      drive_joint(element, values, *number);
+    else
+      driven_.insert(driven_.end(), turns_of_balls_.begin(), turns_of_balls_.end());
+  } else if (values.has("tendon")) {
+    has_actuators_ = true;
+    drive_tendon(element, tendon(values, "tendon"));
+  } else {
+    document_.unused().element(element);
+  }
+}
+
+void Couplings::mark_passive() {
+  if (!has_actuators_) return;
+  for (auto& joint : tree_.joints) joint.passive = true;
+  for (const int number : driven_) {
+    if (leader_of(number) < 0) continue;
+    tree_.joints[leader_of(number)].passive = false;
+  }
+  std::string names;
+  int count = 0;
+  for (const auto& joint : tree_.joints)
+    if (joint.passive && joint.leader < 0 && ++count <= 6)
+      names += fmt::format("{}'{}'", count > 1 ? ", " : "", excerpt(joint.name));
+  if (count > 0)
+    library_.note(fmt::format("{}: joints that no actuator drives do not close: {}{}",
+                              document_.file(), names, count > 6 ? " and others" : ""));
+}
+
+}  // namespace
+
+void read_mjcf_couplings(MjcfDocument& document, Library& library, TreeModel& tree) {
+  Couplings(document, library, tree).read();
+}
+
+}  // namespace clench

@@ -1,0 +1,13 @@
+// What ties joints of an MJCF model to each other and to motors: equalities, fixed tendons, actuators.
+#pragma once
+#include "clench/io/mjcf/mjcf_document.h"
+#include "clench/io/tree/tree_model.h"
+
+namespace clench {
+
+/// Makes joints that must move together follow one of them, takes the limits and forces of
+/// actuators, and marks joints that none drives as passive, when there are actuators at all. Tells
+/// what it cannot follow.
+void read_mjcf_couplings(MjcfDocument& document, Library& library, TreeModel& tree);
+
+}  // namespace clench

@@ -1,0 +1,51 @@
+// Geoms of MJCF and the meshes and materials that they name, as pieces of links.
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+
+#include "clench/io/mjcf/mjcf_document.h"
+#include "clench/io/tree/tree_links.h"
+
+namespace clench {
+
+struct MjcfGeom {
+  GeometryPiece piece;
+  bool drawn = false;               ///< of the groups 0 to 2, which viewers show
+  unsigned type = 1, affinity = 1;  ///< bits: two geoms meet when type and affinity share one
+  double mass = 0;                  ///< [kg]
+
+  bool collides() const { return type != 0 || affinity != 0; }
+};
+
+class MjcfGeoms {
+ public:
+  MjcfGeoms(MjcfDocument& document, Library& library);
+
+  /// A geom in the frame of its body; empty for what we do not use, which is told.
+  std::optional<MjcfGeom> read(const XmlElement& element, const std::string& child_class,
+                               const Pose& X_frame);
+  TreeGeometry& geometry() { return geometry_; }
+
+ private:
+  struct Asset {
+    XmlElement element;
+    XmlValues values;
+    std::shared_ptr<const Geometry> geometry;  // read when first used
+  };
+  void read_assets();
+  std::shared_ptr<const Geometry> mesh(const XmlValues& geom, bool collides);
+  std::shared_ptr<const Geometry> read_mesh(Asset& asset);
+  std::shared_ptr<const Geometry> inline_mesh(const Asset& asset);
+  void set_primitive(const std::string& type, const XmlValues& values, MjcfGeom& geom, Pose& X);
+  std::optional<PieceColor> color(const XmlValues& geom) const;
+
+  MjcfDocument& document_;
+  Library& library_;
+  TreeGeometry geometry_;
+  std::map<std::string, Asset> meshes_;
+  std::map<std::string, PieceColor> materials_;
+  size_t count_ = 0;
+};
+
+}  // namespace clench

@@ -1,0 +1,115 @@
+#include "clench/io/text/find_file.h"
+
+#include <algorithm>
+
+#include "clench/base/file.h"
+#include "clench/base/suggest.h"
+#include "clench/base/text.h"
+#include "clench/io/text/confine.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+/// Names in a folder, in a fixed order.
+static std::vector<std::string> entries(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code code;
+  for (fs::directory_iterator it(folder.empty() ? "." : folder, code), end; !code && it != end;
+       it.increment(code))
+    names.push_back(it->path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// The path itself, or the one that differs in case only; else empty.
+static fs::path exact_or_case(const fs::path& path) {
+  std::error_code code;
+  if (fs::exists(path, code)) return path;
+  fs::path found;
+  for (const auto& part : path) {
+    fs::path next = found.empty() ? part : found / part;
+    if (!fs::exists(next, code)) {
+      next.clear();
+      for (const auto& name : entries(found))
+        if (lower_case(name) == lower_case(part.string())) {
+          next = found / name;
+          break;
+        }
+      if (next.empty()) return {};
+    }
+    found = next;
+  }
+  return found;
+}
+
+/// A near name in the folder where the file should be, of the first place that has such a folder.
+static std::string suggestion(const std::vector<fs::path>& places, const ReadOptions& options) {
+  for (const auto& place : places) {
+    const fs::path folder = exact_or_case(place.parent_path().empty() ? "." : place.parent_path());
+    if (folder.empty() || !lies_within(folder, options.confine)) continue;
+    const std::string near = did_you_mean(place.filename().string(), entries(folder));
+    if (!near.empty()) return near;
+  }
+  return "";
+}
+
+/// Where a name may be meant: beside the referrer, below the folder and the root of the call, below
+/// the referrer's parent folder; where we stand for the user's own.
+static std::vector<fs::path> places_of(const fs::path& name, const fs::path& referrer,
+                                       const ReadOptions& options) {
+  if (name.is_absolute()) return {name.lexically_normal()};
+  const fs::path here = referrer.parent_path();
+  std::vector<fs::path> places = {here / name};
+  if (!referrer.empty() && !options.folder.empty()) places.push_back(options.folder / name);
+  if (!options.root.empty()) places.push_back(options.root / name);
+  if (!referrer.empty()) places.push_back(here / ".." / name);
+  for (auto& place : places) place = place.lexically_normal();
+  return places;
+}
+
+bool is_readable(const fs::path& file, const ReadOptions& options) {
+  std::error_code code;
+  return lies_within(file, options.confine) && fs::is_regular_file(file, code);
+}
+
+void fail_outside(const std::string& name, const ReadOptions& options) {
+  fail(ErrorKind::file, "'{}' lies outside of {}, to which reading is confined", name,
+       options.confine.generic_string());
+}
+
+fs::path find_file(const std::string& name, const fs::path& referrer, const ReadOptions& options) {
+  std::string slashed = name;
+  std::replace(slashed.begin(), slashed.end(), '\\', '/');
+  if (trim(name).empty()) fail(ErrorKind::file, "expected the name of a file, got nothing");
+  if (slashed.find('\0') != std::string::npos || slashed.size() > 4096)
+    fail(ErrorKind::file, "no such file: {}", in_quotes(name));
+
+  auto places = places_of(slashed, referrer, options);
+  // of what lies outside nothing is asked, so that no answer tells what is there
+  std::erase_if(places, [&](const auto& place) { return !lies_within(place, options.confine); });
+  // a name from a file is quoted as all of it is; the user's own stands whole
+  const std::string shown = referrer.empty() ? name : excerpt(name);
+  if (places.empty()) fail_outside(shown, options);
+  for (const auto& place : places)
+    if (is_readable(place, options)) return place;
+  for (const auto& place : places)
+    if (const fs::path found = exact_or_case(place); is_readable(found, options)) return found;
+  std::error_code code;
+  for (const auto& place : places)
+    if (const fs::path found = exact_or_case(place);
+        !found.empty() && lies_within(found, options.confine))
+      fail(ErrorKind::file, "expected a file, got a {}: {}",
+           fs::is_directory(found, code) ? "folder" : "special file", shown);
+  // what the system does not let us see may be there
+  for (const auto& place : places)
+    if (fs::status(place, code).type() == fs::file_type::none)
+      fail(ErrorKind::file, "{}: the file cannot be read: {}", shown, system_reason(code.value()));
+  fail(ErrorKind::file, "no such file: {}{}", shown, suggestion(places, options));
+}
+
+std::string absolute_name(const fs::path& path) {
+  return fs::absolute(path).lexically_normal().generic_string();
+}
+
+}  // namespace clench

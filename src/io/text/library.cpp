@@ -1,0 +1,78 @@
+#include "clench/io/text/library.h"
+
+#include "clench/base/error.h"
+#include "clench/io/text/find_model.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+const BodySpec& Library::body(const fs::path& path) {
+  options_.progress.tell(-1, path.filename().string());
+  auto found = bodies_.find(path);
+  if (found == bodies_.end()) found = bodies_.emplace(path, loaders_.body(path, *this)).first;
+  return found->second;
+}
+
+const RobotSpec& Library::robot(const fs::path& path) {
+  options_.progress.tell(-1, path.filename().string());
+  auto found = robots_.find(path);
+  if (found == robots_.end()) found = robots_.emplace(path, loaders_.robot(path, *this)).first;
+  return found->second;
+}
+
+BodySpec Library::named_body(const std::string& name, const fs::path& referrer,
+                             const std::string& place) {
+  try {
+    BodySpec out = body(find_model(name, referrer, ModelKind::body, place, options_));
+    out.source = name;
+    return out;
+  } catch (const Error& error) {
+    fail(error.kind(), "{}: {}", place, error.what());
+  }
+}
+
+RobotSpec Library::named_robot(const std::string& name, const fs::path& referrer,
+                               const std::string& place) {
+  try {
+    RobotSpec out = robot(find_model(name, referrer, ModelKind::robot, place, options_));
+    out.source = name;
+    return out;
+  } catch (const Error& error) {
+    fail(error.kind(), "{}: {}", place, error.what());
+  }
+}
+
+fs::path Library::find_part(const std::string& name, const fs::path& robot,
+                            const std::string& place) const {
+  // in the folder iv/ beside the robot's file, or of the folder that the call names
+  std::vector<fs::path> folders = {robot.parent_path() / "iv"};
+  if (!options_.folder.empty()) folders.push_back(options_.folder / "iv");
+  for (const auto& folder : folders) {
+    try {
+      return find_file(name, folder / "x", options_.beside_only());
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::file) throw;  // else the next one
+    }
+  }
+  try {
+    return find_file(name, robot, options_);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::file) throw;
+    return find_converted(name, folders.back() / "x", ModelKind::body, place,
+                          options_.beside_only());
+  }
+}
+
+BodySpec Library::part(const std::string& name, const fs::path& robot, const std::string& place) {
+  try {
+    const fs::path found = find_part(name, robot, place);
+    BodySpec out = body(found);
+    out.source = found.generic_string();
+    return out;
+  } catch (const Error& error) {
+    fail(error.kind(), "{}: {}", place, error.what());
+  }
+}
+
+}  // namespace clench

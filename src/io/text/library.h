@@ -1,0 +1,57 @@
+// Files already read in one call: a link that five fingers share is read, and kept, once.
+#pragma once
+#include <map>
+
+#include "clench/io/text/read_options.h"
+#include "clench/spec/robot_spec.h"
+
+namespace clench {
+
+class Library;
+
+/// How a file that was found becomes a spec. What else it names is asked of the library.
+struct Loaders {
+  BodySpec (*body)(const std::filesystem::path& path, Library& library);
+  RobotSpec (*robot)(const std::filesystem::path& path, Library& library);
+};
+
+/// Bodies and robots by the file they stand in. Lives as long as one call of read_robot or
+/// read_world.
+class Library {
+ public:
+  Library(const ReadOptions& options, const Loaders& loaders)
+      : options_(options), loaders_(loaders) {}
+
+  const ReadOptions& options() const { return options_; }
+  void warn(const std::string& sentence) const {
+    if (options_.warn) options_.warn(sentence);
+  }
+  void repaired(const std::string& sentence) const { options_.repaired(sentence); }
+  void suspected(const std::string& sentence) const { options_.suspected(sentence); }
+  void note(const std::string& sentence) const {
+    if (options_.note) options_.note(sentence);
+  }
+  /// `path` as find_model gives it
+  const BodySpec& body(const std::filesystem::path& path);
+  const RobotSpec& robot(const std::filesystem::path& path);
+  /// The body that a line of another file names; errors begin with `place`, "dlr.wld:3".
+  BodySpec named_body(const std::string& name, const std::filesystem::path& referrer,
+                      const std::string& place);
+  RobotSpec named_robot(const std::string& name, const std::filesystem::path& referrer,
+                        const std::string& place);
+  /// The body of a link: names in a robot's file `robot` count from the folder iv/ beside it,
+  /// then as find_file has it.
+  BodySpec part(const std::string& name, const std::filesystem::path& robot,
+                const std::string& place);
+
+ private:
+  std::filesystem::path find_part(const std::string& name, const std::filesystem::path& robot,
+                                  const std::string& place) const;
+
+  const ReadOptions& options_;
+  const Loaders& loaders_;
+  std::map<std::filesystem::path, BodySpec> bodies_;
+  std::map<std::filesystem::path, RobotSpec> robots_;
+};
+
+}  // namespace clench

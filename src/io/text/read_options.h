@@ -1,0 +1,59 @@
+// What a call that reads files is told: where to look, whom to tell, what to make of what files leave open.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "clench/base/listeners.h"
+#include "clench/base/progress.h"
+#include "clench/math/pose.h"
+
+namespace clench {
+
+struct ReadOptions {
+  /// where relative names are looked up after the referring file's folder
+  std::filesystem::path root;
+  /// robots: files to read in place of those that theirs names; empty: none
+  std::string eigengrasps = {}, virtual_contacts = {};
+  /// told of what a file contains and we do not use
+  std::function<void(const std::string&)> warn = {};
+  /// told of what a file leaves open and we guess
+  std::function<void(const std::string&)> note = {};
+  /// told of what a file has wrong and we put right; empty: warn is told
+  std::function<void(const std::string&)> repair = {};
+  /// told of what is used as it stands, and looks wrong; empty: warn is told
+  std::function<void(const std::string&)> suspect = {};
+  /// geometry files: length of their unit, > 0 [m]; absent: what the format or the file says, else
+  /// silent_mesh_unit
+  std::optional<double> mesh_scale = {};
+  /// length of the unit of mesh files that say nothing of it, > 0 [m]; absent: guessed by size
+  std::optional<double> silent_mesh_unit = {};
+  /// where names in a file are looked up after the file's own folder, before the root
+  std::filesystem::path folder = {};
+  /// nothing is read that does not lie below this folder, links followed; empty: anything may be
+  std::filesystem::path confine = {};
+  /// where the packages lie that URDF files name: by name; under "" any of them
+  std::map<std::string, std::filesystem::path> packages = {};
+  /// how DOFs close, by name or number from 1: 1 up, -1 down, 0 not; the
+  /// rest is as the file says, else guessed
+  std::map<std::string, double> closing = {};
+  /// approach frame in the base; absent: what the file says, else guessed
+  std::optional<Pose> approach = {};
+  /// .dae .gltf .glb: turn what the file calls up to z? (A URDF takes the axes as they stand.)
+  bool turn_mesh_up = true;
+  /// told of each file; what reads it throws Stopped
+  Progress progress = {};
+
+  Listeners listeners() const { return {warn, note, repair, suspect}; }
+  /// As these, but names count from the folder of their file alone.
+  ReadOptions beside_only() const;
+  void repaired(const std::string& sentence) const { tell(repair, warn, sentence); }
+  void suspected(const std::string& sentence) const { tell(suspect, warn, sentence); }
+};
+
+/// The same, but what would be warned of is thrown: nothing is repaired, left out or suspicious.
+ReadOptions strict(ReadOptions options);
+
+}  // namespace clench

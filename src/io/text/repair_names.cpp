@@ -1,0 +1,46 @@
+#include "clench/io/text/repair_names.h"
+
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/spec/check_robot.h"
+
+namespace clench {
+
+static void repair_name(std::string& name, const std::string& place, const ReadOptions& options) {
+  const std::string wrong = name_fault(name);
+  if (wrong.empty()) return;
+  name = repaired_name(name);
+  options.repaired(fmt::format("{}: name: {}; it becomes '{}'", place, wrong, excerpt(name)));
+}
+
+void repair_names(BodySpec& body, const std::string& place, const ReadOptions& options) {
+  repair_name(body.name, place, options);
+}
+
+static void repair_robot_names(RobotSpec& robot, const std::string& place,
+                               const ReadOptions& options) {
+  const auto repair = [&](std::string& name) { repair_name(name, place, options); };
+  for (std::string* name : {&robot.name, &robot.class_name, &robot.database_name, &robot.base.name})
+    repair(*name);
+  for (DofSpec& dof : robot.dofs) repair(dof.name);
+  for (LinkSpec& link : robot.links) {
+    for (JointSpec& joint : link.joints) repair(joint.name);
+    repair(link.body.name);
+  }
+  for (TendonSpec& tendon : robot.tendons) repair(tendon.name);
+  for (TendonWrapper& wrapper : robot.wrappers) {
+    for (std::string& name : wrapper.exempt) repair(name);
+    for (TendonWrapper::Side& side : wrapper.sides) repair(side.tendon);
+  }
+}
+
+void check_read_robot(RobotSpec& robot, const std::string& place, const ReadOptions& options) {
+  repair_robot_names(robot, place, options);
+  try {
+    check_robot(robot);
+  } catch (const Error& error) {
+    fail(error.kind(), "{}: {}", place, error.what());
+  }
+}
+
+}  // namespace clench

@@ -1,0 +1,15 @@
+// Names that files give: what a name may not have is replaced, and told.
+#pragma once
+#include "clench/io/text/find_file.h"
+#include "clench/spec/robot_spec.h"
+
+namespace clench {
+
+/// The sentences begin with `place`, "hand.urdf".
+void repair_names(BodySpec& body, const std::string& place, const ReadOptions& options);
+
+/// Repairs the names of a robot and of all its parts, then checks it.
+/// throws  Error "hand.urdf: arm: chain 0 joint 1: ..." when check_robot does
+void check_read_robot(RobotSpec& robot, const std::string& place, const ReadOptions& options);
+
+}  // namespace clench

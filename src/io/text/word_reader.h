@@ -1,0 +1,51 @@
+// Large texts taken apart word by word, without copies. base/text.h is kinder where lines are few.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "clench/base/text.h"
+
+namespace clench {
+
+class WordReader {
+ public:
+  /// `file` is the name shown in errors; `text` has plain line ends and must outlive the reader.
+  /// A '#' ends a line.   `joins_lines`: a '\' at the end of a line goes on in the next
+  WordReader(std::string file, std::string_view text, bool joins_lines = false)
+      : file_(std::move(file)), text_(text), joins_lines_(joins_lines) {}
+
+  /// To the next line that holds a word.   returns  false at the end of the text
+  bool next_line();
+  /// The next word of the line, or "".
+  std::string_view word();
+  /// The rest of the line as it stands, '#' and all, without blanks at its ends.
+  std::string_view rest();
+  /// How many words of the line are left; stays there.
+  int words_left() const;
+  /// The next word, over as many lines as need be; "" at the end of the text.
+  std::string_view word_anywhere();
+
+  int line() const { return line_; }  ///< from 1
+  const std::string& file() const { return file_; }
+  std::string place() const { return fmt::format("{}:{}", file_, line_ > 0 ? line_ : 1); }
+  /// throws Error  "part.off:31: x: expected a number, got 'abc'"
+  double number(std::string_view what);
+  int integer(std::string_view what, int low, int high);
+  template <class... Args>
+  [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
+    throw Error(place() + ": " + fmt::format(format, std::forward<Args>(args)...));
+  }
+
+ private:
+  void skip_blanks();
+  bool start_line();
+
+  std::string file_;
+  std::string_view text_;
+  bool joins_lines_;
+  size_t at_ = 0, end_ = 0;  // what is left of the line
+  size_t next_ = 0;          // where the line after it begins
+  int line_ = 0;
+};
+
+}  // namespace clench

@@ -1,0 +1,42 @@
+#include "clench/io/tree/closing_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/base/suggest.h"
+#include "clench/base/text.h"
+#include "clench/io/graspit/world_parts.h"
+
+namespace clench {
+
+// paces of closing, where a file says none
+static constexpr double turning = 1;     // [rad/s]
+static constexpr double sliding = 0.05;  // [m/s]
+
+void set_closing(RobotSpec& robot, int dof, double sense) {
+  double& velocity = robot.dofs[dof].default_velocity;
+  const double pace = velocity != 0            ? std::abs(velocity)
+                      : dof_slides(robot, dof) ? sliding
+                                               : turning;
+  velocity = sense > 0 ? pace : sense < 0 ? -pace : 0;
+}
+
+void choose_closing(RobotSpec& robot, const std::string& file, const ReadOptions& options) {
+  std::vector<std::string> names;
+  for (const DofSpec& dof : robot.dofs) names.push_back(dof.name);
+  for (const auto& [key, sense] : options.closing) {
+    auto found = key.empty() ? names.end() : std::find(names.begin(), names.end(), key);
+    const auto number = parse_integer(key);
+    if (found == names.end() && number && *number >= 1 && *number <= static_cast<int>(names.size()))
+      found = names.begin() + (*number - 1);
+    if (found == names.end())
+      fail("{}: close: expected the name of a DOF or a number from 1 to {}, got {}{}", file,
+           names.size(), in_quotes(key), did_you_mean(key, names));
+    if (sense != 1 && sense != -1 && sense != 0)
+      fail("{}: close: {}: expected 1, -1 or 0, got {}", file, key, sense);
+    set_closing(robot, static_cast<int>(found - names.begin()), sense);
+  }
+  if (options.approach) robot.X_BA = options.approach;
+}
+
+}  // namespace clench

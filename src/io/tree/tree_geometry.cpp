@@ -1,0 +1,121 @@
+#include "clench/io/tree/tree_geometry.h"
+
+#include "clench/base/error.h"
+#include "clench/io/inventor/read_geometry.h"
+#include "clench/io/text/library.h"
+
+namespace clench {
+
+TreeGeometry::TreeGeometry(const ReadOptions& options) : options_(options) {
+  // robot files of today count in metres, and place a mesh with its axes as they stand
+  options_.silent_mesh_unit = 1;
+  options_.turn_mesh_up = false;
+}
+
+std::shared_ptr<const Geometry> TreeGeometry::file(const std::filesystem::path& path) {
+  auto& found = geometries_["file " + path.string()];
+  if (found) return found;
+  ReadOptions options = options_;
+  // VRML of robots of today counts in metres, too
+  if (is_inventor(path) && !options.mesh_scale) options.mesh_scale = 1;
+  return found = std::make_shared<const Geometry>(read_geometry(path, options));
+}
+
+std::shared_ptr<const Geometry> TreeGeometry::made(const std::string& name, Mesh mesh) {
+  auto& found = geometries_[name];
+  if (found) return found;
+  Geometry geometry;
+  geometry.mesh = std::move(mesh);
+  return found = std::make_shared<const Geometry>(std::move(geometry));
+}
+
+MassProperties solid_of(const GeometryPiece& piece) {
+  return piece.solid ? *piece.solid : solid_mass(piece.geometry->mesh);
+}
+
+double size_of(const Mesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : mesh.vertices) box.extend(p);
+  return box.isEmpty() ? 0 : box.sizes().maxCoeff();
+}
+
+/// Equal for pieces that make equal shapes.
+static std::string key_of(const std::vector<GeometryPiece>& pieces) {
+  std::string key;
+  for (const GeometryPiece& piece : pieces) {
+    key += fmt::format("{}", static_cast<const void*>(piece.geometry.get()));
+    for (const double x : piece.scale) key += fmt::format(" {}", x);
+    for (const double x : piece.X_LG.position) key += fmt::format(" {}", x);
+    for (const double x : piece.X_LG.rotation.coeffs()) key += fmt::format(" {}", x);
+    if (piece.color)
+      key += fmt::format(" #{} {} {} {}", piece.color->color.x(), piece.color->color.y(),
+                         piece.color->color.z(), piece.color->transparency);
+    key += ';';
+  }
+  return key;
+}
+
+static void append(Mesh& mesh, std::vector<Eigen::Vector3f>& colors, const GeometryPiece& piece) {
+  const Geometry& geometry = *piece.geometry;
+  const int first = static_cast<int>(mesh.vertices.size());
+  for (const auto& p : geometry.mesh.vertices)
+    mesh.vertices.push_back(piece.X_LG * p.cwiseProduct(piece.scale));
+  // a mirrored mesh would face inward
+  const bool mirrored = piece.scale.prod() < 0;
+  for (const auto& t : geometry.mesh.triangles)
+    mesh.triangles.push_back(
+        {first + t[0], first + t[mirrored ? 2 : 1], first + t[mirrored ? 1 : 2]});
+  const Appearance& looks = geometry.appearance;
+  for (size_t i = 0; i < geometry.mesh.triangles.size(); ++i)
+    colors.push_back(piece.color                     ? piece.color->color
+                     : looks.triangle_colors.empty() ? looks.color
+                                                     : looks.triangle_colors[i]);
+}
+
+static Appearance looks_of(const std::vector<GeometryPiece>& pieces,
+                           std::vector<Eigen::Vector3f> colors) {
+  Appearance out;
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  bool differ = false;
+  for (const auto& c : colors) {
+    sum += c;
+    differ = differ || c != colors.front();
+  }
+  for (const GeometryPiece& piece : pieces) {
+    const Appearance& looks = piece.geometry->appearance;
+    out.given = out.given || piece.color || looks.given;
+    // one transparency a body: the least, so that nothing solid vanishes
+    const float t = piece.color ? piece.color->transparency : looks.transparency;
+    out.transparency = &piece == &pieces.front() ? t : std::min(out.transparency, t);
+  }
+  if (!out.given || colors.empty()) return out;
+  out.color = differ ? Eigen::Vector3f((sum / static_cast<float>(colors.size())).cwiseMin(1.0f))
+                     : colors.front();
+  if (differ) out.triangle_colors = std::move(colors);
+  return out;
+}
+
+TreeGeometry::Body TreeGeometry::merge(const std::vector<GeometryPiece>& pieces,
+                                       const std::string& subject) {
+  if (pieces.empty()) return {};
+  const std::string key = key_of(pieces);
+  if (const auto found = bodies_.find(key); found != bodies_.end()) return found->second;
+
+  Mesh mesh;
+  std::vector<Eigen::Vector3f> colors;
+  for (const GeometryPiece& piece : pieces) {
+    triangles_ += piece.geometry->mesh.triangles.size();
+    if (triangles_ > max_mesh_triangles)
+      fail("{}: expected at most {} triangles in all links", subject, max_mesh_triangles);
+    append(mesh, colors, piece);
+  }
+  Body body;
+  body.shape = Shape::make(std::move(mesh), subject);
+  body.appearance = looks_of(pieces, std::move(colors));
+  if (pieces.size() == 1 && !pieces[0].geometry->report.format.empty())
+    body.report = pieces[0].geometry->report;
+  bodies_.emplace(key, body);
+  return body;
+}
+
+}  // namespace clench

@@ -1,0 +1,58 @@
+// Geometry of a link of a robot tree: pieces, each a primitive or a mesh file, made one shape.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clench/geometry/mesh/mass.h"
+#include "clench/io/mesh/geometry_builder.h"
+#include "clench/math/pose.h"
+
+namespace clench {
+
+struct PieceColor {
+  Eigen::Vector3f color;
+  float transparency = 0;
+};
+
+/// A part of a link's surface.
+struct GeometryPiece {
+  std::shared_ptr<const Geometry> geometry;  ///< as its file or its formula gives it
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+  Pose X_LG;                            ///< in the link, after scaling
+  std::optional<PieceColor> color;      ///< over that of the file
+  std::optional<MassProperties> solid;  ///< of a round shape, which its mesh only comes near
+};
+
+/// Mass properties of what a piece shows, without its scale.
+MassProperties solid_of(const GeometryPiece& piece);
+
+/// Meshes already read and shapes already made for one robot: five fingers share theirs.
+class TreeGeometry {
+ public:
+  explicit TreeGeometry(const ReadOptions& options);
+
+  /// A mesh file in metres.   throws what read_mesh_file throws
+  std::shared_ptr<const Geometry> file(const std::filesystem::path& path);
+  /// A mesh made by a formula, kept under its name.
+  std::shared_ptr<const Geometry> made(const std::string& name, Mesh mesh);
+
+  struct Body {
+    ShapePtr shape;  ///< null: no pieces
+    Appearance appearance;
+    std::optional<MeshReport> report;  ///< when it is one file's mesh
+  };
+  /// `subject` names the link in errors
+  Body merge(const std::vector<GeometryPiece>& pieces, const std::string& subject);
+
+ private:
+  ReadOptions options_;
+  std::map<std::string, std::shared_ptr<const Geometry>> geometries_;  // by path or name
+  std::map<std::string, Body> bodies_;                                 // by pieces
+  size_t triangles_ = 0;                                               // of all shapes
+};
+
+}  // namespace clench

@@ -1,0 +1,110 @@
+#include "clench/io/tree/tree_links.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/base/text.h"
+#include "clench/spec/plausibility.h"
+
+namespace clench {
+
+static constexpr double water = 1000;       // [kg/m^3]
+static constexpr double frame_mass = 1e-3;  // [kg]
+
+Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
+                      const Eigen::Matrix3d& inertia_C) {
+  body.mass = mass;
+  body.com = X_LC.position;
+  const Eigen::Matrix3d R = X_LC.matrix();
+  Eigen::Matrix3d inertia = R * inertia_C * R.transpose() / mass;
+  const Inertial fault = repair_inertia(inertia);
+  if (fault != Inertial::not_definite) body.inertia_per_mass = inertia;
+  return fault;
+}
+
+void InertialFaults::add(Inertial fault, const std::string& place, const std::string& link) {
+  if (fault == Inertial::sound) return;
+  const int kind = static_cast<int>(fault) - static_cast<int>(Inertial::no_body);
+  if (links_[kind].empty()) places_[kind] = place;
+  links_[kind].push_back(link);
+}
+
+void InertialFaults::tell(const Library& library) const {
+  if (!links_[0].empty())
+    library.repaired(fmt::format("{}: {}: {}", places_[0], raised_moments, some_names(links_[0])));
+  if (!links_[1].empty())
+    library.warn(
+        fmt::format("{}: inertia that is not positive definite; it is computed from the "
+                    "geometry: {}",
+                    places_[1], some_names(links_[1])));
+  if (!links_[2].empty())
+    library.note(
+        fmt::format("{}: a mass without an inertia, which is computed from the geometry: {}",
+                    places_[2], some_names(links_[2])));
+}
+
+/// False for an open surface, which has none.   `pieces`  of the shape
+static bool guess_mass(BodySpec& body, const ShapePtr& shape,
+                       const std::vector<GeometryPiece>& pieces) {
+  body.mass = frame_mass;
+  if (!shape || !shape->closed()) return !shape;
+  double volume = std::abs(shape->solid().volume);
+  // round shapes fill more than their meshes
+  for (const GeometryPiece& piece : pieces)
+    if (piece.solid) volume += piece.solid->volume - solid_mass(piece.geometry->mesh).volume;
+  if (!(volume > 0 && std::isfinite(water * volume))) return false;
+  body.mass = std::clamp(water * volume, frame_mass, mass_rule.max);
+  return true;
+}
+
+/// A file may name one surface for both, coloured once.
+static bool same_surface(const ShapePtr& a, const ShapePtr& b) {
+  return a == b || (a && b && a->hash() == b->hash());
+}
+
+void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
+                 const std::string& file, const Library& library) {
+  const bool any = std::any_of(pieces.begin(), pieces.end(),
+                               [](const LinkPieces& p) { return !p.collision.empty(); });
+  const bool any_visual = std::any_of(pieces.begin(), pieces.end(),
+                                      [](const LinkPieces& p) { return !p.visual.empty(); });
+  std::vector<std::string> ghosts, weightless, open;
+  std::string first_open;
+  for (size_t i = 0; i < tree.links.size(); ++i) {
+    BodySpec& body = tree.links[i].body;
+    const std::string subject = fmt::format("{}: link '{}'", file, excerpt(body.name));
+    const auto visual = geometry.merge(pieces[i].visual, subject);
+    const auto collision = any ? geometry.merge(pieces[i].collision, subject) : visual;
+    body.shape = collision.shape;
+    body.mesh_report = collision.report;
+    body.appearance = visual.shape ? visual.appearance : collision.appearance;
+    if (!same_surface(visual.shape, collision.shape)) body.appearance.visual = visual.shape;
+    body.material = "plastic";
+    if (visual.shape && !collision.shape) ghosts.push_back(body.name);
+    if (pieces[i].has_inertial) continue;
+    const bool seen = !body.shape;  // its pieces for pictures alone
+    const ShapePtr& shape = seen ? visual.shape : body.shape;
+    const bool has_volume =
+        guess_mass(body, shape, seen || !any ? pieces[i].visual : pieces[i].collision);
+    if (shape && !has_volume && open.empty()) first_open = pieces[i].place;
+    if (shape) (has_volume ? weightless : open).push_back(body.name);
+  }
+  if (!any && any_visual)
+    library.note(fmt::format(
+        "{}: no link has geometry to collide with; that for pictures is used for both", file));
+  if (!ghosts.empty())
+    library.note(
+        fmt::format("{}: links that have geometry for pictures only collide with nothing: {}", file,
+                    some_names(ghosts)));
+  if (!weightless.empty())
+    library.note(fmt::format("{}: links without a mass weigh what their volume of water does: {}",
+                             file, some_names(weightless)));
+  if (!open.empty())
+    library.note(
+        fmt::format("{}: links without a mass whose surface is open, and so bounds no "
+                    "volume, weigh {} kg: {}",
+                    first_open, frame_mass, some_names(open)));
+  library.note(fmt::format("{}: says nothing of friction; all links count as plastic", file));
+}
+
+}  // namespace clench

@@ -1,0 +1,42 @@
+// What the readers of URDF and MJCF share about links: mass properties, and which geometry collides.
+#pragma once
+#include "clench/io/text/library.h"
+#include "clench/io/tree/tree_geometry.h"
+#include "clench/io/tree/tree_model.h"
+#include "clench/spec/inertia.h"
+
+namespace clench {
+
+/// Pieces of one link as its file gives them.
+struct LinkPieces {
+  std::vector<GeometryPiece> collision, visual;
+  std::string place;          ///< "hand.urdf:31", for sentences
+  bool has_inertial = false;  ///< are mass, centre and inertia in the link's body?
+};
+
+/// Gives each link its shape and looks. Bodies collide with the collision pieces alone; where no
+/// link of the robot has any, all collide with the visual ones. Links without mass in the file weigh
+/// what water of their volume does, frames without geometry and open surfaces a gram. Tells what it guesses.
+/// `pieces`  one per link
+void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
+                 const std::string& file, const Library& library);
+
+/// Mass, centre and inertia of a link from the inertia about its centre of mass [kg m^2].
+Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
+                      const Eigen::Matrix3d& inertia_C);
+
+/// Tells of links whose inertias are wrong in the same way, at once.
+class InertialFaults {
+ public:
+  void add(Inertial fault, const std::string& place, const std::string& link);
+  void tell(const Library& library) const;
+
+ private:
+  std::array<std::string, 3> places_;  // of the first; no_body, not_definite, not_given
+  std::array<std::vector<std::string>, 3> links_;
+};
+
+/// Largest numbers of a robot's parts, far above any robot.
+inline constexpr int max_links = 1000, max_joints = 1000, max_pieces = 20000;
+
+}  // namespace clench

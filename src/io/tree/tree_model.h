@@ -1,0 +1,62 @@
+// A robot as files of today describe it: a tree of links, joints between them that stand anywhere.
+// URDF and MJCF become this, whose joints may follow each other; make_robot makes ours of it.
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clench/io/text/find_file.h"
+#include "clench/spec/robot_spec.h"
+
+namespace clench {
+
+/// One revolute or prismatic joint. q = ratio * leader + offset when it follows another.
+struct TreeJoint {
+  std::string name;
+  std::string place;  ///< "hand.urdf:31", for sentences
+  JointKind kind = JointKind::revolute;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();   ///< unit, in the frame before it
+  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< a point of the axis [m]
+  double zero = 0;                                   ///< q at which it changes no pose [rad or m]
+  double min = 0, max = 0;                           ///< [rad or m]
+  double effort = 0, velocity = 0;                   ///< largest; 0: not known
+  double viscous = 0, coulomb = 0, spring = 0, rest = 0;  ///< as JointSpec
+  double kp = 0, kd = 0;                                  ///< as DofSpec
+  double start = 0;                                       ///< value of a leader at first [rad or m]
+  bool passive = false;                                   ///< no motor drives it
+  int leader = -1;  ///< index into joints; -1: a DOF of its own
+  double ratio = 1, offset = 0;
+};
+
+/// frame = parent's frame * X_PL * joints, in their order
+struct TreeLink {
+  BodySpec body;
+  int parent = -1;  ///< index into links, less than its own; -1: the root
+  Pose X_PL;
+  std::vector<int> joints;
+};
+
+struct TreeModel {
+  std::string name, class_name;
+  std::vector<TreeLink> links;  ///< [0] is the root, and becomes the base
+  std::vector<TreeJoint> joints;
+  std::vector<std::pair<int, int>> never_meet;  ///< links whose collisions the file switches off
+};
+
+/// A joint without limits may turn this far, a full turn either way [rad]; slide this far [m].
+inline constexpr double endless_turn = 6.283185307179586, endless_slide = 1;
+
+/// Frame after a joint at q, in the frame before it.
+Pose joint_pose(const TreeJoint& joint, double q);
+
+/// Makes leaders of leaders one step long, so that every leader is a DOF.
+/// throws  Error "hand.urdf:31: joint 'a' follows itself by way of 'b'"
+void resolve_leaders(TreeModel& tree);
+
+/// Orders branches so that of the joints of a DOF one comes first that slides or turns as the leader
+/// does: by its first joint a DOF counts in lengths or angles. A leader behind its follower in one
+/// branch stays there.   `tree`  each link after its parent, leaders resolved
+void order_branches(TreeModel& tree);
+
+}  // namespace clench

@@ -1,0 +1,200 @@
+#include "clench/io/tree/tree_robot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "clench/base/text.h"
+#include "clench/io/text/repair_names.h"
+#include "clench/io/tree/closing_choice.h"
+#include "clench/spec/chains.h"
+#include "clench/spec/closing_guess.h"
+
+namespace clench {
+
+namespace {
+
+class RobotMaker {
+ public:
+  RobotMaker(TreeModel tree, const std::string& file, const Library& library)
+      : tree_(std::move(tree)), file_(file), library_(library) {}
+  RobotSpec make();
+
+ private:
+  void number_dofs();
+  void widen_followers();
+  void add_link(const TreeLink& from);
+  JointSpec joint_spec(const TreeJoint& joint, const Pose& before) const;
+  void close_hand();
+  void tell_closing(const ClosingGuess& guess);
+
+  TreeModel tree_;
+  const std::string& file_;
+  const Library& library_;
+  RobotSpec robot_;
+  std::vector<int> dof_of_;    // one per joint: of the leader; -1 for followers
+  std::vector<bool> passive_;  // one per DOF
+};
+
+void RobotMaker::number_dofs() {
+  for (const TreeJoint& joint : tree_.joints) {
+    dof_of_.push_back(joint.leader < 0 ? static_cast<int>(robot_.dofs.size()) : -1);
+    if (joint.leader >= 0) continue;
+    DofSpec dof;
+    dof.name = joint.name;
+    dof.max_effort = joint.effort;
+    dof.max_velocity = joint.velocity;
+    dof.kp = joint.kp;
+    dof.kd = joint.kd;
+    dof.default_value = joint.start;
+    robot_.dofs.push_back(dof);
+    passive_.push_back(joint.passive);
+  }
+}
+
+// limits beyond this are those of nobody [rad or m]
+constexpr double unlimited = 1e6;
+
+std::string way_text(double low, double high) {
+  return low <= -unlimited && high >= unlimited ? "without limits"
+                                                : fmt::format("from {:.6g} to {:.6g}", low, high);
+}
+
+std::string limits_text(double low, double high) {
+  return low <= -unlimited && high >= unlimited ? "(unlimited)"
+                                                : fmt::format("[{:.6g}, {:.6g}]", low, high);
+}
+
+void RobotMaker::widen_followers() {
+  std::map<int, std::pair<double, double>> ranges;  // by leader: what its followers leave
+  for (TreeJoint& joint : tree_.joints) {
+    if (joint.leader < 0 || joint.ratio == 0) continue;
+    const TreeJoint& leader = tree_.joints[joint.leader];
+    const double a = joint.ratio * leader.min + joint.offset,
+                 b = joint.ratio * leader.max + joint.offset;
+    const double low = std::min(a, b), high = std::max(a, b);
+    const double left = std::min(high, joint.max) - std::max(low, joint.min);
+    // what its limits leave of the leader's range, counted as dof_range does
+    const double c = (joint.min - joint.offset) / joint.ratio,
+                 d = (joint.max - joint.offset) / joint.ratio;
+    auto& range = ranges.try_emplace(joint.leader, leader.min, leader.max).first->second;
+    const std::pair<double, double> narrower(std::max(range.first, std::min(c, d)),
+                                             std::min(range.second, std::max(c, d)));
+    const bool slips = left < min_follower_range * (high - low);
+    if (!slips && narrower.first <= narrower.second) {
+      range = narrower;
+      continue;
+    }
+    library_.warn(
+        slips ? fmt::format("{}: joint '{}' follows '{}' {}, and its own limits {} would stop "
+                            "that; they are not used",
+                            joint.place, excerpt(joint.name), excerpt(leader.name),
+                            way_text(low, high), limits_text(joint.min, joint.max))
+              : fmt::format("{}: joint '{}' follows '{}', and its own limits {} have no value in "
+                            "common with those of others that follow it; they are not used",
+                            joint.place, excerpt(joint.name), excerpt(leader.name),
+                            limits_text(joint.min, joint.max)));
+    // a leader that stands still must not be moved by rounding
+    const double slack = high - low < 1e-9 ? 1e-9 * std::max(1.0, std::abs(low)) : 0;
+    joint.min = low - slack;
+    joint.max = high + slack;
+  }
+}
+
+JointSpec RobotMaker::joint_spec(const TreeJoint& joint, const Pose& before) const {
+  const int leader =
+      joint.leader < 0 ? static_cast<int>(&joint - tree_.joints.data()) : joint.leader;
+  const double offset = joint.leader < 0 ? 0 : joint.offset;
+  JointSpec spec;
+  spec.name = joint.name;
+  spec.kind = joint.kind;
+  spec.axis = joint.axis;
+  spec.dof = dof_of_[leader];
+  spec.ratio = joint.leader < 0 ? 1 : joint.ratio;
+  spec.X_PJ = before;
+  if (!joint.anchor.isZero(0)) spec.X_PJ = spec.X_PJ * Pose::translation(joint.anchor);
+  // what is constant of q goes into the frame, and is no part of the limits
+  if (offset != joint.zero) spec.X_PJ = spec.X_PJ * joint_motion(spec, offset - joint.zero);
+  spec.min = joint.min - offset;
+  spec.max = joint.max - offset;
+  spec.viscous = joint.viscous;
+  spec.coulomb = joint.coulomb;
+  spec.spring = joint.spring;
+  spec.rest = joint.rest - offset;
+  return spec;
+}
+
+void RobotMaker::add_link(const TreeLink& from) {
+  LinkSpec link;
+  link.body = from.body;
+  link.body.name = robot_.name + "_" + link.body.name;
+  link.parent = from.parent - 1;  // the root is the base
+  Pose at = from.X_PL;
+  for (const int j : from.joints) {
+    const TreeJoint& joint = tree_.joints[j];
+    if (joint.leader >= 0 && joint.ratio == 0) {  // a follower that does not follow
+      at = at * joint_pose(joint, joint.offset);
+      continue;
+    }
+    link.joints.push_back(joint_spec(joint, at));
+    at = Pose::translation(-joint.anchor);
+  }
+  link.X_JL = at;
+  robot_.links.push_back(std::move(link));
+}
+
+void RobotMaker::tell_closing(const ClosingGuess& guess) {
+  std::vector<std::string> closing;
+  for (const DofSpec& dof : robot_.dofs)
+    if (dof.default_velocity != 0)
+      closing.push_back((dof.default_velocity > 0 ? "+" : "-") + dof.name);
+  library_.note(
+      !closing.empty()
+          ? fmt::format("{}: these DOFs close it, by its geometry: {}; the option "
+                        "'close' says otherwise",
+                        file_, name_list(closing))
+          : fmt::format("{}: no DOF is found to close it; the option 'close' names some", file_));
+  if (!guess.X_BA || library_.options().approach) return;
+  const Eigen::Vector3d z = guess.X_BA->rotation * Eigen::Vector3d::UnitZ();
+  library_.note(
+      fmt::format("{}: it approaches along ({:.3g}, {:.3g}, {:.3g}) of its base, by its "
+                  "geometry; the option 'approach' says otherwise",
+                  file_, z.x() + 0.0, z.y() + 0.0, z.z() + 0.0));
+}
+
+void RobotMaker::close_hand() {
+  const ClosingGuess guess = guess_closing(robot_, passive_);
+  for (size_t d = 0; d < guess.senses.size(); ++d)
+    set_closing(robot_, static_cast<int>(d), guess.senses[d]);
+  robot_.X_BA = guess.X_BA;
+  choose_closing(robot_, file_, library_.options());
+  tell_closing(guess);
+}
+
+RobotSpec RobotMaker::make() {
+  resolve_leaders(tree_);
+  order_branches(tree_);
+  robot_.name = tree_.name;
+  robot_.class_name = tree_.class_name;
+  robot_.chain_links_collide = true;
+  robot_.base = tree_.links.front().body;
+  robot_.base.name = robot_.name + "_" + robot_.base.name;
+  number_dofs();
+  widen_followers();
+  for (size_t i = 1; i < tree_.links.size(); ++i) add_link(tree_.links[i]);
+  const auto now = order_by_chains(robot_);
+  const auto part = [&](int link) { return link == 0 ? -1 : now[link - 1]; };
+  for (const auto& [a, b] : tree_.never_meet)
+    robot_.collision_rules.pairs_off.push_back({part(a), part(b)});
+  close_hand();
+  check_read_robot(robot_, file_, library_.options());
+  return std::move(robot_);
+}
+
+}  // namespace
+
+RobotSpec make_robot(TreeModel tree, const std::string& file, const Library& library) {
+  return RobotMaker(std::move(tree), file, library).make();
+}
+
+}  // namespace clench

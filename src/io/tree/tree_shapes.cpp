@@ -1,0 +1,106 @@
+#include "clench/io/tree/tree_shapes.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace clench {
+
+Mesh box_mesh(const Eigen::Vector3d& size) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices.push_back(
+        0.5 * size.cwiseProduct(Eigen::Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+namespace {
+
+/// A circle about z on the surface.
+struct Ring {
+  double radius = 0, z = 0;
+};
+
+/// The surface that rings from the lowest to the highest bound, with a point at each end.
+Mesh turned(const std::vector<Ring>& rings, double lowest, double highest) {
+  Mesh mesh;
+  const int n = circle_edges, count = static_cast<int>(rings.size());
+  for (const Ring& ring : rings)
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * i / n;
+      mesh.vertices.emplace_back(ring.radius * std::cos(angle), ring.radius * std::sin(angle),
+                                 ring.z);
+    }
+  const int bottom = n * count, top = bottom + 1;
+  mesh.vertices.emplace_back(0, 0, lowest);
+  mesh.vertices.emplace_back(0, 0, highest);
+  for (int i = 0; i < n; ++i) {
+    const int next = (i + 1) % n;
+    mesh.triangles.push_back({bottom, next, i});
+    for (int r = 0; r + 1 < count; ++r) {
+      const int a = r * n, b = a + n;
+      mesh.triangles.push_back({a + i, a + next, b + next});
+      mesh.triangles.push_back({a + i, b + next, b + i});
+    }
+    const int last = (count - 1) * n;
+    mesh.triangles.push_back({top, last + i, last + next});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Mesh cylinder_mesh(double radius, double length) {
+  return turned({{radius, -length / 2}, {radius, length / 2}}, -length / 2, length / 2);
+}
+
+Mesh capsule_mesh(double radius, double length) {
+  const int quarter = circle_edges / 4;
+  std::vector<Ring> rings;
+  for (int k = 1; k <= quarter; ++k) {
+    const double angle = std::numbers::pi / 2 * k / quarter;
+    rings.push_back({radius * std::sin(angle), -length / 2 - radius * std::cos(angle)});
+  }
+  rings.back() = {radius, -length / 2};
+  // the upper half mirrors the lower one; a ball has its equator once
+  for (int k = quarter - (length > 0 ? 0 : 1); k >= 1; --k)
+    rings.push_back({rings[k - 1].radius, -rings[k - 1].z});
+  return turned(rings, -length / 2 - radius, length / 2 + radius);
+}
+
+Mesh ellipsoid_mesh(const Eigen::Vector3d& radii) {
+  Mesh mesh = capsule_mesh(1, 0);
+  for (auto& p : mesh.vertices) p = p.cwiseProduct(radii);
+  return mesh;
+}
+
+static MassProperties solid(double volume, const Eigen::Vector3d& moments) {
+  MassProperties out;
+  out.volume = volume;
+  out.inertia = moments.asDiagonal();
+  return out;
+}
+
+MassProperties cylinder_solid(double radius, double length) {
+  const double r2 = radius * radius, across = r2 / 4 + length * length / 12;
+  return solid(std::numbers::pi * r2 * length, {across, across, r2 / 2});
+}
+
+MassProperties capsule_solid(double radius, double length) {
+  const MassProperties middle = cylinder_solid(radius, length);
+  const double r2 = radius * radius, ball = 4.0 / 3 * std::numbers::pi * r2 * radius;
+  const double volume = middle.volume + ball, part = ball / volume;
+  // half balls, their centres of mass 3/8 r beyond the ends
+  const double along = 0.4 * r2, across = along + length * length / 4 + 3.0 / 8 * length * radius;
+  const Eigen::Vector3d ends(across, across, along);
+  return solid(volume, (1 - part) * middle.inertia.diagonal() + part * ends);
+}
+
+MassProperties ellipsoid_solid(const Eigen::Vector3d& radii) {
+  const Eigen::Vector3d squares = radii.cwiseAbs2();
+  return solid(4.0 / 3 * std::numbers::pi * radii.prod(),
+               (Eigen::Vector3d::Constant(squares.sum()) - squares) / 5);
+}
+
+}  // namespace clench

@@ -1,0 +1,27 @@
+// Meshes of the primitive shapes that robot files name. All are closed, centred, and face outward;
+// round ones have their vertices on the true surface.
+#pragma once
+#include "clench/geometry/mesh/mass.h"
+
+namespace clench {
+
+/// Edges of a full circle: a centimetre's radius is met within 0.05 mm.
+inline constexpr int circle_edges = 32;
+
+/// edges of the given lengths [m]
+Mesh box_mesh(const Eigen::Vector3d& size);
+
+/// about z
+Mesh cylinder_mesh(double radius, double length);
+
+/// A cylinder about z with half a ball at each end; `length` [m] is the cylinder's. 0: a ball.
+Mesh capsule_mesh(double radius, double length);
+
+Mesh ellipsoid_mesh(const Eigen::Vector3d& radii);
+
+/// Of the true solids, which are larger than these meshes.
+MassProperties cylinder_solid(double radius, double length);
+MassProperties capsule_solid(double radius, double length);
+MassProperties ellipsoid_solid(const Eigen::Vector3d& radii);
+
+}  // namespace clench

@@ -1,0 +1,84 @@
+// What the formats of robot trees need of XML beside elements: attributes as typed values that other
+// elements may stand behind, and a record of what nobody used.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clench/io/text/repairs.h"
+#include "clench/io/text/xml.h"
+
+namespace clench {
+
+class UnusedXml;
+
+/// Attributes of an element and, behind it, of others that say what it leaves open: the nearest
+/// that has an attribute gives it. All throw Error with place, element, attribute, expected and got.
+class XmlValues {
+ public:
+  XmlValues() = default;
+  XmlValues(XmlElement own, const std::vector<XmlElement>& behind = {});
+
+  const XmlElement& element() const { return layers_.front(); }
+  bool has(const char* name) const { return find(name).has_value(); }
+  std::string text(const char* name) const;  ///< expected, not empty
+  std::string text(const char* name, const std::string& fallback) const;
+  double number(const char* name) const;  ///< expected
+  double number(const char* name, double fallback) const;
+  double not_negative(const char* name, double fallback, Repairs& repairs) const;
+  /// lower and upper, put in order   throws as numbers
+  std::array<double, 2> range(const char* name, Repairs& repairs) const;
+  /// three or four shares of a colour in 0..1
+  std::vector<double> color(const char* name, int least, Repairs& repairs) const;
+  std::string subject(const char* name) const;  ///< "hand.xml:31: joint: range"
+  int integer(const char* name, int fallback) const;
+  bool boolean(const char* name, bool fallback) const;
+  /// between `least` and `most` numbers, each of at most 1e15
+  std::vector<double> numbers(const char* name, int least, int most) const;
+  Eigen::Vector3d vec3(const char* name, const Eigen::Vector3d& fallback) const;
+  /// one of the words
+  std::string word(const char* name, std::initializer_list<const char*> words,
+                   const char* fallback) const;
+  /// Records the attributes of all these elements but those that are used.
+  void tell_unused(UnusedXml& unused, std::initializer_list<std::string_view> used) const;
+  /// throws Error  "hand.xml:31: joint: range: ..." at the element that gives the attribute
+  template <class... Args>
+  [[noreturn]] void fail(const char* name, fmt::format_string<Args...> format,
+                         Args&&... args) const {
+    refuse(name, fmt::format(format, std::forward<Args>(args)...));
+  }
+
+ private:
+  const XmlElement& giver(const char* name) const;
+  std::optional<std::string> find(const char* name) const;
+  [[noreturn]] void refuse(const char* name, const std::string& what) const;
+  std::vector<XmlElement> layers_;
+};
+
+/// What a file contains and nobody uses: told once for each kind of element.
+class UnusedXml {
+ public:
+  void element(const XmlElement& element);
+  /// all attributes but these, and text that stands in it
+  void attributes(const XmlElement& element, std::initializer_list<std::string_view> used);
+  /// "hand.urdf:31: <gazebo> is not used, nor are 11 more"
+  std::vector<std::string> sentences() const;
+
+ private:
+  struct Kind {
+    std::string name;   // empty: of all that came when there were a hundred
+    std::string place;  // of the first
+    int count = 0;
+    std::map<std::string, int> attributes;
+    std::string text;
+  };
+  static Kind& kind_of(std::vector<Kind>& kinds, const XmlElement& element);
+  std::vector<Kind> elements_, attributes_, texts_;
+};
+
+}  // namespace clench

@@ -1,0 +1,15 @@
+// Robots from URDF, the format of ROS.
+#pragma once
+#include <filesystem>
+
+#include "clench/io/text/library.h"
+
+namespace clench {
+
+/// throws Error  "hand.urdf:31: joint 'a': lower 2 exceeds upper 1 [rad]"
+RobotSpec read_robot_urdf(const std::filesystem::path& path, Library& library);
+
+/// Is this text a URDF: is its outermost element a <robot> that holds links?
+bool looks_like_urdf(std::string_view text);
+
+}  // namespace clench

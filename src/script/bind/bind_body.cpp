@@ -1,0 +1,138 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+static int get_name(lua_State* L) { return push(L, self<BodyHandle>(L)->name); }
+
+static int set_name(lua_State* L) {
+  const auto& body = self<BodyHandle>(L);
+  body.world->set_name(body.id, check_string(L, 2));
+  return 0;
+}
+
+static int get_pose(lua_State* L) {
+  const auto& body = self<BodyHandle>(L);
+  return push(L, body.world->pose(body.id));
+}
+
+static int set_pose(lua_State* L) {
+  const auto& body = self<BodyHandle>(L);
+  body.world->set_pose(body.id, check_pose(L, 2));
+  return 0;
+}
+
+static const char* kind_name(BodyKind kind) {
+  static constexpr const char* names[] = {"object", "obstacle", "base", "link", "mount"};
+  return names[static_cast<int>(kind)];
+}
+
+static int get_kind(lua_State* L) { return push(L, kind_name(self<BodyHandle>(L)->kind)); }
+
+static int get_robot(lua_State* L) {
+  const auto& body = self<BodyHandle>(L);
+  if (body->robot) return push(L, RobotHandle{body.world, body->robot});
+  lua_pushnil(L);
+  return 1;
+}
+
+static int get_source(lua_State* L) { return push(L, self<BodyHandle>(L)->source); }
+
+static int get_tracker(lua_State* L) {
+  const auto& body = self<BodyHandle>(L);
+  if (body->tracker) return push(L, *body->tracker);
+  lua_pushnil(L);
+  return 1;
+}
+
+int push_move(lua_State* L, const WorldPtr& world, const MoveResult& result) {
+  push_list(L, 0, 5);
+  set_field(L, "fraction", result.fraction);
+  set_field(L, "touched", result.touched);
+  push_pairs(L, world, result.stopped_by);
+  lua_setfield(L, -2, "stopped_by");
+  set_field(L, "iteration_limit", result.iteration_limit);
+  set_field(L, "queries", result.queries);
+  return 1;
+}
+
+static int move_to(lua_State* L) {
+  check_count(L, 1);
+  const auto& body = self<BodyHandle>(L);
+  return push_move(L, body.world, move_body(*body.world, body.id, check_pose(L, 2, "pose")));
+}
+
+static int text(lua_State* L) {
+  const auto& body = self<BodyHandle>(L);
+  if (!body.world->alive(body.id)) return push(L, "removed body");
+  return push(L, fmt::format("{} '{}'", kind_name(body->kind), body->name));
+}
+
+static int equal(lua_State* L) {
+  const auto *a = to<BodyHandle>(L, 1), *b = to<BodyHandle>(L, 2);
+  return push(L, a && b && a->world == b->world && a->id == b->id);
+}
+
+static const Entry fields[] = {
+    {"name", guarded<get_name>, R"(
+Unique in its world.
+@type string
+> flask.name = "bottle"
+> world:body("bottle") == flask  --> true)",
+     guarded<set_name>},
+    {"pose", guarded<get_pose>, R"(
+Where it is, in the world frame. Setting it moves it at once, whatever is in the way; see move_to. The parts of a robot
+move with the robot.
+@type pose
+> flask.pose = {xyz = {0, 0, 1}}
+> flask.pose.position  --> (0, 0, 1))",
+     guarded<set_pose>},
+    {"kind", guarded<get_kind>, R"(
+"object", "obstacle", "base", "link" or "mount".
+@type string
+> flask.kind  --> object)"},
+    {"robot", guarded<get_robot>, R"(
+The robot that it is a part of; nil for objects and obstacles.
+@type robot?
+> hand.links[1].robot == hand  --> true)"},
+    {"source", guarded<get_source>, R"(
+File that it was read from; empty when it was made by a script.
+@type string
+> world:add_object(clench.shapes.box {1, 1, 1}).source == ""  --> true)"},
+    {"tracker", guarded<get_tracker>, R"(
+Number of the position sensor that is to move it; nil when its file names none.
+@type integer?
+> flask.tracker  --> nil)"},
+};
+
+static const Entry methods[] = {
+    {"move_to", guarded<move_to>, R"(
+Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that
+remains is within the contact threshold. One that starts in contact may slide and leave, but is not pushed in.
+@param pose pose
+@return table result  `fraction` of the way gone, `touched`, `stopped_by` (pairs), `iteration_limit` (after a million steps), `queries`
+> cube = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {pose = {xyz = {0, 0, 9}}})
+> floor = world:add_obstacle(clench.shapes.box {1, 1, 1}, {pose = {xyz = {0, 0, 7}}})
+> cube:move_to{xyz = {0, 0, 7}}.touched  --> true
+> world:distance(cube, floor) <= world.contact_threshold  --> true)"},
+};
+
+static const Entry operators[] = {
+    {"__tostring", guarded<text>, ""},
+    {"__eq", guarded<equal>, ""},
+};
+
+const Class body_class{.name = "body",
+                       .variable = "body",
+                       .doc =
+                           "A rigid body in a world: an object, an "
+                           "obstacle, or a part of a robot.",
+                       .fields = fields,
+                       .methods = methods,
+                       .operators = operators,
+                       .parent = &entity_class};
+
+}  // namespace clench

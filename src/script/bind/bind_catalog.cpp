@@ -1,0 +1,128 @@
+#include "clench/script/bind/bind.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "clench/io/read.h"
+#include "clench/io/text/confine.h"
+#include "clench/io/text/file_kind.h"
+#include "clench/script/bind/read_spec.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/home.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/setting.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+struct Shelf {
+  const char* name;
+  const char* folder;
+  FileKind kind;  // of what lies on it
+};
+
+static constexpr Shelf shelves[] = {
+    {"hands", "models/hands", FileKind::robot},
+    {"arms", "models/arms", FileKind::robot},
+    {"objects", "models/objects", FileKind::body},
+    {"obstacles", "models/obstacles", FileKind::body},
+    {"worlds", "worlds", FileKind::world},
+};
+
+// parts of robots, planners' stand-ins for objects, and what was saved beside a world are no models
+// of their own
+static bool holds_parts(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  return name == "iv" || name == "primitives" || name.ends_with("_files");
+}
+
+static bool belongs(const fs::path& path, FileKind kind, const fs::path& confine) {
+  if (!lies_within(path, confine)) return false;
+  // a surface that lies beside its body's XML file belongs to that
+  if (path.extension() != ".xml" && kind == FileKind::body &&
+      fs::exists(fs::path(path).replace_extension(".xml")))
+    return false;
+  try {
+    return file_kind(path) == kind;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::file) throw;
+    return false;  // a note, a picture
+  }
+}
+
+// below the current folder as seen from there, else absolute
+static std::string plain_path(const fs::path& path) {
+  std::error_code error;
+  const fs::path near = fs::proximate(path, error);
+  return !error && !near.empty() && *near.begin() != ".." ? near.generic_string()
+                                                          : path.generic_string();
+}
+
+static std::vector<std::string> files_on(const fs::path& home, const Shelf& shelf,
+                                         const fs::path& confine) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(home / shelf.folder, error), end; !error && it != end;
+       it.increment(error)) {
+    std::error_code none;
+    if (it->is_directory(none)) {
+      if (holds_parts(it->path())) it.disable_recursion_pending();
+      continue;
+    }
+    if (!belongs(it->path(), shelf.kind, confine)) continue;
+    found.push_back(plain_path(it->path()));
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+static int catalog(lua_State* L) {
+  check_count(L, 0);
+  const fs::path home = home_folder();
+  if (home.empty())
+    fail("{}: no folder with models and worlds found near the program; set CLENCH_MODELS to it",
+         subject(L));
+  const std::string confine = get_setting(L, Setting::confine);
+  push_list(L, 0, static_cast<int>(std::size(shelves)));
+  for (const Shelf& shelf : shelves) {
+    push_list_of(L, files_on(home, shelf, confine),
+                 [L](const std::string& path) { push(L, path); });
+    lua_setfield(L, -2, shelf.name);
+  }
+  return 1;
+}
+
+static int kind_of_file(lua_State* L) {
+  check_count(L, 2);
+  const std::string path = check_string(L, 1, "path");
+  Table options(L, 2);
+  ReadOptions reading;
+  reading.confine = read_confine(L, options);
+  options.done();
+  return push(L, kind_name(file_kind(find_file(path, {}, reading))));
+}
+
+static const Entry functions[] = {
+    {"file_kind", guarded<kind_of_file>, R"(
+What a file describes, by its ending, or by its outermost element in XML; where the ending says nothing, by how its numbers
+stand.
+@param path string
+@param options? {confine?: string}
+@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"object contacts"|"pre-grasps"|"planned grasps"|"glove calibration"|"glove poses"
+> clench.file_kind "models/objects/flask.iv"  --> body
+> clench.file_kind "worlds/dlr_flask.wld"  --> world
+> clench.file_kind "README.md"  --> error: expected a model, a world, or a file that goes with one, got '.md')"},
+    {"catalog", guarded<catalog>, R"(
+Paths of the models and worlds that come with Clench, sorted.
+@return {hands: string[], arms: string[], objects: string[], obstacles: string[], worlds: string[]}
+> type(clench.catalog().hands)  --> table)"},
+};
+
+const Library catalog_library{.name = "clench", .doc = "", .functions = functions};
+
+}  // namespace clench

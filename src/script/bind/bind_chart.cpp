@@ -1,0 +1,91 @@
+#include "clench/script/bind/bind.h"
+
+#include <ranges>
+
+#include "clench/render/chart.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+static constexpr size_t max_named = 8;  // of letters that are boxes
+
+// calls read(index, what) with each item of the list on top of the stack
+template <class Read>
+static void each_item(lua_State* L, const What& what, Read read) {
+  const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list");
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, list, i);
+    read(lua_gettop(L), what.item(i));
+    lua_pop(L, 1);
+  }
+}
+
+static ChartSeries read_series(lua_State* L, int index, const What& what) {
+  if (!lua_istable(L, index)) fail_expected(what, "{name = ..., values = ...}", index);
+  Table one(L, index, what.text());
+  ChartSeries series;
+  series.name = one.string("name");
+  series.higher_is_better = one.boolean("higher_is_better", true);
+  one.push("values");
+  each_item(L, one.what("values"), [&](int i, const What& value) {
+    const bool none = lua_isboolean(L, i) && !lua_toboolean(L, i);
+    series.values.push_back(none ? NAN : read_number(L, i, value));
+  });
+  lua_pop(L, 1);
+  one.done();
+  return series;
+}
+
+// once a chart, by their numbers
+static void warn_of_boxes(lua_State* L, const Chart& chart, const Font& font) {
+  std::string all = chart.title;
+  for (const std::string& label : chart.labels) all += ' ' + label;
+  for (const ChartSeries& series : chart.series) all += ' ' + series.name;
+  const std::set<char32_t> boxes = font.missing(all);
+  if (boxes.empty()) return;
+  std::string names;
+  for (const char32_t letter : boxes | std::views::take(max_named))
+    names += fmt::format("{}U+{:04X}", names.empty() ? "" : ", ", static_cast<uint32_t>(letter));
+  if (boxes.size() > max_named) names += fmt::format(" and {} more", boxes.size() - max_named);
+  log_warning(L, "chart: drawn as boxes are the letters " + names);
+}
+
+static int draw(lua_State* L) {
+  check_count(L, 1);
+  Table options(L, 1);
+  Chart chart;
+  chart.title = options.string("title", "");
+  if (options.push("labels") != LUA_TNIL)
+    each_item(L, options.what("labels"),
+              [&](int i, const What& what) { chart.labels.push_back(read_string(L, i, what)); });
+  lua_pop(L, 1);
+  options.push("series");
+  each_item(L, options.what("series"),
+            [&](int i, const What& what) { chart.series.push_back(read_series(L, i, what)); });
+  lua_pop(L, 1);
+  ChartOptions drawing;
+  drawing.width = options.integer("width", drawing.width);
+  drawing.height = options.integer("height", drawing.height);
+  options.done();
+  const Font font;
+  warn_without_letters(L, font);
+  warn_of_boxes(L, chart, font);
+  return push_object(L, draw_chart(chart, drawing, font));
+}
+
+static const Entry functions[] = {
+    {"chart", guarded<draw>, R"(
+Draws numbers as columns, one panel a series, each to its own scale, all over the same items, with its value where there is
+room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked.
+Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
+@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer}  labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
+@return picture
+> clench.chart{series = {{name = "epsilon", values = {0.1, 0.3, 0.2}}}, height = 200}  --> picture of 960 x 200 pixels
+> clench.chart{series = {}}  --> error: expected at least one series)"},
+};
+
+const Library chart_library{.name = "clench", .doc = "", .functions = functions};
+
+}  // namespace clench

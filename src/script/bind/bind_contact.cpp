@@ -1,0 +1,196 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/contact/cone.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+int push_contacts(lua_State* L, const WorldPtr& world, const std::vector<Contact>& contacts) {
+  return push_list_of(L, contacts, [&](const Contact& contact) {
+    push_object(L, ContactHandle{world, contact, nullptr});
+  });
+}
+
+static int get_body(lua_State* L) {
+  const auto& c = self<ContactHandle>(L);
+  return push(L, BodyHandle{c.world, c.contact.body});
+}
+
+static int get_other(lua_State* L) {
+  const auto& c = self<ContactHandle>(L);
+  return push(L, BodyHandle{c.world, c.contact.other});
+}
+
+// the side that belongs to a robot; the other one first
+static int get_link(lua_State* L) {
+  const auto& c = self<ContactHandle>(L);
+  for (const auto id : {c.contact.other, c.contact.body})
+    if (c.world->body(id).robot) return push(L, BodyHandle{c.world, id});
+  lua_pushnil(L);
+  return 1;
+}
+
+static int get_point(lua_State* L) { return push(L, self<ContactHandle>(L).contact.p_W); }
+static int get_normal(lua_State* L) { return push(L, self<ContactHandle>(L).contact.n_W); }
+static int get_gap(lua_State* L) { return push(L, self<ContactHandle>(L).contact.gap); }
+static int get_mu(lua_State* L) { return push(L, self<ContactHandle>(L).contact.friction.statics); }
+static int get_mu_kinetic(lua_State* L) {
+  return push(L, self<ContactHandle>(L).contact.friction.kinetic);
+}
+
+static int get_frame(lua_State* L) {
+  const Contact& c = self<ContactHandle>(L).contact;
+  return push(L, Pose{Eigen::Quaterniond(contact_frame(c.n_W)), c.p_W});
+}
+
+static const char* kind_name(ContactKind kind) {
+  switch (kind) {
+    case ContactKind::frictionless:
+      return "frictionless";
+    case ContactKind::soft:
+      return "soft";
+    case ContactKind::point:
+      break;
+  }
+  return "point";
+}
+
+static int get_kind(lua_State* L) {
+  return push(L, kind_name(self<ContactHandle>(L).contact.kind));
+}
+
+static int push_patch(lua_State* L, const Contact& c, std::shared_ptr<const SoftPatch> patch) {
+  return push_object(L, PatchHandle{std::move(patch), c.X_WA, c.body_is_b, c.friction.statics});
+}
+
+static void tell_sharp(lua_State* L, const ContactHandle& c, const SoftPatch& patch) {
+  if (!patch.at_edge) return;
+  const Eigen::Vector3d p = c.contact.X_WA * patch.centre_A;
+  log_warning(L, fmt::format("soft contact of {} on {} at ({:.6g}, {:.6g}, {:.6g}): there is a "
+                             "corner or an edge, whose patch is a guess",
+                             c.world->body(c.contact.other).name,
+                             c.world->body(c.contact.body).name, p.x(), p.y(), p.z()));
+}
+
+static int get_patch(lua_State* L) {
+  auto& c = self<ContactHandle>(L);
+  if (!c.contact.site) {
+    lua_pushnil(L);
+    return 1;
+  }
+  if (!c.patch) {
+    c.patch = std::make_shared<SoftPatch>(soft_patch(*c.contact.site));
+    tell_sharp(L, c, *c.patch);
+  }
+  return push_patch(L, c.contact, c.patch);
+}
+
+static int fit_patch(lua_State* L) {
+  check_count(L, 1);
+  const auto& c = self<ContactHandle>(L);
+  Table table(L, 2);
+  PatchOptions options;
+  if (table.has("radius")) options.radius = table.positive("radius", 1);
+  options.max_radius = table.positive("max_radius", options.max_radius);
+  if (table.choice("fit", {"quadric", "jet"}, "quadric") == "jet") options.fit = PatchFit::jet;
+  table.done();
+  if (!c.contact.site) {
+    lua_pushnil(L);
+    return 1;
+  }
+  auto patch = std::make_shared<SoftPatch>(soft_patch(*c.contact.site, options));
+  tell_sharp(L, c, *patch);
+  return push_patch(L, c.contact, std::move(patch));
+}
+
+static int text(lua_State* L) {
+  const auto& c = self<ContactHandle>(L);
+  const Eigen::Vector3d& p = c.contact.p_W;
+  const auto name = [&](Id<Body> id) {
+    return c.world->alive(id) ? c.world->body(id).name : "a removed body";
+  };
+  return push(L, fmt::format("{} contact of {} on {} at ({:.6g}, {:.6g}, {:.6g})",
+                             kind_name(c.contact.kind), name(c.contact.other), name(c.contact.body),
+                             p.x(), p.y(), p.z()));
+}
+
+static const Entry fields[] = {
+    {"body", guarded<get_body>, R"(
+The body that is touched: the object, of a hand and an object.
+@type body
+> world:contacts(hand, flask)[1].body == flask  --> true)"},
+    {"other", guarded<get_other>, R"(
+The body that touches it.
+@type body
+> world:contacts(hand, flask)[1].other.kind  --> link)"},
+    {"link", guarded<get_link>, R"(
+The part of a robot among the two; nil when there is none.
+@type body?
+> world:contacts(hand, flask)[1].link.robot == hand  --> true)"},
+    {"point", guarded<get_point>, R"(
+Where, on the surface of `body`, in the world frame.
+@type vec3  [m]
+> (world:contacts(hand, flask)[1].point - flask.pose.position):norm() < 1  --> true)"},
+    {"normal", guarded<get_normal>, R"(
+Unit normal into `body`, in the world frame.
+@type vec3
+> math.abs(world:contacts(hand, flask)[1].normal:norm() - 1) < 1e-12  --> true)"},
+    {"frame", guarded<get_frame>, R"(
+Contact frame: origin at the point, +z into `body`.
+@type pose
+> c = world:contacts(hand, flask)[1]
+> (c.frame:rotate{0, 0, 1} - c.normal):norm() < 1e-12  --> true)"},
+    {"gap", guarded<get_gap>, R"(
+Distance of the two surfaces there, at most the world's contact threshold.
+@type number  [m]
+> world:contacts(hand, flask)[1].gap <= world.contact_threshold  --> true)"},
+    {"mu", guarded<get_mu>, R"(
+Static Coulomb coefficient of the two materials.
+@type number
+> c = world:contacts(hand, flask)[1]
+> c.mu == world:friction(c.body.material, c.other.material)  --> true)"},
+    {"mu_kinetic", guarded<get_mu_kinetic>, R"(
+Kinetic Coulomb coefficient of the two materials.
+@type number
+> world:contacts(hand, flask)[1].mu_kinetic >= 0  --> true)"},
+    {"kind", guarded<get_kind>, R"(
+"point" (with friction), "soft" (with friction, of bodies one of which at least is elastic) or "frictionless".
+@type string
+> world:contacts(hand, flask)[1].kind  --> point
+> flask.elastic_modulus = 1.5e6
+> world:contacts(hand, flask)[1].kind  --> soft)"},
+    {"patch", guarded<get_patch>, R"(
+The surfaces around a soft contact, and the turn that it resists; nil of others. Contacts of two bodies whose
+neighbourhoods overlap have one patch. A corner or an edge is logged as a warning.
+@type patch?
+> world:contacts(hand, flask)[1].patch  --> nil
+> flask.elastic_modulus = 1.5e6
+> world:contacts(hand, flask)[1].patch.radius < 0.004  --> true)"},
+};
+
+static const Entry methods[] = {
+    {"fit_patch", guarded<fit_patch>, R"(
+The patch of a soft contact by options of one's own; nil of others.
+@param options? {radius?: number, max_radius?: number, fit?: string}  radius: how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm, an error where there is nothing to fit [m]; max_radius: stands for a relative radius that is none, 0.02 [m]; fit: "quadric", our own, or "jet", CGAL's
+@return patch?
+> flask.elastic_modulus = 1.5e6
+> world:contacts(hand, flask)[1]:fit_patch{radius = 0.002}.radius  --> 0.002
+> world:contacts(hand, flask)[1]:fit_patch{fit = "jets"}  --> error: did you mean 'jet'?)"},
+};
+
+static const Entry operators[] = {
+    {"__tostring", guarded<text>, ""},
+};
+
+const Class contact_class{.name = "contact",
+                          .variable = "contact",
+                          .doc =
+                              "A point where one body touches another, as "
+                              "it was when it was asked for.",
+                          .fields = fields,
+                          .methods = methods,
+                          .operators = operators};
+
+}  // namespace clench

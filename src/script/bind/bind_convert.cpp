@@ -1,0 +1,52 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/io/convert.h"
+#include "clench/script/bind/read_spec.h"
+#include "clench/script/bind/world_files.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+static int convert(lua_State* L) {
+  check_count(L, 3);
+  const std::string from = check_string(L, 1, "from"), to = check_string(L, 2, "to");
+  Table options(L, 3);
+  ReadOptions reading = read_options(L, options);
+  const auto found = find_file(from, {}, reading);
+  std::error_code code;
+  if (std::filesystem::equivalent(found, to, code))
+    fail("{}: expected another file to write, got the same", to);
+  const FileKind kind = file_kind(found);
+  if (kind == FileKind::robot) read_robot_options(L, options, reading);
+  options.done();
+  if (kind == FileKind::world)  // built on the way, which tells what the new file does not hold
+    save_world(L, *push_world_of(L, found, reading), to,
+               {.root = reading.root, .confine = reading.confine});
+  else
+    convert_file(kind, found, to, reading,
+                 {.root = reading.root, .confine = reading.confine, .warn = reading.warn});
+  return push(L, kind_name(kind));
+}
+
+static const Entry functions[] = {
+    {"convert", guarded<convert>, R"(
+Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as
+.urdf, worlds as .wld .xml .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml. What the format cannot hold is
+told in warnings.
+@param from string
+@param to string
+@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number}  of reading; of robots those of add_robot, too
+@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
+> path = os.tmpname()
+> clench.convert("models/objects/flask.iv", path .. ".ply")  --> body
+> world:add_object(path .. ".ply").mesh:is_watertight()  --> true
+> os.remove(path)
+> os.remove(path .. ".ply")
+> clench.convert("models/objects/flask.iv", "flask.egr")  --> error: expected a body to .xml, .iv, .obj, .off, .ply or .stl, got '.egr')"},
+};
+
+const Library convert_library{.name = "clench", .doc = "", .functions = functions};
+
+}  // namespace clench

@@ -1,0 +1,264 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/io/graspit/eigengrasps.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+using Eigen::VectorXd;
+
+EigengraspSet EigengraspsHandle::value() const {
+  if (set) return *set;
+  return robot->eigengrasps ? *robot->eigengrasps
+                            : identity_eigengrasps(static_cast<int>(robot->dofs.size()));
+}
+
+static VectorXd vector_of(const std::vector<double>& x) {
+  return Eigen::Map<const VectorXd>(x.data(), static_cast<int>(x.size()));
+}
+
+VectorXd check_amplitudes(lua_State* L, int i, const Eigengrasps& grasps) {
+  const auto values = read_numbers(L, i, {L, {}, "amplitudes"});
+  if (static_cast<int>(values.size()) != grasps.size())
+    fail("{}: expected {} amplitudes, got {}", subject(L), grasps.size(), values.size());
+  return vector_of(values);
+}
+
+static VectorXd check_posture(const std::vector<double>& values, const std::string& subject,
+                              const Eigengrasps& grasps) {
+  if (static_cast<int>(values.size()) != grasps.dofs())
+    fail("{}: expected {} DOF values, got {}", subject, grasps.dofs(), values.size());
+  return vector_of(values);
+}
+
+// --- making ---
+
+static std::vector<std::optional<Range>> read_limits(Table& options) {
+  std::vector<std::optional<Range>> limits;
+  for (const auto& row : options.rows("limits", 2)) limits.push_back(Range{row[0], row[1]});
+  return limits;
+}
+
+static EigengraspSet set_from_vectors(Table& options) {
+  EigengraspSet set;
+  const auto rows = options.rows("vectors");
+  set.dofs = rows.empty() ? 0 : static_cast<int>(rows.front().size());
+  const int count = static_cast<int>(rows.size());
+  const auto values = options.has("eigenvalues") ? options.numbers("eigenvalues", count)
+                                                 : std::vector<double>(rows.size(), 0.5);
+  std::vector<std::optional<Range>> limits(rows.size());
+  if (options.has("limits")) limits = read_limits(options);
+  if (static_cast<int>(limits.size()) != count)
+    fail("{}: limits: expected {} pairs, got {}", options.subject(), count, limits.size());
+  for (int i = 0; i < count; ++i) set.grasps.push_back({vector_of(rows[i]), values[i], limits[i]});
+  if (options.has("origin")) set.origin = vector_of(options.numbers("origin"));
+  if (options.has("norm")) set.norm = vector_of(options.numbers("norm"));
+  return set;
+}
+
+static int make(lua_State* L) {
+  check_count(L, 1);
+  Table options(L, 1);
+  EigengraspSet set;
+  if (options.has("postures") && options.has("vectors"))
+    fail("{}: expected postures or vectors, got both", subject(L));
+  if (options.has("postures")) {
+    std::vector<VectorXd> postures;
+    for (const auto& row : options.rows("postures")) postures.push_back(vector_of(row));
+    const int count = options.integer("count", 0);
+    if (options.has("count") && count < 1)
+      fail("{}: count: expected 1 or more, got {}", subject(L), count);
+    set = principal_eigengrasps(postures, count);
+  } else if (options.has("vectors")) {
+    set = set_from_vectors(options);
+  } else {
+    fail("{}: expected postures or vectors", subject(L));
+  }
+  options.done();
+  check_eigengrasps(set, subject(L));
+  return push_object(L, EigengraspsHandle{{}, std::make_shared<EigengraspSet>(std::move(set))});
+}
+
+// --- fields ---
+
+static Eigengrasps ready(lua_State* L) { return self<EigengraspsHandle>(L).ready(); }
+
+static int get_count(lua_State* L) { return push(L, ready(L).size()); }
+static int get_vectors(lua_State* L) { return push_rows(L, ready(L).vectors()); }
+static int get_eigenvalues(lua_State* L) { return push_vector(L, ready(L).eigenvalues()); }
+static int get_origin(lua_State* L) { return push_vector(L, ready(L).origin()); }
+static int get_norm(lua_State* L) { return push_vector(L, ready(L).norm()); }
+
+static int push_ranges(lua_State* L, const std::vector<Range>& ranges) {
+  return push_list_of(L, ranges, [L](const Range& range) { push_numbers(L, range); });
+}
+
+static int get_limits(lua_State* L) {
+  const auto& handle = self<EigengraspsHandle>(L);
+  const Eigengrasps grasps = handle.ready();
+  return push_ranges(L, grasps.limits(handle.robot.world ? handle.robot.world->dofs(handle.robot.id)
+                                                         : grasps.origin()));
+}
+
+static int get_range(lua_State* L) { return push_ranges(L, ready(L).range()); }
+
+static int get_hand(lua_State* L) {
+  const auto& handle = self<EigengraspsHandle>(L);
+  if (handle.robot.world) return push(L, handle.robot);
+  lua_pushnil(L);
+  return 1;
+}
+
+static int get_is_custom(lua_State* L) {
+  const auto& handle = self<EigengraspsHandle>(L);
+  return push(L, handle.set || handle.robot->eigengrasps);
+}
+
+// --- verbs ---
+
+static int amplitudes(lua_State* L) {
+  check_count(L, 1);
+  const auto& handle = self<EigengraspsHandle>(L);
+  const Eigengrasps grasps = handle.ready();
+  if (!given(L, 2) && handle.robot.world)
+    return push_vector(L, grasps.amplitudes(handle.robot.world->dofs(handle.robot.id)));
+  const auto values = check_numbers(L, 2, "dofs");
+  return push_vector(L, grasps.amplitudes(check_posture(values, subject(L), grasps)));
+}
+
+static int dofs(lua_State* L) {
+  check_count(L, 2);
+  const Eigengrasps grasps = ready(L);
+  const VectorXd amplitudes = check_amplitudes(L, 2, grasps);
+  Table options(L, 3);
+  std::optional<VectorXd> from;
+  if (options.has("from"))
+    from = check_posture(options.numbers("from"), options.subject() + ": from", grasps);
+  options.done();
+  return push_vector(L, from ? grasps.posture(amplitudes, *from) : grasps.posture(amplitudes));
+}
+
+static int save(lua_State* L) {
+  check_count(L, 1);
+  const auto& handle = self<EigengraspsHandle>(L);
+  write_eigengrasps(handle.value(), check_string(L, 2, "path"),
+                    [L](const std::string& message) { log_warning(L, message); });
+  return 0;
+}
+
+static int text(lua_State* L) {
+  const auto& handle = self<EigengraspsHandle>(L);
+  if (handle.robot.world && !handle.robot.world->alive(handle.robot.id))
+    return push(L, "eigengrasps of a removed robot");
+  const Eigengrasps grasps = handle.ready();
+  return push(L, fmt::format("{} eigengrasp{} of {} DOFs", grasps.size(),
+                             grasps.size() == 1 ? "" : "s", grasps.dofs()));
+}
+
+// --- tables ---
+
+static const Entry functions[] = {
+    {"eigengrasps", guarded<make>, R"(
+A set of eigengrasps: the principal components of `postures`, the strongest first, with their mean as the origin; or
+`vectors`, which are made unit. Of each principal component the largest entry is positive, and its eigenvalue is the
+variance along it. `count` keeps the first ones. Give it to a hand: hand.eigengrasps = set.
+@param options {postures?: number[][], count?: integer, vectors?: number[][], eigenvalues?: number[], origin?: number[], norm?: number[], limits?: number[][]}
+@return eigengrasps
+> set = clench.eigengrasps{postures = {{0, 0}, {1, 2}, {2, 4}}}
+> #set  --> 1
+> math.abs(set.vectors[1][2] / set.vectors[1][1] - 2) < 1e-12  --> true
+> set.origin  --> {1.0, 2.0}
+> clench.eigengrasps{postures = {{0, 0}}}  --> error: expected at least 2 postures, got 1)"},
+};
+
+static const Entry fields[] = {
+    {"vectors", guarded<get_vectors>, R"(
+A unit vector for each eigengrasp, one number a DOF.
+@type number[][]
+> #hand.eigengrasps.vectors[1]  --> 12)"},
+    {"eigenvalues", guarded<get_eigenvalues>, R"(
+How much each counts: of principal components the variance of the postures along it.
+@type number[]
+> set = clench.eigengrasps{postures = {{0, 0}, {1, 0}, {2, 0}}}
+> set.eigenvalues  --> {1.0})"},
+    {"origin", guarded<get_origin>, R"(
+The posture of zero amplitudes, within the DOF limits. Where no file says it, the middle of the limits.
+@type number[]  [rad or m]
+> #hand.eigengrasps.origin  --> 12)"},
+    {"norm", guarded<get_norm>, R"(
+What the vectors' entries are scaled by, DOF by DOF.
+@type number[]
+> clench.eigengrasps{vectors = {{1, 1}}}.norm  --> {1.0, 1.0})"},
+    {"limits", guarded<get_limits>, R"(
+How far each amplitude can go from the hand's posture, while the others stay: what its file says, else until the first
+DOF that it moves is at a limit.
+@type number[][]  {least, largest} each
+> hand.eigengrasps = nil
+> limits, range = hand.eigengrasps.limits[1], hand.dof_limits[1]
+> math.abs((limits[2] - limits[1]) - (range[2] - range[1])) < 1e-12  --> true)"},
+    {"range", guarded<get_range>, R"(
+What each amplitude can be at all: what its file says, else the least and largest of all postures within the DOF limits.
+@type number[][]  {least, largest} each
+> range = hand.eigengrasps.range[1]
+> range[1] < range[2]  --> true)"},
+    {"hand", guarded<get_hand>, R"(
+The hand whose set it is; nil for a set by itself.
+@type robot?
+> hand.eigengrasps.hand == hand  --> true
+> clench.eigengrasps{vectors = {{1}}}.hand  --> nil)"},
+    {"is_custom", guarded<get_is_custom>, R"(
+Does it come from a file or a script? A hand without a set of its own has one eigengrasp per DOF.
+@type boolean
+> hand.eigengrasps = nil
+> hand.eigengrasps.is_custom  --> false
+> #hand.eigengrasps  --> 12)"},
+    {"count", guarded<get_count>, R"(
+How many there are; # says it, too.
+@type integer
+> clench.eigengrasps{vectors = {{1, 1}}}.count  --> 1)"},
+};
+
+static const Entry methods[] = {
+    {"amplitudes", guarded<amplitudes>, R"(
+Amplitudes of the posture of the set that is nearest to DOF values; without them, to the hand's own.
+@param dofs? number[]  [rad or m]
+@return number[]
+> set = clench.eigengrasps{vectors = {{1, 0, 0}, {0, 3, 4}}}
+> set:amplitudes{2, 3, 4}  --> {2.0, 5.0}
+> set:amplitudes{1}  --> error: expected 3 DOF values, got 1)"},
+    {"dofs", guarded<dofs>, R"(
+DOF values of amplitudes; they may lie outside the limits. With `from`, a posture, what it has besides its own
+amplitudes is kept.
+@param amplitudes number[]
+@param options? {from?: number[]}
+@return number[]  [rad or m]
+> set = clench.eigengrasps{vectors = {{1, 0, 0}, {0, 3, 4}}}
+> set:dofs{2, 5}  --> {2.0, 3.0, 4.0}
+> set:dofs({2, 5}, {from = {0, 4, -3}})  --> {2.0, 7.0, 1.0}
+> set:dofs{1}  --> error: expected 2 amplitudes, got 1)"},
+    {"save", guarded<save>, R"(
+Writes the set to a file, .egr or .xml; clench.files.eigengrasps reads it.
+@param path string
+> hand.eigengrasps:save "eigengrasps.doc"  --> error: expected a file of eigengrasps, .egr or .xml, got '.doc')"},
+};
+
+static const Entry operators[] = {
+    {"__len", guarded<get_count>, ""},
+    {"__tostring", guarded<text>, ""},
+};
+
+const Class eigengrasps_class{
+    .name = "eigengrasps",
+    .variable = "eigengrasps",
+    .doc =
+        "A few postures whose sums are a hand's: each posture is an origin "
+        "and an amplitude for each eigengrasp.",
+    .fields = fields,
+    .methods = methods,
+    .operators = operators};
+
+const Library eigengrasps_library{.name = "clench", .doc = "", .functions = functions};
+
+}  // namespace clench

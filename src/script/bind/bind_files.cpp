@@ -1,0 +1,306 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/base/convert.h"
+#include "clench/contact/friction_edges.h"
+#include "clench/io/graspit/eigengrasps.h"
+#include "clench/io/graspit/glove_files.h"
+#include "clench/io/graspit/grasp_lists.h"
+#include "clench/io/graspit/inventor_primitives.h"
+#include "clench/io/graspit/virtual_contacts.h"
+#include "clench/script/bind/read_spec.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+// what a reader makes of the file named by argument 1, with the options of argument 2
+template <class Value>
+static Value read_with(lua_State* L, Value (*read)(const fs::path&, const ReadOptions&)) {
+  check_count(L, 2);
+  const std::string path = check_string(L, 1, "path");
+  Table options(L, 2);
+  const ReadOptions reading = read_options(L, options);
+  options.done();
+  return read(find_file(path, {}, reading), reading);
+}
+
+static int eigengrasps(lua_State* L) {
+  return push_object(
+      L, EigengraspsHandle{{}, std::make_shared<EigengraspSet>(read_with(L, read_eigengrasps))});
+}
+
+// --- contacts ---
+
+static void push_edges(lua_State* L, const FrictionEdges& edges) {
+  push_rows(L, edges.transpose());
+  lua_setfield(L, -2, "edges");
+}
+
+static int virtual_contacts(lua_State* L) {
+  const VirtualContactSet set = read_with(L, read_virtual_contacts);
+  push_list_of(L, set.contacts, [L](const VirtualContactSpec& c) {
+    push_list(L, 0, 5);
+    set_field(L, "chain", c.chain + 1);
+    set_field(L, "link", c.link + 1);
+    set_field(L, "frame", c.X_LC);
+    set_field(L, "mu", c.mu);
+    push_edges(L, c.edges);
+  });
+  set_field(L, "robot", std::string_view(set.robot));
+  return 1;
+}
+
+static int object_contacts(lua_State* L) {
+  return push_list_of(L, read_with(L, read_object_contacts), [L](const ObjectContact& c) {
+    push_list(L, 0, 5);
+    set_field(L, "frame", c.X_OC);
+    set_field(L, "placed", c.placed);
+    set_field(L, "normal", c.n_O);
+    set_field(L, "mu", c.mu);
+    push_edges(L, c.edges);
+  });
+}
+
+// visits the tables of the list in argument 2
+template <class Visit>
+static void each_table(lua_State* L, Visit visit) {
+  const What what{L, {}, "list"};
+  const int count = read_list_size(L, 2, what, "a list of tables");
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, 2, i);
+    Table item(L, lua_gettop(L), what.item(i).text());
+    visit(item);
+    item.done();
+    lua_pop(L, 1);
+  }
+}
+
+static Eigen::Vector3d read_direction(Table& item, const char* key) {
+  const Eigen::Vector3d v = item.vec3(key);
+  if (!(v.norm() > 1e-9) || !std::isfinite(v.norm()))
+    fail("{}: {}: expected a direction", item.subject(), key);
+  return v.normalized();
+}
+
+static int save_object_contacts(lua_State* L) {
+  check_count(L, 2);
+  const std::string path = check_string(L, 1, "path");
+  std::vector<ObjectContact> list;
+  each_table(L, [&](Table& item) {
+    ObjectContact contact{.X_OC = item.pose("frame"),
+                          .placed = item.boolean("placed", true),
+                          .n_O = read_direction(item, "normal"),
+                          .mu = item.number("mu", 1),
+                          .edges = friction_edges()};
+    if (item.has("edges")) {
+      const auto rows = item.rows("edges", 6);
+      contact.edges.resize(6, static_cast<int>(rows.size()));
+      for (size_t e = 0; e < rows.size(); ++e)
+        contact.edges.col(static_cast<int>(e)) = Eigen::Map<const Vector6d>(rows[e].data());
+    }
+    list.push_back(std::move(contact));
+  });
+  write_object_contacts(list, path);
+  return 0;
+}
+
+// --- primitives and grasps ---
+
+static int primitives(lua_State* L) {
+  static constexpr const char* kinds[] = {"box", "sphere", "cylinder", "cone"};
+  return push_list_of(L, read_with(L, read_primitives), [L](const Primitive& p) {
+    push_list(L, 0, 4);
+    set_field(L, "kind", kinds[static_cast<int>(p.kind)]);
+    set_field(L, "pose", p.X_OP);
+    if (p.kind == PrimitiveKind::box)
+      set_field(L, "size", p.size);
+    else
+      set_field(L, "radius", p.radius);
+    if (p.kind == PrimitiveKind::cylinder || p.kind == PrimitiveKind::cone)
+      set_field(L, "height", p.height);
+  });
+}
+
+static int pregrasps(lua_State* L) {
+  return push_list_of(L, read_with(L, read_pregrasps), [L](const Pregrasp& p) {
+    push_list(L, 0, 4);
+    set_field(L, "point", p.point);
+    set_field(L, "direction", p.direction);
+    set_field(L, "thumb", p.thumb);
+    set_field(L, "spread", p.spread);
+  });
+}
+
+static int planned_grasps(lua_State* L) {
+  return push_list_of(L, read_with(L, read_planned_grasps), [L](const GraspSpec& g) {
+    push_list(L, 0, 4);
+    set_field(L, "run", floor_int(g.info.at("run")));
+    set_field(L, "pose", *g.X_OH);
+    set_field(L, "spread", g.info.at("spread"));
+    set_field(L, "quality", g.measures.at("quality"));
+  });
+}
+
+static int save_pregrasps(lua_State* L) {
+  check_count(L, 2);
+  const std::string path = check_string(L, 1, "path");
+  std::vector<Pregrasp> list;
+  each_table(L, [&](Table& item) {
+    list.push_back({.point = item.vec3("point"),
+                    .direction = read_direction(item, "direction"),
+                    .thumb = read_direction(item, "thumb"),
+                    .spread = item.number("spread", 0)});
+  });
+  write_pregrasps(list, path);
+  return 0;
+}
+
+static int save_planned_grasps(lua_State* L) {
+  check_count(L, 2);
+  const std::string path = check_string(L, 1, "path");
+  std::vector<GraspSpec> list;
+  each_table(L, [&](Table& item) {
+    const int run = item.integer("run", 1);
+    if (run < 1 || run > 1'000'000)
+      fail("{}: run: expected a number from 1 to 1000000, got {}", item.subject(), run);
+    GraspSpec& grasp = list.emplace_back();
+    grasp.X_OH = item.pose("pose");
+    grasp.measures["quality"] = item.number("quality");
+    grasp.info = {{"run", run}, {"spread", item.number("spread", 0)}};
+  });
+  write_planned_grasps(list, path);
+  return 0;
+}
+
+// --- gloves ---
+
+static int glove_calibration(lua_State* L) {
+  const GloveCalibration glove = read_with(L, read_glove_calibration);
+  push_list(L, 0, 2);
+  push_rows(L, glove.slopes);
+  lua_setfield(L, -2, "slopes");
+  push_vector(L, glove.intercepts);
+  lua_setfield(L, -2, "intercepts");
+  return 1;
+}
+
+template <class List>
+static void set_list(lua_State* L, const char* key, const List& list) {
+  if (list.empty()) return;
+  push_list_of(L, list, [L](auto x) { push(L, x); });
+  lua_setfield(L, -2, key);
+}
+
+static int glove_poses(lua_State* L) {
+  return push_list_of(L, read_with(L, read_glove_poses), [L](GlovePose pose) {
+    for (int& dof : pose.dof_of_sensor) dof = std::max(dof + 1, 0);
+    push_list(L, 0, 5);
+    if (pose.distance) set_field(L, "distance", *pose.distance);
+    set_list(L, "sensors", pose.sensors);
+    set_list(L, "dof_of_sensor", pose.dof_of_sensor);
+    set_list(L, "joints", pose.joints);
+    set_field(L, "pose", pose.pose);
+  });
+}
+
+static const Entry functions[] = {
+    {"eigengrasps", guarded<eigengrasps>, R"(
+Eigengrasps from .egr or .xml. Give them to a hand: hand.eigengrasps = set.
+@param path string
+@param options? {root?: string, confine?: string, strict?: boolean}
+@return eigengrasps
+> clench.files.eigengrasps "no.egr"  --> error: no such file: no.egr)"},
+    {"virtual_contacts", guarded<virtual_contacts>, R"(
+Virtual contacts from .vgr or .xml. Give them to a hand: hand.virtual_contacts = list. `chain` and `link` count from 1,
+chain 0 is the base; `frame` is in the link's, +z out of it; `robot` of the list is the hand they were made for.
+@param path string
+@param options? {root?: string, confine?: string, strict?: boolean}
+@return {chain: integer, link: integer, frame: pose, mu: number, edges: number[][]}[]
+> path = os.tmpname() .. ".vgr"
+> hand:save_virtual_contacts(path)
+> list = clench.files.virtual_contacts(path)
+> os.remove(path)
+> #list == #hand.virtual_contacts, list.robot == hand.name  --> true, true)"},
+    {"object_contacts", guarded<object_contacts>, R"(
+Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, where the file leaves the
+points out.
+@param path string
+@param options? {root?: string, confine?: string, strict?: boolean}
+@return {frame: pose, placed: boolean, normal: vec3, mu: number, edges: number[][]}[]
+> clench.files.object_contacts "no.txt"  --> error: no such file)"},
+    {"save_object_contacts", guarded<save_object_contacts>, R"(
+Writes contacts on an object; without `edges` those of a point.
+@param path string
+@param list {frame: pose, normal: vec3, mu?: number, edges?: number[][]}[]  in the object's frame
+> path = os.tmpname()
+> clench.files.save_object_contacts(path, {{frame = {xyz = {0, 0, 0.1}}, normal = {0, 0, -1}, mu = 0.5}})
+> list = clench.files.object_contacts(path)
+> os.remove(path)
+> list[1].mu, #list[1].edges, list[1].placed  --> 0.5, 8, true)"},
+    {"primitives", guarded<primitives>, R"(
+Boxes, spheres, cylinders and cones in an Inventor or VRML file, in its frame. Of an object's file those in
+primitives/<its name>.iv beside it are read instead, when that exists. y is the axis of cylinder and cone.
+@param path string
+@param options? {root?: string, confine?: string, strict?: boolean}
+@return {kind: "box"|"sphere"|"cylinder"|"cone", pose: pose, size?: vec3, radius?: number, height?: number}[]  [m]
+> path = os.tmpname() .. ".iv"
+> file = io.open(path, "w")
+> file:write "#Inventor V2.1 ascii\nCube { width 20 height 30 depth 40 }"
+> file:close()
+> list = clench.files.primitives(path)
+> os.remove(path)
+> list[1].kind, list[1].size  --> box, (0.02, 0.03, 0.04))"},
+    {"pregrasps", guarded<pregrasps>, R"(
+Pre-grasps of a planner's list, in the object's frame.
+@param path string
+@param options? {root?: string, confine?: string, strict?: boolean}
+@return {point: vec3, direction: vec3, thumb: vec3, spread: number}[]  [m, rad]
+> path = os.tmpname()
+> clench.files.save_pregrasps(path, {{point = {0, 0, 0.1}, direction = {0, 0, -1}, thumb = {1, 0, 0}, spread = 1}})
+> list = clench.files.pregrasps(path)
+> os.remove(path)
+> list[1].direction, list[1].spread  --> (0, 0, -1), 1.0)"},
+    {"save_pregrasps", guarded<save_pregrasps>, R"(
+Writes pre-grasps as a planner's list.
+@param path string
+@param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[]
+> clench.files.save_pregrasps("x.txt", {{point = {0, 0, 0}}})  --> error: list[1]: direction)"},
+    {"planned_grasps", guarded<planned_grasps>, R"(
+Grasps that a planner has tried, in the object's frame; `run` counts the planner's runs.
+@param path string
+@param options? {root?: string, confine?: string, strict?: boolean}
+@return {run: integer, pose: pose, spread: number, quality: number}[]
+> path = os.tmpname()
+> clench.files.save_planned_grasps(path, {{pose = {xyz = {0, 0, 0.1}}, quality = 0.5}})
+> list = clench.files.planned_grasps(path)
+> os.remove(path)
+> list[1].quality, list[1].run  --> 0.5, 1)"},
+    {"save_planned_grasps", guarded<save_planned_grasps>, R"(
+Writes grasps as a planner's results; runs in their order.
+@param path string
+@param list {pose: pose, quality: number, spread?: number, run?: integer}[]
+> clench.files.save_planned_grasps("x.txt", {{quality = 1}})  --> error: list[1]: pose)"},
+    {"glove_calibration", guarded<glove_calibration>, R"(
+How the raw numbers of a data glove become DOF values: DOF = intercept + slopes * raw.
+@param path string
+@param options? {root?: string, confine?: string, strict?: boolean}
+@return {slopes: number[][], intercepts: number[]}  [rad per count, rad]
+> clench.files.glove_calibration "no.txt"  --> error: no such file)"},
+    {"glove_poses", guarded<glove_poses>, R"(
+Postures that a glove was calibrated from: raw `sensors`, the `dof_of_sensor` (0: not used), `joints` [rad], the
+`distance` of fingertips that were to meet [m], and the hand's `pose`.
+@param path string
+@param options? {root?: string, confine?: string, strict?: boolean}
+@return {distance?: number, sensors?: integer[], dof_of_sensor?: integer[], joints?: number[], pose: pose}[]
+> clench.files.glove_poses "no.txt"  --> error: no such file)"},
+};
+
+const Library files_library{
+    .name = "clench.files",
+    .doc = "The small files around hands and planners, read as tables and written from them.",
+    .functions = functions};
+
+}  // namespace clench

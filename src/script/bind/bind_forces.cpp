@@ -1,0 +1,300 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/grasp/force/equilibrium.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+// --- what is asked ---
+
+static Vector6d read_wrench(Table& options, const char* key) {
+  const auto numbers = options.numbers(key, 6);
+  return Eigen::Map<const Vector6d>(numbers.data());
+}
+
+static void read_load(Table& options, ForceOptions& forces) {
+  if (options.has("load")) forces.load = read_wrench(options, "load");
+}
+
+static std::optional<double> positive_if(Table& options, const char* key) {
+  if (!options.has(key)) return {};
+  return options.positive(key, 1);
+}
+
+static std::optional<Eigen::VectorXd> vector_if(Table& options, const char* key) {
+  if (!options.has(key)) return {};
+  const auto numbers = options.numbers(key);
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<int>(numbers.size()));
+}
+
+// torque_limits: true, false, or a number for each DOF
+static bool read_limits(Table& options, bool fallback, JointDemand& joints) {
+  const int type = options.push("torque_limits");
+  lua_pop(options.what("torque_limits").L, 1);
+  if (type == LUA_TBOOLEAN) return options.boolean("torque_limits", fallback);
+  if (type != LUA_TTABLE && type != LUA_TNIL) {
+    options.push("torque_limits");
+    fail_expected(options.what("torque_limits"), "true or a list of numbers", -1);
+  }
+  joints.limits = vector_if(options, "torque_limits");
+  return fallback || joints.limits;
+}
+
+static void read_caps(Table& options, ForceOptions& forces) {
+  forces.max_force = read_per_contact(options, "max_force");
+  forces.max_total_force = positive_if(options, "max_total_force");
+  forces.total_force = positive_if(options, "total_force");
+}
+
+// limits and totals of joints; those that are not asked for leave forces.joints empty
+static void read_joints(Table& options, ForceOptions& forces) {
+  JointDemand joints;
+  bool asked = read_limits(options, false, joints);
+  joints.unlimited = !asked;
+  joints.total_torque = positive_if(options, "total_torque");
+  joints.unilateral = options.boolean("unilateral", false);
+  joints.arms = options.boolean("arms", false);
+  joints.link_weights = options.boolean("link_weights", false);
+  asked = asked || joints.total_torque || joints.unilateral || joints.arms || joints.link_weights;
+  if (asked) forces.joints = joints;
+}
+
+static ForceObjective read_objective(Table& options) {
+  const std::pair<const char*, ForceObjective> all[] = {
+      {"min_sum", ForceObjective::min_sum},
+      {"min_norm", ForceObjective::min_norm},
+      {"min_max", ForceObjective::min_max},
+      {"max_margin", ForceObjective::max_margin},
+      {"max_margin_sum", ForceObjective::max_margin_sum}};
+  std::vector<std::string> names;
+  for (const auto& [name, objective] : all) names.push_back(name);
+  const std::string chosen = options.choice("objective", names, "min_sum");
+  for (const auto& [name, objective] : all)
+    if (chosen == name) return objective;
+  return ForceObjective::min_sum;
+}
+
+// --- what is answered ---
+
+static const char* status_name(ForceStatus status) {
+  switch (status) {
+    case ForceStatus::optimal:
+      return "optimal";
+    case ForceStatus::infeasible:
+      return "infeasible";
+    case ForceStatus::unbounded:
+      return "unbounded";
+    default:
+      return "inaccurate";
+  }
+}
+
+static const char* status_name(EquilibriumStatus status) {
+  switch (status) {
+    case EquilibriumStatus::stable:
+      return "stable";
+    case EquilibriumStatus::unstable:
+      return "unstable";
+    case EquilibriumStatus::moving:
+      return "moving";
+    default:
+      return "inaccurate";
+  }
+}
+
+static void push_force(lua_State* L, const GraspHandle& g, const ContactForce& f, size_t i) {
+  push_list(L, 0, 7);
+  push_object(L, ContactHandle{g.world, g.grasp.contacts[i]});
+  lua_setfield(L, -2, "contact");
+  set_field(L, "normal", f.normal);
+  push_vector(L, f.tangential);
+  lua_setfield(L, -2, "tangential");
+  set_field(L, "torsion", f.torsion);
+  set_field(L, "mu", g.grasp.points[i].mu);
+  set_field(L, "force", f.force_W);
+  set_field(L, "margin", f.margin);
+}
+
+static void set_numbers(lua_State* L, const char* key, std::span<const double> numbers) {
+  push_numbers(L, numbers);
+  lua_setfield(L, -2, key);
+}
+
+static void set_certificate(lua_State* L, const GraspHandle& g, const ForceCertificate& c) {
+  push_list(L, 0, 9);
+  push_vector(L, c.twist);
+  lua_setfield(L, -2, "twist");
+  set_field(L, "power", c.power);
+  set_field(L, "capacity", c.capacity);
+  set_numbers(L, "separation_rates", c.separation_rates);
+  set_numbers(L, "sliding_rates", c.sliding_rates);
+  set_numbers(L, "force_limit_power", c.force_limit_power);
+  set_numbers(L, "effort_limit_power", c.effort_limit_power);
+  if (c.dof >= 0) set_field(L, "dof", c.dof + 1);
+  if (c.contact >= 0) {
+    push_object(L, ContactHandle{g.world, g.grasp.contacts[c.contact]});
+    lua_setfield(L, -2, "contact");
+  }
+  lua_setfield(L, -2, "certificate");
+}
+
+// leaves the result on the stack
+static void push_result(lua_State* L, const GraspHandle& g, const ForceResult& r,
+                        const char* status) {
+  push_list(L, 0, 9);
+  set_field(L, "status", status);
+  if (r.status == ForceStatus::optimal || r.status == ForceStatus::inaccurate) {
+    size_t i = 0;
+    push_list_of(L, r.forces, [&](const ContactForce& f) { push_force(L, g, f, i++); });
+    lua_setfield(L, -2, "forces");
+    push_vector(L, r.unbalanced);
+    lua_setfield(L, -2, "unbalanced");
+    set_field(L, "residual", r.residual);
+    set_field(L, "margin", r.margin);
+    push_vector(L, r.efforts);
+    lua_setfield(L, -2, "joint_torques");
+  }
+  if (r.certificate) set_certificate(L, g, *r.certificate);
+}
+
+// --- methods ---
+
+static int forces(lua_State* L) {
+  check_count(L, 1);
+  const auto& g = self<GraspHandle>(L);
+  Table options(L, 2);
+  ForceOptions asked;
+  read_load(options, asked);
+  read_caps(options, asked);
+  read_joints(options, asked);
+  asked.objective = read_objective(options);
+  asked.nearest = options.choice("balance", {"exact", "nearest"}, "exact") == "nearest";
+  options.done();
+  const ForceResult r = contact_forces(world_of(L, g), g.grasp, asked);
+  push_result(L, g, r, status_name(r.status));
+  if (!asked.nearest && r.status == ForceStatus::optimal) set_field(L, "objective", r.objective);
+  return 1;
+}
+
+static int largest(lua_State* L) {
+  check_count(L, 1);
+  const auto& g = self<GraspHandle>(L);
+  Table options(L, 2);
+  ForceOptions asked;
+  asked.load = read_wrench(options, "direction");
+  read_caps(options, asked);
+  read_joints(options, asked);
+  options.done();
+  const ForceResult r = max_load(world_of(L, g), g.grasp, asked);
+  push_result(L, g, r, r.status == ForceStatus::unbounded ? "unlimited" : status_name(r.status));
+  if (r.status == ForceStatus::optimal) set_field(L, "load", r.load_factor);
+  return 1;
+}
+
+static int balance(lua_State* L) {
+  check_count(L, 1);
+  const auto& g = self<GraspHandle>(L);
+  Table options(L, 2);
+  EquilibriumOptions asked;
+  if (options.has("load")) asked.load = read_wrench(options, "load");
+  asked.max_force = read_per_contact(options, "max_force");
+  asked.joints.unlimited = !read_limits(options, true, asked.joints);
+  asked.joints.arms = options.boolean("arms", false);
+  asked.joints.link_weights = options.boolean("link_weights", false);
+  const int type = options.push("torques");
+  lua_pop(L, 1);
+  if (type == LUA_TSTRING)
+    asked.joints.springs_only =
+        options.choice("torques", {"springs", "limits"}, "limits") == "springs";
+  else
+    asked.joints.efforts = vector_if(options, "torques");
+  options.done();
+  const Equilibrium e = equilibrium(world_of(L, g), g.grasp, asked);
+  push_result(L, g, e.result, status_name(e.status));
+  return 1;
+}
+
+// from forces along the axes of contact.frame to those of the grasp map
+static Eigen::MatrixXd turns_of(lua_State* L, const GraspHandle& g, const GraspMap& map) {
+  return frame_turns(map, g.grasp.points, world_of(L, g).pose(g.grasp.object).matrix());
+}
+
+static int map_rows(lua_State* L) {
+  check_count(L, 0);
+  const auto& g = self<GraspHandle>(L);
+  const GraspMap map = grasp_map(g.grasp.points, g.grasp.com);
+  return push_rows(L, map.matrix * turns_of(L, g, map));
+}
+
+static int jacobian_rows(lua_State* L) {
+  check_count(L, 0);
+  const auto& g = self<GraspHandle>(L);
+  const GraspMap map = grasp_map(g.grasp.points, g.grasp.com);
+  const Eigen::MatrixXd dofs =
+      dof_jacobian(world_of(L, g), g.grasp, hand_jacobian(world_of(L, g), g.grasp));
+  return push_rows(L, turns_of(L, g, map).transpose() * dofs);
+}
+
+static const Entry methods[] = {
+    {"contact_forces", guarded<forces>, R"(
+Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench
+{fx, fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's centre of mass;
+its weight is {0, 0, -9.81 * mass, 0, 0, 0}.
+Objectives: "min_sum", the least sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); "min_norm", the least
+sum of squares of the forces, the only one that always has a single answer; "min_max", the least largest normal force; "max_margin", as far from the edges of the cones and from max_force
+as all can be; "max_margin_sum", the largest sum of the distances from the edges.
+`status`: "optimal"; "infeasible", with a `certificate`; "unbounded" when more force is always better; "inaccurate" when what was found
+does not pass its check: balance, cones, caps and optimum to 1e-9, and what is left of a load, to 1e-7 of it. A cap that does not bind changes nothing.
+`margin`: the least of the forces' margins, for "max_margin" of the distances from max_force, too; 0 when some force has to lie on an edge: then
+"max_margin" is optimal, but these contacts cannot keep inside their cones, as without force closure.
+`forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in the
+world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho.
+`joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of
+caps and motors; `separation_rates` and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or `dof`, whichever gives way.
+@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: the motors' own, or one per DOF; without it motors give what they must; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
+@return table result  `status`, `forces`, `objective`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
+> weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
+> held = grasp:contact_forces{load = weight}
+> held.status, held.residual < 1e-9  --> optimal, true
+> grasp:contact_forces{load = weight, objective = "max_margin", max_force = 10}.margin > 0  --> true
+> grasp:contact_forces{load = weight, max_force = 1e-3}.certificate.contact.body == flask  --> true
+> grasp:contact_forces{load = weight, objective = "min_sun"}  --> error: did you mean 'min_sum'?
+> grasp:contact_forces{load = {1, 2}}  --> error: 6)"},
+    {"max_load", guarded<largest>, R"(
+The largest multiple `load` of a wrench on the object that forces at the contacts balance, its axes as in contact_forces.
+`status` "unlimited" when no cap and no torque ends it. The `certificate` says what gives way beyond it.
+@param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean}  as in contact_forces
+@return table result  `status`, `load`, `forces`, `margin`, `joint_torques`, `certificate`
+> grasp:max_load{direction = {0, 0, -1, 0, 0, 0}, max_force = 10}.load > 1  --> true
+> grasp:max_load{direction = {0, 0, -1, 0, 0, 0}}.status  --> unlimited)"},
+    {"equilibrium", guarded<balance>, R"(
+Can the hand as it stands hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their couplings, within
+their limits (max_effort of each DOF; none where that is 0), by springs, and by the clutches of joints that have broken away. The palm takes what it must.
+`status`: "stable"; "unstable", then `unbalanced` is the least wrench that is left and `certificate` says what gives way; "moving" when no contact
+forces balance the joints, so that a finger moves; "inaccurate".
+@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one per DOF, or false for none; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact, or one per contact [N]
+@return table result  `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
+> grasp:equilibrium{load = {0, 0, -0.1, 0, 0, 0}}.status  --> stable
+> grasp:equilibrium{load = {0, 0, -1e4, 0, 0, 0}}.status  --> unstable
+> grasp:equilibrium{torques = {1}}  --> error: expected 12, one per DOF)"},
+    {"grasp_map", guarded<map_rows>, R"(
+From contact forces to the wrench on the object: six rows, in the object's frame about its centre of mass, unscaled. Columns contact by contact:
+the normal force; with friction then the forces along x and y of contact.frame; of soft contacts then the torque about the normal.
+@return number[][]
+> #grasp:grasp_map(), #grasp:grasp_map()[1] == 3 * #grasp.contacts  --> 6, true)"},
+    {"hand_jacobian", guarded<jacobian_rows>, R"(
+How fast each DOF moves the contacts: a row for each column of the grasp map, a column for each DOF, by the ratios of its joints.
+Its transpose takes contact forces to the motors' torques. Joints that have broken away do not count.
+@return number[][]
+> #grasp:hand_jacobian()[1] == #hand.dofs  --> true)"},
+};
+
+const Class forces_class{.name = "forces",
+                         .variable = "grasp",
+                         .doc = "What every grasp can say of contact forces and joint torques.",
+                         .fields = {},
+                         .methods = methods};
+
+}  // namespace clench

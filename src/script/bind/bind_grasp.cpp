@@ -1,0 +1,311 @@
+#include "clench/script/bind/bind.h"
+
+#include <algorithm>
+
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+PerContact read_per_contact(Table& options, const char* key) {
+  const int type = options.push(key);
+  lua_pop(options.what(key).L, 1);
+  if (type == LUA_TNIL) return {};
+  if (type != LUA_TTABLE) return options.positive(key, 1);
+  const auto each = options.numbers(key);
+  if (each.empty())
+    fail("{}: {}: expected a number for each contact, got none", options.subject(), key);
+  return each;
+}
+
+static int measure(lua_State* L) {
+  check_count(L, 3);
+  const auto& hand = check_object<RobotHandle>(L, 1, "hand");
+  const auto& object = check_object<BodyHandle>(L, 2, "object");
+  if (hand.world != object.world)
+    fail("{}: '{}' and '{}' belong to different worlds", subject(L), hand->name, object->name);
+  Table options(L, 3);
+  GraspOptions grasp;
+  grasp.edges = read_edges(options).value_or(grasp.edges);
+  if (is_gyration(options))
+    grasp.length = TorqueLength::gyration_radius;
+  else if (options.has("rho"))
+    grasp.rho = options.number("rho");
+  grasp.soft = options.boolean("soft", grasp.soft);
+  if (const PerContact forces = read_per_contact(options, "normal_force"))
+    grasp.normal_force = forces;
+  grasp.modulus = read_modulus_rule(options);
+  options.done();
+  Grasp measured = measure_grasp(*hand.world, hand.id, object.id, grasp);
+  if (measured.contacts_at_edges > 0)
+    log_warning(L, fmt::format("grasp of {} by {}: {} of {} contacts are soft ones on corners or "
+                               "edges, whose patch is a guess",
+                               object->name, hand->name, measured.contacts_at_edges,
+                               measured.contacts.size()));
+  return push_object(L, GraspHandle{hand.world, std::move(measured)});
+}
+
+const World& world_of(lua_State* L, const GraspHandle& grasp) {
+  if (!grasp.world)
+    fail(
+        "{}: the grasp was read from a file and stands in no world; grasp:apply(world) gives one "
+        "that does",
+        subject(L));
+  return *grasp.world;
+}
+
+static int get_hand(lua_State* L) {
+  const auto& g = self<GraspHandle>(L);
+  world_of(L, g);
+  return push(L, RobotHandle{g.world, g.grasp.hand});
+}
+
+static int get_object(lua_State* L) {
+  const auto& g = self<GraspHandle>(L);
+  world_of(L, g);
+  return push(L, BodyHandle{g.world, g.grasp.object});
+}
+
+static int get_hand_name(lua_State* L) {
+  return push(L, std::string_view(self<GraspHandle>(L).grasp.hand_name));
+}
+static int get_object_name(lua_State* L) {
+  return push(L, std::string_view(self<GraspHandle>(L).grasp.object_name));
+}
+
+static int get_pose(lua_State* L) {
+  const Grasp& g = self<GraspHandle>(L).grasp;
+  if (!g.X_OH) return lua_pushnil(L), 1;
+  return push(L, *g.X_OH);
+}
+
+static int get_dofs(lua_State* L) { return push_numbers(L, self<GraspHandle>(L).grasp.dofs); }
+static int get_joints(lua_State* L) { return push_numbers(L, self<GraspHandle>(L).grasp.joints); }
+
+static int push_named(lua_State* L, const std::map<std::string, double>& named) {
+  push_list(L, 0, static_cast<int>(named.size()));
+  for (const auto& [name, x] : named) {
+    push_unbounded(L, x);
+    lua_setfield(L, -2, name.c_str());
+  }
+  return 1;
+}
+
+static int get_measures(lua_State* L) { return push_named(L, self<GraspHandle>(L).grasp.measures); }
+static int get_info(lua_State* L) { return push_named(L, self<GraspHandle>(L).grasp.info); }
+
+static int set_info(lua_State* L) {
+  auto& g = self<GraspHandle>(L);
+  std::map<std::string, double> info;
+  if (!lua_istable(L, 2)) fail_expected({L, {}, "value"}, "a table of names and numbers", 2);
+  for (lua_pushnil(L); lua_next(L, 2); lua_pop(L, 1)) {
+    if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TNUMBER ||
+        !std::isfinite(lua_tonumber(L, -1)))
+      fail("{}: expected names with finite numbers, got {} = {}", subject(L), described(L, -2),
+           described(L, -1));
+    info[std::string(string_at(L, -2))] = lua_tonumber(L, -1);
+  }
+  g.grasp.info = std::move(info);
+  return 0;
+}
+
+// puts the hand where the grasp has it, and measures it there
+static int apply(lua_State* L) {
+  check_count(L, 1);
+  const auto& g = self<GraspHandle>(L);
+  if (!given(L, 2)) world_of(L, g);
+  const WorldPtr world = given(L, 2) ? check_object<WorldHandle>(L, 2, "world").world : g.world;
+  apply_grasp(*world, g.grasp);
+  Grasp measured = measure_grasp(*world, world->find_robot(g.grasp.hand_name),
+                                 world->find_body(g.grasp.object_name), g.grasp.options);
+  measured.info = g.grasp.info;
+  return push_object(L, GraspHandle{world, std::move(measured)});
+}
+
+static int get_contacts(lua_State* L) {
+  const auto& g = self<GraspHandle>(L);
+  world_of(L, g);
+  return push_contacts(L, g.world, g.grasp.contacts);
+}
+
+static int get_points(lua_State* L) {
+  const Grasp& g = self<GraspHandle>(L).grasp;
+  return push_list_of(L, g.points, [&](const PointContact& point) {
+    push_list(L, 0, 4);
+    set_field(L, "point", point.p_O);
+    set_field(L, "normal", point.n_O);
+    set_field(L, "mu", point.mu);
+    set_field(L, "torsion_radius", point.torsion_radius);
+  });
+}
+
+static int get_rho(lua_State* L) { return push(L, self<GraspHandle>(L).grasp.rho); }
+static int get_edges(lua_State* L) {
+  const int edges = self<GraspHandle>(L).grasp.options.edges;
+  return edges == round_edges ? push(L, "exact") : push(L, edges);
+}
+
+static int get_options(lua_State* L) {
+  const Grasp& g = self<GraspHandle>(L).grasp;
+  push_list(L, 0, 5);
+  if (g.options.edges == round_edges)
+    set_field(L, "edges", "exact");
+  else
+    set_field(L, "edges", g.options.edges);
+  set_field(L, "rho", g.rho);
+  set_field(L, "soft", g.options.soft);
+  if (const auto& forces = g.options.normal_force.values; forces.size() == 1) {
+    set_field(L, "normal_force", forces[0]);
+  } else {
+    push_list_of(L, forces, [&](double force) { push(L, force); });
+    lua_setfield(L, -2, "normal_force");
+  }
+  set_field(L, "modulus", modulus_name(g.options.modulus));
+  return 1;
+}
+
+static int grasp_space(lua_State* L) {
+  check_count(L, 1);
+  auto& g = self<GraspHandle>(L);
+  Table table(L, 2);
+  GraspSpaceOptions options;
+  options.edges = read_edges(table);
+  if (is_gyration(table))
+    options.rho = g.grasp.gyration_radius;
+  else if (table.has("rho"))
+    options.rho = table.positive("rho", 1);
+  options.space = read_space_options(table);
+  table.done();
+  return push_object(L, space_of(g.grasp, options));
+}
+
+static int is_force_closure(lua_State* L) {
+  check_count(L, 0);
+  return push(L, space_of(self<GraspHandle>(L).grasp)->is_force_closure());
+}
+
+static int grasp_text(lua_State* L) {
+  auto& g = self<GraspHandle>(L);
+  const std::string text = fmt::format("grasp of {} contacts, epsilon {:.6g}",
+                                       g.grasp.contacts.size(), space_of(g.grasp)->epsilon());
+  return push(L, text);
+}
+
+static const Entry functions[] = {
+    {"grasp", guarded<measure>, R"(
+The grasp of a hand on an object as it is now. No contact is no error: such a grasp resists nothing.
+@param hand robot
+@param object body
+@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
+@return grasp
+> clench.grasp(hand, flask):is_force_closure()  --> true)"},
+};
+
+static const Entry grasp_fields[] = {
+    {"hand", guarded<get_hand>, R"(
+The robot that grasps.
+@type robot
+> grasp.hand == hand  --> true)"},
+    {"object", guarded<get_object>, R"(
+The body that is grasped.
+@type body
+> grasp.object == flask  --> true)"},
+    {"hand_name", guarded<get_hand_name>, R"(
+Name of the robot that grasps; a grasp that was read from a file has it, too.
+@type string
+> grasp.hand_name == hand.name  --> true)"},
+    {"object_name", guarded<get_object_name>, R"(
+Name of the body that is grasped.
+@type string
+> grasp.object_name  --> flask)"},
+    {"pose", guarded<get_pose>, R"(
+Where the hand's base stood in the object's frame when the grasp was measured.
+@type pose
+> (flask.pose * grasp.pose).position == hand.pose.position  --> true)"},
+    {"dofs", guarded<get_dofs>, R"(
+Values of the hand's DOFs when the grasp was measured.
+@type number[]  [rad or m]
+> #grasp.dofs == #hand.dofs  --> true)"},
+    {"joint_positions", guarded<get_joints>, R"(
+Positions of the hand's joints when the grasp was measured.
+@type number[]  [rad or m]
+> #grasp.joint_positions > #grasp.dofs  --> true)"},
+    {"measures", guarded<get_measures>, R"(
+Measures that were asked for so far, by name; in a file they are kept with the grasp.
+@type table<string, number>
+> epsilon = grasp:quality "epsilon"
+> grasp.measures.epsilon == epsilon  --> true)"},
+    {"info", guarded<get_info>, R"(
+What its maker notes, by name: a seed, an energy, the number of a run. It may be set, and is kept in files.
+@type table<string, number>
+> grasp.info = {seed = 7}
+> grasp.info.seed  --> 7.0
+> grasp.info = {seed = "x"}  --> error: expected names with finite numbers)",
+     guarded<set_info>},
+    {"contacts", guarded<get_contacts>, R"(
+The contacts on the object when the grasp was measured.
+@type contact[]
+> grasp.contacts[1].body == flask  --> true)"},
+    {"points", guarded<get_points>, R"(
+The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers.
+@type {point: vec3, normal: vec3, mu: number, torsion_radius: number}[]  [m]
+> again = clench.wrench_space{contacts = grasp.points, com = flask.com, rho = grasp.rho}
+> again:epsilon() == grasp:quality "epsilon"  --> true)"},
+    {"rho", guarded<get_rho>, R"(
+Length that torques are divided by.
+@type number  [m]
+> grasp.rho > 0  --> true)"},
+    {"edges", guarded<get_edges>, R"(
+Edges of each friction pyramid, or "exact".
+@type integer|string
+> grasp.edges  --> 8)"},
+    {"options", guarded<get_options>, R"(
+What clench.grasp takes to measure another grasp alike.
+@type {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string}  rho [m], normal_force [N]
+> clench.grasp(hand, flask, grasp.options):quality "epsilon" == grasp:quality "epsilon"  --> true)"},
+};
+
+static const Entry grasp_methods[] = {
+    {"apply", guarded<apply>, R"(
+Puts the hand where it stood about the object, wherever that is now, joints included, and measures the grasp there. Hand and object are
+found by name. Nothing else moves, and nothing is asked of what may be in the way: see `world:collides`.
+@param world? world  default: its own
+@return grasp
+> hand:open()
+> again = grasp:apply()
+> #again.contacts == #grasp.contacts, math.abs(again:quality "epsilon" - grasp:quality "epsilon") < 1e-9  --> true, true
+> grasp:apply(clench.world{})  --> error: there is no such hand in this world)"},
+    {"is_force_closure", guarded<is_force_closure>, R"(
+Can it resist every wrench?
+@return boolean
+> grasp:is_force_closure()  --> true)"},
+    {"wrench_space", guarded<grasp_space>, R"(
+Its wrench space about the object's centre of mass: in the norm "L1" or "Linf"; with edges and rho of the grasp, or others;
+in some of the coordinates "fx" to "tz". The same options give the same space, which keeps what it has found.
+@param options? {norm?: string, edges?: integer|string, rho?: number|string, coordinates?: string[]}
+@return wrench_space
+> grasp:wrench_space().rank  --> 6
+> grasp:wrench_space{norm = "Linf"}:epsilon() >= grasp:wrench_space():epsilon()  --> true
+> grasp:wrench_space{edges = "exact"}:epsilon() >= grasp:wrench_space():epsilon()  --> true
+> grasp:wrench_space{coordinates = {"fx", "fy", "fz"}}.rank  --> 3
+> grasp:wrench_space{norm = "L2"}  --> error: L2)"},
+};
+
+static const Entry grasp_operators[] = {
+    {"__tostring", guarded<grasp_text>, ""},
+};
+
+const Library grasp_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class grasp_class{.name = "grasp",
+                        .variable = "grasp",
+                        .doc =
+                            "A hand, an object and the contacts between them, "
+                            "as they were when the grasp was measured.",
+                        .fields = grasp_fields,
+                        .methods = grasp_methods,
+                        .operators = grasp_operators,
+                        .parent = &measures_class};
+
+}  // namespace clench

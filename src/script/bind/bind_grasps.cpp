@@ -1,0 +1,108 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/io/grasp_lines.h"
+#include "clench/script/bind/read_spec.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+static int list_grasps(lua_State* L) {
+  check_count(L, 2);
+  GraspList list;
+  if (given(L, 1)) {
+    const std::string path = check_string(L, 1, "path");
+    Table options(L, 2);
+    const ReadOptions reading = read_options(L, options);
+    options.done();
+    const Watching watching(L);
+    for (GraspSpec& spec : read_grasps(path, reading)) {
+      Grasp grasp;
+      static_cast<GraspSpec&>(grasp) = std::move(spec);
+      list.grasps.push_back({nullptr, std::move(grasp)});
+    }
+  }
+  return push_object(L, std::move(list));
+}
+
+static int add(lua_State* L) {
+  check_count(L, 1);
+  auto& list = self<GraspList>(L);
+  list.grasps.push_back(check_object<GraspHandle>(L, 2, "grasp"));
+  return push(L, static_cast<int>(list.grasps.size()));
+}
+
+static int save(lua_State* L) {
+  check_count(L, 1);
+  const auto& list = self<GraspList>(L);
+  const std::string path = check_string(L, 2, "path");
+  std::vector<GraspSpec> specs;
+  for (const GraspHandle& handle : list.grasps) specs.push_back(handle.grasp);
+  write_grasps(specs, path);
+  return 0;
+}
+
+static int item(lua_State* L) {
+  const auto& list = self<GraspList>(L);
+  const bool is_index = lua_isinteger(L, 2);
+  const lua_Integer i = is_index ? lua_tointeger(L, 2) : 0;
+  if (i < 1 || i > std::ssize(list.grasps)) return lua_pushnil(L), 1;
+  return push_object(L, list.grasps[static_cast<size_t>(i) - 1]);
+}
+
+static int length(lua_State* L) {
+  return push(L, static_cast<int>(self<GraspList>(L).grasps.size()));
+}
+
+static int list_text(lua_State* L) {
+  return push(L, fmt::format("{} grasps", self<GraspList>(L).grasps.size()));
+}
+
+static const Entry functions[] = {
+    {"grasps", guarded<list_grasps>, R"(
+A list of grasps: an empty one, or one from a file that `save` wrote. Its grasps stand in no world: they tell contacts, posture, measures and
+wrench spaces, and `apply` puts them into one.
+@param path? string
+@param options? {root?: string, confine?: string}
+@return grasps
+> list = clench.grasps()
+> list:add(grasp)
+> path = os.tmpname()
+> list:save(path)
+> again = clench.grasps(path)
+> os.remove(path)
+> #again, again[1].hand_name == hand.name, again[1]:wrench_space():epsilon() == grasp:quality "epsilon"  --> 1, true, true
+> again[1].hand  --> error: grasp:apply(world) gives one that does
+> clench.grasps "no.jsonl"  --> error: no such file: no.jsonl)"},
+};
+
+static const Entry methods[] = {
+    {"add", guarded<add>, R"(
+Adds a grasp at the end: its value as it is now, measures included.
+@param grasp grasp
+@return integer count
+> clench.grasps():add(grasp)  --> 1)"},
+    {"save", guarded<save>, R"(
+Writes the list as JSON lines: a head with the version, then a grasp on each line, numbers to the bit. The same list gives the same bytes.
+@param path string
+> list = clench.grasps()
+> list:save "no_such_folder/grasps.jsonl"  --> error: no such folder)"},
+};
+
+static const Entry operators[] = {{"__index", guarded<item>, ""},
+                                  {"__len", guarded<length>, ""},
+                                  {"__tostring", guarded<list_text>, ""}};
+
+const Library grasps_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class grasps_class{
+    .name = "grasps",
+    .variable = "list",
+    .doc = "A list of grasps, made by `clench.grasps`: `list[1]`, `#list`, `ipairs(list)`.",
+    .fields = {},
+    .methods = methods,
+    .operators = operators};
+
+}  // namespace clench

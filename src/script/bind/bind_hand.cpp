@@ -1,0 +1,400 @@
+#include "clench/script/bind/bind.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "clench/base/convert.h"
+#include "clench/io/graspit/virtual_contacts.h"
+#include "clench/motion/virtual_contacts.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+using Eigen::VectorXd;
+using Contacts = std::vector<VirtualContactSpec>;
+
+// --- eigengrasps ---
+
+static int get_eigengrasps(lua_State* L) {
+  return push_object(L, EigengraspsHandle{self<RobotHandle>(L), nullptr});
+}
+
+static int set_eigengrasps(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  std::shared_ptr<const EigengraspSet> set;
+  if (given(L, 2)) {
+    const auto* given_set = to<EigengraspsHandle>(L, 2);
+    if (!given_set) fail_expected({L, {}, ""}, "eigengrasps", 2);
+    set = std::make_shared<EigengraspSet>(given_set->value());
+  }
+  robot.world->set_eigengrasps(robot.id, std::move(set));
+  return 0;
+}
+
+static int get_amplitudes(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push_vector(L, Eigengrasps(*robot).amplitudes(robot.world->dofs(robot.id)));
+}
+
+// the posture that amplitudes stand for, each DOF brought to its nearest limit
+struct Expected {
+  VectorXd dofs;
+  std::vector<int> clamped;
+};
+
+static Expected expected_posture(lua_State* L, const RobotHandle& robot, Table& options) {
+  const Eigengrasps grasps(*robot);
+  VectorXd amplitudes = check_amplitudes(L, 2, grasps);
+  const bool keep = options.boolean("keep", false);
+  if (options.has("fixed")) {
+    // these stay as they are, whatever is asked for
+    const VectorXd now = grasps.amplitudes(robot.world->dofs(robot.id));
+    for (const double x : options.numbers("fixed")) {
+      if (!(x >= 1 && x <= grasps.size() && x == std::floor(x)))
+        fail("{}: fixed: expected one of {} eigengrasps, got {}", options.subject(), grasps.size(),
+             x);
+      amplitudes[floor_int(x) - 1] = now[floor_int(x) - 1];
+    }
+  }
+  options.done();
+  Expected out{
+      keep ? grasps.posture(amplitudes, robot.world->dofs(robot.id)) : grasps.posture(amplitudes),
+      {}};
+  for (int d = 0; d < out.dofs.size(); ++d) {
+    const auto [low, high] = robot->limits[d];
+    const double inside = std::clamp(out.dofs[d], low, high);
+    // rounding is no limit in the way
+    if (std::abs(inside - out.dofs[d]) > 1e-12 * std::max(1.0, std::abs(inside)))
+      out.clamped.push_back(d + 1);
+    out.dofs[d] = inside;
+  }
+  return out;
+}
+
+static int push_clamped(lua_State* L, const Expected& expected) {
+  return push_list_of(L, expected.clamped, [L](int d) { push(L, d); });
+}
+
+static int set_amplitudes_field(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  Table none(L, 3);
+  robot.world->set_dofs(robot.id, expected_posture(L, robot, none).dofs);
+  return 0;
+}
+
+static int set_amplitudes(lua_State* L) {
+  check_count(L, 2);
+  const auto& robot = self<RobotHandle>(L);
+  Table options(L, 3);
+  const Expected expected = expected_posture(L, robot, options);
+  robot.world->set_dofs(robot.id, expected.dofs);
+  return push_clamped(L, expected);
+}
+
+static int move_amplitudes(lua_State* L) {
+  check_count(L, 2);
+  const auto& robot = self<RobotHandle>(L);
+  Table options(L, 3);
+  const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
+  const Expected expected = expected_posture(L, robot, options);
+  push_drive(L, robot.world, drive_to(*robot.world, robot.id, expected.dofs, driving));
+  push_clamped(L, expected);
+  lua_setfield(L, -2, "clamped");
+  return 1;
+}
+
+// --- virtual contacts ---
+
+static int get_virtual_contacts(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push_virtual_contacts(L, robot, virtual_contacts(*robot.world, robot.id));
+}
+
+static void give(const RobotHandle& robot, Contacts contacts) {
+  robot.world->set_virtual_contacts(robot.id, std::make_shared<Contacts>(std::move(contacts)));
+}
+
+static std::string source_stem(const Robot& robot) {
+  return std::filesystem::path(robot.source).stem().string();
+}
+
+// tells when contacts were made for a hand of another file than this one
+static void warn_of_other_hand(lua_State* L, const RobotHandle& robot,
+                               const std::string& made_for) {
+  if (made_for.empty() || made_for == robot->name || made_for == source_stem(*robot)) return;
+  log(L, LogLevel::warning,
+      fmt::format("{}: virtual contacts made for '{}' are used for '{}'", subject(L), made_for,
+                  robot->name),
+      "suspicious");
+}
+
+static int set_virtual_contacts(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  if (!given(L, 2)) {
+    robot.world->set_virtual_contacts(robot.id, nullptr);
+    return 0;
+  }
+  const What what{L, {}, "virtual_contacts"};
+  const int count = read_list_size(L, 2, what, "a list of virtual contacts", "robot");
+  Contacts contacts;
+  lua_pushstring(L, "robot");
+  std::string made_for;  // as lists from files say it
+  if (lua_rawget(L, 2) == LUA_TSTRING) made_for = string_at(L, -1);
+  lua_pop(L, 1);
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, 2, i);
+    contacts.push_back(read_virtual_contact(L, -1, what.item(i), robot));
+    if (const auto* other = to<VirtualContactHandle>(L, -1); other && made_for.empty()) {
+      const World& world = *other->robot.world;
+      if (world.alive(other->robot.id)) made_for = source_stem(*other->robot);
+    }
+    lua_pop(L, 1);
+  }
+  give(robot, std::move(contacts));
+  warn_of_other_hand(L, robot, made_for);
+  return 0;
+}
+
+static int add_virtual_contact(lua_State* L) {
+  check_count(L, 1);
+  const auto& robot = self<RobotHandle>(L);
+  Contacts contacts = virtual_contacts(*robot.world, robot.id);
+  contacts.push_back(read_virtual_contact(L, 2, {L, {}, "contact"}, robot));
+  const VirtualContactSpec added = contacts.back();
+  give(robot, std::move(contacts));
+  return push_object(L, VirtualContactHandle{robot, added});
+}
+
+static int remove_virtual_contact(lua_State* L) {
+  check_count(L, 1);
+  const auto& robot = self<RobotHandle>(L);
+  Contacts contacts = virtual_contacts(*robot.world, robot.id);
+  const int number = check_int(L, 2, "number"), count = static_cast<int>(contacts.size());
+  if (number < 1 || number > count)
+    fail("{}: number: expected one of {} virtual contacts, got {}", subject(L), count, number);
+  contacts.erase(contacts.begin() + (number - 1));
+  give(robot, std::move(contacts));
+  return 0;
+}
+
+static int find_sites(lua_State* L) {
+  check_count(L, 1);
+  const auto& robot = self<RobotHandle>(L);
+  Table options(L, 2);
+  FindSitesOptions finding;
+  finding.count_per_link = options.integer("count_per_link", finding.count_per_link);
+  finding.palm = options.boolean("palm", finding.palm);
+  finding.object_material = options.string("object_material", finding.object_material);
+  options.done();
+  return push_virtual_contacts(L, robot, find_virtual_contacts(*robot.world, robot.id, finding));
+}
+
+static int save_virtual_contacts(lua_State* L) {
+  check_count(L, 1);
+  const auto& robot = self<RobotHandle>(L);
+  write_virtual_contacts({robot->name, virtual_contacts(*robot.world, robot.id)},
+                         check_string(L, 2, "path"));
+  return 0;
+}
+
+// --- glove and sensor ---
+
+static int get_glove(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  if (!robot->glove) {
+    lua_pushnil(L);
+    return 1;
+  }
+  push_list(L, 0, 2);
+  push_rows(L, robot->glove->slopes);
+  lua_setfield(L, -2, "slopes");
+  push_vector(L, robot->glove->intercepts);
+  lua_setfield(L, -2, "intercepts");
+  return 1;
+}
+
+static int get_tracker(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  if (!robot->tracker) {
+    lua_pushnil(L);
+    return 1;
+  }
+  push_list(L, 0, 2);
+  set_field(L, "number", robot->tracker->number);
+  set_field(L, "pose", robot->tracker->X_BS);
+  return 1;
+}
+
+// --- parts that do not act yet ---
+
+// base or link that a part stands for
+static void set_link(lua_State* L, const RobotHandle& robot, int link) {
+  push(L, BodyHandle{robot.world, robot->body_of(link)});
+  lua_setfield(L, -2, "link");
+}
+
+// a list of what push_part makes of each of the robot's
+template <class Part, class PushPart>
+static int push_parts(lua_State* L, std::vector<Part> PassiveParts::*list, PushPart push_part) {
+  const auto& robot = self<RobotHandle>(L);
+  const std::vector<Part> none;
+  return push_list_of(L, robot->passive ? (*robot->passive).*list : none,
+                      [&](const Part& part) { push_part(robot, part); });
+}
+
+static int get_tendons(lua_State* L) {
+  return push_parts(L, &PassiveParts::tendons, [L](const RobotHandle& robot, const TendonSpec& t) {
+    push_list(L, 0, 5);
+    set_field(L, "name", std::string_view(t.name));
+    set_field(L, "stiffness", t.stiffness);
+    if (t.rest_length) set_field(L, "rest_length", *t.rest_length);
+    if (t.pre_tension_length) set_field(L, "pre_tension_length", *t.pre_tension_length);
+    push_list_of(L, t.points, [&](const TendonPoint& p) {
+      push_list(L, 0, 3);
+      set_link(L, robot, p.link);
+      set_field(L, "point", p.p_L);
+      set_field(L, "friction", p.friction);
+    });
+    lua_setfield(L, -2, "points");
+  });
+}
+
+static int get_tendon_wrappers(lua_State* L) {
+  const auto push_wrapper = [L](const RobotHandle& robot, const TendonWrapper& w) {
+    push_list(L, 0, 7);
+    set_link(L, robot, w.link);
+    set_field(L, "point", w.p_L);
+    set_field(L, "axis", w.axis_L);
+    set_field(L, "radius", w.radius);
+    set_field(L, "friction", w.friction);
+    push_list_of(L, w.exempt, [L](const std::string& name) { push(L, std::string_view(name)); });
+    lua_setfield(L, -2, "exempt");
+    push_list_of(L, w.sides, [L](const TendonWrapper::Side& side) {
+      push_list(L, 0, 2);
+      set_field(L, "tendon", std::string_view(side.tendon));
+      set_field(L, "direction", side.direction_L);
+    });
+    lua_setfield(L, -2, "sides");
+  };
+  return push_parts(L, &PassiveParts::wrappers, push_wrapper);
+}
+
+static int get_tactile_sensors(lua_State* L) {
+  return push_parts(L, &PassiveParts::tactile, [L](const RobotHandle& robot, const TactileSpec& s) {
+    push_list(L, 0, 3);
+    set_link(L, robot, s.link);
+    set_field(L, "low", s.low_L);
+    set_field(L, "high", s.high_L);
+  });
+}
+
+// --- tables ---
+
+static const Entry fields[] = {
+    {"eigengrasps", guarded<get_eigengrasps>, R"(
+Its eigengrasps, as they are at any time: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
+@type eigengrasps
+> hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
+> hand.eigengrasps  --> 1 eigengrasp of 12 DOFs
+> hand.eigengrasps = clench.eigengrasps{vectors = {{1, 1}}}  --> error: expected a set for 12 DOFs, got one for 2)",
+     guarded<set_eigengrasps>},
+    {"amplitudes", guarded<get_amplitudes>, R"(
+Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
+@type number[]
+> hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
+> hand.amplitudes = {0.25}
+> math.abs(hand.amplitudes[1] - 0.25) < 1e-12  --> true)",
+     guarded<set_amplitudes_field>},
+    {"virtual_contacts", guarded<get_virtual_contacts>, R"(
+Where it would like to touch: those of its file, those it was given, or, when there are none of either, those that
+find_virtual_contacts finds, anew each time. Set to a list of virtual contacts, contacts, or tables as of
+add_virtual_contact; to {} for none, to nil for those that are found.
+@type virtual_contact[]
+> hand.virtual_contacts = {{link = "chain0_link2", point = {0, 0, 0}, normal = {0, 0, 1}, mu = 0.5}}
+> hand.virtual_contacts[1].mu  --> 0.5
+> hand.virtual_contacts = {}
+> #hand.virtual_contacts  --> 0)",
+     guarded<set_virtual_contacts>},
+    {"glove", guarded<get_glove>, R"(
+Calibration of the data glove that its file names: `slopes` (a row a DOF, a number a sensor) and `intercepts`, so that
+DOF = intercept + slopes * raw. nil when there is none.
+@type {slopes: number[][], intercepts: number[]}?  [rad per count, rad]
+> hand.glove  --> nil)"},
+    {"tracker", guarded<get_tracker>, R"(
+Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
+@type {number: integer, pose: pose}?
+> hand.tracker  --> nil)"},
+    {"tendons", guarded<get_tendons>, R"(
+Tendons of its file, as they are there: they do not act yet. Points are in the frame of their link.
+@type {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[]  [N/m, m]
+> #hand.tendons  --> 0)"},
+    {"tendon_wrappers", guarded<get_tendon_wrappers>, R"(
+Posts that tendons wrap around, each an endless cylinder; `exempt` names the tendons that pass it by, `sides` say on which
+side of it the others lie. They do not act yet.
+@type {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[]
+> #hand.tendon_wrappers  --> 0)"},
+    {"tactile_sensors", guarded<get_tactile_sensors>, R"(
+Boxes in which contacts count as one sensor's, by their `low` and `high` corners in the frame of their `link`. They do not
+act yet.
+@type {link: body, low: vec3, high: vec3}[]
+> #hand.tactile_sensors  --> 0)"},
+};
+
+static const Entry methods[] = {
+    {"set_amplitudes", guarded<set_amplitudes>, R"(
+Takes the posture that amplitudes of its eigengrasps stand for, whatever is in the way. DOFs stop at their limits.
+@param amplitudes number[]
+@param options? {keep?: boolean, fixed?: integer[]}  keep: what its posture has besides its amplitudes is kept; fixed: these amplitudes stay as they are
+@return integer[] clamped  numbers of the DOFs whose limit was in the way
+> hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
+> hand:set_amplitudes{0.1}  --> {}
+> hand:set_amplitudes{100}  --> {1, 4, 7, 10}
+> hand:set_amplitudes({0.1}, {fixed = {1}})  --> {}
+> hand:set_amplitudes({0.1}, {fixed = {2}})  --> error: fixed: expected one of 1 eigengrasps, got 2
+> hand:set_amplitudes{1, 2}  --> error: expected 1 amplitudes, got 2)"},
+    {"move_amplitudes", guarded<move_amplitudes>, R"(
+Drives the DOFs towards the posture of amplitudes, as move_dofs, until contact stops them.
+@param amplitudes number[]
+@param options? {keep?: boolean, fixed?: integer[], stop_at_contact?: boolean}  keep and fixed as of set_amplitudes
+@return table result  as of autograsp, and `clamped`, numbers of the DOFs whose limit was in the way
+> hand:move_amplitudes(hand.amplitudes, {keep = true}).moved  --> false)"},
+    {"add_virtual_contact", guarded<add_virtual_contact>, R"(
+Marks a place: where it touches now (a contact), or one in the frame of a link (a body or its name).
+@param contact contact|virtual_contact|{link: body|string, point?: vec3, normal?: vec3, frame?: pose, mu?: number, torsion_radius?: number, edges?: number[][]}  normal: out of the link; mu 1 by default
+@return virtual_contact
+> hand.virtual_contacts = {}
+> for _, c in ipairs(world:contacts(hand, flask)) do hand:add_virtual_contact(c) end
+> #hand.virtual_contacts == #world:contacts(hand, flask)  --> true
+> hand:add_virtual_contact{link = "thumb"}  --> error: has no link 'thumb')"},
+    {"remove_virtual_contact", guarded<remove_virtual_contact>, R"(
+Takes one out of its list.
+@param number integer
+> count = #hand.virtual_contacts
+> hand:remove_virtual_contact(1)
+> #hand.virtual_contacts == count - 1  --> true
+> hand:remove_virtual_contact(1000)  --> error: number: expected one of)"},
+    {"find_virtual_contacts", guarded<find_sites>, R"(
+Places on its surface where it moves forward when the hand closes: the centre of what each link sweeps, by area and
+speed along its normal, and one on the palm. Sets nothing.
+@param options? {count_per_link?: integer, palm?: boolean, object_material?: string}  object_material: material to be grasped, "wood" by default
+@return virtual_contact[]
+> #hand:find_virtual_contacts()  --> 13
+> #hand:find_virtual_contacts{count_per_link = 2, palm = false}  --> 24)"},
+    {"save_virtual_contacts", guarded<save_virtual_contacts>, R"(
+Writes its virtual contacts to a file, .vgr or .xml; clench.files.virtual_contacts reads it.
+@param path string
+> hand:save_virtual_contacts "sites.doc"  --> error: expected a file of virtual contacts, .vgr or .xml, got '.doc')"},
+};
+
+const Class hand_class{.name = "hand",
+                       .variable = "hand",
+                       .doc =
+                           "What every robot has for grasping: eigengrasps, virtual contacts, a "
+                           "glove, a position sensor.",
+                       .fields = fields,
+                       .methods = methods,
+                       .parent = &entity_class};
+
+}  // namespace clench

@@ -1,0 +1,92 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/json.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+// addresses name the places of null and of the empty objects' metatable
+static const char null_key = 0, object_key = 0;
+
+static int null_text(lua_State* L) { return push(L, "null"); }
+
+void push_json_null(lua_State* L) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &null_key) == LUA_TUSERDATA) return;
+  lua_pop(L, 1);
+  lua_newuserdatauv(L, 0, 0);
+  lua_newtable(L);
+  lua_pushcfunction(L, null_text);
+  lua_setfield(L, -2, "__tostring");
+  lua_setmetatable(L, -2);
+  lua_pushvalue(L, -1);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &null_key);
+}
+
+void mark_json_object(lua_State* L) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &object_key) != LUA_TTABLE) {
+    lua_pop(L, 1);
+    lua_newtable(L);
+    lua_pushboolean(L, 1);
+    lua_setfield(L, -2, "__object");
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &object_key);
+  }
+  lua_setmetatable(L, -2);
+}
+
+static int encode(lua_State* L) {
+  check_count(L, 2);
+  Table t(L, 2);
+  const int indent = t.integer("indent", 0);
+  if (indent < 0 || indent > 16) fail("{}: indent: expected 0 to 16, got {}", subject(L), indent);
+  t.done();
+  if (lua_isnone(L, 1)) fail_expected({L, {}, "value"}, "a value", 1);
+  return push(L, write_json(L, 1, indent));
+}
+
+static int decode(lua_State* L) {
+  check_count(L, 1);
+  if (lua_type(L, 1) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a string", 1);
+  size_t size = 0;
+  const char* text = lua_tolstring(L, 1, &size);
+  read_json(L, {text, size});
+  return 1;
+}
+
+static int null(lua_State* L) {
+  push_json_null(L);
+  return 1;
+}
+
+static const Entry functions[] = {
+    {"encode", guarded<encode>, R"(
+A value as JSON. Keys are sorted and numbers come back to the bit, so equal values give equal text; integers stay integers. Poses and vectors are written too; functions, NaN and tables that contain themselves are refused.
+@param value any
+@param options? {indent?: integer}  blanks a level; default: all on one line
+@return string
+> clench.json.encode{name = "flask", mass = 0.3, size = {1, 2.0}}  --> {"mass":0.3,"name":"flask","size":[1,2.0]}
+> clench.json.encode{at = clench.vec3(0, 0.5, 1)}  --> {"at":[0.0,0.5,1.0]}
+> clench.json.encode{0 / 0}  --> error: value[1]: expected a finite number)"},
+    {"decode", guarded<decode>, R"(
+The value of a JSON text. A null in a list is `clench.json.null`; in an object it is absent.
+@param text string
+@return any
+> clench.json.decode '{"links": [1, 2.5, null]}'.links  --> {1, 2.5, null}
+> clench.json.decode '{"a": 1,}'  --> error: line 1, column 9: expected a name in double quotes, got '}')"},
+};
+
+static const Entry fields[] = {
+    {"null", guarded<null>, R"(
+What stands for null in a list.
+@type userdata
+> clench.json.encode{1, clench.json.null}  --> [1,null])"},
+};
+
+const Library json_library{.name = "clench.json",
+                           .doc = "Values as JSON text, and back.",
+                           .functions = functions,
+                           .fields = fields};
+
+}  // namespace clench

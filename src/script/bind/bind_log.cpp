@@ -1,0 +1,145 @@
+#include "clench/script/bind/bind.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <vector>
+
+#include "clench/base/suggest.h"
+#include "clench/base/text.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+
+namespace clench {
+
+static const char* const level_names[] = {"debug", "info", "warning", "error", "quiet"};
+
+// addresses name the places of the state's level and sink
+static const char level_key = 0, sink_key = 0;
+
+LogLevel log_level(lua_State* L) {
+  const bool set = lua_rawgetp(L, LUA_REGISTRYINDEX, &level_key) == LUA_TNUMBER;
+  const auto level = set ? static_cast<LogLevel>(lua_tointeger(L, -1)) : LogLevel::info;
+  lua_pop(L, 1);
+  return level;
+}
+
+void set_log_level(lua_State* L, LogLevel level) {
+  lua_pushinteger(L, static_cast<int>(level));
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &level_key);
+}
+
+void log(lua_State* L, LogLevel level, const std::string& message, const char* about) {
+  if (!lua_checkstack(L, 6) || level < log_level(L)) return;
+  const char* name = level_names[static_cast<int>(level)];
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &sink_key) == LUA_TFUNCTION) {
+    lua_pushstring(L, name);
+    lua_pushlstring(L, message.data(), message.size());
+    lua_pushstring(L, about);  // nil when null
+    protected_call(L, 3, 0);
+    return;
+  }
+  lua_pop(L, 1);
+  const std::string line = fmt::format("clench: {}: {}\n", name, message);
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+// the arguments as text, a space between two
+static std::string joined(lua_State* L) {
+  std::string text;
+  const int count = lua_gettop(L);
+  for (int i = 1; i <= count; ++i) {
+    lua_pushcfunction(L, [](lua_State* state) {
+      luaL_tolstring(state, 1, nullptr);
+      return 1;
+    });
+    lua_pushvalue(L, i);
+    protected_call(L, 1, 1);
+    if (i > 1) text += ' ';
+    text += string_at(L, -1);
+    lua_pop(L, 1);
+  }
+  return text;
+}
+
+template <LogLevel level>
+static int log_at(lua_State* L) {
+  log(L, level, joined(L));
+  return 0;
+}
+
+static int level(lua_State* L) {
+  const LogLevel before = log_level(L);
+  if (given(L, 1)) {
+    const std::string name = check_string(L, 1, "name");
+    const auto* end = std::end(level_names);
+    const auto* found = std::find(std::begin(level_names), end, name);
+    const std::vector<std::string> known(std::begin(level_names), end);
+    if (found == end)
+      fail("{}: expected one of {}, got '{}'{}", subject(L), name_list(known), name,
+           did_you_mean(name, known));
+    set_log_level(L, static_cast<LogLevel>(found - level_names));
+  }
+  return push(L, level_names[static_cast<int>(before)]);
+}
+
+static int sink(lua_State* L) {
+  if (given(L, 1) && lua_type(L, 1) != LUA_TFUNCTION)
+    fail_expected({L, {}, "fn"}, "a function or nil", 1);
+  lua_settop(L, 1);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &sink_key);
+  return 0;
+}
+
+static const Entry functions[] = {
+    {"debug", guarded<log_at<LogLevel::debug>>, R"(
+Logs what only a developer wants to read.
+@param ... any
+> clench.log.debug "not shown by default"
+> clench.log.level()  --> info)"},
+    {"info", guarded<log_at<LogLevel::info>>, R"(
+Logs what a user may want to know.
+@param ... any
+> clench.log.sink(function(level, text) said = level .. ": " .. text end)
+> clench.log.info("three", 3)
+> clench.log.sink()
+> said  --> info: three 3)"},
+    {"warning", guarded<log_at<LogLevel::warning>>, R"(
+Logs what a user should know: what a file contains and the engine does not use, say.
+@param ... any
+> clench.log.sink(function(level, text) said = level .. ": " .. text end)
+> clench.log.warning "no mass given"
+> clench.log.sink()
+> said  --> warning: no mass given)"},
+    {"error", guarded<log_at<LogLevel::error>>, R"(
+Logs what went wrong, and goes on.
+@param ... any
+> clench.log.sink(function(level, text) said = level .. ": " .. text end)
+> clench.log.error "the glove does not answer"
+> clench.log.sink()
+> said  --> error: the glove does not answer)"},
+    {"level", guarded<level>, R"(
+Says from which level on messages are shown, and sets it if one is given.
+@param name? "debug"|"info"|"warning"|"error"|"quiet"
+@return string before
+> clench.log.level "quiet"  --> info
+> clench.log.level "info"  --> quiet
+> clench.log.level "loud"  --> error: expected one of debug, info, warning, error, quiet)"},
+    {"sink", guarded<sink>, R"(
+Sends messages to a function(level, text, about) instead of stderr; without one, to stderr again. `about` says of what
+the reader of a file tells: what is "inferred", "ignored", "repaired" or "suspicious"; nil otherwise.
+@param fn? fun(level: string, text: string, about: string?)
+> clench.log.sink(function(level, text) said = text end)
+> clench.log.info "hello"
+> clench.log.sink()
+> said  --> hello)"},
+};
+
+const Library log_library{.name = "clench.log",
+                          .doc =
+                              "Messages of scripts and of the engine, to stderr, so that they "
+                              "never mix with a script's output.",
+                          .functions = functions};
+
+}  // namespace clench

@@ -1,0 +1,145 @@
+#include "clench/script/bind/bind.h"
+
+#include <cmath>
+
+#include "clench/grasp/force/resistance.h"
+#include "clench/grasp/measure/measures.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+static int quality(lua_State* L) {
+  check_count(L, 1);
+  auto& g = self<GraspHandle>(L);
+  const std::string name = check_string(L, 2, "measure");
+  const Measure& measure = find_measure(name);
+  const Watching watching(L);
+  MeasuredGrasp measured(world_of(L, g), g.grasp, watching.progress());
+  const double value = measure.of(measured);
+  g.grasp.measures[name] = value;
+  return push_unbounded(L, value);
+}
+
+// empty: infinite, or beyond what can be had, as the volume of a hull of millions of facets
+static std::optional<double> value_if(const Measure& measure, MeasuredGrasp& grasp) {
+  try {
+    const double value = measure.of(grasp);
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::limit) throw;
+    return {};
+  }
+}
+
+static int quality_all(lua_State* L) {
+  check_count(L, 0);
+  auto& g = self<GraspHandle>(L);
+  check_unmoved(world_of(L, g), g.grasp);
+  const Watching watching(L);
+  MeasuredGrasp measured(world_of(L, g), g.grasp, watching.progress());
+  push_list(L, 0, static_cast<int>(measures().size()));
+  for (const Measure& measure : measures()) {
+    const auto value = value_if(measure, measured);
+    if (!value) continue;
+    g.grasp.measures[std::string(measure.name)] = *value;
+    set_field(L, std::string(measure.name).c_str(), *value);
+  }
+  return 1;
+}
+
+static Vector6d vector6(const std::vector<double>& numbers) {
+  return Eigen::Map<const Vector6d>(numbers.data());
+}
+
+static int resist(lua_State* L) {
+  check_count(L, 1);
+  auto& g = self<GraspHandle>(L);
+  Table options(L, 2);
+  ResistanceOptions resisting;
+  if (options.choice("norm", {"L1", "Linf"}, "L1") == "Linf") resisting.norm = WrenchNorm::linf;
+  const bool one = options.has("wrench"), many = options.has("wrenches"),
+             ellipsoid = options.has("ellipsoid");
+  if (one + many + ellipsoid != 1)
+    fail("{}: expected one of wrench, wrenches and ellipsoid, got {} of them", subject(L),
+         one + many + ellipsoid);
+  const auto times = [&](const Vector6d& wrench, const std::string& key) {
+    if (wrench.isZero(0))
+      fail("{}: {}: expected a wrench that is not zero: there is nothing to resist", subject(L),
+           key);
+    return resistance(world_of(L, g), g.grasp, wrench, resisting);
+  };
+  double least = INFINITY;
+  if (one) least = times(vector6(options.numbers("wrench", 6)), "wrench");
+  const auto rows = many ? options.rows("wrenches", 6) : std::vector<std::vector<double>>();
+  if (many && rows.empty()) fail("{}: wrenches: expected at least one, got none", subject(L));
+  for (size_t i = 0; i < rows.size(); ++i)
+    least = std::min(least, times(vector6(rows[i]), fmt::format("wrenches[{}]", i + 1)));
+  if (ellipsoid)
+    least = ellipsoid_resistance(world_of(L, g), g.grasp, vector6(options.numbers("ellipsoid", 6)),
+                                 resisting);
+  options.done();
+  return push_unbounded(L, least);
+}
+
+static int list_measures(lua_State* L) {
+  check_count(L, 0);
+  return push_list_of(L, measures(), [&](const Measure& m) {
+    push_list(L, 0, 6);
+    set_field(L, "name", m.name);
+    set_field(L, "what", m.what);
+    set_field(L, "range", m.range);
+    set_field(L, "unit", m.unit);
+    set_field(L, "higher_is_better", m.higher_is_better);
+    set_field(L, "source", m.source);
+  });
+}
+
+static const Entry functions[] = {
+    {"measures", guarded<list_measures>, R"(
+The measures that grasp:quality knows, in the order of the guide.
+@return {name: string, what: string, range: string, unit: string, higher_is_better: boolean, source: string}[]
+> clench.measures()[1].name, clench.measures()[1].source  --> epsilon, Ferrari and Canny (1992))"},
+};
+
+static const Entry methods[] = {
+    {"quality", guarded<quality>, R"(
+A measure of the grasp by name: "epsilon", "volume" and all that clench.measures() lists with definition, range, unit and
+source. Infinite where there is nothing to measure, as the clearance of a hand alone. The world must stand as it did when
+the grasp was measured.
+@param measure string
+@return number
+> grasp:quality "epsilon" > 0  --> true
+> grasp:quality "epsilon_linf" >= grasp:quality "epsilon"  --> true
+> grasp:quality "epsilom"  --> error: did you mean 'epsilon'?)"},
+    {"quality_all", guarded<quality_all>, R"(
+All measures at once, by name; those that are infinite are left out, and those that cannot be had, such as the volume of too many contacts with too many edges.
+@return table<string, number>
+> q = grasp:quality_all()
+> q.epsilon == grasp:quality "epsilon", q.isotropy > 0  --> true, true)"},
+    {"resistance", guarded<resist>, R"(
+The largest multiple of a wrench on the object that contact forces in round cones balance, their normal parts summing to
+at most one newton (norm "L1") or each at most one ("Linf"); of several wrenches the least multiple; of an ellipsoid the
+largest that is resisted whole, by the friction cones of the grasp. World axes, torques about the centre of mass.
+@param options {wrench?: number[], wrenches?: number[][], ellipsoid?: number[], norm?: string}  one of the first three; {fx, fy, fz, tx, ty, tz} [N, N m]; ellipsoid: its half axes
+@return number
+> weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
+> grasp:resistance{wrench = weight} > 0  --> true
+> grasp:resistance{wrenches = {weight, {1, 0, 0, 0, 0, 0}}} <= grasp:resistance{wrench = weight}  --> true
+> grasp:resistance{ellipsoid = {1, 1, 1, 0.1, 0.1, 0.1}} > 0  --> true
+> grasp:resistance{wrench = {0, 0, 0, 0, 0, 0}}  --> error: expected a wrench that is not zero
+> grasp:resistance{}  --> error: expected one of wrench, wrenches and ellipsoid, got 0 of them)"},
+};
+
+const Library measures_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class measures_class{.name = "measures",
+                           .variable = "grasp",
+                           .doc = "What a grasp can say of its worth.",
+                           .fields = {},
+                           .methods = methods,
+                           .parent = &forces_class};
+
+}  // namespace clench

@@ -1,0 +1,193 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+
+namespace clench {
+
+ModulusRule read_modulus_rule(Table& options) {
+  return options.choice("modulus", {"series", "larger"}, "series") == "larger"
+             ? ModulusRule::larger
+             : ModulusRule::series;
+}
+
+const char* modulus_name(ModulusRule rule) {
+  return rule == ModulusRule::larger ? "larger" : "series";
+}
+
+static const SoftPatch& patch_of(lua_State* L) { return *self<PatchHandle>(L).patch; }
+
+// {body = ..., other = ...}: what push_one(side) leaves of each
+template <class PushOne>
+static int push_sides(lua_State* L, PushOne push_one) {
+  const bool body_is_b = self<PatchHandle>(L).body_is_b;
+  push_list(L, 0, 2);
+  push_one(body_is_b ? 1 : 0);
+  lua_setfield(L, -2, "body");
+  push_one(body_is_b ? 0 : 1);
+  lua_setfield(L, -2, "other");
+  return 1;
+}
+
+static int get_relative_radii(lua_State* L) { return push_numbers(L, patch_of(L).relative_radii); }
+
+static int get_flat(lua_State* L) {
+  return push_list_of(L, patch_of(L).flat, [&](bool flat) { push(L, flat); });
+}
+
+static int get_curvatures(lua_State* L) {
+  const SoftPatch& patch = patch_of(L);
+  return push_sides(L, [&](int side) { push_vector(L, patch.surfaces[side].curvatures); });
+}
+
+static int get_radii(lua_State* L) {
+  const SoftPatch& patch = patch_of(L);
+  return push_sides(L, [&](int side) {
+    const Eigen::Vector2d radii = patch.surfaces[side].curvatures.cwiseInverse();
+    push_vector(L, radii);
+  });
+}
+
+static int get_directions(lua_State* L) {
+  const auto& p = self<PatchHandle>(L);
+  return push_list_of(L, std::array{0, 1}, [&](int i) {
+    push(L, Eigen::Vector3d(p.X_WA.rotation * p.patch->directions.col(i)));
+  });
+}
+
+static int get_point(lua_State* L) {
+  const auto& p = self<PatchHandle>(L);
+  return push(L, Eigen::Vector3d(p.X_WA * p.patch->centre_A));
+}
+
+static int get_points(lua_State* L) {
+  const auto& p = self<PatchHandle>(L);
+  return push_sides(L, [&](int side) {
+    push_list_of(L, p.patch->points[side],
+                 [&](const Eigen::Vector3d& point) { push(L, Eigen::Vector3d(p.X_WA * point)); });
+  });
+}
+
+static int get_radius(lua_State* L) { return push(L, patch_of(L).radius); }
+static int get_residual(lua_State* L) { return push(L, patch_of(L).residual); }
+static int get_at_edge(lua_State* L) { return push(L, patch_of(L).at_edge); }
+
+// {force = 5, modulus = "series"}
+static std::pair<double, ModulusRule> read_pressing(lua_State* L) {
+  check_count(L, 1);
+  Table options(L, 2);
+  const double force = options.number("force", 5);
+  if (force < 0) fail("{}: force: expected a number >= 0, got {}", subject(L), force);
+  const ModulusRule rule = read_modulus_rule(options);
+  options.done();
+  return {force, rule};
+}
+
+static int ellipse(lua_State* L) {
+  const SoftPatch& patch = patch_of(L);
+  const auto [force, rule] = read_pressing(L);
+  const ContactEllipse e = contact_ellipse(patch, force, rule);
+  push_list(L, 0, 5);
+  push_numbers(L, e.semi_axes);
+  lua_setfield(L, -2, "semi_axes");
+  set_field(L, "indentation", e.indentation);
+  set_field(L, "pressure", e.pressure);
+  set_field(L, "torsion_radius", torsion_radius(patch, force, rule));
+  push(L, e.exceeds_layer);
+  lua_setfield(L, -2, "exceeds_layer");
+  return 1;
+}
+
+static int torsion_limit(lua_State* L) {
+  const SoftPatch& patch = patch_of(L);
+  const auto [force, rule] = read_pressing(L);
+  return push(L, self<PatchHandle>(L).mu * force * torsion_radius(patch, force, rule));
+}
+
+static int patch_text(lua_State* L) {
+  const SoftPatch& patch = patch_of(L);
+  return push(
+      L, fmt::format("soft patch, relative radii {:.6g} and {:.6g} m{}", patch.relative_radii[0],
+                     patch.relative_radii[1], patch.at_edge ? ", on a corner or an edge" : ""));
+}
+
+static const Entry fields[] = {
+    {"relative_radii", guarded<get_relative_radii>, R"(
+Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures.
+Where the surfaces part slower than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm stands for them,
+or the first radius when that is larger; between 1 m and 2 m the one goes over into the other.
+@type number[]  [m]
+> patch.relative_radii[1] <= patch.relative_radii[2]  --> true)"},
+    {"flat", guarded<get_flat>, R"(
+Is a relative radius the one that stands for a flat direction?
+@type boolean[]
+> patch.flat[1]  --> false)"},
+    {"curvatures", guarded<get_curvatures>, R"(
+Principal curvatures of the surfaces of both bodies, descending: positive where a surface falls away from the other
+body, as a ball's, negative where it rises, as a socket's.
+@type {body: number[], other: number[]}  [1/m]
+> patch.curvatures.body[1] >= patch.curvatures.body[2]  --> true)"},
+    {"radii", guarded<get_radii>, R"(
+The principal radii of both, 1 over the curvatures: negative where a surface is hollow; as large as you like where it is flat.
+@type {body: number[], other: number[]}  [m]
+> math.abs(patch.radii.body[1] * patch.curvatures.body[1] - 1) < 1e-9  --> true)"},
+    {"directions", guarded<get_directions>, R"(
+Of the relative radii: unit, orthogonal to each other and to the contact's normal, in the world frame.
+@type vec3[]
+> math.abs(patch.directions[1]:dot(patch.directions[2])) < 1e-12  --> true)"},
+    {"point", guarded<get_point>, R"(
+The middle of the patch, in the world frame: the contact's point, or the mean of those whose neighbourhoods overlap.
+@type vec3  [m]
+> (patch.point - world:contacts(hand, flask)[4].point):norm() < 0.01  --> true)"},
+    {"points", guarded<get_points>, R"(
+What was fitted: points of both surfaces, in the world frame.
+@type {body: vec3[], other: vec3[]}  [m]
+> #patch.points.other > 100  --> true)"},
+    {"radius", guarded<get_radius>, R"(
+How far around the contact the surfaces were looked at.
+@type number  [m]
+> ("%.5f"):format(patch.radius)  --> 0.00349)"},
+    {"residual", guarded<get_residual>, R"(
+How far the points lie from the fit, root of the mean square; of the worse surface.
+@type number  [m]
+> patch.residual < patch.radius  --> true)"},
+    {"at_edge", guarded<get_at_edge>, R"(
+Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that is sure to touch.
+@type boolean
+> patch.at_edge  --> false)"},
+};
+
+static const Entry methods[] = {
+    {"ellipse", guarded<ellipse>, R"(
+Where the bodies press on each other, after the mattress model: its semi-axes along `directions`, the indentation and
+the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. It is nowhere wider than the bodies.
+At a corner, an edge or a rim the semi-axes are those of what is sure to touch, where the gap is no wider than the indentation of
+flat surfaces; the indentation is where the springs under the gap as it is make up the force, as far as the neighbourhood goes.
+`exceeds_layer` says that it is more than the soft layers are high, and the model holds no longer.
+@param options? {force?: number, modulus?: string}  normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
+@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, exceeds_layer: boolean}  [m], [m], [Pa], [m]
+> e = patch:ellipse{force = 5}
+> math.abs(e.pressure - 1.5e6 * e.indentation / 0.003) < 1e-3  --> true
+> e.exceeds_layer, patch:ellipse{force = 1000}.exceeds_layer  --> false, true
+> patch:ellipse{force = -1}  --> error: >= 0)"},
+    {"torsion_limit", guarded<torsion_limit>, R"(
+The largest torque about the normal that the contact resists, at rest: mu F times the torsion radius.
+@param options? {force?: number, modulus?: string}  as of `ellipse`
+@return number  [N m]
+> patch:torsion_limit{force = 10} > patch:torsion_limit{force = 5}  --> true)"},
+};
+
+static const Entry operators[] = {
+    {"__tostring", guarded<patch_text>, ""},
+};
+
+const Class patch_class{.name = "patch",
+                        .variable = "patch",
+                        .doc =
+                            "The surfaces of two bodies around a soft contact, and the turn about "
+                            "the normal that it resists.",
+                        .fields = fields,
+                        .methods = methods,
+                        .operators = operators};
+
+}  // namespace clench

@@ -1,0 +1,244 @@
+#include "clench/script/bind/bind.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+#include "clench/spec/valid.h"
+
+namespace clench {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+// --- from a table ---
+
+static Quaterniond quat_of(Table& t) {
+  const auto q = t.numbers("quat", 4);
+  const Quaterniond quat(q[0], q[1], q[2], q[3]);
+  const double length = quat.coeffs().stableNorm();
+  // files hold six digits or so; what is already unit to the last bits stays as it is
+  if (!(std::abs(length - 1) < 1e-3))
+    fail("{}: quat: expected a unit quaternion {{w, x, y, z}}, got one of length {:.6g}",
+         t.subject(), length);
+  if (std::abs(length - 1) < 1e-15) return quat;
+  return Quaterniond(quat.coeffs() / length);
+}
+
+static Quaterniond rpy_of(Table& t) {
+  const Vector3d rpy = t.vec3("rpy");
+  using Turn = Eigen::AngleAxisd;
+  return Turn(rpy.z(), Vector3d::UnitZ()) * Turn(rpy.y(), Vector3d::UnitY()) *
+         Turn(rpy.x(), Vector3d::UnitX());
+}
+
+static Pose matrix_of(Table& t) {
+  const auto rows = t.rows("matrix");
+  const size_t columns = rows.empty() ? 0 : rows[0].size();
+  bool even = rows.size() == 3 || (rows.size() == 4 && columns == 4);
+  for (const auto& row : rows) even = even && row.size() == columns;
+  if (!even || (columns != 3 && columns != 4))
+    fail(
+        "{}: matrix: expected 3 rows of 3 or 4 numbers, or 4 rows of 4, got {} rows, the first of "
+        "{}",
+        t.subject(), rows.size(), columns);
+  if (rows.size() == 4 && rows[3] != std::vector<double>{0, 0, 0, 1})
+    fail("{}: matrix: the last row must be 0 0 0 1", t.subject());
+  Matrix3d R;
+  Vector3d p = Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const auto& row = rows[static_cast<size_t>(i)];
+    for (int j = 0; j < 3; ++j) R(i, j) = row[static_cast<size_t>(j)];
+    if (columns == 4) p[i] = row[3];
+  }
+  const double skew = (R.transpose() * R - Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(skew < 1e-3) || !(R.determinant() > 0))
+    fail("{}: matrix: expected a rotation, got columns that are not orthonormal and right-handed",
+         t.subject());
+  if (columns == 4 && t.has("xyz"))
+    fail("{}: expected the position once, got it from matrix and xyz", t.subject());
+  return {Quaterniond(R).normalized(), p};
+}
+
+Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
+  if (lua_istable(L, index) && lua_rawlen(L, index) > 0)
+    fail_expected({L, subject, ""}, "a pose {xyz = {x, y, z}, rpy = ..}", index);
+  Table t(L, index, subject);
+  const int rotations = t.has("rpy") + t.has("quat") + t.has("matrix");
+  if (rotations > 1) fail("{}: expected one of rpy, quat, matrix, got {}", subject, rotations);
+  Pose pose;
+  if (t.has("matrix")) pose = matrix_of(t);
+  if (t.has("quat")) pose.rotation = quat_of(t);
+  if (t.has("rpy")) pose.rotation = rpy_of(t);
+  pose.position = t.vec3("xyz", pose.position);
+  t.done();
+  check_place(pose, t.subject());
+  return pose;
+}
+
+// --- what scripts call ---
+
+static int make_pose(lua_State* L) {
+  check_count(L, 1);
+  if (const Pose* pose = to<Pose>(L, 1)) return push(L, *pose);
+  return push(L, pose_from_table(L, 1, subject(L)));
+}
+
+static int get_position(lua_State* L) { return push(L, self<Pose>(L).position); }
+
+static int get_quat(lua_State* L) {
+  const Quaterniond& q = self<Pose>(L).rotation;
+  return push_numbers(L, std::array{q.w(), q.x(), q.y(), q.z()});
+}
+
+static int get_rpy(lua_State* L) {
+  // R = Rz(yaw) Ry(pitch) Rx(roll); at pitch +-90 degrees roll is taken as 0
+  const Matrix3d R = self<Pose>(L).matrix();
+  const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
+  if (std::hypot(R(2, 1), R(2, 2)) < 1e-12)
+    return push(L, Vector3d(0, pitch, std::atan2(-R(0, 1), R(1, 1))));
+  return push(L, Vector3d(std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))));
+}
+
+static int inverse(lua_State* L) {
+  check_count(L, 0);
+  return push(L, self<Pose>(L).inverse());
+}
+
+static int angle(lua_State* L) {
+  check_count(L, 0);
+  return push(L, self<Pose>(L).angle());
+}
+
+static int matrix(lua_State* L) {
+  check_count(L, 0);
+  const Pose& pose = self<Pose>(L);
+  Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
+  M.topLeftCorner<3, 3>() = pose.matrix();
+  M.topRightCorner<3, 1>() = pose.position;
+  return push_rows(L, M);
+}
+
+static int rotate(lua_State* L) {
+  check_count(L, 1);
+  return push(L, Vector3d(self<Pose>(L).rotation * check_vec3(L, 2, "direction")));
+}
+
+static int interpolate_to(lua_State* L) {
+  check_count(L, 2);
+  const double t = check_number(L, 3, "t");
+  if (t < 0 || t > 1) fail("{}: t: expected a number from 0 to 1, got {}", subject(L), t);
+  return push(L, interpolate(self<Pose>(L), check_pose(L, 2, "other"), t));
+}
+
+static int multiply(lua_State* L) {
+  const Pose& left = check_object<Pose>(L, 1, "left of *");
+  if (const Pose* right = to<Pose>(L, 2)) return push(L, left * *right);
+  if (lua_type(L, 2) != LUA_TTABLE && !to<Vector3d>(L, 2))
+    fail_expected({L, {}, "right of *"}, "a pose, a vec3 or {x, y, z}", 2);
+  return push(L, Vector3d(left * check_vec3(L, 2, "right of *")));
+}
+
+static int equal(lua_State* L) {
+  const auto *a = to<Pose>(L, 1), *b = to<Pose>(L, 2);
+  return push(L, a && b && *a == *b);
+}
+
+static int text(lua_State* L) {
+  const Pose& pose = self<Pose>(L);
+  const Vector3d& p = pose.position;
+  const Quaterniond& q = pose.rotation;
+  return push(
+      L, fmt::format(
+             "pose{{xyz = {{{:.6g}, {:.6g}, {:.6g}}}, quat = {{{:.6g}, {:.6g}, {:.6g}, {:.6g}}}}}",
+             p.x() + 0.0, p.y() + 0.0, p.z() + 0.0, q.w() + 0.0, q.x() + 0.0, q.y() + 0.0,
+             q.z() + 0.0));
+}
+
+static int as_json(lua_State* L) {
+  const Pose pose = self<Pose>(L);
+  push_list(L, 0, 2);
+  push_numbers(L, {pose.position.data(), 3});
+  lua_setfield(L, -2, "xyz");
+  get_quat(L);
+  lua_setfield(L, -2, "quat");
+  return 1;
+}
+
+static const Entry functions[] = {
+    {"pose", guarded<make_pose>, R"(
+A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given one way at most.
+@param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][]}  xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4
+@return pose
+> clench.pose{xyz = {1, 2, 3}}  --> pose{xyz = {1, 2, 3}, quat = {1, 0, 0, 0}}
+> clench.pose{rpy = {0, 0, clench.rad(90)}} * {1, 0, 0}  --> (2.22045e-16, 1, 0)
+> clench.pose{quat = {2, 0, 0, 0}}  --> error: expected a unit quaternion
+> clench.pose{xyz = {0, 0, 1e308}}  --> error: expected a position within 1e+09 m of the origin)"},
+};
+
+static const Entry fields[] = {
+    {"position", guarded<get_position>, R"(
+Where the frame's origin is.
+@type vec3  [m]
+> clench.pose{xyz = {1, 2, 3}}.position  --> (1, 2, 3))"},
+    {"quat", guarded<get_quat>, R"(
+The rotation as a unit quaternion, w x y z.
+@type number[]
+> clench.pose{}.quat  --> {1.0, 0.0, 0.0, 0.0})"},
+    {"rpy", guarded<get_rpy>, R"(
+The rotation as turns about the fixed x, y and z axes, in this order.
+@type vec3  [rad]
+> clench.pose{rpy = {0.1, 0.2, 0.3}}.rpy  --> (0.1, 0.2, 0.3))"},
+};
+
+static const Entry methods[] = {
+    {"inverse", guarded<inverse>, R"(
+The way back: `p:inverse() * p` is the identity.
+@return pose
+> clench.pose{xyz = {1, 2, 3}}:inverse().position  --> (-1, -2, -3))"},
+    {"angle", guarded<angle>, R"(
+Angle of the rotation, from 0 to pi.
+@return number  [rad]
+> clench.deg(clench.pose{quat = {0, 1, 0, 0}}:angle())  --> 180.0)"},
+    {"matrix", guarded<matrix>, R"(
+The homogeneous matrix.
+@return number[][]  4 rows of 4
+> clench.pose{xyz = {1, 2, 3}}:matrix()[1]  --> {1.0, 0.0, 0.0, 1.0})"},
+    {"rotate", guarded<rotate>, R"(
+A direction turned by the rotation alone.
+@param direction vec3
+@return vec3
+> clench.pose{xyz = {1, 2, 3}, quat = {0, 0, 0, 1}}:rotate{1, 0, 0}  --> (-1, 0, 0))"},
+    {"interpolate", guarded<interpolate_to>, R"(
+The pose between this one (t = 0) and another (t = 1): straight line, shortest turn.
+@param other pose
+@param t number
+@return pose
+> clench.pose{}:interpolate(clench.pose{xyz = {4, 0, 0}}, 0.25).position  --> (1, 0, 0))"},
+};
+
+static const Entry operators[] = {
+    {"__mul", guarded<multiply>, ""},
+    {"__eq", guarded<equal>, ""},
+    {"__tostring", guarded<text>, ""},
+    {"__json", guarded<as_json>, ""},
+};
+
+const Library pose_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class pose_class{.name = "pose",
+                       .variable = "pose",
+                       .doc =
+                           "A rigid transform, which never changes. `a * b` chains two of them, `a "
+                           "* v` takes a point along, `==` "
+                           "compares bit by bit. Wherever a pose is expected, the table that "
+                           "`clench.pose` takes will do.",
+                       .fields = fields,
+                       .methods = methods,
+                       .operators = operators};
+
+}  // namespace clench

@@ -1,0 +1,147 @@
+#include "clench/script/bind/bind.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+ProgressHandle::ProgressHandle(std::shared_ptr<Bar> on, double of, std::string what)
+    : bar(std::move(on)), total(of), text(std::move(what)) {
+  bar->begin_script();
+}
+
+ProgressHandle::ProgressHandle(ProgressHandle&& from) noexcept
+    : bar(std::move(from.bar)),
+      total(from.total),
+      done(from.done),
+      text(std::move(from.text)),
+      open(std::exchange(from.open, false)) {}
+
+void ProgressHandle::close() {
+  if (std::exchange(open, false)) bar->end_script();
+}
+
+static void show(ProgressHandle& progress) {
+  if (progress.open)
+    progress.bar->show_script(progress.total > 0 ? progress.done / progress.total : -1,
+                              progress.text);
+}
+
+static int new_progress(lua_State* L) {
+  check_count(L, 2);
+  const bool list = lua_istable(L, 1);
+  const double total = list          ? static_cast<double>(lua_rawlen(L, 1))
+                       : given(L, 1) ? check_number(L, 1, "total")
+                                     : 0;
+  if (!(total >= 0) || !std::isfinite(total))
+    fail("{}: total: expected a number >= 0, got {}", subject(L), total);
+  const std::string text = given(L, 2) ? check_string(L, 2, "text") : "";
+  push_object(L, ProgressHandle(bar_of(L), total, text), 1);
+  lua_pushvalue(L, 1);
+  lua_setiuservalue(L, -2, 1);
+  return 1;
+}
+
+static int step(lua_State* L) {
+  check_count(L, 2);
+  auto& progress = self<ProgressHandle>(L);
+  const double by = given(L, 2) ? check_number(L, 2, "count") : 1;
+  if (!(by >= 0)) fail("{}: count: expected a number >= 0, got {}", subject(L), by);
+  if (given(L, 3)) progress.text = check_string(L, 3, "text");
+  progress.done = std::min(progress.done + by, progress.total > 0 ? progress.total : INFINITY);
+  show(progress);
+  return 0;
+}
+
+static int close(lua_State* L) {
+  check_count(L, 0);
+  self<ProgressHandle>(L).close();
+  return 0;
+}
+
+// as the iterator of a loop: (self, nothing, what came last)
+static int next(lua_State* L) {
+  auto& progress = self<ProgressHandle>(L);
+  const lua_Integer i = (lua_isinteger(L, 3) ? lua_tointeger(L, 3) : 0) + 1;
+  progress.done = static_cast<double>(i - 1);
+  show(progress);
+  if (static_cast<double>(i) > progress.total) {
+    progress.close();
+    return 0;
+  }
+  lua_pushinteger(L, i);
+  if (lua_getiuservalue(L, 1, 1) != LUA_TTABLE) {
+    lua_pop(L, 1);
+    return 1;
+  }
+  lua_rawgeti(L, -1, i);
+  lua_remove(L, -2);
+  return 2;
+}
+
+static int progress_text(lua_State* L) {
+  const auto& progress = self<ProgressHandle>(L);
+  return push(L, fmt::format("progress: {:.15g} of {:.15g}", progress.done, progress.total));
+}
+
+static int get_done(lua_State* L) { return push(L, self<ProgressHandle>(L).done); }
+static int get_total(lua_State* L) { return push(L, self<ProgressHandle>(L).total); }
+
+static const Entry functions[] = {
+    {"progress", guarded<new_progress>, R"(
+Shows how far a loop is: a bar on a terminal, with the time that is left; nothing in a pipe or a file. Over a number or a list
+it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It goes with the loop's end, or `close`.
+@param total? integer|any[]  how many steps, or what to go through; without, only the text is shown
+@param text? string
+@return progress
+> sum = 0
+> for i, word in clench.progress({"a", "bb"}, "counting") do sum = sum + i * #word end
+> for i in clench.progress(3) do sum = sum + i end
+> sum  --> 11
+> clench.progress(-1)  --> error: expected a number >= 0)"},
+};
+
+static const Entry methods[] = {
+    {"step", guarded<step>, R"(
+So many steps more are done.
+@param count? number  default 1
+@param text? string  shown beside the bar from now on
+> p = clench.progress(10, "closing")
+> p:step(4, "opening")
+> p:close()
+> p.done, p.total  --> 4.0, 10.0)"},
+    {"close", guarded<close>, R"(
+Takes the bar away. A progress in a variable that is declared <close> does so by itself.
+> p = clench.progress(10)
+> p:close()
+> p  --> progress: 0 of 10)"},
+};
+
+static const Entry fields[] = {
+    {"done", guarded<get_done>, R"(
+Steps that are done.
+@type number
+> clench.progress(10).done  --> 0.0)"},
+    {"total", guarded<get_total>, R"(
+Steps in all; 0 when that is not known.
+@type number
+> clench.progress(10).total  --> 10.0)"},
+};
+
+static const Entry operators[] = {{"__tostring", guarded<progress_text>, ""},
+                                  {"__call", guarded<next>, ""}};
+
+const Library progress_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class progress_class{.name = "progress",
+                           .variable = "progress",
+                           .doc = "How far a script's loop is, as `clench.progress` shows it.",
+                           .fields = fields,
+                           .methods = methods,
+                           .operators = operators};
+
+}  // namespace clench

@@ -1,0 +1,107 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+
+namespace clench {
+
+static int make_random(lua_State* L) {
+  check_count(L, 2);
+  const auto seed = static_cast<uint64_t>(check_integer(L, 1, "seed"));
+  const auto item = given(L, 2) ? static_cast<uint64_t>(check_integer(L, 2, "item")) : 0;
+  return push_object(L, Random(seed, item));
+}
+
+static int uniform(lua_State* L) {
+  check_count(L, 2);
+  Random& random = self<Random>(L);
+  const double low = given(L, 2) ? check_number(L, 2, "low") : 0;
+  const double high = given(L, 3) ? check_number(L, 3, "high") : 1;
+  if (!(low <= high)) fail("{}: expected low <= high, got {} and {}", subject(L), low, high);
+  return push(L, random.uniform(low, high));
+}
+
+static int normal(lua_State* L) {
+  check_count(L, 0);
+  return push(L, self<Random>(L).normal());
+}
+
+// no bias: what lies beyond the last whole multiple of the range is drawn again
+static int integer(lua_State* L) {
+  check_count(L, 2);
+  Random& random = self<Random>(L);
+  const int64_t low = check_integer(L, 2, "low"), high = check_integer(L, 3, "high");
+  if (low > high) fail("{}: expected low <= high, got {} and {}", subject(L), low, high);
+  const uint64_t range =
+      static_cast<uint64_t>(high) - static_cast<uint64_t>(low) + 1;  // 0: all of them
+  uint64_t bits = random.bits();
+  if (range)
+    for (const uint64_t beyond = (0 - range) % range; bits < beyond;) bits = random.bits();
+  const uint64_t offset = range ? bits % range : bits;
+  lua_pushinteger(L, static_cast<int64_t>(static_cast<uint64_t>(low) + offset));
+  return 1;
+}
+
+static int direction(lua_State* L) {
+  check_count(L, 0);
+  Random& random = self<Random>(L);
+  for (;;) {
+    const double x = random.normal(), y = random.normal(), z = random.normal();
+    const Eigen::Vector3d v(x, y, z);
+    if (v.norm() > 1e-6) return push(L, Eigen::Vector3d(v.normalized()));
+  }
+}
+
+static int text(lua_State* L) {
+  self<Random>(L);
+  return push(L, "random numbers");
+}
+
+static const Entry functions[] = {
+    {"random", guarded<make_random>, R"(
+A stream of random numbers, fixed by a seed and the number of an item, the same on every machine.
+@param seed integer
+@param item? integer  which of many streams, default 0
+@return random
+> clench.random(1):uniform() == clench.random(1):uniform()  --> true
+> clench.random(1, 2):uniform() == clench.random(1, 3):uniform()  --> false)"},
+};
+
+static const Entry methods[] = {
+    {"uniform", guarded<uniform>, R"(
+A number from low (included, default 0) to high (excluded, default 1).
+@param low? number
+@param high? number
+@return number
+> x = clench.random(7):uniform(2, 3)
+> x >= 2 and x < 3  --> true)"},
+    {"normal", guarded<normal>, R"(
+A number of the normal distribution with mean 0 and deviation 1.
+@return number
+> math.abs(clench.random(7):normal()) < 6  --> true)"},
+    {"integer", guarded<integer>, R"(
+An integer from low to high, both included, each as likely.
+@param low integer
+@param high integer
+@return integer
+> clench.random(7):integer(4, 4)  --> 4
+> clench.random(7):integer(5, 4)  --> error: expected low <= high, got 5 and 4)"},
+    {"direction", guarded<direction>, R"(
+A unit vector, each direction as likely.
+@return vec3
+> math.abs(clench.random(7):direction():norm() - 1) < 1e-15  --> true)"},
+};
+
+static const Entry operators[] = {{"__tostring", guarded<text>, ""}};
+
+const Library random_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class random_class{.name = "random",
+                         .variable = "random",
+                         .doc = "A stream of random numbers, made by `clench.random`.",
+                         .fields = {},
+                         .methods = methods,
+                         .operators = operators};
+
+}  // namespace clench

@@ -1,0 +1,213 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/base/convert.h"
+#include "clench/render/render.h"
+#include "clench/scene/force_arrows.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+static Eye read_eye(Table& options, const Eye& from) {
+  Eye eye = from;
+  eye.eye = options.vec3("eye", from.eye);
+  eye.target = options.vec3("target", from.target);
+  eye.up = options.vec3("up", from.up);
+  eye.field_of_view = options.positive("field_of_view", from.field_of_view);
+  const Eigen::Vector3d back = eye.eye - eye.target;
+  // an up that one does not ask for gives way
+  if (options.has("up") && !(eye.up.cross(back).norm() > 1e-9 * back.norm() * eye.up.norm()))
+    fail("{}: expected eye and target apart, and up not along the view", options.subject());
+  return eye;
+}
+
+static constexpr double longest_arrow = 0.6;  // part of the object's largest radius
+
+// the list `forces` of a result of grasp:contact_forces
+struct GivenForces {
+  std::vector<PlacedForce> forces;
+  std::vector<Id<Robot>> robots;  // that press
+  double longest = 0;             // length of an arrow that suits the objects [m]
+};
+
+static GivenForces read_forces(lua_State* L, Table& options) {
+  GivenForces given;
+  if (options.push("forces") != LUA_TNIL) {
+    if (!lua_istable(L, -1)) fail_expected(options.what("forces"), "a list of forces", -1);
+    const int list = lua_gettop(L), count = static_cast<int>(lua_rawlen(L, list));
+    for (int i = 1; i <= count; ++i) {
+      lua_rawgeti(L, list, i);
+      Table item(L, lua_gettop(L), options.what("forces").item(i).text());
+      const auto* contact = item.object<ContactHandle>("contact");
+      if (!contact) fail_expected(item.what("contact"), "a contact", lua_gettop(L) + 1);
+      given.forces.push_back({contact->contact.p_W, item.vec3("force")});
+      given.robots.push_back(contact->world->body(contact->contact.other).robot);
+      const double radius = contact->world->body(contact->contact.body).max_radius();
+      given.longest = std::max(given.longest, longest_arrow * radius);
+      lua_pop(L, 1);
+    }
+  }
+  lua_pop(L, 1);
+  return given;
+}
+
+static void add_forces(Table& options, const GivenForces& given, Scene& scene) {
+  const double longest = given.longest > 0 ? given.longest : 1;
+  const double scale = options.positive("force_scale", force_scale(given.forces, longest));
+  scene.arrows = force_arrows(given.forces, scale);
+  scene.labels = force_labels(given.forces, scale);
+  if (!scene.labels.empty())
+    scene.caption = {fmt::format("forces on the object, the largest {}", scene.labels[0].text)};
+}
+
+// its address names the place where a state remembers that it was told
+static const char told_key = 0;
+
+void warn_without_letters(lua_State* L, const Font& font) {
+  if (font.fault().empty()) return;
+  const bool told = lua_rawgetp(L, LUA_REGISTRYINDEX, &told_key) == LUA_TBOOLEAN;
+  lua_pop(L, 1);
+  if (told) return;
+  lua_pushboolean(L, true);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &told_key);
+  log_warning(L, font.fault());
+}
+
+Picture draw_scene(lua_State* L, Table& options, Scene scene) {
+  RenderOptions rendering;
+  const auto size =
+      options.has("size") ? options.numbers("size", 2) : std::vector<double>{1280, 960};
+  for (const double n : size)
+    if (n != std::floor(n) || !(n >= 1 && n <= 1e6))
+      fail("{}: size: expected whole numbers of pixels, at least 1, got {}", options.subject(), n);
+  rendering.width = floor_int(size[0]);
+  rendering.height = floor_int(size[1]);
+  rendering.samples = options.integer("samples", rendering.samples);
+  // a camera that is given in part begins from the one that frames everything
+  const int parts =
+      options.has("eye") + options.has("target") + options.has("up") + options.has("field_of_view");
+  const bool whole = parts == 4;
+  const Eye framed = whole ? Eye{} : frame_all(scene, size[1] > 0 ? size[0] / size[1] : 1);
+  const Eye eye = read_eye(options, framed);
+  if (parts > 0) scene.eye = eye;
+  options.done();
+  const Font font;
+  if (!scene.labels.empty() || !scene.caption.empty()) warn_without_letters(L, font);
+  const Watching watching(L);
+  rendering.progress = watching.progress();
+  return render(scene, rendering, font);
+}
+
+static int draw(lua_State* L) {
+  check_count(L, 2);
+  const auto& world = *check_object<WorldHandle>(L, 1, "world").world;
+  Table options(L, 2);
+  SceneOptions showing;
+  showing.patches = options.boolean("patches", showing.patches);
+  showing.contacts = options.boolean("contacts", !showing.patches);
+  showing.ground = options.boolean("ground", showing.ground);
+  showing.transparent_objects = options.boolean("transparent_objects", showing.transparent_objects);
+  showing.file_colors = options.boolean("file_colors", showing.file_colors);
+  GivenForces given = read_forces(L, options);
+  showing.see_through = std::move(given.robots);
+  Scene scene = make_scene(world, showing);
+  add_forces(options, given, scene);
+  return push_object(L, draw_scene(L, options, std::move(scene)));
+}
+
+static int save(lua_State* L) {
+  check_count(L, 1);
+  const std::string path = check_string(L, 2, "path");
+  if (!path.ends_with(".png"))
+    fail("{}: expected a name that ends in .png, got '{}'", subject(L), path);
+  save_png(self<Picture>(L), path);
+  return 0;
+}
+
+static int get_width(lua_State* L) { return push(L, self<Picture>(L).width); }
+static int get_height(lua_State* L) { return push(L, self<Picture>(L).height); }
+
+static int pixel(lua_State* L) {
+  check_count(L, 2);
+  const Picture& p = self<Picture>(L);
+  const int x = check_int(L, 2, "x"), y = check_int(L, 3, "y");
+  if (x < 1 || x > p.width || y < 1 || y > p.height)
+    fail("{}: expected 1..{}, 1..{}, got {}, {}", subject(L), p.width, p.height, x, y);
+  const size_t at = 3 * (static_cast<size_t>(y - 1) * p.width + (x - 1));
+  for (int k = 0; k < 3; ++k) push(L, static_cast<int>(p.pixels[at + k]));
+  return 3;
+}
+
+static int text(lua_State* L) {
+  const Picture& p = self<Picture>(L);
+  return push(L, fmt::format("picture of {} x {} pixels", p.width, p.height));
+}
+
+static int equal(lua_State* L) {
+  const auto *a = to<Picture>(L, 1), *b = to<Picture>(L, 2);
+  return push(L,
+              a && b && a->width == b->width && a->height == b->height && a->pixels == b->pixels);
+}
+
+static const Entry functions[] = {
+    {"render", guarded<draw>, R"(
+Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches
+of all soft contacts, without the cones, which would cover them. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
+@param world world
+@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number}  size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press, with their newtons, through links that one sees through; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
+@return picture
+> clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels
+> held = grasp:contact_forces{load = {0, 0, -3, 0, 0, 0}}
+> clench.render(world, {size = {64, 48}, forces = held.forces}) == clench.render(world, {size = {64, 48}})  --> false
+> bare = clench.render(world, {size = {64, 48}, patches = true, contacts = false})
+> clench.render(world, {size = {64, 48}, patches = true}) == bare  --> true
+> clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: expected a contact, got nothing)"},
+};
+
+static const Entry fields[] = {
+    {"width", guarded<get_width>, R"(
+Its width.
+@type integer  pixels
+> clench.render(world, {size = {64, 48}}).width  --> 64)"},
+    {"height", guarded<get_height>, R"(
+Its height.
+@type integer  pixels
+> clench.render(world, {size = {64, 48}}).height  --> 48)"},
+};
+
+static const Entry methods[] = {
+    {"save", guarded<save>, R"(
+Writes a PNG file.
+@param path string
+> clench.render(world, {size = {64, 48}}):save("no/such/folder/a.png")  --> error: no/such/folder/a.png
+> clench.render(world, {size = {64, 48}}):save("a.jpg")  --> error: .png)"},
+    {"pixel", guarded<pixel>, R"(
+Red, green and blue of a pixel, 0 to 255; (1, 1) is the upper left.
+@param x integer
+@param y integer
+@return integer red
+@return integer green
+@return integer blue
+> select("#", clench.render(world, {size = {64, 48}}):pixel(1, 1))  --> 3)"},
+};
+
+static const Entry operators[] = {
+    {"__tostring", guarded<text>, ""},
+    {"__eq", guarded<equal>, ""},
+};
+
+const Library render_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class picture_class{.name = "picture",
+                          .variable = "picture",
+                          .doc =
+                              "A picture: red, green and blue, 8 bits each. "
+                              "`==` compares every pixel.",
+                          .fields = fields,
+                          .methods = methods,
+                          .operators = operators};
+
+}  // namespace clench

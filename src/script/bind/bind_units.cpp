@@ -1,0 +1,52 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/base/units.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+
+namespace clench {
+
+static int rad(lua_State* L) { return push(L, check_number(L, 1, "degrees") * units::degree); }
+static int deg(lua_State* L) { return push(L, check_number(L, 1, "radians") / units::degree); }
+static int mm(lua_State* L) {
+  return push(L, check_number(L, 1, "millimetres") * units::millimetre);
+}
+static int version(lua_State* L) { return push(L, CLENCH_VERSION); }
+
+static const Entry functions[] = {
+    {"rad", guarded<rad>, R"(
+Degrees to radians.
+@param degrees number
+@return number  [rad]
+> clench.rad(180) == math.pi  --> true
+> clench.rad "90"  --> error: clench.rad: degrees: expected a number, got '90')"},
+    {"deg", guarded<deg>, R"(
+Radians to degrees.
+@param radians number
+@return number  [deg]
+> clench.deg(math.pi)  --> 180.0)"},
+    {"mm", guarded<mm>, R"(
+Millimetres to metres.
+@param millimetres number
+@return number  [m]
+> clench.mm(25)  --> 0.025)"},
+};
+
+static const Entry fields[] = {
+    {"version", guarded<version>, R"(
+Version of the engine, major.minor.patch.
+@type string
+> #clench.version >= 5  --> true)"},
+};
+
+const Library units_library{
+    .name = "clench",
+    .doc =
+        "Simulates, judges and plans robotic grasps. Lengths are metres, angles radians, masses "
+        "kilograms, forces "
+        "newtons; poses and vectors are in the world frame unless a text says otherwise.",
+    .functions = functions,
+    .fields = fields};
+
+}  // namespace clench

@@ -1,0 +1,224 @@
+#include "clench/script/bind/bind.h"
+
+#include "clench/base/suggest.h"
+#include "clench/contact/cone.h"
+#include "clench/contact/friction_edges.h"
+#include "clench/motion/virtual_contacts.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+int push_virtual_contacts(lua_State* L, const RobotHandle& robot,
+                          const std::vector<VirtualContactSpec>& contacts) {
+  return push_list_of(L, contacts, [&](const VirtualContactSpec& contact) {
+    push_object(L, VirtualContactHandle{robot, contact});
+  });
+}
+
+// --- values into contacts ---
+
+static ChainPlace place_of_body(const Body& body, const RobotHandle& robot, const What& what) {
+  const bool link = body.kind == BodyKind::link;
+  if (body.robot != robot.id || !(link || body.kind == BodyKind::base))
+    fail("{}: '{}' is no link of robot '{}'", what.text(), body.name, robot->name);
+  return place_of(robot->chains, body.link);
+}
+
+static ChainPlace place_of_name(const std::string& name, const RobotHandle& robot,
+                                const What& what) {
+  std::vector<std::string> names;
+  for (const auto id : robot.world->bodies_of(robot.id)) {
+    const Body& body = robot.world->body(id);
+    if (body.kind == BodyKind::mount) continue;
+    if (body.name == name || body.name == robot->name + "_" + name)
+      return place_of_body(body, robot, what);
+    names.push_back(body.name);
+  }
+  fail("{}: robot '{}' has no link '{}'{}", what.text(), robot->name, name,
+       did_you_mean(name, names));
+}
+
+static ChainPlace read_place(lua_State* L, Table& table, const RobotHandle& robot) {
+  const What what = table.what("link");
+  const int type = table.push("link");
+  ChainPlace place;
+  if (const auto* body = to<BodyHandle>(L, -1)) {
+    if (body->world != robot.world)
+      fail("{}: '{}' belongs to another world", what.text(), (*body)->name);
+    place = place_of_body(**body, robot, what);
+  } else if (type == LUA_TSTRING) {
+    place = place_of_name(read_string(L, -1, what), robot, what);
+  } else if (type == LUA_TNUMBER) {
+    // numbers as lists from files have them; that they exist is checked with the whole
+    const int chain = table.integer("chain", 0);
+    if (chain < 0) fail("{}: chain: expected 0 or more, got {}", what.text(), chain);
+    place = {chain - 1, chain == 0 ? 0 : std::max(read_int(L, -1, what), 0) - 1};
+  } else {
+    fail_expected(what, "a link, its name, or its number with that of its chain", -1);
+  }
+  lua_pop(L, 1);
+  return place;
+}
+
+static FrictionEdges read_friction_edges(Table& table) {
+  if (!table.has("edges")) return friction_edges(table.number("torsion_radius", 0));
+  const auto rows = table.rows("edges", 6);
+  FrictionEdges edges(6, static_cast<int>(rows.size()));
+  for (size_t e = 0; e < rows.size(); ++e)
+    edges.col(static_cast<int>(e)) = Eigen::Map<const Vector6d>(rows[e].data());
+  return edges;
+}
+
+static Pose read_frame(Table& table) {
+  const bool both = table.has("point") || table.has("normal");
+  if (table.has("frame") && both)
+    fail("{}: expected frame, or point and normal, got both", table.subject());
+  if (table.has("frame")) return table.pose("frame");
+  const Eigen::Vector3d normal = table.vec3("normal");
+  if (!(normal.norm() > 1e-9) || !std::isfinite(normal.norm()))
+    fail("{}: normal: expected a direction", table.subject());
+  return {Eigen::Quaterniond(contact_frame(normal.normalized())).normalized(), table.vec3("point")};
+}
+
+VirtualContactSpec read_virtual_contact(lua_State* L, int i, const What& what,
+                                        const RobotHandle& robot) {
+  i = lua_absindex(L, i);
+  if (const auto* own = to<VirtualContactHandle>(L, i)) return own->contact;
+  if (const auto* real = to<ContactHandle>(L, i)) {
+    if (real->world != robot.world) fail("{}: the contact is of another world", what.text());
+    return marked(*robot.world, robot.id, real->contact);
+  }
+  if (!lua_istable(L, i))
+    fail_expected(what, "a virtual contact, a contact, or a table such as {link, point, normal}",
+                  i);
+  Table table(L, i, what.text());
+  VirtualContactSpec contact;
+  const ChainPlace place = read_place(L, table, robot);
+  contact.chain = place.chain;
+  contact.link = place.link;
+  table.integer("chain", 0);  // known, though a link given otherwise does not ask for it
+  contact.X_LC = read_frame(table);
+  contact.mu = table.number("mu", 1);
+  contact.edges = read_friction_edges(table);
+  table.done();
+  return contact;
+}
+
+// --- fields ---
+
+static BodyHandle link_of(const VirtualContactHandle& c) {
+  return {c.robot.world, body_of(*c.robot, c.contact)};
+}
+
+static Pose frame_of(const VirtualContactHandle& c) {
+  const BodyHandle link = link_of(c);
+  return link.world->pose(link.id) * c.contact.X_LC;
+}
+
+static int get_link(lua_State* L) { return push(L, link_of(self<VirtualContactHandle>(L))); }
+static int get_chain(lua_State* L) {
+  return push(L, self<VirtualContactHandle>(L).contact.chain + 1);
+}
+static int get_point(lua_State* L) {
+  return push(L, frame_of(self<VirtualContactHandle>(L)).position);
+}
+static int get_normal(lua_State* L) {
+  const Pose frame = frame_of(self<VirtualContactHandle>(L));
+  return push(L, Eigen::Vector3d(frame.rotation * Eigen::Vector3d::UnitZ()));
+}
+static int get_frame(lua_State* L) { return push(L, frame_of(self<VirtualContactHandle>(L))); }
+static int get_frame_in_link(lua_State* L) {
+  return push(L, self<VirtualContactHandle>(L).contact.X_LC);
+}
+static int get_mu(lua_State* L) { return push(L, self<VirtualContactHandle>(L).contact.mu); }
+static int get_edges(lua_State* L) {
+  return push_rows(L, self<VirtualContactHandle>(L).contact.edges.transpose());
+}
+
+// largest torque about the normal, over mu and force
+static double torsion_radius(const VirtualContactSpec& contact) {
+  return contact.edges.cols() ? contact.edges.row(5).cwiseAbs().maxCoeff() : 0.0;
+}
+
+static int get_torsion_radius(lua_State* L) {
+  return push(L, torsion_radius(self<VirtualContactHandle>(L).contact));
+}
+static int get_kind(lua_State* L) {
+  const auto& contact = self<VirtualContactHandle>(L).contact;
+  return push(L, torsion_radius(contact) > 0 ? "soft" : "point");
+}
+
+static int text(lua_State* L) {
+  const auto& c = self<VirtualContactHandle>(L);
+  if (!c.robot.world->alive(c.robot.id)) return push(L, "virtual contact of a removed robot");
+  const Eigen::Vector3d p = frame_of(c).position;
+  return push(L, fmt::format("virtual contact on {} at ({:.6g}, {:.6g}, {:.6g})", link_of(c)->name,
+                             p.x(), p.y(), p.z()));
+}
+
+static const Entry fields[] = {
+    {"link", guarded<get_link>, R"(
+The link that it lies on, or the base.
+@type body
+> hand.virtual_contacts[1].link.robot == hand  --> true)"},
+    {"chain", guarded<get_chain>, R"(
+Number of the link's chain; 0 for the base.
+@type integer
+> hand:find_virtual_contacts()[1].chain  --> 1)"},
+    {"point", guarded<get_point>, R"(
+Where it is, in the world frame; it moves with its link.
+@type vec3  [m]
+> c = hand.virtual_contacts[1]
+> (c.point - c.link.pose * c.frame_in_link.position):norm() < 1e-12  --> true)"},
+    {"normal", guarded<get_normal>, R"(
+Unit normal out of the link, in the world frame: into what it is to touch.
+@type vec3
+> math.abs(hand.virtual_contacts[1].normal:norm() - 1) < 1e-12  --> true)"},
+    {"frame", guarded<get_frame>, R"(
+Contact frame in the world: origin at the point, +z along the normal.
+@type pose
+> c = hand.virtual_contacts[1]
+> (c.frame:rotate{0, 0, 1} - c.normal):norm() < 1e-12  --> true)"},
+    {"frame_in_link", guarded<get_frame_in_link>, R"(
+Contact frame in the link's.
+@type pose
+> c = hand.virtual_contacts[1]
+> (c.link.pose * c.frame_in_link).position == c.point  --> true)"},
+    {"mu", guarded<get_mu>, R"(
+Coulomb coefficient that it counts with.
+@type number
+> hand.virtual_contacts[1].mu > 0  --> true)"},
+    {"edges", guarded<get_edges>, R"(
+What friction a unit normal force carries, over mu: a list of {fx, fy, fz, tx, ty, tz} in the contact frame.
+@type number[][]  torques [m]
+> hand:add_virtual_contact{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}}
+> #hand.virtual_contacts[#hand.virtual_contacts].edges  --> 8)"},
+    {"torsion_radius", guarded<get_torsion_radius>, R"(
+Largest torque about the normal that a unit normal force carries, over mu; 0 for a point.
+@type number  [m]
+> hand:add_virtual_contact{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}, torsion_radius = 0.002}
+> c = hand.virtual_contacts[#hand.virtual_contacts]
+> c.torsion_radius, c.kind, #c.edges  --> 0.002, soft, 20)"},
+    {"kind", guarded<get_kind>, R"(
+"point", or "soft" when it carries torque about the normal.
+@type string
+> hand.virtual_contacts = {{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}}}
+> hand.virtual_contacts[1].kind  --> point)"},
+};
+
+static const Entry operators[] = {
+    {"__tostring", guarded<text>, ""},
+};
+
+const Class virtual_contact_class{.name = "virtual_contact",
+                                  .variable = "virtual_contact",
+                                  .doc =
+                                      "A place on a link where a hand would like to touch what it "
+                                      "grasps; it moves with the link.",
+                                  .fields = fields,
+                                  .methods = {},
+                                  .operators = operators};
+
+}  // namespace clench

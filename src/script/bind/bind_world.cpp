@@ -1,0 +1,480 @@
+#include <algorithm>
+#include <array>
+
+#include "clench/base/suggest.h"
+#include "clench/model/build.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/read_spec.h"
+#include "clench/script/bind/world_files.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+#include "clench/spec/plausibility.h"
+
+namespace clench {
+
+static World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
+
+// --- making ---
+
+static int new_world(lua_State* L) {
+  check_count(L, 1);
+  Table options(L, 1);
+  const auto world = std::make_shared<World>();
+  world->set_contact_threshold(options.number("contact_threshold", world->contact_threshold()));
+  options.done();
+  return push_world(L, world);
+}
+
+static int add_body(lua_State* L, BodyKind kind) {
+  check_count(L, 2);
+  const auto& handle = self<WorldHandle>(L);
+  Table options(L, 3);
+  const ReadOptions reading = read_options(L, options);
+  const BodySpec spec = check_body_spec(L, 2, options, reading);
+  if (kind == BodyKind::object) {
+    const std::string file = std::filesystem::path(spec.file).filename().string();
+    check_plausible_object(spec, file.empty() ? subject(L) + ": mesh" : file, reading.listeners());
+  }
+  const Pose pose = options.pose("pose", Pose{});
+  const bool named = options.has("name");
+  options.done();
+  const auto id = handle.world->add_body(spec, kind, pose, named ? spec.name : "");
+  add_owned_bodies(L, 1, std::array{id});
+  return push(L, BodyHandle{handle.world, id});
+}
+
+static int add_object(lua_State* L) { return add_body(L, BodyKind::object); }
+static int add_obstacle(lua_State* L) { return add_body(L, BodyKind::obstacle); }
+
+static int add_robot(lua_State* L) {
+  check_count(L, 2);
+  const auto& handle = self<WorldHandle>(L);
+  const std::string path = check_string(L, 2, "path");
+  Table options(L, 3);
+  ReadOptions reading = read_options(L, options);
+  read_robot_options(L, options, reading);
+  const Pose pose = options.pose("pose", Pose{});
+  const std::string name = options.string("name", "");
+  options.done();
+  const RobotSpec spec = read_robot(find_file(path, {}, reading), reading);
+  const auto id = clench::add_robot(*handle.world, spec, pose, name, reading.listeners());
+  add_owned_bodies(L, 1, handle.world->bodies_of(id));
+  return push(L, RobotHandle{handle.world, id});
+}
+
+static int remove(lua_State* L) {
+  check_count(L, 1);
+  const auto& handle = self<WorldHandle>(L);
+  check_bodies(L, 2, "entity", handle.world);  // of this world, and alive
+  if (const auto* robot = to<RobotHandle>(L, 2))
+    handle.world->remove(robot->id);
+  else
+    handle.world->remove(to<BodyHandle>(L, 2)->id);
+  return 0;
+}
+
+// --- finding ---
+
+template <class Handle, class Ids>
+static int push_handles(lua_State* L, const WorldPtr& world, const Ids& ids) {
+  return push_list_of(L, ids, [&](auto id) { push(L, Handle{world, id}); });
+}
+
+static int get_bodies(lua_State* L) {
+  const auto& handle = self<WorldHandle>(L);
+  return push_bodies(L, handle.world, handle.world->bodies());
+}
+
+static int push_kind(lua_State* L, BodyKind kind) {
+  const auto& handle = self<WorldHandle>(L);
+  std::vector<Id<Body>> ids;
+  for (const auto id : handle.world->bodies())
+    if (handle.world->body(id).kind == kind) ids.push_back(id);
+  return push_bodies(L, handle.world, ids);
+}
+
+static int get_objects(lua_State* L) { return push_kind(L, BodyKind::object); }
+static int get_obstacles(lua_State* L) { return push_kind(L, BodyKind::obstacle); }
+
+static int get_robots(lua_State* L) {
+  const auto& handle = self<WorldHandle>(L);
+  return push_handles<RobotHandle>(L, handle.world, handle.world->robots());
+}
+
+static int body(lua_State* L) {
+  check_count(L, 1);
+  const auto& handle = self<WorldHandle>(L);
+  const std::string name = check_string(L, 2, "name");
+  const auto id = handle.world->find_body(name);
+  if (!id) {
+    std::vector<std::string> names;
+    for (const auto other : handle.world->bodies()) names.push_back(handle.world->body(other).name);
+    fail("{}: no body '{}' in this world{}", subject(L), name, did_you_mean(name, names));
+  }
+  return push(L, BodyHandle{handle.world, id});
+}
+
+static int robot(lua_State* L) {
+  check_count(L, 1);
+  const auto& handle = self<WorldHandle>(L);
+  const std::string name = check_string(L, 2, "name");
+  const auto id = handle.world->find_robot(name);
+  if (!id) {
+    std::vector<std::string> names;
+    for (const auto other : handle.world->robots())
+      names.push_back(handle.world->robot(other).name);
+    fail("{}: no robot '{}' in this world{}", subject(L), name, did_you_mean(name, names));
+  }
+  return push(L, RobotHandle{handle.world, id});
+}
+
+// --- time machine ---
+
+static int clone(lua_State* L) {
+  check_count(L, 0);
+  return push_world(L, std::make_shared<World>(world_of(L)));
+}
+
+static int snapshot(lua_State* L) {
+  check_count(L, 0);
+  const auto& handle = self<WorldHandle>(L);
+  return push_object(L, SnapshotHandle{handle.world->snapshot()});
+}
+
+static int restore(lua_State* L) {
+  check_count(L, 1);
+  const auto& handle = self<WorldHandle>(L);
+  handle.world->restore(*check_object<SnapshotHandle>(L, 2, "snapshot").moment);
+  return 0;
+}
+
+static int hash(lua_State* L) {
+  check_count(L, 0);
+  return push(L, fmt::format("{:016x}", world_of(L).hash()));
+}
+
+// --- who touches whom ---
+
+static int collides(lua_State* L) {
+  check_count(L, 0);
+  World& world = *self<WorldHandle>(L).world;
+  return push(L, clench::collides(world, &world.context()));
+}
+
+static int colliding(lua_State* L) {
+  check_count(L, 2);
+  const auto& world = self<WorldHandle>(L).world;
+  if (!given(L, 2)) return push_pairs(L, world, colliding_pairs(*world, &world->context()));
+  const auto a = check_bodies(L, 2, "a", world);
+  const auto b = given(L, 3) ? check_bodies(L, 3, "b", world) : world->bodies();
+  return push_pairs(L, world, colliding_pairs(*world, a, b, &world->context()));
+}
+
+static int measure_distance(lua_State* L) {
+  check_count(L, 2);
+  const auto& world = self<WorldHandle>(L).world;
+  const auto a = check_bodies(L, 2, "a", world), b = check_bodies(L, 3, "b", world);
+  const BodyDistance d =
+      distance(*world, a, b, std::numeric_limits<double>::infinity(), &world->context());
+  push_unbounded(L, d.distance);
+  push(L, d.p_a);
+  push(L, d.p_b);
+  return 3;
+}
+
+static int find_contacts(lua_State* L) {
+  check_count(L, 2);
+  const auto& world = self<WorldHandle>(L).world;
+  if (!given(L, 2)) return push_contacts(L, world, contacts(*world, &world->context()));
+  const auto a = check_bodies(L, 2, "a", world);
+  const auto b = given(L, 3) ? check_bodies(L, 3, "b", world) : world->bodies();
+  // one argument: the contacts on it
+  return push_contacts(L, world,
+                       given(L, 3) ? contacts(*world, a, b, &world->context())
+                                   : contacts(*world, b, a, &world->context()));
+}
+
+static int set_collision(lua_State* L) {
+  check_count(L, 3);
+  const auto& world = self<WorldHandle>(L).world;
+  const bool on = check_boolean(L, 2, "on");
+  if (!given(L, 3)) {
+    world->set_collision(on);
+    return 0;
+  }
+  const auto group_a = check_bodies(L, 3, "a", world);
+  if (!given(L, 4)) {
+    for (const auto a : group_a) world->set_collision(on, a);
+    return 0;
+  }
+  const auto group_b = check_bodies(L, 4, "b", world);
+  for (const auto a : group_a)
+    for (const auto b : group_b)
+      if (a != b) world->set_collision(on, a, b);
+  return 0;
+}
+
+// --- friction ---
+
+static int set_friction(lua_State* L) {
+  check_count(L, 3);
+  const std::string a = check_string(L, 2, "material"), b = check_string(L, 3, "material");
+  Table options(L, 4);
+  const double statics = options.number("static");
+  const Friction friction{.statics = statics,
+                          .kinetic = options.number("kinetic", std::max(0.0, statics - 0.1))};
+  options.done();
+  world_of(L).set_friction(a, b, friction);
+  return 0;
+}
+
+static int friction(lua_State* L) {
+  check_count(L, 2);
+  const MaterialTable& table = world_of(L).materials();
+  const Friction f = table.friction(table.index(check_string(L, 2, "material")),
+                                    table.index(check_string(L, 3, "material")));
+  push(L, f.statics);
+  push(L, f.kinetic);
+  return 2;
+}
+
+static int get_materials(lua_State* L) {
+  return push_list_of(L, world_of(L).materials().names(),
+                      [&](const std::string& name) { push(L, name); });
+}
+
+static int get_contact_threshold(lua_State* L) { return push(L, world_of(L).contact_threshold()); }
+
+static int set_contact_threshold(lua_State* L) {
+  world_of(L).set_contact_threshold(check_number(L, 2));
+  return 0;
+}
+
+static int get_source(lua_State* L) { return push(L, world_of(L).source()); }
+
+static int text(lua_State* L) {
+  const World& world = world_of(L);
+  return push(L, fmt::format("world of {} bodies, {} robots", world.bodies().size(),
+                             world.robots().size()));
+}
+
+static int equal(lua_State* L) {
+  const auto *a = to<WorldHandle>(L, 1), *b = to<WorldHandle>(L, 2);
+  return push(L, a && b && a->world == b->world);
+}
+
+static int snapshot_text(lua_State* L) {
+  return push(L, fmt::format("snapshot of {} bodies",
+                             self<SnapshotHandle>(L).moment->model->body_order.size()));
+}
+
+// --- tables ---
+
+static const Entry functions[] = {
+    {"world", guarded<new_world>, R"(
+An empty world.
+@param options? {contact_threshold?: number}  surfaces closer than this touch, 1e-4 by default [m]
+@return world
+> #clench.world().bodies  --> 0)"},
+    {"load", guarded<load_world>, R"(
+A world from a file. Names in it are looked up beside the file, then below the root. A .lua file is run, with a table
+that holds the root and with the folder of the file as its arguments, and returns a world. With `confine`, here and wherever
+files are read, nothing is read that does not lie below that folder, links followed, and no .lua file is run.
+@param path string  .wld, .xml or .lua
+@param options? {root?: string, confine?: string, strict?: boolean}  strict: what would be warned of is an error
+@return world
+> #clench.load("worlds/dlr_flask.wld", {root = "."}).robots  --> 1
+> clench.load("no/such.wld")  --> error: no/such.wld)"},
+};
+
+static const Entry fields[] = {
+    {"bodies", guarded<get_bodies>, R"(
+All bodies in creation order: objects, obstacles, robot bases, links, mounts.
+@type body[]
+> world.bodies[1] ~= nil  --> true)"},
+    {"objects", guarded<get_objects>, R"(
+The bodies that can be grasped.
+@type body[]
+> world.objects[1] == flask  --> true)"},
+    {"obstacles", guarded<get_obstacles>, R"(
+The bodies that only stand in the way.
+@type body[]
+> #world.obstacles  --> 0)"},
+    {"robots", guarded<get_robots>, R"(
+All robots in creation order.
+@type robot[]
+> world.robots[1] == hand  --> true)"},
+    {"contact_threshold", guarded<get_contact_threshold>, R"(
+Surfaces closer than this touch; motion stops with a gap below it.
+@type number  [m]
+> world.contact_threshold  --> 0.0001)",
+     guarded<set_contact_threshold>},
+    {"materials", guarded<get_materials>, R"(
+Names of the materials, the seven of the original first.
+@type string[]
+> world.materials[1]  --> frictionless)"},
+    {"camera", guarded<get_camera>, R"(
+The camera of its file, as `clench.render` takes it: `clench.render(world, world.camera)`. nil when the file has none.
+It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_distance` [m].
+@type {eye: vec3, target: vec3, up: vec3, field_of_view: number}?
+> clench.world().camera  --> nil
+> world.camera = {eye = {1, 0, 0.5}, target = {0, 0, 0}, up = {0, 0, 1}}
+> world.camera.eye  --> (1, 0, 0.5)
+> world.camera = {eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}  --> error: up not along the view)",
+     guarded<set_camera>},
+    {"source", guarded<get_source>, R"(
+File that the world was loaded from; empty when it was made by a script.
+@type string
+> clench.world().source == ""  --> true)"},
+};
+
+static const Entry methods[] = {
+    {"body", guarded<body>, R"(
+The body of a name.
+@param name string
+@return body
+> world:body(flask.name) == flask  --> true
+> world:body "no such thing"  --> error: no body)"},
+    {"robot", guarded<robot>, R"(
+The robot of a name.
+@param name string
+@return robot
+> world:robot(hand.name) == hand  --> true
+> world:robot "no such thing"  --> error: no robot)"},
+    {"add_object", guarded<add_object>, R"(
+Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options
+give overrides the file.
+@param body string|table  file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
+@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, color?: number[], transparency?: number, root?: string, confine?: string, strict?: boolean, unit?: string, mesh_scale?: number}  density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
+@return body
+> world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "cube", mass = 0.2}).mass  --> 0.2
+> math.abs(world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {density = 1000}).mass - 1) < 1e-12  --> true
+> world:add_object "flsk.iv"  --> error: flsk.iv)"},
+    {"add_obstacle", guarded<add_obstacle>, R"(
+Adds a body that only stands in the way; as add_object.
+@param body string|table
+@param options? table
+@return body
+> world:add_obstacle(clench.shapes.box {1, 1, 0.1}, {pose = {xyz = {0, 0, -2}}}).kind  --> obstacle)"},
+    {"add_robot", guarded<add_robot>, R"(
+Adds a robot from a file.
+@param path string  .cfg .xml .urdf .mjcf
+@param options? {pose?: pose, name?: string, root?: string, confine?: string, strict?: boolean, folder?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}}  folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; eigengrasps, virtual_contacts: files to read in place of those it names; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
+@return robot
+> world:add_robot("nothing.cfg")  --> error: nothing.cfg)"},
+    {"remove", guarded<remove>, R"(
+Removes an object, an obstacle or a whole robot. Whoever still holds it gets an error that names it.
+@param entity body|robot
+> world:remove(flask)
+> flask.pose  --> error: was removed)"},
+    {"clone", guarded<clone>, R"(
+An independent copy that shares the meshes. Its things are found by name or place in its lists.
+@return world
+> copy = world:clone()
+> copy == world  --> false
+> copy:hash() == world:hash()  --> true)"},
+    {"snapshot", guarded<snapshot>, R"(
+The state of the world now, exact to the bit.
+@return snapshot
+> world:snapshot() ~= nil  --> true)"},
+    {"restore", guarded<restore>, R"(
+Back to a snapshot of this world, of a clone of it, or of one that it is a clone of: what was removed since is back, what was
+added since is gone.
+@param snapshot snapshot
+> before, moment = world:hash(), world:snapshot()
+> hand:open()
+> world:restore(moment)
+> world:hash() == before  --> true)"},
+    {"save", guarded<save_world>, R"(
+Writes the world: as .wld or .xml for GraspIt!, as a .lua script that holds everything. The old file stays until the
+new one has been read again; what the format cannot hold is told in a warning.
+@param path string  .wld, .xml or .lua
+@param options? {root?: string, confine?: string}  names of files below the root are written from there on; files of bodies and robots are read again, but for those that do not lie below `confine`
+> path = os.tmpname()
+> world:save(path .. ".lua")
+> clench.load(path .. ".lua"):hash() == world:hash()  --> true
+> os.remove(path)
+> os.remove(path .. ".lua")
+> world:save "world.txt"  --> error: expected a world to .wld, .xml or .lua, got '.txt')"},
+    {"hash", guarded<hash>, R"(
+Fingerprint of the state: equal bits, equal text.
+@return string  16 hexadecimal digits
+> #world:hash()  --> 16)"},
+    {"collides", guarded<collides>, R"(
+Does anything collide that may? The quickest verdict: it ends at the first pair that is found.
+@return boolean
+> world:collides()  --> false)"},
+    {"colliding", guarded<colliding>, R"(
+Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
+@param a? body|robot
+@param b? body|robot
+@return body[][]  pairs
+> #world:colliding()  --> 0)"},
+    {"distance", guarded<measure_distance>, R"(
+Least distance of two things, 0 when they collide, with the closest points in the world frame.
+@param a body|robot
+@param b body|robot
+@return number distance  [m]; infinite where one has no surface
+@return vec3 on_a
+@return vec3 on_b
+> world:distance(hand, flask) <= world.contact_threshold  --> true)"},
+    {"contacts", guarded<find_contacts>, R"(
+Where surfaces touch: everywhere, on one entity, or of `a` on `b`.
+@param a? body|robot
+@param b? body|robot
+@return contact[]  on b; without arguments on the object of each pair
+> world:contacts(hand, flask)[1].body == flask  --> true)"},
+    {"set_collision", guarded<set_collision>, R"(
+Switches collision on or off: for the whole world, for one entity against everything, or for a pair.
+@param on boolean
+@param a? body|robot
+@param b? body|robot
+> world:set_collision(false, hand, flask)
+> #world:contacts(hand, flask)  --> 0)"},
+    {"set_friction", guarded<set_friction>, R"(
+Sets the Coulomb coefficients of a pair of materials; new names become materials.
+@param a string
+@param b string
+@param friction {static: number, kinetic?: number}  kinetic: static - 0.1 unless given
+> world:set_friction("cork", "wood", {static = 0.7})
+> world:friction("wood", "cork")  --> 0.7, 0.6)"},
+    {"friction", guarded<friction>, R"(
+The coefficients of a pair of materials.
+@param a string
+@param b string
+@return number static
+@return number kinetic
+> world:friction("rubber", "stone")  --> 1.5, 1.4)"},
+};
+
+static const Entry operators[] = {
+    {"__tostring", guarded<text>, ""},
+    {"__eq", guarded<equal>, ""},
+};
+
+static const Entry snapshot_operators[] = {
+    {"__tostring", guarded<snapshot_text>, ""},
+};
+
+const Library world_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class world_class{.name = "world",
+                        .variable = "world",
+                        .doc =
+                            "Bodies and robots, what may collide with what, "
+                            "friction. Lists are in creation order.",
+                        .fields = fields,
+                        .methods = methods,
+                        .operators = operators};
+
+const Class snapshot_class{
+    .name = "snapshot",
+    .variable = "snapshot",
+    .doc = "The state of a world at a moment; `world:restore` goes back to it.",
+    .fields = {},
+    .methods = {},
+    .operators = snapshot_operators};
+
+}  // namespace clench

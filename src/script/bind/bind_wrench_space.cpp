@@ -1,0 +1,330 @@
+#include "clench/script/bind/bind.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/base/suggest.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+std::optional<int> read_edges(Table& options) {
+  const What what = options.what("edges");
+  std::optional<int> edges;
+  if (const int type = options.push("edges"); type == LUA_TSTRING) {
+    const std::string word = read_string(what.L, -1, what);
+    if (word != "exact")
+      fail("{}: edges must be 3 to {} or 'exact', got '{}'", options.subject(), max_edges, word);
+    edges = round_edges;
+  } else if (type != LUA_TNIL) {
+    edges = read_int(what.L, lua_gettop(what.L), what);
+    if (*edges < 3 || *edges > max_edges)
+      fail("{}: edges must be 3 to {} or 'exact', got {}", options.subject(), max_edges, *edges);
+  }
+  lua_pop(what.L, 1);
+  return edges;
+}
+
+bool is_gyration(Table& options) {
+  const What what = options.what("rho");
+  const bool word = options.push("rho") == LUA_TSTRING;
+  if (word) {
+    const std::string name = read_string(what.L, -1, what);
+    if (name != "gyration")
+      fail("{}: rho must be a number or 'gyration', got '{}'", options.subject(), name);
+  }
+  lua_pop(what.L, 1);
+  return word;
+}
+
+static int coordinate_of(const std::string& name, const What& what) {
+  const auto place = std::find(coordinate_names.begin(), coordinate_names.end(), name);
+  if (place == coordinate_names.end())
+    fail("{}: unknown coordinate '{}', expected fx, fy, fz, tx, ty or tz", what.text(), name);
+  return static_cast<int>(place - coordinate_names.begin());
+}
+
+std::optional<std::vector<int>> read_coordinates(Table& options, const char* key) {
+  const What what = options.what(key);
+  lua_State* L = what.L;
+  std::optional<std::vector<int>> out;
+  if (const int type = options.push(key); type == LUA_TTABLE) {
+    const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list of coordinates");
+    out.emplace();
+    for (int i = 1; i <= count; ++i) {
+      lua_rawgeti(L, list, i);
+      const int c = coordinate_of(read_string(L, lua_gettop(L), what.item(i)), what);
+      if (std::ranges::count(*out, c))
+        fail("{}: {} is there twice", what.text(), coordinate_names[c]);
+      out->push_back(c);
+      lua_pop(L, 1);
+    }
+  } else if (type != LUA_TNIL) {
+    fail_expected(what, "a list of coordinates", -1);
+  }
+  lua_pop(L, 1);
+  return out;
+}
+
+WrenchSpaceOptions read_space_options(Table& options) {
+  WrenchSpaceOptions out;
+  if (options.choice("norm", {"L1", "Linf"}, "L1") == "Linf") out.norm = WrenchNorm::linf;
+  out.coordinates = read_coordinates(options, "coordinates").value_or(out.coordinates);
+  return out;
+}
+
+// a contact of the list: {point, normal, mu, torsion_radius}, or a list of wrenches
+static UnitWrenches read_contact(lua_State* L, int i, const What& what, const ConeOptions& cone) {
+  if (!lua_istable(L, i)) fail_expected(what, "a list of wrenches or {point, normal, mu}", i);
+  // names, not numbers: a point and its cone
+  bool is_point = false;
+  for (const char* name : {"point", "normal", "mu", "torsion_radius"}) {
+    const int type = lua_getfield(L, i, name);
+    is_point = is_point || type != LUA_TNIL;
+    lua_pop(L, 1);
+  }
+  if (is_point) {
+    Table contact(L, i, what.text());
+    const PointContact point{.p_O = contact.vec3("point"),
+                             .n_O = contact.vec3("normal"),
+                             .mu = contact.number("mu"),
+                             .torsion_radius = contact.number("torsion_radius", 0)};
+    contact.done();
+    try {
+      return unit_wrenches(point, cone);
+    } catch (const Error& error) {
+      fail(error.kind(), "{}: {}", what.text(), error.what());
+    }
+  }
+  const auto rows = read_rows(L, i, what, 6);
+  Wrenches wrenches(6, static_cast<int>(rows.size()));
+  for (size_t c = 0; c < rows.size(); ++c)
+    wrenches.col(static_cast<int>(c)) = Eigen::Map<const Vector6d>(rows[c].data());
+  return {wrenches, {}};
+}
+
+static constexpr Eigen::Index max_space_edges = 100'000;  // each question goes through all
+
+static int new_wrench_space(lua_State* L) {
+  check_count(L, 1);
+  Table options(L, 1);
+  ConeOptions cone;
+  cone.edges = read_edges(options).value_or(cone.edges);
+  cone.rho = options.positive("rho", cone.rho);
+  cone.p_OM = options.vec3("com", Eigen::Vector3d::Zero());
+  const WrenchSpaceOptions space_options = read_space_options(options);
+  std::vector<UnitWrenches> contacts;
+  options.push("contacts");
+  const int list = lua_gettop(L);
+  const int count = read_list_size(L, list, options.what("contacts"), "a list of contacts");
+  Eigen::Index edges = 0;
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, list, i);
+    contacts.push_back(read_contact(L, lua_gettop(L), options.what("contacts").item(i), cone));
+    lua_pop(L, 1);
+    edges += contacts.back().edges.cols();
+    if (edges > max_space_edges)
+      fail(ErrorKind::limit, "{}: contacts: expected at most {} edges in all, got more", subject(L),
+           max_space_edges);
+  }
+  lua_pop(L, 1);
+  options.done();
+  return push_object(
+      L, WrenchSpacePtr(std::make_shared<WrenchSpace>(std::move(contacts), space_options)));
+}
+
+size_t owned_bytes(const WrenchSpacePtr& space) {
+  size_t bytes = sizeof *space;
+  for (const UnitWrenches& contact : space->contacts())
+    bytes += sizeof contact + 4 * static_cast<size_t>(contact.edges.size()) * sizeof(double);
+  return bytes;
+}
+
+static const WrenchSpace& space(lua_State* L) { return *self<WrenchSpacePtr>(L); }
+
+const char* norm_name(const WrenchSpace& s) {
+  return s.options().norm == WrenchNorm::l1 ? "L1" : "Linf";
+}
+
+int push_coordinate_names(lua_State* L, std::span<const int> coordinates) {
+  return push_list_of(L, coordinates, [&](int c) { push(L, coordinate_names[c]); });
+}
+
+static int epsilon(lua_State* L) {
+  check_count(L, 0);
+  return push(L, space(L).epsilon(Watching(L).progress()));
+}
+
+static int epsilon_bounds(lua_State* L) {
+  check_count(L, 1);
+  Table table(L, 2);
+  EpsilonOptions options;
+  options.tolerance = table.number("tolerance", options.tolerance);
+  if (table.has("at_least")) options.at_least = table.number("at_least");
+  table.done();
+  const EpsilonBounds bounds = space(L).epsilon_bounds(options, Watching(L).progress());
+  push_list(L, 0, 4);
+  set_field(L, "lower", bounds.lower);
+  set_field(L, "upper", bounds.upper);
+  set_field(L, "converged", bounds.converged);
+  if (options.at_least) set_field(L, "reached", bounds.lower >= *options.at_least);
+  return 1;
+}
+
+static int volume(lua_State* L) {
+  check_count(L, 0);
+  return push(L, space(L).volume(Watching(L).progress()));
+}
+
+static int volume_bounds(lua_State* L) {
+  check_count(L, 1);
+  Table table(L, 2);
+  const int edges = table.integer("edges", 32);
+  table.done();
+  const VolumeBounds bounds = space(L).volume_bounds(edges, Watching(L).progress());
+  push_list(L, 0, 2);
+  set_field(L, "lower", bounds.lower);
+  set_field(L, "upper", bounds.upper);
+  return 1;
+}
+
+static int closes_force(lua_State* L) {
+  check_count(L, 0);
+  return push(L, space(L).is_force_closure(Watching(L).progress()));
+}
+
+static int get_rank(lua_State* L) { return push(L, space(L).rank()); }
+static int get_norm(lua_State* L) { return push(L, norm_name(space(L))); }
+static int get_coordinates(lua_State* L) {
+  return push_coordinate_names(L, space(L).options().coordinates);
+}
+
+static int weakest(lua_State* L) {
+  check_count(L, 0);
+  const Weakest& w = space(L).weakest(Watching(L).progress());
+  push_list(L, 0, 3);
+  push_vector(L, w.direction);
+  lua_setfield(L, -2, "direction");
+  set_field(L, "resistance", w.resistance);
+  push_list_of(L, w.contacts, [&](int contact) { push(L, contact + 1); });
+  lua_setfield(L, -2, "contacts");
+  return 1;
+}
+
+static int wrenches(lua_State* L) {
+  check_count(L, 0);
+  const WrenchSpace& s = space(L);
+  if (s.is_round()) fail("{}: round cones have no edges to list, give a number", subject(L));
+  return push_list_of(L, s.contacts(), [&](const UnitWrenches& contact) {
+    push_rows(L, contact.edges.transpose());
+  });
+}
+
+static int space_text(lua_State* L) {
+  const WrenchSpace& s = space(L);
+  return push(L,
+              fmt::format("{} wrench space of {} contacts, rank {}, epsilon {:.6g}", norm_name(s),
+                          s.contacts().size(), s.rank(), s.epsilon(Watching(L).progress())));
+}
+
+static const Entry functions[] = {
+    {"wrench_space", guarded<new_wrench_space>, R"(
+All wrenches that contacts resist when their normal forces sum to one (norm "L1") or are each at most one ("Linf").
+A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in
+the object frame; torsion_radius, 0 for a hard finger, is that of torsional friction of a soft one [m]. Nothing
+is calculated before it is asked for.
+@param options {contacts: table[], norm?: string, edges?: integer|string, rho?: number, com?: vec3, coordinates?: string[]}  edges: of the friction pyramids, 8, or "exact" for round cones; rho: length that torques are divided by, 1 m unless given; com: the point of torques, the frame's origin unless given [m]; coordinates: those that count, of "fx" to "tz"
+@return wrench_space
+> cross = {}
+> for i = 1, 6 do for s = -1, 1, 2 do w = {0, 0, 0, 0, 0, 0} w[i] = s cross[#cross + 1] = w end end
+> math.abs(clench.wrench_space{contacts = {cross}}:epsilon() - 1 / math.sqrt(6)) < 1e-12  --> true
+> clench.wrench_space{contacts = {cross}, coordinates = {"fx", "fy", "fz"}}.rank  --> 3
+> clench.wrench_space{contacts = {{{1, 0, 0, 0, 0}}}}  --> error: 6
+> clench.wrench_space{contacts = {}, edges = 2}  --> error: edges must be 3 to 1000 or 'exact', got 2)"},
+};
+
+static const Entry space_fields[] = {
+    {"rank", guarded<get_rank>, R"(
+Dimension that the wrenches span, 0 to that of the space.
+@type integer
+> clench.wrench_space{contacts = {{{1, 0, 0, 0, 0, 0}}}}.rank  --> 1)"},
+    {"norm", guarded<get_norm>, R"(
+"L1" or "Linf".
+@type string
+> grasp:wrench_space().norm  --> L1)"},
+    {"coordinates", guarded<get_coordinates>, R"(
+The coordinates that count.
+@type string[]
+> #grasp:wrench_space().coordinates  --> 6)"},
+};
+
+static const Entry space_methods[] = {
+    {"epsilon", guarded<epsilon>, R"(
+Radius of the largest ball of wrenches that is resisted; 0 unless force closure. Good to 1e-12, with round cones to 1e-9 or, where that takes too many facets (rings of alike contacts, huge friction), a certain lower bound: epsilon_bounds says how near.
+@return number
+> grasp:wrench_space():epsilon() == grasp:quality "epsilon"  --> true)"},
+    {"epsilon_bounds", guarded<epsilon_bounds>, R"(
+A certified bracket around epsilon, no tighter than need be: it ends when upper - lower is within the tolerance (1e-6), or when it
+is known whether epsilon reaches at_least.
+@param options? {tolerance?: number, at_least?: number}
+@return {lower: number, upper: number, converged: boolean, reached?: boolean}  converged: within the tolerance; reached: lower >= at_least
+> bounds = grasp:wrench_space{edges = "exact"}:epsilon_bounds{tolerance = 1e-3}
+> bounds.lower <= bounds.upper and bounds.upper <= bounds.lower + 1e-3  --> true
+> grasp:wrench_space():epsilon_bounds{at_least = 1}.reached  --> false)"},
+    {"volume", guarded<volume>, R"(
+Volume in the coordinates that count; 0 when the space is flat. With round cones the middle of volume_bounds. In "Linf" five hard
+contacts of eight edges or three soft ones are about the most: beyond 60,000 cells it is an error that says so.
+@return number
+> grasp:wrench_space():volume() == grasp:quality "volume"  --> true)"},
+    {"volume_bounds", guarded<volume_bounds>, R"(
+A certified bracket around the volume: with round cones, that of pyramids within them and of the same ones grown until they are
+around. Both are the volume without round cones.
+@param options? {edges?: integer}  of the pyramids, 4 to 1000 (32)
+@return {lower: number, upper: number}
+> exact = grasp:wrench_space{edges = "exact"}
+> bounds = exact:volume_bounds()
+> bounds.lower < exact:volume() and exact:volume() < bounds.upper and bounds.upper < 1.05 * bounds.lower  --> true
+> bounds.lower > grasp:quality "volume"  --> true
+> exact:volume_bounds{edges = 64}.lower > bounds.lower  --> true)"},
+    {"is_force_closure", guarded<closes_force>, R"(
+Is every wrench resisted?
+@return boolean
+> grasp:wrench_space():is_force_closure()  --> true)"},
+    {"weakest", guarded<weakest>, R"(
+The wrench on the object that is resisted worst, and the contacts that give way first when it grows.
+@return {direction: number[], resistance: number, contacts: integer[]}  unit wrench, torque over rho; its largest multiple resisted, below 0 when all contacts push along it; numbers of the contacts that push against it with all they have
+> w = grasp:wrench_space():weakest()
+> math.abs(w.resistance - grasp:quality "epsilon") < 1e-12 and #w.contacts >= 1  --> true)"},
+    {"wrenches", guarded<wrenches>, R"(
+The unit wrenches, contact by contact.
+@return number[][][]
+> #grasp:wrench_space():wrenches() == #grasp.contacts  --> true
+> grasp:wrench_space{edges = "exact"}:wrenches()  --> error: round cones)"},
+    {"project", guarded<project_space>, R"(
+The space in three coordinates. Of the others, `fixed` ones have a value, which gives its section, and `projected` ones may be
+anything, which gives its projection.
+@param options? {fixed?: table<string, number>, projected?: string[], tolerance?: number}  tolerance: of round cones, as a part of the space's size, 1e-3
+@return projection
+> section = grasp:wrench_space():project{fixed = {tx = 0, ty = 0, tz = 0}}
+> projection = grasp:wrench_space():project{projected = {"tx", "ty", "tz"}}
+> section.volume > 0 and section.volume <= projection.volume  --> true
+> grasp:wrench_space():project{fixed = {tx = 0}}  --> error: expected three free coordinates, got 5)"},
+};
+
+static const Entry space_operators[] = {
+    {"__tostring", guarded<space_text>, ""},
+};
+
+const Library wrench_space_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class wrench_space_class{.name = "wrench_space",
+                               .variable = "space",
+                               .doc = "Which wrenches contacts resist, with how much effort.",
+                               .fields = space_fields,
+                               .methods = space_methods,
+                               .operators = space_operators};
+
+}  // namespace clench

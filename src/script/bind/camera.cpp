@@ -1,0 +1,67 @@
+#include "clench/script/bind/bind.h"
+
+#include <cmath>
+
+#include "clench/base/error.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+// what a perspective camera of Inventor sees unless a file says otherwise: 45 degrees
+static constexpr double inventor_field_of_view = 0.7853981633974483;
+
+int get_camera(lua_State* L) {
+  const auto& camera = self<WorldHandle>(L).world->camera();
+  if (!camera) {
+    lua_pushnil(L);
+    return 1;
+  }
+  push_list(L, 0, 4);
+  set_field(L, "eye", camera->X_WC.position);
+  set_field(L, "target", camera->X_WC * Eigen::Vector3d(0, 0, -camera->focal_distance));
+  set_field(L, "up", Eigen::Vector3d(camera->X_WC.rotation * Eigen::Vector3d::UnitY()));
+  set_field(L, "field_of_view", inventor_field_of_view);
+  return 1;
+}
+
+// from where it stands to what it looks at
+static Camera looking(Table& options) {
+  const Eigen::Vector3d eye = options.vec3("eye"), target = options.vec3("target");
+  const Eigen::Vector3d up = options.vec3("up", Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d back = eye - target;
+  const Eigen::Vector3d x = up.cross(back);
+  if (!(back.norm() > 1e-9) || !(x.norm() > 1e-9 * back.norm() * up.norm()))
+    fail("{}: expected eye and target apart, and up not along the view", options.subject());
+  Eigen::Matrix3d axes;
+  axes.col(0) = x.normalized();
+  axes.col(2) = back.normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  const double angle = options.number("field_of_view", inventor_field_of_view);
+  if (std::abs(angle - inventor_field_of_view) > 1e-9)
+    fail("{}: field_of_view: expected {}, that of every camera of a world, got {}",
+         options.subject(), inventor_field_of_view, angle);
+  return {{Eigen::Quaterniond(axes).normalized(), eye}, back.norm()};
+}
+
+int set_camera(lua_State* L) {
+  World& world = *self<WorldHandle>(L).world;
+  if (!given(L, 2)) {
+    world.set_camera({});
+    return 0;
+  }
+  Table options(L, 2);
+  Camera camera;
+  if (options.has("pose")) {
+    camera.X_WC = options.pose("pose");
+    camera.focal_distance = options.number("focal_distance", camera.focal_distance);
+  } else {
+    camera = looking(options);
+  }
+  options.done();
+  world.set_camera(camera);
+  return 0;
+}
+
+}  // namespace clench

@@ -1,0 +1,63 @@
+#include "clench/script/bind/handles.h"
+
+#include "clench/base/error.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+int push_world(lua_State* L, const WorldPtr& world) {
+  world->context().watch(Progress(bar_of(L)));
+  push_object(L, WorldHandle{world});
+  add_owned<WorldHandle>(L, -1, world->bytes());
+  return 1;
+}
+
+void add_owned_bodies(lua_State* L, int index, std::span<const Id<Body>> bodies) {
+  const World& world = *to<WorldHandle>(L, index)->world;
+  constexpr size_t many_triangles = 100000;  // whose tree takes longer than a blink
+  size_t bytes = 0;
+  for (const auto id : bodies) {
+    const Body& body = world.body(id);
+    bytes += sizeof body + body.appearance.triangle_colors.size() * sizeof(Eigen::Vector3f);
+    if (!body.shape) continue;
+    bytes += body.shape->bytes();
+    // here it can be stopped, in the first query not
+    if (body.shape->mesh().triangles.size() > many_triangles) body.shape->tree(Progress(bar_of(L)));
+  }
+  add_owned<WorldHandle>(L, index, bytes);
+}
+
+int push_bodies(lua_State* L, const WorldPtr& world, const std::vector<Id<Body>>& ids) {
+  return push_list_of(L, ids, [&](Id<Body> id) { push(L, BodyHandle{world, id}); });
+}
+
+int push_pairs(lua_State* L, const WorldPtr& world, const std::vector<BodyPair>& pairs) {
+  return push_list_of(L, pairs, [&](const BodyPair& pair) {
+    push_bodies(L, world, {pair.first, pair.second});
+  });
+}
+
+static void check_world(lua_State* L, const WorldPtr& mine, const WorldPtr& theirs,
+                        const std::string& name) {
+  if (mine != theirs) fail("{}: '{}' belongs to another world", subject(L), name);
+}
+
+std::vector<Id<Body>> check_bodies(lua_State* L, int i, const char* name, const WorldPtr& world) {
+  if (const auto* body = to<BodyHandle>(L, i)) {
+    check_world(L, world, body->world, (*body)->name);
+    return {body->id};
+  }
+  if (const auto* robot = to<RobotHandle>(L, i)) {
+    check_world(L, world, robot->world, (*robot)->name);
+    return world->bodies_of(robot->id);
+  }
+  fail_expected({L, {}, name}, "a body or a robot", i);
+}
+
+BodyHandle self_body(lua_State* L) {
+  if (const auto* robot = to<RobotHandle>(L, 1)) return {robot->world, (*robot)->base};
+  return self<BodyHandle>(L);
+}
+
+}  // namespace clench

@@ -1,0 +1,89 @@
+// Worlds, bodies and robots as scripts hold them: a world lives as long as somebody
+// holds a part of it.
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "clench/model/find.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/push.h"
+
+namespace clench {
+
+using WorldPtr = std::shared_ptr<World>;
+
+struct WorldHandle {
+  WorldPtr world;
+};
+
+struct BodyHandle {
+  WorldPtr world;
+  Id<Body> id;
+
+  const Body& operator*() const { return world->body(id); }
+  const Body* operator->() const { return &world->body(id); }
+};
+
+struct RobotHandle {
+  WorldPtr world;
+  Id<Robot> id;
+
+  const Robot& operator*() const { return world->robot(id); }
+  const Robot* operator->() const { return &world->robot(id); }
+};
+
+/// Leaves a world that nobody has yet on the stack; handles of what is in it own nothing.
+int push_world(lua_State* L, const WorldPtr& world);
+/// The world whose handle is at the index got these bodies, read from files.
+void add_owned_bodies(lua_State* L, int index, std::span<const Id<Body>> bodies);
+
+/// A moment of a world.
+struct SnapshotHandle {
+  std::shared_ptr<const Snapshot> moment;
+};
+
+extern const Class world_class, body_class, robot_class, snapshot_class;
+extern const Library world_library;
+
+template <>
+inline const Class& class_of<WorldHandle>() {
+  return world_class;
+}
+template <>
+inline const Class& class_of<BodyHandle>() {
+  return body_class;
+}
+template <>
+inline const Class& class_of<RobotHandle>() {
+  return robot_class;
+}
+template <>
+inline const Class& class_of<SnapshotHandle>() {
+  return snapshot_class;
+}
+
+inline size_t owned_bytes(const SnapshotHandle& moment) { return moment.moment->bytes(); }
+
+inline int push(lua_State* L, const BodyHandle& body) { return push_object(L, body); }
+inline int push(lua_State* L, const RobotHandle& robot) { return push_object(L, robot); }
+
+/// A list of the numbers of an Eigen vector.
+template <class Vector>
+int push_vector(lua_State* L, const Vector& v) {
+  return push_numbers(L, {v.data(), static_cast<size_t>(v.size())});
+}
+
+/// A list of bodies.
+int push_bodies(lua_State* L, const WorldPtr& world, const std::vector<Id<Body>>& ids);
+/// A list of {a, b} of bodies.
+int push_pairs(lua_State* L, const WorldPtr& world, const std::vector<BodyPair>& pairs);
+
+/// The bodies that an argument stands for: a body, or a robot with base, links and mount.
+/// throws Error when it is neither, belongs to another world or was removed
+std::vector<Id<Body>> check_bodies(lua_State* L, int i, const char* name, const WorldPtr& world);
+
+/// The body that a body or robot (its base) at argument 1 stands for: fields that both have.
+BodyHandle self_body(lua_State* L);
+
+}  // namespace clench

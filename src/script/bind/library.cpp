@@ -1,0 +1,33 @@
+#include "clench/script/bind/library.h"
+
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/handles.h"
+
+namespace clench {
+
+// a binding is one line in each list that it belongs to
+
+std::span<const Library* const> all_libraries() {
+  static const Library* const libraries[] = {
+      &units_library,        &vec3_library,        &pose_library,    &random_library,
+      &catalog_library,      &convert_library,     &entries_library, &json_library,
+      &log_library,          &world_library,       &grasp_library,   &measures_library,
+      &wrench_space_library, &eigengrasps_library, &files_library,   &render_library,
+      &chart_library,        &progress_library,    &grasps_library,
+  };
+  return libraries;
+}
+
+std::span<const Class* const> all_classes() {
+  static const Class* const classes[] = {
+      &vec3_class,     &pose_class,         &random_class,      &world_class,
+      &snapshot_class, &entity_class,       &body_class,        &mesh_class,
+      &hand_class,     &robot_class,        &eigengrasps_class, &virtual_contact_class,
+      &contact_class,  &forces_class,       &measures_class,    &patch_class,
+      &grasp_class,    &wrench_space_class, &projection_class,  &picture_class,
+      &progress_class, &grasps_class,
+  };
+  return classes;
+}
+
+}  // namespace clench

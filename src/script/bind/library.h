@@ -1,0 +1,12 @@
+// Every class and library that scripts see, in the order of the documentation.
+#pragma once
+#include <span>
+
+#include "clench/script/lua/entry.h"
+
+namespace clench {
+
+std::span<const Class* const> all_classes();
+std::span<const Library* const> all_libraries();
+
+}  // namespace clench

@@ -1,0 +1,147 @@
+#include "clench/script/bind/read_spec.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/base/convert.h"
+#include "clench/base/error.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/lua/setting.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+// a unit by its name, or by its length in metres
+static std::optional<double> read_unit(Table& options) {
+  static const std::vector<std::string> names = {"mm", "cm", "m", "inch", "foot"};
+  static constexpr double lengths[] = {1e-3, 1e-2, 1, 0.0254, 0.3048};
+  const bool named = options.has("unit"), scaled = options.has("mesh_scale");
+  if (named && scaled) fail("{}: expected unit or mesh_scale, got both", options.subject());
+  if (scaled) {
+    const double scale = options.number("mesh_scale");
+    check(scale_rule.called("mesh_scale"), scale, options.subject());
+    return scale;
+  }
+  if (!named) return {};
+  const std::string name = options.choice("unit", names, "");
+  return lengths[std::find(names.begin(), names.end(), name) - names.begin()];
+}
+
+std::filesystem::path read_confine(lua_State* L, Table& options) {
+  const std::string chosen = get_setting(L, Setting::confine);
+  const std::string folder = options.string("confine", chosen);
+  std::error_code code;
+  if (options.has("confine") && !std::filesystem::is_directory(folder, code))
+    fail("{}: confine: expected a folder, got '{}'", options.subject(), folder);
+  return folder;
+}
+
+ReadOptions read_options(lua_State* L, Table& options) {
+  ReadOptions out;
+  out.root = options.string("root", "");
+  if (!out.root.empty() && !std::filesystem::is_directory(out.root))
+    fail("{}: root: expected a folder, got '{}'", options.subject(), out.root.string());
+  out.confine = read_confine(L, options);
+  out.mesh_scale = read_unit(options);
+  out.progress = Progress(bar_of(L));
+  out.warn = [L](const std::string& message) { log(L, LogLevel::warning, message, "ignored"); };
+  out.note = [L](const std::string& message) { log(L, LogLevel::info, message, "inferred"); };
+  out.repair = [L](const std::string& message) { log(L, LogLevel::warning, message, "repaired"); };
+  out.suspect = [L](const std::string& message) {
+    log(L, LogLevel::warning, message, "suspicious");
+  };
+  return options.boolean("strict", false) ? strict(std::move(out)) : out;
+}
+
+// a table of vertices and triangles, as the shapes of the standard library are
+static Mesh read_mesh(lua_State* L, int i, const ReadOptions& reading) {
+  Table table(L, i, subject(L) + ": mesh");
+  Mesh mesh;
+  int number = 0;
+  for (const auto& row : table.rows("vertices", 3)) {
+    ++number;
+    mesh.vertices.emplace_back(row[0], row[1], row[2]);
+    check(coordinate_rule, mesh.vertices.back(),
+          fmt::format("{}: vertex {}", table.subject(), number));
+  }
+  const int count = number;
+  number = 0;
+  for (const auto& row : table.rows("triangles", 3)) {
+    ++number;
+    Triangle t;
+    for (int k = 0; k < 3; ++k) {
+      if (!(row[k] >= 1 && row[k] <= count && row[k] == std::floor(row[k])))
+        fail("{}: triangle {}: expected vertices from 1 to {}, got {}", table.subject(), number,
+             count, row[k]);
+      t[k] = floor_int(row[k]) - 1;
+    }
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
+  }
+  table.done();
+  if (number == 0) fail("{}: expected at least one triangle, got none", table.subject());
+  const size_t left_out = static_cast<size_t>(number) - mesh.triangles.size();
+  if (mesh.triangles.empty())
+    fail("{}: expected a triangle of three different vertices, got none", table.subject());
+  if (left_out > 0)
+    reading.repaired(fmt::format("{}: {} of {} triangles name a vertex twice and are left out",
+                                 table.subject(), left_out, number));
+  if (turn_outward(mesh)) reading.repaired(table.subject() + inside_out);
+  return mesh;
+}
+
+// of a solid of that density [kg/m^3]
+static double mass_of(lua_State* L, const BodySpec& spec, double density) {
+  if (!spec.shape) fail("{}: density: expected a body with a mesh, got a frame", subject(L));
+  if (!spec.shape->has_volume())
+    fail("{}: density: expected a watertight mesh, got one with {}; give its mass", subject(L),
+         spec.shape->closed() ? "no volume" : spec.shape->faults().describe());
+  return density * std::abs(spec.shape->solid().volume);
+}
+
+static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
+  spec.name = options.string("name", spec.name);
+  spec.material = options.string("material", spec.material);
+  if (options.has("density")) {
+    if (options.has("mass")) fail("{}: expected mass or density, got both", subject(L));
+    const double density = options.number("density");
+    check(density_rule, density, options.subject());
+    spec.mass = mass_of(L, spec, density);
+  }
+  spec.mass = options.number("mass", spec.mass);
+  if (options.has("com")) spec.com = options.vec3("com");
+  if (options.has("elastic_modulus")) spec.elastic_modulus = options.number("elastic_modulus");
+  spec.soft_layer = options.number("soft_layer", spec.soft_layer);
+  spec.poisson_ratio = options.number("poisson_ratio", spec.poisson_ratio);
+  if (options.has("color")) {
+    spec.appearance.color = options.vec3("color").cast<float>();
+    spec.appearance.triangle_colors.clear();
+    spec.appearance.given = true;
+  }
+  spec.appearance.transparency =
+      static_cast<float>(options.number("transparency", spec.appearance.transparency));
+  if (options.push("inertia") != LUA_TNIL)
+    spec.inertia_per_mass = read_matrix3(L, -1, options.what("inertia")) / spec.mass;
+  lua_pop(L, 1);
+  check_body(spec, options.subject() + ": body");
+  check_appearance(spec.appearance, options.subject());
+}
+
+BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions& reading) {
+  BodySpec spec;
+  if (lua_type(L, i) == LUA_TSTRING) {
+    spec = read_body(find_file(check_string(L, i, "path"), {}, reading), reading);
+  } else if (lua_istable(L, i)) {
+    const std::string name = options.string("name", "body");
+    spec.name = name;
+    Mesh mesh = read_mesh(L, i, reading);
+    if (reading.mesh_scale)
+      for (auto& vertex : mesh.vertices) vertex *= *reading.mesh_scale;
+    spec.shape = Shape::make(std::move(mesh), name);
+  } else {
+    fail_expected({L, {}, "body"}, "a file name or a mesh {vertices = ..., triangles = ...}", i);
+  }
+  override_spec(L, spec, options);
+  return spec;
+}
+
+}  // namespace clench

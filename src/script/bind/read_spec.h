@@ -1,0 +1,25 @@
+// Bodies and robots that a script names by file or makes from tables.
+#pragma once
+#include "clench/io/read.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+/// The folder below which a call reads: its option confine, else what its state was given; empty:
+/// anywhere.
+std::filesystem::path read_confine(lua_State* L, Table& options);
+/// Options of reading that a call's table holds: root; confine; unit, by its name, or mesh_scale.
+/// Warnings and notes go to the script's log.
+ReadOptions read_options(lua_State* L, Table& options);
+
+/// A body from argument i: a file name, or a mesh in metres, indices from 1,
+/// {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}; the keys name, material, mass or
+/// density, com, elastic_modulus, soft_layer, poisson_ratio, color and transparency of the options override it.
+/// throws  Error that names what is wrong
+BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions& reading);
+
+/// The keys folder, eigengrasps, virtual_contacts, package, close and approach of a call's options.
+/// throws  Error that names the key and what is wrong
+void read_robot_options(lua_State* L, Table& options, ReadOptions& reading);
+
+}  // namespace clench

@@ -1,0 +1,184 @@
+#include "clench/script/bind/world_files.h"
+
+#include "clench/base/text.h"
+#include "clench/io/text/confine.h"
+#include "clench/io/write_world.h"
+#include "clench/model/build.h"
+#include "clench/model/compare_worlds.h"
+#include "clench/model/describe_world.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/read_spec.h"
+#include "clench/script/lua/chunks.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/setting.h"
+#include "clench/script/lua/table.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+namespace fs = std::filesystem;
+
+static bool is_script(const fs::path& path) {
+  return lower_case(path.extension().string()) == ".lua";
+}
+
+namespace {
+
+// its address names the table of the scripts that are being run
+const char running_key = 0;
+
+/// A script that is run, marked as such as long as this lives.
+class Running {
+ public:
+  Running(lua_State* L, const fs::path& path)
+      : L_(L), name_(fs::weakly_canonical(path).generic_string()) {
+    push_table();
+    lua_getfield(L_, -1, name_.c_str());
+    const bool runs = !lua_isnil(L_, -1);
+    lua_pop(L_, 2);
+    if (runs) fail("{}: it loads itself", path.filename().string());
+    mark(true);
+  }
+  ~Running() { mark(false); }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+ private:
+  void push_table() const {
+    if (lua_rawgetp(L_, LUA_REGISTRYINDEX, &running_key) == LUA_TTABLE) return;
+    lua_pop(L_, 1);
+    lua_newtable(L_);
+    lua_pushvalue(L_, -1);
+    lua_rawsetp(L_, LUA_REGISTRYINDEX, &running_key);
+  }
+  void mark(bool runs) const {
+    push_table();
+    if (runs)
+      lua_pushboolean(L_, 1);
+    else
+      lua_pushnil(L_);
+    lua_setfield(L_, -2, name_.c_str());
+    lua_pop(L_, 1);
+  }
+
+  lua_State* L_;
+  std::string name_;
+};
+
+}  // namespace
+
+// Leaves the world that a script returns on the stack. It is given a table with the root, and the
+// folder that it lies in.
+static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& root) {
+  const std::string file = path.filename().string();
+  if (!lua_checkstack(L, 12)) fail(ErrorKind::limit, "too many values on the stack");
+  const Running running(L, path);
+  const std::string folder = fs::absolute(path).parent_path().lexically_normal().generic_string();
+  const ScopedSetting modules(L, Setting::modules, folder);
+  if (load_text_file(L, path.string().c_str()) != LUA_OK) fail("{}", string_at(L, -1));
+  lua_createtable(L, 0, 1);
+  if (!root.empty()) set_field(L, "root", root.generic_string());
+  push(L, folder);
+  protected_call(L, 2, 1);
+  const auto* handle = to<WorldHandle>(L, -1);
+  if (!handle) fail("{}: expected a script that returns a world, got {}", file, described(L, -1));
+  return handle->world;
+}
+
+WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& reading) {
+  const Watching watching(L);
+  if (is_script(path)) {
+    if (!reading.confine.empty())
+      fail(
+          "{}: a world in Lua is a program, which reads what it likes; expected one of another "
+          "format where reading is confined",
+          path.filename().string());
+    WorldPtr world = run_script(L, path, reading.root);
+    if (world->source().empty()) world->set_source(path.generic_string());
+    return world;
+  }
+  const auto world =
+      std::make_shared<World>(build_world(read_world(path, reading), reading.listeners()));
+  push_world(L, world);
+  add_owned_bodies(L, -1, world->bodies());
+  return world;
+}
+
+int load_world(lua_State* L) {
+  check_count(L, 2);
+  const std::string path = check_string(L, 1, "path");
+  Table options(L, 2);
+  const ReadOptions reading = read_options(L, options);
+  options.done();
+  push_world_of(L, find_file(path, {}, reading), reading);
+  return 1;
+}
+
+namespace {
+
+/// Nothing is told as long as it lives.
+class Silence {
+ public:
+  explicit Silence(lua_State* L) : L_(L), before_(log_level(L)) {
+    set_log_level(L, LogLevel::quiet);
+  }
+  ~Silence() { set_log_level(L_, before_); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  lua_State* L_;
+  LogLevel before_;
+};
+
+}  // namespace
+
+static World read_again(lua_State* L, const fs::path& path, const SavingOptions& saving) {
+  if (!is_script(path))
+    return build_world(read_world(path, {.root = saving.root, .confine = saving.confine}));
+  const Silence silence(L);
+  // the script itself was written by us
+  const ScopedSetting models(L, Setting::confine, saving.confine.string());
+  const int top = lua_gettop(L);
+  World world = *run_script(L, path, saving.root);
+  lua_settop(L, top);
+  return world;
+}
+
+// tells what the file that was written does not hold
+static void warn_of_losses(lua_State* L, const World& world, const World& again,
+                           const std::string& file) {
+  const auto lost = differences(world, again);
+  if (!lost.empty()) log_warning(L, fmt::format("{} does not hold {}", file, name_list(lost)));
+}
+
+void save_world(lua_State* L, const World& world, const fs::path& path,
+                const SavingOptions& saving) {
+  WriteOptions writing{.root = saving.root, .confine = saving.confine};
+  writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
+  const std::string file = path.filename().string();
+  writing.check = [&](const fs::path& written) {
+    if (is_script(written) || lies_within(written, saving.confine))
+      warn_of_losses(L, world, read_again(L, written, saving), file);
+    else
+      log_warning(L, fmt::format("{} lies outside of {}, to which reading is confined: what it "
+                                 "does not hold is not told",
+                                 file, saving.confine.generic_string()));
+  };
+  write_world(describe_world(world), path, writing);
+}
+
+int save_world(lua_State* L) {
+  check_count(L, 2);
+  const WorldPtr world = self<WorldHandle>(L).world;
+  const fs::path path = check_string(L, 2, "path");
+  Table options(L, 3);
+  const SavingOptions saving{.root = options.string("root", ""),
+                             .confine = read_confine(L, options)};
+  options.done();
+  save_world(L, *world, path, saving);
+  return 0;
+}
+
+}  // namespace clench

@@ -1,0 +1,345 @@
+#include "clench/script/host/state.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <lua.hpp>
+
+#include "clench/base/error.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/host/modules.h"
+#include "clench/script/host/open.h"
+#include "clench/script/lua/chunks.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/packed.h"
+#include "clench/script/lua/setting.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+void* State::allocate(void* memory, void* block, size_t old_size, size_t new_size) {
+  auto& m = *static_cast<Memory*>(memory);
+  if (!block) old_size = 0;  // then it says what kind of thing is made
+  if (new_size > old_size && new_size - old_size > m.limit - m.used) return nullptr;
+  if (new_size == 0) {
+    std::free(block);
+    m.used -= old_size;
+    return nullptr;
+  }
+  void* grown = std::realloc(block, new_size);
+  if (grown) m.used += new_size - old_size;
+  return grown;
+}
+
+// what finalizers and the like fail with
+void State::warn(void* memory, const char* text, int to_be_continued) {
+  auto& m = *static_cast<Memory*>(memory);
+  if (m.warning.empty() && !to_be_continued && *text == '@') return;  // a control message
+  m.warning += text;
+  if (to_be_continued) return;
+  if (!m.quiet) fmt::print(stderr, "clench: warning: {}\n", m.warning);
+  m.warning.clear();
+}
+
+// an error that no call protects is a mistake of ours
+static int panic(lua_State* L) {
+  const char* text = lua_tostring(L, -1);
+  std::fprintf(stderr, "clench: unprotected error: %s\n", text ? text : "no text");
+  return 0;
+}
+
+// Lua tells which coroutine it enters and where it comes back to
+int State::track(lua_State* L) {
+  auto* state = static_cast<State*>(lua_touserdata(L, lua_upvalueindex(1)));
+  if (lua_State* thread = lua_tothread(L, 1)) state->running_ = thread;
+  return 0;
+}
+
+static int open_all(lua_State* L) {
+  // what the environment says of modules is read by add_user_modules
+  lua_pushboolean(L, 1);
+  lua_setfield(L, LUA_REGISTRYINDEX, "LUA_NOENV");
+  luaL_openlibs(L);
+  refuse_bytecode(L);
+  add_user_modules(L);
+  luaL_requiref(L, "clench", clench_open, 1);
+  lua_pop(L, 1);
+  add_bare_names(L);
+  push_packed(L, "host.error_text");  // while all that it needs is there
+  lua_pop(L, 1);
+  // the coroutines' guide gets our tracker
+  push_packed(L, "host.coroutines");
+  lua_pushvalue(L, 1);
+  lua_call(L, 1, 0);
+  return 0;
+}
+
+State::State() {
+  // three quarters of the machine: a script that asks for more gets an error, not the machine's
+  // last page
+  const auto pages = static_cast<size_t>(sysconf(_SC_PHYS_PAGES));
+  memory_.limit = pages / 4 * 3 * static_cast<size_t>(sysconf(_SC_PAGESIZE));
+  L_ = lua_newstate(allocate, &memory_);
+  if (!L_) fail(ErrorKind::limit, "clench: no memory for Lua");
+  running_ = L_;
+  lua_atpanic(L_, panic);
+  lua_setwarnf(L_, warn, &memory_);
+  lua_pushcfunction(L_, open_all);
+  lua_pushlightuserdata(L_, this);
+  lua_pushcclosure(L_, track, 1);
+  if (lua_pcall(L_, 1, 0, 0) == LUA_OK) {
+    bar_ = bar_of(L_);
+    return;
+  }
+  const char* text = lua_tostring(L_, -1);
+  const std::string message = text ? text : "cannot open Lua's libraries";
+  lua_close(L_);
+  throw Error(message);
+}
+
+State::~State() { lua_close(L_); }
+
+void State::set_script(const std::string& path) {
+  const auto folder = std::filesystem::path(path).parent_path();
+  set_setting(L_, Setting::modules, folder.empty() ? "." : folder.string());
+}
+
+void State::set_confine(const std::string& folder) {
+  std::error_code code;
+  const auto path = std::filesystem::canonical(folder, code);
+  if (code || !std::filesystem::is_directory(path, code))
+    fail("--confine: expected a folder, got '{}'", folder);
+  set_setting(L_, Setting::confine, path.string());
+}
+
+void State::set_quiet() {
+  memory_.quiet = true;
+  set_log_level(L_, LogLevel::error);
+}
+
+// --- errors ---
+
+// any error value as text, with the traceback
+static int explain(lua_State* L) {
+  lua_settop(L, 1);
+  push_packed(L, "host.error_text");
+  lua_pushvalue(L, 1);
+  if (lua_pcall(L, 1, 1, 0) != LUA_OK) lua_pushliteral(L, "error object that cannot be told");
+  lua_replace(L, 1);
+  lua_settop(L, 1);
+  // a traceback's own text would end at a zero byte
+  lua_pushliteral(L, "\n");
+  luaL_traceback(L, L, nullptr, 1);
+  lua_concat(L, 3);
+  return 1;
+}
+
+// os.exit where the program is not the script's to end; upvalue: where that is told
+static int on_exit(lua_State* L) {
+  auto* asked = static_cast<std::string*>(lua_touserdata(L, lua_upvalueindex(1)));
+  // the nearest line of a script: what calls it may be pcall, or a finalizer's nobody
+  lua_pushliteral(L, "");
+  lua_Debug caller;
+  for (int level = 1; lua_rawlen(L, -1) == 0 && lua_getstack(L, level, &caller); ++level)
+    luaL_where(L, level);
+  lua_pushliteral(L, "os.exit: a file that is read cannot end the program");
+  lua_concat(L, 2);
+  if (asked->empty()) *asked = lua_tostring(L, -1);
+  return lua_error(L);
+}
+
+static int replace_exit(lua_State* L) {
+  lua_getglobal(L, LUA_OSLIBNAME);
+  lua_pushvalue(L, 1);
+  lua_pushcclosure(L, on_exit, 1);
+  lua_setfield(L, -2, "exit");
+  return 0;
+}
+
+void State::refuse_exit(std::string& asked) {
+  lua_pushcfunction(L_, replace_exit);
+  lua_pushlightuserdata(L_, &asked);
+  if (lua_pcall(L_, 1, 0, 0) != LUA_OK) lua_pop(L_, 1);
+}
+
+static void interrupted(lua_State* L, lua_Debug*) {
+  lua_sethook(L, nullptr, 0, 0);
+  // another coroutine, or a call of the engine, may have ended for it
+  if (!bar_of(L)->take_stop()) return;
+  luaL_where(L, 0);
+  lua_pushliteral(L, "interrupted");
+  lua_concat(L, 2);
+  make_error_value(L, "stopped");
+  lua_error(L);
+}
+
+void State::interrupt() {
+  bar_->stop();
+  const int events = LUA_MASKCALL | LUA_MASKRET | LUA_MASKCOUNT;
+  lua_sethook(L_, interrupted, events, 1);
+  if (running_ != L_) lua_sethook(running_, interrupted, events, 1);
+}
+
+// takes what a call left above base off the stack
+State::Result State::finish(int status, int base) {
+  lua_sethook(L_, nullptr, 0, 0);
+  bar_->take_stop();
+  running_ = L_;
+  Result result;
+  result.ok = status == LUA_OK;
+  for (int i = base + 1; i <= lua_gettop(L_); ++i) {
+    size_t size = 0;
+    const char* text = lua_type(L_, i) == LUA_TSTRING ? lua_tolstring(L_, i, &size) : nullptr;
+    std::string value = text ? std::string(text, size) : std::string(luaL_typename(L_, i));
+    if (result.ok)
+      result.values.push_back(std::move(value));
+    else
+      result.error = std::move(value);
+  }
+  lua_settop(L_, base);
+  return result;
+}
+
+// --- running; what can fail for want of memory runs inside lua_pcall ---
+
+struct Arguments {
+  const std::string& path;
+  const std::vector<std::string>& list;
+};
+
+static int make_arguments(lua_State* L) {
+  const auto& arguments = *static_cast<const Arguments*>(lua_touserdata(L, 1));
+  lua_createtable(L, static_cast<int>(arguments.list.size()), 1);
+  lua_pushstring(L, arguments.path.c_str());
+  lua_rawseti(L, -2, 0);
+  for (size_t i = 0; i < arguments.list.size(); ++i) {
+    lua_pushstring(L, arguments.list[i].c_str());
+    lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+  }
+  lua_setglobal(L, "arg");
+  return 0;
+}
+
+void State::set_arguments(const std::string& path, const std::vector<std::string>& arguments) {
+  Arguments all{path, arguments};
+  lua_pushcfunction(L_, make_arguments);
+  lua_pushlightuserdata(L_, &all);
+  if (lua_pcall(L_, 1, 0, 0) != LUA_OK) lua_pop(L_, 1);
+}
+
+static bool push_strings(lua_State* L, const std::vector<std::string>& strings) {
+  if (!lua_checkstack(L, static_cast<int>(strings.size()) + 10)) return false;
+  for (const auto& text : strings) lua_pushlstring(L, text.data(), text.size());
+  return true;
+}
+
+// below is a chunk, or the message of why there is none
+State::Result State::run_loaded(int status, const std::vector<std::string>& arguments) {
+  const int base = lua_gettop(L_) - 1;
+  if (status != LUA_OK) return finish(status, base);
+  lua_pushcfunction(L_, explain);
+  lua_insert(L_, base + 1);
+  if (!push_strings(L_, arguments)) {
+    lua_settop(L_, base);
+    return {false, "too many arguments", {}};
+  }
+  status = lua_pcall(L_, static_cast<int>(arguments.size()), LUA_MULTRET, base + 1);
+  lua_remove(L_, base + 1);
+  return finish(status, base);
+}
+
+State::Result State::run_file(const std::string& path, const std::vector<std::string>& arguments) {
+  set_arguments(path, arguments);
+  if (path != "-") set_script(path);
+  return run_loaded(load_text_file(L_, path == "-" ? nullptr : path.c_str()), arguments);
+}
+
+State::Result State::run_code(const std::string& code, const std::string& name) {
+  return run_loaded(load_text(L_, code.data(), code.size(), name.c_str()), {});
+}
+
+// (module, function, arguments...)
+static int call_packed(lua_State* L) {
+  push_packed(L, lua_tostring(L, 1));
+  lua_pushvalue(L, 2);
+  lua_rawget(L, -2);
+  lua_replace(L, 2);
+  lua_pop(L, 1);
+  lua_remove(L, 1);
+  lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+  for (int i = 1; i <= lua_gettop(L); ++i) {
+    luaL_tolstring(L, i, nullptr);
+    lua_replace(L, i);
+  }
+  return lua_gettop(L);
+}
+
+State::Result State::call(const std::string& module, const std::string& function,
+                          const std::vector<std::string>& arguments) {
+  std::vector<std::string> all{module, function};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  lua_pushcfunction(L_, call_packed);
+  return run_loaded(LUA_OK, all);
+}
+
+// --- the console ---
+
+// prints its arguments as the console shows them
+static int show_results(lua_State* L) {
+  const int count = lua_gettop(L);
+  if (count == 0) return 0;
+  luaL_checkstack(L, 8, "too many results to show");
+  for (int i = 1; i <= count; ++i) {
+    push_packed(L, "show");
+    lua_pushvalue(L, i);
+    lua_call(L, 1, 1);
+    size_t size = 0;
+    const char* text = lua_tolstring(L, -1, &size);
+    std::fwrite(text, 1, size, stdout);
+    std::fputc(i < count ? '\t' : '\n', stdout);
+    lua_pop(L, 1);
+  }
+  std::fflush(stdout);
+  return 0;
+}
+
+static bool is_cut_short(lua_State* L, int status) {
+  if (status != LUA_ERRSYNTAX) return false;
+  const std::string message = lua_tostring(L, -1);
+  return message.ends_with("<eof>");
+}
+
+State::Line State::evaluate(const std::string& input, int line) {
+  const int base = lua_gettop(L_);
+  const bool marked = input.starts_with('=');
+  // empty lines before it make Lua count from there
+  const std::string before(static_cast<size_t>(line - 1), '\n'), text = before + input;
+  const std::string expression = before + "return " + input.substr(marked ? 1 : 0);
+  int status = load_text(L_, expression.data(), expression.size(), "=input");
+  if (status != LUA_OK && !marked) {
+    lua_settop(L_, base);
+    status = load_text(L_, text.data(), text.size(), "=input");
+  }
+  if (is_cut_short(L_, status)) {
+    lua_settop(L_, base);
+    return Line::incomplete;
+  }
+  if (status == LUA_OK) {
+    lua_pushcfunction(L_, explain);
+    lua_insert(L_, base + 1);
+    status = lua_pcall(L_, 0, LUA_MULTRET, base + 1);
+    if (status == LUA_OK) {
+      lua_pushcfunction(L_, show_results);
+      lua_insert(L_, base + 2);
+      status = lua_pcall(L_, lua_gettop(L_) - base - 2, 0, base + 1);
+    }
+    lua_remove(L_, base + 1);
+  }
+  const Result result = finish(status, base);
+  if (!result.ok) fmt::print(stderr, "{}\n", result.error);
+  return result.ok ? Line::done : Line::failed;
+}
+
+}  // namespace clench

@@ -1,0 +1,75 @@
+// What Lua sees of the engine, as tables of name, function and doc.
+//
+// How to add a binding
+//  1. A value or handle that scripts hold is a Class; functions live in a Library. Each is one
+//     constant in a bind_<noun>.cpp that ends in tables of entries, is declared in the header of
+//     the same stem, and has one line in library.cpp. Several libraries may share a name: their
+//     entries add up.
+//  2. A function is `static int f(lua_State* L)`, named in its table as guarded<f> (guard.h). It
+//     reads its arguments with check.h (positional) or a Table (options), calls the engine, and
+//     returns push...(). Bad input throws clench::Error; guarded adds the script's line. Messages
+//     begin with subject(L), "hand:autograsp", found by itself.
+//  3. A method begins with `auto& hand = self<RobotHandle>(L)` (object.h). class_of<T>() ties a
+//     C++ type to its Class; push_object(L, T{...}) makes a value of it, to<T> and
+//     check_object<T> read one.
+//  4. Nothing that can raise a Lua error may run while C++ objects with destructors live, because
+//     a host's Lua may jump over them: no lua_error, luaL_check..., lua_gettable with metamethods,
+//     lua_call. Use raw access, and protected_call (guard.h) for callbacks. (Pushing may raise
+//     only when memory is out, and then leaks.)
+//  5. The doc is the sentence or two that a reader needs, then LuaCATS lines, then running
+//     examples. A field has `@type`; what follows two spaces is prose, with the unit in brackets:
+//         Closes the fingers until contact stops them.
+//         @param options? {speed?: number, stop_at_contact?: boolean}  speed 1: the hand's own pace
+//         @return table result  `moved`, `stops`
+//         > hand:autograsp().moved  --> true
+//     `> code` without an arrow prepares the next one. `--> error: text` wants an error that
+//     contains text. Examples run with clench, world, hand (closed on the flask), flask, grasp and
+//     patch (of a fingertip with the flask as rubber).
+//     The tests run every one of them; `clench doc` writes docs/api from the same tables, and the
+//     REPL completes from them.
+#pragma once
+#include <lua.hpp>
+#include <span>
+#include <string>
+
+namespace clench {
+
+/// A function, method or field of a script's world.
+struct Entry {
+  const char* name;
+  lua_CFunction function;  ///< of a field: its getter, called with (self)
+  const char* doc;
+  lua_CFunction setter = nullptr;  ///< of a field that can be set: called with (self, value)
+};
+
+/// Functions and computed fields under a name, "clench" or "clench.json".
+struct Library {
+  const char* name;
+  const char* doc;
+  std::span<const Entry> functions;
+  std::span<const Entry> fields = {};
+};
+
+/// What a userdata of one kind can do. Its address is its identity.
+struct Class {
+  const char* name;      ///< "robot"
+  const char* variable;  ///< what messages and examples call one: "hand"
+  const char* doc;
+  std::span<const Entry> fields;
+  std::span<const Entry> methods;
+  /// "__add", "__tostring"; "__index", "__newindex": keys that are no string
+  std::span<const Entry> operators = {};
+  const Class* parent = nullptr;  ///< its fields and methods are had too
+};
+
+/// Upvalues of every closure of an entry: the entry, and its class or library.
+enum EntryUpvalue { at_entry = 1, at_class = 2, at_library = 3 };
+
+/// Name of the entry that runs, as messages begin: "clench.rad", "hand:autograsp", "hand.dofs".
+std::string subject(lua_State* L);
+
+/// The running method's class; null in a library's function.
+const Class* running_class(lua_State* L);
+const Entry* running_entry(lua_State* L);
+
+}  // namespace clench

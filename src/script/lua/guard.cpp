@@ -1,0 +1,148 @@
+#include "clench/script/lua/guard.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+#include <string_view>
+
+#include "clench/base/progress.h"
+#include "clench/script/lua/entry.h"
+#include "clench/script/lua/owned.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+// its address names the place of the metatable of error values
+static const char error_key = 0;
+
+void set_error_metatable(lua_State* L) { lua_rawsetp(L, LUA_REGISTRYINDEX, &error_key); }
+
+void make_error_value(lua_State* L, const char* kind) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &error_key) != LUA_TTABLE) return lua_pop(L, 1);
+  lua_createtable(L, 0, 2);
+  lua_rotate(L, -3, -1);  // metatable, value, text
+  lua_setfield(L, -2, "text");
+  lua_pushstring(L, kind);
+  lua_setfield(L, -2, "kind");
+  lua_rotate(L, -2, 1);  // value, metatable
+  lua_setmetatable(L, -2);
+}
+
+static const char raised_key = 0;  // its address names the place of the waiting error value
+
+void protected_call(lua_State* L, int arguments, int results) {
+  if (lua_pcall(L, arguments, results, 0) == LUA_OK) return;
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &raised_key);
+  throw Raised();
+}
+
+// `at`, or a little less where a character of UTF-8 would be cut
+static size_t character_at(std::string_view text, size_t at) {
+  for (int back = 0; back < 3 && at > 0 && (text[at] & 0xC0) == 0x80; ++back) --at;
+  return at;
+}
+
+// what an exception said, as people read it, in memory that needs no destructor
+struct Message {
+  // more is a name or a word that nobody reads to its end
+  static constexpr size_t longest = 1000, kept_end = 250;
+  char text[longest + 1];
+
+  // without control characters, which a terminal would obey, and of a long text both ends
+  void copy(std::string_view what) {
+    std::string_view first = what, last;
+    if (what.size() > longest) {
+      first = what.substr(0, character_at(what, longest - kept_end - 3));
+      last = what.substr(character_at(what, what.size() - kept_end + 3));
+    }
+    char* end = std::ranges::copy(first, text).out;
+    if (!last.empty()) end = std::ranges::copy(last, std::strcpy(end, "...") + 3).out;
+    std::replace_if(
+        text, end, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }, '?');
+    *end = 0;
+  }
+  // of what is no sentence of ours, such as the standard library's
+  void copy(lua_State* L, std::string_view what) {
+    try {
+      copy(fmt::format("{}: {}", subject(L), what));
+    } catch (const std::bad_alloc&) {
+      copy(what);
+    }
+  }
+};
+
+enum class Failure { none, raised, stopped, message };
+
+static const char* name_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::input:
+      return "input";
+    case ErrorKind::file:
+      return "file";
+    case ErrorKind::stale:
+      return "stale";
+    case ErrorKind::limit:
+      return "limit";
+    case ErrorKind::internal:
+      return "internal";
+  }
+  return "internal";
+}
+
+static Failure run_caught(lua_State* L, lua_CFunction fn, int& results, Message& message,
+                          ErrorKind& kind) {
+  try {
+    results = fn(L);
+    return Failure::none;
+  } catch (const Raised&) {
+    return Failure::raised;
+  } catch (const Stopped&) {
+    return Failure::stopped;
+  } catch (const Error& e) {
+    message.copy(e.what());
+    kind = e.kind();
+  } catch (const std::bad_alloc&) {
+    message.copy(L, "not enough memory");
+    kind = ErrorKind::limit;
+  } catch (const std::length_error&) {  // of what is larger than any memory
+    message.copy(L, "not enough memory");
+    kind = ErrorKind::limit;
+  } catch (const std::exception& e) {
+    message.copy(L, e.what());
+    kind = ErrorKind::internal;
+  }
+  return Failure::message;
+}
+
+int run_guarded(lua_State* L, lua_CFunction fn) {
+  int results = 0;
+  Message message;
+  ErrorKind kind = ErrorKind::input;
+  const Failure failure = run_caught(L, fn, results, message, kind);
+  if (failure == Failure::none) {
+    // the results are on the stack, and nothing of C++ is alive
+    collect_owned(L);
+    return results;
+  }
+
+  // the handler is left: nothing but plain memory is alive
+  lua_settop(L, 0);
+  if (failure == Failure::stopped) bar_of(L)->take_stop();
+  if (failure == Failure::raised) {
+    lua_rawgetp(L, LUA_REGISTRYINDEX, &raised_key);
+    lua_pushnil(L);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &raised_key);
+  } else {
+    // a field's getter is called by the lookup, and that by the script
+    luaL_where(L, 1);
+    if (lua_rawlen(L, -1) == 0) luaL_where(L, 2);
+    const bool stopped = failure == Failure::stopped;
+    lua_pushstring(L, stopped ? "interrupted" : message.text);
+    lua_concat(L, lua_gettop(L));
+    make_error_value(L, stopped ? "stopped" : name_of(kind));
+  }
+  return -1;
+}
+
+}  // namespace clench

@@ -1,0 +1,40 @@
+// The one bridge between C++ exceptions and Lua errors. It works with a Lua built as C, whose
+// errors jump over frames without unwinding them, and with one built as C++, whose errors are
+// exceptions of its own: therefore never catch (...) here, and raise only when no C++ object is
+// left alive.
+#pragma once
+#include <exception>
+#include <lua.hpp>
+
+#include "clench/base/error.h"
+
+namespace clench {
+
+/// A Lua error on its way through C++; its value waits in the state, and guarded raises it
+/// again unchanged.
+class Raised : public std::exception {
+ public:
+  const char* what() const noexcept override { return "an error in a script's function"; }
+};
+
+/// Calls the function below its `arguments` on the stack.
+/// throws  Raised when it fails
+void protected_call(lua_State* L, int arguments, int results);
+
+/// Runs fn.
+/// returns  what fn returned, or -1 with an error value on top of the stack
+int run_guarded(lua_State* L, lua_CFunction fn);
+
+/// Pops what error values have as their metatable.
+void set_error_metatable(lua_State* L);
+/// Makes the text on top of the stack an error's value, that tells its kind. Raises Lua errors only for want of memory.
+void make_error_value(lua_State* L, const char* kind);
+
+/// fn as Lua may call it: a std::exception becomes a Lua error with the calling script's line.
+template <lua_CFunction fn>
+int guarded(lua_State* L) {
+  const int results = run_guarded(L, fn);
+  return results >= 0 ? results : lua_error(L);
+}
+
+}  // namespace clench

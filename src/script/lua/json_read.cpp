@@ -1,0 +1,232 @@
+#include <charconv>
+#include <cmath>
+
+#include "clench/base/error.h"
+#include "clench/script/lua/json.h"
+
+namespace clench {
+
+namespace {
+
+class Reader {
+ public:
+  Reader(lua_State* L, std::string_view text) : L_(L), text_(text) {}
+
+  void read() {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+    value(0);
+    blanks();
+    if (at_ < text_.size()) refuse("the end");
+  }
+
+ private:
+  [[noreturn]] void complain(size_t at, const std::string& what) const {
+    size_t line = 1, column = 1;
+    for (size_t i = 0; i < at; ++i) {
+      ++column;
+      if (text_[i] == '\n') ++line, column = 1;
+    }
+    fail("clench.json.decode: line {}, column {}: {}", line, column, what);
+  }
+
+  [[noreturn]] void refuse(const std::string& expected) const {
+    if (at_ >= text_.size()) complain(at_, "expected " + expected + ", got the end of the text");
+    const auto c = static_cast<unsigned char>(text_[at_]);
+    const auto got =
+        c >= 32 && c < 127 ? fmt::format("'{}'", text_[at_]) : fmt::format("byte {}", c);
+    complain(at_, "expected " + expected + ", got " + got);
+  }
+
+  char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+  bool take(char c) { return peek() == c && at_ < text_.size() ? ++at_, true : false; }
+  void blanks() {
+    while (at_ < text_.size() &&
+           std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos)
+      ++at_;
+  }
+
+  bool word(std::string_view name) {
+    if (!text_.substr(at_).starts_with(name)) return false;
+    at_ += name.size();
+    return true;
+  }
+
+  void value(int depth) {
+    if (depth > json_depth) complain(at_, fmt::format("nested deeper than {} levels", json_depth));
+    if (!lua_checkstack(L_, 8)) complain(at_, "too many values on Lua's stack");
+    blanks();
+    const char c = peek();
+    if (c == '{') return object(depth);
+    if (c == '[') return list(depth);
+    if (c == '"') {
+      const std::string& text = string();
+      lua_pushlstring(L_, text.data(), text.size());
+    } else if (c == '-' || (c >= '0' && c <= '9')) {
+      number();
+    } else if (word("true") || word("false")) {
+      lua_pushboolean(L_, text_[at_ - 2] == 'u');
+    } else if (word("null")) {
+      push_json_null(L_);
+    } else {
+      refuse("a value");
+    }
+  }
+
+  void list(int depth) {
+    ++at_;
+    lua_newtable(L_);
+    blanks();
+    if (take(']')) return;
+    for (lua_Integer i = 1;; ++i) {
+      value(depth + 1);
+      lua_rawseti(L_, -2, i);
+      blanks();
+      if (take(']')) return;
+      if (!take(',')) refuse("',' or ']'");
+    }
+  }
+
+  void object(int depth) {
+    ++at_;
+    lua_newtable(L_);
+    blanks();
+    if (take('}')) return mark_json_object(L_);
+    for (;;) {
+      blanks();
+      if (peek() != '"') refuse("a name in double quotes");
+      const std::string& name = string();
+      lua_pushlstring(L_, name.data(), name.size());
+      blanks();
+      if (!take(':')) refuse("':'");
+      value(depth + 1);
+      push_json_null(L_);
+      const bool null = lua_rawequal(L_, -1, -2);
+      lua_pop(L_, 1);
+      if (null) lua_pop(L_, 1), lua_pushnil(L_);
+      lua_rawset(L_, -3);
+      blanks();
+      if (take('}')) break;
+      if (!take(',')) refuse("',' or '}'");
+    }
+    lua_pushnil(L_);
+    if (!lua_next(L_, -2)) return mark_json_object(L_);
+    lua_pop(L_, 2);
+  }
+
+  bool digits() {
+    const size_t start = at_;
+    while (peek() >= '0' && peek() <= '9') ++at_;
+    return at_ > start;
+  }
+
+  void number() {
+    const size_t start = at_;
+    const bool negative = take('-');
+    if (!take('0') && !digits()) refuse("a digit");
+    if (peek() >= '0' && peek() <= '9') complain(at_, "expected a number without leading zeros");
+    bool whole = true;
+    if (take('.')) {
+      whole = false;
+      if (!digits()) refuse("a digit");
+    }
+    if (peek() == 'e' || peek() == 'E') {
+      ++at_, whole = false;
+      if (!take('+')) take('-');
+      if (!digits()) refuse("a digit");
+    }
+    const char *first = text_.data() + start, *last = text_.data() + at_;
+    lua_Integer n = 0;
+    if (whole && std::from_chars(first, last, n).ec == std::errc() && !(negative && n == 0))
+      return lua_pushinteger(L_, n);
+    double x = 0;
+    const auto result = std::from_chars(first, last, x);
+    // out of range is either too large, an error, or too small, which is zero or nearly so
+    if (result.ec != std::errc()) x = std::strtod(std::string(first, last).c_str(), nullptr);
+    if (!std::isfinite(x))
+      complain(start, "a number too large for 64 bits: " +
+                          std::string(std::string_view(first, last).substr(0, 40)));
+    lua_pushnumber(L_, x);
+  }
+
+  unsigned hex4() {
+    unsigned code = 0;
+    for (int i = 0; i < 4; ++i, ++at_) {
+      const char c = peek();
+      const int digit = c >= '0' && c <= '9'   ? c - '0'
+                        : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                        : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                               : -1;
+      if (digit < 0) refuse("a hexadecimal digit");
+      code = code * 16 + static_cast<unsigned>(digit);
+    }
+    return code;
+  }
+
+  void add_utf8(unsigned code) {
+    const auto add = [&](unsigned byte) { scratch_ += static_cast<char>(byte); };
+    if (code < 0x80) return add(code);
+    if (code < 0x800) {
+      add(0xC0 | code >> 6);
+    } else if (code < 0x10000) {
+      add(0xE0 | code >> 12);
+      add(0x80 | (code >> 6 & 0x3F));
+    } else {
+      add(0xF0 | code >> 18);
+      add(0x80 | (code >> 12 & 0x3F));
+      add(0x80 | (code >> 6 & 0x3F));
+    }
+    add(0x80 | (code & 0x3F));
+  }
+
+  void escape() {
+    const size_t start = at_ - 1;
+    const char c = peek();
+    const size_t plain = std::string_view("\"\\/bfnrt").find(c);
+    if (at_ < text_.size() && plain != std::string_view::npos) {
+      ++at_;
+      scratch_ += "\"\\/\b\f\n\r\t"[plain];
+      return;
+    }
+    if (!take('u')) refuse("one of \" \\ / b f n r t u after a backslash");
+    unsigned code = hex4();
+    if (code >= 0xD800 && code < 0xDC00) {
+      // the first half of a pair
+      const unsigned low = take('\\') && take('u') ? hex4() : 0;
+      if (low < 0xDC00 || low > 0xDFFF) complain(start, "half of a surrogate pair");
+      code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
+    } else if (code >= 0xDC00 && code < 0xE000) {
+      complain(start, "half of a surrogate pair");
+    }
+    add_utf8(code);
+  }
+
+  // stands on the opening quote; valid until the next call
+  const std::string& string() {
+    const size_t start = at_++;
+    scratch_.clear();
+    while (at_ < text_.size() && text_[at_] != '"') {
+      const char c = text_[at_++];
+      if (c == '\\') {
+        escape();
+      } else if (static_cast<unsigned char>(c) < 0x20) {
+        --at_;
+        refuse("no control character in a string");
+      } else {
+        scratch_ += c;
+      }
+    }
+    if (!take('"')) complain(start, "a string that never ends");
+    return scratch_;
+  }
+
+  lua_State* L_;
+  std::string_view text_;
+  size_t at_ = 0;
+  std::string scratch_;
+};
+
+}  // namespace
+
+void read_json(lua_State* L, std::string_view text) { Reader(L, text).read(); }
+
+}  // namespace clench

@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "clench/base/text.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/json.h"
+#include "clench/script/lua/read.h"
+
+namespace clench {
+
+namespace {
+
+class Writer {
+ public:
+  Writer(lua_State* L, int indent) : L_(L), indent_(indent) {}
+
+  void value(int index, int depth) {
+    if (!lua_checkstack(L_, 8)) refuse("fewer values on Lua's stack");
+    switch (lua_type(L_, index)) {
+      case LUA_TBOOLEAN:
+        out += lua_toboolean(L_, index) ? "true" : "false";
+        break;
+      case LUA_TNUMBER:
+        number(index);
+        break;
+      case LUA_TSTRING: {
+        size_t size = 0;
+        const char* text = lua_tolstring(L_, index, &size);
+        string({text, size});
+        break;
+      }
+      case LUA_TTABLE:
+      case LUA_TUSERDATA:
+      case LUA_TLIGHTUSERDATA:
+        compound(lua_absindex(L_, index), depth);
+        break;
+      default:
+        refuse("a number, string, boolean, table or clench value", index);
+    }
+  }
+
+  std::string out;
+
+ private:
+  [[noreturn]] void refuse(const std::string& expected, int index = 0) const {
+    fail("clench.json.encode: value{}: expected {}{}", path_, expected,
+         index ? ", got " + described(L_, index) : "");
+  }
+
+  void number(int index) {
+    if (lua_isinteger(L_, index)) {
+      out += fmt::format("{}", lua_tointeger(L_, index));
+      return;
+    }
+    const double x = lua_tonumber(L_, index);
+    if (!std::isfinite(x)) refuse("a finite number", index);
+    // the shortest digits, 17 at most, that read back to the same bits; a float stays one
+    std::string text = fmt::format("{}", x);
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    out += text;
+  }
+
+  void string(std::string_view text) {
+    out += '"';
+    for (size_t i = 0; i < text.size();) {
+      const size_t size = utf8_size(text, i);
+      if (!size)
+        refuse(fmt::format("text in UTF-8, got the byte {}", static_cast<unsigned char>(text[i])));
+      const char c = text[i];
+      const size_t short_form = std::string_view("\"\\\b\f\n\r\t").find(c);
+      if (size == 1 && short_form != std::string_view::npos) {
+        out += '\\';
+        out += "\"\\bfnrt"[short_form];
+      } else if (size == 1 && (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)) {
+        out += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+      } else {
+        out += text.substr(i, size);
+      }
+      i += size;
+    }
+    out += '"';
+  }
+
+  void compound(int index, int depth) {
+    push_json_null(L_);
+    const bool null = lua_rawequal(L_, -1, index);
+    lua_pop(L_, 1);
+    if (null) {
+      out += "null";
+      return;
+    }
+    if (depth >= json_depth) refuse(fmt::format("at most {} levels of tables", json_depth));
+    if (luaL_getmetafield(L_, index, "__json") != LUA_TNIL) {
+      lua_pushvalue(L_, index);
+      protected_call(L_, 1, 1);
+      if (++conversions_ > json_depth) refuse("an end to values that stand for values");
+      value(-1, depth);
+      --conversions_;
+      lua_pop(L_, 1);
+      return;
+    }
+    if (lua_type(L_, index) != LUA_TTABLE) refuse("a value that JSON can hold", index);
+    const void* self = lua_topointer(L_, index);
+    if (std::find(open_.begin(), open_.end(), self) != open_.end())
+      refuse("no table within itself");
+    open_.push_back(self);
+    table(index, depth);
+    open_.pop_back();
+  }
+
+  // keys are all names, or all of 1..n
+  void table(int index, int depth) {
+    std::vector<std::string> names;
+    const auto size = static_cast<lua_Integer>(lua_rawlen(L_, index));
+    lua_Integer items = 0;
+    for (lua_pushnil(L_); lua_next(L_, index); lua_pop(L_, 1)) {
+      if (lua_type(L_, -2) == LUA_TSTRING) {
+        size_t length = 0;
+        const char* name = lua_tolstring(L_, -2, &length);
+        names.emplace_back(name, length);
+      } else if (lua_isinteger(L_, -2) && lua_tointeger(L_, -2) >= 1 &&
+                 lua_tointeger(L_, -2) <= size) {
+        ++items;
+      } else {
+        refuse("names, or items 1..n without holes, got the key " + described(L_, -2));
+      }
+    }
+    if (items && !names.empty())
+      refuse(fmt::format("a list or names, got both: {} items and the name '{}'", items, names[0]));
+    if (items != size) refuse("items 1..n without holes");
+    if (items || (names.empty() && luaL_getmetafield(L_, index, "__object") == LUA_TNIL))
+      return list(index, size, depth);
+    if (names.empty()) lua_pop(L_, 1);
+    object(index, names, depth);
+  }
+
+  void list(int index, lua_Integer size, int depth) {
+    out += '[';
+    const size_t length = path_.size();
+    for (lua_Integer i = 1; i <= size; ++i) {
+      separate(i == 1, depth + 1);
+      lua_rawgeti(L_, index, i);
+      path_ += fmt::format("[{}]", i);
+      value(-1, depth + 1);
+      path_.resize(length);
+      lua_pop(L_, 1);
+    }
+    close(size > 0, depth, ']');
+  }
+
+  void object(int index, std::vector<std::string>& names, int depth) {
+    std::sort(names.begin(), names.end());
+    out += '{';
+    const size_t length = path_.size();
+    for (size_t i = 0; i < names.size(); ++i) {
+      separate(i == 0, depth + 1);
+      path_ += "." + names[i];
+      string(names[i]);
+      out += indent_ ? ": " : ":";
+      lua_pushlstring(L_, names[i].data(), names[i].size());
+      lua_rawget(L_, index);
+      value(-1, depth + 1);
+      path_.resize(length);
+      lua_pop(L_, 1);
+    }
+    close(!names.empty(), depth, '}');
+  }
+
+  void separate(bool first, int depth) {
+    if (!first) out += ',';
+    if (indent_) out += '\n' + std::string(static_cast<size_t>(indent_ * depth), ' ');
+  }
+
+  void close(bool any, int depth, char bracket) {
+    if (any && indent_) out += '\n' + std::string(static_cast<size_t>(indent_ * depth), ' ');
+    out += bracket;
+  }
+
+  lua_State* L_;
+  int indent_;
+  int conversions_ = 0;  // values of __json that stand for one another
+  std::string path_;
+  std::vector<const void*> open_;
+};
+
+}  // namespace
+
+std::string write_json(lua_State* L, int index, int indent) {
+  Writer writer(L, indent);
+  writer.value(lua_absindex(L, index), 0);
+  return std::move(writer.out);
+}
+
+}  // namespace clench

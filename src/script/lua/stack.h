@@ -1,0 +1,15 @@
+// Strings on the stack.
+#pragma once
+#include <lua.hpp>
+#include <string_view>
+
+namespace clench {
+
+/// The string at the index, with its zero bytes, as long as it stays on the stack.
+inline std::string_view string_at(lua_State* L, int index) {
+  size_t size = 0;
+  const char* text = lua_tolstring(L, index, &size);
+  return {text, text ? size : 0};
+}
+
+}  // namespace clench

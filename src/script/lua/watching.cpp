@@ -1,0 +1,84 @@
+#include "clench/script/lua/watching.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <new>
+
+#include "clench/base/convert.h"
+#include "clench/base/text.h"
+
+namespace clench {
+
+static double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+static constexpr double patience = 0.5, pause = 0.1;  // before it shows, and between two bars [s]
+
+Bar::Bar() : terminal_(isatty(STDERR_FILENO) == 1) {}
+
+void Bar::begin() {
+  if (depth_++ == 0) began_ = last_ = now();
+}
+
+void Bar::end() {
+  if (--depth_ > 0 || !drawn_) return;
+  std::fputs("\r\x1b[K", stderr);
+  drawn_ = false;
+}
+
+void Bar::show(double fraction, std::string_view text) {
+  if (scripts_ == 0) draw(fraction, text);
+}
+
+void Bar::draw(double fraction, std::string_view text) {
+  if (!terminal_ || depth_ == 0) return;
+  const double time = now();
+  if (time - began_ < patience || time - last_ < pause) return;
+  last_ = time;
+  drawn_ = true;
+  std::string line = "\r\x1b[K";
+  if (fraction >= 0) {
+    constexpr int width = 30;
+    const int full = floor_between(fraction * width, 0, width);
+    line += fmt::format("[{:#<{}}{: <{}}] {:3d} %  ", "", full, "", width - full,
+                        floor_between(100 * fraction, 0, 100));
+    // what is left, when there is something to tell it from
+    if (fraction > 0.02 && fraction < 1)
+      line += fmt::format("{:.0f} s left  ", (time - began_) * (1 - fraction) / fraction);
+  }
+  line += excerpt(text);
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+// its address names the place of the state's bar
+static const char bar_key = 0;
+
+using Held = std::shared_ptr<Bar>;
+
+static int drop_bar(lua_State* L) {
+  static_cast<Held*>(lua_touserdata(L, 1))->~Held();
+  return 0;
+}
+
+const std::shared_ptr<Bar>& bar_of(lua_State* L) {
+  const bool known = lua_rawgetp(L, LUA_REGISTRYINDEX, &bar_key) == LUA_TUSERDATA;
+  auto* held = static_cast<Held*>(lua_touserdata(L, -1));
+  lua_pop(L, 1);
+  if (known) return *held;
+  held = new (lua_newuserdatauv(L, sizeof(Held), 0)) Held();
+  lua_createtable(L, 0, 1);
+  lua_pushcfunction(L, drop_bar);
+  lua_setfield(L, -2, "__gc");
+  lua_setmetatable(L, -2);
+  *held = std::make_shared<Bar>();
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &bar_key);
+  return *held;
+}
+
+Watching::Watching(lua_State* L) : bar_(bar_of(L)), progress_(bar_) { bar_->begin(); }
+
+}  // namespace clench

@@ -1,0 +1,2 @@
+#include "clench/low/egg.h"
+#include "clench/low/hen.h"

@@ -1,0 +1,1 @@
+#include "clench/low/egg.h"
