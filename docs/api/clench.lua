@@ -397,6 +397,8 @@ local virtual_contact = {}
 ---@field point vec3 # Where, on the surface of `body`, in the world frame. [m]
 ---@field normal vec3 # Unit normal into `body`, in the world frame.
 ---@field frame pose # Contact frame: origin at the point, +z into `body`.
+---@field feature {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer} # What of the body's mesh the contact lies on: a vertex, an edge between two, or a triangle, counted from 1. It stays the same while the contact moves along it, so that a contact of one step is known again in the next.
+---@field other_feature {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer} # The same of the mesh of `other`.
 ---@field gap number # Distance of the two surfaces there, at most the world's contact threshold. [m]
 ---@field mu number # Static Coulomb coefficient of the two materials.
 ---@field mu_kinetic number # Kinetic Coulomb coefficient of the two materials.

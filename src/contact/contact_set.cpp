@@ -178,7 +178,8 @@ std::vector<Touch> contact_set(const Shape& a, const Shape& b, const Pose& X_AB,
 
   std::vector<Touch> touches;
   for (const int i : kept)
-    touches.push_back({points[i].p_a, points[i].p_b, points[i].normal, points[i].gap});
+    touches.push_back({points[i].p_a, points[i].p_b, points[i].normal, points[i].gap,
+                       points[i].feature_a, points[i].feature_b});
   return touches;
 }
 

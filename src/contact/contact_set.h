@@ -4,15 +4,17 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "clench/contact/feature.h"
 #include "clench/geometry/query/queries.h"
 
 namespace clench {
 
 /// One point where surfaces come closer than the threshold; in the frame of a.
 struct Touch {
-  Eigen::Vector3d p_a, p_b;  ///< the two surface points [m]
-  Eigen::Vector3d normal_b;  ///< unit, into b (from a towards b)
-  double gap = 0;            ///< [m]
+  Eigen::Vector3d p_a, p_b;                ///< the two surface points [m]
+  Eigen::Vector3d normal_b;                ///< unit, into b (from a towards b)
+  double gap = 0;                          ///< [m]
+  Feature feature_a = {}, feature_b = {};  ///< that the points lie on
 };
 
 struct TouchOptions {

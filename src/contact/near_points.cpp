@@ -112,8 +112,8 @@ class Collector {
     const int i = a_.find(p.triangle_a), j = b_.find(p.triangle_b);
     const bool on_face_b = b_.around(j, p.p_b).empty();
     const Vector3d face = face_normal(on_face_b ? b_.corners(j) : a_.corners(i));
-    points_.push_back(
-        {p.p_a, p.p_b, normal(p.p_a, p.p_b, p.distance, i, j, face), p.distance, pair});
+    points_.push_back({p.p_a, p.p_b, normal(p.p_a, p.p_b, p.distance, i, j, face), p.distance,
+                       a_.feature(i, p.p_a), b_.feature(j, p.p_b), pair});
   }
 
   static bool nearer(const TrianglePair& p, const TrianglePair& q) {
@@ -137,7 +137,8 @@ class Collector {
     const Vector3d n = normal(p, c.q, c.distance, i_, j_, face_normal(b_.corners(j_)));
     if (a_.is_summit(slots, p, n, threshold_, rounding_) &&
         b_.is_summit(b_.around(j_, c.q), c.q, -n, threshold_, rounding_))
-      points_.push_back({p, c.q, n, c.distance, pair});
+      points_.push_back(
+          {p, c.q, n, c.distance, a_.vertex_feature(corner), b_.feature(j_, c.q), pair});
   }
 
   void corner_of_b(int pair, int k) {
@@ -151,7 +152,8 @@ class Collector {
     const Vector3d n = normal(c.q, q, c.distance, i_, j_, face_normal(a_.corners(i_)));
     if (b_.is_summit(slots, q, -n, threshold_, rounding_) &&
         a_.is_summit(a_.around(i_, c.q), c.q, n, threshold_, rounding_))
-      points_.push_back({c.q, q, n, c.distance, pair});
+      points_.push_back(
+          {c.q, q, n, c.distance, a_.feature(i_, c.q), b_.vertex_feature(corner), pair});
   }
 
   void meet(int& seen, int pair) {
@@ -198,7 +200,8 @@ class Collector {
                               b_.find(pairs_[c.pair].triangle_b), across);
     if (a_.is_summit(slots_a, c.p_a, n, threshold_, rounding_) &&
         b_.is_summit(slots_b, c.p_b, -n, threshold_, rounding_))
-      points_.push_back({c.p_a, c.p_b, n, c.gap, c.pair});
+      points_.push_back(
+          {c.p_a, c.p_b, n, c.gap, a_.edge_feature(c.edge_a), b_.edge_feature(c.edge_b), c.pair});
   }
 
   // every region has its closest pair at least

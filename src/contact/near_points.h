@@ -3,16 +3,18 @@
 #pragma once
 #include <vector>
 
+#include "clench/contact/feature.h"
 #include "clench/geometry/query/queries.h"
 #include "clench/geometry/query/triangle.h"
 
 namespace clench {
 
 struct NearPoint {
-  Eigen::Vector3d p_a, p_b;  ///< on both surfaces, frame of a [m]
-  Eigen::Vector3d normal;    ///< unit, from a into b
-  double gap = 0;            ///< [m]
-  int region = 0;            ///< equal where a path of near points leads from one to the other
+  Eigen::Vector3d p_a, p_b;      ///< on both surfaces, frame of a [m]
+  Eigen::Vector3d normal;        ///< unit, from a into b
+  double gap = 0;                ///< [m]
+  Feature feature_a, feature_b;  ///< that the points lie on
+  int region = 0;                ///< equal where a path of near points leads from one to the other
 };
 
 /// The closest pair first, then the others in the order of the triangles. Only points where each

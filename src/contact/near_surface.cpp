@@ -1,6 +1,7 @@
 #include "clench/contact/near_surface.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace clench {
@@ -48,7 +49,7 @@ static int number_positions(const std::vector<Vector3d>& vertices, std::vector<i
 }
 
 NearSurface::NearSurface(const Mesh& mesh, std::vector<int> triangles, const Pose& X)
-    : triangles_(std::move(triangles)) {
+    : mesh_(&mesh), triangles_(std::move(triangles)) {
   const int slots = 3 * static_cast<int>(triangles_.size());
   std::vector<int> corners(slots);
   for (int slot = 0; slot < slots; ++slot)
@@ -86,18 +87,46 @@ int NearSurface::find(int mesh_triangle) const {
                           triangles_.begin());
 }
 
-std::span<const int> NearSurface::around(int triangle, const Vector3d& p) const {
+std::pair<NearSurface::Border, int> NearSurface::border(int triangle, const Vector3d& p) const {
   const Corners& c = corners_[triangle];
   double size = 0;
   for (int k = 0; k < 3; ++k) size = std::max(size, (c[(k + 1) % 3] - c[k]).norm());
   const double near = on_boundary * size;
   for (int k = 0; k < 3; ++k)
-    if ((p - c[k]).norm() <= near) return at_corner(corner(triangle, k));
+    if ((p - c[k]).norm() <= near) return {Border::corner, k};
   for (int k = 0; k < 3; ++k) {
     const Vector3d along = c[(k + 1) % 3] - c[k];
-    if (along.cross(p - c[k]).norm() <= near * along.norm()) return at_edge(edge(triangle, k));
+    if (along.cross(p - c[k]).norm() <= near * along.norm()) return {Border::edge, k};
   }
+  return {Border::none, 0};
+}
+
+std::span<const int> NearSurface::around(int triangle, const Vector3d& p) const {
+  const auto [where, k] = border(triangle, p);
+  if (where == Border::corner) return at_corner(corner(triangle, k));
+  if (where == Border::edge) return at_edge(edge(triangle, k));
   return {};
+}
+
+Feature NearSurface::vertex_feature(int corner) const {
+  int lowest = std::numeric_limits<int>::max();
+  for (const int slot : at_corner(corner))
+    lowest = std::min(lowest, mesh_->triangles[triangles_[slot / 3]][slot % 3]);
+  return {Feature::vertex, lowest, -1};
+}
+
+Feature NearSurface::edge_feature(int edge) const {
+  const int slot = at_edge(edge)[0];
+  const int from = vertex_feature(corner(slot / 3, slot % 3)).first;
+  const int to = vertex_feature(corner(slot / 3, (slot % 3 + 1) % 3)).first;
+  return {Feature::edge, std::min(from, to), std::max(from, to)};
+}
+
+Feature NearSurface::feature(int triangle, const Vector3d& p) const {
+  const auto [where, k] = border(triangle, p);
+  if (where == Border::corner) return vertex_feature(corner(triangle, k));
+  if (where == Border::edge) return edge_feature(edge(triangle, k));
+  return {Feature::triangle, triangles_[triangle], -1};
 }
 
 bool NearSurface::is_summit(std::span<const int> slots, const Vector3d& p,

@@ -1,8 +1,10 @@
 // The near triangles of one shape, and which of them meet at a corner or an edge.
 #pragma once
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "clench/contact/feature.h"
 #include "clench/geometry/mesh/mesh.h"
 #include "clench/geometry/query/triangle.h"
 #include "clench/math/pose.h"
@@ -14,7 +16,7 @@ namespace clench {
 /// corner k to k + 1.
 class NearSurface {
  public:
-  /// triangles  indices into the mesh, ascending; `X` moves the corners
+  /// triangles  indices into the mesh, which outlives this, ascending; `X` moves the corners
   NearSurface(const Mesh& mesh, std::vector<int> triangles, const Pose& X);
 
   int find(int mesh_triangle) const;  ///< its number among the near ones
@@ -30,6 +32,11 @@ class NearSurface {
   /// Slots of the triangles around p, a point of `triangle`: those at its corner or edge; none
   /// inside the face.
   std::span<const int> around(int triangle, const Eigen::Vector3d& p) const;
+
+  /// What of the mesh a point of `triangle` lies on: the least that holds it.
+  Feature feature(int triangle, const Eigen::Vector3d& p) const;
+  Feature vertex_feature(int corner) const;
+  Feature edge_feature(int edge) const;
 
   /// Is p the point of these triangles that comes nearest to what lies along `direction` (unit)
   /// from it? A slope of 1/30 towards it is forgiven.
@@ -49,7 +56,11 @@ class NearSurface {
     }
   };
   static Groups group(std::vector<int> of, int count);
+  // where on its border a point of a triangle lies: corner k, edge k, or neither
+  enum class Border { corner, edge, none };
+  std::pair<Border, int> border(int triangle, const Eigen::Vector3d& p) const;
 
+  const Mesh* mesh_;
   std::vector<int> triangles_;
   std::vector<Corners> corners_;
   Groups by_corner_, by_edge_;

@@ -38,6 +38,8 @@ struct Contact {
   Eigen::Vector3d p_W;  ///< on the surface of body [m]
   Eigen::Vector3d n_W;  ///< unit, into body
   double gap = 0;       ///< [m], in (0, threshold]
+  /// of the meshes of both, that the points nearest to each other lie on
+  Feature feature, other_feature;
   Friction friction;
   ContactKind kind = ContactKind::point;
   /// what the patch of a soft contact follows from; null of others. Its a is the body of the two

@@ -116,6 +116,34 @@ static int text(lua_State* L) {
                              p.x(), p.y(), p.z()));
 }
 
+// vertices and triangles count from 1, as those of meshes
+static int push_feature(lua_State* L, const Feature& feature) {
+  push_list(L, 0, 2);
+  if (feature.kind == Feature::triangle) {
+    set_field(L, "kind", "triangle");
+    set_field(L, "triangle", feature.first + 1);
+    return 1;
+  }
+  const bool edge = feature.kind == Feature::edge;
+  set_field(L, "kind", edge ? "edge" : "vertex");
+  push_list(L, edge ? 2 : 1);
+  push(L, feature.first + 1);
+  lua_rawseti(L, -2, 1);
+  if (edge) {
+    push(L, feature.second + 1);
+    lua_rawseti(L, -2, 2);
+  }
+  lua_setfield(L, -2, "vertices");
+  return 1;
+}
+
+static int get_feature(lua_State* L) {
+  return push_feature(L, self<ContactHandle>(L).contact.feature);
+}
+static int get_other_feature(lua_State* L) {
+  return push_feature(L, self<ContactHandle>(L).contact.other_feature);
+}
+
 static const Entry fields[] = {
     {"body", guarded<get_body>, R"(
 The body that is touched: the object, of a hand and an object.
@@ -142,6 +170,17 @@ Contact frame: origin at the point, +z into `body`.
 @type pose
 > c = world:contacts(hand, flask)[1]
 > (c.frame:rotate{0, 0, 1} - c.normal):norm() < 1e-12  --> true)"},
+    {"feature", guarded<get_feature>, R"(
+What of the body's mesh the contact lies on: a vertex, an edge between two, or a triangle, counted from 1. It stays the same while the contact
+moves along it, so that a contact of one step is known again in the next.
+@type {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer}
+> kinds = {vertex = true, edge = true, triangle = true}
+> kinds[grasp.contacts[1].feature.kind]  --> true)"},
+    {"other_feature", guarded<get_other_feature>, R"(
+The same of the mesh of `other`.
+@type {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer}
+> kinds = {vertex = true, edge = true, triangle = true}
+> kinds[grasp.contacts[1].other_feature.kind]  --> true)"},
     {"gap", guarded<get_gap>, R"(
 Distance of the two surfaces there, at most the world's contact threshold.
 @type number  [m]
