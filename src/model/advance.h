@@ -1,6 +1,7 @@
 // Conservative advancement of many pairs along one motion: how far can it go before the first touch?
 // source  Mirtich (1996), ch. 2: a pair at distance d cannot meet within d / (bound of its speed)
 #pragma once
+#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -17,8 +18,10 @@ struct PairBound {
       0;  ///< known to be at least this far apart where the motion starts; 0: unknown [m]
 
   bool touching = false;  ///< within the threshold since the start: it may slide and leave
-  double gap = 0;         ///< as last measured [m]
-  double safe = 0;        ///< farther apart than the threshold's aim before this s
+  double gap =
+      0;  ///< as last measured: the distance, or when that is many thresholds, a lower bound [m]
+  std::array<int, 2> near = {-1, -1};  ///< triangles where the pair nearly came nearest last
+  double safe = 0;                     ///< farther apart than the threshold's aim before this s
 };
 
 struct Advance {

@@ -89,4 +89,23 @@ Distance distance(const Shape& a, const Shape& b, const Pose& X_AB, double limit
   return best;
 }
 
+double distance_bound(const Shape& a, const Shape& b, const Pose& X_AB, double limit, double part,
+                      std::array<int, 2>& near) {
+  const Placement placement(a, b, X_AB);
+  if (placement.clearly_apart(limit)) return limit;
+  double nearest = limit;
+  if (near[0] >= 0)
+    placement.measure({{near[0], near[1]}}, [&](const NearPair&, const Closest& c) {
+      nearest = std::min(nearest, c.distance);
+    });
+  if (nearest == 0) return 0;
+  const auto meet = [&](int triangle_a, int triangle_b) {
+    return triangles_meet(placement.corners_a(triangle_a), placement.corners_b(triangle_b));
+  };
+  const double reach = nearest < limit ? part * nearest : limit;
+  const DistanceBound found = bound_distance(placement.trees(), {reach}, part, nearest, meet);
+  if (found.pair.triangle_a >= 0) near = {found.pair.triangle_a, found.pair.triangle_b};
+  return std::clamp(found.least, 0.0, limit);
+}
+
 }  // namespace clench

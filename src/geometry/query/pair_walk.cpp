@@ -41,6 +41,16 @@ class PairWalk {
     return false;
   }
 
+  DistanceBound bound(const Reach& reach, double part, double nearest, PairVisit meet) {
+    part_ = static_cast<Real>(part);
+    best_ = static_cast<Real>(nearest);
+    limit_to(at_least<Real>(reach.distance) + slack_);
+    if (run(meet)) return {};
+    Real low = limit_;
+    for (const Found& found : found_) low = std::min(low, found.low);
+    return {static_cast<double>(low) - 2 * static_cast<double>(slack_), nearest_};
+  }
+
  private:
   // boxes are named by eight times their bundle and their lane
   struct Task {
@@ -225,7 +235,7 @@ class PairWalk {
   bool judge_nearest(const TrianglesOf<F>& a, const TrianglesOf<F>& b, unsigned all,
                      const NearPair* pairs, PairVisit meet) {
     const NearBounds<F> bounds = near_bounds(a, b);
-    lower_limit(bounds, all);
+    lower_limit(bounds, all, pairs);
     Real low[8];
     bounds.low.store(low);
     for (unsigned left = all & ~(bounds.low > limit_).set(); left; left &= left - 1) {
@@ -238,14 +248,16 @@ class PairWalk {
   }
 
   // No more than the least of the eight distances matters from now on, and its way is a guide.
-  void lower_limit(const NearBounds<F>& bounds, unsigned taken) {
+  void lower_limit(const NearBounds<F>& bounds, unsigned taken, const NearPair* pairs) {
     Real high[8];
     bounds.high.store(high);
     int best = __builtin_ctz(taken);
     for (unsigned rest = taken; rest; rest &= rest - 1)
       if (high[__builtin_ctz(rest)] < high[best]) best = __builtin_ctz(rest);
-    const Real least = high[best] + 2 * slack_;
-    if (!(least < limit_)) return;
+    const Real least = part_ * high[best] + 2 * slack_;
+    if (!(least < limit_) || !(high[best] < best_)) return;
+    best_ = high[best];
+    nearest_ = pairs[best];
     limit_to(least);
     Real x[8], y[8], z[8];
     bounds.way.x.store(x), bounds.way.y.store(y), bounds.way.z.store(z);
@@ -259,6 +271,9 @@ class PairWalk {
   FrameBoxes<F, true> boxes_b_;
   const Real slack_;
   Real limit_ = 0, squared_limit_ = 0;
+  // what is farther than this part of the nearest found so far does not matter
+  Real part_ = 1, best_ = std::numeric_limits<Real>::infinity();
+  NearPair nearest_{-1, -1};
   bool guided_ = false;
   Triple<Real> along_{};
   Side side_a_, side_b_;
@@ -271,7 +286,7 @@ class PairWalk {
 };
 
 template <class Walk>
-bool in_precision(const TreePair& pair, Walk&& walk) {
+auto in_precision(const TreePair& pair, Walk&& walk) {
   const double extent = extent_of(pair);
   if (single_is_enough(extent, pair.a->radius() + pair.b->radius())) {
     PairWalk<FloatLanes> single(pair, extent);
@@ -286,6 +301,11 @@ bool in_precision(const TreePair& pair, Walk&& walk) {
 bool find_nearest_pairs(const TreePair& pair, const Reach& reach, std::vector<NearPair>& out,
                         PairVisit meet) {
   return in_precision(pair, [&](auto& walk) { return walk.nearest(reach, out, meet); });
+}
+
+DistanceBound bound_distance(const TreePair& pair, const Reach& reach, double part, double nearest,
+                             PairVisit meet) {
+  return in_precision(pair, [&](auto& walk) { return walk.bound(reach, part, nearest, meet); });
 }
 
 }  // namespace clench

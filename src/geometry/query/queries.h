@@ -3,6 +3,7 @@
 // collides. All throw Error when a number is missing or infinite or a quaternion is not unit.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -48,6 +49,13 @@ struct Distance {
 Distance distance(const Shape& a, const Shape& b, const Pose& X_AB,
                   double limit = std::numeric_limits<double>::infinity(),
                   PairCache* cache = nullptr);
+
+/// A lower bound of the distance of the surfaces, found sooner than that: at least `part` of it, in (0, 1], or `limit` when
+/// it is not below that [m], but for some 1e-5 of the shapes' extent; 0 when they meet or rounding does not tell them apart.
+/// near  a pair of triangles where they may be nearest, -1 when unknown; where they nearly are, afterwards. The same pose, limit, part
+///       and pair give the same bound
+double distance_bound(const Shape& a, const Shape& b, const Pose& X_AB, double limit, double part,
+                      std::array<int, 2>& near);
 
 /// Two triangles closer than a threshold, with their closest points.
 struct TrianglePair {

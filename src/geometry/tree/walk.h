@@ -51,6 +51,16 @@ void find_pairs_within(const TreePair& pair, double reach, std::vector<NearPair>
 bool find_nearest_pairs(const TreePair& pair, const Reach& reach, std::vector<NearPair>& out,
                         PairVisit meet);
 
+/// A lower bound of a distance [m], 0 where triangles meet, and the pair that is nearest as far as was looked; -1: none.
+struct DistanceBound {
+  double least = 0;
+  NearPair pair{-1, -1};
+};
+
+/// At least the reach, or `part` of the distance where that is less. Surfaces are known to be as near as `nearest`.
+DistanceBound bound_distance(const TreePair& pair, const Reach& reach, double part, double nearest,
+                             PairVisit meet);
+
 /// Visits all pairs of triangles that may meet, likely ones early.
 bool for_meeting_pairs(const TreePair& pair, PairVisit visit);
 

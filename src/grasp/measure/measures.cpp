@@ -112,10 +112,10 @@ const Robustness& MeasuredGrasp::robustness() {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 double centroid_distance(MeasuredGrasp& g) {
-  if (g.grasp().points.empty()) return infinite;
+  if (g.grasp().points.empty()) return unbounded;
   return (g.polygon().centroid - g.grasp().com).norm();
 }
 
@@ -128,7 +128,7 @@ double polygon_irregularity(MeasuredGrasp& g) {
 double gravity_effort(MeasuredGrasp& g) {
   const ForceResult held =
       contact_forces(g.world(), g.grasp(), {.load = weight_of(g.world().body(g.grasp().object))});
-  return held.status == ForceStatus::optimal ? held.objective : infinite;
+  return held.status == ForceStatus::optimal ? held.objective : unbounded;
 }
 
 // the DOFs that have a range, each with where it is in it, from 0 to 1
@@ -142,7 +142,7 @@ void each_place_in_range(const World& world, Id<Robot> id, Act act) {
 }
 
 double joint_margin(MeasuredGrasp& g) {
-  double least = infinite;
+  double least = unbounded;
   each_place_in_range(g.world(), g.grasp().hand, [&](double place) {
     least = std::min({least, std::max(0.0, place), std::max(0.0, 1 - place)});
   });
@@ -156,7 +156,7 @@ double joint_deviation(MeasuredGrasp& g) {
     sum += (2 * place - 1) * (2 * place - 1);
     ++count;
   });
-  return count > 0 ? sum / count : infinite;
+  return count > 0 ? sum / count : unbounded;
 }
 
 // in the object frame; no axis where two moments differ by less than the facets of a round body make
@@ -171,7 +171,7 @@ std::optional<Eigen::Vector3d> principal_axis(const Body& body) {
 double orthogonality(MeasuredGrasp& g) {
   const Body& object = g.world().body(g.grasp().object);
   const auto axis = principal_axis(object);
-  if (!axis) return infinite;
+  if (!axis) return unbounded;
   const Robot& hand = g.world().robot(g.grasp().hand);
   const Eigen::Vector3d approach =
       g.world().pose(hand.base).rotation * hand.X_BA.rotation * Eigen::Vector3d::UnitZ();
@@ -188,7 +188,7 @@ double coplanarity(MeasuredGrasp& g) {
           return (c.p_O - d->p_O).norm() < 1e-6 && (c.n_O - d->n_O).norm() < 1e-6;
         }))
       distinct.push_back(&c);
-  if (distinct.empty()) return infinite;
+  if (distinct.empty()) return unbounded;
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const PointContact* c : distinct) scatter += c->n_O * c->n_O.transpose();
   return std::sqrt(std::max(0.0, eigenvalues(scatter)[0] / static_cast<double>(distinct.size())));
