@@ -20,16 +20,22 @@ std::string_view without_mark(std::string_view text) {
 
 std::string plain_text(std::string raw) {
   raw.erase(0, raw.size() - without_mark(raw).size());
-  if (raw.find('\r') == std::string::npos) return raw;
-  std::string text;
-  text.reserve(raw.size());
-  for (size_t i = 0; i < raw.size(); ++i) {
-    if (raw[i] != '\r')
-      text += raw[i];
-    else if (i + 1 == raw.size() || raw[i + 1] != '\n')
-      text += '\n';
+  // in place: what stands between two carriage returns moves as a whole
+  size_t from = raw.find('\r');
+  if (from == std::string::npos) return raw;
+  size_t to = from;
+  while (from < raw.size()) {
+    // one before a line feed goes, another becomes one
+    if (++from == raw.size() || raw[from] != '\n') raw[to++] = '\n';
+    const size_t next = std::min(raw.find('\r', from), raw.size());
+    std::copy(raw.begin() + static_cast<std::ptrdiff_t>(from),
+              raw.begin() + static_cast<std::ptrdiff_t>(next),
+              raw.begin() + static_cast<std::ptrdiff_t>(to));
+    to += next - from;
+    from = next;
   }
-  return text;
+  raw.resize(to);
+  return raw;
 }
 
 std::string read_text(const std::filesystem::path& path) {
@@ -217,6 +223,26 @@ Line LineReader::next() {
   const Line line = peek();
   if (!done()) step();
   return line;
+}
+
+bool LineReader::skip_to(char mark) {
+  const size_t found = text_.find(mark, at_);
+  if (found == std::string::npos) {
+    passed_ += static_cast<int>(
+        std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_), text_.end(), '\n'));
+    passed_ += !done() && text_.back() != '\n';  // the last line may lack its end
+    at_ = text_.size();
+    return false;
+  }
+  const size_t before = found == 0 ? std::string::npos : text_.rfind('\n', found - 1);
+  const size_t begin = before == std::string::npos ? 0 : before + 1;
+  if (begin > at_) {
+    passed_ +=
+        static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
+                                    text_.begin() + static_cast<std::ptrdiff_t>(begin), '\n'));
+    at_ = begin;
+  }
+  return true;
 }
 
 bool LineReader::skip_to_full() {

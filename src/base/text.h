@@ -116,6 +116,10 @@ class LineReader {
   Line next_full(std::string_view what);
   /// Steps over blank lines and comments; is there another line?
   bool skip_to_full();
+  /// Steps over lines without the character; is there one with it?
+  bool skip_to(char mark);
+  /// Is it the very first of the next line?
+  bool begins_with(char c) const { return !done() && text_[at_] == c; }
 
  private:
   std::string_view line() const;

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "clench/base/random.h"
+
 using namespace clench;
 
 TEST_CASE("a number is decimal, finite and alone") {
@@ -151,4 +153,46 @@ TEST_CASE("a line of millions of words takes no memory for them, and gives each"
   CHECK(line.before('l').size() == 1'000'002);
   CHECK(taken() <= before + 100'000);
   CHECK(split_words(text, "", 3).size() == 3);
+}
+
+TEST_CASE("lines without a mark are stepped over, and the others keep their numbers") {
+  Random random(3);
+  for (int n = 0; n < 300; ++n) {
+    std::string text;
+    for (int i = static_cast<int>(random.uniform(0, 40)); i > 0; --i)
+      text += "ab# \n"[static_cast<int>(random.uniform(0, 5))];
+    // the slow way: every line
+    std::vector<std::pair<int, bool>> expected, got;
+    LineReader all("f", text);
+    while (!all.done()) {
+      const bool begins = all.begins_with('#');
+      const Line line = all.next();
+      if (line.text().find('#') != std::string_view::npos)
+        expected.emplace_back(line.number(), begins);
+    }
+    LineReader some("f", text);
+    while (some.skip_to('#')) {
+      const bool begins = some.begins_with('#');
+      got.emplace_back(some.next().number(), begins);
+    }
+    CHECK(got == expected);
+    CHECK(some.done());
+    CHECK(some.peek().place() == all.peek().place());
+  }
+}
+
+TEST_CASE("line ends of every kind become line feeds, as if by one character after another") {
+  Random random(4);
+  for (int n = 0; n < 500; ++n) {
+    std::string raw;
+    for (int i = static_cast<int>(random.uniform(0, 20)); i > 0; --i)
+      raw += "a\r\n\r"[static_cast<int>(random.uniform(0, 4))];
+    std::string expected;
+    for (size_t i = 0; i < raw.size(); ++i)
+      if (raw[i] != '\r')
+        expected += raw[i];
+      else if (i + 1 == raw.size() || raw[i + 1] != '\n')
+        expected += '\n';
+    CHECK(plain_text(raw) == expected);
+  }
 }

@@ -159,3 +159,44 @@ TEST_CASE("a bad mesh is refused by the number of the vertex or triangle") {
   CHECK_THROWS_WITH_AS(check_mesh(bad, "bad.obj"),
                        "bad.obj: at least one triangle expected, got none", Error);
 }
+
+TEST_CASE("faults of any triangles are those that counting one by one finds") {
+  Random random(21);
+  for (int n = 0; n < 200; ++n) {
+    Mesh mesh;
+    const int vertices = 3 + static_cast<int>(random.uniform() * 6);
+    for (int v = 0; v < vertices; ++v)
+      mesh.vertices.emplace_back(random.normal(), random.normal(), random.normal());
+    for (int t = 0; t < 12; ++t) {
+      Triangle triangle;
+      for (int& v : triangle) v = static_cast<int>(random.uniform() * vertices);
+      mesh.triangles.push_back(triangle);
+    }
+    int open = 0, tangled = 0, duplicates = 0;
+    const auto repeats = [](const Triangle& t) {
+      return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+    };
+    for (int low = 0; low < vertices; ++low)
+      for (int high = low + 1; high < vertices; ++high) {
+        int forward = 0, backward = 0;
+        for (const Triangle& t : mesh.triangles)
+          for (int k = 0; k < 3 && !repeats(t); ++k) {
+            forward += t[k] == low && t[(k + 1) % 3] == high;
+            backward += t[k] == high && t[(k + 1) % 3] == low;
+          }
+        open += forward + backward == 1;
+        tangled += forward + backward > 1 && !(forward == 1 && backward == 1);
+      }
+    for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+      bool earlier = false;
+      for (size_t j = 0; j < i; ++j)
+        earlier = earlier || std::is_permutation(mesh.triangles[i].begin(), mesh.triangles[i].end(),
+                                                 mesh.triangles[j].begin());
+      duplicates += earlier;
+    }
+    const MeshFaults faults = find_faults(mesh);
+    CHECK(faults.open_edges == open);
+    CHECK(faults.tangled_edges == tangled);
+    CHECK(faults.duplicate_triangles == duplicates);
+  }
+}

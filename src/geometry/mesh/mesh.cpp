@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <unordered_map>
 
 #include "clench/base/error.h"
@@ -20,35 +22,68 @@ double doubled_area(const std::array<Vector3d, 3>& c) {
 
 bool repeats_a_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
+// Numbers by the vertex that each belongs to, sorted at each: a sort whose time goes with their count.
+class ByVertex {
+ public:
+  explicit ByVertex(size_t vertices) : start_(vertices + 1, 0) {}
+
+  void add(int vertex, int one, int other) {
+    items_.push_back({vertex, static_cast<uint64_t>(one) << 32 | static_cast<uint32_t>(other)});
+    ++start_[static_cast<size_t>(vertex) + 1];
+  }
+  /// calls visit(numbers at a vertex), for each vertex
+  template <class Visit>
+  void visit(Visit visit) {
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    std::vector<uint64_t> sorted(items_.size());
+    std::vector<size_t> next(start_.begin(), start_.end() - 1);
+    for (const auto& [vertex, number] : items_) sorted[next[vertex]++] = number;
+    for (size_t v = 0; v + 1 < start_.size(); ++v) {
+      const std::span<uint64_t> here(sorted.data() + start_[v], start_[v + 1] - start_[v]);
+      std::sort(here.begin(), here.end());
+      visit(here);
+    }
+  }
+
+ private:
+  std::vector<size_t> start_;
+  std::vector<std::pair<int, uint64_t>> items_;
+};
+
 void count_edges(const Mesh& mesh, MeshFaults& faults) {
-  // each edge as (lower, higher, backwards), sorted, so that its triangles stand together
-  std::vector<std::array<int, 3>> edges;
+  // at its lower vertex each edge as (higher, backwards), so that its triangles stand together
+  ByVertex edges(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) {
     if (repeats_a_vertex(t)) continue;  // it covers no side of any edge
     for (int i = 0; i < 3; ++i) {
       const int from = t[i], to = t[(i + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), from > to});
+      edges.add(std::min(from, to), std::max(from, to), from > to);
     }
   }
-  std::sort(edges.begin(), edges.end());
-  for (size_t i = 0; i < edges.size();) {
-    size_t end = i + 1;
-    while (end < edges.size() && edges[end][0] == edges[i][0] && edges[end][1] == edges[i][1])
-      ++end;
-    if (end - i == 1)
-      ++faults.open_edges;
-    else if (end - i > 2 || edges[i][2] == edges[i + 1][2])
-      ++faults.tangled_edges;
-    i = end;
-  }
+  edges.visit([&](std::span<const uint64_t> at) {
+    for (size_t i = 0; i < at.size();) {
+      size_t end = i + 1;
+      while (end < at.size() && at[end] >> 32 == at[i] >> 32) ++end;
+      if (end - i == 1)
+        ++faults.open_edges;
+      else if (end - i > 2 || at[i] == at[i + 1])
+        ++faults.tangled_edges;
+      i = end;
+    }
+  });
 }
 
 int count_duplicates(const Mesh& mesh) {
-  std::vector<Triangle> sorted = mesh.triangles;
-  for (Triangle& t : sorted) std::sort(t.begin(), t.end());
-  std::sort(sorted.begin(), sorted.end());
-  const auto unique = std::unique(sorted.begin(), sorted.end());
-  return static_cast<int>(sorted.end() - unique);
+  ByVertex triangles(mesh.vertices.size());
+  for (Triangle t : mesh.triangles) {
+    std::sort(t.begin(), t.end());
+    triangles.add(t[0], t[1], t[2]);
+  }
+  int count = 0;
+  triangles.visit([&](std::span<const uint64_t> at) {
+    for (size_t i = 1; i < at.size(); ++i) count += at[i] == at[i - 1];
+  });
+  return count;
 }
 
 int count_unused(const Mesh& mesh) {

@@ -15,15 +15,6 @@ namespace {
 constexpr const char* keys[] = {"material", "youngs", "useFlockOfBirds",
                                 "mass",     "cog",    "inertia_matrix"};
 
-/// Does each line begin with '#', with no blank before it?
-std::vector<bool> marked_lines(std::string_view text) {
-  std::vector<bool> out;
-  for (size_t start = 0; start < text.size();
-       start = std::min(text.find('\n', start), text.size()) + 1)
-    out.push_back(text[start] == '#');
-  return out;
-}
-
 /// absent  what stands for 0; 0: nothing does
 double number_of(const Line& line, const Quantity& quantity, Repairs& repairs, double absent = 0) {
   const std::string subject = fmt::format("{}: {}", line.place(), quantity.name);
@@ -60,14 +51,14 @@ std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
 
 void read_inventor_params(const std::string& text, const std::string& file,
                           const ReadOptions& options, BodySpec& body) {
-  const std::vector<bool> marked = marked_lines(text);
   LineReader lines(file, text);
   Repairs repairs(options.listeners());
-  while (!lines.done()) {
+  while (lines.skip_to('#')) {
+    const bool marked = lines.begins_with('#');  // with no blank before it
     const Line line = lines.next();
     if (!line.text().starts_with('#')) continue;
     const std::string_view key = line.word(0).substr(1);
-    if (!marked[line.number() - 1]) {
+    if (!marked) {
       if (std::ranges::count(keys, key) && options.warn)
         options.warn(
             fmt::format("{}: #{} is a comment, for it does not begin its line", line.place(), key));
