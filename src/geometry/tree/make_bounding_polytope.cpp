@@ -33,9 +33,9 @@ class PointBundles {
 };
 
 // A box whose corners are cut off, the one farthest from the points first, as long as there is room.
-class CasingCutter {
+class PolytopeCutter {
  public:
-  CasingCutter(const std::vector<Vector3d>& points, const Eigen::Matrix3d& axes)
+  PolytopeCutter(const std::vector<Vector3d>& points, const Eigen::Matrix3d& axes)
       : points_(points, 1), sample_(points, points.size() / 512 + 1) {
     double high[2][3], size = 0;
     for (int k = 0; k < 3; ++k) {
@@ -141,7 +141,7 @@ BoundingPolytope make_bounding_polytope(const std::vector<Vector3d>& points,
                                         const Eigen::Matrix3d& axes) {
   const std::vector<Vector3d> corners = points.size() <= BoundingPolytope::max_corners
                                             ? points
-                                            : CasingCutter(points, axes).corners();
+                                            : PolytopeCutter(points, axes).corners();
   BoundingPolytope out;
   for (int i = 0; i < BoundingPolytope::max_corners; ++i) {
     const Vector3d& p = corners[i < static_cast<int>(corners.size()) ? i : 0];
