@@ -1,7 +1,7 @@
 -- stdlib/raise.lua
--- more is a name or a word that nobody reads to its end
 local error_value = require "clench.error_value"
 
+-- more is a name or a word that nobody reads to its end
 local longest, kept_end = 1000, 250
 
 -- as people read it: no control characters, and of a long text both ends
@@ -15,15 +15,10 @@ end
 --- Raises an error that begins with the file and line of the script that called into the standard library.
 return function(text)
   text = sentence(text)
-  local level = 2
-  while true do
-    local info = debug.getinfo(level, "Sl")
-    if info and info.what ~= "C" and not info.source:find "^@stdlib/" then
-      text = ("%s:%d: %s"):format(info.short_src, info.currentline, text)
-    end
-    if not info or info.what ~= "C" and not info.source:find "^@stdlib/" then
-      error(setmetatable({text = text, kind = "input"}, error_value), 0)
-    end
-    level = level + 1
-  end
+  local info, level = nil, 2
+  repeat
+    info, level = debug.getinfo(level, "Sl"), level + 1
+  until not info or info.what ~= "C" and not info.source:find "^@stdlib/"
+  if info then text = ("%s:%d: %s"):format(info.short_src, info.currentline, text) end
+  error(setmetatable({text = text, kind = "input"}, error_value), 0)
 end

@@ -493,6 +493,7 @@ function patch:torsion_limit(options) end
 ---@field info table<string, number> # What its maker notes, by name: a seed, an energy, the number of a run. It may be set, and is kept in files.
 ---@field contacts contact[] # The contacts on the object when the grasp was measured.
 ---@field points {point: vec3, normal: vec3, mu: number, torsion_radius: number}[] # The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers. [m]
+---@field links string[] # Names of what touches at each of the points.
 ---@field rho number # Length that torques are divided by. [m]
 ---@field edges integer|string # Edges of each friction pyramid, or "exact".
 ---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # What clench.grasp takes to measure another grasp alike. rho [m], normal_force [N]

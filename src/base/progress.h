@@ -4,6 +4,7 @@
 #include <exception>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 namespace clench {
 
@@ -34,28 +35,21 @@ class Watcher {
 class Progress {
  public:
   Progress() = default;
-  /// The work is this part of what is watched.
-  explicit Progress(std::shared_ptr<Watcher> watcher, double from = 0, double to = 1)
-      : watcher_(std::move(watcher)), from_(from), to_(to) {}
+  explicit Progress(std::shared_ptr<Watcher> watcher) : watcher_(std::move(watcher)) {}
 
   bool stop_asked() const { return watcher_ && watcher_->stop_asked(); }
   /// throws Stopped when it was asked for
   void check() const {
     if (stop_asked()) throw Stopped();
   }
-  /// So much of the work is done.   throws Stopped as check
+  /// So much of the work is done, in [0, 1]; below 0: not known.   throws Stopped as check
   void tell(double fraction, std::string_view text) const {
     check();
-    if (watcher_) watcher_->show(fraction < 0 ? fraction : from_ + (to_ - from_) * fraction, text);
-  }
-  /// That of a part of the work.
-  Progress part(double from, double to) const {
-    return Progress(watcher_, from_ + (to_ - from_) * from, from_ + (to_ - from_) * to);
+    if (watcher_) watcher_->show(fraction, text);
   }
 
  private:
   std::shared_ptr<Watcher> watcher_;
-  double from_ = 0, to_ = 1;
 };
 
 }  // namespace clench

@@ -15,7 +15,7 @@ namespace clench {
 static constexpr double aim = 0.2;
 static constexpr double there = 0.3;
 // a bound is at least this part of the distance, and used beyond so many thresholds
-static constexpr double most = 0.85, thresholds = 4;
+static constexpr double bound_part = 0.85, bound_beyond = 4;
 // rounding of positions must stay this much below the threshold
 static constexpr double precise = 1e-3;
 
@@ -38,14 +38,15 @@ struct Advancing {
     if (spheres > 0.1 * (a.shape->radius() + b.shape->radius())) return spheres;
     // beyond what the rest of the motion can cover, the distance is of no interest
     const double reach = watch.speed * (end - s) + 2 * threshold;
-    ++queries;
     // far from a touch most of the distance will do; a pair that was near is measured at once
-    if (watch.gap == 0 || watch.gap > thresholds * threshold) {
+    if (watch.gap == 0 || watch.gap > bound_beyond * threshold) {
+      ++queries;
       const double bound =
-          distance_bound(*a.shape, *b.shape, world.pose(watch.a).inverse() * world.pose(watch.b),
-                         reach, most, watch.near);
-      if (bound >= reach || bound > thresholds * threshold) return bound;
+          distance_bound(*a.shape, *b.shape, relative_pose(world, watch.a, watch.b), reach,
+                         bound_part, watch.near);
+      if (bound >= reach || bound > bound_beyond * threshold) return bound;
     }
+    ++queries;
     const std::array one{watch.a}, other{watch.b};
     return std::min(distance(world, one, other, reach, &world.context()).distance, reach);
   }

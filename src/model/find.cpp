@@ -8,10 +8,6 @@
 
 namespace clench {
 
-static Pose relative(const World& world, Id<Body> a, Id<Body> b) {
-  return world.pose(a).inverse() * world.pose(b);
-}
-
 // the caller's context, or one of its own
 class Remember {
  public:
@@ -28,7 +24,7 @@ class Remember {
 
 static bool pair_collides(const World& world, Id<Body> a, Id<Body> b, QueryContext& context) {
   std::tie(a, b) = ordered(a, b);
-  return colliding(*world.body(a).shape, *world.body(b).shape, relative(world, a, b),
+  return colliding(*world.body(a).shape, *world.body(b).shape, relative_pose(world, a, b),
                    &context.pair(a, b));
 }
 
@@ -76,7 +72,7 @@ BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span
       const Body &one = world.body(first), &two = world.body(second);
       if (i == j || !one.shape || !two.shape || sphere_gap(world, first, second) > best.distance)
         continue;
-      const Distance d = distance(*one.shape, *two.shape, relative(world, first, second),
+      const Distance d = distance(*one.shape, *two.shape, relative_pose(world, first, second),
                                   best.distance, &memory->pair(first, second));
       if (!(d.distance < best.distance)) continue;
       const Pose& X_W = world.pose(first);
@@ -102,7 +98,7 @@ static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
   const Body &a = world.body(first), &b = world.body(second);
   const double threshold = world.contact_threshold();
   if (sphere_gap(world, first, second) > threshold) return;
-  const Pose X_AB = relative(world, first, second);
+  const Pose X_AB = relative_pose(world, first, second);
   const Pose& X_WA = world.pose(first);
   const auto touches = contact_set(*a.shape, *b.shape, X_AB, {.threshold = threshold});
   const Friction friction = world.materials().friction(a.material, b.material);

@@ -70,6 +70,10 @@ std::vector<BodyPair> near_of_few(const World& world, double reach, QueryContext
 
 }  // namespace
 
+Pose relative_pose(const World& world, Id<Body> a, Id<Body> b) {
+  return world.pose(a).inverse() * world.pose(b);
+}
+
 std::vector<BodyPair> near_bodies(const World& world, double reach, QueryContext& context) {
   if (world.bodies().size() <= few) return near_of_few(world, reach, context);
   const auto& all = world.bodies();

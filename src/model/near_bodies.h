@@ -20,4 +20,7 @@ std::vector<BodyPair> near_bodies(const World& world, double reach, QueryContext
 std::vector<BodyPair> near_bodies(const World& world, std::span<const Id<Body>> a,
                                   std::span<const Id<Body>> b, double reach, QueryContext& context);
 
+/// b in the frame of a.
+Pose relative_pose(const World& world, Id<Body> a, Id<Body> b);
+
 }  // namespace clench

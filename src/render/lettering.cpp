@@ -28,14 +28,14 @@ struct Font::Face {
   float capital = 0;  // height of capital letters [font units]
 
   explicit Face(const std::string& path) : bytes(read_bytes(path)) {
-    if (FT_Init_FreeType(&library) != 0) fail("{}: FreeType does not start", path);
+    if (FT_Init_FreeType(&library) != 0) fail(ErrorKind::file, "{}: FreeType does not start", path);
     const auto* data = reinterpret_cast<const FT_Byte*>(bytes.data());
     FT_New_Memory_Face(library, data, static_cast<FT_Long>(bytes.size()), 0, &face);
     if (face && FT_IS_SCALABLE(face) && index('H') != 0 && load(index('H')))
       capital = static_cast<float>(face->glyph->metrics.horiBearingY);
     if (!(capital > 0)) {
       FT_Done_FreeType(library);
-      fail("{}: expected an outline font with Latin letters", path);
+      fail(ErrorKind::file, "{}: expected an outline font with Latin letters", path);
     }
   }
   // its faces go with it
@@ -65,6 +65,7 @@ Font::Font(const std::string& path) {
   try {
     face_ = std::make_unique<Face>(path);
   } catch (const Error& error) {
+    if (error.kind() != ErrorKind::file) throw;
     fault_ = fmt::format("pictures have no letters: {}", error.what());
   }
 }

@@ -20,14 +20,12 @@ struct Record : Watcher {
 
 }  // namespace
 
-TEST_CASE("progress of a part is told as a part of the whole") {
+TEST_CASE("what is told reaches the watcher") {
   const auto watcher = std::make_shared<Record>();
-  const Progress whole(watcher), second = whole.part(0.5, 1);
-  whole.tell(0.25, "first");
-  second.tell(0, "second");
-  second.part(0, 0.5).tell(1, "half of it");
-  second.tell(-1, "not known");
-  CHECK(watcher->fractions == std::vector<double>{0.25, 0.5, 0.75, -1});
+  const Progress progress(watcher);
+  progress.tell(0.25, "first");
+  progress.tell(-1, "not known");
+  CHECK(watcher->fractions == std::vector<double>{0.25, -1});
   CHECK(watcher->last == "not known");
 }
 
@@ -37,7 +35,7 @@ TEST_CASE("a stop is thrown until it is taken, and nobody stops what nobody watc
   progress.check();
   watcher->stop();
   CHECK_THROWS_AS(progress.check(), Stopped);
-  CHECK_THROWS_AS(progress.part(0, 0.5).tell(1, "text"), Stopped);
+  CHECK_THROWS_AS(progress.tell(1, "text"), Stopped);
   CHECK(watcher->fractions.empty());
   CHECK(watcher->take_stop());
   CHECK_FALSE(watcher->take_stop());

@@ -31,6 +31,7 @@ local files = {
   ["clench.files.virtual_contacts"] = {"models/hands/barrett/barrett.vgr"},
   ["clench.files.object_contacts"] = {"seeds/two.con", "seeds/unplaced.con"},
   ["clench.files.pregrasps"] = {"seeds/pregrasps.lst"}, ["clench.files.planned_grasps"] = {"seeds/planned.lst"},
+  ["clench.grasps"] = {"seeds/grasps.jsonl"},
   ["clench.files.glove_calibration"] = {"seeds/calibration.cal"}, ["clench.files.glove_poses"] = {"seeds/poses.cal"},
 }
 known.files = files

@@ -23,8 +23,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   } else if (format == "lst") {
     check(path, read_pregrasps);
     check(path, read_planned_grasps);
-  } else {
+  } else if (format == "jsonl") {
     check(path, read_grasps);
+  } else {
     check(path, read_glove_calibration);
     check(path, read_glove_poses);
   }

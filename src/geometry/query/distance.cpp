@@ -105,7 +105,7 @@ double distance_bound(const Shape& a, const Shape& b, const Pose& X_AB, double l
   const double reach = nearest < limit ? part * nearest : limit;
   const DistanceBound found = bound_distance(placement.trees(), {reach}, part, nearest, meet);
   if (found.pair.triangle_a >= 0) near = {found.pair.triangle_a, found.pair.triangle_b};
-  return std::clamp(found.least, 0.0, limit);
+  return std::clamp(found.lower, 0.0, limit);
 }
 
 }  // namespace clench

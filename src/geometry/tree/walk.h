@@ -53,7 +53,7 @@ bool find_nearest_pairs(const TreePair& pair, const Reach& reach, std::vector<Ne
 
 /// A lower bound of a distance [m], 0 where triangles meet, and the pair that is nearest as far as was looked; -1: none.
 struct DistanceBound {
-  double least = 0;
+  double lower = 0;
   NearPair pair{-1, -1};
 };
 

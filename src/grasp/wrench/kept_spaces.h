@@ -40,12 +40,12 @@ class KeptSpaces {
         std::rotate(known, known + 1, spaces_.end());
         return spaces_.back().second;
       }
-    if (spaces_.size() == most) spaces_.erase(spaces_.begin());
+    if (spaces_.size() == max_kept) spaces_.erase(spaces_.begin());
     return spaces_.emplace_back(options, std::make_shared<const WrenchSpace>(make())).second;
   }
 
  private:
-  static constexpr size_t most = 16;  // more than any measure looks at side by side
+  static constexpr size_t max_kept = 16;  // more than any measure looks at side by side
   std::vector<std::pair<GraspSpaceOptions, WrenchSpacePtr>> spaces_;
 };
 

@@ -28,9 +28,9 @@
 
 namespace clench {
 
-extern const Library vec3_library;
+// --- vec3 and pose: see values.h. ---
 
-extern const Library pose_library;
+extern const Library vec3_library, pose_library;
 
 // --- The module's version, and the units that people think in. ---
 

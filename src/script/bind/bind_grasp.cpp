@@ -140,6 +140,11 @@ static int get_points(lua_State* L) {
   });
 }
 
+static int get_links(lua_State* L) {
+  return push_list_of(L, self<GraspHandle>(L).grasp.links,
+                      [&](const std::string& link) { push(L, std::string_view(link)); });
+}
+
 static int get_rho(lua_State* L) { return push(L, self<GraspHandle>(L).grasp.rho); }
 static int get_edges(lua_State* L) {
   const int edges = self<GraspHandle>(L).grasp.options.edges;
@@ -252,6 +257,10 @@ The same contacts in the object's frame, as clench.wrench_space takes them; tors
 @type {point: vec3, normal: vec3, mu: number, torsion_radius: number}[]  [m]
 > again = clench.wrench_space{contacts = grasp.points, com = flask.com, rho = grasp.rho}
 > again:epsilon() == grasp:quality "epsilon"  --> true)"},
+    {"links", guarded<get_links>, R"(
+Names of what touches at each of the points.
+@type string[]
+> #grasp.links == #grasp.points, grasp.links[1] == grasp.contacts[1].other.name  --> true, true)"},
     {"rho", guarded<get_rho>, R"(
 Length that torques are divided by.
 @type number  [m]

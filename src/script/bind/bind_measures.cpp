@@ -23,13 +23,13 @@ static int quality(lua_State* L) {
   return push_unbounded(L, value);
 }
 
-// empty: infinite, or beyond what can be had, as the volume of a hull of millions of facets
+// empty: infinite, or not to be had, as the volume of a hull of millions of facets or one that rounding broke
 static std::optional<double> value_if(const Measure& measure, MeasuredGrasp& grasp) {
   try {
     const double value = measure.of(grasp);
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::limit) throw;
+    if (error.kind() != ErrorKind::limit && error.kind() != ErrorKind::internal) throw;
     return {};
   }
 }

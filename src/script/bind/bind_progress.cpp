@@ -33,6 +33,7 @@ static void show(ProgressHandle& progress) {
 
 static int new_progress(lua_State* L) {
   check_count(L, 2);
+  lua_settop(L, 2);
   const bool list = lua_istable(L, 1);
   const double total = list          ? static_cast<double>(lua_rawlen(L, 1))
                        : given(L, 1) ? check_number(L, 1, "total")
