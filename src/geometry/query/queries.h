@@ -22,8 +22,8 @@ struct PairMeasure {
   double clear = 0;  ///< the solids were at least this far apart; 0 when unknown [m]
 };
 
-/// What a pair of shapes remembers between queries. It changes how fast an answer comes, never the
-/// verdict nor the distance, to the bit; of several pairs equally near it may choose the witness.
+/// What a pair of shapes remembers between queries. It changes how fast an answer comes and no bit of
+/// it: of several pairs equally near the first in the order of triangles is the answer.
 struct PairCache {
   int closest_a = -1, closest_b = -1;  ///< triangles of the last closest pair
   int hit_a = -1, hit_b = -1;          ///< triangles of the last intersection
