@@ -9,6 +9,16 @@ namespace clench {
 /// wrench (force, torque) or twist (linear, angular)
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
+/// v turned by a unit quaternion; the bits of Eigen's product, inlined.
+[[gnu::always_inline]] inline Eigen::Vector3d turned(const Eigen::Quaterniond& q,
+                                                     const Eigen::Vector3d& v) {
+  const double x = q.x(), y = q.y(), z = q.z(), w = q.w();
+  double u0 = y * v.z() - z * v.y(), u1 = z * v.x() - x * v.z(), u2 = x * v.y() - y * v.x();
+  u0 += u0, u1 += u1, u2 += u2;
+  return {v.x() + w * u0 + (y * u2 - z * u1), v.y() + w * u1 + (z * u0 - x * u2),
+          v.z() + w * u2 + (x * u1 - y * u0)};
+}
+
 /// Unit quaternion and position; kept as given, so that what was set is read back to the bit.
 struct Pose {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< unit
@@ -21,13 +31,15 @@ struct Pose {
     return turn(Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis)));
   }
 
-  Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return rotation * p + position; }
+  Eigen::Vector3d operator*(const Eigen::Vector3d& p) const {
+    return turned(rotation, p) + position;
+  }
   Pose operator*(const Pose& other) const {
     return {(rotation * other.rotation).normalized(), *this * other.position};
   }
   Pose inverse() const {
     const Eigen::Quaterniond back = rotation.conjugate();
-    return {back, -(back * position)};
+    return {back, -turned(back, position)};
   }
   Eigen::Matrix3d matrix() const { return rotation.toRotationMatrix(); }
   /// angle of the rotation, in [0, pi] [rad]; exact for small angles too

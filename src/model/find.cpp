@@ -22,16 +22,19 @@ class Remember {
   QueryContext& context_;
 };
 
-static bool pair_collides(const World& world, Id<Body> a, Id<Body> b, QueryContext& context) {
-  std::tie(a, b) = ordered(a, b);
-  return colliding(*world.body(a).shape, *world.body(b).shape, relative_pose(world, a, b),
-                   &context.pair(a, b));
+static bool pair_collides(const World& world, const BodyPair& p, PairCache& cache) {
+  const auto [a, b] = ordered(p.first, p.second);
+  return colliding(*world.body(a).shape, *world.body(b).shape, relative_pose(world, a, b), &cache);
+}
+static PairCache& cache_of(const BodyPair& p, QueryContext& context) {
+  const auto [a, b] = ordered(p.first, p.second);
+  return context.pair(a, b);
 }
 
 static std::vector<BodyPair> colliding_of(const World& world, std::vector<BodyPair> pairs,
                                           QueryContext& context) {
-  std::erase_if(
-      pairs, [&](const BodyPair& p) { return !pair_collides(world, p.first, p.second, context); });
+  std::erase_if(pairs,
+                [&](const BodyPair& p) { return !pair_collides(world, p, cache_of(p, context)); });
   return pairs;
 }
 
@@ -49,15 +52,15 @@ std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Bod
 bool collides(const World& world, QueryContext* context) {
   Remember memory(world, context);
   const auto near = near_bodies(world, 0, *memory);
-  // a pair that once collided is asked first
-  const auto likely = std::ranges::find_if(near, [&](const BodyPair& p) {
-    const auto [a, b] = ordered(p.first, p.second);
-    return memory->pair(a, b).hit_a >= 0;
-  });
-  if (likely != near.end() && pair_collides(world, likely->first, likely->second, *memory))
-    return true;
-  return std::ranges::any_of(
-      near, [&](const BodyPair& p) { return pair_collides(world, p.first, p.second, *memory); });
+  std::vector<PairCache*> caches(near.size());
+  for (size_t i = 0; i < near.size(); ++i) {
+    caches[i] = &cache_of(near[i], *memory);
+    // a pair that once collided is asked first
+    if (caches[i]->hit_a >= 0 && pair_collides(world, near[i], *caches[i])) return true;
+  }
+  for (size_t i = 0; i < near.size(); ++i)
+    if (caches[i]->hit_a < 0 && pair_collides(world, near[i], *caches[i])) return true;
+  return false;
 }
 
 BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,

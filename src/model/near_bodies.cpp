@@ -63,6 +63,7 @@ std::vector<BodyPair> near_of_few(const World& world, double reach, QueryContext
   for (size_t i = bodies.size(); i-- > 0;)
     boxes[i] = &context.box(bodies[i], world.body(bodies[i]), world.pose(bodies[i]));
   std::vector<BodyPair> out;
+  out.reserve(bodies.size());
   for (const auto& [i, j] : pairs)
     if (within_reach(*boxes[i], *boxes[j], reach)) out.emplace_back(bodies[i], bodies[j]);
   return out;

@@ -15,8 +15,8 @@ static bool apart_along_axes(const BodyBox& a, const BodyBox& b, double reach) {
 }
 
 bool within_reach(const BodyBox& a, const BodyBox& b, double reach) {
-  for (int k = 0; k < 3; ++k)
-    if (a.low[k] - b.high[k] > reach || b.low[k] - a.high[k] > reach) return false;
+  // all axes at once: which one parts them is hard to foretell
+  if ((a.low - b.high).cwiseMax(b.low - a.high).maxCoeff() > reach) return false;
   const double rounding = 1e-12 * (a.centre.norm() + b.centre.norm() + a.radius + b.radius);
   const double far = reach + rounding + a.radius + b.radius;
   return far >= 0 && (a.centre - b.centre).squaredNorm() <= far * far * (1 + 1e-12) &&
@@ -28,10 +28,10 @@ static BodyBox box_of(const Shape& shape, const Pose& X_WB) {
   const Eigen::Matrix3d R = X_WB.rotation.normalized().toRotationMatrix();
   const double rounding =
       1e-12 * (X_WB.position.cwiseAbs().maxCoeff() + shape.centre().norm() + shape.radius());
-  const Vector3d middle = X_WB * bounds.centre(), half = 0.5 * bounds.size(),
-                 slack = Vector3d::Constant(rounding), extent = R.cwiseAbs() * half + slack;
-  return {middle - extent,       middle + extent, R, middle, half + slack,
-          X_WB * shape.centre(), shape.radius()};
+  const Vector3d middle = R * bounds.centre() + X_WB.position, half = 0.5 * bounds.size(),
+                 centre = R * shape.centre() + X_WB.position, slack = Vector3d::Constant(rounding),
+                 extent = R.cwiseAbs() * half + slack;
+  return {middle - extent, middle + extent, R, middle, half + slack, centre, shape.radius()};
 }
 
 void QueryContext::attend(const std::shared_ptr<const void>& lineage) {

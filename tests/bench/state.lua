@@ -1,5 +1,5 @@
 -- Costs of a world's state, as a script sees them: snapshot, restore, clone, kinematics, verdicts on collisions, closing
--- and loading. Prints one line each: name, tab, seconds.
+-- and loading. Prints one line each: name, seconds, seconds of what had to be done besides, parted by tabs.
 --   clench -q run tests/bench/state.lua WORLD HAND OBJECT    files, from the project's root: the DLR hand and flask, the
 --                                                            human hand of 20 DOFs, and what it meets
 -- It runs on this build and on the one that it is held against, so it asks for nothing that only one of them has.
@@ -24,7 +24,7 @@ local function seconds_of(action)
   return best
 end
 
-local function told(name, seconds) print(("%s\t%.9g"):format(name, seconds)) end
+local function told(name, seconds, besides) print(("%s\t%.9g\t%.9g"):format(name, seconds, besides or 0)) end
 
 -- --- DLR hand and flask ---
 
@@ -40,7 +40,7 @@ local function close()
   hand:autograsp()
 end
 local restoring = seconds_of(function() world:restore(open) end)
-told("autograsp", seconds_of(close) - restoring)
+told("autograsp", seconds_of(close), restoring)
 told("load", seconds_of(load_world))
 
 -- --- human hand of 20 DOFs and flask ---
@@ -82,7 +82,7 @@ local function verdict(name, list)
   told(name, each(list, function(state)
     place_hand(state)
     collides()
-  end) - placing)
+  end), placing)
 end
 verdict("colliding verdict", hits)
 verdict("legal verdict", misses)

@@ -29,13 +29,14 @@ double motion_bound(const Shape& b, const Pose& from, const Pose& to) {
 Placement::Placement(const Shape& a, const Shape& b, const Pose& X_AB)
     : mesh_a_(a.mesh()),
       mesh_b_(b.mesh()),
-      rotation_(X_AB.rotation.normalized().toRotationMatrix()),
       position_(X_AB.position),
       trees_{&a.tree(), &b.tree(), {}, {}, 0} {
   const Eigen::Quaterniond& q = X_AB.rotation;
-  if (!(std::abs(q.norm() - 1) < 0.1))
+  const double norm = q.norm();
+  if (!(std::abs(norm - 1) < 0.1))
     fail("geometry query: pose wants a unit quaternion, got ({}, {}, {}, {})", q.w(), q.x(), q.y(),
          q.z());
+  rotation_ = Eigen::Quaterniond(q.coeffs() / norm).toRotationMatrix();
   // beyond this, products of lengths leave the range of doubles [m]
   constexpr double largest_offset = 1e30;
   const Vector3d& p = position_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -41,11 +42,12 @@ class PolytopePair {
 
 }  // namespace
 
-// A direction that fails is mirrored by what it failed for, as long as that does it good.
+// A direction that fails is mirrored by what it failed for, as long as that does it good; once more where no reach is
+// asked for, as most of what is asked so lies apart.
 // source  Chung & Wang (1996), Quick collision detection of polytopes in virtual environments
 Separation find_separation(const TreePair& pair, double reach, const double start[3]) {
   // mirrored so often, a direction is still unit up to 2^-14
-  constexpr int max_mirrors = 8;
+  constexpr int max_mirrors = 12;
   Separation out;
   const double extent = extent_of(pair), sizes = pair.a->radius() + pair.b->radius();
   if (!single_is_enough(extent, sizes)) return out;
@@ -69,11 +71,12 @@ Separation find_separation(const TreePair& pair, double reach, const double star
   if (!(length > 0)) return out;
   n = n.scaled(1 / length);
   float best = std::numeric_limits<float>::lowest();
+  int patience = reach > 0 ? 0 : 1;
   for (int i = 0; i <= max_mirrors; ++i) {
     const Triple<float> between = polytopes.between(n);
     const float gap = dot(between, n), squared = dot(between, between);
-    if (!(gap > best) || parts(n, gap) || !(squared > 0)) break;
-    best = gap;
+    if (parts(n, gap) || !(squared > 0) || (!(gap > best) && patience-- == 0)) break;
+    best = std::max(best, gap);
     n = n - between.scaled(2 * gap / squared);
   }
   return out;

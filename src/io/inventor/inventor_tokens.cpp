@@ -1,6 +1,7 @@
 #include "clench/io/inventor/inventor_tokens.h"
 
 #include <algorithm>
+#include <array>
 
 #include "clench/base/text.h"
 
@@ -12,10 +13,11 @@ constexpr std::string_view inventor_headers[] = {"#Inventor V2.1 ascii", "#Inven
                                                  "#Inventor V1.0 ascii", "#VRML V1.0 ascii",
                                                  "#VRML V2.0 utf8"};
 
-bool ends_word(char c) {
-  constexpr std::string_view ends(" \t\n\v\f,{}[]\"#\0", 13);
-  return ends.find(c) != std::string_view::npos;
-}
+constexpr std::array<bool, 256> ends_word = [] {
+  std::array<bool, 256> out{};
+  for (const unsigned char c : std::string_view(" \t\n\v\f,{}[]\"#\0", 13)) out[c] = true;
+  return out;
+}();
 
 }  // namespace
 
@@ -79,7 +81,7 @@ InventorToken InventorTokens::next() {
     token.text = text_.substr(token.start + 1, at_++ - token.start - 1);
   } else {
     token.kind = InventorToken::word;
-    while (at_ < end_ && !ends_word(text_[at_])) ++at_;
+    while (at_ < end_ && !ends_word[static_cast<unsigned char>(text_[at_])]) ++at_;
     token.text = text_.substr(token.start, at_ - token.start);
   }
   return token;
