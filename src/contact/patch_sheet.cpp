@@ -212,10 +212,10 @@ std::vector<std::array<Vector3d, 2>> PatchSheet::rim() const {
   for (const int t : triangles_)
     for (int k = 0; k < 3; ++k) {
       const auto slots = near_.at_edge(near_.edge(t, k));
-      const bool dof_can_advance = std::any_of(slots.begin(), slots.end(), [&](int slot) {
+      const bool continues = std::any_of(slots.begin(), slots.end(), [&](int slot) {
         return slot / 3 != t && std::binary_search(triangles_.begin(), triangles_.end(), slot / 3);
       });
-      if (!dof_can_advance) out.push_back({corners(t)[k], corners(t)[(k + 1) % 3]});
+      if (!continues) out.push_back({corners(t)[k], corners(t)[(k + 1) % 3]});
     }
   return out;
 }
@@ -242,7 +242,7 @@ static double length_near(const Vector2d& from, const Vector2d& to, double radiu
 }
 
 double PatchSheet::crease_length() const {
-  const auto dof_can_advance = [&](int t, int k) {
+  const auto continues = [&](int t, int k) {
     for (const int slot : near_.at_edge(near_.edge(t, k))) {
       const double cosine = normals_[t].dot(normals_[slot / 3]);
       if (slot / 3 != t && (shape_.closed() ? cosine : std::abs(cosine)) > min_smooth) return true;
@@ -253,7 +253,7 @@ double PatchSheet::crease_length() const {
   std::vector<char> seen(near_.edge_count(), 0);
   for (const int t : triangles_)
     for (int k = 0; k < 3; ++k) {
-      if (seen[near_.edge(t, k)]++ || dof_can_advance(t, k)) continue;
+      if (seen[near_.edge(t, k)]++ || continues(t, k)) continue;
       for (size_t i = 0; i < sites_.size(); ++i)
         lengths[i] += length_near((corners(t)[k] - sites_[i]).head<2>(),
                                   (corners(t)[(k + 1) % 3] - sites_[i]).head<2>(), radius_);

@@ -120,7 +120,7 @@ test("surplus arguments are refused by every method", function(t)
     local object = one[class.name]
     for _, method in ipairs(object and class.methods or {}) do
       local ok, message = pcall(object[method.name], object, table.unpack({}, 1, 20))
-      t.ok(not ok and message:find("expected at most %d+ arguments?, got 20"), class.name .. ":" .. method.name .. ": " .. tostring(message))
+      t.ok(not ok and message:find("expected [an][%a ]+%d* arguments?, got 20"), class.name .. ":" .. method.name .. ": " .. tostring(message))
       tried = tried + 1
     end
   end

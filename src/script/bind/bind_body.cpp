@@ -1,22 +1,16 @@
 #include "clench/script/bind/bind.h"
 
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 
 namespace clench {
 
-static int get_name(lua_State* L) { return push(L, self<BodyHandle>(L)->name); }
-
 static int set_name(lua_State* L) {
   const auto& body = self<BodyHandle>(L);
   body.world->set_name(body.id, check_string(L, 2));
   return 0;
-}
-
-static int get_pose(lua_State* L) {
-  const auto& body = self<BodyHandle>(L);
-  return push(L, body.world->pose(body.id));
 }
 
 static int set_pose(lua_State* L) {
@@ -30,16 +24,12 @@ static const char* kind_name(BodyKind kind) {
   return names[static_cast<int>(kind)];
 }
 
-static int get_kind(lua_State* L) { return push(L, kind_name(self<BodyHandle>(L)->kind)); }
-
 static int get_robot(lua_State* L) {
   const auto& body = self<BodyHandle>(L);
   if (body->robot) return push(L, RobotHandle{body.world, body->robot});
   lua_pushnil(L);
   return 1;
 }
-
-static int get_source(lua_State* L) { return push(L, self<BodyHandle>(L)->source); }
 
 static int get_tracker(lua_State* L) {
   const auto& body = self<BodyHandle>(L);
@@ -60,7 +50,6 @@ int push_move(lua_State* L, const WorldPtr& world, const MoveResult& result) {
 }
 
 static int move_to(lua_State* L) {
-  check_count(L, 1);
   const auto& body = self<BodyHandle>(L);
   return push_move(L, body.world, move_body(*body.world, body.id, check_pose(L, 2, "pose")));
 }
@@ -77,20 +66,20 @@ static int equal(lua_State* L) {
 }
 
 static const Entry fields[] = {
-    {"name", guarded<get_name>, R"(
+    {"name", getter<[](const BodyHandle& x) { return x->name; }>, R"(
 Unique in its world.
 @type string
 > flask.name = "bottle"
 > world:body("bottle") == flask  --> true)",
      guarded<set_name>},
-    {"pose", guarded<get_pose>, R"(
+    {"pose", getter<[](const BodyHandle& body) { return body.world->pose(body.id); }>, R"(
 Where it is, in the world frame. Setting it moves it at once, whatever is in the way; see move_to. The parts of a robot
 move with the robot.
 @type pose
 > flask.pose = {xyz = {0, 0, 1}}
 > flask.pose.position  --> (0, 0, 1))",
      guarded<set_pose>},
-    {"kind", guarded<get_kind>, R"(
+    {"kind", getter<[](const BodyHandle& x) { return kind_name(x->kind); }>, R"(
 "object", "obstacle", "base", "link" or "mount".
 @type string
 > flask.kind  --> object)"},
@@ -98,7 +87,7 @@ move with the robot.
 The robot that it is a part of; nil for objects and obstacles.
 @type robot?
 > hand.links[1].robot == hand  --> true)"},
-    {"source", guarded<get_source>, R"(
+    {"source", getter<[](const BodyHandle& x) { return x->source; }>, R"(
 File that it was read from; empty when it was made by a script.
 @type string
 > world:add_object(clench.shapes.box {1, 1, 1}).source == ""  --> true)"},

@@ -82,7 +82,6 @@ static std::vector<std::string> files_on(const fs::path& home, const Shelf& shel
 }
 
 static int catalog(lua_State* L) {
-  check_count(L, 0);
   const fs::path home = home_folder();
   if (home.empty())
     fail("{}: no folder with models and worlds found near the program; set CLENCH_MODELS to it",
@@ -98,7 +97,6 @@ static int catalog(lua_State* L) {
 }
 
 static int kind_of_file(lua_State* L) {
-  check_count(L, 2);
   const std::string path = check_string(L, 1, "path");
   Table options(L, 2);
   ReadOptions reading;

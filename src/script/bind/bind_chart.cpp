@@ -53,7 +53,6 @@ static void warn_of_boxes(lua_State* L, const Chart& chart, const Font& font) {
 }
 
 static int draw(lua_State* L) {
-  check_count(L, 1);
   Table options(L, 1);
   Chart chart;
   chart.title = options.string("title", "");

@@ -1,6 +1,7 @@
 #include "clench/script/bind/bind.h"
 
 #include "clench/contact/cone.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -13,16 +14,6 @@ int push_contacts(lua_State* L, const WorldPtr& world, const std::vector<Contact
   });
 }
 
-static int get_body(lua_State* L) {
-  const auto& c = self<ContactHandle>(L);
-  return push(L, BodyHandle{c.world, c.contact.body});
-}
-
-static int get_other(lua_State* L) {
-  const auto& c = self<ContactHandle>(L);
-  return push(L, BodyHandle{c.world, c.contact.other});
-}
-
 // the side that belongs to a robot; the other one first
 static int get_link(lua_State* L) {
   const auto& c = self<ContactHandle>(L);
@@ -30,14 +21,6 @@ static int get_link(lua_State* L) {
     if (c.world->body(id).robot) return push(L, BodyHandle{c.world, id});
   lua_pushnil(L);
   return 1;
-}
-
-static int get_point(lua_State* L) { return push(L, self<ContactHandle>(L).contact.p_W); }
-static int get_normal(lua_State* L) { return push(L, self<ContactHandle>(L).contact.n_W); }
-static int get_gap(lua_State* L) { return push(L, self<ContactHandle>(L).contact.gap); }
-static int get_mu(lua_State* L) { return push(L, self<ContactHandle>(L).contact.friction.statics); }
-static int get_mu_kinetic(lua_State* L) {
-  return push(L, self<ContactHandle>(L).contact.friction.kinetic);
 }
 
 static int get_frame(lua_State* L) {
@@ -55,10 +38,6 @@ static const char* kind_name(ContactKind kind) {
       break;
   }
   return "point";
-}
-
-static int get_kind(lua_State* L) {
-  return push(L, kind_name(self<ContactHandle>(L).contact.kind));
 }
 
 static int push_patch(lua_State* L, const Contact& c, std::shared_ptr<const SoftPatch> patch) {
@@ -88,7 +67,6 @@ static int get_patch(lua_State* L) {
 }
 
 static int fit_patch(lua_State* L) {
-  check_count(L, 1);
   const auto& c = self<ContactHandle>(L);
   Table table(L, 2);
   PatchOptions options;
@@ -145,11 +123,17 @@ static int get_other_feature(lua_State* L) {
 }
 
 static const Entry fields[] = {
-    {"body", guarded<get_body>, R"(
+    {"body", getter<[](const ContactHandle& c) {
+       return BodyHandle{c.world, c.contact.body};
+     }>,
+     R"(
 The body that is touched: the object, of a hand and an object.
 @type body
 > world:contacts(hand, flask)[1].body == flask  --> true)"},
-    {"other", guarded<get_other>, R"(
+    {"other", getter<[](const ContactHandle& c) {
+       return BodyHandle{c.world, c.contact.other};
+     }>,
+     R"(
 The body that touches it.
 @type body
 > world:contacts(hand, flask)[1].other.kind  --> link)"},
@@ -157,11 +141,11 @@ The body that touches it.
 The part of a robot among the two; nil when there is none.
 @type body?
 > world:contacts(hand, flask)[1].link.robot == hand  --> true)"},
-    {"point", guarded<get_point>, R"(
+    {"point", getter<[](const ContactHandle& x) { return x.contact.p_W; }>, R"(
 Where, on the surface of `body`, in the world frame.
 @type vec3  [m]
 > (world:contacts(hand, flask)[1].point - flask.pose.position):norm() < 1  --> true)"},
-    {"normal", guarded<get_normal>, R"(
+    {"normal", getter<[](const ContactHandle& x) { return x.contact.n_W; }>, R"(
 Unit normal into `body`, in the world frame.
 @type vec3
 > math.abs(world:contacts(hand, flask)[1].normal:norm() - 1) < 1e-12  --> true)"},
@@ -181,20 +165,20 @@ The same of the mesh of `other`.
 @type {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer}
 > kinds = {vertex = true, edge = true, triangle = true}
 > kinds[grasp.contacts[1].other_feature.kind]  --> true)"},
-    {"gap", guarded<get_gap>, R"(
+    {"gap", getter<[](const ContactHandle& x) { return x.contact.gap; }>, R"(
 Distance of the two surfaces there, at most the world's contact threshold.
 @type number  [m]
 > world:contacts(hand, flask)[1].gap <= world.contact_threshold  --> true)"},
-    {"mu", guarded<get_mu>, R"(
+    {"mu", getter<[](const ContactHandle& x) { return x.contact.friction.statics; }>, R"(
 Static Coulomb coefficient of the two materials.
 @type number
 > c = world:contacts(hand, flask)[1]
 > c.mu == world:friction(c.body.material, c.other.material)  --> true)"},
-    {"mu_kinetic", guarded<get_mu_kinetic>, R"(
+    {"mu_kinetic", getter<[](const ContactHandle& x) { return x.contact.friction.kinetic; }>, R"(
 Kinetic Coulomb coefficient of the two materials.
 @type number
 > world:contacts(hand, flask)[1].mu_kinetic >= 0  --> true)"},
-    {"kind", guarded<get_kind>, R"(
+    {"kind", getter<[](const ContactHandle& x) { return kind_name(x.contact.kind); }>, R"(
 "point" (with friction), "soft" (with friction, of bodies one of which at least is elastic) or "frictionless".
 @type string
 > world:contacts(hand, flask)[1].kind  --> point

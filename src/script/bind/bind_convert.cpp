@@ -10,7 +10,6 @@
 namespace clench {
 
 static int convert(lua_State* L) {
-  check_count(L, 3);
   const std::string from = check_string(L, 1, "from"), to = check_string(L, 2, "to");
   Table options(L, 3);
   ReadOptions reading = read_options(L, options);

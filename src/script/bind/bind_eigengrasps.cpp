@@ -1,6 +1,7 @@
 #include "clench/script/bind/bind.h"
 
 #include "clench/io/graspit/eigengrasps.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -59,7 +60,6 @@ static EigengraspSet set_from_vectors(Table& options) {
 }
 
 static int make(lua_State* L) {
-  check_count(L, 1);
   Table options(L, 1);
   EigengraspSet set;
   if (options.has("postures") && options.has("vectors"))
@@ -111,15 +111,9 @@ static int get_hand(lua_State* L) {
   return 1;
 }
 
-static int get_is_custom(lua_State* L) {
-  const auto& handle = self<EigengraspsHandle>(L);
-  return push(L, handle.set || handle.robot->eigengrasps);
-}
-
 // --- verbs ---
 
 static int amplitudes(lua_State* L) {
-  check_count(L, 1);
   const auto& handle = self<EigengraspsHandle>(L);
   const Eigengrasps grasps = handle.ready();
   if (!given(L, 2) && handle.robot.world)
@@ -129,7 +123,6 @@ static int amplitudes(lua_State* L) {
 }
 
 static int dofs(lua_State* L) {
-  check_count(L, 2);
   const Eigengrasps grasps = ready(L);
   const VectorXd amplitudes = check_amplitudes(L, 2, grasps);
   Table options(L, 3);
@@ -141,7 +134,6 @@ static int dofs(lua_State* L) {
 }
 
 static int save(lua_State* L) {
-  check_count(L, 1);
   const auto& handle = self<EigengraspsHandle>(L);
   write_eigengrasps(handle.value(), check_string(L, 2, "path"),
                     [L](const std::string& message) { log_warning(L, message); });
@@ -208,7 +200,10 @@ The hand whose set it is; nil for a set by itself.
 @type robot?
 > hand.eigengrasps.hand == hand  --> true
 > clench.eigengrasps{vectors = {{1}}}.hand  --> nil)"},
-    {"is_custom", guarded<get_is_custom>, R"(
+    {"is_custom", getter<[](const EigengraspsHandle& handle) {
+       return handle.set || handle.robot->eigengrasps;
+     }>,
+     R"(
 Does it come from a file or a script? A hand without a set of its own has one eigengrasp per DOF.
 @type boolean
 > hand.eigengrasps = nil

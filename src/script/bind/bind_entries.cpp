@@ -19,7 +19,6 @@ static void add_entries(lua_State* L, const char* kind, std::span<const Entry> e
 }
 
 static int entries(lua_State* L) {
-  check_count(L, 0);
   push_list(L, 0, 2);
   push_list_of(L, all_libraries(), [L](const Library* library) {
     push_list(L, 0, 4);

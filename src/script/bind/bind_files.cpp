@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 // what a reader makes of the file named by argument 1, with the options of argument 2
 template <class Value>
 static Value read_with(lua_State* L, Value (*read)(const fs::path&, const ReadOptions&)) {
-  check_count(L, 2);
   const std::string path = check_string(L, 1, "path");
   Table options(L, 2);
   const ReadOptions reading = read_options(L, options);
@@ -86,7 +85,6 @@ static Eigen::Vector3d read_direction(Table& item, const char* key) {
 }
 
 static int save_object_contacts(lua_State* L) {
-  check_count(L, 2);
   const std::string path = check_string(L, 1, "path");
   std::vector<ObjectContact> list;
   each_table(L, [&](Table& item) {
@@ -145,7 +143,6 @@ static int planned_grasps(lua_State* L) {
 }
 
 static int save_pregrasps(lua_State* L) {
-  check_count(L, 2);
   const std::string path = check_string(L, 1, "path");
   std::vector<Pregrasp> list;
   each_table(L, [&](Table& item) {
@@ -159,7 +156,6 @@ static int save_pregrasps(lua_State* L) {
 }
 
 static int save_planned_grasps(lua_State* L) {
-  check_count(L, 2);
   const std::string path = check_string(L, 1, "path");
   std::vector<GraspSpec> list;
   each_table(L, [&](Table& item) {

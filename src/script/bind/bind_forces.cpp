@@ -162,7 +162,6 @@ static void push_result(lua_State* L, const GraspHandle& g, const ForceResult& r
 // --- methods ---
 
 static int forces(lua_State* L) {
-  check_count(L, 1);
   const auto& g = self<GraspHandle>(L);
   Table options(L, 2);
   ForceOptions asked;
@@ -179,7 +178,6 @@ static int forces(lua_State* L) {
 }
 
 static int largest(lua_State* L) {
-  check_count(L, 1);
   const auto& g = self<GraspHandle>(L);
   Table options(L, 2);
   ForceOptions asked;
@@ -194,7 +192,6 @@ static int largest(lua_State* L) {
 }
 
 static int balance(lua_State* L) {
-  check_count(L, 1);
   const auto& g = self<GraspHandle>(L);
   Table options(L, 2);
   EquilibriumOptions asked;
@@ -222,14 +219,12 @@ static Eigen::MatrixXd turns_of(lua_State* L, const GraspHandle& g, const GraspM
 }
 
 static int map_rows(lua_State* L) {
-  check_count(L, 0);
   const auto& g = self<GraspHandle>(L);
   const GraspMap map = grasp_map(g.grasp.points, g.grasp.com);
   return push_rows(L, map.matrix * turns_of(L, g, map));
 }
 
 static int jacobian_rows(lua_State* L) {
-  check_count(L, 0);
   const auto& g = self<GraspHandle>(L);
   const GraspMap map = grasp_map(g.grasp.points, g.grasp.com);
   const Eigen::MatrixXd dofs =

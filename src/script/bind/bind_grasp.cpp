@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -20,7 +21,6 @@ PerContact read_per_contact(Table& options, const char* key) {
 }
 
 static int measure(lua_State* L) {
-  check_count(L, 3);
   const auto& hand = check_object<RobotHandle>(L, 1, "hand");
   const auto& object = check_object<BodyHandle>(L, 2, "object");
   if (hand.world != object.world)
@@ -67,21 +67,11 @@ static int get_object(lua_State* L) {
   return push(L, BodyHandle{g.world, g.grasp.object});
 }
 
-static int get_hand_name(lua_State* L) {
-  return push(L, std::string_view(self<GraspHandle>(L).grasp.hand_name));
-}
-static int get_object_name(lua_State* L) {
-  return push(L, std::string_view(self<GraspHandle>(L).grasp.object_name));
-}
-
 static int get_pose(lua_State* L) {
   const Grasp& g = self<GraspHandle>(L).grasp;
   if (!g.X_OH) return lua_pushnil(L), 1;
   return push(L, *g.X_OH);
 }
-
-static int get_dofs(lua_State* L) { return push_numbers(L, self<GraspHandle>(L).grasp.dofs); }
-static int get_joints(lua_State* L) { return push_numbers(L, self<GraspHandle>(L).grasp.joints); }
 
 static int push_named(lua_State* L, const std::map<std::string, double>& named) {
   push_list(L, 0, static_cast<int>(named.size()));
@@ -112,7 +102,6 @@ static int set_info(lua_State* L) {
 
 // puts the hand where the grasp has it, and measures it there
 static int apply(lua_State* L) {
-  check_count(L, 1);
   const auto& g = self<GraspHandle>(L);
   if (!given(L, 2)) world_of(L, g);
   const WorldPtr world = given(L, 2) ? check_object<WorldHandle>(L, 2, "world").world : g.world;
@@ -145,7 +134,6 @@ static int get_links(lua_State* L) {
                       [&](const std::string& link) { push(L, std::string_view(link)); });
 }
 
-static int get_rho(lua_State* L) { return push(L, self<GraspHandle>(L).grasp.rho); }
 static int get_edges(lua_State* L) {
   const int edges = self<GraspHandle>(L).grasp.options.edges;
   return edges == round_edges ? push(L, "exact") : push(L, edges);
@@ -171,7 +159,6 @@ static int get_options(lua_State* L) {
 }
 
 static int grasp_space(lua_State* L) {
-  check_count(L, 1);
   auto& g = self<GraspHandle>(L);
   Table table(L, 2);
   GraspSpaceOptions options;
@@ -186,7 +173,6 @@ static int grasp_space(lua_State* L) {
 }
 
 static int is_force_closure(lua_State* L) {
-  check_count(L, 0);
   return push(L, space_of(self<GraspHandle>(L).grasp)->is_force_closure());
 }
 
@@ -216,11 +202,13 @@ The robot that grasps.
 The body that is grasped.
 @type body
 > grasp.object == flask  --> true)"},
-    {"hand_name", guarded<get_hand_name>, R"(
+    {"hand_name", getter<[](const GraspHandle& x) { return std::string_view(x.grasp.hand_name); }>,
+     R"(
 Name of the robot that grasps; a grasp that was read from a file has it, too.
 @type string
 > grasp.hand_name == hand.name  --> true)"},
-    {"object_name", guarded<get_object_name>, R"(
+    {"object_name",
+     getter<[](const GraspHandle& x) { return std::string_view(x.grasp.object_name); }>, R"(
 Name of the body that is grasped.
 @type string
 > grasp.object_name  --> flask)"},
@@ -228,11 +216,11 @@ Name of the body that is grasped.
 Where the hand's base stood in the object's frame when the grasp was measured.
 @type pose
 > (flask.pose * grasp.pose).position == hand.pose.position  --> true)"},
-    {"dofs", guarded<get_dofs>, R"(
+    {"dofs", getter<[](const GraspHandle& x) { return x.grasp.dofs; }>, R"(
 Values of the hand's DOFs when the grasp was measured.
 @type number[]  [rad or m]
 > #grasp.dofs == #hand.dofs  --> true)"},
-    {"joint_positions", guarded<get_joints>, R"(
+    {"joint_positions", getter<[](const GraspHandle& x) { return x.grasp.joints; }>, R"(
 Positions of the hand's joints when the grasp was measured.
 @type number[]  [rad or m]
 > #grasp.joint_positions > #grasp.dofs  --> true)"},
@@ -261,7 +249,7 @@ The same contacts in the object's frame, as clench.wrench_space takes them; tors
 Names of what touches at each of the points.
 @type string[]
 > #grasp.links == #grasp.points, grasp.links[1] == grasp.contacts[1].other.name  --> true, true)"},
-    {"rho", guarded<get_rho>, R"(
+    {"rho", getter<[](const GraspHandle& x) { return x.grasp.rho; }>, R"(
 Length that torques are divided by.
 @type number  [m]
 > grasp.rho > 0  --> true)"},

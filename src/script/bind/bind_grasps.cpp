@@ -10,7 +10,6 @@
 namespace clench {
 
 static int list_grasps(lua_State* L) {
-  check_count(L, 2);
   GraspList list;
   if (given(L, 1)) {
     const std::string path = check_string(L, 1, "path");
@@ -28,14 +27,12 @@ static int list_grasps(lua_State* L) {
 }
 
 static int add(lua_State* L) {
-  check_count(L, 1);
   auto& list = self<GraspList>(L);
   list.grasps.push_back(check_object<GraspHandle>(L, 2, "grasp"));
   return push(L, static_cast<int>(list.grasps.size()));
 }
 
 static int save(lua_State* L) {
-  check_count(L, 1);
   const auto& list = self<GraspList>(L);
   const std::string path = check_string(L, 2, "path");
   std::vector<GraspSpec> specs;

@@ -85,7 +85,6 @@ static int set_amplitudes_field(lua_State* L) {
 }
 
 static int set_amplitudes(lua_State* L) {
-  check_count(L, 2);
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 3);
   const Expected expected = expected_posture(L, robot, options);
@@ -94,7 +93,6 @@ static int set_amplitudes(lua_State* L) {
 }
 
 static int move_amplitudes(lua_State* L) {
-  check_count(L, 2);
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 3);
   const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
@@ -158,7 +156,6 @@ static int set_virtual_contacts(lua_State* L) {
 }
 
 static int add_virtual_contact(lua_State* L) {
-  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   Contacts contacts = virtual_contacts(*robot.world, robot.id);
   contacts.push_back(read_virtual_contact(L, 2, {L, {}, "contact"}, robot));
@@ -168,7 +165,6 @@ static int add_virtual_contact(lua_State* L) {
 }
 
 static int remove_virtual_contact(lua_State* L) {
-  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   Contacts contacts = virtual_contacts(*robot.world, robot.id);
   const int number = check_int(L, 2, "number"), count = static_cast<int>(contacts.size());
@@ -180,7 +176,6 @@ static int remove_virtual_contact(lua_State* L) {
 }
 
 static int find_sites(lua_State* L) {
-  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 2);
   FindSitesOptions finding;
@@ -192,7 +187,6 @@ static int find_sites(lua_State* L) {
 }
 
 static int save_virtual_contacts(lua_State* L) {
-  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   write_virtual_contacts({robot->name, virtual_contacts(*robot.world, robot.id)},
                          check_string(L, 2, "path"));

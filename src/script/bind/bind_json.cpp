@@ -37,7 +37,6 @@ void mark_json_object(lua_State* L) {
 }
 
 static int encode(lua_State* L) {
-  check_count(L, 2);
   Table t(L, 2);
   const int indent = t.integer("indent", 0);
   if (indent < 0 || indent > 16) fail("{}: indent: expected 0 to 16, got {}", subject(L), indent);
@@ -47,7 +46,6 @@ static int encode(lua_State* L) {
 }
 
 static int decode(lua_State* L) {
-  check_count(L, 1);
   if (lua_type(L, 1) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a string", 1);
   size_t size = 0;
   const char* text = lua_tolstring(L, 1, &size);

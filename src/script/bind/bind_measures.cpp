@@ -12,7 +12,6 @@
 namespace clench {
 
 static int quality(lua_State* L) {
-  check_count(L, 1);
   auto& g = self<GraspHandle>(L);
   const std::string name = check_string(L, 2, "measure");
   const Measure& measure = find_measure(name);
@@ -35,7 +34,6 @@ static std::optional<double> value_if(const Measure& measure, MeasuredGrasp& gra
 }
 
 static int quality_all(lua_State* L) {
-  check_count(L, 0);
   auto& g = self<GraspHandle>(L);
   check_unmoved(world_of(L, g), g.grasp);
   const Watching watching(L);
@@ -55,7 +53,6 @@ static Vector6d vector6(const std::vector<double>& numbers) {
 }
 
 static int resist(lua_State* L) {
-  check_count(L, 1);
   auto& g = self<GraspHandle>(L);
   Table options(L, 2);
   ResistanceOptions resisting;
@@ -85,7 +82,6 @@ static int resist(lua_State* L) {
 }
 
 static int list_measures(lua_State* L) {
-  check_count(L, 0);
   return push_list_of(L, measures(), [&](const Measure& m) {
     push_list(L, 0, 6);
     set_field(L, "name", m.name);

@@ -20,10 +20,7 @@ static int get_vertex_count(lua_State* L) {
 static int get_volume(lua_State* L) { return push(L, shape_of(L).solid().volume); }
 static int get_area(lua_State* L) { return push(L, shape_of(L).mesh().area()); }
 static int get_faults(lua_State* L) { return push(L, shape_of(L).faults().describe()); }
-static int is_watertight(lua_State* L) {
-  check_count(L, 0);
-  return push(L, shape_of(L).closed());
-}
+static int is_watertight(lua_State* L) { return push(L, shape_of(L).closed()); }
 
 static int get_centroid(lua_State* L) { return push(L, shape_of(L).solid().centroid); }
 
@@ -46,7 +43,6 @@ static int get_triangles(lua_State* L) {
 }
 
 static int save(lua_State* L) {
-  check_count(L, 1);
   write_mesh(shape_of(L).mesh(), check_string(L, 2, "path"));
   return 0;
 }

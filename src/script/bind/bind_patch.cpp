@@ -1,5 +1,6 @@
 #include "clench/script/bind/bind.h"
 
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 
@@ -55,11 +56,6 @@ static int get_directions(lua_State* L) {
   });
 }
 
-static int get_point(lua_State* L) {
-  const auto& p = self<PatchHandle>(L);
-  return push(L, Eigen::Vector3d(p.X_WA * p.patch->centre_A));
-}
-
 static int get_points(lua_State* L) {
   const auto& p = self<PatchHandle>(L);
   return push_sides(L, [&](int side) {
@@ -74,7 +70,6 @@ static int get_at_edge(lua_State* L) { return push(L, patch_of(L).at_edge); }
 
 // {force = 5, modulus = "series"}
 static std::pair<double, ModulusRule> read_pressing(lua_State* L) {
-  check_count(L, 1);
   Table options(L, 2);
   const double force = options.number("force", 5);
   if (force < 0) fail("{}: force: expected a number >= 0, got {}", subject(L), force);
@@ -135,7 +130,8 @@ The principal radii of both, 1 over the curvatures: negative where a surface is 
 Of the relative radii: unit, orthogonal to each other and to the contact's normal, in the world frame.
 @type vec3[]
 > math.abs(patch.directions[1]:dot(patch.directions[2])) < 1e-12  --> true)"},
-    {"point", guarded<get_point>, R"(
+    {"point",
+     getter<[](const PatchHandle& p) { return Eigen::Vector3d(p.X_WA * p.patch->centre_A); }>, R"(
 The middle of the patch, in the world frame: the contact's point, or the mean of those whose neighbourhoods overlap.
 @type vec3  [m]
 > (patch.point - world:contacts(hand, flask)[4].point):norm() < 0.01  --> true)"},

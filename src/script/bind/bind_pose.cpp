@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -83,12 +84,9 @@ Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
 // --- what scripts call ---
 
 static int make_pose(lua_State* L) {
-  check_count(L, 1);
   if (const Pose* pose = to<Pose>(L, 1)) return push(L, *pose);
   return push(L, pose_from_table(L, 1, subject(L)));
 }
-
-static int get_position(lua_State* L) { return push(L, self<Pose>(L).position); }
 
 static int get_quat(lua_State* L) {
   const Quaterniond& q = self<Pose>(L).rotation;
@@ -104,18 +102,11 @@ static int get_rpy(lua_State* L) {
   return push(L, Vector3d(std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))));
 }
 
-static int inverse(lua_State* L) {
-  check_count(L, 0);
-  return push(L, self<Pose>(L).inverse());
-}
+static int inverse(lua_State* L) { return push(L, self<Pose>(L).inverse()); }
 
-static int angle(lua_State* L) {
-  check_count(L, 0);
-  return push(L, self<Pose>(L).angle());
-}
+static int angle(lua_State* L) { return push(L, self<Pose>(L).angle()); }
 
 static int matrix(lua_State* L) {
-  check_count(L, 0);
   const Pose& pose = self<Pose>(L);
   Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
   M.topLeftCorner<3, 3>() = pose.matrix();
@@ -124,12 +115,10 @@ static int matrix(lua_State* L) {
 }
 
 static int rotate(lua_State* L) {
-  check_count(L, 1);
   return push(L, Vector3d(self<Pose>(L).rotation * check_vec3(L, 2, "direction")));
 }
 
 static int interpolate_to(lua_State* L) {
-  check_count(L, 2);
   const double t = check_number(L, 3, "t");
   if (t < 0 || t > 1) fail("{}: t: expected a number from 0 to 1, got {}", subject(L), t);
   return push(L, interpolate(self<Pose>(L), check_pose(L, 2, "other"), t));
@@ -181,7 +170,7 @@ A rigid transform: the pose of one frame in another, within 1e9 m of it. The rot
 };
 
 static const Entry fields[] = {
-    {"position", guarded<get_position>, R"(
+    {"position", getter<[](const Pose& x) { return x.position; }>, R"(
 Where the frame's origin is.
 @type vec3  [m]
 > clench.pose{xyz = {1, 2, 3}}.position  --> (1, 2, 3))"},

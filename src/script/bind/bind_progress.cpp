@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/watching.h"
@@ -32,7 +33,6 @@ static void show(ProgressHandle& progress) {
 }
 
 static int new_progress(lua_State* L) {
-  check_count(L, 2);
   lua_settop(L, 2);
   const bool list = lua_istable(L, 1);
   const double total = list          ? static_cast<double>(lua_rawlen(L, 1))
@@ -48,7 +48,6 @@ static int new_progress(lua_State* L) {
 }
 
 static int step(lua_State* L) {
-  check_count(L, 2);
   auto& progress = self<ProgressHandle>(L);
   const double by = given(L, 2) ? check_number(L, 2, "count") : 1;
   if (!(by >= 0)) fail("{}: count: expected a number >= 0, got {}", subject(L), by);
@@ -59,7 +58,6 @@ static int step(lua_State* L) {
 }
 
 static int close(lua_State* L) {
-  check_count(L, 0);
   self<ProgressHandle>(L).close();
   return 0;
 }
@@ -88,9 +86,6 @@ static int progress_text(lua_State* L) {
   const auto& progress = self<ProgressHandle>(L);
   return push(L, fmt::format("progress: {:.15g} of {:.15g}", progress.done, progress.total));
 }
-
-static int get_done(lua_State* L) { return push(L, self<ProgressHandle>(L).done); }
-static int get_total(lua_State* L) { return push(L, self<ProgressHandle>(L).total); }
 
 static const Entry functions[] = {
     {"progress", guarded<new_progress>, R"(
@@ -123,11 +118,11 @@ Takes the bar away. A progress in a variable that is declared <close> does so by
 };
 
 static const Entry fields[] = {
-    {"done", guarded<get_done>, R"(
+    {"done", getter<[](const ProgressHandle& x) { return x.done; }>, R"(
 Steps that are done.
 @type number
 > clench.progress(10).done  --> 0.0)"},
-    {"total", guarded<get_total>, R"(
+    {"total", getter<[](const ProgressHandle& x) { return x.total; }>, R"(
 Steps in all; 0 when that is not known.
 @type number
 > clench.progress(10).total  --> 10.0)"},

@@ -5,6 +5,7 @@
 
 #include "clench/scene/wrench_scene.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/watching.h"
@@ -12,7 +13,6 @@
 namespace clench {
 
 int project_space(lua_State* L) {
-  check_count(L, 1);
   const WrenchSpace& s = *self<WrenchSpacePtr>(L);
   Table table(L, 2);
   ProjectionOptions options;
@@ -38,10 +38,6 @@ int project_space(lua_State* L) {
   if (!handle.projection->mesh.triangles.empty())
     handle.shape = Shape::make(handle.projection->mesh, "projection");
   return push_object(L, handle);
-}
-
-static int get_projection_volume(lua_State* L) {
-  return push(L, self<ProjectionHandle>(L).projection->volume);
 }
 
 static int get_projection_mesh(lua_State* L) {
@@ -90,7 +86,6 @@ static double ball_of(const ProjectionHandle& handle) {
 }
 
 static int draw_projection(lua_State* L) {
-  check_count(L, 1);
   const auto& handle = self<ProjectionHandle>(L);
   if (!handle.shape) fail("{}: it is flat, with volume 0: there is nothing to draw", subject(L));
   const Projection& p = *handle.projection;
@@ -116,7 +111,7 @@ static int projection_text(lua_State* L) {
 }
 
 static const Entry projection_fields[] = {
-    {"volume", guarded<get_projection_volume>, R"(
+    {"volume", getter<[](const ProjectionHandle& x) { return x.projection->volume; }>, R"(
 Volume in the three coordinates; 0 when it is flat.
 @type number
 > grasp:wrench_space():project{projected = {"tx", "ty", "tz"}}.volume > 0  --> true)"},

@@ -7,14 +7,12 @@
 namespace clench {
 
 static int make_random(lua_State* L) {
-  check_count(L, 2);
   const auto seed = static_cast<uint64_t>(check_integer(L, 1, "seed"));
   const auto item = given(L, 2) ? static_cast<uint64_t>(check_integer(L, 2, "item")) : 0;
   return push_object(L, Random(seed, item));
 }
 
 static int uniform(lua_State* L) {
-  check_count(L, 2);
   Random& random = self<Random>(L);
   const double low = given(L, 2) ? check_number(L, 2, "low") : 0;
   const double high = given(L, 3) ? check_number(L, 3, "high") : 1;
@@ -22,14 +20,10 @@ static int uniform(lua_State* L) {
   return push(L, random.uniform(low, high));
 }
 
-static int normal(lua_State* L) {
-  check_count(L, 0);
-  return push(L, self<Random>(L).normal());
-}
+static int normal(lua_State* L) { return push(L, self<Random>(L).normal()); }
 
 // no bias: what lies beyond the last whole multiple of the range is drawn again
 static int integer(lua_State* L) {
-  check_count(L, 2);
   Random& random = self<Random>(L);
   const int64_t low = check_integer(L, 2, "low"), high = check_integer(L, 3, "high");
   if (low > high) fail("{}: expected low <= high, got {} and {}", subject(L), low, high);
@@ -44,7 +38,6 @@ static int integer(lua_State* L) {
 }
 
 static int direction(lua_State* L) {
-  check_count(L, 0);
   Random& random = self<Random>(L);
   for (;;) {
     const double x = random.normal(), y = random.normal(), z = random.normal();

@@ -4,6 +4,7 @@
 #include "clench/render/render.h"
 #include "clench/scene/force_arrows.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -102,7 +103,6 @@ Picture draw_scene(lua_State* L, Table& options, Scene scene) {
 }
 
 static int draw(lua_State* L) {
-  check_count(L, 2);
   const auto& world = *check_object<WorldHandle>(L, 1, "world").world;
   Table options(L, 2);
   SceneOptions showing;
@@ -119,7 +119,6 @@ static int draw(lua_State* L) {
 }
 
 static int save(lua_State* L) {
-  check_count(L, 1);
   const std::string path = check_string(L, 2, "path");
   if (!path.ends_with(".png"))
     fail("{}: expected a name that ends in .png, got '{}'", subject(L), path);
@@ -127,11 +126,7 @@ static int save(lua_State* L) {
   return 0;
 }
 
-static int get_width(lua_State* L) { return push(L, self<Picture>(L).width); }
-static int get_height(lua_State* L) { return push(L, self<Picture>(L).height); }
-
 static int pixel(lua_State* L) {
-  check_count(L, 2);
   const Picture& p = self<Picture>(L);
   const int x = check_int(L, 2, "x"), y = check_int(L, 3, "y");
   if (x < 1 || x > p.width || y < 1 || y > p.height)
@@ -168,11 +163,11 @@ of all soft contacts, without the cones, which would cover them. The camera fram
 };
 
 static const Entry fields[] = {
-    {"width", guarded<get_width>, R"(
+    {"width", getter<[](const Picture& x) { return x.width; }>, R"(
 Its width.
 @type integer  pixels
 > clench.render(world, {size = {64, 48}}).width  --> 64)"},
-    {"height", guarded<get_height>, R"(
+    {"height", getter<[](const Picture& x) { return x.height; }>, R"(
 Its height.
 @type integer  pixels
 > clench.render(world, {size = {64, 48}}).height  --> 48)"},

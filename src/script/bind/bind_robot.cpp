@@ -5,30 +5,17 @@
 #include "clench/motion/drive.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/read_spec.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 
 namespace clench {
 
-static int get_name(lua_State* L) { return push(L, self<RobotHandle>(L)->name); }
-static int get_source(lua_State* L) { return push(L, self<RobotHandle>(L)->source); }
-static int get_class_name(lua_State* L) { return push(L, self<RobotHandle>(L)->class_name); }
-
-static int get_pose(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  return push(L, robot.world->pose(robot->base));
-}
-
 static int set_pose(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   robot.world->set_pose(robot.id, check_pose(L, 2));
   return 0;
-}
-
-static int get_base(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  return push(L, BodyHandle{robot.world, robot->base});
 }
 
 static int get_bodies(lua_State* L) {
@@ -128,7 +115,6 @@ static std::vector<Apart> check_apart(Table& options, const Robot& robot) {
 }
 
 static int set_dofs(lua_State* L) {
-  check_count(L, 2);
   const auto& robot = self<RobotHandle>(L);
   const Eigen::VectorXd values = check_dofs(L, 2, *robot);
   Table options(L, 3);
@@ -221,7 +207,6 @@ static Id<Body> find_link(lua_State* L, const RobotHandle& robot, const std::str
 }
 
 static int link(lua_State* L) {
-  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   return push(L, BodyHandle{robot.world, find_link(L, robot, check_string(L, 2, "name"))});
 }
@@ -245,7 +230,6 @@ int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result) {
 }
 
 static int autograsp(lua_State* L) {
-  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 2);
   const double speed = options.number("speed", 1);
@@ -255,7 +239,6 @@ static int autograsp(lua_State* L) {
 }
 
 static int open(lua_State* L) {
-  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 2);
   options.done();
@@ -263,7 +246,6 @@ static int open(lua_State* L) {
 }
 
 static int move_dofs(lua_State* L) {
-  check_count(L, 2);
   const auto& robot = self<RobotHandle>(L);
   const Eigen::VectorXd targets = check_dofs(L, 2, *robot);
   Table options(L, 3);
@@ -273,13 +255,11 @@ static int move_dofs(lua_State* L) {
 }
 
 static int move_to(lua_State* L) {
-  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   return push_move(L, robot.world, move_robot(*robot.world, robot.id, check_pose(L, 2, "pose")));
 }
 
 static int approach_object(lua_State* L) {
-  check_count(L, 1);
   const auto& robot = self<RobotHandle>(L);
   Table options(L, 2);
   const double reach = options.number("reach", 1);
@@ -288,7 +268,6 @@ static int approach_object(lua_State* L) {
 }
 
 static int mount_on(lua_State* L) {
-  check_count(L, 2);
   const auto& robot = self<RobotHandle>(L);
   const auto& parent = check_object<RobotHandle>(L, 2, "parent");
   if (parent.world != robot.world)
@@ -327,11 +306,11 @@ static int equal(lua_State* L) {
 }
 
 static const Entry fields[] = {
-    {"name", guarded<get_name>, R"(
+    {"name", getter<[](const RobotHandle& x) { return x->name; }>, R"(
 Unique in its world.
 @type string
 > world:robot(hand.name) == hand  --> true)"},
-    {"pose", guarded<get_pose>, R"(
+    {"pose", getter<[](const RobotHandle& robot) { return robot.world->pose(robot->base); }>, R"(
 Where its base is, in the world frame. Setting it moves the robot at once, with all that it carries; see move_to.
 @type pose
 > hand.pose = {xyz = {0, 0, 1}}
@@ -364,7 +343,10 @@ Its chains: `parent`, the base or the link that it begins on; `pose` in the pare
 @type table[]
 > #hand.chains  --> 4
 > hand.chains[1].joints[1].kind  --> revolute)"},
-    {"base", guarded<get_base>, R"(
+    {"base", getter<[](const RobotHandle& robot) {
+       return BodyHandle{robot.world, robot->base};
+     }>,
+     R"(
 Its base: palm or stand.
 @type body
 > hand.base.kind  --> base)"},
@@ -380,11 +362,11 @@ How it approaches what it grasps, in the world frame: `point` on the palm, `dire
 The robot that carries it; nil when none does.
 @type robot?
 > hand.parent  --> nil)"},
-    {"class_name", guarded<get_class_name>, R"(
+    {"class_name", getter<[](const RobotHandle& x) { return x->class_name; }>, R"(
 What its file calls its kind.
 @type string
 > hand.class_name  --> Hand)"},
-    {"source", guarded<get_source>, R"(
+    {"source", getter<[](const RobotHandle& x) { return x->source; }>, R"(
 File that it was read from.
 @type string
 > hand.source:match "%.cfg$"  --> .cfg)"},

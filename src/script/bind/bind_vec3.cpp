@@ -4,6 +4,7 @@
 
 #include "clench/base/convert.h"
 #include "clench/script/lua/check.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 
@@ -17,34 +18,21 @@ std::string vec3_text(const Vector3d& v) {
 }
 
 static int make_vec3(lua_State* L) {
-  check_count(L, 3);
   if (lua_gettop(L) == 0) return push(L, Vector3d(0, 0, 0));
   if (lua_gettop(L) == 1) return push(L, check_vec3(L, 1));
   return push(L,
               Vector3d(check_number(L, 1, "x"), check_number(L, 2, "y"), check_number(L, 3, "z")));
 }
 
-static int get_x(lua_State* L) { return push(L, self<Vector3d>(L).x()); }
-static int get_y(lua_State* L) { return push(L, self<Vector3d>(L).y()); }
-static int get_z(lua_State* L) { return push(L, self<Vector3d>(L).z()); }
-
-static int dot(lua_State* L) {
-  check_count(L, 1);
-  return push(L, self<Vector3d>(L).dot(check_vec3(L, 2, "other")));
-}
+static int dot(lua_State* L) { return push(L, self<Vector3d>(L).dot(check_vec3(L, 2, "other"))); }
 
 static int cross(lua_State* L) {
-  check_count(L, 1);
   return push(L, Vector3d(self<Vector3d>(L).cross(check_vec3(L, 2, "other"))));
 }
 
-static int norm(lua_State* L) {
-  check_count(L, 0);
-  return push(L, self<Vector3d>(L).stableNorm());
-}
+static int norm(lua_State* L) { return push(L, self<Vector3d>(L).stableNorm()); }
 
 static int unit(lua_State* L) {
-  check_count(L, 0);
   const Vector3d& v = self<Vector3d>(L);
   const double largest = v.cwiseAbs().maxCoeff();
   if (!(largest > 0)) fail("{}: a vector of length 0 has no direction", subject(L));
@@ -112,15 +100,15 @@ A vector of three finite numbers, from a list or one by one. Wherever a vec3 is 
 };
 
 static const Entry fields[] = {
-    {"x", guarded<get_x>, R"(
+    {"x", getter<[](const Vector3d& x) { return x.x(); }>, R"(
 First coordinate.
 @type number
 > clench.vec3(1, 2, 3).x  --> 1.0)"},
-    {"y", guarded<get_y>, R"(
+    {"y", getter<[](const Vector3d& x) { return x.y(); }>, R"(
 Second coordinate.
 @type number
 > clench.vec3(1, 2, 3).y  --> 2.0)"},
-    {"z", guarded<get_z>, R"(
+    {"z", getter<[](const Vector3d& x) { return x.z(); }>, R"(
 Third coordinate.
 @type number
 > clench.vec3(1, 2, 3).z  --> 3.0

@@ -4,6 +4,7 @@
 #include "clench/contact/cone.h"
 #include "clench/contact/friction_edges.h"
 #include "clench/motion/virtual_contacts.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -117,22 +118,10 @@ static Pose frame_of(const VirtualContactHandle& c) {
   return link.world->pose(link.id) * c.contact.X_LC;
 }
 
-static int get_link(lua_State* L) { return push(L, link_of(self<VirtualContactHandle>(L))); }
-static int get_chain(lua_State* L) {
-  return push(L, self<VirtualContactHandle>(L).contact.chain + 1);
-}
-static int get_point(lua_State* L) {
-  return push(L, frame_of(self<VirtualContactHandle>(L)).position);
-}
 static int get_normal(lua_State* L) {
   const Pose frame = frame_of(self<VirtualContactHandle>(L));
   return push(L, Eigen::Vector3d(frame.rotation * Eigen::Vector3d::UnitZ()));
 }
-static int get_frame(lua_State* L) { return push(L, frame_of(self<VirtualContactHandle>(L))); }
-static int get_frame_in_link(lua_State* L) {
-  return push(L, self<VirtualContactHandle>(L).contact.X_LC);
-}
-static int get_mu(lua_State* L) { return push(L, self<VirtualContactHandle>(L).contact.mu); }
 static int get_edges(lua_State* L) {
   return push_rows(L, self<VirtualContactHandle>(L).contact.edges.transpose());
 }
@@ -142,9 +131,6 @@ static double torsion_radius(const VirtualContactSpec& contact) {
   return contact.edges.cols() ? contact.edges.row(5).cwiseAbs().maxCoeff() : 0.0;
 }
 
-static int get_torsion_radius(lua_State* L) {
-  return push(L, torsion_radius(self<VirtualContactHandle>(L).contact));
-}
 static int get_kind(lua_State* L) {
   const auto& contact = self<VirtualContactHandle>(L).contact;
   return push(L, torsion_radius(contact) > 0 ? "soft" : "point");
@@ -159,15 +145,15 @@ static int text(lua_State* L) {
 }
 
 static const Entry fields[] = {
-    {"link", guarded<get_link>, R"(
+    {"link", getter<[](const VirtualContactHandle& x) { return link_of(x); }>, R"(
 The link that it lies on, or the base.
 @type body
 > hand.virtual_contacts[1].link.robot == hand  --> true)"},
-    {"chain", guarded<get_chain>, R"(
+    {"chain", getter<[](const VirtualContactHandle& x) { return x.contact.chain + 1; }>, R"(
 Number of the link's chain; 0 for the base.
 @type integer
 > hand:find_virtual_contacts()[1].chain  --> 1)"},
-    {"point", guarded<get_point>, R"(
+    {"point", getter<[](const VirtualContactHandle& x) { return frame_of(x).position; }>, R"(
 Where it is, in the world frame; it moves with its link.
 @type vec3  [m]
 > c = hand.virtual_contacts[1]
@@ -176,17 +162,17 @@ Where it is, in the world frame; it moves with its link.
 Unit normal out of the link, in the world frame: into what it is to touch.
 @type vec3
 > math.abs(hand.virtual_contacts[1].normal:norm() - 1) < 1e-12  --> true)"},
-    {"frame", guarded<get_frame>, R"(
+    {"frame", getter<[](const VirtualContactHandle& x) { return frame_of(x); }>, R"(
 Contact frame in the world: origin at the point, +z along the normal.
 @type pose
 > c = hand.virtual_contacts[1]
 > (c.frame:rotate{0, 0, 1} - c.normal):norm() < 1e-12  --> true)"},
-    {"frame_in_link", guarded<get_frame_in_link>, R"(
+    {"frame_in_link", getter<[](const VirtualContactHandle& x) { return x.contact.X_LC; }>, R"(
 Contact frame in the link's.
 @type pose
 > c = hand.virtual_contacts[1]
 > (c.link.pose * c.frame_in_link).position == c.point  --> true)"},
-    {"mu", guarded<get_mu>, R"(
+    {"mu", getter<[](const VirtualContactHandle& x) { return x.contact.mu; }>, R"(
 Coulomb coefficient that it counts with.
 @type number
 > hand.virtual_contacts[1].mu > 0  --> true)"},
@@ -195,7 +181,8 @@ What friction a unit normal force carries, over mu: a list of {fx, fy, fz, tx, t
 @type number[][]  torques [m]
 > hand:add_virtual_contact{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}}
 > #hand.virtual_contacts[#hand.virtual_contacts].edges  --> 8)"},
-    {"torsion_radius", guarded<get_torsion_radius>, R"(
+    {"torsion_radius",
+     getter<[](const VirtualContactHandle& x) { return torsion_radius(x.contact); }>, R"(
 Largest torque about the normal that a unit normal force carries, over mu; 0 for a point.
 @type number  [m]
 > hand:add_virtual_contact{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}, torsion_radius = 0.002}

@@ -19,7 +19,6 @@ static World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
 // --- making ---
 
 static int new_world(lua_State* L) {
-  check_count(L, 1);
   Table options(L, 1);
   const auto world = std::make_shared<World>();
   world->set_contact_threshold(options.number("contact_threshold", world->contact_threshold()));
@@ -28,7 +27,6 @@ static int new_world(lua_State* L) {
 }
 
 static int add_body(lua_State* L, BodyKind kind) {
-  check_count(L, 2);
   const auto& handle = self<WorldHandle>(L);
   Table options(L, 3);
   const ReadOptions reading = read_options(L, options);
@@ -49,7 +47,6 @@ static int add_object(lua_State* L) { return add_body(L, BodyKind::object); }
 static int add_obstacle(lua_State* L) { return add_body(L, BodyKind::obstacle); }
 
 static int add_robot(lua_State* L) {
-  check_count(L, 2);
   const auto& handle = self<WorldHandle>(L);
   const std::string path = check_string(L, 2, "path");
   Table options(L, 3);
@@ -65,7 +62,6 @@ static int add_robot(lua_State* L) {
 }
 
 static int remove(lua_State* L) {
-  check_count(L, 1);
   const auto& handle = self<WorldHandle>(L);
   check_bodies(L, 2, "entity", handle.world);  // of this world, and alive
   if (const auto* robot = to<RobotHandle>(L, 2))
@@ -104,7 +100,6 @@ static int get_robots(lua_State* L) {
 }
 
 static int body(lua_State* L) {
-  check_count(L, 1);
   const auto& handle = self<WorldHandle>(L);
   const std::string name = check_string(L, 2, "name");
   const auto id = handle.world->find_body(name);
@@ -117,7 +112,6 @@ static int body(lua_State* L) {
 }
 
 static int robot(lua_State* L) {
-  check_count(L, 1);
   const auto& handle = self<WorldHandle>(L);
   const std::string name = check_string(L, 2, "name");
   const auto id = handle.world->find_robot(name);
@@ -132,39 +126,29 @@ static int robot(lua_State* L) {
 
 // --- time machine ---
 
-static int clone(lua_State* L) {
-  check_count(L, 0);
-  return push_world(L, std::make_shared<World>(world_of(L)));
-}
+static int clone(lua_State* L) { return push_world(L, std::make_shared<World>(world_of(L))); }
 
 static int snapshot(lua_State* L) {
-  check_count(L, 0);
   const auto& handle = self<WorldHandle>(L);
   return push_object(L, SnapshotHandle{handle.world->snapshot()});
 }
 
 static int restore(lua_State* L) {
-  check_count(L, 1);
   const auto& handle = self<WorldHandle>(L);
   handle.world->restore(*check_object<SnapshotHandle>(L, 2, "snapshot").moment);
   return 0;
 }
 
-static int hash(lua_State* L) {
-  check_count(L, 0);
-  return push(L, fmt::format("{:016x}", world_of(L).hash()));
-}
+static int hash(lua_State* L) { return push(L, fmt::format("{:016x}", world_of(L).hash())); }
 
 // --- who touches whom ---
 
 static int collides(lua_State* L) {
-  check_count(L, 0);
   World& world = *self<WorldHandle>(L).world;
   return push(L, clench::collides(world, &world.context()));
 }
 
 static int colliding(lua_State* L) {
-  check_count(L, 2);
   const auto& world = self<WorldHandle>(L).world;
   if (!given(L, 2)) return push_pairs(L, world, colliding_pairs(*world, &world->context()));
   const auto a = check_bodies(L, 2, "a", world);
@@ -173,7 +157,6 @@ static int colliding(lua_State* L) {
 }
 
 static int measure_distance(lua_State* L) {
-  check_count(L, 2);
   const auto& world = self<WorldHandle>(L).world;
   const auto a = check_bodies(L, 2, "a", world), b = check_bodies(L, 3, "b", world);
   const BodyDistance d =
@@ -185,7 +168,6 @@ static int measure_distance(lua_State* L) {
 }
 
 static int find_contacts(lua_State* L) {
-  check_count(L, 2);
   const auto& world = self<WorldHandle>(L).world;
   if (!given(L, 2)) return push_contacts(L, world, contacts(*world, &world->context()));
   const auto a = check_bodies(L, 2, "a", world);
@@ -197,7 +179,6 @@ static int find_contacts(lua_State* L) {
 }
 
 static int set_collision(lua_State* L) {
-  check_count(L, 3);
   const auto& world = self<WorldHandle>(L).world;
   const bool on = check_boolean(L, 2, "on");
   if (!given(L, 3)) {
@@ -219,7 +200,6 @@ static int set_collision(lua_State* L) {
 // --- friction ---
 
 static int set_friction(lua_State* L) {
-  check_count(L, 3);
   const std::string a = check_string(L, 2, "material"), b = check_string(L, 3, "material");
   Table options(L, 4);
   const double statics = options.number("static");
@@ -231,7 +211,6 @@ static int set_friction(lua_State* L) {
 }
 
 static int friction(lua_State* L) {
-  check_count(L, 2);
   const MaterialTable& table = world_of(L).materials();
   const Friction f = table.friction(table.index(check_string(L, 2, "material")),
                                     table.index(check_string(L, 3, "material")));

@@ -109,7 +109,6 @@ static UnitWrenches read_contact(lua_State* L, int i, const What& what, const Co
 static constexpr Eigen::Index max_space_edges = 100'000;  // each question goes through all
 
 static int new_wrench_space(lua_State* L) {
-  check_count(L, 1);
   Table options(L, 1);
   ConeOptions cone;
   cone.edges = read_edges(options).value_or(cone.edges);
@@ -153,13 +152,9 @@ int push_coordinate_names(lua_State* L, std::span<const int> coordinates) {
   return push_list_of(L, coordinates, [&](int c) { push(L, coordinate_names[c]); });
 }
 
-static int epsilon(lua_State* L) {
-  check_count(L, 0);
-  return push(L, space(L).epsilon(Watching(L).progress()));
-}
+static int epsilon(lua_State* L) { return push(L, space(L).epsilon(Watching(L).progress())); }
 
 static int epsilon_bounds(lua_State* L) {
-  check_count(L, 1);
   Table table(L, 2);
   EpsilonOptions options;
   options.tolerance = table.number("tolerance", options.tolerance);
@@ -174,13 +169,9 @@ static int epsilon_bounds(lua_State* L) {
   return 1;
 }
 
-static int volume(lua_State* L) {
-  check_count(L, 0);
-  return push(L, space(L).volume(Watching(L).progress()));
-}
+static int volume(lua_State* L) { return push(L, space(L).volume(Watching(L).progress())); }
 
 static int volume_bounds(lua_State* L) {
-  check_count(L, 1);
   Table table(L, 2);
   const int edges = table.integer("edges", 32);
   table.done();
@@ -192,7 +183,6 @@ static int volume_bounds(lua_State* L) {
 }
 
 static int closes_force(lua_State* L) {
-  check_count(L, 0);
   return push(L, space(L).is_force_closure(Watching(L).progress()));
 }
 
@@ -203,7 +193,6 @@ static int get_coordinates(lua_State* L) {
 }
 
 static int weakest(lua_State* L) {
-  check_count(L, 0);
   const Weakest& w = space(L).weakest(Watching(L).progress());
   push_list(L, 0, 3);
   push_vector(L, w.direction);
@@ -215,7 +204,6 @@ static int weakest(lua_State* L) {
 }
 
 static int wrenches(lua_State* L) {
-  check_count(L, 0);
   const WrenchSpace& s = space(L);
   if (s.is_round()) fail("{}: round cones have no edges to list, give a number", subject(L));
   return push_list_of(L, s.contacts(), [&](const UnitWrenches& contact) {

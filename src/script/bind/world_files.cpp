@@ -106,7 +106,6 @@ WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& re
 }
 
 int load_world(lua_State* L) {
-  check_count(L, 2);
   const std::string path = check_string(L, 1, "path");
   Table options(L, 2);
   const ReadOptions reading = read_options(L, options);
@@ -170,7 +169,6 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
 }
 
 int save_world(lua_State* L) {
-  check_count(L, 2);
   const WorldPtr world = self<WorldHandle>(L).world;
   const fs::path path = check_string(L, 2, "path");
   Table options(L, 3);

@@ -20,12 +20,4 @@ void fail_object(const What& what, const Class& kind, int index) {
   fail_expected(what, expected, index);
 }
 
-void check_count(lua_State* L, int most) {
-  const int self = running_class(L) ? 1 : 0;
-  const int count = lua_gettop(L) - self;
-  if (count > most)
-    fail("{}: expected at most {} argument{}, got {}", subject(L), most, most == 1 ? "" : "s",
-         count);
-}
-
 }  // namespace clench

@@ -43,7 +43,4 @@ T& check_object(lua_State* L, int i, const char* name = "") {
   fail_object({L, {}, name}, class_of<T>(), i);
 }
 
-/// throws  Error "...: expected at most 2 arguments, got 3"; self does not count
-void check_count(lua_State* L, int most);
-
 }  // namespace clench

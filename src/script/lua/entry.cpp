@@ -1,8 +1,18 @@
 #include "clench/script/lua/entry.h"
 
 #include <cstring>
+#include <string_view>
 
 namespace clench {
+
+int most_arguments(const Entry& entry) {
+  constexpr std::string_view mark = "\n@param ";
+  const std::string_view doc = entry.doc;
+  int count = 0;
+  for (size_t at = doc.find(mark); at != doc.npos; at = doc.find(mark, at + 1), ++count)
+    if (doc.substr(at + mark.size()).starts_with("...")) return -1;
+  return count;
+}
 
 const Entry* running_entry(lua_State* L) {
   return static_cast<const Entry*>(lua_touserdata(L, lua_upvalueindex(at_entry)));

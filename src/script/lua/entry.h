@@ -7,7 +7,8 @@
 //  2. A function is `static int f(lua_State* L)`, named in its table as guarded<f> (guard.h). It
 //     reads its arguments with check.h (positional) or a Table (options), calls the engine, and
 //     returns push...(). Bad input throws clench::Error; guarded adds the script's line. Messages
-//     begin with subject(L), "hand:autograsp", found by itself.
+//     begin with subject(L), "hand:autograsp", found by itself. Arguments beyond the doc's `@param`
+//     lines have been refused before.
 //  3. A method begins with `auto& hand = self<RobotHandle>(L)` (object.h). class_of<T>() ties a
 //     C++ type to its Class; push_object(L, T{...}) makes a value of it, to<T> and
 //     check_object<T> read one.
@@ -61,8 +62,11 @@ struct Class {
   const Class* parent = nullptr;  ///< its fields and methods are had too
 };
 
-/// Upvalues of every closure of an entry: the entry, and its class or library.
-enum EntryUpvalue { at_entry = 1, at_class = 2, at_library = 3 };
+/// Upvalues of every closure of an entry: the entry, its class or library, and how many arguments it takes; -1: any.
+enum EntryUpvalue { at_entry = 1, at_class = 2, at_library = 3, at_most = 4 };
+
+/// Of a function or method: its `@param` lines, self not among them; -1 where one of them is `...`.
+int most_arguments(const Entry& entry);
 
 /// Name of the entry that runs, as messages begin: "clench.rad", "hand:autograsp", "hand.dofs".
 std::string subject(lua_State* L);

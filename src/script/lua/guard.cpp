@@ -90,9 +90,19 @@ static const char* name_of(ErrorKind kind) {
   return "internal";
 }
 
+// as many arguments as the entry takes, or fewer
+static void check_count(lua_State* L) {
+  const auto most = static_cast<int>(lua_tointeger(L, lua_upvalueindex(at_most)));
+  const int count = lua_gettop(L) - (running_class(L) ? 1 : 0);
+  if (most >= 0 && running_entry(L) && count > most)
+    fail("{}: expected {} argument{}, got {}", subject(L),
+         most == 0 ? "no" : fmt::format("at most {}", most), most == 1 ? "" : "s", count);
+}
+
 static Failure run_caught(lua_State* L, lua_CFunction fn, int& results, Message& message,
                           ErrorKind& kind) {
   try {
+    check_count(L);
     results = fn(L);
     return Failure::none;
   } catch (const Raised&) {

@@ -11,20 +11,31 @@
 
 namespace clench {
 
-static void push_closure(lua_State* L, lua_CFunction function, const Entry& entry,
-                         const Class* kind, const Library* library = nullptr) {
+static void push_closure(lua_State* L, lua_CFunction function, const Entry& entry, int most,
+                         const Class* kind, const Library* library) {
   lua_pushlightuserdata(L, const_cast<Entry*>(&entry));
   lua_pushlightuserdata(L, const_cast<Class*>(kind));
   lua_pushlightuserdata(L, const_cast<Library*>(library));
-  lua_pushcclosure(L, function, 3);
+  lua_pushinteger(L, most);
+  lua_pushcclosure(L, function, 4);
 }
 
+// what a script calls itself, as many arguments as its doc says
 static void set_functions(lua_State* L, std::span<const Entry> entries, const Class* kind,
-                          bool setters = false, const Library* library = nullptr) {
+                          const Library* library = nullptr) {
+  for (const Entry& entry : entries) {
+    push_closure(L, entry.function, entry, most_arguments(entry), kind, library);
+    lua_setfield(L, -2, entry.name);
+  }
+}
+
+// what the lookup or Lua calls: getters, setters, operators
+static void set_hidden(lua_State* L, std::span<const Entry> entries, const Class* kind,
+                       bool setters = false, const Library* library = nullptr) {
   for (const Entry& entry : entries) {
     const lua_CFunction function = setters ? entry.setter : entry.function;
     if (!function) continue;
-    push_closure(L, function, entry, kind, library);
+    push_closure(L, function, entry, -1, kind, library);
     lua_setfield(L, -2, entry.name);
   }
 }
@@ -131,9 +142,9 @@ static void set_lookup(lua_State* L, const char* event, lua_CFunction lookup, co
   while (depth--) {
     const Class* k = lineage[depth];
     lua_pushvalue(L, -2);
-    set_functions(L, k->fields, &kind, setting);
+    set_hidden(L, k->fields, &kind, setting);
     lua_pop(L, 1);
-    set_functions(L, setting ? k->fields : k->methods, &kind);
+    setting ? set_hidden(L, k->fields, &kind) : set_functions(L, k->methods, &kind);
   }
   lua_getfield(L, -3, event);
   lua_pushstring(L, name);
@@ -146,7 +157,7 @@ void push_metatable(lua_State* L, const Class& kind) {
   lua_pop(L, 1);
   luaL_checkstack(L, 12, nullptr);
   lua_newtable(L);
-  set_functions(L, kind.operators, &kind);
+  set_hidden(L, kind.operators, &kind);
   set_lookup(L, "__index", member, kind.variable, kind);
   set_lookup(L, "__newindex", set_member, kind.variable, kind);
   lua_pushstring(L, kind.name);
@@ -200,13 +211,13 @@ void open_library(lua_State* L, int root, const Library& library) {
   luaL_checkstack(L, 12, nullptr);
   root = lua_absindex(L, root);
   push_library_table(L, root, library.name);
-  set_functions(L, library.functions, nullptr, false, &library);
+  set_functions(L, library.functions, nullptr, &library);
   if (!lua_getmetatable(L, -1)) {
     set_library_lookup(L, library);
     lua_getmetatable(L, -1);
   }
   lua_getfield(L, -1, "getters");
-  set_functions(L, library.fields, nullptr, false, &library);
+  set_hidden(L, library.fields, nullptr, false, &library);
   lua_pop(L, 3);
 }
 
