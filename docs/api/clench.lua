@@ -520,7 +520,7 @@ function grasp:wrench_space(options) end
 ---@field coordinates string[] # The coordinates that count.
 local wrench_space = {}
 
----Radius of the largest ball of wrenches that is resisted; 0 unless force closure. Good to 1e-12, with round cones to 1e-9 or, where that takes too many facets (rings of alike contacts, huge friction), a certain lower bound: epsilon_bounds says how near.
+---Radius of the largest ball of wrenches that is resisted; 0 unless force closure. Good to 1e-12, with round cones to 1e-9 or, where that takes too many facets (rings of alike contacts, huge friction), a certified lower bound: epsilon_bounds says how near.
 ---@return number
 function wrench_space:epsilon() end
 

@@ -106,7 +106,7 @@ static int main_of(int argc, char** argv) {
   doc_verb->add_flag("--check", check, "write nothing; fail when a page is not what it should be");
   doc_verb->footer("Examples:\n  clench doc\n  clench doc --check");
   CheckOptions checking;
-  auto* check_verb = app.add_subcommand("check", "read files and say what was understood");
+  auto* check_verb = app.add_subcommand("check", "read files and say what was parsed");
   check_verb
       ->add_option("FILE", checking.files, "robots, bodies, worlds, eigengrasps, virtual contacts")
       ->required();

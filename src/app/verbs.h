@@ -38,7 +38,7 @@ struct CheckOptions {
   bool json = false;
 };
 
-/// Reads files of any kind and prints what was understood, guessed, ignored and wrong.
+/// Reads files of any kind and prints what was parsed, inferred, ignored and wrong.
 int check_files(const CheckOptions& options);
 
 struct ConvertOptions {

@@ -237,14 +237,14 @@ void LuaWriter::change_parts(const RobotSpec& now, const RobotSpec& was, int ind
 
 void LuaWriter::set_dofs(const PlacedRobot& placed, int index) {
   if (placed.dofs.empty()) return;
-  std::string apart;
+  std::string own;
   const auto joints = joints_of(placed.robot);
-  for (size_t j = 0; j < placed.apart.size(); ++j)
-    if (const Apart& q = placed.apart[j])
-      apart += fmt::format("{}{{{}, {}, {}}}", apart.empty() ? "" : ", ", joints[j].chain + 1,
-                           joints[j].number + 1, number(*q));
+  for (size_t j = 0; j < placed.joint_positions.size(); ++j)
+    if (const JointPosition& q = placed.joint_positions[j])
+      own += fmt::format("{}{{{}, {}, {}}}", own.empty() ? "" : ", ", joints[j].chain + 1,
+                         joints[j].number + 1, number(*q));
   line(fmt::format("robots[{}]:set_dofs({}{})", index + 1, list(placed.dofs),
-                   apart.empty() ? "" : ", {joint_positions = {" + apart + "}}"));
+                   own.empty() ? "" : ", {joint_positions = {" + own + "}}"));
 }
 
 static bool same_vectors(const std::optional<Eigen::VectorXd>& a,

@@ -12,9 +12,10 @@ static constexpr double digits = 1e-5;
 
 // inside its limits a joint of a compliant DOF may stand anywhere, and has broken away where its breakaway DOF has gone
 // on beyond it; any other follows its DOF
-static std::vector<Apart> checked_apart(const Robot& robot, const Eigen::VectorXd& q,
-                                        const std::vector<Apart>& given,
-                                        const Listeners& listeners) {
+static std::vector<JointPosition> checked_joint_positions(const Robot& robot,
+                                                          const Eigen::VectorXd& q,
+                                                          const std::vector<JointPosition>& given,
+                                                          const Listeners& listeners) {
   auto out = given;
   if (out.size() != robot.joints.size())
     fail("robot '{}': expected the states of {} joints, got {}", excerpt(robot.name),
@@ -53,16 +54,17 @@ static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed
                        excerpt(robot.name), i + 1, placed.dofs[i], low, high));
   }
   world.set_dofs(id, q);
-  if (!placed.apart.empty())
-    world.set_dofs_unchecked(id, q, checked_apart(robot, q, placed.apart, listeners));
+  if (!placed.joint_positions.empty())
+    world.set_dofs_unchecked(id, q,
+                             checked_joint_positions(robot, q, placed.joint_positions, listeners));
 }
 
 static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robot> child,
                     const Listeners& listeners) {
-  const Robot& carrier = world.robot(parent);
+  const Robot& parent_robot = world.robot(parent);
   Pose X_LB = c.X_LB;
-  if (c.link >= 0 && c.link < static_cast<int>(carrier.links.size())) {
-    const Pose X_WL = world.pose(carrier.links[c.link].body);
+  if (c.link >= 0 && c.link < static_cast<int>(parent_robot.links.size())) {
+    const Pose X_WL = world.pose(parent_robot.links[c.link].body);
     const Pose& X_WB = world.pose(world.robot(child).base);
     const Pose as_written = X_WL.inverse() * X_WB;
     const Pose off = X_LB.inverse() * as_written;
@@ -73,8 +75,8 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
       listeners.warn(
           fmt::format("robot '{}': its pose and its connection to '{}' differ by {:.3g} m and "
                       "{:.3g} rad; the connection is used",
-                      excerpt(world.robot(child).name), excerpt(carrier.name), off.position.norm(),
-                      off.angle()));
+                      excerpt(world.robot(child).name), excerpt(parent_robot.name),
+                      off.position.norm(), off.angle()));
   }
   world.mount(child, parent, c.link, X_LB, c.mount ? &*c.mount : nullptr);
 }

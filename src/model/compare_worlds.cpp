@@ -132,10 +132,11 @@ void Comparer::robots(Id<Robot> a_id, Id<Robot> b_id) {
         return same(x.default_velocity, y.default_velocity);
       }))
     add("how '{}' closes", a.name);
-  const bool alike =
-      std::ranges::equal(a_.apart(a_id), b_.apart(b_id), [](const Apart& x, const Apart& y) {
-        return x.has_value() == y.has_value() && same(x.value_or(0), y.value_or(0));
-      });
+  const bool alike = std::ranges::equal(a_.own_joint_positions(a_id), b_.own_joint_positions(b_id),
+                                        [](const JointPosition& x, const JointPosition& y) {
+                                          return x.has_value() == y.has_value() &&
+                                                 same(x.value_or(0), y.value_or(0));
+                                        });
   if (!alike) add("the joints of '{}' that do not follow their DOFs", a.name);
   if (!same(a.X_BA, b.X_BA)) add("the approach frame of '{}'", a.name);
   if (a.mounting.has_value() != b.mounting.has_value()) add("what carries '{}'", a.name);

@@ -80,7 +80,7 @@ PlacedRobot Describer::placed(Id<Robot> id) const {
   out.X_WB = world_.pose(r.base);
   const auto q = world_.dofs(id);
   out.dofs.assign(q.begin(), q.end());
-  out.apart = world_.apart(id);
+  out.joint_positions = world_.own_joint_positions(id);
   return out;
 }
 

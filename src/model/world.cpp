@@ -230,25 +230,25 @@ void World::switch_off_neighbours(const Robot& robot, bool chain_links_collide) 
 void World::mount(Id<Robot> child, Id<Robot> parent, int link, const Pose& X_LB,
                   const BodySpec* piece) {
   const std::string& name = robot(child).name;
-  const Robot& carrier = robot(parent);
+  const Robot& parent_robot = robot(parent);
   if (robot(child).mounting)
     fail("robot '{}' is already carried by '{}'", excerpt(name),
          excerpt(robot(robot(child).mounting->parent).name));
-  if (link < 0 || link >= static_cast<int>(carrier.links.size()))
+  if (link < 0 || link >= static_cast<int>(parent_robot.links.size()))
     fail("robot '{}': expected a link of '{}', 0 to {}, got {}", excerpt(name),
-         excerpt(carrier.name), static_cast<int>(carrier.links.size()) - 1, link);
-  check_place(X_LB,
-              fmt::format("robot '{}': its pose on '{}'", excerpt(name), excerpt(carrier.name)));
+         excerpt(parent_robot.name), static_cast<int>(parent_robot.links.size()) - 1, link);
+  check_place(
+      X_LB, fmt::format("robot '{}': its pose on '{}'", excerpt(name), excerpt(parent_robot.name)));
   for (auto up = parent;;) {
     if (up == child)
       fail("robot '{}' cannot be carried by '{}', which it carries itself", excerpt(name),
-           excerpt(carrier.name));
+           excerpt(parent_robot.name));
     if (!robot(up).mounting) break;
     up = robot(up).mounting->parent;
   }
 
   // the link, the adapter and the base are one rigid piece: they never collide
-  const Id<Body> last = carrier.links[link].body;
+  const Id<Body> last = parent_robot.links[link].body;
   const Id<Body> base = robot(child).base;
   const Pose X_WB = pose(last) * X_LB;
   if (piece) {

@@ -52,7 +52,7 @@ class World {
   /// its spring.
   bool follows_dof(Id<Robot> robot, int joint) const;
   /// One per joint: its q where it does not follow its DOF.
-  std::vector<Apart> apart(Id<Robot> robot) const;
+  std::vector<JointPosition> own_joint_positions(Id<Robot> robot) const;
   /// In the world frame.
   RobotFrames frames(Id<Robot> robot) const;
 
@@ -68,7 +68,8 @@ class World {
   void set_dofs(Id<Robot> robot, const Eigen::VectorXd& q);
   /// The same, with joints that do not follow; used by motion, which has its own checks.
   /// apart  one per joint
-  void set_dofs_unchecked(Id<Robot> robot, const Eigen::VectorXd& q, std::span<const Apart> apart);
+  void set_dofs_unchecked(Id<Robot> robot, const Eigen::VectorXd& q,
+                          std::span<const JointPosition> own);
 
   // --- what things are ---
   /// null: each DOF is its own

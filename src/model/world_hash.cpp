@@ -67,7 +67,8 @@ uint64_t World::hash() const {
       h.add(static_cast<uint64_t>(r.mounting->link));
       add(h, r.mounting->X_LB);
     }
-    for (const Apart& own : apart(id)) flag(own.has_value()), h.add(own.value_or(0));
+    for (const JointPosition& own : own_joint_positions(id))
+      flag(own.has_value()), h.add(own.value_or(0));
   }
   for (const auto& name : settings_->materials.names()) h.add(name);
   const int count = static_cast<int>(settings_->materials.names().size());

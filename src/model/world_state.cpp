@@ -63,9 +63,9 @@ bool World::follows_dof(Id<Robot> id, int joint) const {
   return state_.follows_dof[robot(id).first_joint + joint];
 }
 
-std::vector<Apart> World::apart(Id<Robot> id) const {
+std::vector<JointPosition> World::own_joint_positions(Id<Robot> id) const {
   const Values q = joints(id);
-  std::vector<Apart> out(q.size());
+  std::vector<JointPosition> out(q.size());
   for (int j = 0; j < q.size(); ++j)
     if (!follows_dof(id, j)) out[j] = q[j];
   return out;
@@ -99,7 +99,7 @@ void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
 }
 
 void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
-                               std::span<const Apart> apart) {
+                               std::span<const JointPosition> own) {
   const Robot& r = robot(id);
   const auto dofs = state_.dofs.begin() + static_cast<std::ptrdiff_t>(r.first_dof);
   const auto joints = state_.joints.begin() + static_cast<std::ptrdiff_t>(r.first_joint);
@@ -110,9 +110,9 @@ void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
   scratch_.follows_dof.assign(follows, follows + count);
   std::copy(q.begin(), q.end(), dofs);
   for (std::ptrdiff_t j = 0; j < count; ++j) {
-    const bool own = !apart.empty() && apart[j];
-    joints[j] = own ? *apart[j] : r.joints[j].ratio * q[r.joints[j].dof];
-    follows[j] = !own;
+    const bool has_own = !own.empty() && own[j];
+    joints[j] = has_own ? *own[j] : r.joints[j].ratio * q[r.joints[j].dof];
+    follows[j] = !has_own;
   }
   try {
     place(id, pose(r.base));

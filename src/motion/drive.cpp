@@ -31,7 +31,7 @@ bool tendon_can_advance(Drive& drive, int dof, double rate, const BlockedJoints&
                         const SpringBalance& springs) {
   bool free = false, unwinds = false;
   each_joint_of(drive.robot(), dof, [&](int j, const Joint& joint) {
-    Apart& own = drive.apart[j];
+    JointPosition& own = drive.joint_positions[j];
     const double place = joint.ratio * drive.q[dof];
     if (!own && blocked.joints.contains(j))
       own = place;
@@ -49,13 +49,13 @@ bool dof_can_advance(Drive& drive, int dof, double rate, const BlockedJoints& bl
   each_joint_of(drive.robot(), dof, [&](int j, const Joint&) {
     if (blocked.joints.contains(j))
       ++stopped;
-    else if (!drive.apart[j])
+    else if (!drive.joint_positions[j])
       ++free;
   });
   if (stopped == 0) return free > 0;
   if (drive.robot().dofs[dof].kind != DofKind::breakaway || rate < 0 || free == 0) return false;
   each_joint_of(drive.robot(), dof, [&](int j, const Joint& joint) {
-    if (blocked.joints.contains(j)) drive.apart[j] = joint.ratio * drive.q[dof];
+    if (blocked.joints.contains(j)) drive.joint_positions[j] = joint.ratio * drive.q[dof];
   });
   return true;
 }
@@ -70,7 +70,7 @@ std::vector<BodyPair> stop_blocked(Drive& drive, Eigen::VectorXd& rates, double 
   std::vector<BodyPair> pairs;
   for (bool changed = true; changed;) {
     changed = false;
-    const auto left_behind = drive.apart;
+    const auto left_behind = drive.joint_positions;
     const auto blocked =
         blocked_joints(drive.world, drive.id, joint_speeds(drive, rates, true), touching, closed);
     for (int i = 0; i < rates.size(); ++i) {
@@ -82,14 +82,14 @@ std::vector<BodyPair> stop_blocked(Drive& drive, Eigen::VectorXd& rates, double 
       stops[i] = DofStop::contact;
       changed = true;
     }
-    changed = changed || left_behind != drive.apart;
+    changed = changed || left_behind != drive.joint_positions;
     for (const BodyPair& pair : blocked.pairs)
       if (std::ranges::find(pairs, pair) == pairs.end()) pairs.push_back(pair);
   }
   return pairs;
 }
 
-// how far the path runs before a DOF arrives, picks up a joint that it had left behind, or has wound up springs by
+// how far the path runs before a DOF arrives, picks up a joint that it had left behind, or has deflected springs by
 // a step
 double path_length(const Drive& drive, const Eigen::VectorXd& rates) {
   double length = std::numeric_limits<double>::infinity();
@@ -97,8 +97,8 @@ double path_length(const Drive& drive, const Eigen::VectorXd& rates) {
     if (rates[dof] == 0) continue;
     length = std::min(length, (drive.targets[dof] - drive.q[dof]) / rates[dof]);
     each_joint_of(drive.robot(), dof, [&](int j, const Joint& joint) {
-      if (!drive.apart[j]) return;
-      const double there = (*drive.apart[j] / joint.ratio - drive.q[dof]) / rates[dof];
+      if (!drive.joint_positions[j]) return;
+      const double there = (*drive.joint_positions[j] / joint.ratio - drive.q[dof]) / rates[dof];
       if (there > 0) length = std::min(length, there);
       if (drive.sprung(dof))
         length = std::min(length, pull_step / std::abs(joint.ratio * rates[dof]));

@@ -73,24 +73,26 @@ std::vector<PairBound> all_pairs(const Drive& drive) {
 }  // namespace
 
 Drive begin_drive(World& world, Id<Robot> id) {
-  Drive drive{world, id, movable_bodies(world, id), world.dofs(id), world.apart(id), {}};
+  Drive drive{world, id, movable_bodies(world, id), world.dofs(id), world.own_joint_positions(id),
+              {}};
   drive.pairs = all_pairs(drive);
   return drive;
 }
 
 JointSpeeds joint_speeds(const Drive& drive, const Eigen::VectorXd& rates, bool pulled) {
   JointSpeeds speeds;
-  for (size_t j = 0; j < drive.apart.size(); ++j) {
+  for (size_t j = 0; j < drive.joint_positions.size(); ++j) {
     const Joint& joint = drive.robot().joints[j];
-    const bool moves = !drive.apart[j] || (pulled && drive.sprung(joint.dof));
+    const bool moves = !drive.joint_positions[j] || (pulled && drive.sprung(joint.dof));
     speeds.push_back(moves ? joint.ratio * rates[joint.dof] : 0);
   }
   return speeds;
 }
 
 void re_engage(Drive& drive) {
-  for (size_t j = 0; j < drive.apart.size(); ++j)
-    if (Apart& own = drive.apart[j]; own && back_at(drive, drive.robot().joints[j], *own))
+  for (size_t j = 0; j < drive.joint_positions.size(); ++j)
+    if (JointPosition& own = drive.joint_positions[j];
+        own && back_at(drive, drive.robot().joints[j], *own))
       own.reset();
 }
 

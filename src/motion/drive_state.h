@@ -13,13 +13,13 @@ struct Drive {
   Id<Robot> id;
   std::vector<Id<Body>> moving;
   Eigen::VectorXd q;
-  std::vector<Apart> apart;  ///< one per joint
+  std::vector<JointPosition> joint_positions;  ///< one per joint
   std::vector<PairBound> pairs;
   Eigen::VectorXd targets = {};  ///< of the DOFs, within their limits
 
   const Robot& robot() const { return world.robot(id); }
   bool sprung(int dof) const { return robot().dofs[dof].kind == DofKind::compliant; }
-  void place() { world.set_dofs_unchecked(id, q, apart); }
+  void place() { world.set_dofs_unchecked(id, q, joint_positions); }
 };
 
 /// A robot at rest; every pair of bodies that some joint can bring together is under watch.

@@ -34,7 +34,7 @@ Advance follow_springs(Drive& drive, const JointSpeeds& way, int& queries) {
     start.push_back(drive.world.joints(drive.id)[j]);
   const auto place = [&](double s) {
     for (size_t j = 0; j < way.size(); ++j)
-      if (way[j] != 0) drive.apart[j] = start[j] + s * way[j];
+      if (way[j] != 0) drive.joint_positions[j] = start[j] + s * way[j];
     drive.place();
   };
   return follow_path(drive, way, within_limits(drive, way), place, queries);

@@ -16,15 +16,16 @@ struct PlacedBody {
   Pose X_WB;
 };
 
-/// Of one joint: empty while it stands where its DOF has it, else its own q: it has broken away from a breakaway
-/// DOF, or is held against its spring by what a compliant finger touches [rad or m].
-using Apart = std::optional<double>;
+/// A joint's own position, which its DOF does not tell: it has broken away from a breakaway DOF, or is held against its
+/// spring by what a compliant finger touches. None while it follows its DOF [rad or m].
+using JointPosition = std::optional<double>;
 
 struct PlacedRobot {
   RobotSpec robot;
   Pose X_WB;
   std::vector<double> dofs;  ///< one per DOF [rad or m]
-  std::vector<Apart> apart;  ///< one per joint, link by link; empty: all follow their DOFs
+  std::vector<JointPosition>
+      joint_positions;  ///< one per joint, link by link; empty: all follow their DOFs
 };
 
 /// The child's base is fixed to a link of the parent.

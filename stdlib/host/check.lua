@@ -185,7 +185,7 @@ local function in_utf8(value)
   return value
 end
 
---- Prints what each file was understood to be.
+--- Prints what was parsed from each file.
 ---@param root string  this and the next four: what is said of reading, "" when nothing is
 ---@param form "text"|"json"
 ---@return integer  the exit code: 1 when a file could not be read

@@ -66,7 +66,7 @@ Arranged arrange(const std::string& hand, bool on_arm, Random& random) {
 VectorXd measured_column(const Arranged& a, Id<Robot> robot, int dof) {
   const double h = 1e-6;
   World plus = a.world, minus = a.world;
-  const auto broken = a.world.apart(robot);
+  const auto broken = a.world.own_joint_positions(robot);
   VectorXd q = a.world.dofs(robot);
   q[dof] += h;
   plus.set_dofs_unchecked(robot, q, broken);
@@ -121,7 +121,7 @@ TEST_CASE("a joint that has broken away is moved by no DOF, and held by its clut
   Random random(2);
   Arranged a = arrange("barrett/barrett.cfg", false, random);
   const Robot& robot = a.world.robot(a.grasp.hand);
-  auto broken = a.world.apart(a.grasp.hand);
+  auto broken = a.world.own_joint_positions(a.grasp.hand);
   int joint = 0;
   while (robot.dofs[robot.joints.at(joint).dof].kind != DofKind::breakaway) ++joint;
   broken[joint] = a.world.joints(a.grasp.hand)[joint];
@@ -212,9 +212,9 @@ TEST_CASE("what links weigh in a joint is how their height changes with it") {
       double energy[2];
       for (const int side : {0, 1}) {
         World moved = a.world;
-        auto apart = moved.apart(ref.robot);
-        apart[ref.joint] = moved.joints(ref.robot)[ref.joint] + (side ? h : -h);
-        moved.set_dofs_unchecked(ref.robot, moved.dofs(ref.robot), apart);
+        auto own = moved.own_joint_positions(ref.robot);
+        own[ref.joint] = moved.joints(ref.robot)[ref.joint] + (side ? h : -h);
+        moved.set_dofs_unchecked(ref.robot, moved.dofs(ref.robot), own);
         energy[side] = height_energy(moved);
       }
       // some 20 kg at a metre: 200 J, rounding of 1e-13 over 1e-6

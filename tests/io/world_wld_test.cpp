@@ -59,10 +59,10 @@ TEST_CASE("DOF values are written by kind: breakaway ones with the state of each
   CHECK(r.dofs[0] == doctest::Approx(0.005));  // it slides: mm
   CHECK(r.dofs[1] == 0.9);
   CHECK(r.dofs[2] == -0.5);
-  REQUIRE(r.apart.size() == 5);
-  CHECK_FALSE(r.apart[1]);
-  CHECK(r.apart[2] == 0.125);  // 0.25 of the DOF, ratio 0.5
-  CHECK_FALSE(r.apart[3]);
+  REQUIRE(r.joint_positions.size() == 5);
+  CHECK_FALSE(r.joint_positions[1]);
+  CHECK(r.joint_positions[2] == 0.125);  // 0.25 of the DOF, ratio 0.5
+  CHECK_FALSE(r.joint_positions[3]);
 }
 
 TEST_CASE("a broken-away joint is written as the value of its DOF, and kept as its own") {
@@ -77,10 +77,10 @@ TEST_CASE("a broken-away joint is written as the value of its DOF, and kept as i
       folder.write("w.wld", head + "Robot\nhand.cfg\n+0.9 0 1 0.9 5 0 1 6 # broken away\n" + stay);
   const PlacedRobot r = read_world(file).robots[0];
   CHECK(r.dofs[0] == 0.9);
-  CHECK_FALSE(r.apart[0]);
-  CHECK(*r.apart[1] == doctest::Approx(0.3));
-  CHECK_FALSE(r.apart[2]);
-  CHECK(*r.apart[3] == doctest::Approx(0.012));  // 6 mm of the DOF are 12 of the joint
+  CHECK_FALSE(r.joint_positions[0]);
+  CHECK(*r.joint_positions[1] == doctest::Approx(0.3));
+  CHECK_FALSE(r.joint_positions[2]);
+  CHECK(*r.joint_positions[3] == doctest::Approx(0.012));  // 6 mm of the DOF are 12 of the joint
 }
 
 TEST_CASE("surplus words in a world are not used, with a warning") {
@@ -152,7 +152,7 @@ TEST_CASE("an empty world is a world") { CHECK(wld_world_of(head).order.empty())
 
 TEST_CASE("the test worlds of two fingers are read") {
   const WorldSpec w = read_world("tests/data/two_finger/claw.wld");
-  CHECK(w.robots[0].apart[1] == 0.01);  // 0.02 of the DOF, ratio 0.5
+  CHECK(w.robots[0].joint_positions[1] == 0.01);  // 0.02 of the DOF, ratio 0.5
   CHECK(w.bodies[0].role == Role::obstacle);
   CHECK(read_world("tests/data/two_finger/pinch.wld").camera);
 }

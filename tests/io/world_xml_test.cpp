@@ -45,7 +45,7 @@ TEST_CASE("bodies, robots, connections and the camera are read in the file's ord
   CHECK(w.bodies[1].role == Role::object);
   CHECK(w.bodies[0].body.shape == w.bodies[1].body.shape);
   CHECK(w.robots[0].dofs == std::vector<double>{0.5});
-  CHECK(*w.robots[0].apart[0] == 0.2);
+  CHECK(*w.robots[0].joint_positions[0] == 0.2);
   CHECK(w.robots[1].dofs.empty());
   REQUIRE(w.connections.size() == 1);
   CHECK(w.connections[0].child == 1);
@@ -167,7 +167,7 @@ TEST_CASE("a text world and an XML world that say the same are the same") {
   CHECK(text.bodies[0].X_WB == xml.bodies[0].X_WB);
   CHECK(text.robots[0].X_WB == xml.robots[0].X_WB);
   CHECK(text.robots[0].dofs == xml.robots[0].dofs);
-  CHECK(text.robots[0].apart == xml.robots[0].apart);
+  CHECK(text.robots[0].joint_positions == xml.robots[0].joint_positions);
   CHECK(text.camera->X_WC == xml.camera->X_WC);
   CHECK(text.camera->focal_distance == xml.camera->focal_distance);
 }

@@ -34,7 +34,7 @@ static WorldSpec any_world(uint64_t seed) {
   for (auto& placed : world.robots) {
     placed.X_WB = test::random_pose(random, 2);
     for (double& q : placed.dofs) q = random.uniform(0, 0.05);
-    for (Apart& joint : placed.apart) {
+    for (JointPosition& joint : placed.joint_positions) {
       joint.reset();
       if (random.uniform(0, 1) < 0.5) joint = random.uniform(0, 0.01);
     }
@@ -73,8 +73,8 @@ static void check_same(const WorldSpec& a, const WorldSpec& b, double tolerance)
     REQUIRE(a.robots[i].dofs.size() == b.robots[i].dofs.size());
     for (size_t d = 0; d < a.robots[i].dofs.size(); ++d)
       CHECK(std::abs(a.robots[i].dofs[d] - b.robots[i].dofs[d]) <= tolerance);
-    for (size_t j = 0; j < a.robots[i].apart.size(); ++j) {
-      const Apart &x = a.robots[i].apart[j], &y = b.robots[i].apart[j];
+    for (size_t j = 0; j < a.robots[i].joint_positions.size(); ++j) {
+      const JointPosition &x = a.robots[i].joint_positions[j], &y = b.robots[i].joint_positions[j];
       REQUIRE(x.has_value() == y.has_value());
       CHECK(std::abs(x.value_or(0) - y.value_or(0)) <= tolerance);
     }

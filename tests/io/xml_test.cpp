@@ -119,25 +119,27 @@ TEST_CASE("what is no well-formed XML is told with its line") {
     }
     return "";
   };
-  const std::string wanted = "expected well-formed XML, got ";
-  CHECK(refusal("<a>\n<b>\n</c>\n</a>") == "a.xml:2: " + wanted + "<b> without its closing tag");
+  const std::string expected = "expected well-formed XML, got ";
+  CHECK(refusal("<a>\n<b>\n</c>\n</a>") == "a.xml:2: " + expected + "<b> without its closing tag");
   CHECK(refusal("<a>\n<b\nc='1'\n") ==
-        "a.xml:2: " + wanted + "<b> that does not end, or begins as none");
+        "a.xml:2: " + expected + "<b> that does not end, or begins as none");
   CHECK(refusal("<a>\n <b>\n  text\n\n\n") ==
-        "a.xml:3: " + wanted + "text outside all elements, or in one that does not end");
+        "a.xml:3: " + expected + "text outside all elements, or in one that does not end");
   for (const char* attribute : {"c=1", "c=", "c", "c='1", "c='1' c='2'"})
     CHECK(refusal(fmt::format("<a>\n<b {}/></a>", attribute)) ==
-          "a.xml:2: " + wanted +
+          "a.xml:2: " + expected +
               "<b> with an attribute that stands twice or has no value in quotes");
-  CHECK(refusal("<a 'b'/>") == "a.xml:1: " + wanted + "a tag that does not end, or begins as none");
+  CHECK(refusal("<a 'b'/>") ==
+        "a.xml:1: " + expected + "a tag that does not end, or begins as none");
   CHECK(refusal("<a>1 < 2</a>") ==
-        "a.xml:1: " + wanted + "an element that does not end, or a '<' that begins none");
-  CHECK(refusal("<a>\n<!-- no end </a>") == "a.xml:2: " + wanted + "a comment that does not end");
-  CHECK(refusal("<a>\n<![CDATA[ no end </a>") == "a.xml:2: " + wanted + "CDATA that does not end");
+        "a.xml:1: " + expected + "an element that does not end, or a '<' that begins none");
+  CHECK(refusal("<a>\n<!-- no end </a>") == "a.xml:2: " + expected + "a comment that does not end");
+  CHECK(refusal("<a>\n<![CDATA[ no end </a>") ==
+        "a.xml:2: " + expected + "CDATA that does not end");
   // the parser would leave out all that follows
   CHECK(refusal("<a></a>\n</a>\n<b/>") == "a.xml:2: '</a>' closes nothing");
   // names are cut short and have no control characters
   CHECK(refusal("<" + std::string(1000, 'x') + "></a>") ==
-        "a.xml:1: " + wanted + "<" + std::string(40, 'x') + "...> without its closing tag");
+        "a.xml:1: " + expected + "<" + std::string(40, 'x') + "...> without its closing tag");
   CHECK(refusal("<a\x1B[2J></b>").find('\x1B') == std::string::npos);
 }

@@ -19,13 +19,13 @@ test("a gripper on springs wraps itself around a cylinder, holds it by its sprin
   local touching = {}
   for _, contact in ipairs(world:contacts(hand, cylinder)) do touching[contact.link.name] = true end
   for _, link in ipairs(hand.links) do t.ok(touching[link.name], link.name .. " does not touch") end
-  local wound = 0
+  local deflection = 0
   each_joint(hand, function(joint)
     t.equal(joint.broken_away, false)
     t.close(joint.spring_deflection, joint.ratio * hand.dofs[1] - joint.value, 1e-15)
-    wound = math.max(wound, joint.spring_deflection)
+    deflection = math.max(deflection, joint.spring_deflection)
   end)
-  t.ok(wound > 0.05)
+  t.ok(deflection > 0.05)
   local held = clench.grasp(hand, cylinder):equilibrium {torques = "springs"}
   t.equal(held.status, "stable")
   local pressed = 0
@@ -35,7 +35,7 @@ test("a gripper on springs wraps itself around a cylinder, holds it by its sprin
   each_joint(hand, function(joint) t.equal(joint.value, 0) end)
 end)
 
-test("springs that are wound up stay so in Lua worlds; other formats say that they do not", function(t)
+test("deflected springs stay so in Lua worlds; other formats say that they do not", function(t)
   local world, hand = closed_on_cylinder()
   local path = os.tmpname()
   world:save(path .. ".lua", {root = "."})

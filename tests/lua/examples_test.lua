@@ -52,7 +52,7 @@ local function check(subject, entry)
       local got, want = result_of(example.code, env), example.result
       local expected_error = want:match "^error: (.*)$"
       local ok = got == want or expected_error and got:sub(1, 7) == "error: " and got:find(expected_error, 1, true)
-      t.ok(ok, ("> %s\nwanted %s\ngot    %s"):format(example.code, want, got))
+      t.ok(ok, ("> %s\nexpected %s\ngot    %s"):format(example.code, want, got))
     end
   end)
 end

@@ -5,7 +5,7 @@
 using namespace clench;
 using namespace clench::test;
 
-TEST_CASE("a way that would take for ever ends, and says that it gave up") {
+TEST_CASE("a motion that would take for ever stops at the iteration limit") {
   World world;
   world.add_body(body_spec("table", moved(box(40, 1, 0.1), {0, 0, -0.05})), BodyKind::object, {});
   const auto table = world.bodies()[0];

@@ -86,7 +86,7 @@ TEST_CASE("breakaway states are taken over") {
   spec.connections.clear();
   spec.robots[1].robot = two_finger(DofKind::breakaway);
   spec.robots[1].dofs = {0.6, 0};
-  spec.robots[1].apart = {0.2, std::nullopt, std::nullopt, std::nullopt};
+  spec.robots[1].joint_positions = {0.2, std::nullopt, std::nullopt, std::nullopt};
   const World world = build_world(spec);
   const auto hand = world.robots()[1];
   CHECK(world.joints(hand)[0] == 0.2);
@@ -100,7 +100,7 @@ TEST_CASE(
   spec.connections.clear();
   spec.robots[1].robot = two_finger(DofKind::breakaway);
   spec.robots[1].dofs = {0.6, 0.6};
-  spec.robots[1].apart = {0.9, -3.0, std::nullopt, 0.1};
+  spec.robots[1].joint_positions = {0.9, -3.0, std::nullopt, 0.1};
   std::vector<std::string> warnings;
   const World world =
       build_world(spec, {.warn = [&](const std::string& w) { warnings.push_back(w); }});

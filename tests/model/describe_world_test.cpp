@@ -37,7 +37,7 @@ static World any_world(uint64_t seed) {
     } else {
       const auto id = world.add_robot(two_finger(DofKind::breakaway), any_pose(random));
       world.set_dofs(id, Eigen::Vector2d(random.uniform(0, 1), random.uniform(0, 1)));
-      auto broken = world.apart(id);
+      auto broken = world.own_joint_positions(id);
       // behind where its DOF has gone
       broken[0] = 0.5 * world.dofs(id)[0];
       world.set_dofs_unchecked(id, world.dofs(id), broken);
@@ -134,7 +134,7 @@ TEST_CASE("each difference of two worlds has its phrase") {
   CHECK(only([&](World& w) { w.set_collision(false, cup); }) == phrase("which bodies may collide"));
   CHECK(only([&](World& w) { w.set_collision(false); }) == phrase("which bodies may collide"));
   CHECK(only([&](World& w) {
-          auto broken = w.apart(hand);
+          auto broken = w.own_joint_positions(hand);
           broken[0] = 0.5;
           w.set_dofs_unchecked(hand, w.dofs(hand), broken);
         }) == phrase("the joints of 'gripper' that do not follow their DOFs"));

@@ -59,8 +59,8 @@ void Family::change(World& world) {
       world.set_dofs(robot, Eigen::Vector2d(random.uniform(0, 1), random.uniform(0, 1)));
   } else if (what < 0.7) {
     for (const auto robot : world.robots()) {
-      const std::vector<Apart> apart = {0.1, std::nullopt, std::nullopt, 0.2};
-      world.set_dofs_unchecked(robot, Eigen::Vector2d(0.5, random.uniform(0, 1)), apart);
+      const std::vector<JointPosition> own = {0.1, std::nullopt, std::nullopt, 0.2};
+      world.set_dofs_unchecked(robot, Eigen::Vector2d(0.5, random.uniform(0, 1)), own);
     }
   } else if (what < 0.8) {
     world.set_mass(bodies[any(bodies.size())], random.uniform(1, 2));

@@ -27,8 +27,8 @@ struct Bench {
   }
   const Robot& robot() const { return world.robot(hand); }
   Eigen::VectorXd dofs() const { return world.dofs(hand); }
-  Apart apart(int chain, int joint) const {
-    return world.apart(hand)[joint_number(robot(), chain, joint)];
+  JointPosition own_position(int chain, int joint) const {
+    return world.own_joint_positions(hand)[joint_number(robot(), chain, joint)];
   }
   Id<Body> link(int chain, int link) const { return link_of(robot(), chain, link); }
   double gap(Id<Body> a) const {
@@ -93,7 +93,7 @@ TEST_CASE("a breakaway finger goes on closing beyond the joint that contact stop
   Bench breakaway(DofKind::breakaway, 0.5, ball(0.02), {0, 0.03, 0});
   autograsp(rigid.world, rigid.hand);
   autograsp(breakaway.world, breakaway.hand);
-  const Apart left = breakaway.apart(0, 0);
+  const JointPosition left = breakaway.own_position(0, 0);
   REQUIRE(left);
   CHECK(*left == doctest::Approx(rigid.dofs()[0]).epsilon(0.02));
   CHECK(breakaway.dofs()[0] > rigid.dofs()[0] + 0.1);
@@ -102,7 +102,7 @@ TEST_CASE("a breakaway finger goes on closing beyond the joint that contact stop
 
   // opening picks the joint up where it was left
   open_hand(breakaway.world, breakaway.hand);
-  CHECK_FALSE(breakaway.apart(0, 0));
+  CHECK_FALSE(breakaway.own_position(0, 0));
   CHECK(breakaway.dofs() == Eigen::Vector2d(0, 0));
 }
 

@@ -33,8 +33,8 @@ struct SpringBench {
   }
   const Robot& robot() const { return world.robot(hand); }
   Eigen::VectorXd dofs() const { return world.dofs(hand); }
-  Apart apart(int chain, int joint) const {
-    return world.apart(hand)[joint_number(robot(), chain, joint)];
+  JointPosition own_position(int chain, int joint) const {
+    return world.own_joint_positions(hand)[joint_number(robot(), chain, joint)];
   }
   double q(int chain, int joint) const {
     return world.joints(hand)[joint_number(robot(), chain, joint)];
@@ -62,7 +62,7 @@ double min_energy_nearby(const SpringBench& bench, int chain, double q, double r
   World world = bench.world;
   const int cells = 100;
   double best = std::numeric_limits<double>::infinity();
-  std::vector<Apart> apart = {bench.q(0, 0), bench.q(0, 1), bench.q(1, 0), bench.q(1, 1)};
+  std::vector<JointPosition> own = {bench.q(0, 0), bench.q(0, 1), bench.q(1, 0), bench.q(1, 1)};
   const std::vector<Id<Body>> finger = {link_of(bench.robot(), chain, 0),
                                         link_of(bench.robot(), chain, 1)};
   for (int i = 0; i <= cells; ++i)
@@ -73,8 +73,8 @@ double min_energy_nearby(const SpringBench& bench, int chain, double q, double r
           std::clamp(bench.q(chain, 1) + reach * (2.0 * j / cells - 1), 0.0, pi / 2);
       const double e = energy(bench.robot(), chain, q, first, second);
       if (e >= best) continue;
-      apart[2 * chain] = first, apart[2 * chain + 1] = second;
-      world.set_dofs_unchecked(bench.hand, world.dofs(bench.hand), apart);
+      own[2 * chain] = first, own[2 * chain + 1] = second;
+      world.set_dofs_unchecked(bench.hand, world.dofs(bench.hand), own);
       if (colliding_pairs(world, finger, world.bodies()).empty()) best = e;
     }
   return best;
@@ -116,13 +116,13 @@ TEST_CASE("a finger that is opened again follows its tendon back") {
   for (const char* material : {"frictionless", "plastic", "rubber"}) {
     SpringBench bench({1, 2}, material, {0.004, 0.06, 0});
     autograsp(bench.world, bench.hand);
-    CHECK(bench.apart(0, 0));
+    CHECK(bench.own_position(0, 0));
     const auto result = autograsp(bench.world, bench.hand, -1);
     CHECK(bench.dofs().isZero(0));
     for (const int c : {0, 1})
       for (const int j : {0, 1}) {
         CHECK(bench.q(c, j) == 0);
-        CHECK_FALSE(bench.apart(c, j));
+        CHECK_FALSE(bench.own_position(c, j));
         CHECK(result.stops[c] == DofStop::limit);
       }
   }

@@ -13,7 +13,7 @@ local function fails_with(command, expected)
   for line in text:gmatch "[^\n]+" do lines[#lines + 1] = line end
   for i = 1, math.max(#lines, #expected) do
     if lines[i] ~= expected[i] then
-      error(("%s: line %d\nwanted: %s\ngot:    %s"):format(command, i, expected[i], lines[i]), 0)
+      error(("%s: line %d\nexpected: %s\ngot:    %s"):format(command, i, expected[i], lines[i]), 0)
     end
   end
   assert(code == 1, command .. ": expected exit code 1, got " .. tostring(code))

@@ -7,13 +7,13 @@ namespace clench {
 namespace {
 
 // a robot on the way from the ground to the hand, and the link of it that carries the next one; the hand: none
-struct Carrier {
+struct MovingRobot {
   Id<Robot> robot;
   int link = -1;
 };
 
-std::vector<Carrier> carriers(const World& world, Id<Robot> hand, bool arms) {
-  std::vector<Carrier> out = {{hand}};
+std::vector<MovingRobot> moving_robots(const World& world, Id<Robot> hand, bool arms) {
+  std::vector<MovingRobot> out = {{hand}};
   while (arms) {
     const auto& mounting = world.robot(out.back().robot).mounting;
     if (!mounting) break;
@@ -48,19 +48,19 @@ HandJacobian hand_jacobian(const World& world, const Grasp& grasp, const Jacobia
   const Pose& X_WO = world.pose(grasp.object);
   std::vector<Eigen::VectorXd> columns;
   HandJacobian out;
-  for (const Carrier& carrier : carriers(world, grasp.hand, options.arms)) {
-    const Robot& robot = world.robot(carrier.robot);
-    const auto frames = world.frames(carrier.robot);
+  for (const MovingRobot& moving : moving_robots(world, grasp.hand, options.arms)) {
+    const Robot& robot = world.robot(moving.robot);
+    const auto frames = world.frames(moving.robot);
     for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
       const Axis axis = {robot.joints[j].kind == JointKind::revolute, frames.axis(robot, j),
                          frames.joints[j].position};
       Eigen::VectorXd column = Eigen::VectorXd::Zero(map.forces());
       for (int i = 0; i < map.contacts(); ++i) {
-        const bool own = carrier.robot == grasp.hand;
-        const int link = own ? world.body(grasp.contacts[i].other).link : carrier.link;
+        const bool own = moving.robot == grasp.hand;
+        const int link = own ? world.body(grasp.contacts[i].other).link : moving.link;
         if (joint_moves_link(robot, j, link)) fill_column(column, grasp, map, i, X_WO, axis);
       }
-      out.joints.push_back({carrier.robot, j});
+      out.joints.push_back({moving.robot, j});
       columns.push_back(std::move(column));
     }
   }

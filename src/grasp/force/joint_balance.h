@@ -22,7 +22,7 @@ inline constexpr double springs_at_rest = 1e-4;
 struct JointBalance {
   Eigen::MatrixXd forces, efforts;
   Eigen::VectorXd springs;      ///< what springs, and weights, give in each row [N m or N]
-  std::vector<EffortRef> refs;  ///< the hand's DOFs first, one each; then carriers', then clutches
+  std::vector<EffortRef> refs;  ///< the hand's DOFs first, one each; then its arms', then clutches
   Eigen::VectorXd low, high;    ///< [N m or N], infinite: none
   Eigen::VectorXd
       slack;  ///< a row: by how much springs may be off their rest, see springs_at_rest [N m or N]

@@ -52,7 +52,7 @@ class Growing {
  private:
   double support(const double* direction, double* point);
   SimplexEnd start(double zero);
-  double settle_plane(int index, double unless);
+  double exact_plane(int index, double unless);
   void grow(int first, const double* point);
   void wait(int index) {
     const double offset = complex_.facet(index).offset();
@@ -118,7 +118,7 @@ SimplexEnd Growing<D>::start(double zero) {
 // unless   it is within that of them
 // returns  how far the worst corner lies from it
 template <int D>
-double Growing<D>::settle_plane(int index, double unless) {
+double Growing<D>::exact_plane(int index, double unless) {
   auto& facet = complex_.facet(index);
   FacetCorners<D> corners;
   for (int k = 0; k < D; ++k) {
@@ -166,7 +166,7 @@ Ball Growing<D>::ball(const BallOptions& options) {
     if (nearest < 0) return ended(BallEnd::inside, upper_);
     const auto& facet = complex_.facet(nearest);
     const double believed = facet.offset();
-    if (settle_plane(nearest, seen) > plane_noise) throw BrokenSurface();
+    if (exact_plane(nearest, seen) > plane_noise) throw BrokenSurface();
     if (facet.offset() > believed + plane_noise) {
       waiting_.drop(nearest);
       wait(nearest);

@@ -128,11 +128,11 @@ void apply_grasp(World& world, const GraspSpec& grasp) {
     world.set_pose(hand, before);
     throw;
   }
-  std::vector<Apart> apart(grasp.joints.size());
-  for (size_t j = 0; j < apart.size(); ++j)
+  std::vector<JointPosition> own(grasp.joints.size());
+  for (size_t j = 0; j < own.size(); ++j)
     if (grasp.joints[j] != world.joints(hand)[static_cast<Eigen::Index>(j)])
-      apart[j] = grasp.joints[j];
-  world.set_dofs_unchecked(hand, q, apart);
+      own[j] = grasp.joints[j];
+  world.set_dofs_unchecked(hand, q, own);
 }
 
 WrenchSpace wrench_space(const GraspSpec& grasp, const GraspSpaceOptions& options) {

@@ -68,7 +68,7 @@ struct Simplex {
 
   // Shares of the point nearest to the origin, without the corners that are not of it.
   // returns  false when rounding leaves no simplex: the last corner adds nothing
-  bool settle() {
+  bool reduce() {
     Eigen::VectorXd expected;
     while (nearest_shares(corners, expected)) {
       if (expected.minCoeff() > 0) {
@@ -110,7 +110,7 @@ NearestPoint nearest_point(const SupportSet& set, const Eigen::VectorXd& place, 
     // no point of the set is nearer than this along the way
     if (point.dot(point - next) <= noise * distance) break;
     simplex.add(next);
-    if (!simplex.settle()) break;
+    if (!simplex.reduce()) break;
     const Eigen::VectorXd now = simplex.point();
     const bool nearer = now.norm() < distance;
     point = now;

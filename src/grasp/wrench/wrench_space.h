@@ -51,7 +51,7 @@ struct EpsilonBounds {
   double lower = 0, upper = 0;
   bool converged =
       true;  ///< upper - lower is within the tolerance; else at_least was known before, or it is as near as it
-      ///< came
+             ///< came
 };
 
 /// lower <= volume <= upper: of the space with round cones replaced by pyramids within, and by the same
@@ -76,7 +76,7 @@ class WrenchSpace {
 
   /// Radius of the largest ball about the origin inside the space; 0 unless force closure. In
   /// [0, sqrt(1 + mu^2)] in L1. Within 1e-12 of the space's size; with round cones within 1e-9,
-  /// or, where 500,000 facets do not show that much (rings of alike contacts, huge friction), a certain lower bound.
+  /// or, where 500,000 facets do not show that much (rings of alike contacts, huge friction), a certified lower bound.
   double epsilon(const Progress& progress = {}) const;
   /// An epsilon that is less certain, and found sooner; told to stop, the bounds found so far.
   /// throws Error when tolerance < 0 or not finite

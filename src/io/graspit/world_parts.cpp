@@ -40,7 +40,7 @@ void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& lis
     line.fail("expected {} numbers for the {} DOFs of {}, got {}", least, dofs, robot.name,
               line.size());
   const auto joints = joints_of(robot);
-  placed.apart.resize(joints.size());
+  placed.joint_positions.resize(joints.size());
   int next = 0;
   for (int d = 0; d < dofs; ++d) {
     if (short_line && d >= line.size()) {
@@ -56,7 +56,7 @@ void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& lis
       const std::string what = fmt::format("DOF {}: joint {} of chain {}", d, number, chain);
       if (line.integer(next++, what + ": broken away (0 or 1)", 0, 1) == 0) continue;
       // written as the value of the DOF at which the joint stopped
-      placed.apart[j] = line.number(next++, what) * unit * joint->ratio;
+      placed.joint_positions[j] = line.number(next++, what) * unit * joint->ratio;
     }
   }
   if (short_line) repair(dofs, "the others start at their defaults");
@@ -75,7 +75,8 @@ std::string dof_values(const PlacedRobot& placed) {
     if (robot.dofs[d].kind != DofKind::breakaway) continue;
     for (size_t j = 0; j < joints.size(); ++j) {
       if (joints[j].joint->dof != static_cast<int>(d)) continue;
-      const Apart broken = placed.apart.empty() ? Apart() : placed.apart[j];
+      const JointPosition broken =
+          placed.joint_positions.empty() ? JointPosition() : placed.joint_positions[j];
       add(broken ? "1 " + number_in(*broken, unit, joints[j].joint->ratio) : "0");
     }
   }
@@ -86,7 +87,7 @@ std::string dof_values(const PlacedRobot& placed) {
 
 void find_connections(WorldSpec& world, const std::vector<ConnectionPlace>& places) {
   const int robots = static_cast<int>(world.robots.size());
-  std::vector<int> carrier(robots, -1);
+  std::vector<int> parent_of(robots, -1);
   for (size_t i = 0; i < world.connections.size(); ++i) {
     Connection& c = world.connections[i];
     const auto& [place, chain] = places[i];
@@ -104,12 +105,13 @@ void find_connections(WorldSpec& world, const std::vector<ConnectionPlace>& plac
       fail("{}: parent chain: expected one of {} chains of {}, got {}", place, chains.size(),
            parent.name, chain);
     c.link = chains[chain].links.back();
-    if (carrier[c.child] >= 0) fail("{}: child robot: robot {} is carried already", place, c.child);
-    for (int robot = c.parent; robot >= 0; robot = carrier[robot])
+    if (parent_of[c.child] >= 0)
+      fail("{}: child robot: robot {} is carried already", place, c.child);
+    for (int robot = c.parent; robot >= 0; robot = parent_of[robot])
       if (robot == c.child)
         fail("{}: child robot: expected one that does not carry robot {} already, got {}", place,
              c.parent, c.child);
-    carrier[c.child] = c.parent;
+    parent_of[c.child] = c.parent;
   }
 }
 

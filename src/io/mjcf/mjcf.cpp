@@ -37,7 +37,7 @@ class MjcfReader {
   }
   void find_top_bodies(const MjcfNode& node, const std::string& child_class, const Pose& X_frame,
                        std::vector<TopBody>& into);
-  void tell_lost(const MjcfNode& node, bool in_world);
+  void warn_of_loss(const MjcfNode& node, bool in_world);
   void choose_base(std::vector<TopBody> bodies);
   int add_link(const XmlElement& element, const std::string& name, int parent, const Pose& X_PL);
   void read_body(const MjcfNode& node, int parent, const std::string& child_class,
@@ -102,12 +102,12 @@ void MjcfReader::find_top_bodies(const MjcfNode& node, const std::string& child_
     const Pose X = X_frame * document_.pose(XmlValues(node.element));
     for (const auto& child : node.children) find_top_bodies(child, inherited, X, into);
   } else {
-    tell_lost(node, true);
+    warn_of_loss(node, true);
   }
 }
 
 /// What holds bodies and geoms that the robot lacks is told as such.
-void MjcfReader::tell_lost(const MjcfNode& node, bool in_world) {
+void MjcfReader::warn_of_loss(const MjcfNode& node, bool in_world) {
   const std::string name = node.name();
   if (in_world && name == "geom") {
     if (++world_geoms_ == 1) first_world_geom_ = node.element.place();
@@ -228,7 +228,7 @@ void MjcfReader::read_contents(const MjcfNode& node, int link, const std::string
       if (auto geom = geoms_.read(child.element, child_class, X_frame))
         link_geoms_[link].push_back(std::move(*geom));
     } else {
-      tell_lost(child, false);
+      warn_of_loss(child, false);
     }
   }
 }

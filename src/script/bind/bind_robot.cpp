@@ -45,9 +45,9 @@ static void push_joint(lua_State* L, const RobotHandle& robot, int joint) {
   set_field(L, "min", spec.min);
   set_field(L, "max", spec.max);
   set_field(L, "value", q);
-  const bool apart = !robot.world->follows_dof(robot.id, joint);
+  const bool left = !robot.world->follows_dof(robot.id, joint);
   const DofKind kind = robot->dofs[spec.dof].kind;
-  set_field(L, "broken_away", apart && kind == DofKind::breakaway);
+  set_field(L, "broken_away", left && kind == DofKind::breakaway);
   set_field(L, "spring_deflection", spec.ratio * robot.world->dofs(robot.id)[spec.dof] - q);
   if (spec.spring > 0) set_field(L, "spring", spec.spring), set_field(L, "rest", spec.rest);
 }
@@ -93,8 +93,8 @@ static Eigen::VectorXd check_dofs(lua_State* L, int i, const Robot& robot) {
 }
 
 // rows {chain, joint, value} of joints that do not follow their DOFs
-static std::vector<Apart> check_apart(Table& options, const Robot& robot) {
-  std::vector<Apart> out(robot.joints.size());
+static std::vector<JointPosition> check_joint_positions(Table& options, const Robot& robot) {
+  std::vector<JointPosition> out(robot.joints.size());
   for (const auto& row : options.rows("joint_positions", 3)) {
     const auto number = [&](double x, size_t count, const char* what) {
       if (!(x >= 1 && x <= static_cast<double>(count) && x == std::floor(x)))
@@ -118,13 +118,13 @@ static int set_dofs(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const Eigen::VectorXd values = check_dofs(L, 2, *robot);
   Table options(L, 3);
-  std::vector<Apart> apart;
-  if (options.has("joint_positions")) apart = check_apart(options, *robot);
+  std::vector<JointPosition> own;
+  if (options.has("joint_positions")) own = check_joint_positions(options, *robot);
   options.done();
   robot.world->set_dofs(robot.id, values);
-  if (!apart.empty()) {
+  if (!own.empty()) {
     const Eigen::VectorXd q = robot.world->dofs(robot.id);
-    robot.world->set_dofs_unchecked(robot.id, q, apart);
+    robot.world->set_dofs_unchecked(robot.id, q, own);
   }
   return 0;
 }

@@ -251,7 +251,7 @@ The coordinates that count.
 
 static const Entry space_methods[] = {
     {"epsilon", guarded<epsilon>, R"(
-Radius of the largest ball of wrenches that is resisted; 0 unless force closure. Good to 1e-12, with round cones to 1e-9 or, where that takes too many facets (rings of alike contacts, huge friction), a certain lower bound: epsilon_bounds says how near.
+Radius of the largest ball of wrenches that is resisted; 0 unless force closure. Good to 1e-12, with round cones to 1e-9 or, where that takes too many facets (rings of alike contacts, huge friction), a certified lower bound: epsilon_bounds says how near.
 @return number
 > grasp:wrench_space():epsilon() == grasp:quality "epsilon"  --> true)"},
     {"epsilon_bounds", guarded<epsilon_bounds>, R"(
