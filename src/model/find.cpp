@@ -12,7 +12,7 @@ namespace clench {
 class Remember {
  public:
   Remember(const World& world, QueryContext* context) : context_(context ? *context : own_) {
-    context_.attend(world.lineage());
+    context_.attend(world.lineage(), world.model());
   }
   QueryContext& operator*() { return context_; }
   QueryContext* operator->() { return &context_; }

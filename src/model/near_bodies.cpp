@@ -16,51 +16,56 @@ double sphere_gap(const World& world, Id<Body> a, Id<Body> b) {
 
 namespace {
 
-// A body of a list.
-struct Item {
-  BodyBox box;
-  int position;  // in its list
-  bool second;   // of the two lists
-};
-
-void add_items(const World& world, std::span<const Id<Body>> list, bool second,
-               QueryContext& context, std::vector<Item>& out) {
-  for (size_t i = 0; i < list.size(); ++i)
-    if (const Body& body = world.body(list[i]); body.shape)
-      out.push_back({context.box(list[i], body, world.pose(list[i])), static_cast<int>(i), second});
+void find_box(const World& world, QueryContext& context, SweepItem& item) {
+  item.box = &context.box(item.body, world.body(item.body), world.pose(item.body));
 }
 
 // the axis along which the boxes stand farthest apart
-int widest_axis(const std::vector<Item>& items) {
+int widest_axis(const std::vector<SweepItem>& items) {
   Vector3d mean = Vector3d::Zero(), spread = Vector3d::Zero();
-  for (const Item& item : items) mean += item.box.centre / static_cast<double>(items.size());
-  for (const Item& item : items) spread += (item.box.centre - mean).cwiseAbs();
+  for (const SweepItem& item : items) mean += item.box->centre / static_cast<double>(items.size());
+  for (const SweepItem& item : items) spread += (item.box->centre - mean).cwiseAbs();
   int axis;
   spread.maxCoeff(&axis);
   return axis;
 }
 
+// By the boxes' lower ends: by insertion, which is quick where they are nearly in order, until too much has been moved.
+void sort_along(int axis, std::vector<SweepItem>& items) {
+  const auto before = [axis](const SweepItem& x, const SweepItem& y) {
+    return x.box->low[axis] < y.box->low[axis];
+  };
+  size_t moves = 0;
+  for (size_t i = 1; i < items.size(); ++i) {
+    const SweepItem item = items[i];
+    size_t j = i;
+    for (; j > 0 && before(item, items[j - 1]); --j) items[j] = items[j - 1];
+    items[j] = item;
+    moves += i - j;
+    if (moves > 8 * items.size()) return std::sort(items.begin(), items.end(), before);
+  }
+}
+
 // Visits all pairs within the reach, whichever first.
 template <class Visit>
-void sweep(std::vector<Item>& items, double reach, Visit visit) {
+void sweep(std::vector<SweepItem>& items, double reach, Visit visit) {
   const int axis = widest_axis(items);
-  std::sort(items.begin(), items.end(),
-            [axis](const Item& x, const Item& y) { return x.box.low[axis] < y.box.low[axis]; });
-  for (size_t i = 0; i < items.size(); ++i)
-    for (size_t j = i + 1;
-         j < items.size() && items[j].box.low[axis] - items[i].box.high[axis] <= reach; ++j)
-      if (within_reach(items[i].box, items[j].box, reach)) visit(items[i], items[j]);
+  sort_along(axis, items);
+  for (size_t i = 0; i < items.size(); ++i) {
+    const BodyBox& box = *items[i].box;
+    for (size_t j = i + 1; j < items.size() && items[j].box->low[axis] - box.high[axis] <= reach;
+         ++j)
+      if (within_reach(box, *items[j].box, reach)) visit(items[i], items[j]);
+  }
 }
 
 // with so few bodies the pairs that may collide are looked at one by one, with more a sweep finds them
 constexpr size_t few = 64;
 
 std::vector<BodyPair> near_of_few(const World& world, double reach, QueryContext& context) {
-  context.attend(world.lineage());
   const auto& [bodies, pairs] = context.candidates(world.model(), world.settings());
   std::array<const BodyBox*, few> boxes;
-  // from the last one, which has the largest index: so the context makes room once
-  for (size_t i = bodies.size(); i-- > 0;)
+  for (size_t i = 0; i < bodies.size(); ++i)
     boxes[i] = &context.box(bodies[i], world.body(bodies[i]), world.pose(bodies[i]));
   std::vector<BodyPair> out;
   out.reserve(bodies.size());
@@ -76,30 +81,37 @@ Pose relative_pose(const World& world, Id<Body> a, Id<Body> b) {
 }
 
 std::vector<BodyPair> near_bodies(const World& world, double reach, QueryContext& context) {
+  context.attend(world.lineage(), world.model());
   if (world.bodies().size() <= few) return near_of_few(world, reach, context);
+  std::vector<SweepItem>& items = context.sweep_order(world.model());
+  for (SweepItem& item : items) find_box(world, context, item);
   const auto& all = world.bodies();
-  std::vector<Item> items;
-  add_items(world, all, false, context, items);
   std::vector<std::pair<int, int>> near;
-  sweep(items, reach,
-        [&](const Item& x, const Item& y) { near.push_back(std::minmax(x.position, y.position)); });
+  sweep(items, reach, [&](const SweepItem& x, const SweepItem& y) {
+    if (world.may_collide(x.body, y.body)) near.push_back(std::minmax(x.position, y.position));
+  });
   std::sort(near.begin(), near.end());
   std::vector<BodyPair> out;
-  for (const auto& [i, j] : near)
-    if (world.may_collide(all[i], all[j])) out.emplace_back(all[i], all[j]);
+  out.reserve(near.size());
+  for (const auto& [i, j] : near) out.emplace_back(all[i], all[j]);
   return out;
 }
 
 std::vector<BodyPair> near_bodies(const World& world, std::span<const Id<Body>> a,
                                   std::span<const Id<Body>> b, double reach,
                                   QueryContext& context) {
-  std::vector<Item> items;
-  add_items(world, a, false, context, items);
-  add_items(world, b, true, context, items);
+  context.attend(world.lineage(), world.model());
+  // those of b are numbered on after those of a
+  const int count = static_cast<int>(a.size());
+  std::vector<SweepItem> items;
+  for (int i = 0; i < count; ++i) items.push_back({a[i], i});
+  for (size_t i = 0; i < b.size(); ++i) items.push_back({b[i], count + static_cast<int>(i)});
+  std::erase_if(items, [&](const SweepItem& item) { return !world.body(item.body).shape; });
+  for (SweepItem& item : items) find_box(world, context, item);
   std::vector<std::pair<int, int>> near;
-  sweep(items, reach, [&](const Item& x, const Item& y) {
-    if (x.second != y.second)
-      near.emplace_back(x.second ? y.position : x.position, x.second ? x.position : y.position);
+  sweep(items, reach, [&](const SweepItem& x, const SweepItem& y) {
+    const auto [first, second] = std::minmax(x.position, y.position);
+    if (first < count && second >= count) near.emplace_back(first, second - count);
   });
   std::sort(near.begin(), near.end());
   std::vector<BodyPair> out;

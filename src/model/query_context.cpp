@@ -34,16 +34,17 @@ static BodyBox box_of(const Shape& shape, const Pose& X_WB) {
   return {middle - extent, middle + extent, R, middle, half + slack, centre, shape.radius()};
 }
 
-void QueryContext::attend(const std::shared_ptr<const void>& lineage) {
-  if (lineage_ == lineage) return;
-  Progress progress = std::move(progress_);
-  *this = {};
-  progress_ = std::move(progress);
-  lineage_ = lineage;
+void QueryContext::attend(const std::shared_ptr<const void>& lineage, const WorldModel& model) {
+  if (lineage_ != lineage) {
+    Progress progress = std::move(progress_);
+    *this = {};
+    progress_ = std::move(progress);
+    lineage_ = lineage;
+  }
+  if (boxes_.size() < model.bodies.size()) boxes_.resize(model.bodies.size());
 }
 
 const BodyBox& QueryContext::box(Id<Body> id, const Body& body, const Pose& X_WB) {
-  if (boxes_.size() <= id.index) boxes_.resize(id.index + 1);
   Box& known = boxes_[id.index];
   if (known.id != id || !(known.X_WB == X_WB)) known = {id, X_WB, box_of(*body.shape, X_WB)};
   return known.box;
@@ -64,6 +65,16 @@ const QueryContext::Candidates& QueryContext::candidates(const WorldModel& model
   return candidates_;
 }
 
+std::vector<SweepItem>& QueryContext::sweep_order(const WorldModel& model) {
+  if (order_stamp_ == model.stamp) return sweep_order_;
+  sweep_order_.clear();
+  for (size_t i = 0; i < model.body_order.size(); ++i)
+    if (const Id<Body> id = model.body_order[i]; model.bodies[id.index].value.shape)
+      sweep_order_.push_back({id, static_cast<int>(i)});
+  order_stamp_ = model.stamp;
+  return sweep_order_;
+}
+
 PairCache& QueryContext::pair(Id<Body> a, Id<Body> b) {
   Pair& known = pairs_[uint64_t{a.index} << 32 | b.index];
   // another body may have had the place
@@ -77,7 +88,8 @@ void QueryContext::forget(Id<Body> body) {
 }
 
 size_t QueryContext::bytes() const {
-  return boxes_.capacity() * sizeof(Box) + pairs_.size() * (sizeof(Pair) + 4 * sizeof(void*));
+  return boxes_.capacity() * sizeof(Box) + sweep_order_.capacity() * sizeof(SweepItem) +
+         pairs_.size() * (sizeof(Pair) + 4 * sizeof(void*));
 }
 
 }  // namespace clench

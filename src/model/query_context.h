@@ -19,6 +19,13 @@ struct BodyBox {
   double radius = 0;
 };
 
+/// A body of a sweep, and its number in the list that was given.
+struct SweepItem {
+  Id<Body> body;
+  int position = 0;
+  const BodyBox* box = nullptr;
+};
+
 /// May two bodies be as near as reach [m]? True where they are.
 bool within_reach(const BodyBox& a, const BodyBox& b, double reach);
 
@@ -28,8 +35,9 @@ class QueryContext {
  public:
   /// Begins a query of a world; of another family than the last, and all that was remembered is forgotten: ids mean other
   /// bodies there.
-  void attend(const std::shared_ptr<const void>& lineage);
-  /// body  with geometry
+  void attend(const std::shared_ptr<const void>& lineage, const WorldModel& model);
+  /// body     with geometry
+  /// returns  stays where it is until attend() is called for a larger model
   const BodyBox& box(Id<Body> id, const Body& body, const Pose& X_WB);
   /// Bodies with geometry of a small world, and the pairs of them that may collide, as numbers in that list, both in
   /// creation order; found anew where the world is made or set otherwise than it was.
@@ -38,6 +46,9 @@ class QueryContext {
     std::vector<std::pair<int, int>> pairs;
   };
   const Candidates& candidates(const WorldModel& model, const WorldSettings& settings);
+  /// Bodies with geometry of a large world, in creation order where the world is made otherwise than it was, else as the
+  /// last sweep has left them: nearly in order, when little has moved.
+  std::vector<SweepItem>& sweep_order(const WorldModel& model);
   /// Coherence memory of a pair, as ordered() gives it.
   PairCache& pair(Id<Body> a, Id<Body> b);
   void forget(Id<Body> body);
@@ -61,6 +72,8 @@ class QueryContext {
   std::vector<Box> boxes_;                         // by index of the id
   uint64_t model_stamp_ = 0, settings_stamp_ = 0;  // of the candidates
   Candidates candidates_;
+  uint64_t order_stamp_ = 0;  // the model's
+  std::vector<SweepItem> sweep_order_;
   std::unordered_map<uint64_t, Pair> pairs_;
 };
 

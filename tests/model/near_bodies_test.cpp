@@ -97,3 +97,37 @@ TEST_CASE("bodies without geometry and empty groups are near nothing") {
   CHECK(near_bodies(world, std::array{one}, {}, 1, world.context()).empty());
   CHECK(near_bodies(world, std::array{one}, std::array{one}, 1, world.context()).empty());
 }
+
+TEST_CASE("a context that remembers the last sweep finds the pairs of a fresh one") {
+  Random random(2);
+  World world = heap(random, 90, 0.3);
+  size_t found = 0;
+  const auto check = [&] {
+    QueryContext fresh;
+    const auto near = near_bodies(world, 0.01, fresh);
+    CHECK(near_bodies(world, 0.01, world.context()) == near);
+    found += near.size();
+  };
+  for (int round = 0; round < 10; ++round) {
+    // some move a little; at times one is far away, and another axis is the widest
+    for (const auto id : world.bodies()) {
+      Pose X = world.pose(id);
+      X.position += random_point(random, 0.02);
+      world.set_pose(id, X);
+    }
+    if (round % 3 == 2) {
+      Pose X = world.pose(world.bodies()[round]);
+      X.position[round % 2] += 50;
+      world.set_pose(world.bodies()[round], X);
+    }
+    check();
+  }
+  // the model changes: a place is taken by another body, and the context has to make room
+  world.remove(world.bodies()[7]);
+  check();
+  for (int i = 0; i < 20; ++i)
+    world.add_body(body_spec("more", box(0.1, 0.1, 0.1)), BodyKind::object,
+                   {random_turn(random), random_point(random, 0.3)});
+  check();
+  CHECK(found > 1000);
+}

@@ -5,7 +5,7 @@
 
 namespace clench {
 
-int most_arguments(const Entry& entry) {
+int max_arguments(const Entry& entry) {
   constexpr std::string_view mark = "\n@param ";
   const std::string_view doc = entry.doc;
   int count = 0;

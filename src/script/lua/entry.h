@@ -63,10 +63,10 @@ struct Class {
 };
 
 /// Upvalues of every closure of an entry: the entry, its class or library, and how many arguments it takes; -1: any.
-enum EntryUpvalue { at_entry = 1, at_class = 2, at_library = 3, at_most = 4 };
+enum EntryUpvalue { at_entry = 1, at_class = 2, at_library = 3, at_max_arguments = 4 };
 
 /// Of a function or method: its `@param` lines, self not among them; -1 where one of them is `...`.
-int most_arguments(const Entry& entry);
+int max_arguments(const Entry& entry);
 
 /// Name of the entry that runs, as messages begin: "clench.rad", "hand:autograsp", "hand.dofs".
 std::string subject(lua_State* L);

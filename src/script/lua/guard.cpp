@@ -92,11 +92,11 @@ static const char* name_of(ErrorKind kind) {
 
 // as many arguments as the entry takes, or fewer
 static void check_count(lua_State* L) {
-  const auto most = static_cast<int>(lua_tointeger(L, lua_upvalueindex(at_most)));
+  const auto allowed = static_cast<int>(lua_tointeger(L, lua_upvalueindex(at_max_arguments)));
   const int count = lua_gettop(L) - (running_class(L) ? 1 : 0);
-  if (most >= 0 && running_entry(L) && count > most)
+  if (allowed >= 0 && running_entry(L) && count > allowed)
     fail("{}: expected {} argument{}, got {}", subject(L),
-         most == 0 ? "no" : fmt::format("at most {}", most), most == 1 ? "" : "s", count);
+         allowed == 0 ? "no" : fmt::format("at most {}", allowed), allowed == 1 ? "" : "s", count);
 }
 
 static Failure run_caught(lua_State* L, lua_CFunction fn, int& results, Message& message,

@@ -11,12 +11,12 @@
 
 namespace clench {
 
-static void push_closure(lua_State* L, lua_CFunction function, const Entry& entry, int most,
-                         const Class* kind, const Library* library) {
+static void push_closure(lua_State* L, lua_CFunction function, const Entry& entry,
+                         int max_arguments, const Class* kind, const Library* library) {
   lua_pushlightuserdata(L, const_cast<Entry*>(&entry));
   lua_pushlightuserdata(L, const_cast<Class*>(kind));
   lua_pushlightuserdata(L, const_cast<Library*>(library));
-  lua_pushinteger(L, most);
+  lua_pushinteger(L, max_arguments);
   lua_pushcclosure(L, function, 4);
 }
 
@@ -24,7 +24,7 @@ static void push_closure(lua_State* L, lua_CFunction function, const Entry& entr
 static void set_functions(lua_State* L, std::span<const Entry> entries, const Class* kind,
                           const Library* library = nullptr) {
   for (const Entry& entry : entries) {
-    push_closure(L, entry.function, entry, most_arguments(entry), kind, library);
+    push_closure(L, entry.function, entry, max_arguments(entry), kind, library);
     lua_setfield(L, -2, entry.name);
   }
 }
