@@ -7,7 +7,6 @@
 #include "clench/base/error.h"
 #include "clench/base/hash.h"
 #include "clench/io/graspit/eigengrasps.h"
-#include "clench/io/graspit/virtual_contacts.h"
 
 namespace clench {
 

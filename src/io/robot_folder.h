@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "clench/base/file.h"
+#include "clench/io/graspit/virtual_contacts.h"
 #include "clench/io/write_world.h"
 
 namespace clench {

@@ -261,11 +261,11 @@ static bool same(const std::optional<EigengraspSet>& a, const std::optional<Eige
          });
 }
 
-static bool same(const std::optional<VirtualContactSet>& a,
-                 const std::optional<VirtualContactSet>& b) {
+static bool same(const std::optional<std::vector<VirtualContactSpec>>& a,
+                 const std::optional<std::vector<VirtualContactSpec>>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
-  return std::ranges::equal(a->contacts, b->contacts, [](const auto& x, const auto& y) {
-    return x.chain == y.chain && x.link == y.link && same_bits(x.X_LC, y.X_LC) && x.mu == y.mu &&
+  return std::ranges::equal(*a, *b, [](const auto& x, const auto& y) {
+    return x.link == y.link && same_bits(x.X_LC, y.X_LC) && x.mu == y.mu &&
            same_bits(x.edges, y.edges);
   });
 }
@@ -282,8 +282,9 @@ std::string LuaWriter::sets_of(const RobotSpec& now, const RobotSpec& was) {
   }
   if (!same(now.virtual_contacts, was.virtual_contacts)) {
     if (now.virtual_contacts) {
-      const fs::path path = files_.write_beside(
-          now.name + "_virtual_contacts", {{".xml", virtual_contacts_xml(*now.virtual_contacts)}});
+      const auto set = contact_set(now.name, chains_of(now), *now.virtual_contacts);
+      const fs::path path = files_.write_beside(now.name + "_virtual_contacts",
+                                                {{".xml", virtual_contacts_xml(set)}});
       out += ", virtual_contacts = " + file(path.generic_string());
     }
   }

@@ -222,22 +222,19 @@ void UrdfText::beside_contacts(const std::string& text) {
   folder_.write_parts();
   const Draft draft(folder_.path(), text);
   const RobotSpec read = read_robot(draft.path());
-  const auto chains = chains_of(robot_), read_chains = chains_of(read);
-  std::map<std::string, ChainPlace> places;
-  for (int l = 0; l < static_cast<int>(read.links.size()); ++l)
-    places[read.links[l].body.name] = place_of(read_chains, l);
-  VirtualContactSet set = *robot_.virtual_contacts;
-  for (VirtualContactSpec& contact : set.contacts) {
-    if (contact.chain < 0) continue;
-    const int ours = *link_at(chains, {contact.chain, contact.link});
-    const UrdfLink& link = plan_.links[plan_.link(ours)];
-    const auto found = places.find(read.name + "_" + link.name);
-    if (found == places.end())
+  std::map<std::string, int> links;
+  for (int l = 0; l < static_cast<int>(read.links.size()); ++l) links[read.links[l].body.name] = l;
+  auto contacts = *robot_.virtual_contacts;
+  for (VirtualContactSpec& contact : contacts) {
+    if (contact.link < 0) continue;
+    const UrdfLink& link = plan_.links[plan_.link(contact.link)];
+    const auto found = links.find(read.name + "_" + link.name);
+    if (found == links.end())
       fail("{}: link '{}' is not found again in it", folder_.file(), excerpt(link.name));
-    contact.chain = found->second.chain;
-    contact.link = found->second.link;
+    contact.link = found->second;
     if (!(link.X_UB == Pose{})) contact.X_LC = link.X_UB * contact.X_LC;
   }
+  const auto set = contact_set(robot_.name, chains_of(read), std::move(contacts));
   tell_beside("virtual contacts", "virtual_contacts", folder_.virtual_contacts(set));
 }
 

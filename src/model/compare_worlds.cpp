@@ -116,7 +116,7 @@ bool same_contacts(const std::vector<VirtualContactSpec>* a,
                    const std::vector<VirtualContactSpec>* b) {
   if (!a || !b) return a == b;
   return std::ranges::equal(*a, *b, [](const auto& x, const auto& y) {
-    return std::tie(x.chain, x.link, x.mu) == std::tie(y.chain, y.link, y.mu) && x.X_LC == y.X_LC &&
+    return x.link == y.link && x.mu == y.mu && x.X_LC == y.X_LC &&
            x.edges.cols() == y.edges.cols() && x.edges == y.edges;
   });
 }

@@ -61,7 +61,7 @@ RobotSpec Describer::robot(const Robot& r) const {
   }
   out.X_BA = r.X_BA;
   if (r.eigengrasps) out.eigengrasps = *r.eigengrasps;
-  if (r.virtual_contacts) out.virtual_contacts = VirtualContactSet{r.name, *r.virtual_contacts};
+  if (r.virtual_contacts) out.virtual_contacts = *r.virtual_contacts;
   if (r.glove) out.glove = *r.glove;
   out.files = r.files;
   out.tracker = r.tracker;

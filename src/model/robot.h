@@ -48,7 +48,7 @@ struct Robot {
   std::optional<Mounting> mounting;
   /// null: none given, and each DOF is its own
   std::shared_ptr<const EigengraspSet> eigengrasps;
-  /// null: none given; their chains and links exist
+  /// null: none given; their links exist
   std::shared_ptr<const std::vector<VirtualContactSpec>> virtual_contacts;
   std::shared_ptr<const GloveCalibration> glove;
   RobotFiles files;  ///< where the three above came from

@@ -150,7 +150,7 @@ Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::s
   if (spec.eigengrasps) robot.eigengrasps = std::make_shared<EigengraspSet>(*spec.eigengrasps);
   if (spec.virtual_contacts)
     robot.virtual_contacts =
-        std::make_shared<std::vector<VirtualContactSpec>>(spec.virtual_contacts->contacts);
+        std::make_shared<std::vector<VirtualContactSpec>>(*spec.virtual_contacts);
   if (spec.glove) robot.glove = std::make_shared<GloveCalibration>(*spec.glove);
   for (const LinkSpec& link : spec.links) {
     const int first = static_cast<int>(robot.joints.size());
@@ -331,9 +331,8 @@ void World::set_virtual_contacts(Id<Robot> id,
     const std::string subject =
         fmt::format("virtual contact {} of robot '{}'", i + 1, excerpt(r.name));
     check_virtual_contact(c, subject);
-    const ChainPlace place{c.chain, c.link};
-    if (place != ChainPlace{} && (c.chain < 0 || !link_at(r.chains, place)))
-      fail("{}: there is no link {} of chain {}", subject, c.link + 1, c.chain + 1);
+    if (const int last = static_cast<int>(r.links.size()) - 1; c.link < -1 || c.link > last)
+      fail("{}: expected a link from -1, the base, to {}, got {}", subject, last, c.link);
   }
   edit(id).virtual_contacts = std::move(contacts);
 }

@@ -25,7 +25,6 @@ static void add(Hasher& h, const EigengraspSet& set) {
 static void add(Hasher& h, const std::vector<VirtualContactSpec>& contacts) {
   h.add(static_cast<uint64_t>(contacts.size()));
   for (const auto& c : contacts) {
-    h.add(static_cast<uint64_t>(c.chain));
     h.add(static_cast<uint64_t>(c.link));
     add(h, c.X_LC);
     h.add(c.mu);

@@ -213,8 +213,7 @@ std::vector<VirtualContactSpec> find_virtual_contacts(const World& world, Id<Rob
   std::vector<VirtualContactSpec> out;
   const auto add = [&](int link, const Body& body, const Pose& X_LC) {
     const double mu = world.materials().friction(body.material, against).statics;
-    const ChainPlace place = place_of(robot.chains, link);
-    out.push_back({place.chain, place.link, X_LC, mu, friction_edges()});
+    out.push_back({link, X_LC, mu, friction_edges()});
   };
   std::vector<Still> still;
   if (const Body& base = world.body(robot.base); base.shape)
@@ -240,10 +239,6 @@ std::vector<VirtualContactSpec> virtual_contacts(const World& world, Id<Robot> i
   return robot.virtual_contacts ? *robot.virtual_contacts : find_virtual_contacts(world, id);
 }
 
-Id<Body> body_of(const Robot& robot, const VirtualContactSpec& contact) {
-  return robot.body_of(*link_at(robot.chains, {contact.chain, contact.link}));
-}
-
 VirtualContactSpec marked(const World& world, Id<Robot> id, const Contact& contact) {
   for (const bool touched : {false, true}) {
     const auto part = touched ? contact.body : contact.other;
@@ -253,8 +248,7 @@ VirtualContactSpec marked(const World& world, Id<Robot> id, const Contact& conta
     const Vector3d n_W = touched ? Vector3d(-contact.n_W) : contact.n_W;
     const Vector3d p_W = touched ? contact.p_W : Vector3d(contact.p_W - contact.gap * contact.n_W);
     const Pose X_WC{Eigen::Quaterniond(contact_frame(n_W)).normalized(), p_W};
-    const ChainPlace place = place_of(world.robot(id).chains, body.link);
-    return {place.chain, place.link, world.pose(part).inverse() * X_WC, contact.friction.statics,
+    return {body.link, world.pose(part).inverse() * X_WC, contact.friction.statics,
             friction_edges()};
   }
   fail("virtual contacts: the contact of '{}' and '{}' is on no link of '{}'",

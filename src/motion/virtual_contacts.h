@@ -29,9 +29,6 @@ std::vector<VirtualContactSpec> find_virtual_contacts(const World& world, Id<Rob
 /// The robot's own virtual contacts, or, when it was never given any, those that are found.
 std::vector<VirtualContactSpec> virtual_contacts(const World& world, Id<Robot> robot);
 
-/// The link's body, or the base.
-Id<Body> body_of(const Robot& robot, const VirtualContactSpec& contact);
-
 /// A real contact of the robot as a virtual one, on its side.
 /// throws  Error when neither body is its base or a link
 VirtualContactSpec marked(const World& world, Id<Robot> robot, const Contact& contact);

@@ -97,19 +97,6 @@ void check_fit(const RobotSpec& robot, const EigengraspSet& set) {
          robot.dofs.size());
 }
 
-void check_fit(const RobotSpec& robot, const VirtualContactSet& set) {
-  const auto chains = chains_of(robot);
-  for (size_t i = 0; i < set.contacts.size(); ++i) {
-    const ChainPlace place{set.contacts[i].chain, set.contacts[i].link};
-    if (place == ChainPlace{}) continue;
-    if (place.chain < 0 || place.chain >= static_cast<int>(chains.size()))
-      fail("contact {}: '{}' has no chain {}", i + 1, excerpt(robot.name), place.chain);
-    if (!link_at(chains, place))
-      fail("contact {}: chain {} of '{}' has no link {}", i + 1, place.chain, excerpt(robot.name),
-           place.link);
-  }
-}
-
 void check_fit(const RobotSpec& robot, const GloveCalibration& glove) {
   const int dofs = static_cast<int>(robot.dofs.size());
   if (glove.slopes.rows() != dofs || glove.intercepts.size() != dofs)
@@ -122,11 +109,10 @@ static void check_sets(const RobotSpec& robot, const std::string& name) {
     check_fit(robot, *robot.eigengrasps);
     check_eigengrasps(*robot.eigengrasps, name);
   }
-  if (robot.virtual_contacts) {
-    check_fit(robot, *robot.virtual_contacts);
-    for (size_t i = 0; i < robot.virtual_contacts->contacts.size(); ++i)
-      check_virtual_contact(robot.virtual_contacts->contacts[i],
-                            fmt::format("{}: virtual contact {}", name, i + 1));
+  for (size_t i = 0; robot.virtual_contacts && i < robot.virtual_contacts->size(); ++i) {
+    const VirtualContactSpec& contact = (*robot.virtual_contacts)[i];
+    check_virtual_contact(contact, fmt::format("{}: virtual contact {}", name, i + 1));
+    check_part(robot, contact.link, "virtual contact");
   }
   if (!robot.glove) return;
   check_fit(robot, *robot.glove);

@@ -4,9 +4,8 @@
 
 namespace clench {
 
-/// throws Error when it does not fit the robot's DOFs, or its chains and links
+/// throws Error when it does not fit the robot's DOFs
 void check_fit(const RobotSpec& robot, const EigengraspSet& set);
-void check_fit(const RobotSpec& robot, const VirtualContactSet& set);
 void check_fit(const RobotSpec& robot, const GloveCalibration& glove);
 
 /// throws Error with one sentence when a number is out of order: parents, DOF indices, limits, DOFs

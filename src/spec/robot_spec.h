@@ -93,7 +93,7 @@ struct RobotSpec {
   CollisionRules collision_rules;
   std::optional<Pose> X_BA;  ///< approach frame in the base: +z is the direction of approach
   std::optional<EigengraspSet> eigengrasps;
-  std::optional<VirtualContactSet> virtual_contacts;
+  std::optional<std::vector<VirtualContactSpec>> virtual_contacts;
   std::optional<GloveCalibration> glove;
   RobotFiles files;  ///< where the three above come from
   std::optional<TrackerSpec> tracker;

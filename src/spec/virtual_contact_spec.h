@@ -2,7 +2,6 @@
 #pragma once
 #include <Eigen/Core>
 #include <string>
-#include <vector>
 
 #include "clench/math/pose.h"
 
@@ -15,16 +14,10 @@ using FrictionEdges = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 inline constexpr int max_friction_edges = 100;
 
 struct VirtualContactSpec {
-  int chain = -1;       ///< -1: the base
-  int link = 0;         ///< index in the chain; 0 on the base
+  int link = -1;        ///< of the robot; -1: the base
   Pose X_LC;            ///< contact frame in the link: +z out of the link, into what it touches
   double mu = 1;        ///< Coulomb coefficient, >= 0
   FrictionEdges edges;  ///< 6 x edges; may have no columns
-};
-
-struct VirtualContactSet {
-  std::string robot;  ///< name of the hand that it was made for
-  std::vector<VirtualContactSpec> contacts;
 };
 
 /// throws Error with one sentence, begun by the subject, when a rule refuses a number or the frame, or

@@ -39,7 +39,7 @@ TEST_CASE("the files that a robot's file names are read with it") {
   CHECK(robot.eigengrasps->grasps[0].vector[0] == 2);
   CHECK(robot.files.eigengrasps.ends_with("eigen/a.egr"));
   REQUIRE(robot.virtual_contacts);
-  CHECK(robot.virtual_contacts->contacts[0].mu == 0.5);
+  CHECK(robot.virtual_contacts->at(0).mu == 0.5);
   REQUIRE(robot.glove);
   CHECK(robot.glove->slopes(0, 1) == 2);
 }
@@ -111,7 +111,7 @@ TEST_CASE("contacts made for another hand are used, and noted") {
   std::vector<std::string> notes;
   ReadOptions options;
   options.note = [&](const std::string& sentence) { notes.push_back(sentence); };
-  CHECK(hand.read("VirtualContacts\na.vgr\n", options).virtual_contacts->contacts.size() == 1);
+  CHECK(hand.read("VirtualContacts\na.vgr\n", options).virtual_contacts->size() == 1);
   REQUIRE(!notes.empty());
   CHECK(notes.back().ends_with("a.vgr: virtual contacts made for 'other' are used for 'hand'"));
 }
@@ -121,8 +121,8 @@ TEST_CASE("the hands of the original come with what their files name") {
   const auto root = shared() / "data/graspit/models/robots";
   const auto human = read_robot(root / "HumanHand/HumanHand20DOF.cfg");
   CHECK(human.eigengrasps->grasps.size() == 2);
-  CHECK(human.virtual_contacts->contacts.size() == 18);
+  CHECK(human.virtual_contacts->size() == 18);
   CHECK(human.glove->slopes.cols() == 24);
   CHECK(human.tracker->number == 1);
-  CHECK(read_robot(root / "Barrett/Barrett.cfg").virtual_contacts->contacts.size() == 19);
+  CHECK(read_robot(root / "Barrett/Barrett.cfg").virtual_contacts->size() == 19);
 }

@@ -30,11 +30,11 @@ FrictionEdges random_edges(Random& random) {
 
 VirtualContactSet random_contacts(uint64_t seed) {
   Random random(3, seed);
-  VirtualContactSet set{.robot = "a hand & <more>", .contacts = {}};
+  VirtualContactSet set{.robot = "a hand & <more>", .places = {}, .contacts = {}};
   for (int i = static_cast<int>(random.bits() % 5); i >= 0; --i) {
     const int chain = static_cast<int>(random.bits() % 4) - 1;
-    set.contacts.push_back({chain, chain < 0 ? 0 : static_cast<int>(random.bits() % 3),
-                            random_pose(random, 0.1), random.uniform(), random_edges(random)});
+    set.places.push_back({chain, chain < 0 ? 0 : static_cast<int>(random.bits() % 3)});
+    set.contacts.push_back({-1, random_pose(random, 0.1), random.uniform(), random_edges(random)});
   }
   return set;
 }
@@ -47,8 +47,7 @@ void check_near(const VirtualContactSet& a, const VirtualContactSet& b) {
   REQUIRE(a.contacts.size() == b.contacts.size());
   for (size_t i = 0; i < a.contacts.size(); ++i) {
     const auto &x = a.contacts[i], &y = b.contacts[i];
-    CHECK(x.chain == y.chain);
-    CHECK(x.link == y.link);
+    CHECK(a.places[i] == b.places[i]);
     CHECK(x.mu == y.mu);
     CHECK(x.X_LC.rotation.coeffs() == y.X_LC.rotation.coeffs());
     CHECK((x.X_LC.position - y.X_LC.position).norm() <= last_place * x.X_LC.position.norm());
@@ -68,12 +67,11 @@ TEST_CASE("a text file gives place, frame, edges and coefficient, in metres") {
   CHECK(set.robot == "My Hand");
   REQUIRE(set.contacts.size() == 2);
   const auto &palm = set.contacts[0], &link = set.contacts[1];
-  CHECK(palm.chain == -1);
+  CHECK(set.places[0] == ChainPlace{});
   CHECK((palm.X_LC.position - Eigen::Vector3d(0.01, 0.02, 0.03)).norm() < 1e-17);
   CHECK(palm.edges.cols() == 8);
   CHECK(palm.mu == 0.5);
-  CHECK(link.chain == 2);
-  CHECK(link.link == 1);
+  CHECK(set.places[1] == ChainPlace{2, 1});
   // torque per force is a length
   CHECK(link.edges(5, 0) == doctest::Approx(0.00164));
   CHECK((link.X_LC.rotation * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitX()).norm() < 1e-15);
@@ -91,9 +89,7 @@ TEST_CASE("the link of a contact on the palm means nothing") {
         "<normal>0 0 1</normal><sCof>0.5</sCof></virtual_contact></virtual_contacts>",
         link));
     for (const auto* set : {&text, &xml}) {
-      REQUIRE(set->contacts.size() == 1);
-      CHECK(set->contacts[0].chain == -1);
-      CHECK(set->contacts[0].link == 0);
+      CHECK(set->places == std::vector{ChainPlace{}});
     }
   }
 }
@@ -136,12 +132,12 @@ TEST_CASE("writing refuses other endings, and names that would not be read as on
   CHECK_THROWS_WITH_AS(write_virtual_contacts({}, folder.path() / "a.doc"),
                        "a.doc: expected a file of virtual contacts, .vgr or .xml, got '.doc'",
                        Error);
-  VirtualContactSet set{.robot = "", .contacts = {VirtualContactSpec{}}};
+  VirtualContactSet set{.robot = "", .places = {{}}, .contacts = {VirtualContactSpec{}}};
   set.contacts[0].mu = -1;
   CHECK_THROWS_WITH_AS(write_virtual_contacts(set, folder.path() / "a.vgr"),
                        "a.vgr: contact 1: mu: expected a number from 0 to 1e+06, got -1", Error);
   for (const auto& [name, read_back] : {std::pair("", "_"), {"#1", "_#1"}, {"a\nb", "a_b"}}) {
-    write_virtual_contacts({name, {}}, folder.path() / "a.vgr");
+    write_virtual_contacts({.robot = name, .places = {}, .contacts = {}}, folder.path() / "a.vgr");
     CHECK(read_virtual_contacts(folder.path() / "a.vgr").robot == read_back);
   }
 }

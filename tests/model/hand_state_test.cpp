@@ -16,8 +16,7 @@ std::shared_ptr<const EigengraspSet> one_grasp(double second) {
 }
 
 std::shared_ptr<const std::vector<VirtualContactSpec>> one_contact(double x) {
-  VirtualContactSpec contact{
-      .chain = 1, .link = 0, .X_LC = Pose::translation({x, 0, 0}), .edges = {}};
+  VirtualContactSpec contact{.link = 2, .X_LC = Pose::translation({x, 0, 0}), .edges = {}};
   return std::make_shared<std::vector<VirtualContactSpec>>(1, contact);
 }
 
@@ -37,17 +36,18 @@ TEST_CASE("sets that do not fit the robot are refused by its name") {
                        "zero, got one of length 0",
                        Error);
 
-  const auto place = [&](int chain, int link, double mu = 1) {
-    VirtualContactSpec contact{.chain = chain, .link = link, .X_LC = {}, .mu = mu, .edges = {}};
+  const auto place = [&](int link, double mu = 1) {
+    VirtualContactSpec contact{.link = link, .X_LC = {}, .mu = mu, .edges = {}};
     world.set_virtual_contacts(hand, std::make_shared<std::vector<VirtualContactSpec>>(1, contact));
   };
-  CHECK_NOTHROW(place(-1, 0));
+  CHECK_NOTHROW(place(-1));
   CHECK_THROWS_WITH_AS(
-      place(2, 0), "virtual contact 1 of robot 'gripper': there is no link 1 of chain 3", Error);
-  CHECK_THROWS_AS(place(1, 2), Error);
-  CHECK_THROWS_AS(place(-2, 0), Error);
+      place(4),
+      "virtual contact 1 of robot 'gripper': expected a link from -1, the base, to 3, got 4",
+      Error);
+  CHECK_THROWS_AS(place(-2), Error);
   CHECK_THROWS_WITH_AS(
-      place(0, 0, -1),
+      place(0, -1),
       "virtual contact 1 of robot 'gripper': mu: expected a number from 0 to 1e+06, got -1", Error);
 }
 

@@ -34,14 +34,13 @@ TEST_CASE(
   const auto sites = find_virtual_contacts(s.world, s.hand);
   REQUIRE(sites.size() == 5);
   for (int i = 0; i < 4; ++i) {
-    CHECK(sites[i].chain == i / 2);
-    CHECK(sites[i].link == i % 2);
+    CHECK(sites[i].link == i);
     // the fingers turn about z, counter-clockwise from +y seen in their own frames: +y is inward
     CHECK((normal_of(sites[i]) - Vector3d::UnitY()).norm() < 1e-12);
     CHECK(sites[i].X_LC.position.y() == doctest::Approx(0.005));
     CHECK(sites[i].edges.cols() == 8);
   }
-  CHECK(sites[4].chain == -1);
+  CHECK(sites[4].link == -1);
   // the palm's face towards +y, at the approach point
   CHECK((normal_of(sites[4]) - Vector3d::UnitY()).norm() < 1e-12);
   CHECK((sites[4].X_LC.position - Vector3d(0, -0.006, 0)).norm() < 1e-12);
@@ -74,7 +73,7 @@ TEST_CASE(
     const auto sites = find_virtual_contacts(s.world, s.hand, {.count_per_link = 3});
     REQUIRE(sites.size() == 13);
     for (const auto& site : sites) {
-      const Shape& shape = *s.world.body(body_of(s.world.robot(s.hand), site)).shape;
+      const Shape& shape = *s.world.body(s.world.robot(s.hand).body_of(site.link)).shape;
       const Vector3d p = site.X_LC.position;
       CHECK(closest_point(shape, p).distance < 1e-9);
       CHECK(contains(shape, p - 1e-4 * normal_of(site)));
@@ -132,7 +131,7 @@ TEST_CASE("the palm may be a link: of what stays where it is, the nearest to the
   const Stage s = stage(spec);
   const auto sites = find_virtual_contacts(s.world, s.hand);
   REQUIRE(sites.size() == 5);
-  CHECK(sites[4].chain == 0);
+  CHECK(sites[4].link == 0);
   CHECK((sites[4].X_LC.position - Vector3d(0, -0.006, 0)).norm() < 1e-12);
 }
 
@@ -192,7 +191,7 @@ TEST_CASE("a real contact is marked on the link's side, facing what it touches")
     REQUIRE(!found.empty());
     for (const Contact& c : found) {
       const auto site = marked(s.world, s.hand, c);
-      const auto id = body_of(s.world.robot(s.hand), site);
+      const auto id = s.world.robot(s.hand).body_of(site.link);
       const Body& link = s.world.body(id);
       // no farther from its link than a contact is wide, and out of it means into the cube
       CHECK(closest_point(*link.shape, site.X_LC.position).distance <= 1e-9);

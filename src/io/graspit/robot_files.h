@@ -17,7 +17,7 @@ struct NamedFiles {
   NamedFile eigengrasps, virtual_contacts, glove_calibration;
 };
 
-/// Reads them into the robot, whose DOFs, chains and links are known by now; `path` is its own file.
+/// Reads them into the robot, whose DOFs and links are known by now; `path` is its own file.
 /// Those that the options choose are left out. A named file that does not exist is a warning.
 /// throws Error  "Barrett.cfg:83: EigenGrasps: a.egr:5: ..." when one is malformed or does not fit
 void read_robot_files(RobotSpec& robot, const NamedFiles& names, const std::filesystem::path& path,

@@ -46,9 +46,19 @@ Pose contact_pose(const Place& place, const std::string& subject, const Tell& wa
   return {place.rotation, place.translation * units::millimetre};
 }
 
-/// The palm has no links: files write -1 or anything.
-int min_link(const VirtualContactSpec& contact) {
-  return contact.chain < 0 ? std::numeric_limits<int>::min() : 0;
+/// Where a file says that a contact is. `read` gives the whole number of a name from a minimum on.
+template <class Read>
+ChainPlace read_place(Read read) {
+  const int chain = read("finger", -1);
+  if (chain >= 0) return {chain, read("link", 0)};
+  // the palm has no links: files write -1 or anything
+  read("link", std::numeric_limits<int>::min());
+  return {};
+}
+
+void add(VirtualContactSet& set, ChainPlace place, VirtualContactSpec contact) {
+  set.places.push_back(place);
+  set.contacts.push_back(std::move(contact));
 }
 
 // --- text ---
@@ -72,12 +82,13 @@ double read_mu(NumberReader& numbers, const std::string& what, Repairs* repairs)
       mu, fmt::format("{}: {}: friction coefficient", numbers.line().place(), what));
 }
 
-VirtualContactSpec read_vgr_contact(NumberReader& numbers, int number, const Tell& warn,
-                                    Repairs& repairs) {
+void read_vgr_contact(NumberReader& numbers, int number, const Tell& warn, Repairs& repairs,
+                      VirtualContactSet& set) {
   const std::string what = fmt::format("contact {}", number);
   VirtualContactSpec contact;
-  contact.chain = numbers.integer(what + ": finger", -1, max_chains);
-  contact.link = numbers.integer(what + ": link", min_link(contact), max_chains);
+  const ChainPlace on = read_place([&](const char* name, int min) {
+    return numbers.integer(fmt::format("{}: {}", what, name), min, max_chains);
+  });
   contact.edges = read_edges(numbers, what);
   Place place;
   place.location = numbers.vector(what + ": location");
@@ -86,9 +97,8 @@ VirtualContactSpec read_vgr_contact(NumberReader& numbers, int number, const Tel
   place.normal = numbers.vector(what + ": normal");
   contact.X_LC = contact_pose(place, fmt::format("{}: {}", numbers.line().place(), what), warn);
   contact.mu = read_mu(numbers, what, &repairs);
-  if (contact.chain < 0) contact.link = 0;
   check_virtual_contact(contact, fmt::format("{}: {}", numbers.line().place(), what));
-  return contact;
+  add(set, on, std::move(contact));
 }
 
 VirtualContactSet read_vgr(const std::string& file, std::string text, const Tell& warn,
@@ -98,8 +108,7 @@ VirtualContactSet read_vgr(const std::string& file, std::string text, const Tell
   set.robot = lines.next_full("the robot's name").text();
   NumberReader numbers(lines);
   const int count = numbers.integer("number of contacts", 0);
-  for (int i = 0; i < count; ++i)
-    set.contacts.push_back(read_vgr_contact(numbers, i + 1, warn, repairs));
+  for (int i = 0; i < count; ++i) read_vgr_contact(numbers, i + 1, warn, repairs, set);
   numbers.finish(warn);
   return set;
 }
@@ -114,15 +123,15 @@ void check_count(const XmlElement& declared, int given, const char* what, Repair
                             declared.place(), declared.name(), given, what, in_quotes(text)));
 }
 
-VirtualContactSpec read_xml_contact(const XmlElement& e, const Tell& warn, Repairs& repairs) {
+void read_xml_contact(const XmlElement& e, const Tell& warn, Repairs& repairs,
+                      VirtualContactSet& set) {
   e.check({.once = {"finger_number", "link_number", "num_friction_edges", "friction_edges",
                     "location", "rotation", "translation", "normal", "sCof"}},
           warn);
   VirtualContactSpec contact;
-  contact.chain = e.expected("finger_number").integer(-1, max_chains);
-  contact.link = e.expected("link_number").integer(min_link(contact), max_chains);
-  if (contact.chain < 0) contact.link = 0;
-
+  const ChainPlace on = read_place([&](const std::string& name, int min) {
+    return e.expected(name + "_number").integer(min, max_chains);
+  });
   const XmlElement list = e.expected("friction_edges");
   list.check({.many = {"friction_edge"}}, warn);
   const auto edges = list.children("friction_edge");
@@ -149,7 +158,7 @@ VirtualContactSpec read_xml_contact(const XmlElement& e, const Tell& warn, Repai
   const XmlElement mu = e.expected("sCof");
   contact.mu = repairs.magnitude(mu.number(), mu.place() + ": sCof");
   check_virtual_contact(contact, e.place());
-  return contact;
+  add(set, on, std::move(contact));
 }
 
 VirtualContactSet read_xml(const std::string& name, const std::string& text, const Tell& warn,
@@ -162,7 +171,7 @@ VirtualContactSet read_xml(const std::string& name, const std::string& text, con
   VirtualContactSet set;
   if (const XmlElement robot = root.child("robot_name")) set.robot = robot.text();
   for (const XmlElement& e : root.children("virtual_contact"))
-    set.contacts.push_back(read_xml_contact(e, warn, repairs));
+    read_xml_contact(e, warn, repairs, set);
   if (const XmlElement count = root.child("num_contacts"))
     check_count(count, static_cast<int>(set.contacts.size()), "contacts", repairs);
   return set;
@@ -200,9 +209,10 @@ std::string text_of(const VirtualContactSet& set) {
   for (char& c : name)
     if (static_cast<unsigned char>(c) < ' ') c = '_';
   std::string out = fmt::format("{}\n{}\n", name, set.contacts.size());
-  for (const auto& contact : set.contacts) {
+  for (size_t i = 0; i < set.contacts.size(); ++i) {
+    const VirtualContactSpec& contact = set.contacts[i];
     const Written w(contact.X_LC, contact.edges);
-    out += fmt::format("{} {}\n{}\n", contact.chain, contact.link, w.edges.size());
+    out += fmt::format("{} {}\n{}\n", set.places[i].chain, set.places[i].link, w.edges.size());
     for (const auto& edge : w.edges) out += edge + '\n';
     for (const auto* line : {&w.location, &w.rotation, &w.location, &w.normal}) out += *line + '\n';
     out += fmt::format("{}\n", contact.mu);
@@ -212,6 +222,28 @@ std::string text_of(const VirtualContactSet& set) {
 
 }  // namespace
 
+std::vector<VirtualContactSpec> contacts_on(const RobotSpec& robot, VirtualContactSet set) {
+  const auto chains = chains_of(robot);
+  for (size_t i = 0; i < set.contacts.size(); ++i) {
+    const auto [chain, number] = set.places[i];
+    if (chain >= static_cast<int>(chains.size()))
+      fail("contact {}: '{}' has no chain {}", i + 1, excerpt(robot.name), chain);
+    const auto link = link_at(chains, set.places[i]);
+    if (!link)
+      fail("contact {}: chain {} of '{}' has no link {}", i + 1, chain, excerpt(robot.name),
+           number);
+    set.contacts[i].link = *link;
+  }
+  return std::move(set.contacts);
+}
+
+VirtualContactSet contact_set(std::string name, const std::vector<Chain>& chains,
+                              std::vector<VirtualContactSpec> contacts) {
+  VirtualContactSet set{std::move(name), {}, std::move(contacts)};
+  for (const auto& contact : set.contacts) set.places.push_back(place_of(chains, contact.link));
+  return set;
+}
+
 std::string virtual_contacts_xml(const VirtualContactSet& set) {
   std::string out = fmt::format(
       "<?xml version=\"1.0\"?>\n<virtual_contacts>\n  <robot_name>{}</robot_name>\n  "
@@ -220,11 +252,12 @@ std::string virtual_contacts_xml(const VirtualContactSet& set) {
   const auto add = [&](const char* name, const std::string& text, const char* indent = "    ") {
     out += fmt::format("{}<{}>{}</{}>\n", indent, name, text, name);
   };
-  for (const auto& contact : set.contacts) {
+  for (size_t i = 0; i < set.contacts.size(); ++i) {
+    const VirtualContactSpec& contact = set.contacts[i];
     const Written w(contact.X_LC, contact.edges);
     out += "  <virtual_contact>\n";
-    add("finger_number", fmt::format("{}", contact.chain));
-    add("link_number", fmt::format("{}", contact.link));
+    add("finger_number", fmt::format("{}", set.places[i].chain));
+    add("link_number", fmt::format("{}", set.places[i].link));
     add("num_friction_edges", fmt::format("{}", w.edges.size()));
     out += "    <friction_edges>\n";
     for (const auto& edge : w.edges) add("friction_edge", edge, "      ");

@@ -3,9 +3,23 @@
 #include <filesystem>
 
 #include "clench/io/text/find_file.h"
-#include "clench/spec/virtual_contact_spec.h"
+#include "clench/spec/chains.h"
 
 namespace clench {
+
+/// A file's virtual contacts. It names links by chain and number, of a robot that it does not know.
+struct VirtualContactSet {
+  std::string robot;                         ///< name of the hand that it was made for
+  std::vector<ChainPlace> places;            ///< one per contact
+  std::vector<VirtualContactSpec> contacts;  ///< whose `link` says nothing
+};
+
+/// As they are on a robot.
+/// throws Error  "contact 2: chain 0 of 'hand' has no link 7"
+std::vector<VirtualContactSpec> contacts_on(const RobotSpec& robot, VirtualContactSet set);
+/// A robot's, for a file.   name  of the robot
+VirtualContactSet contact_set(std::string name, const std::vector<Chain>& chains,
+                              std::vector<VirtualContactSpec> contacts);
 
 /// `path` as find_file gives it; text or XML, by what stands in it.
 /// throws Error  "hand.vgr:7: contact 1: friction edge 3: expected a number, got 'x'"

@@ -40,14 +40,15 @@ static void push_edges(lua_State* L, const FrictionEdges& edges) {
 
 static int virtual_contacts(lua_State* L) {
   const VirtualContactSet set = read_with(L, read_virtual_contacts);
-  push_list_of(L, set.contacts, [L](const VirtualContactSpec& c) {
-    push_list(L, 0, 5);
-    set_field(L, "chain", c.chain + 1);
-    set_field(L, "link", c.link + 1);
-    set_field(L, "frame", c.X_LC);
-    set_field(L, "mu", c.mu);
-    push_edges(L, c.edges);
-  });
+  push_list_of(L, set.contacts,
+               [L, place = set.places.begin()](const VirtualContactSpec& c) mutable {
+                 push_list(L, 0, 5);
+                 set_field(L, "chain", place->chain + 1);
+                 set_field(L, "link", place++->link + 1);
+                 set_field(L, "frame", c.X_LC);
+                 set_field(L, "mu", c.mu);
+                 push_edges(L, c.edges);
+               });
   set_field(L, "robot", std::string_view(set.robot));
   return 1;
 }

@@ -188,8 +188,9 @@ static int find_sites(lua_State* L) {
 
 static int save_virtual_contacts(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  write_virtual_contacts({robot->name, virtual_contacts(*robot.world, robot.id)},
-                         check_string(L, 2, "path"));
+  const auto set =
+      contact_set(robot->name, robot->chains, virtual_contacts(*robot.world, robot.id));
+  write_virtual_contacts(set, check_string(L, 2, "path"));
   return 0;
 }
 

@@ -20,47 +20,53 @@ int push_virtual_contacts(lua_State* L, const RobotHandle& robot,
 
 // --- values into contacts ---
 
-static ChainPlace place_of_body(const Body& body, const RobotHandle& robot, const What& what) {
+static int link_of_body(const Body& body, const RobotHandle& robot, const What& what) {
   const bool link = body.kind == BodyKind::link;
   if (body.robot != robot.id || !(link || body.kind == BodyKind::base))
     fail("{}: '{}' is no link of robot '{}'", what.text(), body.name, robot->name);
-  return place_of(robot->chains, body.link);
+  return body.link;
 }
 
-static ChainPlace place_of_name(const std::string& name, const RobotHandle& robot,
-                                const What& what) {
+static int number_on(const RobotHandle& robot, ChainPlace place, const What& what) {
+  const auto link = link_at(robot->chains, place);
+  if (!link)
+    fail("{}: there is no link {} of chain {}", what.text(), place.link + 1, place.chain + 1);
+  return *link;
+}
+
+static int link_of_name(const std::string& name, const RobotHandle& robot, const What& what) {
   std::vector<std::string> names;
   for (const auto id : robot.world->bodies_of(robot.id)) {
     const Body& body = robot.world->body(id);
     if (body.kind == BodyKind::mount) continue;
     if (body.name == name || body.name == robot->name + "_" + name)
-      return place_of_body(body, robot, what);
+      return link_of_body(body, robot, what);
     names.push_back(body.name);
   }
   fail("{}: robot '{}' has no link '{}'{}", what.text(), robot->name, name,
        did_you_mean(name, names));
 }
 
-static ChainPlace read_place(lua_State* L, Table& table, const RobotHandle& robot) {
+static int read_link(lua_State* L, Table& table, const RobotHandle& robot) {
   const What what = table.what("link");
   const int type = table.push("link");
-  ChainPlace place;
+  int link = -1;
   if (const auto* body = to<BodyHandle>(L, -1)) {
     if (body->world != robot.world)
       fail("{}: '{}' belongs to another world", what.text(), (*body)->name);
-    place = place_of_body(**body, robot, what);
+    link = link_of_body(**body, robot, what);
   } else if (type == LUA_TSTRING) {
-    place = place_of_name(read_string(L, -1, what), robot, what);
+    link = link_of_name(read_string(L, -1, what), robot, what);
   } else if (type == LUA_TNUMBER) {
-    // numbers as lists from files have them; that they exist is checked with the whole
-    const int chain = table.integer("chain", 0);
+    // numbers as lists from files have them
+    const int chain = table.integer("chain", 0), number = read_int(L, -1, what);
     if (chain < 0) fail("{}: chain: expected 0 or more, got {}", what.text(), chain);
-    place = {chain - 1, chain == 0 ? 0 : std::max(read_int(L, -1, what), 0) - 1};
+    link = number_on(robot, {chain - 1, number - 1}, what);
   } else {
     fail_expected(what, "a link, its name, or its number with that of its chain", -1);
   }
   lua_pop(L, 1);
-  return place;
+  return link;
 }
 
 static FrictionEdges read_friction_edges(Table& table) {
@@ -86,7 +92,12 @@ static Pose read_frame(Table& table) {
 VirtualContactSpec read_virtual_contact(lua_State* L, int i, const What& what,
                                         const RobotHandle& robot) {
   i = lua_absindex(L, i);
-  if (const auto* own = to<VirtualContactHandle>(L, i)) return own->contact;
+  if (const auto* given = to<VirtualContactHandle>(L, i)) {
+    VirtualContactSpec contact = given->contact;
+    if (given->robot.world != robot.world || given->robot.id != robot.id)
+      contact.link = number_on(robot, place_of(given->robot->chains, contact.link), what);
+    return contact;
+  }
   if (const auto* real = to<ContactHandle>(L, i)) {
     if (real->world != robot.world) fail("{}: the contact is of another world", what.text());
     return marked(*robot.world, robot.id, real->contact);
@@ -96,9 +107,7 @@ VirtualContactSpec read_virtual_contact(lua_State* L, int i, const What& what,
                   i);
   Table table(L, i, what.text());
   VirtualContactSpec contact;
-  const ChainPlace place = read_place(L, table, robot);
-  contact.chain = place.chain;
-  contact.link = place.link;
+  contact.link = read_link(L, table, robot);
   table.integer("chain", 0);  // known, though a link given otherwise does not ask for it
   contact.X_LC = read_frame(table);
   contact.mu = table.number("mu", 1);
@@ -110,7 +119,7 @@ VirtualContactSpec read_virtual_contact(lua_State* L, int i, const What& what,
 // --- fields ---
 
 static BodyHandle link_of(const VirtualContactHandle& c) {
-  return {c.robot.world, body_of(*c.robot, c.contact)};
+  return {c.robot.world, c.robot->body_of(c.contact.link)};
 }
 
 static Pose frame_of(const VirtualContactHandle& c) {
@@ -118,6 +127,10 @@ static Pose frame_of(const VirtualContactHandle& c) {
   return link.world->pose(link.id) * c.contact.X_LC;
 }
 
+static int get_chain(lua_State* L) {
+  const auto& c = self<VirtualContactHandle>(L);
+  return push(L, place_of(c.robot->chains, c.contact.link).chain + 1);
+}
 static int get_normal(lua_State* L) {
   const Pose frame = frame_of(self<VirtualContactHandle>(L));
   return push(L, Eigen::Vector3d(frame.rotation * Eigen::Vector3d::UnitZ()));
@@ -149,7 +162,7 @@ static const Entry fields[] = {
 The link that it lies on, or the base.
 @type body
 > hand.virtual_contacts[1].link.robot == hand  --> true)"},
-    {"chain", getter<[](const VirtualContactHandle& x) { return x.contact.chain + 1; }>, R"(
+    {"chain", guarded<get_chain>, R"(
 Number of the link's chain; 0 for the base.
 @type integer
 > hand:find_virtual_contacts()[1].chain  --> 1)"},
