@@ -33,7 +33,7 @@ function vec3:unit() end
 ---@field rpy vec3 # The rotation as turns about the fixed x, y and z axes, in this order. [rad]
 local pose = {}
 
----The way back: `p:inverse() * p` is the identity.
+---The inverse: `p:inverse() * p` is the identity.
 ---@return pose
 function pose:inverse() end
 
@@ -120,11 +120,11 @@ function world:add_obstacle(body, options) end
 ---@return robot
 function world:add_robot(path, options) end
 
----Removes an object, an obstacle or a whole robot. Whoever still holds it gets an error that names it.
+---Removes an object, an obstacle or a whole robot. Using it afterwards is an error that names it.
 ---@param entity body|robot
 function world:remove(entity) end
 
----An independent copy that shares the meshes. Its things are found by name or place in its lists.
+---An independent copy that shares the meshes. Its bodies and robots are found by name, or by their places in its lists.
 ---@return world
 function world:clone() end
 
@@ -132,7 +132,7 @@ function world:clone() end
 ---@return snapshot
 function world:snapshot() end
 
----Back to a snapshot of this world, of a clone of it, or of one that it is a clone of: what was removed since is back, what was added since is gone.
+---Goes back to a snapshot of this world, of a clone of it, or of one that it is a clone of: what was removed since is back, what was added since is gone.
 ---@param snapshot snapshot
 function world:restore(snapshot) end
 
@@ -145,7 +145,7 @@ function world:save(path, options) end
 ---@return string # 16 hexadecimal digits
 function world:hash() end
 
----Does anything collide that may? The quickest verdict: it ends at the first pair that is found.
+---Does anything collide that may? The fastest test: it ends at the first pair that is found.
 ---@return boolean
 function world:collides() end
 
@@ -192,7 +192,7 @@ function world:friction(a, b) end
 ---@class snapshot
 local snapshot = {}
 
----What bodies and robots have in common; of a robot these are its base's.
+---What bodies and robots have in common; a robot has what its base has.
 ---@class entity
 ---@field world world # The world that it is in.
 ---@field material string # Name of its material, which decides its friction.
@@ -200,11 +200,11 @@ local snapshot = {}
 ---@field com vec3 # Centre of mass in the body frame. Setting it takes an inertia that comes from its shape to the new centre; one that was given stays. [m]
 ---@field inertia number[][] # Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the sum of the others: no body has such an inertia. [kg m^2]
 ---@field mesh mesh? # Its surface; nil when it has none.
----@field mesh_report table? # What was done to the triangles of its file: lines of text, and the same as fields `format`, `unit` [m], `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped` (was it inside out?). Nil when it has no mesh, or none from a file.
+---@field mesh_report table? # How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m], `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped` (was it inside out?). Nil when it has no mesh, or none from a file.
 ---@field elastic_modulus number? # Young's modulus; nil when it is rigid. [Pa]
 ---@field soft_layer number # Height of the soft layer of an elastic body. [m]
 ---@field poisson_ratio number # Poisson's ratio of an elastic body, below 0.5: its layer gives way by modulus / (1 - ratio^2).
----@field contacts contact[] # Where others touch it now.
+---@field contacts contact[] # Contacts of other bodies with it now.
 ---@field color number[] # Colour in pictures: red, green and blue in 0..1.
 ---@field transparency number # From 0, opaque, to 1, invisible.
 local entity = {}
@@ -219,7 +219,7 @@ local entity = {}
 ---@field tracker integer? # Number of the position sensor that is to move it; nil when its file names none.
 local body = {}
 
----Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that remains is within the contact threshold. One that starts in contact may slide and leave, but is not pushed in.
+---Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that remains is within the contact threshold. One that starts in contact may slide or move away, but not inwards.
 ---@param pose pose
 ---@return table result # `fraction` of the way gone, `touched`, `stopped_by` (pairs), `iteration_limit` (after a million steps), `queries`
 function body:move_to(pose) end
@@ -232,7 +232,7 @@ function body:move_to(pose) end
 ---@field volume number # Volume that the surface bounds; parts that overlap count twice. Meaningful when it is watertight. [m^3]
 ---@field centroid vec3 # Centre of that volume: the centre of mass of a uniform solid. Meaningful when it is watertight. [m]
 ---@field area number # Area of all its triangles. [m^2]
----@field faults string # What is wrong with it, counted.
+---@field faults string # Counts of its faults.
 ---@field vertices vec3[] # A list of all vertices in the body frame. [m]
 ---@field triangles integer[][] # A list of all triangles: vertex numbers from 1, counter-clockwise from outside.
 local mesh = {}
@@ -250,7 +250,7 @@ function mesh:save(path) end
 ---@field eigengrasps eigengrasps # Its eigengrasps, as they are at any time: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
 ---@field amplitudes number[] # Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
 ---@field virtual_contacts virtual_contact[] # Where it would like to touch: those of its file, those it was given, or, when there are none of either, those that find_virtual_contacts finds, anew each time. Set to a list of virtual contacts, contacts, or tables as of add_virtual_contact; to {} for none, to nil for those that are found.
----@field glove {slopes: number[][], intercepts: number[]}? # Calibration of the data glove that its file names: `slopes` (a row a DOF, a number a sensor) and `intercepts`, so that DOF = intercept + slopes * raw. nil when there is none. [rad per count, rad]
+---@field glove {slopes: number[][], intercepts: number[]}? # Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that DOF = intercept + slopes * raw. nil when there is none. [rad per count, rad]
 ---@field tracker {number: integer, pose: pose}? # Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
 ---@field tendons {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[] # Tendons of its file, as they are there: they do not act yet. Points are in the frame of their link. [N/m, m]
 ---@field tendon_wrappers {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[] # Posts that tendons wrap around, each an endless cylinder; `exempt` names the tendons that pass it by, `sides` say on which side of it the others lie. They do not act yet.
@@ -322,12 +322,12 @@ function robot:set_dofs(values, options) end
 ---@return table result # as of autograsp
 function robot:move_dofs(values, options) end
 
----Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they give way and slide, until contacts take up whatever more it pulls. Negative speed opens.
+---Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed opens.
 ---@param options? {speed?: number, stop_at_contact?: boolean}
 ---@return table result # `moved`, `stops` (a DOF each: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
 function robot:autograsp(options) end
 
----Opens the hand as far as it goes. One that overlaps something is opened without regard to contacts until it is free.
+---Opens the hand as far as it goes. One that overlaps something is opened regardless of contacts until it is free.
 ---@param options? table # no options yet
 ---@return table result # as of autograsp
 function robot:open(options) end
@@ -349,15 +349,15 @@ function robot:mount_on(parent, options) end
 
 ---A few postures whose sums are a hand's: each posture is an origin and an amplitude for each eigengrasp.
 ---@class eigengrasps
----@field vectors number[][] # A unit vector for each eigengrasp, one number a DOF.
----@field eigenvalues number[] # How much each counts: of principal components the variance of the postures along it.
+---@field vectors number[][] # A unit vector for each eigengrasp, one number per DOF.
+---@field eigenvalues number[] # Weight of each eigengrasp: of principal components the variance of the postures along it.
 ---@field origin number[] # The posture of zero amplitudes, within the DOF limits. Where no file says it, the middle of the limits. [rad or m]
----@field norm number[] # What the vectors' entries are scaled by, DOF by DOF.
----@field limits number[][] # How far each amplitude can go from the hand's posture, while the others stay: what its file says, else until the first DOF that it moves is at a limit. {least, largest} each
----@field range number[][] # What each amplitude can be at all: what its file says, else the least and largest of all postures within the DOF limits. {least, largest} each
+---@field norm number[] # Scale of the vectors' entries, one per DOF.
+---@field limits number[][] # Range of each amplitude from the hand's posture, while the others stay: what its file says, else until the first DOF that it moves is at a limit. {least, largest} each
+---@field range number[][] # Range of each amplitude overall: what its file says, else the least and largest of all postures within the DOF limits. {least, largest} each
 ---@field hand robot? # The hand whose set it is; nil for a set by itself.
 ---@field is_custom boolean # Does it come from a file or a script? A hand without a set of its own has one eigengrasp per DOF.
----@field count integer # How many there are; # says it, too.
+---@field count integer # How many there are, as # says.
 local eigengrasps = {}
 
 ---Amplitudes of the posture of the set that is nearest to DOF values; without them, to the hand's own.
@@ -397,13 +397,13 @@ local virtual_contact = {}
 ---@field point vec3 # Where, on the surface of `body`, in the world frame. [m]
 ---@field normal vec3 # Unit normal into `body`, in the world frame.
 ---@field frame pose # Contact frame: origin at the point, +z into `body`.
----@field feature {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer} # What of the body's mesh the contact lies on: a vertex, an edge between two, or a triangle, counted from 1. It stays the same while the contact moves along it, so that a contact of one step is known again in the next.
+---@field feature {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer} # The feature of the body's mesh that the contact lies on: a vertex, an edge between two, or a triangle, counted from 1. It stays the same while the contact moves along it, so that contacts can be matched from step to step.
 ---@field other_feature {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer} # The same of the mesh of `other`.
 ---@field gap number # Distance of the two surfaces there, at most the world's contact threshold. [m]
 ---@field mu number # Static Coulomb coefficient of the two materials.
 ---@field mu_kinetic number # Kinetic Coulomb coefficient of the two materials.
 ---@field kind string # "point" (with friction), "soft" (with friction, of bodies one of which at least is elastic) or "frictionless".
----@field patch patch? # The surfaces around a soft contact, and the turn that it resists; nil of others. Contacts of two bodies whose neighbourhoods overlap have one patch. A corner or an edge is logged as a warning.
+---@field patch patch? # The surfaces around a soft contact, and the torsional friction that it transmits; nil for others. Contacts of two bodies whose neighbourhoods overlap have one patch. A corner or an edge is logged as a warning.
 local contact = {}
 
 ---The patch of a soft contact by options of one's own; nil of others.
@@ -411,12 +411,12 @@ local contact = {}
 ---@return patch?
 function contact:fit_patch(options) end
 
----What every grasp can say of contact forces and joint torques.
+---Contact forces and joint torques of a grasp.
 ---@class forces
 local forces = {}
 
 ---Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx, fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's centre of mass; its weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "min_sum", the least sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); "min_norm", the least sum of squares of the forces, the only one that always has a single answer; "min_max", the least largest normal force; "max_margin", as far from the edges of the cones and from max_force as all can be; "max_margin_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible", with a `certificate`; "unbounded" when more force is always better; "inaccurate" when what was found does not pass its check: balance, cones, caps and optimum to 1e-9, and what is left of a load, to 1e-7 of it. A cap that does not bind changes nothing. `margin`: the least of the forces' margins, for "max_margin" of the distances from max_force, too; 0 when some force has to lie on an edge: then "max_margin" is optimal, but these contacts cannot keep inside their cones, as without force closure. `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in the world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `separation_rates` and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or `dof`, whichever gives way.
----@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string} # max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: the motors' own, or one per DOF; without it motors give what they must; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
+---@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string} # max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: the motors' own, or one per DOF; without it motors give what is needed; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
 ---@return table result # `status`, `forces`, `objective`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 function forces:contact_forces(options) end
 
@@ -426,7 +426,7 @@ function forces:contact_forces(options) end
 function forces:max_load(options) end
 
 ---Can the hand as it stands hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their couplings, within their limits (max_effort of each DOF; none where that is 0), by springs, and by the clutches of joints that have broken away. The palm takes what it must. `status`: "stable"; "unstable", then `unbalanced` is the least wrench that is left and `certificate` says what gives way; "moving" when no contact forces balance the joints, so that a finger moves; "inaccurate".
----@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean} # torque_limits: one per DOF, or false for none; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact, or one per contact [N]
+---@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean} # torque_limits: one per DOF, or false for none; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches at their full torque; max_force: of each contact, or one per contact [N]
 ---@return table result # `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 function forces:equilibrium(options) end
 
@@ -438,7 +438,7 @@ function forces:grasp_map() end
 ---@return number[][]
 function forces:hand_jacobian() end
 
----What a grasp can say of its worth.
+---Measures of a grasp: quality, resistance, wrench spaces.
 ---@class measures: forces
 local measures = {}
 
@@ -456,9 +456,9 @@ function measures:quality_all() end
 ---@return number
 function measures:resistance(options) end
 
----The surfaces of two bodies around a soft contact, and the turn about the normal that it resists.
+---The surfaces of two bodies around a soft contact, and the torsional friction that it transmits.
 ---@class patch
----@field relative_radii number[] # Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures. Where the surfaces part slower than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm stands for them, or the first radius when that is larger; between 1 m and 2 m the one goes over into the other. [m]
+---@field relative_radii number[] # Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures. Where the surfaces separate more slowly than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm stands for them, or the first radius when that is larger; between 1 m and 2 m the two are blended. [m]
 ---@field flat boolean[] # Is a relative radius the one that stands for a flat direction?
 ---@field curvatures {body: number[], other: number[]} # Principal curvatures of the surfaces of both bodies, descending: positive where a surface falls away from the other body, as a ball's, negative where it rises, as a socket's. [1/m]
 ---@field radii {body: number[], other: number[]} # The principal radii of both, 1 over the curvatures: negative where a surface is hollow; as large as you like where it is flat. [m]
@@ -467,10 +467,10 @@ function measures:resistance(options) end
 ---@field points {body: vec3[], other: vec3[]} # What was fitted: points of both surfaces, in the world frame. [m]
 ---@field radius number # How far around the contact the surfaces were looked at. [m]
 ---@field residual number # How far the points lie from the fit, root of the mean square; of the worse surface. [m]
----@field at_edge boolean # Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that is sure to touch.
+---@field at_edge boolean # Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that certainly touches.
 local patch = {}
 
----Where the bodies press on each other, after the mattress model: its semi-axes along `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the semi-axes are those of what is sure to touch, where the gap is no wider than the indentation of flat surfaces; the indentation is where the springs under the gap as it is make up the force, as far as the neighbourhood goes. `exceeds_layer` says that it is more than the soft layers are high, and the model holds no longer.
+---Where the bodies press on each other, after the bed-of-springs model (Winkler foundation): its semi-axes along `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the semi-axes are those of what certainly touches, where the gap is no wider than the indentation of flat surfaces; the indentation is the depth at which the springs under the actual gap add up to the force, within the neighbourhood. `exceeds_layer` says that it exceeds the thickness of the soft layers, where the model no longer holds.
 ---@param options? {force?: number, modulus?: string} # normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
 ---@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, exceeds_layer: boolean} # [m], [m], [Pa], [m]
 function patch:ellipse(options) end
@@ -490,16 +490,16 @@ function patch:torsion_limit(options) end
 ---@field dofs number[] # Values of the hand's DOFs when the grasp was measured. [rad or m]
 ---@field joint_positions number[] # Positions of the hand's joints when the grasp was measured. [rad or m]
 ---@field measures table<string, number> # Measures that were asked for so far, by name; in a file they are kept with the grasp.
----@field info table<string, number> # What its maker notes, by name: a seed, an energy, the number of a run. It may be set, and is kept in files.
+---@field info table<string, number> # Numbers that a script notes, by name: a seed, an energy, the number of a run. They are kept in files.
 ---@field contacts contact[] # The contacts on the object when the grasp was measured.
 ---@field points {point: vec3, normal: vec3, mu: number, torsion_radius: number}[] # The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers. [m]
 ---@field links string[] # Names of what touches at each of the points.
 ---@field rho number # Length that torques are divided by. [m]
 ---@field edges integer|string # Edges of each friction pyramid, or "exact".
----@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # What clench.grasp takes to measure another grasp alike. rho [m], normal_force [N]
+---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # The options with which clench.grasp measures another grasp in the same way. rho [m], normal_force [N]
 local grasp = {}
 
----Puts the hand where it stood about the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by name. Nothing else moves, and nothing is asked of what may be in the way: see `world:collides`.
+---Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by name. Nothing else moves, and collisions are not checked: see `world:collides`.
 ---@param world? world # default: its own
 ---@return grasp
 function grasp:apply(world) end
@@ -513,7 +513,7 @@ function grasp:is_force_closure() end
 ---@return wrench_space
 function grasp:wrench_space(options) end
 
----Which wrenches contacts resist, with how much effort.
+---Which wrenches the contacts resist, and with how much effort.
 ---@class wrench_space
 ---@field rank integer # Dimension that the wrenches span, 0 to that of the space.
 ---@field norm string # "L1" or "Linf".
@@ -543,7 +543,7 @@ function wrench_space:volume_bounds(options) end
 function wrench_space:is_force_closure() end
 
 ---The wrench on the object that is resisted worst, and the contacts that give way first when it grows.
----@return {direction: number[], resistance: number, contacts: integer[]} # unit wrench, torque over rho; its largest multiple resisted, below 0 when all contacts push along it; numbers of the contacts that push against it with all they have
+---@return {direction: number[], resistance: number, contacts: integer[]} # unit wrench, torque over rho; its largest multiple resisted, below 0 when all contacts push along it; numbers of the contacts that push against it at their limit
 function wrench_space:weakest() end
 
 ---The unit wrenches, contact by contact.
@@ -564,7 +564,7 @@ function wrench_space:project(options) end
 ---@field projected string[] # The coordinates that may be anything.
 local projection = {}
 
----Draws it, seen through, with its axes and their numbers [N], the ball of epsilon as far as it lies in it, and the direction that the space reaches least; size, samples and camera as in clench.render.
+---Draws it, transparent, with its axes and their numbers [N], the ball of epsilon as far as it lies in it, and the weakest direction; size, samples and camera as in clench.render.
 ---@param options? {ball?: boolean, weakest?: boolean, size?: integer[], samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number}
 ---@return picture
 function projection:render(options) end
@@ -593,12 +593,12 @@ function picture:pixel(x, y) end
 ---@field total number # Steps in all; 0 when that is not known.
 local progress = {}
 
----So many steps more are done.
+---Counts so many more steps as done.
 ---@param count? number # default 1
 ---@param text? string # shown beside the bar from now on
 function progress:step(count, text) end
 
----Takes the bar away. A progress in a variable that is declared <close> does so by itself.
+---Removes the bar; a variable declared <close> does so by itself.
 function progress:close() end
 
 ---A list of grasps, made by `clench.grasps`: `list[1]`, `#list`, `ipairs(list)`.
@@ -646,7 +646,7 @@ function clench.vec3(x, y, z) end
 ---@return pose
 function clench.pose(options) end
 
----A stream of random numbers, fixed by a seed and the number of an item, the same on every machine.
+---A stream of random numbers, fixed by a seed and the stream's number, the same on every machine.
 ---@param seed integer
 ---@param item? integer # which of many streams, default 0
 ---@return random
@@ -684,10 +684,10 @@ function clench.world(options) end
 ---@return world
 function clench.load(path, options) end
 
----The grasp of a hand on an object as it is now. No contact is no error: such a grasp resists nothing.
+---The grasp of a hand on an object as it is now. A grasp without contacts is no error: it resists nothing.
 ---@param hand robot
 ---@param object body
----@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string} # edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
+---@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string} # edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: false treats soft contacts as points, without torsional friction; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
 ---@return grasp
 function clench.grasp(hand, object, options) end
 
@@ -707,22 +707,22 @@ function clench.eigengrasps(options) end
 
 ---Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of all soft contacts, without the cones, which would cover them. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
 ---@param world world
----@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number} # size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press, with their newtons, through links that one sees through; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
+---@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number} # size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
 ---@return picture
 function clench.render(world, options) end
 
----Draws numbers as columns, one panel a series, each to its own scale, all over the same items, with its value where there is room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
+---Draws numbers as columns, one panel per series, each to its own scale, all over the same items, with its value where there is room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
 ---@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
 ---@return picture
 function clench.chart(options) end
 
----Shows how far a loop is: a bar on a terminal, with the time that is left; nothing in a pipe or a file. Over a number or a list it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It goes with the loop's end, or `close`.
+---Shows how far a loop is: a bar on a terminal, with the time that is left; nothing in a pipe or a file. Over a number or a list it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It disappears at the loop's end, or by `close`.
 ---@param total? integer|any[] # how many steps, or what to go through; without, only the text is shown
 ---@param text? string
 ---@return progress
 function clench.progress(total, text) end
 
----A list of grasps: an empty one, or one from a file that `save` wrote. Its grasps stand in no world: they tell contacts, posture, measures and wrench spaces, and `apply` puts them into one.
+---A list of grasps: an empty one, or one from a file that `save` wrote. Its grasps belong to no world: they have contacts, posture, measures and wrench spaces, and `apply` puts them into a world.
 ---@param path? string
 ---@param options? {root?: string, confine?: string}
 ---@return grasps
@@ -730,12 +730,12 @@ function clench.grasps(path, options) end
 
 ---Values as JSON text, and back.
 ---@class clench.json
----@field null userdata # What stands for null in a list.
+---@field null userdata # The value that stands for null in a list.
 clench.json = {}
 
 ---A value as JSON. Keys are sorted and numbers come back to the bit, so equal values give equal text; integers stay integers. Poses and vectors are written too; functions, NaN and tables that contain themselves are refused.
 ---@param value any
----@param options? {indent?: integer} # blanks a level; default: all on one line
+---@param options? {indent?: integer} # spaces per level; default: all on one line
 ---@return string
 function clench.json.encode(value, options) end
 

@@ -22,7 +22,7 @@ local function object(name, at, turn)
   return table.concat({"GraspableBody", ("models/objects/%s.iv"):format(name), pose(at, turn)}, "\n")
 end
 
---- state: one number a DOF; a breakaway DOF's is followed by 0 for each of its joints
+--- state: one number per DOF; a breakaway DOF's is followed by 0 for each of its joints
 local function a_robot(path, state, at, turn)
   return table.concat({"Robot", "models/" .. path .. ".cfg", row(state), pose(at, turn)}, "\n")
 end

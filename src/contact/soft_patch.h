@@ -1,5 +1,4 @@
-// Soft fingers: the patch over which an elastic body presses on another, and the turn about the
-// normal that it resists.
+// Soft fingers: the patch over which an elastic body presses on another, and its torsional friction.
 #pragma once
 #include <array>
 #include <memory>

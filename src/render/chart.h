@@ -1,4 +1,4 @@
-// Columns of numbers as a picture: one panel a series, one column an item, all over one axis.
+// Columns of numbers as a picture: one panel per series, one column per item, all over one axis.
 #pragma once
 #include <string>
 #include <vector>

@@ -22,7 +22,7 @@ end
 
 --- A prism from z = 0 to z = height over a simple polygon, convex or not, its two rims sharp, cut or rounded.
 ---@param given {outline: number[][], height: number, chamfer?: number, rounding?: number, segments?: integer}
----  points {x, y}, in either sense [m]; chamfer or rounding of the rims [m]; segments a rounding
+---  points {x, y}, in either sense [m]; chamfer or rounding of the rims [m]; segments per rounding
 ---@return table mesh
 return function(given)
   local o = options("prism", given, {"outline", "height"})

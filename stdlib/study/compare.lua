@@ -36,7 +36,7 @@ end
 local Comparison = {}
 Comparison.__index = Comparison
 
---- one panel a measure, one column a grasp
+--- one panel per measure, one column per grasp
 function Comparison:chart(given)
   local series, larger = {}, higher_is_better()
   for i, name in ipairs(self.measures) do
@@ -53,10 +53,10 @@ function Comparison:chart(given)
   return clench.chart(drawing)
 end
 
---- Several measures of several grasps, side by side; `chart` draws them, one panel a measure, with the options title,
+--- Several measures of several grasps, side by side; `chart` draws them, one panel per measure, with the options title,
 --- width and height of clench.chart.
 ---@param grasps grasp[]
----@param given? {measures?: string[], labels?: string[]}  names as grasp:quality takes them, "epsilon" and "volume" by default; one label a grasp
+---@param given? {measures?: string[], labels?: string[]}  names as grasp:quality takes them, "epsilon" and "volume" by default; one label per grasp
 ---@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: the number of the best grasp, that with the largest value, or with the least of measures like gravity_effort
 --- > c = clench.study.compare({grasp, grasp}, {labels = {"one", "two"}})
 --- > c.values.epsilon[2] == grasp:quality "epsilon", c.best.epsilon  --> true, 1

@@ -53,7 +53,7 @@ local function check_grasp(grasp)
   if described(grasp) ~= "a grasp" then raise("study.robustness: expected a grasp, got " .. described(grasp)) end
 end
 
---- What a grasp is worth when things are not where and what they were thought to be. Each sample draws errors of the
+--- The quality of a grasp under errors of pose, friction and normals. Each sample draws errors of the
 --- normal distribution; where the object is out of place, the hand is opened as far as it takes to be free of it, a
 --- twentieth of its way and more, and closed on it again, all in a copy of the world. Friction is off by one factor for all contacts, normals each by their own.
 --- The same seed gives the same numbers, and sample i the same in longer runs.

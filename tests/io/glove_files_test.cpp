@@ -8,7 +8,7 @@ using namespace clench;
 using clench::test::TemporaryFolder;
 using clench::test::Warnings;
 
-TEST_CASE("a calibration gives slopes a row a DOF, and intercepts") {
+TEST_CASE("a calibration gives slopes a row per DOF, and intercepts") {
   TemporaryFolder folder;
   Warnings warnings;
   const auto glove = read_glove_calibration(

@@ -91,7 +91,7 @@ TEST_CASE("surplus words in a world are not used, with a warning") {
   CHECK(warnings.list == std::vector<std::string>{"w.wld:3: 3 surplus words are not used"});
 }
 
-TEST_CASE("one value a DOF is enough") {
+TEST_CASE("one value per DOF is enough") {
   const WorldSpec w = wld_world_of(head + "Robot\nmodels/robots/hand.cfg\n1 2 3\n" + stay);
   CHECK(w.robots[0].dofs[1] == 2);
   CHECK(w.robots[0].dofs[2] == 3);

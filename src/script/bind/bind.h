@@ -127,7 +127,7 @@ inline size_t owned_bytes(const ShapePtr& shape) {
   return shape.use_count() == 1 ? shape->bytes() : 0;
 }
 
-// --- patch: the surfaces of two bodies around a soft contact, and the turn that it resists. ---
+// --- patch: the surfaces of two bodies around a soft contact, and the torsional friction that it transmits. ---
 
 struct PatchHandle {
   std::shared_ptr<const SoftPatch> patch;
@@ -171,7 +171,7 @@ inline const Class& class_of<ContactHandle>() {
 /// A list of contacts.
 int push_contacts(lua_State* L, const WorldPtr& world, const std::vector<Contact>& contacts);
 
-// --- What bodies and robots have in common: material, mass, surface, colour. Of a robot they are its base's. ---
+// --- What bodies and robots have in common: material, mass, surface, colour; a robot has those of its base. ---
 
 extern const Class entity_class;
 

@@ -100,7 +100,7 @@ Number of the position sensor that is to move it; nil when its file names none.
 static const Entry methods[] = {
     {"move_to", guarded<move_to>, R"(
 Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that
-remains is within the contact threshold. One that starts in contact may slide and leave, but is not pushed in.
+remains is within the contact threshold. One that starts in contact may slide or move away, but not inwards.
 @param pose pose
 @return table result  `fraction` of the way gone, `touched`, `stopped_by` (pairs), `iteration_limit` (after a million steps), `queries`
 > cube = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {pose = {xyz = {0, 0, 9}}})

@@ -76,9 +76,10 @@ static int draw(lua_State* L) {
 
 static const Entry functions[] = {
     {"chart", guarded<draw>, R"(
-Draws numbers as columns, one panel a series, each to its own scale, all over the same items, with its value where there is
-room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked.
-Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
+Draws numbers as columns, one panel per series, each to its own scale, all over the same items, with its value where
+there is room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value
+that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts
+that are too long lose their middle. It needs no graphics hardware.
 @param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer}  labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
 @return picture
 > clench.chart{series = {{name = "epsilon", values = {0.1, 0.3, 0.2}}}, height = 200}  --> picture of 960 x 200 pixels

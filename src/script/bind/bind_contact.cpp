@@ -155,8 +155,8 @@ Contact frame: origin at the point, +z into `body`.
 > c = world:contacts(hand, flask)[1]
 > (c.frame:rotate{0, 0, 1} - c.normal):norm() < 1e-12  --> true)"},
     {"feature", guarded<get_feature>, R"(
-What of the body's mesh the contact lies on: a vertex, an edge between two, or a triangle, counted from 1. It stays the same while the contact
-moves along it, so that a contact of one step is known again in the next.
+The feature of the body's mesh that the contact lies on: a vertex, an edge between two, or a triangle, counted from 1.
+It stays the same while the contact moves along it, so that contacts can be matched from step to step.
 @type {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer}
 > kinds = {vertex = true, edge = true, triangle = true}
 > kinds[grasp.contacts[1].feature.kind]  --> true)"},
@@ -185,8 +185,8 @@ Kinetic Coulomb coefficient of the two materials.
 > flask.elastic_modulus = 1.5e6
 > world:contacts(hand, flask)[1].kind  --> soft)"},
     {"patch", guarded<get_patch>, R"(
-The surfaces around a soft contact, and the turn that it resists; nil of others. Contacts of two bodies whose
-neighbourhoods overlap have one patch. A corner or an edge is logged as a warning.
+The surfaces around a soft contact, and the torsional friction that it transmits; nil for others. Contacts of two bodies
+whose neighbourhoods overlap have one patch. A corner or an edge is logged as a warning.
 @type patch?
 > world:contacts(hand, flask)[1].patch  --> nil
 > flask.elastic_modulus = 1.5e6

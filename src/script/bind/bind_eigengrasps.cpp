@@ -167,11 +167,11 @@ variance along it. `count` keeps the first ones. Give it to a hand: hand.eigengr
 
 static const Entry fields[] = {
     {"vectors", guarded<get_vectors>, R"(
-A unit vector for each eigengrasp, one number a DOF.
+A unit vector for each eigengrasp, one number per DOF.
 @type number[][]
 > #hand.eigengrasps.vectors[1]  --> 12)"},
     {"eigenvalues", guarded<get_eigenvalues>, R"(
-How much each counts: of principal components the variance of the postures along it.
+Weight of each eigengrasp: of principal components the variance of the postures along it.
 @type number[]
 > set = clench.eigengrasps{postures = {{0, 0}, {1, 0}, {2, 0}}}
 > set.eigenvalues  --> {1.0})"},
@@ -180,18 +180,18 @@ The posture of zero amplitudes, within the DOF limits. Where no file says it, th
 @type number[]  [rad or m]
 > #hand.eigengrasps.origin  --> 12)"},
     {"norm", guarded<get_norm>, R"(
-What the vectors' entries are scaled by, DOF by DOF.
+Scale of the vectors' entries, one per DOF.
 @type number[]
 > clench.eigengrasps{vectors = {{1, 1}}}.norm  --> {1.0, 1.0})"},
     {"limits", guarded<get_limits>, R"(
-How far each amplitude can go from the hand's posture, while the others stay: what its file says, else until the first
+Range of each amplitude from the hand's posture, while the others stay: what its file says, else until the first
 DOF that it moves is at a limit.
 @type number[][]  {least, largest} each
 > hand.eigengrasps = nil
 > limits, range = hand.eigengrasps.limits[1], hand.dof_limits[1]
 > math.abs((limits[2] - limits[1]) - (range[2] - range[1])) < 1e-12  --> true)"},
     {"range", guarded<get_range>, R"(
-What each amplitude can be at all: what its file says, else the least and largest of all postures within the DOF limits.
+Range of each amplitude overall: what its file says, else the least and largest of all postures within the DOF limits.
 @type number[][]  {least, largest} each
 > range = hand.eigengrasps.range[1]
 > range[1] < range[2]  --> true)"},
@@ -210,7 +210,7 @@ Does it come from a file or a script? A hand without a set of its own has one ei
 > hand.eigengrasps.is_custom  --> false
 > #hand.eigengrasps  --> 12)"},
     {"count", guarded<get_count>, R"(
-How many there are; # says it, too.
+How many there are, as # says.
 @type integer
 > clench.eigengrasps{vectors = {{1, 1}}}.count  --> 1)"},
 };

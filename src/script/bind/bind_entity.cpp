@@ -179,10 +179,10 @@ Its surface; nil when it has none.
 @type mesh?
 > flask.mesh:is_watertight()  --> true)"},
     {"mesh_report", guarded<get_mesh_report>, R"(
-What was done to the triangles of its file: lines of text, and the same as fields `format`, `unit` [m], `unit_source`
-("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`,
-`welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or
-lying on others), `flipped` (was it inside out?). Nil when it has no mesh, or none from a file.
+How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m],
+`unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`,
+`vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped`
+(was it inside out?). Nil when it has no mesh, or none from a file.
 @type table?
 > flask.mesh_report.unit  --> 0.001
 > flask.mesh_report.unit_source  --> format
@@ -207,7 +207,7 @@ Poisson's ratio of an elastic body, below 0.5: its layer gives way by modulus / 
 > flask.poisson_ratio = 0.5  --> error: expected a number from 0 to 0.499999, got 0.5)",
      guarded<set_poisson_ratio>},
     {"contacts", guarded<get_contacts>, R"(
-Where others touch it now.
+Contacts of other bodies with it now.
 @type contact[]
 > #flask.contacts == #world:contacts(hand, flask)  --> true)"},
     {"color", guarded<get_color>, R"(
@@ -227,8 +227,8 @@ From 0, opaque, to 1, invisible.
 const Class entity_class{.name = "entity",
                          .variable = "entity",
                          .doc =
-                             "What bodies and robots have in common; of a "
-                             "robot these are its base's.",
+                             "What bodies and robots have in common; a robot "
+                             "has what its base has.",
                          .fields = fields,
                          .methods = {}};
 

@@ -234,21 +234,23 @@ static int jacobian_rows(lua_State* L) {
 
 static const Entry methods[] = {
     {"contact_forces", guarded<forces>, R"(
-Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench
-{fx, fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's centre of mass;
-its weight is {0, 0, -9.81 * mass, 0, 0, 0}.
-Objectives: "min_sum", the least sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); "min_norm", the least
-sum of squares of the forces, the only one that always has a single answer; "min_max", the least largest normal force; "max_margin", as far from the edges of the cones and from max_force
-as all can be; "max_margin_sum", the largest sum of the distances from the edges.
-`status`: "optimal"; "infeasible", with a `certificate`; "unbounded" when more force is always better; "inaccurate" when what was found
-does not pass its check: balance, cones, caps and optimum to 1e-9, and what is left of a load, to 1e-7 of it. A cap that does not bind changes nothing.
-`margin`: the least of the forces' margins, for "max_margin" of the distances from max_force, too; 0 when some force has to lie on an edge: then
-"max_margin" is optimal, but these contacts cannot keep inside their cones, as without force closure.
-`forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in the
-world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho.
-`joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of
-caps and motors; `separation_rates` and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or `dof`, whichever gives way.
-@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: the motors' own, or one per DOF; without it motors give what they must; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
+Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx,
+fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's centre of mass; its
+weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "min_sum", the least sum of normal forces (Han, Trinkle and Li
+2000; Boyd and Wegbreit 2007); "min_norm", the least sum of squares of the forces, the only one that always has a single
+answer; "min_max", the least largest normal force; "max_margin", as far from the edges of the cones and from max_force
+as all can be; "max_margin_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible",
+with a `certificate`; "unbounded" when more force is always better; "inaccurate" when what was found does not pass its
+check: balance, cones, caps and optimum to 1e-9, and what is left of a load, to 1e-7 of it. A cap that does not bind
+changes nothing. `margin`: the least of the forces' margins, for "max_margin" of the distances from max_force, too; 0
+when some force has to lie on an edge: then "max_margin" is optimal, but these contacts cannot keep inside their cones,
+as without force closure. `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential
+along x and y of contact.frame, force in the world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the
+wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of
+the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `separation_rates`
+and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or
+`dof`, whichever gives way.
+@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: the motors' own, or one per DOF; without it motors give what is needed; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, gravity along -z; balance "nearest": the least unbalanced wrench instead
 @return table result  `status`, `forces`, `objective`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
 > held = grasp:contact_forces{load = weight}
@@ -265,30 +267,32 @@ The largest multiple `load` of a wrench on the object that forces at the contact
 > grasp:max_load{direction = {0, 0, -1, 0, 0, 0}, max_force = 10}.load > 1  --> true
 > grasp:max_load{direction = {0, 0, -1, 0, 0, 0}}.status  --> unlimited)"},
     {"equilibrium", guarded<balance>, R"(
-Can the hand as it stands hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their couplings, within
-their limits (max_effort of each DOF; none where that is 0), by springs, and by the clutches of joints that have broken away. The palm takes what it must.
-`status`: "stable"; "unstable", then `unbalanced` is the least wrench that is left and `certificate` says what gives way; "moving" when no contact
-forces balance the joints, so that a finger moves; "inaccurate".
-@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one per DOF, or false for none; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches with all they have; max_force: of each contact, or one per contact [N]
+Can the hand as it stands hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their
+couplings, within their limits (max_effort of each DOF; none where that is 0), by springs, and by the clutches of joints
+that have broken away. The palm takes what it must. `status`: "stable"; "unstable", then `unbalanced` is the least
+wrench that is left and `certificate` says what gives way; "moving" when no contact forces balance the joints, so that a
+finger moves; "inaccurate".
+@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one per DOF, or false for none; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches at their full torque; max_force: of each contact, or one per contact [N]
 @return table result  `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > grasp:equilibrium{load = {0, 0, -0.1, 0, 0, 0}}.status  --> stable
 > grasp:equilibrium{load = {0, 0, -1e4, 0, 0, 0}}.status  --> unstable
 > grasp:equilibrium{torques = {1}}  --> error: expected 12, one per DOF)"},
     {"grasp_map", guarded<map_rows>, R"(
-From contact forces to the wrench on the object: six rows, in the object's frame about its centre of mass, unscaled. Columns contact by contact:
-the normal force; with friction then the forces along x and y of contact.frame; of soft contacts then the torque about the normal.
+From contact forces to the wrench on the object: six rows, in the object's frame about its centre of mass, unscaled.
+Columns contact by contact: the normal force; with friction then the forces along x and y of contact.frame; of soft
+contacts then the torque about the normal.
 @return number[][]
 > #grasp:grasp_map(), #grasp:grasp_map()[1] == 3 * #grasp.contacts  --> 6, true)"},
     {"hand_jacobian", guarded<jacobian_rows>, R"(
-How fast each DOF moves the contacts: a row for each column of the grasp map, a column for each DOF, by the ratios of its joints.
-Its transpose takes contact forces to the motors' torques. Joints that have broken away do not count.
+How fast each DOF moves the contacts: a row for each column of the grasp map, a column for each DOF, by the ratios of
+its joints. Its transpose takes contact forces to the motors' torques. Joints that have broken away do not count.
 @return number[][]
 > #grasp:hand_jacobian()[1] == #hand.dofs  --> true)"},
 };
 
 const Class forces_class{.name = "forces",
                          .variable = "grasp",
-                         .doc = "What every grasp can say of contact forces and joint torques.",
+                         .doc = "Contact forces and joint torques of a grasp.",
                          .fields = {},
                          .methods = methods};
 

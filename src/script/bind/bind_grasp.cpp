@@ -185,10 +185,10 @@ static int grasp_text(lua_State* L) {
 
 static const Entry functions[] = {
     {"grasp", guarded<measure>, R"(
-The grasp of a hand on an object as it is now. No contact is no error: such a grasp resists nothing.
+The grasp of a hand on an object as it is now. A grasp without contacts is no error: it resists nothing.
 @param hand robot
 @param object body
-@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: soft contacts resist turns about their normals, else all are points; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
+@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: false treats soft contacts as points, without torsional friction; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
 @return grasp
 > clench.grasp(hand, flask):is_force_closure()  --> true)"},
 };
@@ -230,7 +230,7 @@ Measures that were asked for so far, by name; in a file they are kept with the g
 > epsilon = grasp:quality "epsilon"
 > grasp.measures.epsilon == epsilon  --> true)"},
     {"info", guarded<get_info>, R"(
-What its maker notes, by name: a seed, an energy, the number of a run. It may be set, and is kept in files.
+Numbers that a script notes, by name: a seed, an energy, the number of a run. They are kept in files.
 @type table<string, number>
 > grasp.info = {seed = 7}
 > grasp.info.seed  --> 7.0
@@ -258,15 +258,15 @@ Edges of each friction pyramid, or "exact".
 @type integer|string
 > grasp.edges  --> 8)"},
     {"options", guarded<get_options>, R"(
-What clench.grasp takes to measure another grasp alike.
+The options with which clench.grasp measures another grasp in the same way.
 @type {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string}  rho [m], normal_force [N]
 > clench.grasp(hand, flask, grasp.options):quality "epsilon" == grasp:quality "epsilon"  --> true)"},
 };
 
 static const Entry grasp_methods[] = {
     {"apply", guarded<apply>, R"(
-Puts the hand where it stood about the object, wherever that is now, joints included, and measures the grasp there. Hand and object are
-found by name. Nothing else moves, and nothing is asked of what may be in the way: see `world:collides`.
+Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp
+there. Hand and object are found by name. Nothing else moves, and collisions are not checked: see `world:collides`.
 @param world? world  default: its own
 @return grasp
 > hand:open()

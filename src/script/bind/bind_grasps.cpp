@@ -59,8 +59,8 @@ static int list_text(lua_State* L) {
 
 static const Entry functions[] = {
     {"grasps", guarded<list_grasps>, R"(
-A list of grasps: an empty one, or one from a file that `save` wrote. Its grasps stand in no world: they tell contacts, posture, measures and
-wrench spaces, and `apply` puts them into one.
+A list of grasps: an empty one, or one from a file that `save` wrote. Its grasps belong to no world: they have
+contacts, posture, measures and wrench spaces, and `apply` puts them into a world.
 @param path? string
 @param options? {root?: string, confine?: string}
 @return grasps
@@ -82,7 +82,8 @@ Adds a grasp at the end: its value as it is now, measures included.
 @return integer count
 > clench.grasps():add(grasp)  --> 1)"},
     {"save", guarded<save>, R"(
-Writes the list as JSON lines: a head with the version, then a grasp on each line, numbers to the bit. The same list gives the same bytes.
+Writes the list as JSON lines: a head with the version, then a grasp on each line, numbers to the bit. The same list
+gives the same bytes.
 @param path string
 > list = clench.grasps()
 > list:save "no_such_folder/grasps.jsonl"  --> error: no such folder)"},

@@ -313,7 +313,7 @@ add_virtual_contact; to {} for none, to nil for those that are found.
 > #hand.virtual_contacts  --> 0)",
      guarded<set_virtual_contacts>},
     {"glove", guarded<get_glove>, R"(
-Calibration of the data glove that its file names: `slopes` (a row a DOF, a number a sensor) and `intercepts`, so that
+Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that
 DOF = intercept + slopes * raw. nil when there is none.
 @type {slopes: number[][], intercepts: number[]}?  [rad per count, rad]
 > hand.glove  --> nil)"},

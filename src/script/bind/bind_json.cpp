@@ -60,9 +60,10 @@ static int null(lua_State* L) {
 
 static const Entry functions[] = {
     {"encode", guarded<encode>, R"(
-A value as JSON. Keys are sorted and numbers come back to the bit, so equal values give equal text; integers stay integers. Poses and vectors are written too; functions, NaN and tables that contain themselves are refused.
+A value as JSON. Keys are sorted and numbers come back to the bit, so equal values give equal text; integers stay
+integers. Poses and vectors are written too; functions, NaN and tables that contain themselves are refused.
 @param value any
-@param options? {indent?: integer}  blanks a level; default: all on one line
+@param options? {indent?: integer}  spaces per level; default: all on one line
 @return string
 > clench.json.encode{name = "flask", mass = 0.3, size = {1, 2.0}}  --> {"mass":0.3,"name":"flask","size":[1,2.0]}
 > clench.json.encode{at = clench.vec3(0, 0.5, 1)}  --> {"at":[0.0,0.5,1.0]}
@@ -77,7 +78,7 @@ The value of a JSON text. A null in a list is `clench.json.null`; in an object i
 
 static const Entry fields[] = {
     {"null", guarded<null>, R"(
-What stands for null in a list.
+The value that stands for null in a list.
 @type userdata
 > clench.json.encode{1, clench.json.null}  --> [1,null])"},
 };

@@ -111,7 +111,8 @@ the grasp was measured.
 > grasp:quality "epsilon_linf" >= grasp:quality "epsilon"  --> true
 > grasp:quality "epsilom"  --> error: did you mean 'epsilon'?)"},
     {"quality_all", guarded<quality_all>, R"(
-All measures at once, by name; those that are infinite are left out, and those that cannot be had, such as the volume of too many contacts with too many edges.
+All measures at once, by name; those that are infinite are left out, and those that cannot be had, such as the volume of
+too many contacts with too many edges.
 @return table<string, number>
 > q = grasp:quality_all()
 > q.epsilon == grasp:quality "epsilon", q.isotropy > 0  --> true, true)"},
@@ -133,7 +134,7 @@ const Library measures_library{.name = "clench", .doc = "", .functions = functio
 
 const Class measures_class{.name = "measures",
                            .variable = "grasp",
-                           .doc = "What a grasp can say of its worth.",
+                           .doc = "Measures of a grasp: quality, resistance, wrench spaces.",
                            .fields = {},
                            .methods = methods,
                            .parent = &forces_class};

@@ -86,7 +86,7 @@ Area of all its triangles.
 @type number  [m^2]
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.area  --> 28.0)"},
     {"faults", guarded<get_faults>, R"(
-What is wrong with it, counted.
+Counts of its faults.
 @type string
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.faults  --> no faults)"},
     {"vertices", guarded<get_vertices>, R"(

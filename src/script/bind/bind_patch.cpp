@@ -109,8 +109,8 @@ static int patch_text(lua_State* L) {
 static const Entry fields[] = {
     {"relative_radii", guarded<get_relative_radii>, R"(
 Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures.
-Where the surfaces part slower than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm stands for them,
-or the first radius when that is larger; between 1 m and 2 m the one goes over into the other.
+Where the surfaces separate more slowly than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm stands
+for them, or the first radius when that is larger; between 1 m and 2 m the two are blended.
 @type number[]  [m]
 > patch.relative_radii[1] <= patch.relative_radii[2]  --> true)"},
     {"flat", guarded<get_flat>, R"(
@@ -148,18 +148,20 @@ How far the points lie from the fit, root of the mean square; of the worse surfa
 @type number  [m]
 > patch.residual < patch.radius  --> true)"},
     {"at_edge", guarded<get_at_edge>, R"(
-Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that is sure to touch.
+Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that certainly
+touches.
 @type boolean
 > patch.at_edge  --> false)"},
 };
 
 static const Entry methods[] = {
     {"ellipse", guarded<ellipse>, R"(
-Where the bodies press on each other, after the mattress model: its semi-axes along `directions`, the indentation and
-the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. It is nowhere wider than the bodies.
-At a corner, an edge or a rim the semi-axes are those of what is sure to touch, where the gap is no wider than the indentation of
-flat surfaces; the indentation is where the springs under the gap as it is make up the force, as far as the neighbourhood goes.
-`exceeds_layer` says that it is more than the soft layers are high, and the model holds no longer.
+Where the bodies press on each other, after the bed-of-springs model (Winkler foundation): its semi-axes along
+`directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric
+mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the semi-axes are those of what certainly
+touches, where the gap is no wider than the indentation of flat surfaces; the indentation is the depth at which the
+springs under the actual gap add up to the force, within the neighbourhood. `exceeds_layer` says that it exceeds the
+thickness of the soft layers, where the model no longer holds.
 @param options? {force?: number, modulus?: string}  normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
 @return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, exceeds_layer: boolean}  [m], [m], [Pa], [m]
 > e = patch:ellipse{force = 5}
@@ -180,8 +182,8 @@ static const Entry operators[] = {
 const Class patch_class{.name = "patch",
                         .variable = "patch",
                         .doc =
-                            "The surfaces of two bodies around a soft contact, and the turn about "
-                            "the normal that it resists.",
+                            "The surfaces of two bodies around a soft contact, and the torsional "
+                            "friction that it transmits.",
                         .fields = fields,
                         .methods = methods,
                         .operators = operators};

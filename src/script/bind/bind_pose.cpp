@@ -186,7 +186,7 @@ The rotation as turns about the fixed x, y and z axes, in this order.
 
 static const Entry methods[] = {
     {"inverse", guarded<inverse>, R"(
-The way back: `p:inverse() * p` is the identity.
+The inverse: `p:inverse() * p` is the identity.
 @return pose
 > clench.pose{xyz = {1, 2, 3}}:inverse().position  --> (-1, -2, -3))"},
     {"angle", guarded<angle>, R"(

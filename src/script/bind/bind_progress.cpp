@@ -90,7 +90,8 @@ static int progress_text(lua_State* L) {
 static const Entry functions[] = {
     {"progress", guarded<new_progress>, R"(
 Shows how far a loop is: a bar on a terminal, with the time that is left; nothing in a pipe or a file. Over a number or a list
-it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It goes with the loop's end, or `close`.
+it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It disappears at the loop's end,
+or by `close`.
 @param total? integer|any[]  how many steps, or what to go through; without, only the text is shown
 @param text? string
 @return progress
@@ -103,7 +104,7 @@ it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `s
 
 static const Entry methods[] = {
     {"step", guarded<step>, R"(
-So many steps more are done.
+Counts so many more steps as done.
 @param count? number  default 1
 @param text? string  shown beside the bar from now on
 > p = clench.progress(10, "closing")
@@ -111,7 +112,7 @@ So many steps more are done.
 > p:close()
 > p.done, p.total  --> 4.0, 10.0)"},
     {"close", guarded<close>, R"(
-Takes the bar away. A progress in a variable that is declared <close> does so by itself.
+Removes the bar; a variable declared <close> does so by itself.
 > p = clench.progress(10)
 > p:close()
 > p  --> progress: 0 of 10)"},

@@ -135,8 +135,8 @@ The coordinates that may be anything.
 
 static const Entry projection_methods[] = {
     {"render", guarded<draw_projection>, R"(
-Draws it, seen through, with its axes and their numbers [N], the ball of epsilon as far as it lies in it, and the direction that the space
-reaches least; size, samples and camera as in clench.render.
+Draws it, transparent, with its axes and their numbers [N], the ball of epsilon as far as it lies in it, and the
+weakest direction; size, samples and camera as in clench.render.
 @param options? {ball?: boolean, weakest?: boolean, size?: integer[], samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number}
 @return picture
 > forces = grasp:wrench_space():project{fixed = {tx = 0, ty = 0, tz = 0}}

@@ -53,7 +53,7 @@ static int text(lua_State* L) {
 
 static const Entry functions[] = {
     {"random", guarded<make_random>, R"(
-A stream of random numbers, fixed by a seed and the number of an item, the same on every machine.
+A stream of random numbers, fixed by a seed and the stream's number, the same on every machine.
 @param seed integer
 @param item? integer  which of many streams, default 0
 @return random

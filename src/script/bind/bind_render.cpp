@@ -149,10 +149,11 @@ static int equal(lua_State* L) {
 
 static const Entry functions[] = {
     {"render", guarded<draw>, R"(
-Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches
-of all soft contacts, without the cones, which would cover them. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
+Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of
+all soft contacts, without the cones, which would cover them. The camera frames everything unless it is given, in whole
+or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
 @param world world
-@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number}  size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows that end where they press, with their newtons, through links that one sees through; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
+@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number}  size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
 @return picture
 > clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels
 > held = grasp:contact_forces{load = {0, 0, -3, 0, 0, 0}}

@@ -339,7 +339,10 @@ Its links, chain by chain, without the base.
 @type body[]
 > #hand.links  --> 12)"},
     {"chains", guarded<get_chains>, R"(
-Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, of joints that have one).
+Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link
+where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max,
+value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N
+m/rad or N/m] and rest, the value where it is slack, of joints that have one).
 @type table[]
 > #hand.chains  --> 4
 > hand.chains[1].joints[1].kind  --> revolute)"},
@@ -384,8 +387,8 @@ A link, or the base, by its name, whole or without the robot's.
 > hand:link "chain0_link2" == hand.chains[1].links[3]  --> true
 > hand:link "chain9_link0"  --> error: has no link)"},
     {"set_dofs", guarded<set_dofs>, R"(
-Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away, or were
-held against their springs, follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
+Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away, or were held against their
+springs, follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
 @param values number[]  within the limits [rad or m]
 @param options? {joint_positions?: number[][]}  rows {chain, joint, value}
 > hand:set_dofs{1, 2, 3}  --> error: expected 12 DOF values, got 3)"},
@@ -397,13 +400,15 @@ Drives all DOFs in proportion towards values, until contact stops them.
 > hand:move_dofs(hand.dofs).moved  --> false)"},
     {"autograsp", guarded<autograsp>, R"(
 Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway
-fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they give way and slide, until contacts take up whatever more it pulls. Negative speed opens.
+fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts
+and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed
+opens.
 @param options? {speed?: number, stop_at_contact?: boolean}
 @return table result  `moved`, `stops` (a DOF each: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
 > hand:autograsp().moved  --> false
 > hand:autograsp{sped = 1}  --> error: did you mean 'speed'?)"},
     {"open", guarded<open>, R"(
-Opens the hand as far as it goes. One that overlaps something is opened without regard to contacts until it is free.
+Opens the hand as far as it goes. One that overlaps something is opened regardless of contacts until it is free.
 @param options? table  no options yet
 @return table result  as of autograsp
 > hand:open().moved  --> true

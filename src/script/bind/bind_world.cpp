@@ -344,12 +344,12 @@ Adds a robot from a file.
 @return robot
 > world:add_robot("nothing.cfg")  --> error: nothing.cfg)"},
     {"remove", guarded<remove>, R"(
-Removes an object, an obstacle or a whole robot. Whoever still holds it gets an error that names it.
+Removes an object, an obstacle or a whole robot. Using it afterwards is an error that names it.
 @param entity body|robot
 > world:remove(flask)
 > flask.pose  --> error: was removed)"},
     {"clone", guarded<clone>, R"(
-An independent copy that shares the meshes. Its things are found by name or place in its lists.
+An independent copy that shares the meshes. Its bodies and robots are found by name, or by their places in its lists.
 @return world
 > copy = world:clone()
 > copy == world  --> false
@@ -359,8 +359,8 @@ The state of the world now, exact to the bit.
 @return snapshot
 > world:snapshot() ~= nil  --> true)"},
     {"restore", guarded<restore>, R"(
-Back to a snapshot of this world, of a clone of it, or of one that it is a clone of: what was removed since is back, what was
-added since is gone.
+Goes back to a snapshot of this world, of a clone of it, or of one that it is a clone of: what was removed since is
+back, what was added since is gone.
 @param snapshot snapshot
 > before, moment = world:hash(), world:snapshot()
 > hand:open()
@@ -382,7 +382,7 @@ Fingerprint of the state: equal bits, equal text.
 @return string  16 hexadecimal digits
 > #world:hash()  --> 16)"},
     {"collides", guarded<collides>, R"(
-Does anything collide that may? The quickest verdict: it ends at the first pair that is found.
+Does anything collide that may? The fastest test: it ends at the first pair that is found.
 @return boolean
 > world:collides()  --> false)"},
     {"colliding", guarded<colliding>, R"(
