@@ -50,7 +50,7 @@ class ByVertex {
   std::vector<std::pair<int, uint64_t>> items_;
 };
 
-void count_edges(const Mesh& mesh, MeshFaults& faults) {
+void count_edges(const Mesh& mesh, MeshFaults& faults, const Progress& progress) {
   // at its lower vertex each edge as (higher, backwards), so that its triangles stand together
   ByVertex edges(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) {
@@ -60,6 +60,7 @@ void count_edges(const Mesh& mesh, MeshFaults& faults) {
       edges.add(std::min(from, to), std::max(from, to), from > to);
     }
   }
+  progress.check();
   edges.visit([&](std::span<const uint64_t> at) {
     for (size_t i = 0; i < at.size();) {
       size_t end = i + 1;
@@ -73,12 +74,13 @@ void count_edges(const Mesh& mesh, MeshFaults& faults) {
   });
 }
 
-int count_duplicates(const Mesh& mesh) {
+int count_duplicates(const Mesh& mesh, const Progress& progress) {
   ByVertex triangles(mesh.vertices.size());
   for (Triangle t : mesh.triangles) {
     std::sort(t.begin(), t.end());
     triangles.add(t[0], t[1], t[2]);
   }
+  progress.check();
   int count = 0;
   triangles.visit([&](std::span<const uint64_t> at) {
     for (size_t i = 1; i < at.size(); ++i) count += at[i] == at[i - 1];
@@ -110,14 +112,20 @@ class VertexGrid {
         repeated = repeated || low[i] == high[i];
         c[i] = high[i];
       }
-      const auto members = repeated ? cells_.end() : cells_.find(c);
-      if (members == cells_.end()) continue;
-      for (const int v : members->second)
+      const auto last = repeated ? last_.end() : last_.find(c);
+      if (last == last_.end()) continue;
+      for (int v = last->second; v >= 0; v = before_[v])
         if ((kept[v] - p).norm() <= tolerance_ && (found < 0 || v < found)) found = v;
     }
     return found;
   }
-  void add(const Vector3d& p, int vertex) { cells_[cell(p, 0)].push_back(vertex); }
+  /// The next one of the kept vertices.
+  void add(const Vector3d& p) {
+    const int vertex = static_cast<int>(before_.size());
+    int& last = last_.try_emplace(cell(p, 0), -1).first->second;
+    before_.push_back(last);
+    last = vertex;
+  }
 
  private:
   using Cell = std::array<double, 3>;
@@ -137,7 +145,8 @@ class VertexGrid {
   }
 
   double tolerance_;
-  std::unordered_map<Cell, std::vector<int>, CellHash> cells_;
+  std::unordered_map<Cell, int, CellHash> last_;  // vertex of a cell
+  std::vector<int> before_;  // of each vertex the one before it in its cell; -1: none
 };
 
 void check_indices(const Mesh& mesh, const std::string& subject) {
@@ -192,14 +201,14 @@ MeshFaults find_faults(const Mesh& mesh, const Progress& progress) {
   for (size_t i = 0; i < mesh.triangles.size(); ++i)
     faults.degenerate_triangles += without_area(mesh, static_cast<int>(i));
   progress.check();
-  count_edges(mesh, faults);
+  count_edges(mesh, faults, progress);
   progress.check();
-  faults.duplicate_triangles = count_duplicates(mesh);
+  faults.duplicate_triangles = count_duplicates(mesh, progress);
   faults.unused_vertices = count_unused(mesh);
   return faults;
 }
 
-Mesh weld(const Mesh& mesh, double tolerance, int* dropped) {
+Mesh weld(const Mesh& mesh, double tolerance, int* dropped, const Progress& progress) {
   if (!(tolerance >= 0)) fail("weld: tolerance must be >= 0 [m], got {}", tolerance);
   check_indices(mesh, "weld");
   Mesh out;
@@ -210,10 +219,11 @@ Mesh weld(const Mesh& mesh, double tolerance, int* dropped) {
     int v = grid.find(p, out.vertices);
     if (v < 0) {
       v = static_cast<int>(out.vertices.size());
-      grid.add(p, v);
+      grid.add(p);
       out.vertices.push_back(p);
     }
     renamed.push_back(v);
+    if (renamed.size() % 1024 == 0) progress.check();
   }
   for (const Triangle& t : mesh.triangles) {
     const Triangle r = {renamed[t[0]], renamed[t[1]], renamed[t[2]]};

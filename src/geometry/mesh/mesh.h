@@ -65,7 +65,8 @@ MeshFaults find_faults(const Mesh& mesh, const Progress& progress = {});
 
 /// Vertices nearer than tolerance [m] become one (exactly equal ones when 0); triangles keep their
 /// order; those left with a vertex twice are dropped, and counted in `dropped`.
-Mesh weld(const Mesh& mesh, double tolerance = 0, int* dropped = nullptr);
+Mesh weld(const Mesh& mesh, double tolerance = 0, int* dropped = nullptr,
+          const Progress& progress = {});
 
 /// Positions finite, indices in range, at least one triangle.
 /// throws  Error naming the vertex or triangle where it is not so

@@ -96,6 +96,7 @@ std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject,
   shape->faults_ = find_faults(shape->mesh_, progress);
   progress.check();
   shape->solid_ = solid_mass(shape->mesh_);
+  progress.check();
   for (const Triangle& t : shape->mesh_.triangles)
     for (const int v : t) shape->bounds_.add(shape->mesh_.vertices[v]);
   shape->centre_ = shape->bounds_.centre();

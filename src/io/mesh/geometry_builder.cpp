@@ -25,7 +25,7 @@ struct Surface {
 };
 
 /// For each point the first one at the same place.
-std::vector<int> first_at_place(const std::vector<Vector3d>& points) {
+std::vector<int> first_at_place(const std::vector<Vector3d>& points, const Progress& progress) {
   size_t size = 16;
   while (size < 2 * points.size()) size *= 2;
   std::vector<int> table(size, -1), first(points.size());
@@ -36,6 +36,7 @@ std::vector<int> first_at_place(const std::vector<Vector3d>& points) {
     while (table[slot] >= 0 && points[table[slot]] != points[i]) slot = (slot + 1) & (size - 1);
     if (table[slot] < 0) table[slot] = static_cast<int>(i);
     first[i] = table[slot];
+    if (i % 1024 == 0) progress.check();
   }
   return first;
 }
@@ -70,35 +71,36 @@ Surface without_unused_vertices(const Surface& from) {
   return with_vertices_merged(from, same);
 }
 
-void weld_places(Surface& s, bool always) {
-  const auto first = first_at_place(s.mesh.vertices);
+void weld_places(Surface& s, bool always, const Progress& progress) {
+  const auto first = first_at_place(s.mesh.vertices, progress);
   bool any = false;
   for (size_t i = 0; i < first.size() && !any; ++i) any = first[i] != static_cast<int>(i);
   if (!any) return;
   Surface welded = with_vertices_merged(s, first);
   if (welded.mesh.triangles.empty()) return;
-  welded.faults = find_faults(welded.mesh);
+  progress.check();
+  welded.faults = find_faults(welded.mesh, progress);
   if (always || welded.faults.open_edges < s.faults.open_edges) s = std::move(welded);
 }
 
 /// Seams of round shapes end in points that differ in their last bits: joins them where that repairs
 /// edges. The tolerance is a few units in the last place of the 32-bit numbers that the points
 /// were.
-void weld_seams(Surface& s) {
+void weld_seams(Surface& s, const Progress& progress) {
   const Bounds bounds = s.mesh.bounds();
   const double largest =
       std::max(bounds.low.cwiseAbs().maxCoeff(), bounds.high.cwiseAbs().maxCoeff());
   int dropped = 0;
-  Mesh joined = weld(s.mesh, 4e-7 * largest, &dropped);
+  Mesh joined = weld(s.mesh, 4e-7 * largest, &dropped, progress);
   if (dropped > 0 || joined.vertices.size() == s.mesh.vertices.size()) return;
-  const MeshFaults faults = find_faults(joined);
+  const MeshFaults faults = find_faults(joined, progress);
   if (faults.open_edges >= s.faults.open_edges) return;
   s.mesh = std::move(joined);
   s.faults = faults;
 }
 
 /// Drops triangles if that leaves fewer faulty edges.
-void drop_if_better(Surface& s, const std::vector<char>& dropped) {
+void drop_if_better(Surface& s, const std::vector<char>& dropped, const Progress& progress) {
   Surface rest;
   rest.mesh.vertices = s.mesh.vertices;
   for (size_t i = 0; i < s.mesh.triangles.size(); ++i) {
@@ -108,21 +110,21 @@ void drop_if_better(Surface& s, const std::vector<char>& dropped) {
   }
   if (rest.mesh.triangles.empty()) return;
   rest = without_unused_vertices(rest);
-  rest.faults = find_faults(rest.mesh);
+  rest.faults = find_faults(rest.mesh, progress);
   if (rest.faults.open_edges + rest.faults.tangled_edges <
       s.faults.open_edges + s.faults.tangled_edges)
     s = std::move(rest);
 }
 
-void drop_flat_triangles(Surface& s) {
+void drop_flat_triangles(Surface& s, const Progress& progress) {
   std::vector<char> flat(s.mesh.triangles.size());
   for (size_t i = 0; i < flat.size(); ++i) flat[i] = without_area(s.mesh, static_cast<int>(i));
-  drop_if_better(s, flat);
+  drop_if_better(s, flat, progress);
 }
 
 /// Of triangles over the same vertices two that face opposite ways are a fold without inside, and go
 /// both; of those that are left one stays.
-void drop_doubled_triangles(Surface& s) {
+void drop_doubled_triangles(Surface& s, const Progress& progress) {
   const auto& triangles = s.mesh.triangles;
   std::vector<std::pair<Triangle, int>> sorted;  // lowest vertex first, and the triangle
   std::vector<char> odd(triangles.size()), dropped(triangles.size(), 0);
@@ -146,7 +148,7 @@ void drop_doubled_triangles(Surface& s) {
       if (this_one) stays = false;
     }
   }
-  drop_if_better(s, dropped);
+  drop_if_better(s, dropped, progress);
 }
 
 }  // namespace
@@ -291,15 +293,16 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
 
   // repair what is open; a loose triangle has only open edges, so its file connects by place alone
   if (!loose_) s.faults = find_faults(s.mesh, progress);
-  if (loose_ || !s.faults.closed()) weld_places(s, loose_);
+  progress.check();
+  if (loose_ || !s.faults.closed()) weld_places(s, loose_, progress);
   if (loose_ && s.mesh.vertices.size() == used) s.faults = find_faults(s.mesh, progress);
   progress.check();
-  if (s.faults.open_edges > 0) weld_seams(s);
+  if (s.faults.open_edges > 0) weld_seams(s, progress);
   progress.check();
   if (!keeps_triangles && !s.faults.closed() && s.faults.degenerate_triangles > 0)
-    drop_flat_triangles(s);
+    drop_flat_triangles(s, progress);
   if (!keeps_triangles && !s.faults.closed() && s.faults.duplicate_triangles > 0)
-    drop_doubled_triangles(s);
+    drop_doubled_triangles(s, progress);
   out.report.welded_vertices = static_cast<int>(used - s.mesh.vertices.size());
   out.report.dropped_triangles =
       out.report.triangles_read - static_cast<int>(s.mesh.triangles.size());
