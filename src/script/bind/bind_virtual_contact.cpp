@@ -57,11 +57,11 @@ static int read_link(lua_State* L, Table& table, const RobotHandle& robot) {
     link = link_of_body(**body, robot, what);
   } else if (type == LUA_TSTRING) {
     link = link_of_name(read_string(L, -1, what), robot, what);
-  } else if (type == LUA_TNUMBER) {
+  } else if (type == LUA_TNUMBER && table.has("chain")) {
     // numbers as lists from files have them
     const int chain = table.integer("chain", 0), number = read_int(L, -1, what);
     if (chain < 0) fail("{}: chain: expected 0 or more, got {}", what.text(), chain);
-    link = number_on(robot, {chain - 1, number - 1}, what);
+    link = number_on(robot, {chain - 1, std::max(number, 0) - 1}, what);
   } else {
     fail_expected(what, "a link, its name, or its number with that of its chain", -1);
   }
