@@ -1,15 +1,15 @@
 -- stdlib/shapes/box.lua
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 
 local corners = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}
 local faces = {{1, 4, 3, 2}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}}
 
 --- A box centred on the origin, its edges sharp, cut or rounded.
----@param given {x: number, y: number, z: number, chamfer?: number, rounding?: number, segments?: integer}
+---@param options {x: number, y: number, z: number, chamfer?: number, rounding?: number, segments?: integer}
 ---  or {x, y, z, ...}: sizes [m]; chamfer: width cut off each face [m]; rounding: radius of the edges [m]
 ---@return table mesh
-return function(given)
-  local o = options("box", given, {"x", "y", "z"})
+return function(options)
+  local o = read_options("box", options, {"x", "y", "z"})
   local x, y, z = o:positive "x", o:positive "y", o:positive "z"
   local chamfer, rounding = o:not_negative("chamfer", 0), o:not_negative("rounding", 0)
   local segments = o:count("segments", 4, 1, 64)

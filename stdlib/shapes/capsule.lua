@@ -1,15 +1,15 @@
 -- stdlib/shapes/capsule.lua
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 local axis = require "clench.shapes.axis"
 local revolve = require "clench.shapes.revolve"
 
 --- A rod with round ends along z, centred on the origin, or between the centres of its ends. With two radii it
 --- is the hull of two spheres.
----@param given {radius: number, length?: number, top?: number, from?: number[], to?: number[], segments?: integer}
+---@param options {radius: number, length?: number, top?: number, from?: number[], to?: number[], segments?: integer}
 ---  or {radius, length, ...}: length between the centres; top: radius of the far end, else the same [m]
 ---@return table mesh
-return function(given)
-  local o = options("capsule", given, {"radius", "length"})
+return function(options)
+  local o = read_options("capsule", options, {"radius", "length"})
   local radius = o:positive "radius"
   local top = o:positive("top", radius)
   local length, place = axis(o, "length")

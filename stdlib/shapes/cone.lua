@@ -1,14 +1,14 @@
 -- stdlib/shapes/cone.lua
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 local axis = require "clench.shapes.axis"
 local revolve = require "clench.shapes.revolve"
 
 --- A cone or a frustum along z, centred on the origin, or with its axis between two points.
----@param given {bottom: number, top?: number, height?: number, from?: number[], to?: number[], segments?: integer}
+---@param options {bottom: number, top?: number, height?: number, from?: number[], to?: number[], segments?: integer}
 ---  or {bottom, top, height, ...}: radii at both ends, at most one of them 0 (top unless given) [m]
 ---@return table mesh
-return function(given)
-  local o = options("cone", given, {"bottom", "top", "height"})
+return function(options)
+  local o = read_options("cone", options, {"bottom", "top", "height"})
   local bottom, top = o:not_negative "bottom", o:not_negative("top", 0)
   local height, place = axis(o, "height")
   local segments = o:count("segments", 48, 3, 4096)

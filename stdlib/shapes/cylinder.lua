@@ -1,15 +1,15 @@
 -- stdlib/shapes/cylinder.lua
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 local arc = require "clench.shapes.arc"
 local axis = require "clench.shapes.axis"
 local revolve = require "clench.shapes.revolve"
 
 --- A cylinder along z, centred on the origin, or with its axis between two points.
----@param given {radius: number, height?: number, from?: number[], to?: number[], chamfer?: number,
+---@param options {radius: number, height?: number, from?: number[], to?: number[], chamfer?: number,
 ---  rounding?: number, segments?: integer}  or {radius, height, ...}; chamfer or rounding of both rims [m]
 ---@return table mesh
-return function(given)
-  local o = options("cylinder", given, {"radius", "height"})
+return function(options)
+  local o = read_options("cylinder", options, {"radius", "height"})
   local radius = o:positive "radius"
   local height, place = axis(o, "height")
   local chamfer, rounding = o:not_negative("chamfer", 0), o:not_negative("rounding", 0)

@@ -1,15 +1,15 @@
 -- stdlib/shapes/lathe.lua
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 local polygon = require "clench.shapes.polygon"
 local revolve = require "clench.shapes.revolve"
 
 --- A turned solid: the profile {r, z}, ... swept about the z axis. A profile that starts and ends on the axis
 --- (r = 0) bounds a solid body, such as a bottle with its inside; one that stays off the axis is a loop, and
 --- bounds a ring.
----@param given {profile: number[][], segments?: integer}  points [m], in either sense; segments about the axis
+---@param options {profile: number[][], segments?: integer}  points [m], in either sense; segments about the axis
 ---@return table mesh
-return function(given)
-  local o = options("lathe", given, {"profile"})
+return function(options)
+  local o = read_options("lathe", options, {"profile"})
   local profile, segments = o:points("profile", 3, 2), o:count("segments", 48, 3, 4096)
   o:done()
   local on_axis = 0

@@ -1,19 +1,19 @@
 -- stdlib/shapes/loft.lua
 local within = require "clench.within"
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 local skin = require "clench.shapes.skin"
 
 --- The solid through a row of cross-sections, each a ring of points {x, y, z}. All rings run the same way round
 --- and have the same number of points, in step; the first and the last may be a single point, an apex, and are
 --- filled flat otherwise.
----@param given number[][][]  two rings or more [m]
+---@param sections number[][][]  two rings or more [m]
 ---@return table mesh
-return function(given)
-  local o = options("loft", given)
+return function(sections)
+  local o = read_options("loft", sections)
   local rings, count = {}, nil
-  for i = 1, #given do
+  for i = 1, #sections do
     local ring = o:raw(i)
-    local least = (i == 1 or i == #given) and 1 or 3
+    local least = (i == 1 or i == #sections) and 1 or 3
     local name = "ring " .. i
     if type(ring) ~= "table" then o:expected(name, "a list of points", ring) end
     if #ring < 3 and #ring ~= least then o:expected(name, "a list of at least 3 points, or one at an end", ring) end

@@ -1,6 +1,6 @@
 -- stdlib/shapes/outline.lua
 local within = require "clench.within"
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 local polygon = require "clench.shapes.polygon"
 
 --- where the arc that rounds the corner p begins and ends, and its centre; nil when the corner is straight
@@ -22,13 +22,13 @@ end
 --- A simple polygon with rounded corners, counter-clockwise.
 ---
 --- Each corner is {x, y} or {x, y, radius}; `rounding` is the radius of those that name none.
----@param given {rounding?: number, segments?: integer, [integer]: number[]}  [m]; segments per corner
+---@param options {rounding?: number, segments?: integer, [integer]: number[]}  [m]; segments per corner
 ---@return number[][] points
-return function(given)
-  local o = options("outline", given)
+return function(options)
+  local o = read_options("outline", options)
   local rounding, segments = o:not_negative("rounding", 0), o:count("segments", 6, 1, 256)
   local corners = {}
-  for i = 1, #given do
+  for i = 1, #options do
     local p = o:raw(i)
     for k = 1, 3 do
       local x = type(p) == "table" and (p[k] or k == 3 and rounding)

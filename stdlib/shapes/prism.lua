@@ -1,5 +1,5 @@
 -- stdlib/shapes/prism.lua
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 local arc = require "clench.shapes.arc"
 local polygon = require "clench.shapes.polygon"
 local skin = require "clench.shapes.skin"
@@ -21,11 +21,11 @@ local function layer(o, outline, inset, z)
 end
 
 --- A prism from z = 0 to z = height over a simple polygon, convex or not, its two rims sharp, cut or rounded.
----@param given {outline: number[][], height: number, chamfer?: number, rounding?: number, segments?: integer}
+---@param options {outline: number[][], height: number, chamfer?: number, rounding?: number, segments?: integer}
 ---  points {x, y}, in either sense [m]; chamfer or rounding of the rims [m]; segments per rounding
 ---@return table mesh
-return function(given)
-  local o = options("prism", given, {"outline", "height"})
+return function(options)
+  local o = read_options("prism", options, {"outline", "height"})
   local outline, height = o:points("outline", 3, 2), o:positive "height"
   local chamfer, rounding = o:not_negative("chamfer", 0), o:not_negative("rounding", 0)
   local segments = o:count("segments", 4, 1, 64)

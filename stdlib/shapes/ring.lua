@@ -1,11 +1,11 @@
 -- stdlib/shapes/ring.lua
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 
 --- Points of a circle in the plane z = 0, counter-clockwise from +x: a section for lofts, an outline for prisms.
----@param given {radius: number, segments?: integer}  or {radius, ...} [m]
+---@param options {radius: number, segments?: integer}  or {radius, ...} [m]
 ---@return number[][] points
-return function(given)
-  local o = options("ring", given, {"radius"})
+return function(options)
+  local o = read_options("ring", options, {"radius"})
   local radius, segments = o:positive "radius", o:count("segments", 32, 3, 4096)
   o:done()
   local points = {}

@@ -1,5 +1,5 @@
 -- stdlib/shapes/rounded_box.lua
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 local arc = require "clench.shapes.arc"
 local skin = require "clench.shapes.skin"
 
@@ -18,11 +18,11 @@ local function rectangle(hx, hy, radius, z, segments)
 end
 
 --- A box with rounded edges and corners, centred on the origin.
----@param given {x: number, y: number, z: number, rounding?: number, segments?: integer}  or {x, y, z, ...}
+---@param options {x: number, y: number, z: number, rounding?: number, segments?: integer}  or {x, y, z, ...}
 ---  sizes [m]; rounding: radius of the edges, a tenth of the smallest size [m]; segments a quarter turn
 ---@return table mesh
-return function(given)
-  local o = options("rounded_box", given, {"x", "y", "z"})
+return function(options)
+  local o = read_options("rounded_box", options, {"x", "y", "z"})
   local x, y, z = o:positive "x", o:positive "y", o:positive "z"
   local least = math.min(x, y, z)
   local rounding, segments = o:positive("rounding", 0.1 * least), o:count("segments", 4, 1, 64)

@@ -1,5 +1,5 @@
 -- stdlib/shapes/sphere.lua
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 local vector = require "clench.shapes.vector"
 
 local function icosahedron()
@@ -35,10 +35,10 @@ local function subdivide(vertices, triangles)
 end
 
 --- A sphere about the origin: an icosahedron, subdivided; its vertices lie on the sphere.
----@param given {radius: number, subdivisions?: integer}  or {radius, ...}: [m]; 20 * 4^subdivisions triangles, 0 to 7
+---@param options {radius: number, subdivisions?: integer}  or {radius, ...}: [m]; 20 * 4^subdivisions triangles, 0 to 7
 ---@return table mesh
-return function(given)
-  local o = options("sphere", given, {"radius"})
+return function(options)
+  local o = read_options("sphere", options, {"radius"})
   local radius, subdivisions = o:positive "radius", o:count("subdivisions", 3, 0, 7)
   o:done()
   local vertices, triangles = icosahedron()

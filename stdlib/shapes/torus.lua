@@ -1,13 +1,13 @@
 -- stdlib/shapes/torus.lua
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 local revolve = require "clench.shapes.revolve"
 
 --- A torus about the z axis.
----@param given {radius: number, tube: number, segments?: integer, sides?: integer}  or {radius, tube, ...}: from the
+---@param options {radius: number, tube: number, segments?: integer, sides?: integer}  or {radius, tube, ...}: from the
 ---  axis to the tube's centre, and of the tube, smaller [m]; segments about the axis, sides of the tube
 ---@return table mesh
-return function(given)
-  local o = options("torus", given, {"radius", "tube"})
+return function(options)
+  local o = read_options("torus", options, {"radius", "tube"})
   local radius, tube = o:positive "radius", o:positive "tube"
   local segments, sides = o:count("segments", 48, 3, 4096), o:count("sides", 24, 3, 1024)
   o:done()

@@ -1,5 +1,5 @@
 -- stdlib/shapes/tube.lua
-local options = require "clench.shapes.options"
+local read_options = require "clench.shapes.options"
 local arc = require "clench.shapes.arc"
 local polygon = require "clench.shapes.polygon"
 local skin = require "clench.shapes.skin"
@@ -111,13 +111,13 @@ local function read_section(o, count)
 end
 
 --- A circle or another section swept along a path: a handle, a cable, a frame.
----@param given {path: number[][], radius?: number|number[], profile?: number[][], closed?: boolean,
+---@param options {path: number[][], radius?: number|number[], profile?: number[][], closed?: boolean,
 ---  ends?: "flat"|"round", up?: number[], sides?: integer, steps?: integer}  path of points {x, y, z}; radius for
 ---  all or for each of them, or a profile {x, y}, ... whose y is towards `up` at the start [m]; closed joins the last
 ---  point to the first; steps of a round end
 ---@return table mesh
-return function(given)
-  local o = options("tube", given, {"path"})
+return function(options)
+  local o = read_options("tube", options, {"path"})
   local path, closed = o:points("path", 2, 3), o:flag "closed"
   local section, radii = read_section(o, #path)
   local ends, up, steps = o:choice("ends", {"flat", "round"}), o:point "up", o:count("steps", 6, 2, 64)

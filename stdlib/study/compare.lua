@@ -1,6 +1,6 @@
 -- stdlib/study/compare.lua
 local raise = require "clench.raise"
-local options = require "clench.options"
+local read_options = require "clench.options"
 local described = require "clench.described"
 
 local function check_grasps(grasps)
@@ -37,7 +37,7 @@ local Comparison = {}
 Comparison.__index = Comparison
 
 --- one panel per measure, one column per grasp
-function Comparison:chart(given)
+function Comparison:chart(options)
   local series, larger = {}, higher_is_better()
   for i, name in ipairs(self.measures) do
     local values = {}
@@ -46,7 +46,7 @@ function Comparison:chart(given)
     series[i] = {name = name, values = values, higher_is_better = larger[name]}
   end
   local drawing = {series = series, labels = self.labels}
-  for key, value in pairs(given or {}) do
+  for key, value in pairs(options or {}) do
     if key == "series" or key == "labels" then raise("study.compare: chart: unknown key '" .. key .. "'") end
     drawing[key] = value
   end
@@ -56,14 +56,14 @@ end
 --- Several measures of several grasps, side by side; `chart` draws them, one panel per measure, with the options title,
 --- width and height of clench.chart.
 ---@param grasps grasp[]
----@param given? {measures?: string[], labels?: string[]}  names as grasp:quality takes them, "epsilon" and "volume" by default; one label per grasp
+---@param options? {measures?: string[], labels?: string[]}  names as grasp:quality takes them, "epsilon" and "volume" by default; one label per grasp
 ---@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: the number of the best grasp, that with the largest value, or with the least of measures like gravity_effort
 --- > c = clench.study.compare({grasp, grasp}, {labels = {"one", "two"}})
 --- > c.values.epsilon[2] == grasp:quality "epsilon", c.best.epsilon  --> true, 1
 --- > c:chart {width = 300, height = 200}  --> picture of 300 x 200 pixels
-return function(grasps, given)
+return function(grasps, options)
   check_grasps(grasps)
-  local read = options("study.compare", given or {})
+  local read = read_options("study.compare", options or {})
   local measures = read:raw "measures" or {"epsilon", "volume"}
   if type(measures) ~= "table" or #measures == 0 then read:expected("measures", "a list of names", measures) end
   local labels = read:raw "labels"

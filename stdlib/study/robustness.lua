@@ -1,6 +1,6 @@
 -- stdlib/study/robustness.lua
 local raise = require "clench.raise"
-local options = require "clench.options"
+local read_options = require "clench.options"
 local described = require "clench.described"
 local spread = require "clench.study.spread"
 
@@ -58,14 +58,14 @@ end
 --- twentieth of its way and more, and closed on it again, all in a copy of the world. Friction is off by one factor for all contacts, normals each by their own.
 --- The same seed gives the same numbers, and sample i the same in longer runs.
 ---@param grasp grasp
----@param given {samples?: integer, seed?: integer, position?: number, angle?: number, friction?: number, normal?: number, close?: function, edges?: integer|string}  standard deviations, 0 unless given: of the object's position along each axis [m], its turn about any axis [rad], the factor on mu, the tilt of normals [rad]; samples: 100; close(hand, object) instead of autograsp
+---@param options {samples?: integer, seed?: integer, position?: number, angle?: number, friction?: number, normal?: number, close?: function, edges?: integer|string}  standard deviations, 0 unless given: of the object's position along each axis [m], its turn about any axis [rad], the factor on mu, the tilt of normals [rad]; samples: 100; close(hand, object) instead of autograsp
 ---@return {samples: number[], probability: number, interval: table, blocked: integer, mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number} # epsilon of each sample; probability of force closure, with the interval that holds it at 95 %; blocked: how often the opened hand or something else was in the way of the object, which counts as no grasp; p05 and p95: 5 and 95 % of the samples
 --- > r = clench.study.robustness(grasp, {samples = 20, friction = 0.2, normal = 0.05})
 --- > #r.samples, r.p05 <= r.median, r.interval.low <= r.probability  --> 20, true, true
 --- > clench.study.robustness(grasp, {frictoin = 0.2})  --> error: unknown key 'frictoin'
-return function(grasp, given)
+return function(grasp, options)
   check_grasp(grasp)
-  local read = options("study.robustness", given or {})
+  local read = read_options("study.robustness", options or {})
   local count = read:count("samples", 100, 1, 1e6)
   local seed = read:count("seed", 1, math.mininteger, math.maxinteger)
   local position, angle = read:not_negative("position", 0), read:not_negative("angle", 0)

@@ -31,7 +31,7 @@ test("pages come in pairs of name and text, and the stub is Lua", function(t)
   for i = 1, pages.n, 2 do by_name[pages[i]] = pages[i + 1] end
   t.ok(by_name["pose.md"]:find("### `pose:inverse()`", 1, true))
   t.ok(by_name["clench.md"]:find("### `clench.rad(degrees)`", 1, true))
-  t.ok(by_name["stdlib.md"]:find("### `clench.shapes.box(given)`", 1, true))
+  t.ok(by_name["stdlib.md"]:find("### `clench.shapes.box(options)`", 1, true))
   t.ok(by_name["stdlib.md"]:find("### `clench.report.of(path, options)`", 1, true))
   t.ok(by_name["stdlib.md"]:find('r = clench.report.of "models/hands/barrett/barrett.cfg"', 1, true))
   t.ok(by_name["clench.lua"]:find("function pose:inverse() end", 1, true))

@@ -38,7 +38,7 @@ CLENCH_INLINE TrianglesOf<F> moved(const TrianglesOf<F>& from, const Move<typena
 
 /// The gap of a's shadow below b's along n, not divided by the length of n.
 template <class F>
-CLENCH_INLINE F shadow_gap(const TrianglesOf<F>& a, const TrianglesOf<F>& b, const Triple<F>& n) {
+CLENCH_INLINE F projected_gap(const TrianglesOf<F>& a, const TrianglesOf<F>& b, const Triple<F>& n) {
   const F low = min(min(dot(b.corner[0], n), dot(b.corner[1], n)), dot(b.corner[2], n));
   const F high = max(max(dot(a.corner[0], n), dot(a.corner[1], n)), dot(a.corner[2], n));
   return low - high;
@@ -133,7 +133,7 @@ CLENCH_INLINE NearBounds<F> near_bounds(const TrianglesOf<F>& a, const Triangles
   F squared;
   out.way = nearest_way(a, b, squared);
   out.high = sqrt(squared);
-  out.low = shadow_gap(a, b, out.way) / out.high;
+  out.low = projected_gap(a, b, out.way) / out.high;
   return out;
 }
 
