@@ -324,7 +324,7 @@ function robot:move_dofs(values, options) end
 
 ---Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed opens.
 ---@param options? {speed?: number, stop_at_contact?: boolean}
----@return table result # `moved`, `stops` (a DOF each: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
+---@return table result # `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
 function robot:autograsp(options) end
 
 ---Opens the hand as far as it goes. One that overlaps something is opened regardless of contacts until it is free.
@@ -669,7 +669,7 @@ function clench.catalog() end
 ---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
 function clench.convert(from, to, options) end
 
----The module about itself: each library and class with its functions, fields and methods, each with name and doc; and the files of the standard library. Documentation, completion and help are made from it.
+---The module about itself: each library and class with its functions, fields and methods, each with name, doc and `id`, the first upvalue of its function; and the files of the standard library. Documentation, completion and help are made from it.
 ---@return {libraries: table[], classes: table[], files: table[]}
 function clench.entries() end
 

@@ -16,7 +16,7 @@ static int run_in_state(const std::string& verb, std::vector<std::string> argume
   state.refuse_exit(exit_asked);
   if (!reading.confine.empty()) state.set_confine(reading.confine);
   catch_interrupts();
-  const Interruptible running(state);
+  const Interruptible running(state, 2);
   arguments.insert(arguments.begin(), {reading.root, reading.folder, reading.package, reading.unit,
                                        reading.strict ? "strict" : ""});
   const auto result = state.call("host." + verb, "main", arguments);

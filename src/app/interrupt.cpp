@@ -8,12 +8,12 @@ namespace clench {
 
 // a signal handler has no arguments: what it needs must lie outside
 static State* volatile target = nullptr;
-static volatile std::sig_atomic_t presses = 0;
+static volatile std::sig_atomic_t presses = 0, deadly_press = 0;
 
 static void on_interrupt(int) {
   presses = presses + 1;
   if (!target) return;
-  if (presses >= 3) {
+  if (presses >= deadly_press) {
     std::signal(SIGINT, SIG_DFL);
     std::raise(SIGINT);
   }
@@ -34,8 +34,9 @@ bool take_interrupt() {
   return pressed;
 }
 
-Interruptible::Interruptible(State& state) {
+Interruptible::Interruptible(State& state, int deadly) {
   presses = 0;
+  deadly_press = deadly;
   target = &state;
 }
 

@@ -5,7 +5,7 @@ namespace clench {
 
 class State;
 
-/// From now on Ctrl-C ends no process, except pressed three times while one call runs.
+/// From now on Ctrl-C ends no process, except pressed as often as an Interruptible allows while it lives.
 void catch_interrupts();
 
 /// Was it pressed since the last time this was asked?
@@ -14,7 +14,8 @@ bool take_interrupt();
 /// While it lives, Ctrl-C interrupts what the state runs.
 class Interruptible {
  public:
-  explicit Interruptible(State& state);
+  /// deadly  the press that ends the process
+  Interruptible(State& state, int deadly);
   ~Interruptible();
   Interruptible(const Interruptible&) = delete;
   Interruptible& operator=(const Interruptible&) = delete;

@@ -12,8 +12,22 @@ static constexpr int ending_signals[] = {SIGTERM, SIGHUP, SIGQUIT};
 
 // a signal handler has no arguments: what it needs must lie outside
 static termios found_terminal;
+static volatile std::sig_atomic_t marks = 0;
+
+// also in a signal handler
+static void write_mark(bool on) {
+  if (!isatty(STDOUT_FILENO)) return;
+  [[maybe_unused]] const auto written =
+      ::write(STDOUT_FILENO, on ? "\x1b[?2004h" : "\x1b[?2004l", 8);
+}
+
+void mark_pastes(bool on) {
+  marks = on;
+  write_mark(on);
+}
 
 static void on_end(int number) {
+  if (marks) write_mark(false);
   // not TCSADRAIN, which would wait for a terminal that is perhaps gone
   tcsetattr(STDIN_FILENO, TCSANOW, &found_terminal);
   // it waits until this returns, and then ends the program as if nobody had caught it
@@ -33,6 +47,7 @@ static void on_stop(int number) {
   const int error = errno;
   termios now;
   const bool known = tcgetattr(STDIN_FILENO, &now) == 0;
+  if (marks) write_mark(false);
   tcsetattr(STDIN_FILENO, TCSANOW, &found_terminal);
   set_handler(number, SIG_DFL);
   sigset_t only, before;
@@ -43,6 +58,7 @@ static void on_stop(int number) {
   sigprocmask(SIG_SETMASK, &before, nullptr);
   set_handler(number, on_stop);
   if (known) tcsetattr(STDIN_FILENO, TCSANOW, &now);
+  if (marks) write_mark(true);
   errno = error;
 }
 

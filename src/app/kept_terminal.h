@@ -18,6 +18,9 @@ class KeptTerminal {
   struct sigaction before_[4];
 };
 
+/// Asks the terminal to put marks around pasted text, or no longer to; what gives it back does so, too.
+void mark_pastes(bool on);
+
 /// Signals that end the program wait as long as it lives: no file stays half-written.
 class SignalsLater {
  public:

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cwchar>
+#include <string_view>
 #include <system_error>
 
 #include "clench/app/interrupt.h"
@@ -29,6 +30,8 @@ struct LineEditor::Terminal {
   Complete complete;
   std::string prompt;
   bool interrupted = false;
+  bool pasting = false;  // is what comes pasted text?
+  std::string pending;   // bytes that were read, and come before those of the terminal
 
   static Terminal* of(EditLine* edit) {
     void* data = nullptr;
@@ -101,6 +104,46 @@ static int read_byte(char& byte, bool& interrupted) {
   return count;
 }
 
+// what a terminal puts around pasted text
+static constexpr std::string_view paste_begins = "\x1b[200~", paste_ends = "\x1b[201~";
+
+// does a byte follow at once, as those of one key do?
+static bool goes_on() {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  return poll(&input, 1, 20) == 1;
+}
+
+// as read_byte; of pasted text a tab is quoted, so that it completes nothing
+template <class Terminal>
+static int next_byte(Terminal& terminal, char& byte) {
+  std::string& pending = terminal.pending;
+  for (;;) {
+    if (!pending.empty()) {
+      byte = pending.front();
+      pending.erase(0, 1);
+      return 1;
+    }
+    const int count = read_byte(byte, terminal.interrupted);
+    if (count <= 0 || (byte != '\x1b' && !(byte == '\t' && terminal.pasting))) return count;
+    if (byte == '\t') {
+      pending = byte;
+      byte = '\x16';  // Ctrl-V
+      return 1;
+    }
+    std::string seen(1, byte);
+    char next = 0;
+    while ((paste_begins.starts_with(seen) || paste_ends.starts_with(seen)) &&
+           seen.size() < paste_begins.size() && goes_on() &&
+           read_byte(next, terminal.interrupted) > 0)
+      seen += next;
+    if (seen != paste_begins && seen != paste_ends) {
+      pending = seen.substr(1);
+      return 1;
+    }
+    terminal.pasting = seen == paste_begins;
+  }
+}
+
 // one character from the terminal; Ctrl-C ends the waiting
 template <class Terminal>
 static int read_character(EditLine* edit, wchar_t* out) {
@@ -108,7 +151,7 @@ static int read_character(EditLine* edit, wchar_t* out) {
   std::mbstate_t partial = {};
   for (;;) {
     char byte = 0;
-    const int count = read_byte(byte, terminal->interrupted);
+    const int count = next_byte(*terminal, byte);
     if (count <= 0) return count;
     const size_t used = std::mbrtowc(out, &byte, 1, &partial);
     if (used == static_cast<size_t>(-2)) continue;  // the beginning of a character
@@ -152,9 +195,13 @@ LineEditor::Key LineEditor::read(const std::string& prompt, std::string& line) {
   take_interrupt();
   // before the prompt shows, or a key pressed right then goes by the terminal's own rules
   el_set(t.edit, EL_PREP_TERM, 1);
+  mark_pastes(true);
   int count = 0;
   const char* text = el_gets(t.edit, &count);
+  mark_pastes(false);
   if (t.interrupted) {
+    t.pasting = false;
+    t.pending.clear();
     std::fputs("^C\n", stdout);
     el_reset(t.edit);
     return Key::interrupted;

@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <string>
@@ -13,11 +15,17 @@
 
 namespace clench {
 
+namespace fs = std::filesystem;
+
 static State::Line run_chunk(State& state, const std::string& chunk, int line = 1) {
-  const Interruptible running(state);
+  const Interruptible running(state, 3);
   const auto outcome = state.evaluate(chunk, line);
   std::fflush(stdout);
   return outcome;
+}
+
+static bool leaves(const std::string& line) {
+  return line == "exit" || line == "quit" || line == "exit()" || line == "quit()";
 }
 
 // chunks from anything that is no terminal
@@ -26,6 +34,7 @@ static int run_piped(State& state) {
   bool open = false;
   int begin = 1;  // the chunk's first line in the input
   for (int number = 1; std::getline(std::cin, line); ++number) {
+    if (!open && leaves(line)) return 0;
     if (!open) begin = number;
     chunk = open ? chunk + "\n" + line : line;
     open = run_chunk(state, chunk, begin) == State::Line::incomplete;
@@ -35,12 +44,32 @@ static int run_piped(State& state) {
   return 1;
 }
 
+// the beginning of a path's last name, then what it may become
+static std::vector<std::string> file_names(const std::string& path) {
+  const size_t slash = path.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  const std::string typed = slash == std::string::npos ? path : path.substr(slash + 1);
+  std::vector<std::string> names;
+  std::error_code none;
+  for (fs::directory_iterator at(folder, none), end; !none && at != end; at.increment(none)) {
+    const std::string name = at->path().filename().string();
+    if (name.starts_with(typed) && (name[0] != '.' || typed.starts_with('.')))
+      names.push_back(at->is_directory(none) ? name + "/" : name);
+  }
+  std::sort(names.begin(), names.end());
+  names.insert(names.begin(), typed);
+  return names;
+}
+
 static int run_terminal(State& state) {
   const auto complete = [&state](const std::string& line) {
-    return state.call("host.complete", "words", {line}).values;
+    const auto words = state.call("host.complete", "words", {line}).values;
+    const bool file = words.size() == 1 && words[0].starts_with('\1');
+    return file ? file_names(words[0].substr(1)) : words;
   };
   LineEditor editor(history_file(), complete);
-  std::puts("Clench " CLENCH_VERSION ", Lua 5.4. Tab completes, help(x) explains, Ctrl-D leaves.");
+  std::puts("Clench " CLENCH_VERSION
+            ", Lua 5.4. Tab completes, help(x) explains, Ctrl-D or exit leaves.");
   std::string chunk, line;
   bool open = false;
   for (;;) {
@@ -50,6 +79,7 @@ static int run_terminal(State& state) {
       open = false;
       continue;
     }
+    if (!open && leaves(line)) return 0;
     chunk = open ? chunk + "\n" + line : line;
     open = run_chunk(state, chunk) == State::Line::incomplete;
     if (!open) editor.remember(chunk);

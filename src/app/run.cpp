@@ -23,7 +23,7 @@ int run_scripts(const RunOptions& options) {
   catch_interrupts();
   bool ok = true;
   {
-    const Interruptible running(state);
+    const Interruptible running(state, 2);
     for (const auto& code : options.code) ok = ok && report(state.run_code(code, "=-e"));
     if (ok && !options.file.empty()) ok = report(state.run_file(options.file, options.arguments));
   }

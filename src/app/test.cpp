@@ -34,7 +34,7 @@ static Count run_test_file(const fs::path& file, const std::string& confine, boo
   if (quiet) state.set_quiet();
   if (!confine.empty()) state.set_confine(confine);
   state.set_script(file.string());
-  const Interruptible running(state);
+  const Interruptible running(state, 2);
   const auto result = state.call("test", "run_file", {file.string()});
   std::fflush(stdout);
   if (result.ok && result.values.size() == 3)

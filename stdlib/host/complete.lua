@@ -1,9 +1,11 @@
---- Completion in the console: what the name before the cursor may become, from the live values it is looked up in.
+--- Completion in the console: what the name before the cursor may become, from the live values it is looked up in; keys of
+--- options, and in strings names of measures, of bodies and of files.
 --- Nothing of the user's runs: tables are read raw, and of userdata only clench's own fields are asked.
-local match, sub, find = string.match, string.sub, string.find
+local match, gmatch, gsub, sub, find = string.match, string.gmatch, string.gsub, string.sub, string.find
 local rawget, next, type, pcall, tonumber, sort, unpack = rawget, next, type, pcall, tonumber, table.sort, table.unpack
 local getmetatable, globals, string_library = debug.getmetatable, _G, string
-local entries, pairs, ipairs = clench.entries, pairs, ipairs
+local entries, measures, pairs, ipairs = clench.entries, clench.measures, pairs, ipairs
+local doc, session = require "clench.host.doc", require "clench.host.session"
 
 local keywords = {"and", "break", "do", "else", "elseif", "end", "false", "for", "function", "goto", "if", "in", "local",
                   "nil", "not", "or", "repeat", "return", "then", "true", "until", "while"}
@@ -11,13 +13,22 @@ local keywords = {"and", "break", "do", "else", "elseif", "end", "false", "for",
 local about -- what clench says of itself, asked when first needed
 local function described()
   if about then return about end
-  about = {classes = {}, libraries = {}, modules = {}}
+  about = {classes = {}, libraries = {}, modules = {}, called = {}}
   local all = entries()
-  for _, class in ipairs(all.classes) do about.classes[class.name] = class end
+  local function add_called(name, entry)
+    about.called[name] = about.called[name] or {}
+    about.called[name][#about.called[name] + 1] = entry
+  end
+  for _, class in ipairs(all.classes) do
+    about.classes[class.name] = class
+    for _, method in ipairs(class.methods) do add_called(method.name, method) end
+  end
+  for _, entry in ipairs(doc.packed_functions(all.files)) do add_called(match(entry.name, "%w+$"), entry) end
   for _, library in ipairs(all.libraries) do
     local fields = about.libraries[library.name] or {}
     about.libraries[library.name] = fields
     for _, field in ipairs(library.fields) do fields[field.name] = true end
+    for _, entry in ipairs(library.functions) do add_called(entry.name, entry) end
   end
   for _, file in ipairs(all.files) do
     local module = match(file.path, "^([%w_]+)/init%.lua$") or match(file.path, "^([%w_]+)%.lua$")
@@ -92,6 +103,7 @@ local function resolve(path)
   local first, rest = match(path, "^([%a_][%w_]*)(.*)$")
   if not first then return nil end
   local value = rawget(globals, first)
+  session.each(function(name, kept) if name == first then value = kept end end)
   while rest ~= "" and value ~= nil do
     local key, left = match(rest, "^%.([%a_][%w_]*)(.*)$")
     if not key then
@@ -105,11 +117,80 @@ local function resolve(path)
   return value
 end
 
+-- what is open at the end of a line: the string, and where it begins, or the brackets, each {mark, where}
+local function open_at_end(line)
+  local quote, from, brackets, at = nil, nil, {}, 1
+  while at <= #line do
+    local mark = sub(line, at, at)
+    if quote then
+      if mark == "\\" then at = at + 1 elseif mark == quote then quote = nil end
+    elseif find(mark, "[\"']") then
+      quote, from = mark, at
+    elseif find(line, "^%-%-", at) then
+      break
+    elseif find(mark, "[({%[]") then
+      brackets[#brackets + 1] = {mark, at}
+    elseif find(mark, "[)}%]]") then
+      brackets[#brackets] = nil
+    end
+    at = at + 1
+  end
+  return quote and from, brackets
+end
+
+-- the call whose argument begins behind a text, as in "world:body " or "f(x, ": base, name
+local function call_before(text, brackets)
+  local path = match(text, "([%a_][%w_%.:%[%]]*)%s*%(?%s*$")
+  if not path and #brackets > 0 and brackets[#brackets][1] == "(" then
+    path = match(sub(text, 1, brackets[#brackets][2] - 1), "([%a_][%w_%.:%[%]]*)%s*$")
+  end
+  if path then return match(path, "^(.-)[.:]?([%w_]+)$") end
+end
+
+local lists = {body = "bodies", robot = "robots", link = "links"} -- what a name is looked up in, by method
+
+-- names that a string may become; a string that is no such name is a file's, told by a first character of its own
+local function string_words(text, from, brackets, add)
+  local base, name = call_before(sub(text, 1, from - 1), brackets)
+  if name == "quality" then
+    for _, measure in ipairs(measures()) do add(measure.name) end
+  elseif name == "help" then
+    for called in next, described().called do add(called) end
+  elseif lists[name] then
+    for _, item in ipairs(get(resolve(base), lists[name]) or {}) do add(item.name) end
+  else
+    return false
+  end
+  return true
+end
+
+-- keys of the options that a function takes, by its doc
+local function add_keys_of(name, add)
+  for _, entry in ipairs(described().called[name] or {}) do
+    for _, param in ipairs(doc.parse(entry.doc).params) do
+      for options in gmatch(param.type, "%b{}") do
+        for key in gmatch(gsub(sub(options, 2, -2), "%b{}", ""), "([%a_][%w_]*)%??:") do add(key) end
+      end
+    end
+  end
+end
+
 local complete = {}
 
---- returns the word as it is typed, then what it may become, sorted
+--- returns the word as it is typed, then what it may become, sorted; or "\1" and the beginning of a file's name
 ---@param line string  up to the cursor
 function complete.words(line)
+  local from, brackets = open_at_end(line)
+  if from then
+    local typed, seen, words = sub(line, from + 1), {}, {}
+    local known = string_words(line, from, brackets, function(word)
+      if not seen[word] and sub(word, 1, #typed) == typed then words[#words + 1] = word end
+      seen[word] = true
+    end)
+    if not known then return "\1" .. typed end
+    sort(words)
+    return typed, unpack(words)
+  end
   local path = match(line, "[%a_][%w_%.:%[%]]*$") or ""
   local before = sub(line, -#path - 1, -#path - 1)
   if before == "." or before == ":" then return "" end -- of a value that only running the line could tell
@@ -122,10 +203,17 @@ function complete.words(line)
       words[#words + 1] = word
     end
   end
+  local innermost = brackets[#brackets]
   if mark then
     local value = resolve(base)
     if value ~= nil then add_members(value, mark == ":", add) end
-  else
+  elseif innermost and innermost[1] == "{" and find(line, "[{,;]%s*[%w_]*$") then
+    brackets[#brackets] = nil
+    local _, name = call_before(sub(line, 1, innermost[2] - 1), brackets)
+    add_keys_of(name, add)
+  end
+  if not mark and #words == 0 then
+    session.each(add)
     for key in next, globals do if type(key) == "string" then add(key) end end
     for _, keyword in ipairs(keywords) do add(keyword) end
   end

@@ -50,7 +50,7 @@ end
 -- the value of "clench.json.encode"
 local function value_of(path)
   local value = _G
-  for name in path:gmatch "[^.]+" do value = type(value) == "table" and rawget(value, name) or nil end
+  for name in path:gmatch "[^.]+" do value = type(value) == "table" and value[name] or nil end
   return value
 end
 
@@ -65,10 +65,27 @@ local function explain(x)
     each(all, function(subject, entry)
       if subject == x or entry.name == x then print_entry(subject, entry) found = true end
     end)
+    for _, entry in ipairs(doc.packed_functions(all.files)) do
+      local subject = "clench." .. entry.name
+      if subject == x or entry.name == x or entry.name:match "%w+$" == x then print_entry(subject, entry) found = true end
+    end
   elseif type(x) == "function" then
+    local _, id = debug.getupvalue(x, 1)
     each(all, function(subject, entry)
-      if not subject:find ":" and value_of(subject) == x then print_entry(subject, entry) found = true end
+      if entry.id == id then print_entry(subject, entry) found = true end
     end)
+    for _, entry in ipairs(found and {} or doc.packed_functions(all.files)) do
+      local subject = "clench." .. entry.name
+      if value_of(subject) == x then print_entry(subject, entry) found = true end
+    end
+    for name, library in pairs(found and {} or package.loaded) do
+      for key, value in pairs(type(library) == "table" and library or {}) do
+        if value == x and not found then
+          print(("%s%s is a function of Lua's own"):format(name == "_G" and "" or name .. ".", key))
+          found = true
+        end
+      end
+    end
   elseif type(x) == "table" and name then
     print_library(name, all)
     found = true
@@ -80,7 +97,10 @@ local function explain(x)
   if not found then print("nothing is known of " .. require "clench.show"(x)) end
 end
 
---- makes help a global
-function help.install() rawset(_G, "help", explain) end
+--- makes `help` and `show` globals: show(x) prints the whole of a table
+function help.install()
+  rawset(_G, "help", explain)
+  rawset(_G, "show", function(x) print(require "clench.show"(x, math.huge)) end)
+end
 
 return help

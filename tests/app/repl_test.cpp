@@ -41,14 +41,64 @@ TEST_CASE("-i runs a file, then the console, also when the file failed") {
 }
 
 TEST_CASE("help explains functions, values and names") {
-  const auto out = run("repl",
-                       "help(clench.rad)\nhelp(clench.pose{})\nhelp "
-                       "'inverse'\nhelp(clench.json)\nhelp()\nhelp(5)\n")
-                       .out;
-  for (const char* part : {"clench.rad(degrees)\n  Degrees to radians.", "pose: A rigid transform",
-                           ".position", "pose:inverse()", "clench.json.encode",
-                           "help(x) explains a value", "nothing is known of 5"})
+  const auto out =
+      run("repl",
+          "help(clench.rad)\nhelp(clench.pose{})\nhelp "
+          "'inverse'\nhelp(clench.json)\nhelp()\nhelp(5)\nhelp(clench.pose{}.inverse)\n"
+          "help(clench.shapes.box)\nhelp 'robustness'\nhelp(string.rep)\n")
+          .out;
+  for (const char* part :
+       {"clench.rad(degrees)\n  Degrees to radians.", "pose: A rigid transform", ".position",
+        "pose:inverse()", "clench.json.encode", "help(x) explains a value", "nothing is known of 5",
+        "clench.shapes.box(options)\n", "clench.study.robustness(grasp, options)",
+        "string.rep is a function of Lua's own"})
     CHECK_MESSAGE(out.find(part) != std::string::npos, part);
+}
+
+TEST_CASE("what the README shows may be typed") {
+  std::ifstream file("README.md");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  const size_t begin = text.find("```lua\n") + 7, end = text.find("```", begin);
+  REQUIRE(end != std::string::npos);
+  const auto result = run("repl", text.substr(begin, end - begin) + "#world.robots\n");
+  CHECK_MESSAGE(result.out.find("true\t0.") != std::string::npos, result.out);
+  CHECK_MESSAGE(result.out.ends_with("\n1\n"), result.out);
+}
+
+TEST_CASE("top-level locals live on, shared with the functions that use them") {
+  const auto out = run("repl",
+                       "local n = 0 local function inc() n = n + 1 return n end\n"
+                       "inc() inc()\nn\nn = 10 print(inc())\n"
+                       "local a, b <const> = 3, 4\na * b\n"
+                       "do local hidden = 5 end for i = 1, 2 do local hidden = i end\nhidden\n"
+                       "local s = [[two\nlines]] local t = 'it\\'s' -- local no = 1\n#s .. t, no\n"
+                       "local n = 7\nn, inc()\n"
+                       "local c <close> = nil\nc\nlocal _ENV = {}\nprint 'alive'\n"
+                       "local lost = 1 error 'x'\nlost\n")
+                       .out;
+  CHECK_MESSAGE(out.starts_with("2\n11\n12\nnil\n9it's\tnil\n7\t12\nnil\nalive\n"), out);
+  CHECK_MESSAGE(out.find("input:18: x") != std::string::npos, out);
+  CHECK(out.ends_with("nil\n"));
+}
+
+TEST_CASE("more locals than a function of Lua may have are forgotten from the oldest on") {
+  std::string input;
+  for (int i = 0; i < 400; ++i) input += fmt::format("local v{} = {}\n", i, i);
+  CHECK(run("repl", input + "v399 + v300, v0\n").out == "699\tnil\n");
+}
+
+TEST_CASE("exit and quit leave, _ is the last value, and an unfinished string is an error") {
+  CHECK(run("repl", "6 * 7\n_ + 1\nnil\n_\nexit\nprint 'not here'\n").out == "42\n43\nnil\n43\n");
+  CHECK(run("repl", "quit()\n7\n").out.empty());
+  const auto out = run("repl", "x = \"abc\n5\n").out;
+  CHECK(out.starts_with("input:1: unfinished string near '\"abc'\n"));
+  CHECK(out.ends_with("5\n"));
+}
+
+TEST_CASE("show prints the whole of a table") {
+  const auto out = run("repl", "t = {} for i = 1, 300 do t[i] = i end\nt\nshow(t)\n").out;
+  CHECK(out.find("more}") != std::string::npos);
+  CHECK(out.ends_with("299, 300}\n"));
 }
 
 TEST_CASE("on a terminal: results, errors, unfinished lines, Ctrl-D") {
@@ -86,6 +136,33 @@ TEST_CASE("Tab completes globals, fields and methods, and lists what is ambiguou
   terminal.wait_for("unit");
   terminal.enter("dot{1, 1, 1}");
   terminal.wait_for("7.0");
+}
+
+TEST_CASE("Tab completes files, bodies, measures and options") {
+  const Folder home;
+  home.file("some/where/long_name.lua", "");
+  Terminal terminal(home);
+  terminal.wait_for("> ");
+  terminal.enter(
+      "w = clench.world() b = w:add_object(clench.shapes.box {1, 1, 1}, {na\t = 'my_box'})");
+  terminal.wait_for("> ");
+  terminal.enter("w:body 'my\t'.mass");
+  terminal.wait_for("0.3");
+  terminal.wait_for("> ");
+  terminal.enter("#'" + (home / "so") + "\twh\tlo\t'");
+  terminal.wait_for(fmt::format("{}\r\n", (home / "some/where/long_name.lua").size()));
+}
+
+TEST_CASE("a pasted tab is a tab") {
+  const Folder home;
+  Terminal terminal(home);
+  terminal.wait_for("\x1b[?2004h");
+  terminal.wait_for("> ");
+  terminal.type("\x1b[200~x = #'a\tb'\x1b[201~");
+  terminal.enter(" + 10");
+  terminal.wait_for("> ");
+  terminal.enter("'x is ' .. x");
+  terminal.wait_for("x is 13");
 }
 
 TEST_CASE("Ctrl-C interrupts a running chunk, and clears a half-typed line") {
@@ -137,7 +214,7 @@ TEST_CASE("history outlives the session, and a chunk of several lines is one ent
 TEST_CASE("no arguments on a terminal open the console") {
   const Folder home;
   Terminal terminal(home, "-q");
-  terminal.wait_for("Ctrl-D leaves");
+  terminal.wait_for("exit leaves");
   terminal.wait_for("> ");
   terminal.enter("print(clench ~= nil)");
   terminal.wait_for("true");

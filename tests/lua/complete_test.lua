@@ -42,6 +42,23 @@ test("fields after a dot, methods after a colon", function(t)
   value, text = nil, nil
 end)
 
+test("in strings names of measures, of what is in a world, and files; in braces the keys of options", function(t)
+  world = clench.world()
+  hand = world:add_robot("models/hands/dlr/dlr.cfg", {name = "dlr"})
+  t.equal({words 'grasp:quality "epsilon_f'}, {"epsilon_f", {"epsilon_force", n = 2}})
+  t.equal({words "world:robot('"}, {"", {"dlr", n = 2}})
+  t.ok(has(select(2, words 'hand:link "dlr_chain0'), "dlr_chain0_link2"))
+  t.equal({words 'clench.load("worlds/d'}, {"\1worlds/d", {n = 1}})
+  t.equal({words 'world:body("\\"'}, {'\\"', {n = 1}})
+  t.equal({words "hand:autograsp {sp"}, {"sp", {"speed", n = 2}})
+  t.equal({words "hand:autograsp({speed = 1, "}, {"", {"speed", "stop_at_contact", n = 3}})
+  t.equal({words "world:add_object('mug.iv', {pose = {xyz = {1, 2, 3}}, trans"}, {"trans", {"transparency", n = 2}})
+  t.ok(has(select(2, words "clench.shapes.box {0.1, ro"), "rounding"))
+  t.ok(has(select(2, words "x = {wor"), "world"))
+  t.equal({words "print('x') -- 'hand:no"}, {"no", {n = 1}})
+  world, hand = nil, nil
+end)
+
 test("nothing of the user's runs, and nothing fails", function(t)
   trap = setmetatable({}, {__index = function() error "ran" end, __pairs = function() error "ran" end,
                            __name = setmetatable({}, {__tostring = error})})

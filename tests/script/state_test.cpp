@@ -140,12 +140,40 @@ TEST_CASE("an interruption ends an endless loop, in coroutines and their kin too
   for (const char* code :
        {"while true do end", "coroutine.wrap(function() while true do end end)()",
         "assert(coroutine.resume(coroutine.create(function() while true do end end)))",
-        "for _ in coroutine.wrap(function() while true do coroutine.yield(1) end end) do end"}) {
+        "for _ in coroutine.wrap(function() while true do coroutine.yield(1) end end) do end",
+        "while true do pcall(function() while true do end end) end",
+        "while true do xpcall(function() while true do end end, function(e) return e end) end",
+        "local f = coroutine.wrap(function() while true do pcall(error) end end) while true do "
+        "pcall(f) end"}) {
     const auto result = interrupted(state, code);
     CHECK(!result.ok);
     CHECK(says(result.error, "interrupted"));
   }
   CHECK(state.run_code("local n = 0 for i = 1, 1e5 do n = n + i end", "=test").ok);
+}
+
+TEST_CASE("what catches an interruption has half a second to end") {
+  State state;
+  // by a thread, as Ctrl-C comes at any time
+  std::thread once([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    state.interrupt();
+  });
+  const auto result = state.run_code(
+      "local ok, e = pcall(function() while true do end end) "
+      "local sum = 0 for i = 1, 1e5 do sum = sum + i end kept = e.kind .. sum",
+      "=test");
+  once.join();
+  CHECK_MESSAGE(result.ok, result.error);
+  CHECK(state.run_code("assert(kept == 'stopped5000050000', kept)", "=test").ok);
+  std::thread again([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    state.interrupt();
+  });
+  const auto loop =
+      state.run_code("while true do pcall(function() while true do end end) end", "=test");
+  again.join();
+  CHECK(says(loop.error, "interrupted"));
 }
 
 TEST_CASE("an interruption ends what the engine is at") {

@@ -10,8 +10,10 @@ namespace clench {
 
 static void add_entries(lua_State* L, const char* kind, std::span<const Entry> entries) {
   push_list_of(L, entries, [L](const Entry& entry) {
-    push_list(L, 0, 3);
+    push_list(L, 0, 4);
     set_field(L, "name", entry.name);
+    lua_pushlightuserdata(L, const_cast<Entry*>(&entry));
+    lua_setfield(L, -2, "id");
     set_field(L, "doc", entry.doc);
     set_field(L, "settable", entry.setter != nullptr);
   });
@@ -50,7 +52,7 @@ static int entries(lua_State* L) {
 
 static const Entry functions[] = {
     {"entries", guarded<entries>, R"(
-The module about itself: each library and class with its functions, fields and methods, each with name and doc; and the files of the standard library. Documentation, completion and help are made from it.
+The module about itself: each library and class with its functions, fields and methods, each with name, doc and `id`, the first upvalue of its function; and the files of the standard library. Documentation, completion and help are made from it.
 @return {libraries: table[], classes: table[], files: table[]}
 > clench.entries().libraries[1].name  --> clench)"},
 };

@@ -404,7 +404,7 @@ fingers go on beyond the joint that is stopped. The joints of compliant DOFs fol
 and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed
 opens.
 @param options? {speed?: number, stop_at_contact?: boolean}
-@return table result  `moved`, `stops` (a DOF each: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
+@return table result  `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
 > hand:autograsp().moved  --> false
 > hand:autograsp{sped = 1}  --> error: did you mean 'speed'?)"},
     {"open", guarded<open>, R"(

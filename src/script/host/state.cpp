@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <lua.hpp>
 
@@ -19,8 +20,8 @@
 
 namespace clench {
 
-void* State::allocate(void* memory, void* block, size_t old_size, size_t new_size) {
-  auto& m = *static_cast<Memory*>(memory);
+void* State::allocate(void* state, void* block, size_t old_size, size_t new_size) {
+  Memory& m = static_cast<State*>(state)->memory_;
   if (!block) old_size = 0;  // then it says what kind of thing is made
   if (new_size > old_size && new_size - old_size > m.limit - m.used) return nullptr;
   if (new_size == 0) {
@@ -34,8 +35,8 @@ void* State::allocate(void* memory, void* block, size_t old_size, size_t new_siz
 }
 
 // what finalizers and the like fail with
-void State::warn(void* memory, const char* text, int to_be_continued) {
-  auto& m = *static_cast<Memory*>(memory);
+void State::warn(void* state, const char* text, int to_be_continued) {
+  Memory& m = static_cast<State*>(state)->memory_;
   if (m.warning.empty() && !to_be_continued && *text == '@') return;  // a control message
   m.warning += text;
   if (to_be_continued) return;
@@ -81,11 +82,11 @@ State::State() {
   // last page
   const auto pages = static_cast<size_t>(sysconf(_SC_PHYS_PAGES));
   memory_.limit = pages / 4 * 3 * static_cast<size_t>(sysconf(_SC_PAGESIZE));
-  L_ = lua_newstate(allocate, &memory_);
+  L_ = lua_newstate(allocate, this);
   if (!L_) fail(ErrorKind::limit, "clench: no memory for Lua");
   running_ = L_;
   lua_atpanic(L_, panic);
-  lua_setwarnf(L_, warn, &memory_);
+  lua_setwarnf(L_, warn, this);
   lua_pushcfunction(L_, open_all);
   lua_pushlightuserdata(L_, this);
   lua_pushcclosure(L_, track, 1);
@@ -123,6 +124,7 @@ void State::set_quiet() {
 
 // any error value as text, with the traceback
 static int explain(lua_State* L) {
+  lua_sethook(L, nullptr, 0, 0);  // the run ends here: nothing interrupts what tells why
   lua_settop(L, 1);
   push_packed(L, "host.error_text");
   lua_pushvalue(L, 1);
@@ -164,10 +166,26 @@ void State::refuse_exit(std::string& asked) {
   if (lua_pcall(L_, 1, 0, 0) != LUA_OK) lua_pop(L_, 1);
 }
 
-static void interrupted(lua_State* L, lua_Debug*) {
-  lua_sethook(L, nullptr, 0, 0);
-  // another coroutine, or a call of the engine, may have ended for it
-  if (!bar_of(L)->take_stop()) return;
+// also in a signal handler [s]
+static double now() {
+  timespec time;
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+static constexpr double patience = 0.5;  // with what catches an interruption [s]
+static constexpr int all_events = LUA_MASKCALL | LUA_MASKRET | LUA_MASKCOUNT;
+
+void State::on_hook(lua_State* L, lua_Debug*) {
+  void* data = nullptr;
+  lua_getallocf(L, &data);
+  State& state = *static_cast<State*>(data);
+  const bool again = state.interrupts_ > 1 || now() > state.patient_until_;
+  // the first time another coroutine, or a call of the engine, may have ended for it
+  const bool first = state.bar_->take_stop();
+  // with every instruction from then on, so that all that catches it ends
+  lua_sethook(L, on_hook, all_events, again ? 1 : 1000);
+  if (!again && !first) return;
   luaL_where(L, 0);
   lua_pushliteral(L, "interrupted");
   lua_concat(L, 2);
@@ -176,16 +194,18 @@ static void interrupted(lua_State* L, lua_Debug*) {
 }
 
 void State::interrupt() {
+  if (interrupts_ == 0) patient_until_ = now() + patience;
+  interrupts_ = interrupts_ + 1;
   bar_->stop();
-  const int events = LUA_MASKCALL | LUA_MASKRET | LUA_MASKCOUNT;
-  lua_sethook(L_, interrupted, events, 1);
-  if (running_ != L_) lua_sethook(running_, interrupted, events, 1);
+  lua_sethook(L_, on_hook, all_events, 1);
+  if (running_ != L_) lua_sethook(running_, on_hook, all_events, 1);
 }
 
 // takes what a call left above base off the stack
 State::Result State::finish(int status, int base) {
   lua_sethook(L_, nullptr, 0, 0);
   bar_->take_stop();
+  interrupts_ = 0;
   running_ = L_;
   Result result;
   result.ok = status == LUA_OK;
@@ -286,11 +306,18 @@ State::Result State::call(const std::string& module, const std::string& function
 
 // --- the console ---
 
-// prints its arguments as the console shows them
+// prints its arguments as the console shows them; the first one is from now on `_`
 static int show_results(lua_State* L) {
   const int count = lua_gettop(L);
   if (count == 0) return 0;
   luaL_checkstack(L, 8, "too many results to show");
+  if (!lua_isnil(L, 1)) {
+    lua_pushglobaltable(L);
+    lua_pushliteral(L, "_");
+    lua_pushvalue(L, 1);
+    lua_rawset(L, -3);
+    lua_pop(L, 1);
+  }
   for (int i = 1; i <= count; ++i) {
     push_packed(L, "show");
     lua_pushvalue(L, i);
@@ -305,38 +332,50 @@ static int show_results(lua_State* L) {
   return 0;
 }
 
-static bool is_cut_short(lua_State* L, int status) {
-  if (status != LUA_ERRSYNTAX) return false;
-  const std::string message = lua_tostring(L, -1);
-  return message.ends_with("<eof>");
+// (function of host.session, arguments...)
+static int call_session(lua_State* L) {
+  push_packed(L, "host.session");
+  lua_pushvalue(L, 1);
+  lua_rawget(L, -2);
+  lua_replace(L, 1);
+  lua_pop(L, 1);
+  lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+  return lua_gettop(L);
 }
 
 State::Line State::evaluate(const std::string& input, int line) {
-  const int base = lua_gettop(L_);
-  const bool marked = input.starts_with('=');
-  // empty lines before it make Lua count from there
-  const std::string before(static_cast<size_t>(line - 1), '\n'), text = before + input;
-  const std::string expression = before + "return " + input.substr(marked ? 1 : 0);
-  int status = load_text(L_, expression.data(), expression.size(), "=input");
-  if (status != LUA_OK && !marked) {
-    lua_settop(L_, base);
-    status = load_text(L_, text.data(), text.size(), "=input");
-  }
-  if (is_cut_short(L_, status)) {
-    lua_settop(L_, base);
-    return Line::incomplete;
+  const int base = lua_gettop(L_), handler = base + 1, chunk = base + 2;
+  lua_pushcfunction(L_, explain);
+  lua_pushcfunction(L_, call_session);
+  lua_pushliteral(L_, "compile");
+  lua_pushlstring(L_, input.data(), input.size());
+  lua_pushinteger(L_, line);
+  int status = lua_pcall(L_, 3, 3, handler);
+  if (status == LUA_OK && lua_isnil(L_, chunk)) {
+    if (lua_toboolean(L_, -1)) {
+      lua_settop(L_, base);
+      return Line::incomplete;
+    }
+    lua_pop(L_, 1);
+    lua_replace(L_, chunk);
+    status = LUA_ERRSYNTAX;
   }
   if (status == LUA_OK) {
-    lua_pushcfunction(L_, explain);
-    lua_insert(L_, base + 1);
-    status = lua_pcall(L_, 0, LUA_MULTRET, base + 1);
-    if (status == LUA_OK) {
+    const bool keeps = lua_toboolean(L_, chunk + 1);
+    lua_settop(L_, chunk);
+    status = lua_pcall(L_, 0, LUA_MULTRET, handler);
+    if (status == LUA_OK && keeps) {
+      lua_pushcfunction(L_, call_session);
+      lua_pushliteral(L_, "keep");
+      lua_rotate(L_, chunk, 2);
+      status = lua_pcall(L_, lua_gettop(L_) - chunk, 0, handler);
+    } else if (status == LUA_OK) {
       lua_pushcfunction(L_, show_results);
-      lua_insert(L_, base + 2);
-      status = lua_pcall(L_, lua_gettop(L_) - base - 2, 0, base + 1);
+      lua_insert(L_, chunk);
+      status = lua_pcall(L_, lua_gettop(L_) - chunk, 0, handler);
     }
-    lua_remove(L_, base + 1);
   }
+  lua_remove(L_, handler);
   const Result result = finish(status, base);
   if (!result.ok) fmt::print(stderr, "{}\n", result.error);
   return result.ok ? Line::done : Line::failed;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+struct lua_Debug;
 struct lua_State;
 
 namespace clench {
@@ -50,8 +51,8 @@ class State {
   /// Messages below errors are not shown from now on.
   void set_quiet();
 
-  /// Makes the running chunk fail with "interrupted", coroutines too.
-  /// May be called from a signal handler.
+  /// Makes the running chunk fail with "interrupted", coroutines too. What catches that error has half a second to end;
+  /// then, or when called again, nothing can catch it. May be called from a signal handler.
   void interrupt();
 
  private:
@@ -60,8 +61,10 @@ class State {
     bool quiet = false;
     std::string warning;
   };
-  static void* allocate(void* memory, void* block, size_t old_size, size_t new_size);
-  static void warn(void* memory, const char* text, int to_be_continued);
+  // of the first three the state is the user data
+  static void* allocate(void* state, void* block, size_t old_size, size_t new_size);
+  static void warn(void* state, const char* text, int to_be_continued);
+  static void on_hook(lua_State* L, lua_Debug*);
   static int track(lua_State* L);
 
   void set_arguments(const std::string& path, const std::vector<std::string>& arguments);
@@ -72,6 +75,8 @@ class State {
   lua_State* L_ = nullptr;
   std::shared_ptr<Bar> bar_;               // what watches the engine
   lua_State* volatile running_ = nullptr;  // the coroutine that runs, for interrupt
+  volatile int interrupts_ = 0;            // since a run began
+  volatile double patient_until_ = 0;      // then an interruption can no more be caught [s]
 };
 
 }  // namespace clench
