@@ -22,6 +22,7 @@
 #include "clench/model/build.h"
 #include "clench/model/describe_world.h"
 #include "clench/model/find.h"
+#include "clench/model/raycast.h"
 #include "clench/motion/drive.h"
 #include "clench/motion/eigengrasps.h"
 #include "clench/motion/move.h"

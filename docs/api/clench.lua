@@ -80,6 +80,10 @@ function random:integer(low, high) end
 ---@return vec3
 function random:direction() end
 
+---A pose at the origin, each rotation as likely.
+---@return pose
+function random:rotation() end
+
 ---Bodies and robots, what may collide with what, friction. Lists are in creation order.
 ---@class world
 ---@field bodies body[] # All bodies in creation order: objects, obstacles, robot bases, links, mounts.
@@ -144,6 +148,13 @@ function world:save(path, options) end
 ---Fingerprint of the state: equal bits, equal text.
 ---@return string # 16 hexadecimal digits
 function world:hash() end
+
+---What a ray meets first: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil when it meets nothing.
+---@param origin vec3
+---@param direction vec3 # of any length
+---@param reach? number # how far it goes [m]; as far as there is something by default
+---@return table?
+function world:raycast(origin, direction, reach) end
 
 ---Does anything collide that may? The fastest test: it ends at the first pair that is found.
 ---@return boolean
@@ -215,6 +226,7 @@ local entity = {}
 ---@field pose pose # Where it is, in the world frame. Setting it moves it at once, whatever is in the way; see move_to. The parts of a robot move with the robot.
 ---@field kind string # "object", "obstacle", "base", "link" or "mount".
 ---@field robot robot? # The robot that it is a part of; nil for objects and obstacles.
+---@field bounds_in_world {low: vec3, high: vec3}? # Least and largest coordinates of its surface in the world frame; nil when it has none. [m]
 ---@field source string # File that it was read from; empty when it was made by a script.
 ---@field tracker integer? # Number of the position sensor that is to move it; nil when its file names none.
 local body = {}
@@ -341,6 +353,12 @@ function robot:move_to(pose) end
 ---@param options? {reach?: number} # at most this far, 1 by default [m]
 ---@return table result # `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 function robot:approach_object(options) end
+
+---Places the hand so that its approach point stands before a target and its approach direction leads there, whatever is in the way. See `approach`.
+---@param target pose|vec3 # of the approach frame, +z along the direction, or its point
+---@param direction? vec3 # of approach, with a point: then the hand's turn about it follows from the world's x axis
+---@param standoff? number # how far before the target, 0 by default [m]
+function robot:place_approach(target, direction, standoff) end
 
 ---Fixes the robot to a link of another one: that of a name, or the last of a chain. It follows from now on.
 ---@param parent robot
@@ -642,9 +660,16 @@ function clench.mm(millimetres) end
 function clench.vec3(x, y, z) end
 
 ---A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given one way at most.
----@param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][]} # xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4
+---@param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][], axis?: vec3, angle?: number, x_axis?: vec3, y_axis?: vec3, z_axis?: vec3} # xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4; axis, angle: a turn about an axis of any length [rad]; x_axis, y_axis, z_axis: where two of the frame's axes point, z_axis, else x_axis, exactly, the other as nearly as a right angle allows
 ---@return pose
 function clench.pose(options) end
+
+---The pose of a camera at `eye` that sees `target`: it looks along its -z, with y up, as `world.camera.pose`.
+---@param eye vec3
+---@param target vec3
+---@param up? vec3 # {0, 0, 1} by default
+---@return pose
+function clench.look_at(eye, target, up) end
 
 ---A stream of random numbers, fixed by a seed and the stream's number, the same on every machine.
 ---@param seed integer

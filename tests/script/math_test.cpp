@@ -114,7 +114,8 @@ TEST_CASE("a pose that is none is refused with what was expected") {
   CHECK(lua.text("clench.pose{quat = {1e200, 1e200, 0, 0}}").find("of length 1.41421e+200") !=
         std::string::npos);
   CHECK(lua.text("clench.pose{rpy = {0, 0, 0}, quat = {1, 0, 0, 0}}") ==
-        "test:1: clench.pose: expected one of rpy, quat, matrix, got 2");
+        "test:1: clench.pose: expected one of rpy, quat, matrix, axis with angle, and two axes, "
+        "got 2");
   CHECK(
       lua.text("clench.pose{matrix = {{1, 0}, {0, 1}}}") ==
       "test:1: clench.pose: matrix: expected 3 rows of 3 or 4 numbers, or 4 rows of 4, got 2 rows, "

@@ -113,6 +113,12 @@ std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject,
   return shape;
 }
 
+Bounds Shape::bounds_at(const Pose& X) const {
+  Bounds out;
+  for (const Eigen::Vector3d& p : mesh_.vertices) out.add(X * p);
+  return out;
+}
+
 size_t Shape::bytes() const {
   constexpr size_t tree_bytes = 100;  // of a triangle, in bundles that are not full
   return sizeof *this + mesh_.vertices.capacity() * sizeof(Eigen::Vector3d) +

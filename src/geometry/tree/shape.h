@@ -8,6 +8,7 @@
 #include "clench/base/progress.h"
 #include "clench/geometry/mesh/mass.h"
 #include "clench/geometry/mesh/mesh.h"
+#include "clench/math/pose.h"
 
 namespace clench {
 
@@ -28,6 +29,8 @@ class Shape {
   const MassProperties& solid() const { return solid_; }
   bool has_triangle(int i) const { return i >= 0 && i < static_cast<int>(mesh_.triangles.size()); }
   const Bounds& bounds() const { return bounds_; }
+  /// Of the vertices, in the frame that the shape stands in at X.
+  Bounds bounds_at(const Pose& X) const;
   bool closed() const { return faults_.closed(); }
   /// Is it closed, with a volume that its surface can hold? A sheet folded on itself has none.
   bool has_volume() const;

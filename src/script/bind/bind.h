@@ -366,6 +366,10 @@ inline size_t owned_bytes(const Picture& picture) { return picture.pixels.capaci
 
 // --- cameras of worlds. ---
 
+/// The pose of a camera at eye that sees target: along its -z, with y up.
+/// throws Error begun by the subject when eye and target are one, or up is along the view
+Pose camera_pose(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
+                 const Eigen::Vector3d& up, const std::string& subject);
 int get_camera(lua_State* L);
 int set_camera(lua_State* L);
 

@@ -31,6 +31,19 @@ static int get_robot(lua_State* L) {
   return 1;
 }
 
+static int get_bounds(lua_State* L) {
+  const auto& body = self<BodyHandle>(L);
+  if (!body->shape) {
+    lua_pushnil(L);
+    return 1;
+  }
+  const Bounds bounds = body->shape->bounds_at(body.world->pose(body.id));
+  push_list(L, 0, 2);
+  set_field(L, "low", bounds.low);
+  set_field(L, "high", bounds.high);
+  return 1;
+}
+
 static int get_tracker(lua_State* L) {
   const auto& body = self<BodyHandle>(L);
   if (body->tracker) return push(L, *body->tracker);
@@ -87,6 +100,11 @@ move with the robot.
 The robot that it is a part of; nil for objects and obstacles.
 @type robot?
 > hand.links[1].robot == hand  --> true)"},
+    {"bounds_in_world", guarded<get_bounds>, R"(
+Least and largest coordinates of its surface in the world frame; nil when it has none.
+@type {low: vec3, high: vec3}?  [m]
+> box = world:add_object(clench.shapes.box {1, 2, 4}, {pose = {xyz = {9, 0, 0}, rpy = {0, 0, clench.rad(90)}}})
+> (box.bounds_in_world.high - clench.vec3(10, 0.5, 2)):norm() < 1e-12  --> true)"},
     {"source", getter<[](const BodyHandle& x) { return x->source; }>, R"(
 File that it was read from; empty when it was made by a script.
 @type string

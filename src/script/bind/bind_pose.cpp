@@ -37,6 +37,43 @@ static Quaterniond rpy_of(Table& t) {
          Turn(rpy.x(), Vector3d::UnitX());
 }
 
+static Quaterniond axis_angle_of(Table& t) {
+  const Vector3d axis = t.vec3("axis");
+  const double angle = t.number("angle"), length = axis.stableNorm();
+  if (!(length > 1e-9)) fail("{}: axis: expected a direction, got zero", t.subject());
+  return Quaterniond(Eigen::AngleAxisd(angle, axis / length));
+}
+
+static constexpr const char* axis_names[] = {"x_axis", "y_axis", "z_axis"};
+
+// the axis i points along a exactly, the axis j along b as nearly as a right angle to it allows
+static Quaterniond from_two_axes(int i, const Vector3d& a, int j, const Vector3d& b,
+                                 const std::string& subject) {
+  const Vector3d first = a.stableNormalized(), other = b.stableNormalized();
+  const Vector3d beside = other - other.dot(first) * first;
+  if (!(first.norm() > 0.5 && other.norm() > 0.5 && beside.norm() > 1e-6))
+    fail("{}: expected two directions that are not parallel, got ({}, {}, {}) and ({}, {}, {})",
+         subject, a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
+  Matrix3d R;
+  R.col(i) = first;
+  R.col(j) = beside.normalized();
+  R.col(3 - i - j) = (j - i + 3) % 3 == 1 ? R.col(i).cross(R.col(j)) : R.col(j).cross(R.col(i));
+  return Quaterniond(R).normalized();
+}
+
+static int count_axes(Table& t) {
+  int count = 0;
+  for (const char* name : axis_names) count += t.has(name);
+  return count;
+}
+
+static Quaterniond axes_of(Table& t) {
+  if (count_axes(t) != 2)
+    fail("{}: expected two of x_axis, y_axis and z_axis, got {}", t.subject(), count_axes(t));
+  const int i = t.has("z_axis") ? 2 : 0, j = i == 2 && t.has("x_axis") ? 0 : 1;
+  return from_two_axes(i, t.vec3(axis_names[i]), j, t.vec3(axis_names[j]), t.subject());
+}
+
 static Pose matrix_of(Table& t) {
   const auto rows = t.rows("matrix");
   const size_t columns = rows.empty() ? 0 : rows[0].size();
@@ -69,12 +106,17 @@ Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
   if (lua_istable(L, index) && lua_rawlen(L, index) > 0)
     fail_expected({L, subject, ""}, "a pose {xyz = {x, y, z}, rpy = ..}", index);
   Table t(L, index, subject);
-  const int rotations = t.has("rpy") + t.has("quat") + t.has("matrix");
-  if (rotations > 1) fail("{}: expected one of rpy, quat, matrix, got {}", subject, rotations);
+  const bool turned = t.has("axis") || t.has("angle"), aligned = count_axes(t) > 0;
+  const int rotations = t.has("rpy") + t.has("quat") + t.has("matrix") + turned + aligned;
+  if (rotations > 1)
+    fail("{}: expected one of rpy, quat, matrix, axis with angle, and two axes, got {}", subject,
+         rotations);
   Pose pose;
   if (t.has("matrix")) pose = matrix_of(t);
   if (t.has("quat")) pose.rotation = quat_of(t);
   if (t.has("rpy")) pose.rotation = rpy_of(t);
+  if (turned) pose.rotation = axis_angle_of(t);
+  if (aligned) pose.rotation = axes_of(t);
   pose.position = t.vec3("xyz", pose.position);
   t.done();
   check_place(pose, t.subject());
@@ -86,6 +128,12 @@ Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
 static int make_pose(lua_State* L) {
   if (const Pose* pose = to<Pose>(L, 1)) return push(L, *pose);
   return push(L, pose_from_table(L, 1, subject(L)));
+}
+
+static int look_at(lua_State* L) {
+  const Vector3d eye = check_vec3(L, 1, "eye"), target = check_vec3(L, 2, "target");
+  const Vector3d up = given(L, 3) ? check_vec3(L, 3, "up") : Vector3d(0, 0, 1);
+  return push(L, camera_pose(eye, target, up, subject(L)));
 }
 
 static int get_quat(lua_State* L) {
@@ -161,12 +209,22 @@ static int as_json(lua_State* L) {
 static const Entry functions[] = {
     {"pose", guarded<make_pose>, R"(
 A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given one way at most.
-@param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][]}  xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4
+@param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][], axis?: vec3, angle?: number, x_axis?: vec3, y_axis?: vec3, z_axis?: vec3}  xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4; axis, angle: a turn about an axis of any length [rad]; x_axis, y_axis, z_axis: where two of the frame's axes point, z_axis, else x_axis, exactly, the other as nearly as a right angle allows
 @return pose
+> clench.deg(clench.pose{axis = {0, 0, 2}, angle = clench.rad(90)}:angle())  --> 90.0
+> clench.pose{z_axis = {0, 0, -1}, x_axis = {1, 0, 0.5}}:rotate{0, 1, 0}  --> (0, -1, 0)
 > clench.pose{xyz = {1, 2, 3}}  --> pose{xyz = {1, 2, 3}, quat = {1, 0, 0, 0}}
 > clench.pose{rpy = {0, 0, clench.rad(90)}} * {1, 0, 0}  --> (2.22045e-16, 1, 0)
 > clench.pose{quat = {2, 0, 0, 0}}  --> error: expected a unit quaternion
 > clench.pose{xyz = {0, 0, 1e308}}  --> error: expected a position within 1e+09 m of the origin)"},
+    {"look_at", guarded<look_at>, R"(
+The pose of a camera at `eye` that sees `target`: it looks along its -z, with y up, as `world.camera.pose`.
+@param eye vec3
+@param target vec3
+@param up? vec3  {0, 0, 1} by default
+@return pose
+> clench.look_at({1, 0, 0}, {0, 0, 0}):rotate{0, 0, -1}  --> (-1, 0, 0)
+> clench.look_at({0, 0, 1}, {0, 0, 0})  --> error: expected eye and target apart, and up not along the view)"},
 };
 
 static const Entry fields[] = {

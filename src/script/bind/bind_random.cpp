@@ -46,6 +46,15 @@ static int direction(lua_State* L) {
   }
 }
 
+static int rotation(lua_State* L) {
+  Random& random = self<Random>(L);
+  for (;;) {
+    const double w = random.normal(), x = random.normal(), y = random.normal(), z = random.normal();
+    const Eigen::Quaterniond q(w, x, y, z);
+    if (q.norm() > 1e-6) return push(L, Pose::turn(q.normalized()));
+  }
+}
+
 static int text(lua_State* L) {
   self<Random>(L);
   return push(L, "random numbers");
@@ -84,6 +93,10 @@ An integer from low to high, both included, each as likely.
 A unit vector, each direction as likely.
 @return vec3
 > math.abs(clench.random(7):direction():norm() - 1) < 1e-15  --> true)"},
+    {"rotation", guarded<rotation>, R"(
+A pose at the origin, each rotation as likely.
+@return pose
+> clench.random(7):rotation().position  --> (0, 0, 0))"},
 };
 
 static const Entry operators[] = {{"__tostring", guarded<text>, ""}};

@@ -267,6 +267,18 @@ static int approach_object(lua_State* L) {
   return push_move(L, robot.world, approach(*robot.world, robot.id, reach));
 }
 
+static int place_approach(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const Pose* frame = to<Pose>(L, 2);
+  if (frame && given(L, 3)) fail("{}: direction: a pose has its own, +z", subject(L));
+  const Pose X_WA =
+      frame ? *frame : approach_frame(check_vec3(L, 2, "target"), check_vec3(L, 3, "direction"));
+  const double standoff = given(L, 4) ? check_number(L, 4, "standoff") : 0;
+  robot.world->set_pose(robot.id,
+                        X_WA * Pose::translation({0, 0, -standoff}) * robot->X_BA.inverse());
+  return 0;
+}
+
 static int mount_on(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const auto& parent = check_object<RobotHandle>(L, 2, "parent");
@@ -423,6 +435,15 @@ Moves the hand along its approach direction until it touches something.
 @param options? {reach?: number}  at most this far, 1 by default [m]
 @return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 > hand:approach_object{reach = -1}  --> error: reach)"},
+    {"place_approach", guarded<place_approach>, R"(
+Places the hand so that its approach point stands before a target and its approach direction leads there, whatever is in
+the way. See `approach`.
+@param target pose|vec3  of the approach frame, +z along the direction, or its point
+@param direction? vec3  of approach, with a point: then the hand's turn about it follows from the world's x axis
+@param standoff? number  how far before the target, 0 by default [m]
+> hand:place_approach(flask.pose.position, {0, 0, -1}, 0.1)
+> (hand.approach.point - flask.pose.position - clench.vec3(0, 0, 0.1)):norm() < 1e-12  --> true
+> hand.approach.direction.z  --> -1.0)"},
     {"mount_on", guarded<mount_on>, R"(
 Fixes the robot to a link of another one: that of a name, or the last of a chain. It follows from now on.
 @param parent robot

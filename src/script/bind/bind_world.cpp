@@ -3,6 +3,7 @@
 
 #include "clench/base/suggest.h"
 #include "clench/model/build.h"
+#include "clench/model/raycast.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/bind/read_spec.h"
@@ -142,6 +143,27 @@ static int restore(lua_State* L) {
 static int hash(lua_State* L) { return push(L, fmt::format("{:016x}", world_of(L).hash())); }
 
 // --- who touches whom ---
+
+static int cast(lua_State* L) {
+  const WorldPtr& world = self<WorldHandle>(L).world;
+  const Eigen::Vector3d origin = check_vec3(L, 2, "origin"), along = check_vec3(L, 3, "direction");
+  const double reach = given(L, 4) ? check_number(L, 4, "reach") : 1e12;
+  if (!(along.stableNorm() > 1e-9))
+    fail("{}: direction: expected a direction, got zero", subject(L));
+  if (!(reach >= 0)) fail("{}: reach: expected a number >= 0 [m], got {}", subject(L), reach);
+  const auto hit = raycast(*world, origin, along.stableNormalized(), reach);
+  if (!hit) {
+    lua_pushnil(L);
+    return 1;
+  }
+  push_list(L, 0, 5);
+  set_field(L, "body", BodyHandle{world, hit->body});
+  set_field(L, "point", hit->p_W);
+  set_field(L, "normal", hit->n_W);
+  set_field(L, "distance", hit->distance);
+  set_field(L, "triangle", hit->triangle + 1);
+  return 1;
+}
 
 static int collides(lua_State* L) {
   World& world = *self<WorldHandle>(L).world;
@@ -381,6 +403,16 @@ new one has been read again; what the format cannot hold is told in a warning.
 Fingerprint of the state: equal bits, equal text.
 @return string  16 hexadecimal digits
 > #world:hash()  --> 16)"},
+    {"raycast", guarded<cast>, R"(
+What a ray meets first: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil when it meets nothing.
+@param origin vec3
+@param direction vec3  of any length
+@param reach? number  how far it goes [m]; as far as there is something by default
+@return table?
+> box = world:add_object(clench.shapes.box {1, 1, 1}, {pose = {xyz = {0, 0, 9}}})
+> hit = world:raycast({0, 0, 20}, {0, 0, -1})
+> hit.body == box, hit.distance, hit.normal  --> true, 10.5, (0, 0, 1)
+> world:raycast({0, 0, 20}, {0, 0, -1}, 10)  --> nil)"},
     {"collides", guarded<collides>, R"(
 Does anything collide that may? The fastest test: it ends at the first pair that is found.
 @return boolean

@@ -6,6 +6,7 @@
 #include "clench/script/bind/handles.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
+#include "clench/spec/valid.h"
 
 namespace clench {
 
@@ -27,22 +28,30 @@ int get_camera(lua_State* L) {
 }
 
 // from where it stands to what it looks at
-static Camera looking(Table& options) {
-  const Eigen::Vector3d eye = options.vec3("eye"), target = options.vec3("target");
-  const Eigen::Vector3d up = options.vec3("up", Eigen::Vector3d::UnitZ());
+Pose camera_pose(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
+                 const Eigen::Vector3d& up, const std::string& subject) {
   const Eigen::Vector3d back = eye - target;
   const Eigen::Vector3d x = up.cross(back);
   if (!(back.norm() > 1e-9) || !(x.norm() > 1e-9 * back.norm() * up.norm()))
-    fail("{}: expected eye and target apart, and up not along the view", options.subject());
+    fail("{}: expected eye and target apart, and up not along the view", subject);
   Eigen::Matrix3d axes;
   axes.col(0) = x.normalized();
   axes.col(2) = back.normalized();
   axes.col(1) = axes.col(2).cross(axes.col(0));
+  const Pose pose{Eigen::Quaterniond(axes).normalized(), eye};
+  check_place(pose, subject);
+  return pose;
+}
+
+static Camera looking(Table& options) {
+  const Eigen::Vector3d eye = options.vec3("eye"), target = options.vec3("target");
+  const Pose pose =
+      camera_pose(eye, target, options.vec3("up", Eigen::Vector3d::UnitZ()), options.subject());
   const double angle = options.number("field_of_view", inventor_field_of_view);
   if (std::abs(angle - inventor_field_of_view) > 1e-9)
     fail("{}: field_of_view: expected {}, that of every camera of a world, got {}",
          options.subject(), inventor_field_of_view, angle);
-  return {{Eigen::Quaterniond(axes).normalized(), eye}, back.norm()};
+  return {pose, (eye - target).norm()};
 }
 
 int set_camera(lua_State* L) {
