@@ -55,7 +55,7 @@ static std::string suggestion(const std::vector<fs::path>& places, const ReadOpt
 }
 
 /// Where a name may be meant: beside the referrer, below the folder and the root of the call, below
-/// the referrer's parent folder; where we stand for the user's own.
+/// the referrer's parent folder; for the user's own where we stand, and where our models are.
 static std::vector<fs::path> places_of(const fs::path& name, const fs::path& referrer,
                                        const ReadOptions& options) {
   if (name.is_absolute()) return {name.lexically_normal()};
@@ -64,6 +64,9 @@ static std::vector<fs::path> places_of(const fs::path& name, const fs::path& ref
   if (!referrer.empty() && !options.folder.empty()) places.push_back(options.folder / name);
   if (!options.root.empty()) places.push_back(options.root / name);
   if (!referrer.empty()) places.push_back(here / ".." / name);
+  const fs::path first = name.empty() ? name : *name.begin();
+  if (referrer.empty() && !options.home.empty() && (first == "models" || first == "worlds"))
+    places.push_back(options.home / name);
   for (auto& place : places) place = place.lexically_normal();
   return places;
 }

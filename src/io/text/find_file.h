@@ -5,7 +5,8 @@
 namespace clench {
 
 /// Where `name`, as written in `referrer` (empty: given by the user), is found: beside the
-/// referrer, below options.folder, below the root, below the referrer's parent folder. Back-slashes count as slashes, and
+/// referrer, below options.folder, below the root, below the referrer's parent folder; of the user's own, models/... and
+/// worlds/..., at last below options.home. Back-slashes count as slashes, and
 /// a name that differs only in case is found.
 /// throws Error  "no such file: flsk.iv; did you mean 'flask.iv'?"  "expected a file, got a folder: models"
 ///               "'../flask.iv' lies outside of models, to which reading is confined"

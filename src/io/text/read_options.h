@@ -32,6 +32,8 @@ struct ReadOptions {
   std::optional<double> silent_mesh_unit = {};
   /// where names in a file are looked up after the file's own folder, before the root
   std::filesystem::path folder = {};
+  /// where names that a user gives, models/... and worlds/..., are looked up last; empty: nowhere
+  std::filesystem::path home = {};
   /// nothing is read that does not lie below this folder, links followed; empty: anything may be
   std::filesystem::path confine = {};
   /// where the packages lie that URDF files name: by name; under "" any of them

@@ -101,6 +101,7 @@ static int kind_of_file(lua_State* L) {
   Table options(L, 2);
   ReadOptions reading;
   reading.confine = read_confine(L, options);
+  reading.home = home_folder();
   options.done();
   return push(L, kind_name(file_kind(find_file(path, {}, reading))));
 }

@@ -6,6 +6,7 @@
 #include "clench/base/convert.h"
 #include "clench/base/error.h"
 #include "clench/script/bind/bind.h"
+#include "clench/script/lua/home.h"
 #include "clench/script/lua/setting.h"
 #include "clench/script/lua/watching.h"
 
@@ -42,6 +43,7 @@ ReadOptions read_options(lua_State* L, Table& options) {
   if (!out.root.empty() && !std::filesystem::is_directory(out.root))
     fail("{}: root: expected a folder, got '{}'", options.subject(), out.root.string());
   out.confine = read_confine(L, options);
+  out.home = home_folder();
   out.mesh_scale = read_unit(options);
   out.progress = Progress(bar_of(L));
   out.warn = [L](const std::string& message) { log(L, LogLevel::warning, message, "ignored"); };

@@ -33,7 +33,7 @@ static int visit(dl_phdr_info* info, size_t, void* data) {
 
 static bool is_home(const fs::path& folder) {
   std::error_code none;
-  return fs::is_directory(folder / "models", none) || fs::is_directory(folder / "worlds", none);
+  return fs::is_directory(folder / "models", none) && fs::is_directory(folder / "worlds", none);
 }
 
 fs::path home_folder() {
@@ -43,7 +43,7 @@ fs::path home_folder() {
   std::error_code error;
   const fs::path file = fs::canonical(search.file, error);
   if (error) return {};
-  for (const char* way : {"../..", "../share/clench", "../../../share/clench"}) {
+  for (const char* way : {"../share/clench", "../../../share/clench", "../.."}) {
     const fs::path folder = (file.parent_path() / way).lexically_normal();
     if (is_home(folder)) return folder;
   }

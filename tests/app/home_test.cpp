@@ -1,0 +1,43 @@
+// Our own models and worlds: found from any folder, and before those of others.
+#include "command.h"
+
+using clench::test::Folder;
+using clench::test::has;
+using clench::test::run;
+namespace fs = std::filesystem;
+
+static const std::string loads =
+    "-q -e 'local w = clench.load \"worlds/barrett_mug.wld\" w:add_object "
+    "\"models/objects/cube.iv\" "
+    "print(#w.objects, clench.file_kind \"worlds/barrett_mug.wld\")'";
+
+TEST_CASE("names of our models and worlds load from any folder") {
+  const Folder elsewhere;
+  const std::string there = "cd " + (elsewhere / ".") + " &&";
+  CHECK(run(loads, "", there).out == "2\tworld\n");
+  CHECK(run("check worlds/barrett_mug.wld", "", there).code == 0);
+  CHECK(has(run("-e 'clench.load \"barrett_mug.wld\"'", "", there).out, "no such file"));
+  CHECK(has(run("-e 'clench.load \"worlds/barret_mug.wld\"'", "", there).out,
+            "did you mean 'barrett_mug.wld'?"));
+  // a file that is there comes first, and confined reading stays where it is
+  elsewhere.file("worlds/barrett_mug.wld", "not a world");
+  CHECK(run(loads, "", there).code == 1);
+  CHECK(has(run("--confine worlds -e 'clench.load \"worlds/dlr_flask.wld\"'", "", there).out,
+            "no such file"));
+}
+
+TEST_CASE("an installed Clench finds its own models, whatever lies above its prefix") {
+  const Folder folder;
+  const fs::path top = folder / ".";
+  fs::create_directories(top / "prefix/bin");
+  fs::create_directories(top / "prefix/share/clench");
+  fs::copy_file(CLENCH_COMMAND, top / "prefix/bin/clench");
+  for (const char* shelf : {"models", "worlds"})
+    fs::create_directory_symlink(fs::absolute(shelf), top / "prefix/share/clench" / shelf);
+  folder.file("models/objects/cube.iv", "a stranger's");
+  folder.file("worlds/barrett_mug.wld", "a stranger's");
+  const Folder elsewhere;
+  const std::string there = "cd " + (elsewhere / ".") + " && " + (folder / "prefix/bin/clench");
+  // in place of the command that the build made
+  CHECK(run("", "", there + " " + loads + "; true").out == "2\tworld\n");
+}
