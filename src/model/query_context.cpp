@@ -67,6 +67,7 @@ const QueryContext::Candidates& QueryContext::candidates(const WorldModel& model
 
 std::vector<SweepItem>& QueryContext::sweep_order(const WorldModel& model) {
   if (order_stamp_ == model.stamp) return sweep_order_;
+  order_stamp_ = 0;  // until the list is whole
   sweep_order_.clear();
   for (size_t i = 0; i < model.body_order.size(); ++i)
     if (const Id<Body> id = model.body_order[i]; model.bodies[id.index].value.shape)

@@ -97,10 +97,13 @@ local function explain(x)
   if not found then print("nothing is known of " .. require "clench.show"(x)) end
 end
 
---- makes `help` and `show` globals: show(x) prints the whole of a table
+local function show_whole(x) print(require "clench.show"(x, math.huge)) end
+
+--- makes `help` and `show` globals, unless a script has its own: show(x) prints the whole of a table
 function help.install()
-  rawset(_G, "help", explain)
-  rawset(_G, "show", function(x) print(require "clench.show"(x, math.huge)) end)
+  for name, value in pairs {help = explain, show = show_whole} do
+    if rawget(_G, name) == nil then rawset(_G, name, value) end
+  end
 end
 
 return help

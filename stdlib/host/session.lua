@@ -4,7 +4,7 @@ local find, match, sub, rep, concat = string.find, string.match, string.sub, str
 local insert, remove = table.insert, table.remove
 local getupvalue, upvaluejoin = debug.getupvalue, debug.upvaluejoin
 
-local most = 150 -- names: a function of Lua has 200 locals at most; the oldest are forgotten
+local max_names = 150 -- a function of Lua has 200 locals at most; the oldest are forgotten
 local names = {} -- in the order of their declaration
 local cells = {} -- of each name a function that holds it as an upvalue, and the upvalue's number
 
@@ -132,7 +132,7 @@ function session.keep(holder)
     for k, known in ipairs(names) do if known == name then remove(names, k) break end end
     names[#names + 1] = name
   end
-  while #names > most do cells[remove(names, 1)] = nil end
+  while #names > max_names do cells[remove(names, 1)] = nil end
 end
 
 --- Calls visit(name, value) for each local of the session.

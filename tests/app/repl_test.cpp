@@ -95,6 +95,12 @@ TEST_CASE("exit and quit leave, _ is the last value, and an unfinished string is
   CHECK(out.ends_with("5\n"));
 }
 
+TEST_CASE("a script's own help and show stay its own") {
+  const Folder folder;
+  const auto file = folder.file("a.lua", "function show() return 'mine' end help = 5");
+  CHECK(run("-i " + file, "show(), help\n").out == "mine\t5\n");
+}
+
 TEST_CASE("show prints the whole of a table") {
   const auto out = run("repl", "t = {} for i = 1, 300 do t[i] = i end\nt\nshow(t)\n").out;
   CHECK(out.find("more}") != std::string::npos);

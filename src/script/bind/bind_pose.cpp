@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "clench/math/axes.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -46,21 +47,6 @@ static Quaterniond axis_angle_of(Table& t) {
 
 static constexpr const char* axis_names[] = {"x_axis", "y_axis", "z_axis"};
 
-// the axis i points along a exactly, the axis j along b as nearly as a right angle to it allows
-static Quaterniond from_two_axes(int i, const Vector3d& a, int j, const Vector3d& b,
-                                 const std::string& subject) {
-  const Vector3d first = a.stableNormalized(), other = b.stableNormalized();
-  const Vector3d beside = other - other.dot(first) * first;
-  if (!(first.norm() > 0.5 && other.norm() > 0.5 && beside.norm() > 1e-6))
-    fail("{}: expected two directions that are not parallel, got ({}, {}, {}) and ({}, {}, {})",
-         subject, a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
-  Matrix3d R;
-  R.col(i) = first;
-  R.col(j) = beside.normalized();
-  R.col(3 - i - j) = (j - i + 3) % 3 == 1 ? R.col(i).cross(R.col(j)) : R.col(j).cross(R.col(i));
-  return Quaterniond(R).normalized();
-}
-
 static int count_axes(Table& t) {
   int count = 0;
   for (const char* name : axis_names) count += t.has(name);
@@ -71,7 +57,12 @@ static Quaterniond axes_of(Table& t) {
   if (count_axes(t) != 2)
     fail("{}: expected two of x_axis, y_axis and z_axis, got {}", t.subject(), count_axes(t));
   const int i = t.has("z_axis") ? 2 : 0, j = i == 2 && t.has("x_axis") ? 0 : 1;
-  return from_two_axes(i, t.vec3(axis_names[i]), j, t.vec3(axis_names[j]), t.subject());
+  const Vector3d a = t.vec3(axis_names[i]), b = t.vec3(axis_names[j]);
+  const auto rotation = rotation_from_axes(i, a, j, b);
+  if (!rotation)
+    fail("{}: expected two directions that are not parallel, got ({}, {}, {}) and ({}, {}, {})",
+         t.subject(), a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
+  return *rotation;
 }
 
 static Pose matrix_of(Table& t) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "clench/base/suggest.h"
 #include "clench/model/build.h"
@@ -147,7 +148,8 @@ static int hash(lua_State* L) { return push(L, fmt::format("{:016x}", world_of(L
 static int cast(lua_State* L) {
   const WorldPtr& world = self<WorldHandle>(L).world;
   const Eigen::Vector3d origin = check_vec3(L, 2, "origin"), along = check_vec3(L, 3, "direction");
-  const double reach = given(L, 4) ? check_number(L, 4, "reach") : 1e12;
+  const double reach =
+      given(L, 4) ? check_number(L, 4, "reach") : std::numeric_limits<double>::infinity();
   if (!(along.stableNorm() > 1e-9))
     fail("{}: direction: expected a direction, got zero", subject(L));
   if (!(reach >= 0)) fail("{}: reach: expected a number >= 0 [m], got {}", subject(L), reach);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "clench/base/error.h"
+#include "clench/math/axes.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -27,18 +28,13 @@ int get_camera(lua_State* L) {
   return 1;
 }
 
-// from where it stands to what it looks at
 Pose camera_pose(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
                  const Eigen::Vector3d& up, const std::string& subject) {
   const Eigen::Vector3d back = eye - target;
-  const Eigen::Vector3d x = up.cross(back);
-  if (!(back.norm() > 1e-9) || !(x.norm() > 1e-9 * back.norm() * up.norm()))
+  const auto rotation = rotation_from_axes(2, back, 1, up);
+  if (!(back.norm() > 1e-9) || !rotation)
     fail("{}: expected eye and target apart, and up not along the view", subject);
-  Eigen::Matrix3d axes;
-  axes.col(0) = x.normalized();
-  axes.col(2) = back.normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  const Pose pose{Eigen::Quaterniond(axes).normalized(), eye};
+  const Pose pose{*rotation, eye};
   check_place(pose, subject);
   return pose;
 }

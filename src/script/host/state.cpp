@@ -195,7 +195,7 @@ void State::on_hook(lua_State* L, lua_Debug*) {
 
 void State::interrupt() {
   if (interrupts_ == 0) patient_until_ = now() + patience;
-  interrupts_ = interrupts_ + 1;
+  ++interrupts_;
   bar_->stop();
   lua_sethook(L_, on_hook, all_events, 1);
   if (running_ != L_) lua_sethook(running_, on_hook, all_events, 1);

@@ -1,6 +1,7 @@
 // A Lua of one's own, with clench in it: what the command runs scripts in. Every call is protected;
 // a script can neither end the process by an error nor take all of the machine's memory.
 #pragma once
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -75,8 +76,8 @@ class State {
   lua_State* L_ = nullptr;
   std::shared_ptr<Bar> bar_;               // what watches the engine
   lua_State* volatile running_ = nullptr;  // the coroutine that runs, for interrupt
-  volatile int interrupts_ = 0;            // since a run began
-  volatile double patient_until_ = 0;      // then an interruption can no more be caught [s]
+  std::atomic<int> interrupts_ = 0;        // since a run began
+  std::atomic<double> patient_until_ = 0;  // then an interruption can no longer be caught [s]
 };
 
 }  // namespace clench
