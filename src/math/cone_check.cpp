@@ -10,8 +10,6 @@ namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-double largest(const VectorXd& v) { return v.size() == 0 ? 0 : v.lpNorm<Eigen::Infinity>(); }
-
 // no rows are no numbers, whatever the width
 VectorXd times(const MatrixXd& m, const VectorXd& v, Eigen::Index rows) {
   return m.size() == 0 ? VectorXd(VectorXd::Zero(rows)) : VectorXd(m * v);
@@ -53,19 +51,20 @@ void check_optimum(const ScaledProgram& scaled, const SolvedPart& part, const Te
                    ConeSolution& out) {
   // of rows far away s is what is left of h, and h alone would be their size
   const VectorXd missing = VectorXd(t.Gx + t.s - t.h)(part.rows);
-  const double rows = against(std::max({largest(t.Ax), largest(VectorXd(t.Gx(part.rows)))}));
+  const double rows = against(std::max({max_norm(t.Ax), max_norm(VectorXd(t.Gx(part.rows)))}));
   out.primal_residual =
-      std::max({largest(t.Ax - t.b), largest(missing), outside(scaled, t.s)}) / rows;
-  const double columns = against(std::max({largest(t.Px), largest(t.Aty), largest(t.Gtz)}));
-  out.dual_residual = std::max(largest(t.Px + t.c + t.Aty + t.Gtz), outside(scaled, t.z)) / columns;
+      std::max({max_norm(t.Ax - t.b), max_norm(missing), outside(scaled, t.s)}) / rows;
+  const double columns = against(std::max({max_norm(t.Px), max_norm(t.Aty), max_norm(t.Gtz)}));
+  out.dual_residual =
+      std::max(max_norm(t.Px + t.c + t.Aty + t.Gtz), outside(scaled, t.z)) / columns;
 
   // against the objective, or, where its terms cancel, against those
   const double curved = t.x.dot(t.Px), linear = t.c.dot(t.x);
   const double above = curved / 2 + linear;
   const double below = -curved / 2 - t.b.dot(t.y) - t.h.dot(t.z);
-  const double steepest = std::max(largest(t.c), largest(t.Px));
+  const double steepest = std::max(max_norm(t.c), max_norm(t.Px));
   const double size =
-      std::max({gap_floor, std::abs(above), std::abs(below), steepest * largest(t.x)});
+      std::max({gap_floor, std::abs(above), std::abs(below), steepest * max_norm(t.x)});
   out.gap = std::abs(above - below) / size;
 }
 
@@ -78,16 +77,17 @@ bool is_finite(const ConeSolution& r) {
 bool holds(const ScaledProgram& scaled, const SolvedPart& part, const Terms& t, ConeSolution& r) {
   if (r.status == ConeStatus::infeasible) {
     const double value = -(t.b.dot(t.y) + t.h.dot(t.z));
-    const double off = std::max(largest(t.Aty + t.Gtz), outside(scaled, t.z));
+    const double off = std::max(max_norm(t.Aty + t.Gtz), outside(scaled, t.z));
     r.dual_residual = off / value;
     // of equations that all but agree the value is small: then sums are as good as rounding lets them be
-    const double rounding = 1e-15 * std::max(largest(t.y), largest(t.z));
+    const double rounding = 1e-15 * std::max(max_norm(t.y), max_norm(t.z));
     return value > 0 && off <= std::max(proof_tolerance * value, rounding);
   }
   if (r.status == ConeStatus::unbounded) {
     const double value = -t.c.dot(t.x);
     r.primal_residual =
-        std::max({largest(t.Px), largest(t.Ax), largest(t.Gx + t.s), outside(scaled, t.s)}) / value;
+        std::max({max_norm(t.Px), max_norm(t.Ax), max_norm(t.Gx + t.s), outside(scaled, t.s)}) /
+        value;
     return value > 0 && r.primal_residual <= direction_tolerance;
   }
   check_optimum(scaled, part, t, r);

@@ -15,8 +15,6 @@ constexpr double proved = 1e-14;    // it goes on until here, while that succeed
 constexpr int max_iterations = 100;
 constexpr double step_back = 0.99;  // part of the way to the boundary
 
-double size_of(const VectorXd& v) { return v.size() == 0 ? 0 : v.lpNorm<Eigen::Infinity>(); }
-
 // what is missing at a point
 struct Residuals {
   VectorXd x, z;
@@ -143,14 +141,14 @@ ConeQuality judge(const ConeRows& rows, const ConePoint& p) {
   const double tau = p.tau;
   // rounding is of the largest terms; but where they grow without end, there is no solution
   const auto against = [](double terms) { return std::clamp(terms, 1.0, 1e3); };
-  q.primal = size_of(back / tau - rows.b) / against(std::max(size_of(Ax), size_of(p.s)) / tau);
-  q.dual = size_of((Px + Az) / tau + rows.q) / against(std::max(size_of(Px), size_of(Az)) / tau);
+  q.primal = max_norm(back / tau - rows.b) / against(std::max(max_norm(Ax), max_norm(p.s)) / tau);
+  q.dual = max_norm((Px + Az) / tau + rows.q) / against(std::max(max_norm(Px), max_norm(Az)) / tau);
   const double above = (xPx / tau / 2 + qx) / tau, below = -(xPx / tau / 2 + bz) / tau;
-  const double steepest = std::max(size_of(rows.q), size_of(Px) / tau);
+  const double steepest = std::max(max_norm(rows.q), max_norm(Px) / tau);
   q.gap = std::abs(above - below) /
-          std::max({gap_floor, std::abs(above), std::abs(below), steepest * size_of(p.x) / tau});
-  q.infeasible = bz < 0 ? size_of(Az) / -bz : none;
-  q.unbounded = qx < 0 ? std::max(size_of(Px), size_of(back)) / -qx : none;
+          std::max({gap_floor, std::abs(above), std::abs(below), steepest * max_norm(p.x) / tau});
+  q.infeasible = bz < 0 ? max_norm(Az) / -bz : none;
+  q.unbounded = qx < 0 ? std::max(max_norm(Px), max_norm(back)) / -qx : none;
   return q;
 }
 

@@ -7,10 +7,6 @@ using Eigen::MatrixXd, Eigen::VectorXd;
 static constexpr double trusted = 1e-10;  // what may be missing of a quick solution
 static constexpr double regular = 1e-12;  // keeps pivots off 0; refinement takes its effect back
 
-static double largest_of(const VectorXd& v) {
-  return v.size() == 0 ? 0 : v.lpNorm<Eigen::Infinity>();
-}
-
 static SparseLdl::Matrix lower_pattern(const ConeRows& rows) {
   const int n = rows.unknowns();
   std::vector<Eigen::Triplet<double>> entries;
@@ -44,11 +40,11 @@ ConeKkt::Solution ConeKkt::refined(const VectorXd& right, Solver solver) const {
   Solution out;
   out.value = solver(right);
   VectorXd left = right - times(out.value);
-  out.off = largest_of(left);
-  for (int i = 0; i < 12 && out.off > 1e-15 * largest_of(right); ++i) {
+  out.off = max_norm(left);
+  for (int i = 0; i < 12 && out.off > 1e-15 * max_norm(right); ++i) {
     const VectorXd better = out.value + solver(left);
     left = right - times(better);
-    const double before = out.off, off = largest_of(left);
+    const double before = out.off, off = max_norm(left);
     if (!(off < before)) break;
     out = {better, off};
     if (off > 0.5 * before) break;
@@ -67,7 +63,7 @@ const DenseLu& ConeKkt::lu() const {
 VectorXd ConeKkt::solve(const VectorXd& right) const {
   const auto quick = [&](const VectorXd& r) { return ldl_.solve(r); };
   Solution out = refined(right, quick);
-  if (out.off <= trusted * largest_of(right)) return out.value;
+  if (out.off <= trusted * max_norm(right)) return out.value;
   // with pivots, where the order that keeps it sparse will not do
   const auto careful = [&](const VectorXd& r) -> VectorXd { return lu().solve(r); };
   const Solution again = refined(right, careful);

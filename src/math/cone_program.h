@@ -40,6 +40,9 @@ struct ConeSolution {
   int iterations = 0;
 };
 
+/// The largest magnitude; 0 of none.
+inline double max_norm(const Eigen::VectorXd& v) { return v.lpNorm<Eigen::Infinity>(); }
+
 /// Of objectives that are smaller than this, in data scaled to one, the gap is measured against it.
 inline constexpr double gap_floor = 1e-4;
 

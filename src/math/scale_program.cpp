@@ -15,8 +15,6 @@ static constexpr double depends = 1e-10, agrees = 1e-9;
 // 0 counts as 1
 static double power_of_two(double x) { return x > 0 ? std::exp2(std::round(std::log2(x))) : 1; }
 
-static double largest(const VectorXd& v) { return v.size() == 0 ? 0 : v.cwiseAbs().maxCoeff(); }
-
 // the norm that a factor is to bring to one; nothing there keeps its factor
 static double factor_for(double norm) { return norm > 0 ? 1 / std::sqrt(norm) : 1; }
 
@@ -57,12 +55,12 @@ static void equilibrate(ScaledProgram& p) {
   for (int pass = 0; pass < 12; ++pass) {
     VectorXd columns = VectorXd::Zero(n), rows_equal(p.b.size()), rows_cone(p.h.size());
     for (Eigen::Index k = 0; k < n; ++k) {
-      if (p.A.size() > 0) columns[k] = std::max(columns[k], largest(p.A.col(k)));
+      if (p.A.size() > 0) columns[k] = std::max(columns[k], max_norm(p.A.col(k)));
       for (Eigen::Index i = 0; i < p.G.rows(); ++i)
         if (!single[i]) columns[k] = std::max(columns[k], std::abs(p.G(i, k)));
     }
-    for (Eigen::Index k = 0; k < p.b.size(); ++k) rows_equal[k] = largest(p.A.row(k));
-    for (Eigen::Index k = 0; k < p.h.size(); ++k) rows_cone[k] = largest(p.G.row(k));
+    for (Eigen::Index k = 0; k < p.b.size(); ++k) rows_equal[k] = max_norm(p.A.row(k));
+    for (Eigen::Index k = 0; k < p.h.size(); ++k) rows_cone[k] = max_norm(p.G.row(k));
     even_out(p.cones, rows_cone);
     const auto to_power = [](double norm) { return power_of_two(factor_for(norm)); };
     multiply(p, columns.unaryExpr(to_power), rows_equal.unaryExpr(to_power),
@@ -77,7 +75,7 @@ static void round_cones(ScaledProgram& p) {
   for (const int size : p.cones) {
     if (size > 1)
       for (Eigen::Index k = 0; k < norms.size(); ++k)
-        norms[k] = std::max(norms[k], largest(p.G.col(k).segment(start, size)));
+        norms[k] = std::max(norms[k], max_norm(p.G.col(k).segment(start, size)));
     start += size;
   }
   const VectorXd columns =
@@ -88,8 +86,8 @@ static void round_cones(ScaledProgram& p) {
 // every row to largest number one
 static void equilibrate_rows(ScaledProgram& p) {
   VectorXd rows_equal(p.b.size()), rows_cone(p.h.size());
-  for (Eigen::Index k = 0; k < p.b.size(); ++k) rows_equal[k] = largest(p.A.row(k));
-  for (Eigen::Index k = 0; k < p.h.size(); ++k) rows_cone[k] = largest(p.G.row(k));
+  for (Eigen::Index k = 0; k < p.b.size(); ++k) rows_equal[k] = max_norm(p.A.row(k));
+  for (Eigen::Index k = 0; k < p.h.size(); ++k) rows_cone[k] = max_norm(p.G.row(k));
   even_out(p.cones, rows_cone);
   const auto to_power = [](double norm) { return power_of_two(norm > 0 ? 1 / norm : 1); };
   multiply(p, VectorXd::Ones(p.c.size()), rows_equal.unaryExpr(to_power),
@@ -108,7 +106,7 @@ static void rescale(ScaledProgram& p, const VectorXd& columns) {
 
 ScaledProgram scaled_to(ScaledProgram scaled, const VectorXd& x) {
   const VectorXd own = x.cwiseQuotient(scaled.columns).cwiseAbs();
-  const double most = largest(own);
+  const double most = max_norm(own);
   // what is a thousandth of the largest may be rounding
   if (most > 0)
     rescale(scaled,
@@ -138,9 +136,9 @@ ScaledProgram scale_program(const ConeProgram& program) {
 
 ProgramSizes program_sizes(const ScaledProgram& scaled, const VectorXd& b, const VectorXd& h) {
   ProgramSizes sizes;
-  const double slope = largest(scaled.c);
+  const double slope = max_norm(scaled.c);
   const double curvature = scaled.P.size() == 0 ? 0 : scaled.P.cwiseAbs().maxCoeff();
-  double size = std::max(largest(b), largest(h));
+  double size = std::max(max_norm(b), max_norm(h));
   if (size == 0 && curvature > 0) size = slope / curvature;
   sizes.primal = power_of_two(size);
   sizes.dual = power_of_two(std::max(slope, curvature * sizes.primal));

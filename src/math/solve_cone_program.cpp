@@ -109,11 +109,11 @@ EmbeddingEnd contradiction(const ScaledProgram& scaled, const SolvedPart& part, 
 void restore_equations(const MatrixXd& A, const VectorXd& b, VectorXd& x) {
   VectorXd left = b - A * x;
   for (int pass = 0; pass < 3; ++pass) {
-    const double off = left.size() == 0 ? 0 : left.lpNorm<Eigen::Infinity>();
+    const double off = max_norm(left);
     if (!(off > 0)) return;
     const VectorXd next = x + A.transpose() * solve_symmetric(A * A.transpose(), left);
     left = b - A * next;
-    if (!(left.lpNorm<Eigen::Infinity>() < 0.5 * off)) return;
+    if (!(max_norm(left) < 0.5 * off)) return;
     x = next;
   }
 }
