@@ -13,7 +13,7 @@ using test::held, test::Held, test::jaws, test::Jaws, test::wrench;
 namespace {
 
 // what is promised is 1e-9 of the largest numbers, here added up over some contacts and in other units
-constexpr double close_to = 1e-7;
+constexpr double relative_error = 1e-7;
 
 constexpr ForceObjective all_objectives[] = {ForceObjective::min_sum, ForceObjective::min_norm,
                                              ForceObjective::min_max, ForceObjective::max_margin,
@@ -49,7 +49,7 @@ void check_sums(const Held& h, const ForceOptions& options, const ForceResult& r
     largest = std::max(largest, f.force_W.norm());
     arm = std::max(arm, static_cast<double>(p.norm()));
     total += f.normal;
-    if (o.max_force) CHECK(f.normal <= o.max_force.of(static_cast<int>(i)) * (1 + close_to));
+    if (o.max_force) CHECK(f.normal <= o.max_force.of(static_cast<int>(i)) * (1 + relative_error));
   }
   const double of_load = options.load.head<3>().norm() * arm + options.load.tail<3>().norm();
   for (size_t i = 0; i < r.forces.size(); ++i) {
@@ -57,7 +57,7 @@ void check_sums(const Held& h, const ForceOptions& options, const ForceResult& r
     const ContactForce& f = r.forces[i];
     const double twist = c.torsion_radius > 0 ? f.torsion / c.torsion_radius : 0;
     // forces that torsion makes tiny against the load have its rounding
-    const double off = close_to * largest + 1e-15 * of_load / arm;
+    const double off = relative_error * largest + 1e-15 * of_load / arm;
     CHECK(std::hypot(f.tangential.norm(), twist) <= c.mu * f.normal + std::max(1.0, c.mu) * off);
     CHECK(f.normal >= -off);
   }
@@ -66,8 +66,8 @@ void check_sums(const Held& h, const ForceOptions& options, const ForceResult& r
       (of_load > 0 ? 3e-7 * of_load : 1e-9 * largest * arm) + 1e-15 * largest * arm;
   CHECK(static_cast<double>(force.norm()) * arm <= allowed);
   CHECK(static_cast<double>(torque.norm()) <= allowed);
-  if (options.max_total_force) CHECK(total <= *options.max_total_force * (1 + close_to));
-  if (options.total_force) CHECK(std::abs(total - *options.total_force) <= close_to * total);
+  if (options.max_total_force) CHECK(total <= *options.max_total_force * (1 + relative_error));
+  if (options.total_force) CHECK(std::abs(total - *options.total_force) <= relative_error * total);
 }
 
 ForceResult hold(const Held& h, const ForceOptions& options) {
@@ -84,13 +84,13 @@ void check_hold(const Held& h, const ForceOptions& options, bool must, bool feas
     check_sums(h, options, r);
     // forces of which friction leaves next to nothing are as good as the load that they hold
     if (best)
-      CHECK(std::abs(r.objective - *best) <= close_to * *best + 1e-11 * options.load.norm());
+      CHECK(std::abs(r.objective - *best) <= relative_error * *best + 1e-11 * options.load.norm());
   }
   if (r.status == ForceStatus::infeasible) CHECK(!feasible);
   CHECK(r.status != ForceStatus::unbounded);
 }
 
-Held ball(double mu = 0.6) { return held(test::around_ball(7, mu, 3)); }
+Held held_ball(double mu = 0.6) { return held(test::around_ball(7, mu, 3)); }
 
 // the largest load against caps of one newton
 double largest_of_unit(const Held& h, ForceOptions options) {
@@ -103,7 +103,7 @@ double largest_of_unit(const Held& h, ForceOptions options) {
 }  // namespace
 
 TEST_CASE("forces grow with load and caps, whatever their size") {
-  const Held h = ball();
+  const Held h = held_ball();
   for (const ForceObjective by : all_objectives) {
     CAPTURE(static_cast<int>(by));
     const double once = hold(h, {.load = some_load, .objective = by, .max_force = 10.0}).objective;
@@ -116,7 +116,7 @@ TEST_CASE("forces grow with load and caps, whatever their size") {
 }
 
 TEST_CASE("a load of any size against given caps or a given sum") {
-  const Held h = ball();
+  const Held h = held_ball();
   const double most = largest_of_unit(h, {.max_force = 1.0});
   for (const ForceObjective by : all_objectives) {
     CAPTURE(static_cast<int>(by));
@@ -129,7 +129,7 @@ TEST_CASE("a load of any size against given caps or a given sum") {
 }
 
 TEST_CASE("a cap that does not bind changes nothing") {
-  const Held h = ball();
+  const Held h = held_ball();
   const double most = largest_of_unit(h, {.max_force = 1.0}),
                max_total = largest_of_unit(h, {.max_total_force = 1.0});
   for (const ForceObjective by :
@@ -156,7 +156,7 @@ TEST_CASE("a cap that does not bind changes nothing") {
 }
 
 TEST_CASE("forces that shall be large are told where they hide the load") {
-  const Held h = ball();
+  const Held h = held_ball();
   const double most = largest_of_unit(h, {.max_force = 1.0}),
                max_total = largest_of_unit(h, {.max_total_force = 1.0});
   for (const ForceObjective by : all_objectives)
@@ -185,7 +185,7 @@ TEST_CASE("friction and torsion radii of any size") {
     const Held soft = held(test::pinch(0.5, x));
     check(soft, wrench(0, 0, 0, 1, 0, 0), ForceObjective::min_sum, 2 / x);
     for (const ForceObjective by : all_objectives) {
-      const Held h = ball(x);
+      const Held h = held_ball(x);
       const ForceOptions options{.load = some_load, .objective = by, .max_force = 10.0};
       const ForceResult r = hold(h, options);
       if (r.status == ForceStatus::optimal) check_sums(h, options, r);
@@ -198,12 +198,12 @@ TEST_CASE("friction and torsion radii of any size") {
 }
 
 TEST_CASE("neither the length of torques nor that of the object changes what a load costs") {
-  const Held h = ball();
+  const Held h = held_ball();
   for (const ForceObjective by : all_objectives) {
     const ForceOptions options{.load = some_load, .objective = by, .max_force = 10.0};
     const double once = hold(h, options).objective;
     each_power([&](double x, bool) {
-      Held other = ball();
+      Held other = held_ball();
       other.grasp.rho = x;
       check_hold(other, options, true, true, once);
       auto points = h.grasp.points;
@@ -222,7 +222,7 @@ TEST_CASE("neither the length of torques nor that of the object changes what a l
     const ForceResult r = hold(smooth, {.load = wrench(1, 2, 0, 0, 0.03, 0), .nearest = true});
     if (must) REQUIRE(r.status == ForceStatus::optimal);
     if (r.status != ForceStatus::optimal) return;
-    CHECK(r.residual == doctest::Approx(std::hypot(2, 0.03 / x)).epsilon(close_to));
+    CHECK(r.residual == doctest::Approx(std::hypot(2, 0.03 / x)).epsilon(relative_error));
   });
 }
 
@@ -232,7 +232,7 @@ TEST_CASE("the largest load grows with caps and friction, and resistance with th
     const ForceResult r = max_load(h.world, h.grasp, {.load = weight, .max_force = cap});
     if (must) REQUIRE(r.status == ForceStatus::optimal);
     if (r.status == ForceStatus::optimal)
-      CHECK(std::abs(r.load_factor - expected) <= close_to * expected + 1e-15 * cap);
+      CHECK(std::abs(r.load_factor - expected) <= relative_error * expected + 1e-15 * cap);
     CHECK(r.status != ForceStatus::infeasible);
   };
   each_power([&](double x, bool must) {
@@ -241,10 +241,11 @@ TEST_CASE("the largest load grows with caps and friction, and resistance with th
     const Held turned = held(test::pinch(0.5));
     if (must)
       CHECK(resistance(turned.world, turned.grasp, x * weight) ==
-            doctest::Approx(0.5 / x).epsilon(close_to));
+            doctest::Approx(0.5 / x).epsilon(relative_error));
     Held other = turned;
     other.grasp.rho = x;
-    CHECK(resistance(other.world, other.grasp, weight) == doctest::Approx(0.5).epsilon(close_to));
+    CHECK(resistance(other.world, other.grasp, weight) ==
+          doctest::Approx(0.5).epsilon(relative_error));
   });
 }
 
@@ -309,8 +310,8 @@ TEST_CASE("motors hold links of any mass and press with the rest") {
       if (expected != EquilibriumStatus::stable) return;
       for (int k = 0; k < 2; ++k) {
         const double normal = e.result.forces[k].normal, effort = e.result.efforts[k];
-        CHECK(normal >= 2 - close_to);
-        const double off = close_to * normal + 1e-14 * weight;
+        CHECK(normal >= 2 - relative_error);
+        const double off = relative_error * normal + 1e-14 * weight;
         CHECK(std::abs(effort - normal - (k == 0 ? -weight : weight)) <= off);
         if (max_effort > 0) CHECK(std::abs(effort) <= max_effort + off);
       }
@@ -338,13 +339,13 @@ TEST_CASE("an object of any mass is pressed as its weight wants, and as robust a
     pinched.world.set_mass(pinched.grasp.object, mass);
     MeasuredGrasp measured(pinched.world, pinched.grasp);
     CHECK(find_measure("gravity_effort").of(measured) / (2 * weight) ==
-          doctest::Approx(1).epsilon(close_to));
+          doctest::Approx(1).epsilon(relative_error));
     firm.world.set_mass(firm.grasp.object, mass);
     RobustnessProblem problem = MeasuredGrasp(firm.world, firm.grasp).robustness_problem();
     problem.J.setIdentity(18, 18);  // fingers that press each as they will
     const double found = contact_robustness(problem).radius;
-    CHECK(found <= free * (1 + close_to));
-    CHECK(found >= free * (1 - close_to) - 2 * weight);
+    CHECK(found <= free * (1 + relative_error));
+    CHECK(found >= free * (1 - relative_error) - 2 * weight);
     CHECK((found == 0) == (mass > 5));
   });
 }
