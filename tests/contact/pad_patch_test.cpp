@@ -68,10 +68,6 @@ std::vector<Vector2d> circle(double radius, int segments) {
   return out;
 }
 
-Mesh wide_floor() {
-  return test::moved(test::box(0.2, 0.2, 0.02), Pose::translation({0, 0, -0.01}));
-}
-
 /// The patch of a contact at a place of the pad, in the frame of the floor; the pad is soft, and
 /// turned about z.
 SoftPatch patch_at(const Mesh& floor, const Mesh& pad, double turn, const Vector2d& place) {
@@ -122,7 +118,7 @@ TEST_CASE("a square pad on a plane has a circle no wider than itself, however it
       for (const int rings : {1, 6})
         for (const double force : {0.1, 5.0, 60.0}) {
           const Mesh pad = pad_of(rectangle(half, half, rings), 0.004, rings);
-          const Vector2d axes = axes_of(patch_at(wide_floor(), pad, turn, {0, 0}), force);
+          const Vector2d axes = axes_of(patch_at(test::floor_board(), pad, turn, {0, 0}), force);
           const double expected = std::min(half, blunt_axis(force));
           CHECK(axes[1] <= 1.0001 * expected);
           // a pad much smaller than the patch counts by its moments, which are larger
@@ -133,14 +129,14 @@ TEST_CASE("a square pad on a plane has a circle no wider than itself, however it
 TEST_CASE("the patch of a pad of 6 mm stays within 3 mm, wherever it is touched") {
   Random random(1);
   const Mesh pad = pad_of(rectangle(0.003, 0.003), 0.004, 1);
-  for (const SoftPatch& patch : patches_of(wide_floor(), pad, 0.3)) {
+  for (const SoftPatch& patch : patches_of(test::floor_board(), pad, 0.3)) {
     CHECK(axes_of(patch, 5)[1] < 0.0030003);
     CHECK(axes_of(patch, 5)[0] > 0.0029);
   }
   for (int trial = 0; trial < test::cases(40); ++trial) {
     const Vector2d place(random.uniform(-0.003, 0.003), random.uniform(-0.003, 0.003));
     const double turn = random.uniform(0, 6);
-    const SoftPatch patch = patch_at(wide_floor(), pad, turn, place);
+    const SoftPatch patch = patch_at(test::floor_board(), pad, turn, place);
     const Vector3d x(std::cos(turn), std::sin(turn), 0), y(-x.y(), x.x(), 0);
     CHECK(reach_of(patch, 5, x) <= 1.0001 * 0.003);
     CHECK(reach_of(patch, 5, y) <= 1.0001 * 0.003);
@@ -157,7 +153,7 @@ TEST_CASE(
         for (const int rings : {1, 5})
           for (const double force : {0.1, 5.0, 20.0}) {
             const Mesh pad = pad_of(rectangle(half_x, half_y, rings), 0.004, rings);
-            const SoftPatch patch = patch_at(wide_floor(), pad, turn, {0, 0});
+            const SoftPatch patch = patch_at(test::floor_board(), pad, turn, {0, 0});
             const Vector3d x(std::cos(turn), std::sin(turn), 0), y(-x.y(), x.x(), 0);
             const double blunt = blunt_axis(force);
             CHECK(reach_of(patch, force, x) <= 1.0001 * std::min(half_x, blunt));
@@ -181,7 +177,7 @@ TEST_CASE("a disc bounds its circle by its radius, in the middle and at its rim"
       for (const double off : {0.0, 0.5, 0.95})
         for (const double force : {0.5, 5.0, 30.0}) {
           const Mesh pad = pad_of(circle(radius, segments), 0.004, 3);
-          const SoftPatch patch = patch_at(wide_floor(), pad, 0.1, {off * radius, 0});
+          const SoftPatch patch = patch_at(test::floor_board(), pad, 0.1, {off * radius, 0});
           const double expected = std::min(radius, blunt_axis(force));
           CHECK(axes_of(patch, force)[1] <= 1.0001 * expected);
           CHECK(torsion_radius(patch, force) < 2 * radius / 3);
@@ -206,7 +202,7 @@ TEST_CASE("in no direction is a patch wider than a pad of any outline, wherever 
     const Vector2d place = part * outline[trial % corners];
     const double turn = random.uniform(0, 6), force = std::exp(random.uniform(-2, 4));
     const SoftPatch patch =
-        patch_at(wide_floor(), pad_of(outline, 0.004, 1 + trial % 3), turn, place);
+        patch_at(test::floor_board(), pad_of(outline, 0.004, 1 + trial % 3), turn, place);
     const Eigen::Rotation2Dd turned(turn);
     for (int i = 0; i < 90; ++i) {
       const Vector2d d(std::cos(pi * i / 90), std::sin(pi * i / 90));
@@ -249,7 +245,7 @@ TEST_CASE("no ellipse is wider than a small ball, nor a wider body the worse for
   const Mesh small = test::moved(test::icosphere(0.002, 4), Pose::translation({0, 0, 0.002}));
   CHECK(blunt_axis(5, 0.002) > 0.0022);
   // leaning 73 degrees, its sheet ends
-  const double axis = axes_of(patch_at(wide_floor(), small, 0, {0, 0}), 5)[1];
+  const double axis = axes_of(patch_at(test::floor_board(), small, 0, {0, 0}), 5)[1];
   CHECK(axis < 0.002);
   CHECK(axis > 0.0018);
   // on a plate whose rim is beyond the patch, or a half of it is over the rim: all of it
@@ -268,7 +264,7 @@ TEST_CASE("what the rim cuts off makes the middle deeper: the pressure makes up 
   for (const double half : {0.0028, 0.003, 0.0035, 0.0039, 0.005})
     for (const double force : {1.0, 5.0, 12.0}) {
       const SoftPatch patch =
-          patch_at(wide_floor(), pad_of(rectangle(half, half), 0.004, 1), 0, {0, 0});
+          patch_at(test::floor_board(), pad_of(rectangle(half, half), 0.004, 1), 0, {0, 0});
       const ContactEllipse e = contact_ellipse(patch, force);
       const double paraboloid = 0.5 * pi * e.semi_axes[0] * e.semi_axes[1] * e.pressure;
       // wider than 80 % of its ellipse; what is narrower goes over into its even pressure
@@ -297,7 +293,7 @@ SoftPatch cube_at(const Vector3d& down, const Vector3d& place) {
   const Pose turn = Pose::turn(shortest_rotation(down, -Vector3d::UnitZ()));
   const Mesh cube = test::moved(test::box(0.03, 0.03, 0.03), turn);
   const Vector3d foot = turn * place;
-  return patch_at(wide_floor(), test::moved(cube, Pose::translation(-foot)), 0, {0, 0});
+  return patch_at(test::floor_board(), test::moved(cube, Pose::translation(-foot)), 0, {0, 0});
 }
 
 }  // namespace
@@ -325,18 +321,20 @@ TEST_CASE("a pad much smaller than its patch is pressed evenly") {
   for (const double half : {0.0005, 0.001, 0.0015})
     for (const double turn : {0.0, 0.3}) {
       const Mesh square = pad_of(rectangle(half, half), 0.004, 1);
-      const ContactEllipse e = contact_ellipse(patch_at(wide_floor(), square, turn, {0, 0}), 5);
+      const ContactEllipse e =
+          contact_ellipse(patch_at(test::floor_board(), square, turn, {0, 0}), 5);
       // sectors of 15 degrees instead of the corners: up to 2.3 % of the area
       CHECK(e.pressure == doctest::Approx(5 / (4 * half * half)).epsilon(0.025));
       const Mesh disc = pad_of(circle(half, 48), 0.004, 2);
-      const ContactEllipse d = contact_ellipse(patch_at(wide_floor(), disc, turn, {0, 0}), 5);
+      const ContactEllipse d =
+          contact_ellipse(patch_at(test::floor_board(), disc, turn, {0, 0}), 5);
       CHECK(d.pressure == doctest::Approx(5 / (pi * half * half)).epsilon(0.01));
     }
 }
 
 TEST_CASE("a layer that is pressed in by more than its height is told") {
   const Mesh ball = test::moved(test::icosphere(0.02, 4), Pose::translation({0, 0, 0.02}));
-  SoftPatch patch = patch_at(wide_floor(), ball, 0, {0, 0});
+  SoftPatch patch = patch_at(test::floor_board(), ball, 0, {0, 0});
   CHECK(!contact_ellipse(patch, 280).exceeds_layer);
   CHECK(contact_ellipse(patch, 290).exceeds_layer);  // sqrt(283 c / (pi 0.02)) = 3 mm
   // two of them are as high together; the original knows that of the stiffer alone
@@ -346,7 +344,7 @@ TEST_CASE("a layer that is pressed in by more than its height is told") {
 }
 
 TEST_CASE("a radius within which there is nothing to fit is refused") {
-  const auto a = Shape::make(wide_floor()), b = Shape::make(test::icosphere(0.01, 3));
+  const auto a = Shape::make(test::floor_board()), b = Shape::make(test::icosphere(0.01, 3));
   const Pose X_AB = Pose::translation({0, 0, pad_gap - b->bounds().low.z()});
   const auto site =
       soft_sites(a, b, X_AB, {}, {.modulus = pad_modulus}, contact_set(*a, *b, X_AB))[0];

@@ -26,10 +26,6 @@ PatchRings rings_of(const Mesh& below, const Mesh& above, double turn, double ra
   return patch_rings(sheet_a, sheet_b, radius, depth);
 }
 
-Mesh floor_below() {
-  return test::moved(test::box(0.2, 0.2, 0.02), Pose::translation({0, 0, -0.01}));
-}
-
 double area_of(const std::vector<GapPlace>& places, double widest_gap) {
   double sum = 0;
   for (const GapPlace& g : places)
@@ -47,7 +43,7 @@ TEST_CASE("places stand for the disc, those with a gap for where both surfaces a
     };
     const double radius = 0.004, disc = pi * radius * radius;
     const auto check = [&](const Mesh& body, double expected) {
-      const PatchRings rings = rings_of(floor_below(), body, turn, radius, 1e-4);
+      const PatchRings rings = rings_of(test::floor_board(), body, turn, radius, 1e-4);
       CHECK(area_of(rings.gap, std::numeric_limits<double>::infinity()) ==
             doctest::Approx(disc).epsilon(1e-9));
       CHECK(area_of(rings.gap, 1) == doctest::Approx(expected * disc).epsilon(1e-9));
@@ -60,7 +56,7 @@ TEST_CASE("places stand for the disc, those with a gap for where both surfaces a
   }
   // a post that is narrower than the disc: circles cross its rim at an angle
   const Mesh post = test::moved(test::box(0.002, 0.002, 0.01), Pose::translation({0, 0, 0.005}));
-  const PatchRings rings = rings_of(floor_below(), post, 0.3, 0.004, 1e-4);
+  const PatchRings rings = rings_of(test::floor_board(), post, 0.3, 0.004, 1e-4);
   CHECK(area_of(rings.gap, 1) == doctest::Approx(4e-6).epsilon(1e-3));
 }
 
@@ -68,7 +64,7 @@ TEST_CASE("paraboloids meet over ellipses, and depths sum to the volume under th
   const auto bowl = [](double x, double y) { return 0.5 * (50 * x * x + 200 * y * y); };
   const Mesh above = test::graph(bowl, 0.01, 60);
   for (const double depth : {1e-4, 2e-4}) {
-    const PatchRings rings = rings_of(floor_below(), above, 0.5, 0.005, depth);
+    const PatchRings rings = rings_of(test::floor_board(), above, 0.5, 0.005, depth);
     const Vector2d along(std::cos(0.5), std::sin(0.5)), across(-along.y(), along.x());
     const Matrix2d moments = 4 * std::sqrt(pi) * meeting_moments(rings.gap, depth);
     CHECK(along.dot(moments * along) == doctest::Approx(2 * depth / 50).epsilon(0.02));
@@ -79,7 +75,7 @@ TEST_CASE("paraboloids meet over ellipses, and depths sum to the volume under th
     CHECK(depth_of(rings.gap, volume) == doctest::Approx(depth).epsilon(0.02));
   }
   // circles instead of the paraboloids
-  const PatchRings rings = rings_of(floor_below(), above, 0, 0.005, 1e-4);
+  const PatchRings rings = rings_of(test::floor_board(), above, 0, 0.005, 1e-4);
   const auto round = round_gap(rings.gap, {200, -1}, Matrix2d::Identity());
   for (size_t i = 0; i < round.size(); ++i) {
     const Vector2d p = round[i].place;

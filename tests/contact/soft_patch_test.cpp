@@ -20,10 +20,6 @@ constexpr double gap = 5e-5;  // within the contact threshold [m]
 constexpr double rubber = 1.5e6;
 using std::numbers::pi;
 
-Mesh wide_floor() {
-  return test::moved(test::box(0.2, 0.2, 0.02), Pose::translation({0, 0, -0.01}));
-}
-
 // the patch of the first site of a rubber body b on a rigid a
 SoftPatch press(const Mesh& a, const Mesh& b, const Pose& X_AB, const PatchOptions& options = {},
                 int* site_count = nullptr) {
@@ -41,7 +37,7 @@ SoftPatch press(const Mesh& a, const Mesh& b, const Pose& X_AB, const PatchOptio
 
 // a body turned, then put on the floor
 SoftPatch drop(const Mesh& body, const Quaterniond& turn = Quaterniond::Identity(),
-               const Mesh& floor = wide_floor()) {
+               const Mesh& floor = test::floor_board()) {
   const Mesh turned = test::moved(body, Pose::turn(turn));
   return press(floor, turned,
                Pose::translation({0, 0, gap - Shape::make(turned)->bounds().low.z()}));
@@ -159,8 +155,8 @@ TEST_CASE("faces are flat however they are cut, and a thin plate has no far side
   const SoftPatch block = drop(test::box(0.1, 0.1, 0.1));
   check_radii(block, 0.02, 0.02, 1e-12);
   CHECK(block.flat == std::array{true, true});
-  check_radii(press(wide_floor(), test::box(0.1, 0.1, 0.1), Pose::translation({0, 0, 0.05 + gap}),
-                    {.max_radius = 0.05}),
+  check_radii(press(test::floor_board(), test::box(0.1, 0.1, 0.1),
+                    Pose::translation({0, 0, 0.05 + gap}), {.max_radius = 0.05}),
               0.05, 0.05, 1e-12);
 }
 
@@ -232,9 +228,10 @@ TEST_CASE("the order of contacts does not matter, to the bit") {
 
 TEST_CASE("contacts share a patch where their neighbourhoods overlap and look the same way") {
   int sites = 0;
-  press(wide_floor(), test::box(0.1, 0.1, 0.1), Pose::translation({0, 0, 0.05 + gap}), {}, &sites);
+  press(test::floor_board(), test::box(0.1, 0.1, 0.1), Pose::translation({0, 0, 0.05 + gap}), {},
+        &sites);
   CHECK(sites == 4);
-  const SoftPatch small = press(wide_floor(), test::box(0.006, 0.006, 0.002),
+  const SoftPatch small = press(test::floor_board(), test::box(0.006, 0.006, 0.002),
                                 Pose::translation({0, 0, 0.001 + gap}), {}, &sites);
   CHECK(sites == 1);
   CHECK(small.centre_A.head<2>().norm() < 1e-9);
@@ -260,7 +257,8 @@ const double flat_indentation = std::sqrt(5 * 0.003 / (rubber * pi * 0.02));
 // a ball against the edge of a board, its normal leaning from that of the upper face
 SoftPatch roll(double angle, const Mesh& ball) {
   const Vector3d up(0, std::sin(angle), std::cos(angle));
-  return press(wide_floor(), ball, Pose::translation(Vector3d(0, 0.1, 0) + (0.02 + gap) * up));
+  return press(test::floor_board(), ball,
+               Pose::translation(Vector3d(0, 0.1, 0) + (0.02 + gap) * up));
 }
 
 }  // namespace
@@ -305,7 +303,7 @@ TEST_CASE(
   const Mesh edge =
       test::moved(cube, Pose::turn(shortest_rotation(Vector3d(0, 1, 1), -Vector3d::UnitZ())));
   const Pose X = Pose::translation({0, 0, gap + 0.015 * std::sqrt(2.0)});
-  const auto a = Shape::make(wide_floor()), b = Shape::make(edge),
+  const auto a = Shape::make(test::floor_board()), b = Shape::make(edge),
              ball = Shape::make(test::icosphere(0.02, 4));
   const Pose X_ball = Pose::translation({0, 0, gap - ball->bounds().low.z()});
   const auto touches = contact_set(*a, *b, X), touches_ball = contact_set(*a, *ball, X_ball);
@@ -344,8 +342,8 @@ TEST_CASE("torsion falls by and by as a ball rolls from a face over an edge, and
   CHECK(radii[90] == doctest::Approx(face).epsilon(1e-3));
   // and nothing is lost where a ball nears the edge on the face: its middle still touches
   for (const double y : {0.08, 0.096, 0.098, 0.099, 0.1})
-    CHECK(torsion_radius(press(wide_floor(), ball, Pose::translation({0, y, 0.02 + gap})), 5) ==
-          doctest::Approx(face).epsilon(1e-3));
+    CHECK(torsion_radius(press(test::floor_board(), ball, Pose::translation({0, y, 0.02 + gap})),
+                         5) == doctest::Approx(face).epsilon(1e-3));
 }
 
 TEST_CASE("round bodies of coarse facets are not sharp, rounded edges are") {
@@ -482,8 +480,8 @@ TEST_CASE("the two fits agree on real patches") {
     const Mesh ball =
         test::moved(test::icosphere(radius, 4), Pose::turn(test::random_turn(random)));
     const Pose X = Pose::translation({0, 0, gap - Shape::make(ball)->bounds().low.z()});
-    const SoftPatch ours = press(wide_floor(), ball, X);
-    const SoftPatch theirs = press(wide_floor(), ball, X, {.fit = PatchFit::jet});
+    const SoftPatch ours = press(test::floor_board(), ball, X);
+    const SoftPatch theirs = press(test::floor_board(), ball, X, {.fit = PatchFit::jet});
     check_radii(theirs, ours.relative_radii[0], ours.relative_radii[1], 0.005);
   }
 }
@@ -526,7 +524,7 @@ TEST_CASE("whatever the meshes are, a patch is numbers") {
 }
 
 TEST_CASE("numbers that are none are refused") {
-  const auto a = Shape::make(wide_floor()), b = Shape::make(test::icosphere(0.02, 2));
+  const auto a = Shape::make(test::floor_board()), b = Shape::make(test::icosphere(0.02, 2));
   const SoftSite site{.a = a,
                       .b = b,
                       .X_AB = {},
@@ -615,7 +613,7 @@ TEST_CASE(
     "equivalent corners have equal patches: turned, mirrored, exchanged, moved, cut otherwise") {
   Random random(21);
   constexpr double rounding = 1e-7;
-  const Mesh floor = wide_floor();
+  const Mesh floor = test::floor_board();
   std::optional<PatchNumbers> corner;
   for (const double size : {0.012, 0.02, 0.03, 0.05, 0.1}) {
     const Mesh box = test::box(size, size, size);
@@ -642,7 +640,7 @@ TEST_CASE("edges, rims, narrow pads and corners that stand have equal patches ho
   const auto check = [](const std::vector<PatchNumbers>& some, const PatchNumbers& expected) {
     check_alike(some, expected, 1e-5, 3e-3);
   };
-  const Mesh floor = wide_floor();
+  const Mesh floor = test::floor_board();
   std::vector<Mesh> bodies = {test::box(0.004, 0.006, 0.01), test::box(0.06, 0.002, 0.03)};
   for (const Vector3d& down : {Vector3d(1, 1, 1), Vector3d(0, 1, 1), Vector3d(0.2, 0.5, 1)})
     bodies.push_back(

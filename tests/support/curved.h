@@ -1,4 +1,4 @@
-// Meshes of curved surfaces, as fine as asked, with vertices on them: for tests of curvature.
+// Meshes of curved surfaces, as fine as asked, with vertices on them, and a floor: for tests of curvature.
 #pragma once
 #include <functional>
 #include <map>
@@ -6,6 +6,9 @@
 #include "support/meshes.h"
 
 namespace clench::test {
+
+/// A board whose upper face lies in the plane z = 0 around the origin.
+inline Mesh floor_board() { return moved(box(0.2, 0.2, 0.02), Pose::translation({0, 0, -0.01})); }
 
 /// z = height(x, y) over a square of half width `half`, `cells` a side, seen from above; vertices
 /// moved within the plane by up to `jitter` of a cell.
