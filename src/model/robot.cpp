@@ -37,6 +37,13 @@ void find_frames(const Robot& robot, const Pose& X_base, std::span<const double>
   }
 }
 
+std::vector<int> joints_of(const Robot& robot, const Chain& chain) {
+  std::vector<int> out;
+  for (const int l : chain.links)
+    for (int j = robot.links[l].first_joint; j < robot.links[l].end_joint; ++j) out.push_back(j);
+  return out;
+}
+
 int number_in_chain(const Robot& robot, int joint) {
   int number = joint - robot.links[robot.joints[joint].link].first_joint;
   const ChainPlace place = place_of(robot.chains, robot.joints[joint].link);

@@ -66,10 +66,19 @@ struct RobotFrames {
   Eigen::Vector3d axis(const Robot& robot, int joint) const {
     return joints[joint].rotation * robot.joints[joint].axis;
   }
+  /// Of a point that the joint carries, the joint at unit speed [m per unit of the joint].
+  Eigen::Vector3d velocity(const Robot& robot, int joint, const Eigen::Vector3d& p) const {
+    const Eigen::Vector3d z = axis(robot, joint);
+    if (robot.joints[joint].kind == JointKind::prismatic) return z;
+    return z.cross(p - joints[joint].position);
+  }
 };
 /// q  of the joints [rad or m]
 void find_frames(const Robot& robot, const Pose& X_base, std::span<const double> q,
                  RobotFrames& out);
+
+/// Numbers of a chain's joints.
+std::vector<int> joints_of(const Robot& robot, const Chain& chain);
 
 /// Number of a joint in its chain, as users count it.
 int number_in_chain(const Robot& robot, int joint);

@@ -4,6 +4,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
+#include "clench/model/dof.h"
 #include "clench/model/world.h"
 
 namespace clench {
@@ -83,17 +84,7 @@ void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
   if (q.size() != static_cast<Eigen::Index>(r.dofs.size()))
     fail("robot '{}': expected {} DOF values, got {}", excerpt(r.name), r.dofs.size(), q.size());
   Eigen::VectorXd inside = q;
-  for (int i = 0; i < q.size(); ++i) {
-    const auto [low, high] = r.limits[i];
-    if (!std::isfinite(q[i]))
-      fail("robot '{}': DOF {} must be finite, got {}", excerpt(r.name), i + 1, q[i]);
-    // a limit that went through degrees and back is still the limit
-    const double slack = 1e-9 * std::max(1.0, std::max(std::abs(low), std::abs(high)));
-    if (q[i] < low - slack || q[i] > high + slack)
-      fail("robot '{}': DOF {} must lie in [{}, {}], got {}", excerpt(r.name), i + 1, low, high,
-           q[i]);
-    inside[i] = std::clamp(q[i], low, high);
-  }
+  for (int i = 0; i < q.size(); ++i) inside[i] = within_limits(r, i, q[i], "robot");
   // a value set by hand re-engages every joint
   set_dofs_unchecked(id, inside, {});
 }

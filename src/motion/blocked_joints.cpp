@@ -12,11 +12,7 @@ Eigen::Vector3d contact_velocity(const World& world, Id<Robot> id, const RobotFr
                                  int joint, const Contact& contact) {
   const bool moves_body = joint_moves(world, id, joint, contact.body);
   if (moves_body == joint_moves(world, id, joint, contact.other)) return Eigen::Vector3d::Zero();
-  const Robot& robot = world.robot(id);
-  const Eigen::Vector3d axis = frames.axis(robot, joint);
-  const Eigen::Vector3d arm = contact.p_W - frames.joints[joint].position;
-  const bool turns = robot.joints[joint].kind == JointKind::revolute;
-  return (moves_body ? 1 : -1) * (turns ? Eigen::Vector3d(axis.cross(arm)) : axis);
+  return (moves_body ? 1 : -1) * frames.velocity(world.robot(id), joint, contact.p_W);
 }
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
+#include "clench/model/dof.h"
 #include "clench/motion/move.h"
 #include "clench/motion/relax_springs.h"
 #include "clench/motion/springs.h"
@@ -129,12 +130,7 @@ void check(const Robot& robot, const DofMotion& motion) {
     fail("driving '{}': expected {} paces, got {}", excerpt(robot.name), motion.targets.size(),
          motion.rates.size());
   for (int i = 0; i < motion.targets.size(); ++i) {
-    const auto [low, high] = robot.limits[i];
-    // a limit that went through degrees and back is still the limit
-    const double slack = 1e-9 * std::max({1.0, std::abs(low), std::abs(high)});
-    if (!(motion.targets[i] >= low - slack && motion.targets[i] <= high + slack))
-      fail("driving '{}': DOF {} must lie in [{}, {}], got {}", excerpt(robot.name), i + 1, low,
-           high, motion.targets[i]);
+    within_limits(robot, i, motion.targets[i], "driving");
     if (!std::isfinite(motion.rates[i]))
       fail("driving '{}': the pace of DOF {} must be finite, got {}", excerpt(robot.name), i + 1,
            motion.rates[i]);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
@@ -8,17 +9,47 @@
 
 namespace clench {
 
-DriveResult autograsp(World& world, Id<Robot> id, double speed, const DriveOptions& options) {
+static DriveResult close_stage(World& world, Id<Robot> id, double speed, const Stage& dofs,
+                               const DriveOptions& options) {
   const Robot& robot = world.robot(id);
-  if (!std::isfinite(speed) || speed == 0)
-    fail("autograsp of '{}': the speed must be finite and not 0, got {}", excerpt(robot.name),
-         speed);
   DofMotion motion{world.dofs(id), Eigen::VectorXd::Zero(world.dofs(id).size())};
-  for (int i = 0; i < motion.rates.size(); ++i) {
+  for (const int i : dofs) {
     motion.rates[i] = robot.dofs[i].default_velocity * speed;
     if (motion.rates[i] != 0) motion.targets[i] = robot.limits[i][motion.rates[i] > 0];
   }
   return drive(world, id, motion, options);
+}
+
+// what came of one stage after those before it
+static void add(DriveResult& all, const DriveResult& stage) {
+  all.moved = all.moved || stage.moved;
+  for (size_t i = 0; i < stage.stops.size(); ++i)
+    if (stage.stops[i] != DofStop::not_driven) all.stops[i] = stage.stops[i];
+  for (const BodyPair& pair : stage.stopped_by)
+    if (std::ranges::find(all.stopped_by, pair) == all.stopped_by.end())
+      all.stopped_by.push_back(pair);
+  all.queries += stage.queries;
+  all.events += stage.events;
+}
+
+DriveResult autograsp(World& world, Id<Robot> id, double speed, const DriveOptions& options,
+                      const std::vector<Stage>& stages) {
+  const Robot& robot = world.robot(id);
+  if (!std::isfinite(speed) || speed == 0)
+    fail("autograsp of '{}': the speed must be finite and not 0, got {}", excerpt(robot.name),
+         speed);
+  Stage all(robot.dofs.size());
+  std::iota(all.begin(), all.end(), 0);
+  for (const Stage& stage : stages)
+    for (const int dof : stage)
+      if (dof < 0 || dof >= static_cast<int>(all.size()))
+        fail("autograsp of '{}': expected DOFs from 1 to {}, got {}", excerpt(robot.name),
+             all.size(), dof + 1);
+  if (stages.empty()) return close_stage(world, id, speed, all, options);
+  DriveResult result;
+  result.stops.assign(all.size(), DofStop::not_driven);
+  for (const Stage& stage : stages) add(result, close_stage(world, id, speed, stage, options));
+  return result;
 }
 
 // opens in steps without regard to contacts until nothing collides

@@ -144,7 +144,7 @@ TEST_CASE("DOF values are refused with what was expected and got") {
   CHECK_THROWS_WITH_AS(world.set_dofs(id, Eigen::Vector2d(NAN, 0)),
                        "robot 'gripper': DOF 1 must be finite, got nan", Error);
   CHECK_THROWS_WITH_AS(world.set_dofs(id, Eigen::Vector2d(0, -1)),
-                       "robot 'gripper': DOF 2 must lie in [0, 1.5707963267948966], got -1", Error);
+                       "robot 'gripper': DOF 2 must lie in [0, 1.571] rad, got -1", Error);
 }
 
 TEST_CASE("parts of a robot can neither be moved nor removed by themselves") {

@@ -22,22 +22,23 @@ std::vector<MovingRobot> moving_robots(const World& world, Id<Robot> hand, bool 
   return out;
 }
 
-// a joint's axis in the world
-struct Axis {
-  bool turns;
-  Eigen::Vector3d along, point;
+// a joint as it stands in the world
+struct StandingJoint {
+  const Robot& robot;
+  const RobotFrames& frames;
+  int number;
 };
 
-// the column of one joint
+// what the joint does to contact i
 void fill_column(Eigen::Ref<Eigen::VectorXd> column, const Grasp& grasp, const GraspMap& map, int i,
-                 const Pose& X_WO, const Axis& axis) {
-  const Eigen::Vector3d& z = axis.along;
-  const Eigen::Vector3d p_W = X_WO * grasp.points[i].p_O;
-  const Eigen::Vector3d v = axis.turns ? Eigen::Vector3d(z.cross(p_W - axis.point)) : z;
+                 const Pose& X_WO, const StandingJoint& joint) {
+  const auto& [robot, frames, j] = joint;
+  const Eigen::Vector3d v = frames.velocity(robot, j, X_WO * grasp.points[i].p_O);
   const Eigen::Matrix3d frame = X_WO.matrix() * contact_frame(grasp.points[i].n_O);
   const int start = map.starts[i], count = map.starts[i + 1] - start;
   for (int k = 0; k < std::min(count, 3); ++k) column[start + k] = frame.col((k + 2) % 3).dot(v);
-  if (count == 4) column[start + 3] = axis.turns ? frame.col(2).dot(z) : 0;
+  const bool turns = robot.joints[j].kind == JointKind::revolute;
+  if (count == 4) column[start + 3] = turns ? frame.col(2).dot(frames.axis(robot, j)) : 0;
 }
 
 }  // namespace
@@ -52,13 +53,12 @@ HandJacobian hand_jacobian(const World& world, const Grasp& grasp, const Jacobia
     const Robot& robot = world.robot(moving.robot);
     const auto frames = world.frames(moving.robot);
     for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
-      const Axis axis = {robot.joints[j].kind == JointKind::revolute, frames.axis(robot, j),
-                         frames.joints[j].position};
       Eigen::VectorXd column = Eigen::VectorXd::Zero(map.forces());
       for (int i = 0; i < map.contacts(); ++i) {
         const bool own = moving.robot == grasp.hand;
         const int link = own ? world.body(grasp.contacts[i].other).link : moving.link;
-        if (joint_moves_link(robot, j, link)) fill_column(column, grasp, map, i, X_WO, axis);
+        if (joint_moves_link(robot, j, link))
+          fill_column(column, grasp, map, i, X_WO, {robot, frames, j});
       }
       out.joints.push_back({moving.robot, j});
       columns.push_back(std::move(column));

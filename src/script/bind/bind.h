@@ -188,6 +188,15 @@ extern const Class hand_class;
 /// What a drive came to: {moved, stops, stopped_by, queries, events}.
 int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result);
 
+// --- What every robot can do with its DOFs, and where they take its links. ---
+
+extern const Class dofs_class, kinematics_class;
+
+/// Values of all DOFs: a list, or a table by names, which leaves the others as they are.
+Eigen::VectorXd check_dofs(lua_State* L, int i, const RobotHandle& robot);
+/// Numbers, from 0, of DOFs in a list of numbers, from 1, and names.
+std::vector<int> read_dof_numbers(lua_State* L, int i, const What& what, const RobotHandle& robot);
+
 // --- eigengrasps: a hand's posture by a few amplitudes; of a hand, or of none yet. ---
 
 /// A hand's own set as it is at any time, or a set by itself.

@@ -1,6 +1,7 @@
 #include "clench/script/bind/handles.h"
 
 #include "clench/base/error.h"
+#include "clench/base/suggest.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/watching.h"
 
@@ -26,6 +27,17 @@ void add_owned_bodies(lua_State* L, int index, std::span<const Id<Body>> bodies)
     if (body.shape->mesh().triangles.size() > many_triangles) body.shape->tree(Progress(bar_of(L)));
   }
   add_owned<WorldHandle>(L, index, bytes);
+}
+
+Id<Body> find_link(const RobotHandle& robot, const std::string& name, const std::string& subject) {
+  std::vector<std::string> names;
+  for (int l = -1; l < static_cast<int>(robot->links.size()); ++l) {
+    const auto id = robot->body_of(l);
+    const std::string& full = robot.world->body(id).name;
+    if (full == name || full == robot->name + "_" + name) return id;
+    names.push_back(full);
+  }
+  fail("{}: robot '{}' has no link '{}'{}", subject, robot->name, name, did_you_mean(name, names));
 }
 
 int push_bodies(lua_State* L, const WorldPtr& world, const std::vector<Id<Body>>& ids) {

@@ -74,6 +74,10 @@ int push_vector(lua_State* L, const Vector& v) {
   return push_numbers(L, {v.data(), static_cast<size_t>(v.size())});
 }
 
+/// A link of the robot, or its base, by its name, whole or without the robot's.
+/// throws  Error "subject: robot 'dlr' has no link 'thum'; did you mean 'dlr_thumb'?"
+Id<Body> find_link(const RobotHandle& robot, const std::string& name, const std::string& subject);
+
 /// A list of bodies.
 int push_bodies(lua_State* L, const WorldPtr& world, const std::vector<Id<Body>>& ids);
 /// A list of {a, b} of bodies.

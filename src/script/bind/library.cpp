@@ -20,12 +20,18 @@ std::span<const Library* const> all_libraries() {
 
 std::span<const Class* const> all_classes() {
   static const Class* const classes[] = {
-      &vec3_class,     &pose_class,         &random_class,      &world_class,
-      &snapshot_class, &entity_class,       &body_class,        &mesh_class,
-      &hand_class,     &robot_class,        &eigengrasps_class, &virtual_contact_class,
-      &contact_class,  &forces_class,       &measures_class,    &patch_class,
-      &grasp_class,    &wrench_space_class, &projection_class,  &picture_class,
-      &progress_class, &grasps_class,
+      &vec3_class,        &pose_class,
+      &random_class,      &world_class,
+      &snapshot_class,    &entity_class,
+      &body_class,        &mesh_class,
+      &hand_class,        &kinematics_class,
+      &dofs_class,        &robot_class,
+      &eigengrasps_class, &virtual_contact_class,
+      &contact_class,     &forces_class,
+      &measures_class,    &patch_class,
+      &grasp_class,       &wrench_space_class,
+      &projection_class,  &picture_class,
+      &progress_class,    &grasps_class,
   };
   return classes;
 }

@@ -1,8 +1,6 @@
 #include <algorithm>
 
-#include "clench/base/convert.h"
 #include "clench/base/suggest.h"
-#include "clench/motion/drive.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/getter.h"
@@ -52,14 +50,6 @@ static void push_joint(lua_State* L, const RobotHandle& robot, int joint) {
   if (spec.spring > 0) set_field(L, "spring", spec.spring), set_field(L, "rest", spec.rest);
 }
 
-// numbers of a chain's joints
-static std::vector<int> joints_of(const Robot& robot, const Chain& chain) {
-  std::vector<int> out;
-  for (const int l : chain.links)
-    for (int j = robot.links[l].first_joint; j < robot.links[l].end_joint; ++j) out.push_back(j);
-  return out;
-}
-
 static int get_chains(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   return push_list_of(L, robot->chains, [&](const Chain& chain) {
@@ -75,89 +65,6 @@ static int get_chains(lua_State* L) {
     lua_setfield(L, -2, "links");
     push_list_of(L, joints_of(*robot, chain), [&](int j) { push_joint(L, robot, j); });
     lua_setfield(L, -2, "joints");
-  });
-}
-
-static int get_dofs(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  return push_vector(L, robot.world->dofs(robot.id));
-}
-
-// DOF values of an argument; a wrong count names the robot
-static Eigen::VectorXd check_dofs(lua_State* L, int i, const Robot& robot) {
-  const auto values = read_numbers(L, i, {L, {}, "values"});
-  if (values.size() != robot.dofs.size())
-    fail("{}: robot '{}': expected {} DOF values, got {}", subject(L), robot.name,
-         robot.dofs.size(), values.size());
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<int>(values.size()));
-}
-
-// rows {chain, joint, value} of joints that do not follow their DOFs
-static std::vector<JointPosition> check_joint_positions(Table& options, const Robot& robot) {
-  std::vector<JointPosition> out(robot.joints.size());
-  for (const auto& row : options.rows("joint_positions", 3)) {
-    const auto number = [&](double x, size_t count, const char* what) {
-      if (!(x >= 1 && x <= static_cast<double>(count) && x == std::floor(x)))
-        fail("{}: joint_positions: expected a {} from 1 to {}, got {}", options.subject(), what,
-             count, x);
-      return floor_between(x, size_t{1}, count) - 1;
-    };
-    const size_t c = number(row[0], robot.chains.size(), "chain");
-    const auto joints = joints_of(robot, robot.chains[c]);
-    const size_t j = number(row[1], joints.size(), "joint");
-    const Joint& joint = robot.joints[joints[j]];
-    if (!(row[2] >= joint.min - 1e-9 && row[2] <= joint.max + 1e-9))
-      fail("{}: joint_positions: joint {} of chain {}: expected a value in [{}, {}], got {}",
-           options.subject(), j + 1, c + 1, joint.min, joint.max, row[2]);
-    out[joints[j]] = row[2];
-  }
-  return out;
-}
-
-static int set_dofs(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  const Eigen::VectorXd values = check_dofs(L, 2, *robot);
-  Table options(L, 3);
-  std::vector<JointPosition> own;
-  if (options.has("joint_positions")) own = check_joint_positions(options, *robot);
-  options.done();
-  robot.world->set_dofs(robot.id, values);
-  if (!own.empty()) {
-    const Eigen::VectorXd q = robot.world->dofs(robot.id);
-    robot.world->set_dofs_unchecked(robot.id, q, own);
-  }
-  return 0;
-}
-
-static int get_dof_limits(lua_State* L) {
-  return push_list_of(L, self<RobotHandle>(L)->limits,
-                      [&](const std::array<double, 2>& range) { push_numbers(L, range); });
-}
-
-static int get_dof_names(lua_State* L) {
-  int number = 0;
-  return push_list_of(L, self<RobotHandle>(L)->dofs, [&](const DofSpec& dof) {
-    ++number;
-    push(L, dof.name.empty() ? fmt::format("dof{}", number) : dof.name);
-  });
-}
-
-static const char* dof_kind(DofKind kind) {
-  static constexpr const char* names[] = {"rigid", "breakaway", "compliant"};
-  return names[static_cast<int>(kind)];
-}
-
-static int get_dof_info(lua_State* L) {
-  return push_list_of(L, self<RobotHandle>(L)->dofs, [&](const DofSpec& dof) {
-    push_list(L, 0, 8);
-    if (!dof.name.empty()) set_field(L, "name", std::string_view(dof.name));
-    set_field(L, "kind", dof_kind(dof.kind));
-    set_field(L, "default_velocity", dof.default_velocity);
-    set_field(L, "max_effort", dof.max_effort);
-    if (dof.max_velocity > 0) set_field(L, "max_velocity", dof.max_velocity);
-    set_field(L, "kp", dof.kp);
-    set_field(L, "kd", dof.kd);
-    set_field(L, "breakaway_torque", dof.breakaway_torque);
   });
 }
 
@@ -193,65 +100,9 @@ static int get_files(lua_State* L) {
 
 // --- verbs ---
 
-static Id<Body> find_link(lua_State* L, const RobotHandle& robot, const std::string& name) {
-  std::vector<std::string> names;
-  auto parts = links_of(*robot);
-  parts.push_back(robot->base);
-  for (const auto id : parts) {
-    const std::string& full = robot.world->body(id).name;
-    if (full == name || full == robot->name + "_" + name) return id;
-    names.push_back(full);
-  }
-  fail("{}: robot '{}' has no link '{}'{}", subject(L), robot->name, name,
-       did_you_mean(name, names));
-}
-
 static int link(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  return push(L, BodyHandle{robot.world, find_link(L, robot, check_string(L, 2, "name"))});
-}
-
-static const char* stop_name(DofStop stop) {
-  static constexpr const char* names[] = {"reached", "limit", "contact", "not_driven",
-                                          "iteration_limit"};
-  return names[static_cast<int>(stop)];
-}
-
-int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result) {
-  push_list(L, 0, 5);
-  set_field(L, "moved", result.moved);
-  push_list_of(L, result.stops, [&](DofStop stop) { push(L, stop_name(stop)); });
-  lua_setfield(L, -2, "stops");
-  push_pairs(L, world, result.stopped_by);
-  lua_setfield(L, -2, "stopped_by");
-  set_field(L, "queries", result.queries);
-  set_field(L, "events", result.events);
-  return 1;
-}
-
-static int autograsp(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  Table options(L, 2);
-  const double speed = options.number("speed", 1);
-  const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
-  options.done();
-  return push_drive(L, robot.world, clench::autograsp(*robot.world, robot.id, speed, driving));
-}
-
-static int open(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  Table options(L, 2);
-  options.done();
-  return push_drive(L, robot.world, open_hand(*robot.world, robot.id));
-}
-
-static int move_dofs(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  const Eigen::VectorXd targets = check_dofs(L, 2, *robot);
-  Table options(L, 3);
-  const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
-  options.done();
-  return push_drive(L, robot.world, drive_to(*robot.world, robot.id, targets, driving));
+  return push(L, BodyHandle{robot.world, find_link(robot, check_string(L, 2, "name"), subject(L))});
 }
 
 static int move_to(lua_State* L) {
@@ -296,7 +147,7 @@ static int mount_on(lua_State* L) {
   options.done();
   if (!by_name && (chain < 1 || chain > static_cast<int>(parent->chains.size())))
     fail("{}: chain: expected 1 to {}, got {}", subject(L), parent->chains.size(), chain);
-  const int link = by_name ? parent.world->body(find_link(L, parent, link_name)).link
+  const int link = by_name ? parent.world->body(find_link(parent, link_name, subject(L))).link
                            : parent->chains[chain - 1].links.back();
   if (link < 0) fail("{}: link: expected a link, got the base of '{}'", subject(L), parent->name);
   std::optional<BodySpec> spec;
@@ -328,24 +179,6 @@ Where its base is, in the world frame. Setting it moves the robot at once, with 
 > hand.pose = {xyz = {0, 0, 1}}
 > hand.base.pose.position  --> (0, 0, 1))",
      guarded<set_pose>},
-    {"dofs", guarded<get_dofs>, R"(
-Values of its degrees of freedom; a list of its own, set as by set_dofs.
-@type number[]  [rad or m]
-> #hand.dofs  --> 12)",
-     guarded<set_dofs>},
-    {"dof_limits", guarded<get_dof_limits>, R"(
-Least and largest value of each DOF.
-@type number[][]  [rad or m]
-> #hand.dof_limits[1]  --> 2)"},
-    {"dof_info", guarded<get_dof_info>, R"(
-What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity
-of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m].
-@type table[]
-> hand.dof_info[1].kind  --> rigid)"},
-    {"dof_names", guarded<get_dof_names>, R"(
-Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
-@type string[]
-> hand.dof_names[1]  --> dof1)"},
     {"links", guarded<get_links>, R"(
 Its links, chain by chain, without the base.
 @type body[]
@@ -398,33 +231,6 @@ A link, or the base, by its name, whole or without the robot's.
 @return body
 > hand:link "chain0_link2" == hand.chains[1].links[3]  --> true
 > hand:link "chain9_link0"  --> error: has no link)"},
-    {"set_dofs", guarded<set_dofs>, R"(
-Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away, or were held against their
-springs, follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
-@param values number[]  within the limits [rad or m]
-@param options? {joint_positions?: number[][]}  rows {chain, joint, value}
-> hand:set_dofs{1, 2, 3}  --> error: expected 12 DOF values, got 3)"},
-    {"move_dofs", guarded<move_dofs>, R"(
-Drives all DOFs in proportion towards values, until contact stops them.
-@param values number[]  within the limits [rad or m]
-@param options? {stop_at_contact?: boolean}  true: end at the first new contact of any link
-@return table result  as of autograsp
-> hand:move_dofs(hand.dofs).moved  --> false)"},
-    {"autograsp", guarded<autograsp>, R"(
-Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway
-fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts
-and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed
-opens.
-@param options? {speed?: number, stop_at_contact?: boolean}
-@return table result  `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
-> hand:autograsp().moved  --> false
-> hand:autograsp{sped = 1}  --> error: did you mean 'speed'?)"},
-    {"open", guarded<open>, R"(
-Opens the hand as far as it goes. One that overlaps something is opened regardless of contacts until it is free.
-@param options? table  no options yet
-@return table result  as of autograsp
-> hand:open().moved  --> true
-> #world:contacts(hand, flask)  --> 0)"},
     {"move_to", guarded<move_to>, R"(
 Moves the whole robot until it first touches something, as a body's move_to.
 @param pose pose
@@ -464,6 +270,6 @@ const Class robot_class{.name = "robot",
                         .fields = fields,
                         .methods = methods,
                         .operators = operators,
-                        .parent = &hand_class};
+                        .parent = &dofs_class};
 
 }  // namespace clench

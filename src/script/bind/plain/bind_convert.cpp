@@ -2,7 +2,7 @@
 
 #include "clench/io/convert.h"
 #include "clench/script/bind/read_spec.h"
-#include "clench/script/bind/world_files.h"
+#include "clench/script/bind/world/world_files.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"

@@ -1,6 +1,5 @@
 #include "clench/script/bind/bind.h"
 
-#include "clench/base/suggest.h"
 #include "clench/contact/cone.h"
 #include "clench/contact/friction_edges.h"
 #include "clench/motion/virtual_contacts.h"
@@ -34,19 +33,6 @@ static int number_on(const RobotHandle& robot, ChainPlace place, const What& wha
   return *link;
 }
 
-static int link_of_name(const std::string& name, const RobotHandle& robot, const What& what) {
-  std::vector<std::string> names;
-  for (const auto id : robot.world->bodies_of(robot.id)) {
-    const Body& body = robot.world->body(id);
-    if (body.kind == BodyKind::mount) continue;
-    if (body.name == name || body.name == robot->name + "_" + name)
-      return link_of_body(body, robot, what);
-    names.push_back(body.name);
-  }
-  fail("{}: robot '{}' has no link '{}'{}", what.text(), robot->name, name,
-       did_you_mean(name, names));
-}
-
 static int read_link(lua_State* L, Table& table, const RobotHandle& robot) {
   const What what = table.what("link");
   const int type = table.push("link");
@@ -56,7 +42,7 @@ static int read_link(lua_State* L, Table& table, const RobotHandle& robot) {
       fail("{}: '{}' belongs to another world", what.text(), (*body)->name);
     link = link_of_body(**body, robot, what);
   } else if (type == LUA_TSTRING) {
-    link = link_of_name(read_string(L, -1, what), robot, what);
+    link = robot.world->body(find_link(robot, read_string(L, -1, what), what.text())).link;
   } else if (type == LUA_TNUMBER && table.has("chain")) {
     // numbers as lists from files have them
     const int chain = table.integer("chain", 0), number = read_int(L, -1, what);

@@ -1,4 +1,4 @@
-#include "clench/script/bind/world_files.h"
+#include "clench/script/bind/world/world_files.h"
 
 #include "clench/base/text.h"
 #include "clench/io/text/confine.h"

@@ -1,0 +1,51 @@
+#include "clench/model/dof.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+
+namespace clench {
+
+// a limit that went through degrees and back is still the limit
+static constexpr double rounding = 1e-9;
+
+std::string dof_name(const Robot& robot, int dof) {
+  const std::string& name = robot.dofs[dof].name;
+  return name.empty() ? fmt::format("dof{}", dof + 1) : name;
+}
+
+bool dof_slides(const Robot& robot, int dof) {
+  const auto first = std::ranges::find(robot.joints, dof, &Joint::dof);
+  return first != robot.joints.end() && first->kind == JointKind::prismatic;
+}
+
+// what the value may have been meant as, when that lies within the limits
+static std::string other_unit(const std::array<double, 2>& range, double value, bool slides) {
+  const double meant = slides ? value / 1000 : value * std::numbers::pi / 180;
+  if (std::abs(value) < 1 || meant < range[0] - rounding || meant > range[1] + rounding) return "";
+  const char *unit = slides ? "millimetres" : "degrees", *function = slides ? "mm" : "rad";
+  return fmt::format("; {}? clench.{}({:.6g}) is {:.4g}", unit, function, value, meant);
+}
+
+double within_limits(const Robot& robot, int dof, double value, std::string_view subject) {
+  const auto [low, high] = robot.limits[dof];
+  const double slack = rounding * std::max({1.0, std::abs(low), std::abs(high)});
+  if (value >= low - slack && value <= high + slack) return std::clamp(value, low, high);
+  const std::string& name = robot.dofs[dof].name;
+  const std::string label =
+      fmt::format("DOF {}{}", dof + 1, name.empty() ? "" : " " + in_quotes(name));
+  const std::string place = fmt::format("{} '{}': {}", subject, excerpt(robot.name), label);
+  if (!std::isfinite(value)) fail("{} must be finite, got {}", place, value);
+  // as few digits as tell the value from the limit
+  int digits = 4;
+  const auto text = [&](double x) { return fmt::format("{:.{}g}", x, digits); };
+  while (digits < 17 && (text(value) == text(low) || text(value) == text(high))) ++digits;
+  const bool slides = dof_slides(robot, dof);
+  fail("{} must lie in [{}, {}] {}, got {}{}", place, text(low), text(high), slides ? "m" : "rad",
+       text(value), other_unit({low, high}, value, slides));
+}
+
+}  // namespace clench

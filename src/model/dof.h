@@ -1,0 +1,17 @@
+// A degree of freedom in sentences, and held against its limits.
+#pragma once
+#include "clench/model/robot.h"
+
+namespace clench {
+
+/// As its file calls it; "dof3" where it does not.   dof  from 0
+std::string dof_name(const Robot& robot, int dof);
+/// Does its first joint slide? Then it counts in metres, else in radians.
+bool dof_slides(const Robot& robot, int dof);
+
+/// The value, or the limit that rounding has taken it beyond.
+/// subject  "robot": what the sentence begins with, before the robot's name
+/// throws  Error "robot 'dlr': DOF 3 'thumb_1' must lie in [0, 1.571] rad, got 90; degrees? clench.rad(90) is 1.571"
+double within_limits(const Robot& robot, int dof, double value, std::string_view subject);
+
+}  // namespace clench

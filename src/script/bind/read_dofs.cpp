@@ -1,0 +1,67 @@
+#include "clench/base/suggest.h"
+#include "clench/model/dof.h"
+#include "clench/script/bind/bind.h"
+
+namespace clench {
+
+static int dof_named(const std::string& name, const RobotHandle& robot, const What& what) {
+  std::vector<std::string> names;
+  for (int d = 0; d < static_cast<int>(robot->dofs.size()); ++d) {
+    names.push_back(dof_name(*robot, d));
+    if (names.back() == name) return d;
+  }
+  fail("{}: robot '{}' has no DOF '{}'{}", what.text(), robot->name, name,
+       did_you_mean(name, names));
+}
+
+// some values by the names of their DOFs, from the table at index i; the others as they are
+static Eigen::VectorXd read_named_dofs(lua_State* L, int i, const What& what,
+                                       const RobotHandle& robot) {
+  Eigen::VectorXd out = robot.world->dofs(robot.id);
+  for (lua_pushnil(L); lua_next(L, i); lua_pop(L, 1)) {
+    if (lua_type(L, -2) != LUA_TSTRING)
+      fail("{}: expected names of DOFs, or a list of all values, got a table of both", what.text());
+    const std::string name(string_at(L, -2));
+    out[dof_named(name, robot, what)] = read_number(L, lua_gettop(L), {L, what.subject, name});
+  }
+  return out;
+}
+
+Eigen::VectorXd check_dofs(lua_State* L, int i, const RobotHandle& robot) {
+  const What what{L, {}, "values"};
+  if (lua_istable(L, i)) {
+    lua_pushnil(L);
+    if (lua_next(L, i)) {
+      const bool named = lua_type(L, -2) == LUA_TSTRING;
+      lua_pop(L, 2);
+      if (named) return read_named_dofs(L, i, what, robot);
+    }
+  }
+  const auto values = read_numbers(L, i, what);
+  if (values.size() != robot->dofs.size())
+    fail("{}: robot '{}': expected {} DOF values, got {}", subject(L), robot->name,
+         robot->dofs.size(), values.size());
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<int>(values.size()));
+}
+
+std::vector<int> read_dof_numbers(lua_State* L, int i, const What& what, const RobotHandle& robot) {
+  const int count = read_list_size(L, i, what, "a list of DOFs"),
+            most = static_cast<int>(robot->dofs.size());
+  std::vector<int> out;
+  for (int k = 1; k <= count; ++k) {
+    const bool by_name = lua_rawgeti(L, i, k) == LUA_TSTRING;
+    const What item = what.item(k);
+    if (!by_name && lua_type(L, -1) != LUA_TNUMBER)
+      fail_expected(item, "number or name of a DOF", lua_gettop(L));
+    const int dof =
+        by_name ? dof_named(read_string(L, -1, item), robot, item) : read_int(L, -1, item) - 1;
+    if (dof < 0 || dof >= most)
+      fail("{}: expected a DOF from 1 to {}, got {}", item.text(), most, dof + 1);
+    out.push_back(dof);
+    lua_pop(L, 1);
+  }
+  if (out.empty()) fail("{}: expected at least one DOF, got none", what.text());
+  return out;
+}
+
+}  // namespace clench

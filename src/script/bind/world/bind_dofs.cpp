@@ -1,0 +1,235 @@
+#include "clench/base/convert.h"
+#include "clench/model/dof.h"
+#include "clench/motion/drive.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+
+namespace clench {
+
+// --- values ---
+
+static int get_dofs(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push_vector(L, robot.world->dofs(robot.id));
+}
+
+static int get_named_dofs(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const auto q = robot.world->dofs(robot.id);
+  push_list(L, 0, static_cast<int>(q.size()));
+  for (int d = 0; d < q.size(); ++d) set_field(L, dof_name(*robot, d).c_str(), double{q[d]});
+  return 1;
+}
+
+// rows {chain, joint, value} of joints that do not follow their DOFs
+static std::vector<JointPosition> check_joint_positions(Table& options, const Robot& robot) {
+  std::vector<JointPosition> out(robot.joints.size());
+  for (const auto& row : options.rows("joint_positions", 3)) {
+    const auto number = [&](double x, size_t count, const char* what) {
+      if (!(x >= 1 && x <= static_cast<double>(count) && x == std::floor(x)))
+        fail("{}: joint_positions: expected a {} from 1 to {}, got {}", options.subject(), what,
+             count, x);
+      return floor_between(x, size_t{1}, count) - 1;
+    };
+    const size_t c = number(row[0], robot.chains.size(), "chain");
+    const auto joints = joints_of(robot, robot.chains[c]);
+    const size_t j = number(row[1], joints.size(), "joint");
+    const Joint& joint = robot.joints[joints[j]];
+    if (!(row[2] >= joint.min - 1e-9 && row[2] <= joint.max + 1e-9))
+      fail("{}: joint_positions: joint {} of chain {}: expected a value in [{}, {}], got {}",
+           options.subject(), j + 1, c + 1, joint.min, joint.max, row[2]);
+    out[joints[j]] = row[2];
+  }
+  return out;
+}
+
+static int set_dofs(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const Eigen::VectorXd values = check_dofs(L, 2, robot);
+  Table options(L, 3);
+  std::vector<JointPosition> own;
+  if (options.has("joint_positions")) own = check_joint_positions(options, *robot);
+  options.done();
+  robot.world->set_dofs(robot.id, values);
+  if (!own.empty()) {
+    const Eigen::VectorXd q = robot.world->dofs(robot.id);
+    robot.world->set_dofs_unchecked(robot.id, q, own);
+  }
+  return 0;
+}
+
+static int get_dof_limits(lua_State* L) {
+  return push_list_of(L, self<RobotHandle>(L)->limits,
+                      [&](const std::array<double, 2>& range) { push_numbers(L, range); });
+}
+
+static int get_dof_names(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  int number = 0;
+  return push_list_of(L, robot->dofs, [&](const DofSpec&) { push(L, dof_name(*robot, number++)); });
+}
+
+static const char* dof_kind(DofKind kind) {
+  static constexpr const char* names[] = {"rigid", "breakaway", "compliant"};
+  return names[static_cast<int>(kind)];
+}
+
+static int get_dof_info(lua_State* L) {
+  return push_list_of(L, self<RobotHandle>(L)->dofs, [&](const DofSpec& dof) {
+    push_list(L, 0, 8);
+    if (!dof.name.empty()) set_field(L, "name", std::string_view(dof.name));
+    set_field(L, "kind", dof_kind(dof.kind));
+    set_field(L, "default_velocity", dof.default_velocity);
+    set_field(L, "max_effort", dof.max_effort);
+    if (dof.max_velocity > 0) set_field(L, "max_velocity", dof.max_velocity);
+    set_field(L, "kp", dof.kp);
+    set_field(L, "kd", dof.kd);
+    set_field(L, "breakaway_torque", dof.breakaway_torque);
+  });
+}
+
+// --- motion ---
+
+static const char* stop_name(DofStop stop) {
+  static constexpr const char* names[] = {"reached", "limit", "contact", "not_driven",
+                                          "iteration_limit"};
+  return names[static_cast<int>(stop)];
+}
+
+int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result) {
+  push_list(L, 0, 5);
+  set_field(L, "moved", result.moved);
+  push_list_of(L, result.stops, [&](DofStop stop) { push(L, stop_name(stop)); });
+  lua_setfield(L, -2, "stops");
+  push_pairs(L, world, result.stopped_by);
+  lua_setfield(L, -2, "stopped_by");
+  set_field(L, "queries", result.queries);
+  set_field(L, "events", result.events);
+  return 1;
+}
+
+// `dofs`, or `stages` of them; empty: all at once
+static std::vector<Stage> read_stages(Table& options, const RobotHandle& robot) {
+  lua_State* L = options.what("").L;
+  std::vector<Stage> out;
+  if (options.push("dofs") != LUA_TNIL)
+    out.push_back(read_dof_numbers(L, lua_gettop(L), options.what("dofs"), robot));
+  lua_pop(L, 1);
+  if (options.push("stages") != LUA_TNIL) {
+    if (!out.empty()) fail("{}: expected dofs or stages, got both", options.subject());
+    const What what = options.what("stages");
+    const int count = read_list_size(L, lua_gettop(L), what, "a list of lists of DOFs");
+    for (int i = 1; i <= count; ++i) {
+      lua_rawgeti(L, -1, i);
+      out.push_back(read_dof_numbers(L, lua_gettop(L), what.item(i), robot));
+      lua_pop(L, 1);
+    }
+    if (out.empty()) fail("{}: expected at least one stage, got none", what.text());
+  }
+  lua_pop(L, 1);
+  return out;
+}
+
+static int autograsp(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  Table options(L, 2);
+  const double speed = options.number("speed", 1);
+  const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
+  const auto stages = read_stages(options, robot);
+  options.done();
+  return push_drive(L, robot.world,
+                    clench::autograsp(*robot.world, robot.id, speed, driving, stages));
+}
+
+static int open(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  Table options(L, 2);
+  options.done();
+  return push_drive(L, robot.world, open_hand(*robot.world, robot.id));
+}
+
+static int move_dofs(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const Eigen::VectorXd targets = check_dofs(L, 2, robot);
+  Table options(L, 3);
+  const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
+  options.done();
+  return push_drive(L, robot.world, drive_to(*robot.world, robot.id, targets, driving));
+}
+
+static const Entry fields[] = {
+    {"dofs", guarded<get_dofs>, R"(
+Values of its degrees of freedom; a list of its own, set as by set_dofs.
+@type number[]  [rad or m]
+> #hand.dofs  --> 12)",
+     guarded<set_dofs>},
+    {"named_dofs", guarded<get_named_dofs>, R"(
+The same values by the names of dof_names; a table of its own, set as by set_dofs.
+@type table<string, number>  [rad or m]
+> hand.named_dofs.dof2 == hand.dofs[2]  --> true
+> hand.named_dofs = {dof2 = 0.1}
+> hand.dofs[2]  --> 0.1)",
+     guarded<set_dofs>},
+    {"dof_limits", guarded<get_dof_limits>, R"(
+Least and largest value of each DOF.
+@type number[][]  [rad or m]
+> #hand.dof_limits[1]  --> 2)"},
+    {"dof_info", guarded<get_dof_info>, R"(
+What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity
+of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m].
+@type table[]
+> hand.dof_info[1].kind  --> rigid)"},
+    {"dof_names", guarded<get_dof_names>, R"(
+Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
+@type string[]
+> hand.dof_names[1]  --> dof1)"},
+};
+
+static const Entry methods[] = {
+    {"set_dofs", guarded<set_dofs>, R"(
+Sets DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away, or were held against their
+springs, follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
+@param values number[]|table<string, number>  within the limits: all, or some by their names, the others as they are [rad or m]
+@param options? {joint_positions?: number[][]}  rows {chain, joint, value}
+> hand:set_dofs{dof1 = 0, dof3 = 0.2}
+> hand.dofs[3]  --> 0.2
+> hand:set_dofs{dof44 = 0.2}  --> error: has no DOF 'dof44'; did you mean 'dof4'?
+> hand:set_dofs{dof3 = 20}  --> error: degrees? clench.rad(20) is 0.3491
+> hand:set_dofs{1, 2, 3}  --> error: expected 12 DOF values, got 3)"},
+    {"move_dofs", guarded<move_dofs>, R"(
+Drives all DOFs in proportion towards values, until contact stops them.
+@param values number[]|table<string, number>  as of set_dofs
+@param options? {stop_at_contact?: boolean}  true: end at the first new contact of any link
+@return table result  as of autograsp
+> hand:move_dofs(hand.dofs).moved  --> false)"},
+    {"autograsp", guarded<autograsp>, R"(
+Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway
+fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts
+and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed
+opens.
+@param options? {speed?: number, stop_at_contact?: boolean, dofs?: (integer|string)[], stages?: (integer|string)[][]}  dofs: only these, by number or name; stages: lists of them, one after the other
+@return table result  `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
+> hand:autograsp().moved  --> false
+> hand:open()
+> hand:autograsp{dofs = {"dof2", 3}}.stops[1]  --> not_driven
+> hand:autograsp{stages = {{1, 2, 3}, {4, 5, 6, 7, 8, 9}, {10, 11, 12}}}.moved  --> true
+> hand:autograsp{sped = 1}  --> error: did you mean 'speed'?)"},
+    {"open", guarded<open>, R"(
+Opens the hand as far as it goes. One that overlaps something is opened regardless of contacts until it is free.
+@param options? table  no options yet
+@return table result  as of autograsp
+> hand:open().moved  --> true
+> #world:contacts(hand, flask)  --> 0)"},
+};
+
+const Class dofs_class{.name = "dofs",
+                       .variable = "hand",
+                       .doc =
+                           "What every robot can do with its degrees of freedom: set them, drive "
+                           "them, close and open.",
+                       .fields = fields,
+                       .methods = methods,
+                       .parent = &kinematics_class};
+
+}  // namespace clench

@@ -1,0 +1,112 @@
+#include "clench/model/jacobian.h"
+#include "clench/motion/inverse_kinematics.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+
+namespace clench {
+
+// a body, or a link's name
+static Id<Body> check_part(lua_State* L, int i, const RobotHandle& robot) {
+  if (lua_type(L, i) == LUA_TSTRING)
+    return find_link(robot, check_string(L, i, "link"), subject(L));
+  const auto* body = to<BodyHandle>(L, i);
+  if (!body) fail_expected({L, {}, "link"}, "a body or the name of a link", i);
+  if (body->world != robot.world)
+    fail("{}: '{}' belongs to another world", subject(L), (*body)->name);
+  return body->id;
+}
+
+static int jacobian(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const auto body = check_part(L, 2, robot);
+  const Eigen::Vector3d p_B =
+      given(L, 3) ? check_vec3(L, 3, "point") : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  return push_rows(L, dof_jacobian(*robot.world, robot.id, body, robot.world->pose(body) * p_B));
+}
+
+static IkOptions read_ik_options(lua_State* L, int i, const RobotHandle& robot) {
+  Table options(L, i);
+  IkOptions out;
+  out.X_BT = options.pose("frame", out.X_BT);
+  const std::string orientation = options.choice("orientation", {"full", "axis", "none"}, "full");
+  if (orientation != "full")
+    out.orientation = orientation == "axis" ? IkOrientation::axis : IkOrientation::none;
+  if (options.push("dofs") != LUA_TNIL)
+    out.dofs = read_dof_numbers(L, lua_gettop(L), options.what("dofs"), robot);
+  lua_pop(L, 1);
+  out.starts = options.integer("starts", out.starts);
+  out.seed = options.seed("seed", out.seed);
+  out.tolerance = options.positive("tolerance", out.tolerance);
+  out.angle_tolerance = options.positive("angle_tolerance", out.angle_tolerance);
+  out.collision_free = options.boolean("collision_free", out.collision_free);
+  options.done();
+  return out;
+}
+
+static int ik(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const auto body = check_part(L, 2, robot);
+  const Pose X_WT = check_pose(L, 3, "pose");
+  const IkResult result = inverse_kinematics(*robot.world, robot.id, body, X_WT,
+                                             read_ik_options(L, 4, robot), &robot.world->context());
+  push_list(L, 0, 7);
+  set_field(L, "reached", result.reached);
+  push_vector(L, result.dofs);
+  lua_setfield(L, -2, "dofs");
+  set_field(L, "distance", result.distance);
+  set_field(L, "angle", result.angle);
+  set_field(L, "starts", result.starts);
+  set_field(L, "iterations", result.iterations);
+  set_field(L, "in_collision", result.in_collision);
+  return 1;
+}
+
+static int random_posture(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push_vector(
+      L, clench::random_posture(*robot.world, robot.id, check_object<Random>(L, 2, "random")));
+}
+
+static const Entry methods[] = {
+    {"ik", guarded<ik>, R"(
+Inverse kinematics: values of its DOFs within their limits that bring a link to a pose; moves nothing. Where none are
+found, those that come nearest, a turn by 1 rad counted as a way of 0.1 m.
+@param link body|string  a link, or its name; or a body of a robot that it carries
+@param pose pose  where it is to be, in the world
+@param options? {frame?: pose, orientation?: string, dofs?: (integer|string)[], starts?: integer, seed?: integer, tolerance?: number, angle_tolerance?: number, collision_free?: boolean}  frame: what of the link is to be there, in its own frame; orientation: "full" (default), "axis" (only where +z points), "none"; dofs: that may move; starts: 20 at most, the first from where it is, the others at random; tolerance 1e-6 [m], angle_tolerance 1e-6 [rad]; collision_free: nothing that it moves may collide
+@return table result  `reached`, `dofs`, `distance` [m] and `angle` [rad] from the pose, `starts`, `iterations`, `in_collision` (starts that reached it, but collided)
+> target = hand:link("chain0_link2").pose.position + clench.vec3(0, 0, 0.01)
+> result = hand:ik("chain0_link2", {xyz = target}, {orientation = "none"})
+> result.reached and result.distance < 1e-6  --> true
+> hand.dofs = result.dofs
+> (hand:link("chain0_link2").pose.position - target):norm() < 1e-6  --> true
+> hand:ik("chain0_link2", {xyz = {9, 0, 0}}).reached  --> false
+> hand:ik(flask, {})  --> error: no DOF that may move moves 'flask')"},
+    {"jacobian", guarded<jacobian>, R"(
+How its DOFs move a point: a row for each of vx, vy, vz [m per unit of the DOF], wx, wy, wz [rad per unit], in world
+axes, and a column for each DOF, with those of its joints that follow it.
+@param link body|string  a link, or its name; or a body of a robot that it carries
+@param point? vec3  in its frame, its origin by default [m]
+@return number[][]
+> J = hand:jacobian("chain0_link2", {0, 0, 0.01})
+> {#J, #J[1]}  --> {6, 12}
+> J[1][12]  --> 0.0)"},
+    {"random_posture", guarded<random_posture>, R"(
+Values for all its DOFs, any within the limits as likely as any other; a DOF that turns without end gets a turn about
+where it is. Moves nothing.
+@param random random
+@return number[]  [rad or m]
+> hand.dofs = hand:random_posture(clench.random(1)))"},
+};
+
+const Class kinematics_class{.name = "kinematics",
+                             .variable = "hand",
+                             .doc =
+                                 "What every robot knows of where its DOFs take its links: inverse "
+                                 "kinematics and Jacobians.",
+                             .fields = {},
+                             .methods = methods,
+                             .parent = &hand_class};
+
+}  // namespace clench
