@@ -299,14 +299,62 @@ function hand:find_virtual_contacts(options) end
 ---@param path string
 function hand:save_virtual_contacts(path) end
 
----A hand or an arm: a base, chains of links, and the degrees of freedom that move them.
----@class robot: hand
----@field name string # Unique in its world.
----@field pose pose # Where its base is, in the world frame. Setting it moves the robot at once, with all that it carries; see move_to.
+---What every robot knows of where its DOFs take its links: inverse kinematics and Jacobians.
+---@class kinematics: hand
+local kinematics = {}
+
+---Inverse kinematics: values of its DOFs within their limits that bring a link to a pose; moves nothing. Where none are found, those that come nearest, a turn by 1 rad counted as a way of 0.1 m.
+---@param link body|string # a link, or its name; or a body of a robot that it carries
+---@param pose pose # where it is to be, in the world
+---@param options? {frame?: pose, orientation?: string, dofs?: (integer|string)[], starts?: integer, seed?: integer, tolerance?: number, angle_tolerance?: number, collision_free?: boolean} # frame: what of the link is to be there, in its own frame; orientation: "full" (default), "axis" (only where +z points), "none"; dofs: that may move; starts: 20 at most, the first from where it is, the others at random; tolerance 1e-6 [m], angle_tolerance 1e-6 [rad]; collision_free: nothing that it moves may collide
+---@return table result # `reached`, `dofs`, `distance` [m] and `angle` [rad] from the pose, `starts`, `iterations`, `in_collision` (starts that reached it, but collided)
+function kinematics:ik(link, pose, options) end
+
+---How its DOFs move a point: a row for each of vx, vy, vz [m per unit of the DOF], wx, wy, wz [rad per unit], in world axes, and a column for each DOF, with those of its joints that follow it.
+---@param link body|string # a link, or its name; or a body of a robot that it carries
+---@param point? vec3 # in its frame, its origin by default [m]
+---@return number[][]
+function kinematics:jacobian(link, point) end
+
+---Values for all its DOFs, any within the limits as likely as any other; a DOF that turns without end gets a turn about where it is. Moves nothing.
+---@param random random
+---@return number[] # [rad or m]
+function kinematics:random_posture(random) end
+
+---What every robot can do with its degrees of freedom: set them, drive them, close and open.
+---@class dofs: kinematics
 ---@field dofs number[] # Values of its degrees of freedom; a list of its own, set as by set_dofs. [rad or m]
+---@field named_dofs table<string, number> # The same values by the names of dof_names; a table of its own, set as by set_dofs. [rad or m]
 ---@field dof_limits number[][] # Least and largest value of each DOF. [rad or m]
 ---@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m].
 ---@field dof_names string[] # Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
+local dofs = {}
+
+---Sets DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away, or were held against their springs, follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
+---@param values number[]|table<string, number> # within the limits: all, or some by their names, the others as they are [rad or m]
+---@param options? {joint_positions?: number[][]} # rows {chain, joint, value}
+function dofs:set_dofs(values, options) end
+
+---Drives all DOFs in proportion towards values, until contact stops them.
+---@param values number[]|table<string, number> # as of set_dofs
+---@param options? {stop_at_contact?: boolean} # true: end at the first new contact of any link
+---@return table result # as of autograsp
+function dofs:move_dofs(values, options) end
+
+---Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed opens.
+---@param options? {speed?: number, stop_at_contact?: boolean, dofs?: (integer|string)[], stages?: (integer|string)[][]} # dofs: only these, by number or name; stages: lists of them, one after the other
+---@return table result # `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
+function dofs:autograsp(options) end
+
+---Opens the hand as far as it goes. One that overlaps something is opened regardless of contacts until it is free.
+---@param options? table # no options yet
+---@return table result # as of autograsp
+function dofs:open(options) end
+
+---A hand or an arm: a base, chains of links, and the degrees of freedom that move them.
+---@class robot: dofs
+---@field name string # Unique in its world.
+---@field pose pose # Where its base is, in the world frame. Setting it moves the robot at once, with all that it carries; see move_to.
 ---@field links body[] # Its links, chain by chain, without the base.
 ---@field chains table[] # Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, of joints that have one).
 ---@field base body # Its base: palm or stand.
@@ -322,27 +370,6 @@ local robot = {}
 ---@param name string
 ---@return body
 function robot:link(name) end
-
----Sets all DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away, or were held against their springs, follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
----@param values number[] # within the limits [rad or m]
----@param options? {joint_positions?: number[][]} # rows {chain, joint, value}
-function robot:set_dofs(values, options) end
-
----Drives all DOFs in proportion towards values, until contact stops them.
----@param values number[] # within the limits [rad or m]
----@param options? {stop_at_contact?: boolean} # true: end at the first new contact of any link
----@return table result # as of autograsp
-function robot:move_dofs(values, options) end
-
----Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed opens.
----@param options? {speed?: number, stop_at_contact?: boolean}
----@return table result # `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
-function robot:autograsp(options) end
-
----Opens the hand as far as it goes. One that overlaps something is opened regardless of contacts until it is free.
----@param options? table # no options yet
----@return table result # as of autograsp
-function robot:open(options) end
 
 ---Moves the whole robot until it first touches something, as a body's move_to.
 ---@param pose pose

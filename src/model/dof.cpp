@@ -10,7 +10,7 @@
 namespace clench {
 
 // a limit that went through degrees and back is still the limit
-static constexpr double rounding = 1e-9;
+static constexpr double limit_rounding = 1e-9;
 
 std::string dof_name(const Robot& robot, int dof) {
   const std::string& name = robot.dofs[dof].name;
@@ -25,24 +25,25 @@ bool dof_slides(const Robot& robot, int dof) {
 // what the value may have been meant as, when that lies within the limits
 static std::string other_unit(const std::array<double, 2>& range, double value, bool slides) {
   const double meant = slides ? value / 1000 : value * std::numbers::pi / 180;
-  if (std::abs(value) < 1 || meant < range[0] - rounding || meant > range[1] + rounding) return "";
+  if (std::abs(value) < 1 || meant < range[0] - limit_rounding || meant > range[1] + limit_rounding)
+    return "";
   const char *unit = slides ? "millimetres" : "degrees", *function = slides ? "mm" : "rad";
   return fmt::format("; {}? clench.{}({:.6g}) is {:.4g}", unit, function, value, meant);
 }
 
 double within_limits(const Robot& robot, int dof, double value, std::string_view subject) {
   const auto [low, high] = robot.limits[dof];
-  const double slack = rounding * std::max({1.0, std::abs(low), std::abs(high)});
+  const double slack = limit_rounding * std::max({1.0, std::abs(low), std::abs(high)});
   if (value >= low - slack && value <= high + slack) return std::clamp(value, low, high);
   const std::string& name = robot.dofs[dof].name;
-  const std::string label =
-      fmt::format("DOF {}{}", dof + 1, name.empty() ? "" : " " + in_quotes(name));
+  std::string label = fmt::format("DOF {}", dof + 1);
+  if (!name.empty()) label = fmt::format("{} {}", label, in_quotes(name));
   const std::string place = fmt::format("{} '{}': {}", subject, excerpt(robot.name), label);
   if (!std::isfinite(value)) fail("{} must be finite, got {}", place, value);
   // as few digits as tell the value from the limit
-  int digits = 4;
-  const auto text = [&](double x) { return fmt::format("{:.{}g}", x, digits); };
-  while (digits < 17 && (text(value) == text(low) || text(value) == text(high))) ++digits;
+  int shown = 4;
+  const auto text = [&](double x) { return fmt::format("{:.{}g}", x, shown); };
+  while (shown < 17 && (text(value) == text(low) || text(value) == text(high))) ++shown;
   const bool slides = dof_slides(robot, dof);
   fail("{} must lie in [{}, {}] {}, got {}{}", place, text(low), text(high), slides ? "m" : "rad",
        text(value), other_unit({low, high}, value, slides));

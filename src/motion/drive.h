@@ -24,14 +24,14 @@ DriveResult drive_to(World& world, Id<Robot> robot, const Eigen::VectorXd& targe
                      const DriveOptions& options = {});
 
 /// Numbers of DOFs that move together.
-using Stage = std::vector<int>;
+using DofGroup = std::vector<int>;
 
 /// Closes (speed > 0) or opens (speed < 0) a hand: each DOF goes to its limit in the sense of its default velocity,
 /// at a pace in proportion to it. Opening again what was closed brings joints back that had broken away.
 /// stages  one after the other; DOFs of none stay. Empty: all DOFs at once
 /// throws  Error as drive() does, and for a number that no DOF has
 DriveResult autograsp(World& world, Id<Robot> robot, double speed = 1,
-                      const DriveOptions& options = {}, const std::vector<Stage>& stages = {});
+                      const DriveOptions& options = {}, const std::vector<DofGroup>& stages = {});
 
 /// Opens a hand as far as it goes. One that overlaps something is first opened without regard to contacts,
 /// until it is free.   throws Error naming the pairs when it is never free

@@ -9,7 +9,7 @@
 
 namespace clench {
 
-static DriveResult close_stage(World& world, Id<Robot> id, double speed, const Stage& dofs,
+static DriveResult close_stage(World& world, Id<Robot> id, double speed, const DofGroup& dofs,
                                const DriveOptions& options) {
   const Robot& robot = world.robot(id);
   DofMotion motion{world.dofs(id), Eigen::VectorXd::Zero(world.dofs(id).size())};
@@ -33,14 +33,14 @@ static void add(DriveResult& all, const DriveResult& stage) {
 }
 
 DriveResult autograsp(World& world, Id<Robot> id, double speed, const DriveOptions& options,
-                      const std::vector<Stage>& stages) {
+                      const std::vector<DofGroup>& stages) {
   const Robot& robot = world.robot(id);
   if (!std::isfinite(speed) || speed == 0)
     fail("autograsp of '{}': the speed must be finite and not 0, got {}", excerpt(robot.name),
          speed);
-  Stage all(robot.dofs.size());
+  DofGroup all(robot.dofs.size());
   std::iota(all.begin(), all.end(), 0);
-  for (const Stage& stage : stages)
+  for (const DofGroup& stage : stages)
     for (const int dof : stage)
       if (dof < 0 || dof >= static_cast<int>(all.size()))
         fail("autograsp of '{}': expected DOFs from 1 to {}, got {}", excerpt(robot.name),
@@ -48,7 +48,7 @@ DriveResult autograsp(World& world, Id<Robot> id, double speed, const DriveOptio
   if (stages.empty()) return close_stage(world, id, speed, all, options);
   DriveResult result;
   result.stops.assign(all.size(), DofStop::not_driven);
-  for (const Stage& stage : stages) add(result, close_stage(world, id, speed, stage, options));
+  for (const DofGroup& stage : stages) add(result, close_stage(world, id, speed, stage, options));
   return result;
 }
 

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double lever = 0.1;        // a turn by 1 rad counts as this way [m]
+constexpr double turn_length = 0.1;  // a turn by 1 rad counts as this way [m]
 constexpr int max_iterations = 300;  // of a start
 constexpr double no_step = 1e-12;    // a step below this is none [rad or m]
 constexpr double least_damping = 1e-9, most_damping = 1e9;  // of the error squared
@@ -26,7 +26,7 @@ constexpr double least_damping = 1e-9, most_damping = 1e9;  // of the error squa
 // values of the DOFs, and how far from the target they leave the frame
 struct Posture {
   VectorXd q;
-  Vector6d residual;  // way to go, above lever * turn to make, in world axes [m]
+  Vector6d residual;  // way to go, above turn_length * turn to make, in world axes [m]
   double distance = 0, angle = 0;
 
   double error() const { return residual.squaredNorm(); }
@@ -88,7 +88,7 @@ Posture Search::at(const VectorXd& q) {
   Posture out{q, {}, 0, Pose::turn(turn).angle()};
   const Vector3d way = X_WT_.position - X_WT_now_.position;
   const Vector3d axis = std::copysign(1.0, turn.w()) * turn.vec().stableNormalized();
-  out.residual << way, lever * out.angle * axis;
+  out.residual << way, turn_length * out.angle * axis;
   out.distance = way.norm();
   return out;
 }
@@ -101,7 +101,7 @@ MatrixXd Search::jacobian() const {
     const Joint& joint = robot_.joints[j];
     if (free_[joint.dof]) out.col(joint.dof) += joint.ratio * joints.col(j);
   }
-  out.bottomRows<3>() *= options_.orientation == IkOrientation::none ? 0.0 : lever;
+  out.bottomRows<3>() *= options_.orientation == IkOrientation::none ? 0.0 : turn_length;
   if (options_.orientation == IkOrientation::axis) {
     const Vector3d z = turned(X_WT_now_.rotation, Vector3d::UnitZ());
     out.bottomRows<3>() -= z * (z.transpose() * out.bottomRows<3>()).eval();

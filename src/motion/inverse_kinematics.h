@@ -1,5 +1,6 @@
 // Inverse kinematics: values of a robot's DOFs that bring one of its bodies to a pose.
 #pragma once
+#include "clench/base/random.h"
 #include "clench/model/find.h"
 
 namespace clench {

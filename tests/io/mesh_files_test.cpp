@@ -29,11 +29,11 @@ Mesh stretched_box() { return in_32_bits(box(0.25, 0.5, 0.125)); }
 
 /// A box whose faces share no vertices.
 Mesh box_of_loose_faces() {
-  const Mesh whole = stretched_box();
+  const Mesh joined = stretched_box();
   Mesh out;
-  for (size_t i = 0; i < whole.triangles.size(); ++i) {
+  for (size_t i = 0; i < joined.triangles.size(); ++i) {
     const int first = static_cast<int>(out.vertices.size());
-    for (const auto& p : whole.corners(static_cast<int>(i))) out.vertices.push_back(p);
+    for (const auto& p : joined.corners(static_cast<int>(i))) out.vertices.push_back(p);
     out.triangles.push_back({first, first + 1, first + 2});
   }
   return out;

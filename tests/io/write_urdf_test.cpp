@@ -266,13 +266,13 @@ TEST_CASE("surfaces of several colours keep them beside a .urdf, transparent one
 
 TEST_CASE("rolls, pitches and yaws give turns back, a quarter turn of pitch too") {
   const TemporaryFolder folder;
-  const double pi = std::numbers::pi;
+  const double half_turn = std::numbers::pi;
   Random random(5, 5);
   for (int i = 0; i < 40; ++i) {
     RobotSpec robot = one_link("any", "tip");
     Pose& X = joint_of(robot, 0, 0).X_PJ;
-    const double pitch = i % 4 == 0   ? pi / 2
-                         : i % 4 == 1 ? -pi / 2 + 1e-9 * i
+    const double pitch = i % 4 == 0   ? half_turn / 2
+                         : i % 4 == 1 ? -half_turn / 2 + 1e-9 * i
                                       : random.uniform(-2, 2);
     X = Pose::turn(random.uniform(-3, 3), Eigen::Vector3d::UnitZ()) *
         Pose::turn(pitch, Eigen::Vector3d::UnitY()) *

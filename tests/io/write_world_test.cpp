@@ -74,9 +74,10 @@ static void check_same(const WorldSpec& a, const WorldSpec& b, double tolerance)
     for (size_t d = 0; d < a.robots[i].dofs.size(); ++d)
       CHECK(std::abs(a.robots[i].dofs[d] - b.robots[i].dofs[d]) <= tolerance);
     for (size_t j = 0; j < a.robots[i].joint_positions.size(); ++j) {
-      const JointPosition &x = a.robots[i].joint_positions[j], &y = b.robots[i].joint_positions[j];
-      REQUIRE(x.has_value() == y.has_value());
-      CHECK(std::abs(x.value_or(0) - y.value_or(0)) <= tolerance);
+      const JointPosition &first = a.robots[i].joint_positions[j],
+                          &second = b.robots[i].joint_positions[j];
+      REQUIRE(first.has_value() == second.has_value());
+      CHECK(std::abs(first.value_or(0) - second.value_or(0)) <= tolerance);
     }
   }
   for (size_t i = 0; i < a.connections.size(); ++i) {

@@ -107,10 +107,10 @@ test("DOFs are set, driven and closed by their names, and the others stay", func
   hand:move_dofs {dof2 = before[2] + 0.01}
   t.equal(hand.dofs[2], before[2] + 0.01)
   hand:set_dofs(hand.named_dofs)
-  t.error(function() hand:set_dofs {dof4 = "x"} end, "set_dofs: dof4: expected a number, got 'x'")
-  t.error(function() hand:set_dofs {0, dof4 = 1} end, "table with the key 'dof4'")
-  t.error(function() hand:set_dofs {dof4 = 45} end,
-          "robot 'dlr': DOF 4 must lie in [-0.1745, 0.7854] rad, got 45; degrees? clench.rad(45) is 0.7854")
+  t.fails(function() hand:set_dofs {dof4 = "x"} end, "set_dofs: dof4: expected a number, got 'x'")
+  t.fails(function() hand:set_dofs {0, dof4 = 1} end, "table with the key 'dof4'")
+  t.fails(function() hand:set_dofs {dof4 = 45} end,
+          "robot 'dlr': DOF 4 must lie in [-0.3491, 1.309] rad, got 45; degrees? clench.rad(45) is 0.7854")
 end)
 
 test("a hand closes by some of its DOFs, or in stages", function(t)
@@ -118,7 +118,8 @@ test("a hand closes by some of its DOFs, or in stages", function(t)
   hand:open()
   local open = world:snapshot()
   local thumb = hand:autograsp {dofs = {1, "dof2", 3}}
-  for d, stop in ipairs(thumb.stops) do t.equal(stop == "not_driven", d > 3) end
+  -- the second of each finger's three swings it sideways, and closes nothing
+  for d, stop in ipairs(thumb.stops) do t.equal(stop == "not_driven", d > 3 or d == 2) end
   local after_thumb = hand.dofs
   local rest = hand:autograsp {dofs = {4, 5, 6, 7, 8, 9, 10, 11, 12}}
   local two_calls = hand.dofs
@@ -128,13 +129,13 @@ test("a hand closes by some of its DOFs, or in stages", function(t)
   for d, stop in ipairs(staged.stops) do t.equal(stop, d > 3 and rest.stops[d] or thumb.stops[d]) end
   t.equal(staged.queries, thumb.queries + rest.queries)
   t.equal(after_thumb[1], two_calls[1])
-  t.error(function() hand:autograsp {dofs = {13}} end, "dofs[1]: expected a DOF from 1 to 12, got 13")
-  t.error(function() hand:autograsp {dofs = {"dof13"}} end, "has no DOF 'dof13'; did you mean 'dof1'")
-  t.error(function() hand:autograsp {dofs = {true}} end, "dofs[1]: expected number or name of a DOF, got true")
-  t.error(function() hand:autograsp {dofs = {}} end, "expected at least one DOF, got none")
-  t.error(function() hand:autograsp {stages = {}} end, "expected at least one stage, got none")
-  t.error(function() hand:autograsp {stages = {1}} end, "stages[1]: expected a list of DOFs, got 1")
-  t.error(function() hand:autograsp {dofs = {1}, stages = {{1}}} end, "expected dofs or stages, got both")
+  t.fails(function() hand:autograsp {dofs = {13}} end, "dofs[1]: expected a DOF from 1 to 12, got 13")
+  t.fails(function() hand:autograsp {dofs = {"dof13"}} end, "has no DOF 'dof13'; did you mean 'dof1'")
+  t.fails(function() hand:autograsp {dofs = {true}} end, "dofs[1]: expected number or name of a DOF, got true")
+  t.fails(function() hand:autograsp {dofs = {}} end, "expected at least one DOF, got none")
+  t.fails(function() hand:autograsp {stages = {}} end, "expected at least one stage, got none")
+  t.fails(function() hand:autograsp {stages = {1}} end, "stages[1]: expected a list of DOFs, got 1")
+  t.fails(function() hand:autograsp {dofs = {1}, stages = {{1}}} end, "expected dofs or stages, got both")
 end)
 
 test("an arm finds a posture for a pose of its last link, and of the hand that it carries", function(t)
@@ -161,12 +162,12 @@ test("an arm finds a posture for a pose of its last link, and of the hand that i
   arm.dofs = q
   local v = (hand.pose * clench.vec3(0, 0, 0.1) - p) / step
   t.ok((v - clench.vec3(J[1][2], J[2][2], J[3][2])):norm() < 1e-5)
-  t.error(function() arm:ik("elbow", {}) end, "has no link 'elbow'")
-  t.error(function() arm:ik(3, {}) end, "link: expected a body or the name of a link, got 3")
-  t.error(function() arm:ik(hand.base, {}, {orientation = "ful"}) end, "unknown orientation 'ful'; did you mean 'full'?")
-  t.error(function() arm:ik(hand.base, {}, {tolerance = 0}) end, "tolerance")
+  t.fails(function() arm:ik("elbow", {}) end, "has no link 'elbow'")
+  t.fails(function() arm:ik(3, {}) end, "link: expected a body or the name of a link, got 3")
+  t.fails(function() arm:ik(hand.base, {}, {orientation = "ful"}) end, "did you mean 'full'?")
+  t.fails(function() arm:ik(hand.base, {}, {tolerance = 0}) end, "tolerance")
   local other = clench.world {}:add_robot "models/arms/ur5/ur5.cfg"
-  t.error(function() arm:ik(other.base, {}) end, "belongs to another world")
+  t.fails(function() arm:ik(other.base, {}) end, "belongs to another world")
 end)
 
 test("random postures lie within the limits and fill them", function(t)

@@ -239,7 +239,7 @@ TEST_CASE("a body that no DOF moves and options out of range are refused") {
     inverse_kinematics(s.world, s.robot, body, pose, options);
   };
   CHECK_THROWS_WITH_AS(solve(s.world.robot(s.robot).base, {}, {}),
-                       "inverse kinematics of 'arm': no DOF that may move moves 'arm'", Error);
+                       "inverse kinematics of 'arm': no DOF that may move moves 'arm_base'", Error);
   CHECK_THROWS_WITH_AS(solve(s.link(0), {}, {.dofs = {1}}),
                        "inverse kinematics of 'arm': no DOF that may move moves 'arm_link0'",
                        Error);

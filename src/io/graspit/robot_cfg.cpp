@@ -326,10 +326,10 @@ void CfgReader::read_optional_blocks() {
     else if (key == "Approach")
       read_approach();
     else {
-      const std::vector<std::string> known = {"EigenGrasps", "FlockOfBirds", "Approach",
-                                              "VirtualContacts", "CyberGlove"};
+      const std::vector<std::string> keywords = {"EigenGrasps", "FlockOfBirds", "Approach",
+                                                 "VirtualContacts", "CyberGlove"};
       library_.warn(fmt::format("{}: unknown keyword {} is not used{}", line.place(),
-                                in_quotes(key), did_you_mean(key, known)));
+                                in_quotes(key), did_you_mean(key, keywords)));
     }
   }
 }

@@ -2,7 +2,7 @@
 //
 // How to add a binding
 //  1. A value or handle that scripts hold is a Class; functions live in a Library. Each is one
-//     constant in a bind_<noun>.cpp that ends in tables of entries, is declared in bind.h, and has
+//     constant in a bind_<noun>.cpp, in the folder of its kind, that ends in tables of entries, is declared in bind.h, and has
 //     one line in library.cpp. Several libraries may share a name: their entries add up.
 //  2. A function is `static int f(lua_State* L)`, named in its table as guarded<f> (guard.h). It
 //     reads its arguments with check.h (positional) or a Table (options), calls the engine, and

@@ -110,9 +110,9 @@ int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result) {
 }
 
 // `dofs`, or `stages` of them; empty: all at once
-static std::vector<Stage> read_stages(Table& options, const RobotHandle& robot) {
+static std::vector<DofGroup> read_stages(Table& options, const RobotHandle& robot) {
   lua_State* L = options.what("").L;
-  std::vector<Stage> out;
+  std::vector<DofGroup> out;
   if (options.push("dofs") != LUA_TNIL)
     out.push_back(read_dof_numbers(L, lua_gettop(L), options.what("dofs"), robot));
   lua_pop(L, 1);

@@ -97,7 +97,8 @@ Values for all its DOFs, any within the limits as likely as any other; a DOF tha
 where it is. Moves nothing.
 @param random random
 @return number[]  [rad or m]
-> hand.dofs = hand:random_posture(clench.random(1)))"},
+> hand.dofs = hand:random_posture(clench.random(1))
+> hand.dofs[12] == hand:random_posture(clench.random(1))[12]  --> true)"},
 };
 
 const Class kinematics_class{.name = "kinematics",
