@@ -359,7 +359,7 @@ function dofs:open(options) end
 ---@field chains table[] # Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, of joints that have one).
 ---@field base body # Its base: palm or stand.
 ---@field bodies body[] # Base, links, and mount if it has one.
----@field approach {point: vec3, direction: vec3, frame: pose} # How it approaches what it grasps, in the world frame: `point` on the palm, `direction`, `frame` with +z along it.
+---@field approach {point: vec3, direction: vec3, frame: pose} # How it approaches what it grasps, in the world frame: `point` that goes there, on the palm or where it would hold a small object, `direction`, `frame` with +z along it. From its file, or a guess, which `clench check` tells.
 ---@field parent robot? # The robot that carries it; nil when none does.
 ---@field class_name string # What its file calls its kind.
 ---@field source string # File that it was read from.
@@ -759,7 +759,7 @@ function clench.eigengrasps(options) end
 
 ---Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of all soft contacts, without the cones, which would cover them. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
 ---@param world world
----@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number} # size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
+---@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number} # size: width and height in pixels; field_of_view: vertical [rad]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
 ---@return picture
 function clench.render(world, options) end
 

@@ -37,6 +37,9 @@ inline const Eigen::Vector3f needle(0.95f, 0.80f, 0.10f);
 /// Forces at contacts.
 inline const Eigen::Vector3f force(0.55f, 0.10f, 0.60f);
 
+/// Approach directions.
+inline const Eigen::Vector3f approach(0.10f, 0.55f, 0.30f);
+
 /// Wrench spaces: the solid, the ball inside it, the direction that it reaches least.
 inline const Eigen::Vector3f wrenches(0.25f, 0.60f, 0.85f), ball(1.0f, 0.55f, 0.10f),
     ball_label(0.60f, 0.28f, 0.0f), weakest(0.80f, 0.0f, 0.80f);

@@ -151,6 +151,30 @@ void draw_patches(const World& world, std::vector<DrawMesh>& out) {
       draw_patch(world, contact, out);
 }
 
+// length of an arrow, and radius of its rod: of the robot's size
+constexpr double approach_length = 0.4, approach_radius = 0.012;
+
+// of robots that close, from the approach point on
+void draw_approaches(const World& world, Scene& scene) {
+  for (const auto id : world.robots()) {
+    const Robot& robot = world.robot(id);
+    const auto closes = [](const DofSpec& dof) { return dof.default_velocity != 0; };
+    if (std::ranges::none_of(robot.dofs, closes)) continue;
+    Bounds bounds;
+    for (const auto part : world.bodies_of(id)) {
+      const Bounds b = bounds_in_world(world.body(part), world.pose(part));
+      if (!b.empty()) bounds.add(b.low), bounds.add(b.high);
+    }
+    if (bounds.empty()) continue;
+    const double size = bounds.size().norm();
+    const Pose X_WA = world.pose(robot.base) * robot.X_BA;
+    scene.arrows.push_back({.tail = X_WA.position,
+                            .tip = X_WA * Eigen::Vector3d(0, 0, approach_length * size),
+                            .radius = approach_radius * size,
+                            .color = palette::approach});
+  }
+}
+
 }  // namespace
 
 Scene make_scene(const World& world, const SceneOptions& options) {
@@ -170,6 +194,7 @@ Scene make_scene(const World& world, const SceneOptions& options) {
     all.add(bounds[i].low), all.add(bounds[i].high);
   }
   if (options.patches) draw_patches(world, scene.meshes);
+  if (options.approach) draw_approaches(world, scene);
   if (options.contacts) scene.cones = draw_contacts(world);
   if (options.ground && !floor && !all.empty()) scene.ground = all.low.z();
   scene.eye = options.eye;

@@ -64,7 +64,9 @@ struct Scene {
 struct SceneOptions {
   bool contacts = true;  ///< draw friction cones at the contacts of robots with objects
   bool patches = false;  ///< draw the patches of all soft contacts
-  bool ground = true;    ///< a floor under the lowest point, unless an obstacle is the floor
+  bool approach =
+      false;  ///< draw an arrow from the approach point of each robot that closes, along its direction
+  bool ground = true;  ///< a floor under the lowest point, unless an obstacle is the floor
   bool transparent_objects = true;  ///< so that contacts show
   bool file_colors = true;  ///< colours of the files, where they give any; else by kind of body
   std::vector<Id<Robot>> see_through = {};  ///< what is in and behind their links shows

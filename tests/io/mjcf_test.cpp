@@ -9,6 +9,7 @@
 #include "told_robot.h"
 
 using namespace clench;
+using namespace clench::test;
 using clench::test::TemporaryFolder;
 using clench::test::ToldRobot;
 namespace fs = std::filesystem;

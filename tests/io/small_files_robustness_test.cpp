@@ -26,7 +26,7 @@ struct Format {
   std::string sound;  // a file of it
 };
 
-const std::string edges = "2\n1 0 0 0 0 0\n0 0 0 0 0 1.64\n";
+const std::string edge_lines = "2\n1 0 0 0 0 0\n0 0 0 0 0 1.64\n";
 const std::string place = "1 2 3\n1 0 0 0\n1 2 3\n0 0 1\n0.5\n";
 
 const Format formats[] = {
@@ -37,7 +37,7 @@ const Format formats[] = {
      "<EigenGrasps dimensions=\"2\"><EG><EigenValue value=\"0.5\"/><Limits min=\"-1\" max=\"1\"/>"
      "<DimVals d0=\"1\" d1=\"2\"/></EG><ORIGIN><DimVals d1=\"0.2\"/></ORIGIN></EigenGrasps>"},
     {"vgr", "vgr", [](const fs::path& path) { read_virtual_contacts(path); },
-     "Hand\n2\n-1 0\n" + edges + place + "0 1\n" + edges + place},
+     "Hand\n2\n-1 0\n" + edge_lines + place + "0 1\n" + edge_lines + place},
     {"vgr", "xml", [](const fs::path& path) { read_virtual_contacts(path); },
      "<virtual_contacts><robot_name>H</robot_name><num_contacts>1</num_contacts><virtual_contact>"
      "<finger_number>0</finger_number><link_number>0</link_number><num_friction_edges>1"
@@ -45,7 +45,7 @@ const Format formats[] = {
      "</friction_edges><location>1 2 3</location><rotation>1 0 0 0</rotation><translation>1 2 3"
      "</translation><normal>0 0 1</normal><sCof>0.5</sCof></virtual_contact></virtual_contacts>"},
     {"object_contacts", "con", [](const fs::path& path) { read_object_contacts(path); },
-     "2\n" + edges + "1 0 0 0\n1 2 3\n0 0 1\n0.5\n" + edges + "1 0 0 0\n1 2 3\n0 0 1\n0.5\n"},
+     "2\n" + edge_lines + "1 0 0 0\n1 2 3\n0 0 1\n0.5\n" + edge_lines + "1 0 0 0\n1 2 3\n0 0 1\n0.5\n"},
     {"primitives", "iv", [](const fs::path& path) { read_primitives(path); },
      "#Inventor V2.1 ascii\nSeparator { Transform { translation 1 2 3 } Cube { width 20 } }\nCone "
      "{ "

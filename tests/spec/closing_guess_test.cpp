@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "clench/spec/approach_guess.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
 
@@ -42,7 +43,9 @@ struct Sketch {
     link.X_JL = Pose{};
     return dof;
   }
-  ClosingGuess guess() const { return guess_closing(robot, std::vector<bool>(robot.dofs.size())); }
+  std::vector<double> guess() const {
+    return guess_closing(robot, std::vector<bool>(robot.dofs.size()));
+  }
   /// The links of another one behind those here, its palm moved by the same joints as the link was.
   void append(const Sketch& other, int carrier) {
     const int links = static_cast<int>(robot.links.size()),
@@ -62,9 +65,16 @@ struct Sketch {
     joint(link, {1, 0, 0}, min, max);
     return link;
   }
-  Eigen::Vector3d approach(const ClosingGuess& guess) const {
-    REQUIRE(guess.X_BA);
-    return guess.X_BA->rotation * Eigen::Vector3d::UnitZ();
+  /// approach frame of the hand that closes so
+  Pose approach_frame_of(const std::vector<double>& senses) const {
+    RobotSpec closing = robot;
+    for (size_t d = 0; d < senses.size(); ++d) closing.dofs[d].default_velocity = senses[d];
+    const auto X_BA = guess_approach(closing);
+    REQUIRE(X_BA);
+    return *X_BA;
+  }
+  Eigen::Vector3d approach(const std::vector<double>& senses) const {
+    return approach_frame_of(senses).rotation * Eigen::Vector3d::UnitZ();
   }
 };
 
@@ -92,15 +102,15 @@ Sketch human_like() {
 
 TEST_CASE("fingers and thumb of a hand close towards each other, swings and palm stay") {
   const Sketch hand = human_like();
-  const ClosingGuess guess = hand.guess();
+  const auto guess = hand.guess();
   for (size_t j = 0; j < hand.robot.dofs.size(); ++j) {
     INFO(hand.robot.dofs[j].name);
     if (hand.robot.dofs[j].name.starts_with("knuckle"))
-      CHECK(guess.senses[j] == 0);
+      CHECK(guess[j] == 0);
     else if (j < 12)
-      CHECK(guess.senses[j] == 1);
+      CHECK(guess[j] == 1);
     else
-      CHECK(guess.senses[j] == -1);
+      CHECK(guess[j] == -1);
   }
   CHECK(hand.approach(guess).y() < -0.9);
 }
@@ -121,9 +131,9 @@ TEST_CASE("the guess does not depend on where the hand stands, nor on the sense 
       joint.min = -joint.min, joint.max = -joint.max;
     }
   const auto plain = hand.guess(), turned = other.guess();
-  CHECK(turned.senses[0] == 0);
+  CHECK(turned[0] == 0);
   for (size_t j = 0; j < hand.robot.dofs.size(); ++j)
-    CHECK(turned.senses[j + 1] == ((j + 1) % 2 ? -1 : 1) * plain.senses[j]);
+    CHECK(turned[j + 1] == ((j + 1) % 2 ? -1 : 1) * plain[j]);
 }
 
 TEST_CASE(
@@ -141,7 +151,7 @@ TEST_CASE(
     const int root = hand.add("thumb", 0, X_PT, {0, 0, 0}, {0, 0, 0});
     hand.joint(root, {0, 0, side}, -0.1, 1.2);
     hand.phalanx(hand.phalanx(root, {}, -1.6, 0.2), up40, -1.6, 0.2);
-    return hand.guess().senses;
+    return hand.guess();
   };
   const auto right = with_thumb(1), left = with_thumb(-1);
   CHECK(right == left);
@@ -160,9 +170,43 @@ TEST_CASE("a gripper closes whether it is drawn open or shut") {
       gripper.joint(finger, {side, 0, 0}, -open, 0.04 - open, JointKind::prismatic);
     }
     const auto guess = gripper.guess();
-    CHECK(guess.senses == std::vector<double>{-1, -1});
-    CHECK(gripper.approach(guess).z() > 0.99);
+    CHECK(guess == std::vector<double>{-1, -1});
+    const Pose X_BA = gripper.approach_frame_of(guess);
+    CHECK(X_BA.rotation.isApprox(Eigen::Quaterniond::Identity()));
+    // between the pads, which reach from 40 to 100 mm
+    CHECK(std::abs(X_BA.position.x()) < 1e-3);
+    CHECK(std::abs(X_BA.position.y()) < 5e-3);
+    CHECK(X_BA.position.z() > 0.04);
+    CHECK(X_BA.position.z() < 0.1);
   }
+}
+
+TEST_CASE("a hand of twice the size approaches from the same side, its place twice as far") {
+  const auto scaled = [](const BodySpec& body) {
+    BodySpec out = body;
+    if (!body.shape) return out;
+    Mesh mesh = body.shape->mesh();
+    for (auto& v : mesh.vertices) v *= 2;
+    out.shape = Shape::make(mesh);
+    return out;
+  };
+  const Sketch hand = human_like();
+  Sketch twice = hand;
+  twice.robot.base = scaled(hand.robot.base);
+  for (LinkSpec& link : twice.robot.links) {
+    link.body = scaled(link.body);
+    link.X_JL.position *= 2;
+    for (JointSpec& joint : link.joints) joint.X_PJ.position *= 2;
+  }
+  const auto senses = hand.guess();
+  REQUIRE(twice.guess() == senses);
+  const Pose one = hand.approach_frame_of(senses), two = twice.approach_frame_of(senses);
+  CHECK(two.rotation.coeffs() == one.rotation.coeffs());
+  CHECK((two.position - 2 * one.position).norm() < 1e-12);
+  // before the palm, which faces -y, within the reach of fingers and thumb
+  CHECK(one.position.y() < -0.015);
+  CHECK(one.position.y() > -0.1);
+  CHECK(std::abs(one.position.x()) < 0.02);
 }
 
 TEST_CASE("one DOF that moves both jaws closes them") {
@@ -178,7 +222,7 @@ TEST_CASE("one DOF that moves both jaws closes them") {
   right.dof = left.dof;
   right.ratio = -1;
   // the left jaw stands at +x: a negative turn about y brings its tip to the middle
-  CHECK(gripper.guess().senses == std::vector<double>{-1, 0});
+  CHECK(gripper.guess() == std::vector<double>{-1, 0});
 }
 
 TEST_CASE("fingers that turn about the palm's normal do not close it") {
@@ -208,7 +252,7 @@ TEST_CASE("fingers that turn about the palm's normal do not close it") {
   for (size_t j = 0; j < hand.robot.dofs.size(); ++j) {
     const bool spread =
         std::find(spreads.begin(), spreads.end(), static_cast<int>(j)) != spreads.end();
-    CHECK(guess.senses[j] == (spread ? 0 : 1));
+    CHECK(guess[j] == (spread ? 0 : 1));
   }
   CHECK(hand.approach(guess).z() > 0.9);
 }
@@ -218,13 +262,13 @@ TEST_CASE("an arm has no DOF that closes it, a single jaw has one") {
   int link = 0;
   for (int i = 0; i < 6; ++i) link = arm.phalanx(link, up40, -3, 3);
   const auto none = arm.guess();
-  CHECK(none.senses == std::vector<double>(6, 0));
-  CHECK_FALSE(none.X_BA);
+  CHECK(none == std::vector<double>(6, 0));
+  CHECK_FALSE(guess_approach(arm.robot));
 
   Sketch clip({0.02, 0.02, 0.1});
   clip.phalanx(0, Pose::translation({0, 0.03, 0}), -0.2, 1.2);
   // the palm stands at -y of the jaw, which turns there about +x
-  CHECK(clip.guess().senses == std::vector<double>{1});
+  CHECK(clip.guess() == std::vector<double>{1});
 }
 
 TEST_CASE("a camera on an arm does not make its wrist a finger") {
@@ -237,22 +281,22 @@ TEST_CASE("a camera on an arm does not make its wrist a finger") {
   arm.joint(palm, {1, 0, 0}, -1, 1);
   arm.append(hand, palm);
   const auto plain = hand.guess(), carried = arm.guess();
-  CHECK(carried.senses[0] == 0);
-  CHECK(carried.senses[1] == 0);
-  for (size_t j = 0; j < hand.robot.dofs.size(); ++j)
-    CHECK(carried.senses[j + 2] == plain.senses[j]);
+  CHECK(carried[0] == 0);
+  CHECK(carried[1] == 0);
+  for (size_t j = 0; j < hand.robot.dofs.size(); ++j) CHECK(carried[j + 2] == plain[j]);
 }
 
 TEST_CASE("passive joints, frames without geometry and robots without joints are no matter") {
   Sketch hand = human_like();
   std::vector<bool> passive(hand.robot.dofs.size());
   passive[1] = true;
-  CHECK(guess_closing(hand.robot, passive).senses[1] == 0);
+  CHECK(guess_closing(hand.robot, passive)[1] == 0);
   for (auto& link : hand.robot.links) link.body.shape = nullptr;
   hand.robot.base.shape = nullptr;
-  CHECK(hand.guess().senses.size() == hand.robot.dofs.size());
+  CHECK(hand.guess().size() == hand.robot.dofs.size());
+  CHECK(hand.approach(hand.guess()).norm() == doctest::Approx(1));
   const Sketch box;
-  CHECK(box.guess().senses.empty());
+  CHECK(box.guess().empty());
 }
 
 TEST_CASE("a hand of hundreds of fingers closes all of them, in the time of one after the other") {
@@ -265,6 +309,7 @@ TEST_CASE("a hand of hundreds of fingers closes all of them, in the time of one 
     const int link = sketch.add("finger", 0, at, {0.005, 0.002, 0.1}, {0, 0, 0.05});
     sketch.joint(link, {0, 1, 0}, -1, 1);
   }
-  const ClosingGuess guess = sketch.guess();
-  CHECK(guess.senses == std::vector<double>(fingers, -1.0));
+  const auto guess = sketch.guess();
+  CHECK(guess == std::vector<double>(fingers, -1.0));
+  CHECK(sketch.approach(guess).z() > 0.99);
 }

@@ -7,6 +7,7 @@
 #include "clench/base/text.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/io/tree/closing_choice.h"
+#include "clench/spec/approach_guess.h"
 #include "clench/spec/chains.h"
 #include "clench/spec/closing_guess.h"
 
@@ -26,7 +27,7 @@ class RobotMaker {
   void add_link(const TreeLink& from);
   JointSpec joint_spec(const TreeJoint& joint, const Pose& before) const;
   void close_hand();
-  void tell_closing(const ClosingGuess& guess);
+  void tell_closing();
 
   TreeModel tree_;
   const std::string& file_;
@@ -143,7 +144,7 @@ void RobotMaker::add_link(const TreeLink& from) {
   robot_.links.push_back(std::move(link));
 }
 
-void RobotMaker::tell_closing(const ClosingGuess& guess) {
+void RobotMaker::tell_closing() {
   std::vector<std::string> closing;
   for (const DofSpec& dof : robot_.dofs)
     if (dof.default_velocity != 0)
@@ -154,21 +155,22 @@ void RobotMaker::tell_closing(const ClosingGuess& guess) {
                         "'close' says otherwise",
                         file_, name_list(closing))
           : fmt::format("{}: no DOF is found to close it; the option 'close' names some", file_));
-  if (!guess.X_BA || library_.options().approach) return;
-  const Eigen::Vector3d z = guess.X_BA->rotation * Eigen::Vector3d::UnitZ();
-  library_.note(
-      fmt::format("{}: it approaches along ({:.3g}, {:.3g}, {:.3g}) of its base, by its "
-                  "geometry; the option 'approach' says otherwise",
-                  file_, z.x() + 0.0, z.y() + 0.0, z.z() + 0.0));
+  if (!robot_.X_BA || library_.options().approach) return;
+  const Eigen::Vector3d z = robot_.X_BA->rotation * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d& p = robot_.X_BA->position;
+  library_.note(fmt::format(
+      "{}: by its geometry it approaches along ({:.3g}, {:.3g}, {:.3g}), what it grasps at "
+      "({:.3f}, "
+      "{:.3f}, {:.3f}) m of its base; the option 'approach' says otherwise",
+      file_, z.x() + 0.0, z.y() + 0.0, z.z() + 0.0, p.x() + 0.0, p.y() + 0.0, p.z() + 0.0));
 }
 
 void RobotMaker::close_hand() {
-  const ClosingGuess guess = guess_closing(robot_, passive_);
-  for (size_t d = 0; d < guess.senses.size(); ++d)
-    set_closing(robot_, static_cast<int>(d), guess.senses[d]);
-  robot_.X_BA = guess.X_BA;
+  const auto senses = guess_closing(robot_, passive_);
+  for (size_t d = 0; d < senses.size(); ++d) set_closing(robot_, static_cast<int>(d), senses[d]);
   choose_closing(robot_, file_, library_.options());
-  tell_closing(guess);
+  if (!robot_.X_BA) robot_.X_BA = guess_approach(robot_);
+  tell_closing();
 }
 
 RobotSpec RobotMaker::make() {

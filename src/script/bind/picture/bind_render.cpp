@@ -58,7 +58,7 @@ static GivenForces read_forces(lua_State* L, Table& options) {
 static void add_forces(Table& options, const GivenForces& given, Scene& scene) {
   const double longest = given.longest > 0 ? given.longest : 1;
   const double scale = options.positive("force_scale", force_scale(given.forces, longest));
-  scene.arrows = force_arrows(given.forces, scale);
+  for (DrawArrow& arrow : force_arrows(given.forces, scale)) scene.arrows.push_back(arrow);
   scene.labels = force_labels(given.forces, scale);
   if (!scene.labels.empty())
     scene.caption = {fmt::format("forces on the object, the largest {}", scene.labels[0].text)};
@@ -111,6 +111,7 @@ static int draw(lua_State* L) {
   showing.ground = options.boolean("ground", showing.ground);
   showing.transparent_objects = options.boolean("transparent_objects", showing.transparent_objects);
   showing.file_colors = options.boolean("file_colors", showing.file_colors);
+  showing.approach = options.boolean("approach", showing.approach);
   GivenForces given = read_forces(L, options);
   showing.see_through = std::move(given.robots);
   Scene scene = make_scene(world, showing);
@@ -153,11 +154,12 @@ Draws a world: robots, objects, obstacles, friction cones where robots touch obj
 all soft contacts, without the cones, which would cover them. The camera frames everything unless it is given, in whole
 or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
 @param world world
-@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number}  size: width and height in pixels; field_of_view: vertical [rad]; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
+@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number}  size: width and height in pixels; field_of_view: vertical [rad]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
 @return picture
 > clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels
 > held = grasp:contact_forces{load = {0, 0, -3, 0, 0, 0}}
 > clench.render(world, {size = {64, 48}, forces = held.forces}) == clench.render(world, {size = {64, 48}})  --> false
+> clench.render(world, {size = {64, 48}, approach = true}) == clench.render(world, {size = {64, 48}})  --> false
 > bare = clench.render(world, {size = {64, 48}, patches = true, contacts = false})
 > clench.render(world, {size = {64, 48}, patches = true}) == bare  --> true
 > clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: expected a contact, got nothing)"},

@@ -203,7 +203,8 @@ Base, links, and mount if it has one.
 @type body[]
 > #hand.bodies  --> 13)"},
     {"approach", guarded<get_approach>, R"(
-How it approaches what it grasps, in the world frame: `point` on the palm, `direction`, `frame` with +z along it.
+How it approaches what it grasps, in the world frame: `point` that goes there, on the palm or where it would hold a
+small object, `direction`, `frame` with +z along it. From its file, or a guess, which `clench check` tells.
 @type {point: vec3, direction: vec3, frame: pose}
 > math.abs(hand.approach.direction:norm() - 1) < 1e-12  --> true)"},
     {"parent", guarded<get_parent>, R"(

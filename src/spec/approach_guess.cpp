@@ -1,0 +1,77 @@
+#include "clench/spec/approach_guess.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "clench/spec/ball_trial.h"
+
+namespace clench {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double spacing = 0.5, extent = 2.5;  // of lines beside each other: of the ball's radius
+constexpr int leaning_sides = 6;
+constexpr double leaning = 0.4;  // [rad]
+constexpr double beside = 0.5;  // deviation of the bell that weighs lines beside one: of the radius
+constexpr double off_middle = 0.02;  // what a line counts less, a radius off the middle
+
+struct Attempt {
+  Vector3d centre;  // of the ball
+  Vector3d offset;  // from the middle, across the direction
+  bool leans;
+  double held;
+};
+
+// X  +z along the direction, its origin the middle
+std::vector<Attempt> try_all(const BallTrial& trial, const Pose& X) {
+  std::vector<Attempt> out;
+  const int n = static_cast<int>(extent / spacing);
+  for (int side = 0; side <= leaning_sides; ++side) {
+    const double turn = 2 * std::numbers::pi * side / leaning_sides;
+    const Vector3d axis(std::cos(turn), std::sin(turn), 0);
+    const Pose lean = side > 0 ? Pose::turn(leaning, axis) : Pose{};
+    const Vector3d direction = turned((X * lean).rotation, Vector3d::UnitZ());
+    for (int i = -n; i <= n; ++i)
+      for (int j = -n; j <= n; ++j) {
+        const Vector3d offset = spacing * trial.radius() * Vector3d(i, j, 0);
+        if (const auto centre = trial.touch(X * offset, direction))
+          out.push_back({*centre, offset, side > 0, trial.held(*centre)});
+      }
+  }
+  return out;
+}
+
+double score(const Attempt& line, const std::vector<Attempt>& all, double radius) {
+  double sum = 0, weight = 0;
+  for (const Attempt& other : all) {
+    const double distance = (line.offset - other.offset).norm() / (beside * radius);
+    const double w = std::exp(-0.5 * distance * distance);
+    sum += w * std::max(0.0, other.held);
+    weight += w;
+  }
+  return sum / weight - off_middle * line.offset.norm() / radius;
+}
+
+}  // namespace
+
+std::optional<Pose> guess_approach(const RobotSpec& robot) {
+  const BallTrial trial(robot);
+  const auto direction = trial.closes() ? trial.direction() : std::nullopt;
+  if (!direction) return {};
+  const Pose middle = approach_frame(trial.tips_centre(), *direction);
+  if (!middle.is_finite()) return {};
+  if (!trial.possible()) return middle;
+  const auto lines = try_all(trial, middle);
+  const Attempt* best = nullptr;
+  double most = 0;
+  for (const Attempt& line : lines) {
+    if (line.leans) continue;
+    const double s = score(line, lines, trial.radius());
+    if (s > most) most = s, best = &line;
+  }
+  return best ? approach_frame(best->centre, *direction) : middle;
+}
+
+}  // namespace clench
