@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "clench/base/text.h"
+
 namespace clench {
 
 static bool same_letter(char a, char b) {
@@ -43,6 +45,14 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string>& 
     if (edits < best) best = edits, nearest = candidate;
   }
   return best > limit ? "" : fmt::format("; did you mean '{}'?", nearest);
+}
+
+std::string instead_of(std::string_view name, const std::vector<std::string>& known) {
+  constexpr size_t few = 8;
+  const std::string all = known.empty() || known.size() > few
+                              ? ""
+                              : fmt::format(", expected one of {}", name_list(known));
+  return all + did_you_mean(name, known);
 }
 
 }  // namespace clench

@@ -14,4 +14,8 @@ int edit_distance(std::string_view a, std::string_view b);
 /// nothing for a name of one or two letters, to which everything short is near.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
 
+/// ", expected one of dofs, speed", where they are few, and the nearest: what ends a sentence about a name that is none of
+/// the known.
+std::string instead_of(std::string_view name, const std::vector<std::string>& known);
+
 }  // namespace clench

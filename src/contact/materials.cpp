@@ -29,7 +29,7 @@ MaterialTable::MaterialTable() : names_(material_names.begin(), material_names.e
 
 int MaterialTable::index(std::string_view name) const {
   const auto found = std::find(names_.begin(), names_.end(), name);
-  if (found == names_.end()) fail("no material '{}'{}", name, did_you_mean(name, names_));
+  if (found == names_.end()) fail("no material '{}'{}", name, instead_of(name, names_));
   return static_cast<int>(found - names_.begin());
 }
 

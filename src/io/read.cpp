@@ -12,6 +12,7 @@
 #include "clench/io/load.h"
 #include "clench/io/text/file_errors.h"
 #include "clench/io/tree_files.h"
+#include "clench/spec/made_up.h"
 #include "clench/spec/plausibility.h"
 
 namespace clench {
@@ -62,12 +63,16 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
       fail("{}: expected a world from .wld or .xml, got {}", found.filename().string(),
            in_quotes(extension));
     std::set<std::string> told;  // of what stands there more than once, one
+    std::vector<const BodySpec*> objects;
     for (const PlacedBody& placed : world.bodies)
-      if (placed.role == Role::object && told.insert(placed.body.file).second)
+      if (placed.role == Role::object && told.insert(placed.body.file).second) {
+        objects.push_back(&placed.body);
         check_plausible_object(
             placed.body,
             fmt::format("{}: '{}'", found.filename().string(), excerpt(placed.body.name)),
             options.listeners());
+      }
+    tell_made_up(objects, found.filename().string(), options.listeners());
     world.source = path.generic_string();
     return world;
   });

@@ -34,20 +34,28 @@ Eigen::Vector3d com_of(const BodySpec& spec) {
                                   : surface_centroid(spec.shape->mesh());
 }
 
+// of the solid that the surface bounds; empty when it bounds none
+static std::optional<Eigen::Matrix3d> solid_inertia(const BodySpec& spec) {
+  if (!spec.shape->has_volume()) return {};
+  // parallel axes from the centroid to a centre that the file may have put elsewhere
+  const MassProperties& solid = spec.shape->solid();
+  const Eigen::Vector3d off = com_of(spec) - solid.centroid;
+  const Eigen::Matrix3d inertia =
+      solid.inertia + off.squaredNorm() * Eigen::Matrix3d::Identity() - off * off.transpose();
+  if (inertia_fault(inertia) != InertiaFault::none) return {};
+  return inertia;
+}
+
 Eigen::Matrix3d inertia_of(const BodySpec& spec) {
   if (spec.inertia_per_mass) return *spec.inertia_per_mass;
   if (!spec.shape) return point_inertia * Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d com = com_of(spec);
-  if (spec.shape->has_volume()) {
-    // parallel axes from the centroid to a centre that the file may have put elsewhere
-    const MassProperties& solid = spec.shape->solid();
-    const Eigen::Vector3d off = com - solid.centroid;
-    const Eigen::Matrix3d inertia =
-        solid.inertia + off.squaredNorm() * Eigen::Matrix3d::Identity() - off * off.transpose();
-    if (inertia_fault(inertia) == InertiaFault::none) return inertia;
-  }
-  const double r = largest_radius(spec.shape->mesh(), com);
+  if (const auto inertia = solid_inertia(spec)) return *inertia;
+  const double r = largest_radius(spec.shape->mesh(), com_of(spec));
   return std::max(0.4 * r * r, point_inertia) * Eigen::Matrix3d::Identity();
+}
+
+bool inertia_is_of_ball(const BodySpec& spec) {
+  return !spec.inertia_per_mass && spec.shape && !solid_inertia(spec);
 }
 
 }  // namespace clench

@@ -29,7 +29,8 @@ struct BodySpec {
   std::optional<MeshReport> mesh_report;  ///< of geometry from a file
   Appearance appearance;
   std::string material = "wood";
-  double mass = 0.3;  ///< [kg]
+  double mass = 0.3;                                ///< [kg]
+  bool material_given = false, mass_given = false;  ///< do they come from a file or a script?
   std::optional<Eigen::Vector3d>
       com;  ///< centre of mass in the body frame [m]; else from the shape
   std::optional<Eigen::Matrix3d> inertia_per_mass;  ///< about com [m^2]; else from the shape
@@ -51,5 +52,7 @@ Eigen::Vector3d com_of(const BodySpec& spec);
 /// surface, or one that folds over so that its solid is none, that of a solid ball of the surface's
 /// radius [m^2].
 Eigen::Matrix3d inertia_of(const BodySpec& spec);
+/// Is it that ball's?
+bool inertia_is_of_ball(const BodySpec& spec);
 
 }  // namespace clench

@@ -103,10 +103,12 @@ void read_compliance(const XmlElement& body, const Library& library, Repairs& re
 }
 
 void read_mass(const XmlElement& body, const Library& library, Repairs& repairs, BodySpec& out) {
-  if (const XmlElement mass = body.child("mass"))
+  if (const XmlElement mass = body.child("mass")) {
     out.mass =
         number_of(mass, mass_rule.in("g", units::gram), repairs, BodySpec().mass / units::gram) *
         units::gram;
+    out.mass_given = true;
+  }
   if (const XmlElement cog = body.child("cog")) {
     out.com = cog.vector() * units::millimetre;
     check(coordinate_rule.called("cog"), *out.com, cog.place());
@@ -122,6 +124,7 @@ void read_mass(const XmlElement& body, const Library& library, Repairs& repairs,
 void read_matter(const XmlElement& body, const Library& library, Repairs& repairs, BodySpec& out) {
   if (const XmlElement material = body.child("material")) {
     out.material = material.text();
+    out.material_given = true;
     try {
       check_material(out.material);
     } catch (const Error& error) {

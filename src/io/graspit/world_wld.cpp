@@ -137,6 +137,7 @@ void WldReader::read_body(Role role) {
       lines_.next();
       at(material, [&] { check_material(material.text()); });
       placed.body.material = material.text();
+      placed.body.material_given = true;
     }
   }
   placed.X_WB = pose();

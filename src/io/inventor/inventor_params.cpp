@@ -71,6 +71,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
         line.fail("{}", error.what());
       }
       body.material = line.word(1);
+      body.material_given = true;
     } else if (key == "youngs") {
       body.elastic_modulus = number_of(line, elastic_modulus_rule.called("youngs"), repairs);
       if (*body.elastic_modulus < 1e4 && options.warn)
@@ -83,6 +84,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
       body.mass =
           number_of(line, mass_rule.in("g", units::gram), repairs, BodySpec().mass / units::gram) *
           units::gram;
+      body.mass_given = true;
     } else if (key == "cog") {
       body.com =
           Eigen::Vector3d(line.number(1, "cog"), line.number(2, "cog"), line.number(3, "cog")) *

@@ -87,6 +87,10 @@ inline void log_warning(lua_State* L, const std::string& message) {
   log(L, LogLevel::warning, message);
 }
 
+/// Tells a warning, with the script's line, and never again in this state.
+/// key  a static thing whose address stands for it
+void warn_once(lua_State* L, const void* key, const std::string& message);
+
 LogLevel log_level(lua_State* L);
 void set_log_level(lua_State* L, LogLevel level);
 

@@ -37,7 +37,7 @@ Id<Body> find_link(const RobotHandle& robot, const std::string& name, const std:
     if (full == name || full == robot->name + "_" + name) return id;
     names.push_back(full);
   }
-  fail("{}: robot '{}' has no link '{}'{}", subject, robot->name, name, did_you_mean(name, names));
+  fail("{}: robot '{}' has no link '{}'{}", subject, robot->name, name, instead_of(name, names));
 }
 
 int push_bodies(lua_State* L, const WorldPtr& world, const std::vector<Id<Body>>& ids) {

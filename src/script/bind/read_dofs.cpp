@@ -10,8 +10,7 @@ static int dof_named(const std::string& name, const RobotHandle& robot, const Wh
     names.push_back(dof_name(*robot, d));
     if (names.back() == name) return d;
   }
-  fail("{}: robot '{}' has no DOF '{}'{}", what.text(), robot->name, name,
-       did_you_mean(name, names));
+  fail("{}: robot '{}' has no DOF '{}'{}", what.text(), robot->name, name, instead_of(name, names));
 }
 
 // some values by the names of their DOFs, from the table at index i; the others as they are

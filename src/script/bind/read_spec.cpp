@@ -102,6 +102,8 @@ static double mass_of(lua_State* L, const BodySpec& spec, double density) {
 
 static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
   spec.name = options.string("name", spec.name);
+  spec.material_given = spec.material_given || options.has("material");
+  spec.mass_given = spec.mass_given || options.has("mass") || options.has("density");
   spec.material = options.string("material", spec.material);
   if (options.has("density")) {
     if (options.has("mass")) fail("{}: expected mass or density, got both", subject(L));

@@ -135,7 +135,7 @@ bool Table::push_function(const char* key) {
 void Table::refuse(int key) const {
   if (lua_type(L_, key) != LUA_TSTRING) fail("{}: unknown key [{}]", subject_, described(L_, key));
   const std::string name(string_at(L_, key));
-  fail("{}: unknown key {}{}", subject_, described(L_, key), did_you_mean(name, known_));
+  fail("{}: unknown key {}{}", subject_, described(L_, key), instead_of(name, known_));
 }
 
 void Table::done() {

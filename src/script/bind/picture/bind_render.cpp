@@ -64,17 +64,9 @@ static void add_forces(Table& options, const GivenForces& given, Scene& scene) {
     scene.caption = {fmt::format("forces on the object, the largest {}", scene.labels[0].text)};
 }
 
-// its address names the place where a state remembers that it was told
-static const char told_key = 0;
-
 void warn_without_letters(lua_State* L, const Font& font) {
-  if (font.fault().empty()) return;
-  const bool told = lua_rawgetp(L, LUA_REGISTRYINDEX, &told_key) == LUA_TBOOLEAN;
-  lua_pop(L, 1);
-  if (told) return;
-  lua_pushboolean(L, true);
-  lua_rawsetp(L, LUA_REGISTRYINDEX, &told_key);
-  log_warning(L, font.fault());
+  static const char told = 0;
+  if (!font.fault().empty()) warn_once(L, &told, font.fault());
 }
 
 Picture draw_scene(lua_State* L, Table& options, Scene scene) {

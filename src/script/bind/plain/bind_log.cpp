@@ -45,6 +45,18 @@ void log(lua_State* L, LogLevel level, const std::string& message, const char* a
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
+void warn_once(lua_State* L, const void* key, const std::string& message) {
+  const bool told = lua_rawgetp(L, LUA_REGISTRYINDEX, key) == LUA_TBOOLEAN;
+  lua_pop(L, 1);
+  if (told) return;
+  lua_pushboolean(L, true);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, key);
+  luaL_where(L, 1);
+  const std::string place(string_at(L, -1));
+  lua_pop(L, 1);
+  log_warning(L, place + message);
+}
+
 // the arguments as text, a space between two
 static std::string joined(lua_State* L) {
   std::string text;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "clench/math/axes.h"
 #include "clench/script/lua/getter.h"
@@ -31,17 +33,39 @@ static Quaterniond quat_of(Table& t) {
   return Quaterniond(quat.coeffs() / length);
 }
 
-static Quaterniond rpy_of(Table& t) {
+// beyond these, degrees and millimetres are more likely
+static constexpr double most_turn = 2 * std::numbers::pi, most_way = 10;
+
+static void suspect_degrees(lua_State* L, const Table& t, const char* key, double angle) {
+  static const char told = 0;
+  if (std::abs(angle) > most_turn)
+    warn_once(L, &told,
+              fmt::format("{}: {} is {:.6g}: radians? clench.rad({:.6g}) is {:.4g}", t.subject(),
+                          key, angle, angle, angle * std::numbers::pi / 180));
+}
+
+static void suspect_millimetres(lua_State* L, const Table& t, const Vector3d& p) {
+  static const char told = 0;
+  const double far = p.cwiseAbs().maxCoeff();
+  if (far > most_way)
+    warn_once(L, &told,
+              fmt::format("{}: it is {:.6g} m away: metres? clench.mm({:.6g}) is {:.4g}",
+                          t.subject(), far, far, far / 1000));
+}
+
+static Quaterniond rpy_of(lua_State* L, Table& t) {
   const Vector3d rpy = t.vec3("rpy");
+  for (const double angle : rpy) suspect_degrees(L, t, "rpy", angle);
   using Turn = Eigen::AngleAxisd;
   return Turn(rpy.z(), Vector3d::UnitZ()) * Turn(rpy.y(), Vector3d::UnitY()) *
          Turn(rpy.x(), Vector3d::UnitX());
 }
 
-static Quaterniond axis_angle_of(Table& t) {
+static Quaterniond axis_angle_of(lua_State* L, Table& t) {
   const Vector3d axis = t.vec3("axis");
   const double angle = t.number("angle"), length = axis.stableNorm();
   if (!(length > 1e-9)) fail("{}: axis: expected a direction, got zero", t.subject());
+  suspect_degrees(L, t, "angle", angle);
   return Quaterniond(Eigen::AngleAxisd(angle, axis / length));
 }
 
@@ -105,12 +129,13 @@ Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
   Pose pose;
   if (t.has("matrix")) pose = matrix_of(t);
   if (t.has("quat")) pose.rotation = quat_of(t);
-  if (t.has("rpy")) pose.rotation = rpy_of(t);
-  if (turned) pose.rotation = axis_angle_of(t);
+  if (t.has("rpy")) pose.rotation = rpy_of(L, t);
+  if (turned) pose.rotation = axis_angle_of(L, t);
   if (aligned) pose.rotation = axes_of(t);
   pose.position = t.vec3("xyz", pose.position);
   t.done();
   check_place(pose, t.subject());
+  suspect_millimetres(L, t, pose.position);
   return pose;
 }
 

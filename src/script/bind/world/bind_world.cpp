@@ -12,6 +12,7 @@
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
+#include "clench/spec/made_up.h"
 #include "clench/spec/plausibility.h"
 
 namespace clench {
@@ -36,6 +37,7 @@ static int add_body(lua_State* L, BodyKind kind) {
   if (kind == BodyKind::object) {
     const std::string file = std::filesystem::path(spec.file).filename().string();
     check_plausible_object(spec, file.empty() ? subject(L) + ": mesh" : file, reading.listeners());
+    if (!file.empty()) tell_made_up(std::array{&spec}, file, reading.listeners());
   }
   const Pose pose = options.pose("pose", Pose{});
   const bool named = options.has("name");
@@ -108,7 +110,7 @@ static int body(lua_State* L) {
   if (!id) {
     std::vector<std::string> names;
     for (const auto other : handle.world->bodies()) names.push_back(handle.world->body(other).name);
-    fail("{}: no body '{}' in this world{}", subject(L), name, did_you_mean(name, names));
+    fail("{}: no body '{}' in this world{}", subject(L), name, instead_of(name, names));
   }
   return push(L, BodyHandle{handle.world, id});
 }
@@ -121,7 +123,7 @@ static int robot(lua_State* L) {
     std::vector<std::string> names;
     for (const auto other : handle.world->robots())
       names.push_back(handle.world->robot(other).name);
-    fail("{}: no robot '{}' in this world{}", subject(L), name, did_you_mean(name, names));
+    fail("{}: no robot '{}' in this world{}", subject(L), name, instead_of(name, names));
   }
   return push(L, RobotHandle{handle.world, id});
 }

@@ -1,0 +1,40 @@
+-- What a newcomer gets wrong and the engine could take as it stands: one warning, or one sentence that says what was meant.
+local clench = require "clench"
+local test = require "test"
+
+-- warnings that fn logs
+local function warnings(fn)
+  local said = {}
+  clench.log.sink(function(level, text) if level == "warning" then said[#said + 1] = text end end)
+  local ok, message = pcall(fn)
+  clench.log.sink()
+  if not ok then error(message, 0) end
+  return said
+end
+
+test("degrees and millimetres in a pose are told once, with the script's line", function(t)
+  local world = clench.world {}
+  local box = clench.shapes.box {0.1, 0.1, 0.1}
+  -- within a turn and ten metres nothing is
+  t.equal(#warnings(function() clench.pose {rpy = {0, -6.28, 3}, xyz = {10, 0, -10}} end), 0)
+  local said = warnings(function()
+    for _ = 1, 2 do world:add_object(box, {pose = {rpy = {0, 0, 90}, xyz = {300, 0, 0}}}) end
+    clench.pose {axis = {0, 0, 1}, angle = 45}
+    world.objects[1].pose = {xyz = {0, 0, 1000}}
+  end)
+  t.equal(#said, 2)
+  t.ok(said[1]:find("mistakes_test.lua:21: world:add_object: pose: rpy is 90: radians? clench.rad(90) is 1.571", 1, true), said[1])
+  t.ok(said[2]:find("world:add_object: pose: it is 300 m away: metres? clench.mm(300) is 0.3", 1, true), said[2])
+end)
+
+test("unknown keys name the nearest, and all when they are few", function(t)
+  local world = clench.load "worlds/dlr_flask.wld"
+  local hand = world.robots[1]
+  t.fails(function() hand:autograsp {sped = 1} end,
+          "unknown key 'sped', expected one of speed, stop_at_contact, dofs, stages; did you mean 'speed'?")
+  t.fails(function() hand:approach_object {far = 1} end, "unknown key 'far', expected one of reach")
+  t.fails(function() world:body "flsk" end, "did you mean 'flask'?")
+  t.fails(function() world:robot "barrett" end, "no robot 'barrett' in this world, expected one of dlr")
+  t.fails(function() clench.grasp(hand, world:body "flask"):quality "epsilom" end, "did you mean 'epsilon'?")
+  t.fails(function() return hand.dof_limit end, "did you mean 'dof_limits'?")
+end)

@@ -1,0 +1,59 @@
+#include "clench/spec/made_up.h"
+
+#include "support/meshes.h"
+#include "support/shapes.h"
+
+using namespace clench;
+
+namespace {
+
+BodySpec named(const std::string& name, Mesh mesh) {
+  BodySpec body;
+  body.name = name;
+  body.shape = Shape::make(std::move(mesh));
+  return body;
+}
+
+struct Told {
+  std::vector<std::string> notes, suspected;
+
+  explicit Told(const std::vector<BodySpec>& bodies) {
+    std::vector<const BodySpec*> list;
+    for (const BodySpec& body : bodies) list.push_back(&body);
+    Listeners listeners;
+    listeners.note = [&](const std::string& s) { notes.push_back(s); };
+    listeners.suspect = [&](const std::string& s) { suspected.push_back(s); };
+    tell_made_up(list, "w.wld", listeners);
+  }
+};
+
+using Sentences = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("what nobody gives is told of each body that has it") {
+  BodySpec full = named("full", test::box(1, 1, 1)), weightless = full, bare = full, frame;
+  full.mass_given = full.material_given = true;
+  weightless.name = "weightless", weightless.material_given = true;
+  bare.name = "bare";
+  frame.name = "frame";
+  const Told told({full, weightless, bare, frame, bare});
+  CHECK(told.notes ==
+        Sentences{"w.wld: no mass and no material is given: 0.3 kg of wood: 'bare', 'bare'",
+                  "w.wld: no mass is given: 0.3 kg: 'weightless'"});
+  CHECK(told.suspected.empty());
+  CHECK(Told({bare}).notes == Sentences{"w.wld: no mass and no material is given: 0.3 kg of wood"});
+}
+
+TEST_CASE("an inertia is that of a ball only with a warning") {
+  Mesh open = test::box(1, 1, 1);
+  open.triangles.pop_back();
+  BodySpec sheet = named("sheet", open), closed = named("closed", test::box(1, 1, 1));
+  CHECK(inertia_is_of_ball(sheet));
+  CHECK_FALSE(inertia_is_of_ball(closed));
+  CHECK(Told({closed, sheet}).suspected ==
+        Sentences{"w.wld: no inertia is given, and the surface bounds no solid; it is that of a "
+                  "ball around it: 'sheet'"});
+  sheet.inertia_per_mass = Eigen::Matrix3d::Identity();
+  CHECK(Told({closed, sheet}).suspected.empty());
+}
