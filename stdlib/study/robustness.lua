@@ -2,7 +2,7 @@
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
-local spread = require "clench.study.spread"
+local stats = require "clench.stats"
 
 -- each of these is one stream of random numbers a sample, so that an error switched off changes no other
 local streams = {place = 0, friction = 1, normal = 2, count = 3}
@@ -59,7 +59,7 @@ end
 --- The same seed gives the same numbers, and sample i the same in longer runs.
 ---@param grasp grasp
 ---@param options {samples?: integer, seed?: integer, position?: number, angle?: number, friction?: number, normal?: number, close?: function, edges?: integer|string}  standard deviations, 0 unless given: of the object's position along each axis [m], its turn about any axis [rad], the factor on mu, the tilt of normals [rad]; samples: 100; close(hand, object) instead of autograsp
----@return {samples: number[], probability: number, interval: table, blocked: integer, mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number} # epsilon of each sample; probability of force closure, with the interval that holds it at 95 %; blocked: how often the opened hand or something else was in the way of the object, which counts as no grasp; p05 and p95: 5 and 95 % of the samples
+---@return {count: integer, samples: number[], probability: number, interval: table, blocked: integer, mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number} # epsilon of each sample; probability of force closure, with the interval that holds it at 95 %; blocked: how often the opened hand or something else was in the way of the object, which counts as no grasp; p05 and p95: 5 and 95 % of the samples
 --- > r = clench.study.robustness(grasp, {samples = 20, friction = 0.2, normal = 0.05})
 --- > #r.samples, r.p05 <= r.median, r.interval.low <= r.probability  --> 20, true, true
 --- > clench.study.robustness(grasp, {frictoin = 0.2})  --> error: unknown key 'frictoin'
@@ -112,8 +112,8 @@ return function(grasp, options)
     if epsilon > 0 then closed = closed + 1 end
   end
 
-  local result = spread.of(epsilons)
+  local result = stats.summary(epsilons)
   result.samples, result.blocked = epsilons, blocked
-  result.probability, result.interval = closed / count, spread.interval(closed, count)
+  result.probability, result.interval = closed / count, stats.interval(closed, count)
   return result
 end

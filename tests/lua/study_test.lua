@@ -1,6 +1,6 @@
 -- Studies of grasps: their random numbers, their statistics, and what they find of grasps whose answer is known.
 local test, clench = require "test", require "clench"
-local spread = require "clench.study.spread"
+local stats = require "clench.stats"
 
 local function closed_on_flask()
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
@@ -10,24 +10,24 @@ local function closed_on_flask()
 end
 
 test("a spread tells mean, deviation and quantiles of numbers", function(t)
-  local s = spread.of {4, 1, 3, 2, 5}
+  local s = stats.summary {4, 1, 3, 2, 5}
   t.close({s.mean, s.min, s.median, s.max}, {3, 1, 3, 5}, 1e-15)
   t.close(s.std, math.sqrt(2.5), 1e-15)
   t.close({s.p05, s.p95}, {1.2, 4.8}, 1e-15)
-  local one = spread.of {7}
+  local one = stats.summary {7}
   t.close({one.mean, one.std, one.p05, one.p95}, {7, 0, 7, 7}, 0)
 end)
 
 test("the interval of a probability holds it, and shrinks with more trials", function(t)
   for _, trials in ipairs {1, 10, 1000} do
     for successes = 0, trials, math.max(1, trials // 7) do
-      local i = spread.interval(successes, trials)
+      local i = stats.interval(successes, trials)
       t.ok(i.low <= successes / trials + 1e-15 and successes / trials - 1e-15 <= i.high and i.low >= 0 and i.high <= 1)
     end
   end
   -- the table of Brown, Cai and DasGupta (2001): 0 of 10 is at most 0.278
-  t.close(spread.interval(0, 10).high, 0.2775, 5e-4)
-  t.ok(spread.interval(500, 1000).high - spread.interval(500, 1000).low < 0.07)
+  t.close(stats.interval(0, 10).high, 0.2775, 5e-4)
+  t.ok(stats.interval(500, 1000).high - stats.interval(500, 1000).low < 0.07)
 end)
 
 test("without errors every sample is the grasp itself", function(t)

@@ -1,0 +1,199 @@
+--- Tables of results as comma-separated values (RFC 4180), with their types: numbers come back to the bit, integers as integers, and text
+--- that looks like a number is quoted.
+local raise = require "clench.raise"
+local described = require "clench.described"
+local read_options = require "clench.options"
+local csv = {}
+
+-- what a field says without quotes; text says itself
+local function plain_value(word)
+  if word == "" then return nil end
+  if word == "true" then return true end
+  if word == "false" then return false end
+  if word == "nan" then return 0 / 0 end
+  if word == "inf" or word == "-inf" then return word == "inf" and math.huge or -math.huge end
+  if word:find "^[%+%-]?%.?%d[%w%.%+%-]*$" and not word:find "[xX]" then return tonumber(word) or word end
+  return word
+end
+
+local function quoted(text, separator)
+  if plain_value(text) ~= text or text:find("[\"\r\n" .. separator .. "]") or text:find "^%s" or text:find "%s$" then
+    return '"' .. text:gsub('"', '""') .. '"'
+  end
+  return text
+end
+
+local function field(value, separator, place)
+  if value == nil then return "" end
+  if math.type(value) == "integer" then return ("%d"):format(value) end
+  if type(value) == "number" then
+    if value ~= value then return "nan" end
+    if value - value ~= 0 then return value > 0 and "inf" or "-inf" end
+    local short = ("%.15g"):format(value)
+    if tonumber(short) ~= value then short = ("%.17g"):format(value) end
+    return short:find "[%.en]" and short or short .. ".0"
+  end
+  if type(value) == "boolean" then return tostring(value) end
+  if type(value) == "string" then return quoted(value, separator) end
+  raise(("csv.write: %s: expected a number, a text, true or false, got %s"):format(place, described(value)))
+end
+
+-- names of all columns, in order
+local function all_columns(rows)
+  local seen, columns = {}, {}
+  for i, row in ipairs(rows) do
+    if type(row) ~= "table" then raise(("csv.write: rows[%d]: expected a table of names and values, got %s"):format(i, described(row))) end
+    for name in pairs(row) do
+      if type(name) ~= "string" then
+        raise(("csv.write: rows[%d]: expected names of columns as keys, got %s"):format(i, described(name)))
+      end
+      if not seen[name] then seen[name], columns[#columns + 1] = true, name end
+    end
+  end
+  table.sort(columns)
+  return columns
+end
+
+local function check_columns(rows, columns)
+  local known = {}
+  for i, name in ipairs(columns) do
+    if type(name) ~= "string" then raise(("csv.write: columns[%d]: expected a name, got %s"):format(i, described(name))) end
+    if known[name] then raise(("csv.write: column '%s' stands there twice"):format(name)) end
+    known[name] = true
+  end
+  for _, name in ipairs(all_columns(rows)) do
+    if not known[name] then raise(("csv.write: rows have '%s', which is none of the columns"):format(name)) end
+  end
+end
+
+local function separator_of(read)
+  local separator = read:raw "separator" or ","
+  if separator ~= "," and separator ~= ";" and separator ~= "\t" then
+    read:expected("separator", "',', ';' or a tab", separator)
+  end
+  return separator
+end
+
+--- Writes rows to a file, whole or not at all: what stood there stays when something is wrong.
+---@param path string
+---@param rows table[]  of names and values: numbers, texts, true, false; what a row lacks stays empty
+---@param options? {columns?: string[], separator?: string}  columns: in this order, by their names unless given; separator: "," by default, ";" or a tab
+--- > clench.csv.write("build/table.csv", {{object = "mug", epsilon = 0.25}, {object = "flask", note = "7"}})
+--- > rows = clench.csv.read "build/table.csv"
+--- > table.concat(rows.columns, " ")  --> epsilon note object
+--- > rows[1].epsilon, rows[2].epsilon, rows[2].note  --> 0.25, nil, 7
+--- > clench.csv.write("no/such/folder/a.csv", {{a = 1}})  --> error: no/such/folder/a.csv
+function csv.write(path, rows, options)
+  if type(path) ~= "string" then raise("csv.write: path: expected a name, got " .. described(path)) end
+  if type(rows) ~= "table" then raise("csv.write: rows: expected a list, got " .. described(rows)) end
+  local read = read_options("csv.write", options or {})
+  local separator = separator_of(read)
+  local columns = read:raw "columns"
+  read:done()
+  if columns ~= nil and type(columns) ~= "table" then raise("csv.write: columns: expected a list of names, got " .. described(columns)) end
+  if columns then check_columns(rows, columns) end
+  columns = columns or all_columns(rows)
+  if #columns == 0 then raise("csv.write: expected rows with columns, or `columns`, got neither") end
+  local lines, cells = {}, {}
+  for c, name in ipairs(columns) do cells[c] = quoted(name, separator) end
+  lines[1] = table.concat(cells, separator)
+  for i, row in ipairs(rows) do
+    for c, name in ipairs(columns) do cells[c] = field(row[name], separator, ("rows[%d].%s"):format(i, name)) end
+    lines[i + 1] = table.concat(cells, separator)
+  end
+  local text = table.concat(lines, "\n") .. "\n"
+  local part = path .. ".part"
+  local file, why = io.open(part, "wb")
+  if not file then raise("csv.write: " .. why:gsub("%.part", "", 1)) end
+  local ok, fault = file:write(text)
+  ok, fault = file:close() and ok, fault
+  if ok then ok, fault = os.rename(part, path) end
+  if not ok then
+    os.remove(part)
+    raise(("csv.write: %s: %s"):format(path, fault or "it could not be written"))
+  end
+end
+
+-- cells of a text from `at` on, as values: a list for each line, with its number of cells and of the line
+local function records(text, separator, fail)
+  local at, line, out = 1, 1, {}
+  local plain, unquoted = "^[^\"\r\n" .. separator .. "]*", "^[^\r\n" .. separator .. "]*"
+  while at <= #text do
+    local record, count, start = {}, 0, line
+    repeat
+      local value
+      if text:sub(at, at) == '"' then
+        local parts, from = {}, at + 1
+        while true do
+          local stop = text:find('"', from, true)
+          if not stop then fail(start, "a quote that is not closed") end
+          parts[#parts + 1] = text:sub(from, stop - 1)
+          at = stop + 1
+          if text:sub(at, at) ~= '"' then break end
+          parts[#parts + 1], from = '"', at + 1
+        end
+        value = table.concat(parts)
+        line = line + select(2, value:gsub("\n", ""))
+        if not text:find("^[\r\n" .. separator .. "]", at) and at <= #text then
+          fail(line, "expected a separator or the line's end behind the quote, got '%s'", text:sub(at, at))
+        end
+      else
+        local word = text:match(plain, at)
+        if text:sub(at + #word, at + #word) == '"' then
+          fail(line, "a quote within '%s', which does not begin with one", (text:match(unquoted, at)))
+        end
+        at, value = at + #word, plain_value(word)
+      end
+      count = count + 1
+      record[count] = value
+      local more = text:sub(at, at) == separator
+      if more then at = at + 1 end
+    until not more
+    record.n, record.line = count, start
+    out[#out + 1] = record
+    if text:sub(at, at) == "\r" then at = at + 1 end
+    if text:sub(at, at) == "\n" then at, line = at + 1, line + 1 end
+  end
+  return out
+end
+
+--- Reads such a file, or anyone's: numbers, true and false as such, what stands in quotes as text, empty cells as nil.
+---@param path string
+---@param options? {separator?: string}  "," by default, ";" or a tab
+---@return table[] rows  of names and values, with the names in order as `columns`
+--- > clench.csv.read "no/such.csv"  --> error: no/such.csv
+function csv.read(path, options)
+  if type(path) ~= "string" then raise("csv.read: path: expected a name, got " .. described(path)) end
+  local read = read_options("csv.read", options or {})
+  local separator = separator_of(read)
+  read:done()
+  local file, why = io.open(path, "rb")
+  if not file then raise("csv.read: " .. why) end
+  local text, fault = file:read "a"
+  file:close()
+  if not text then raise(("csv.read: %s: %s"):format(path, fault)) end
+  text = text:gsub("^\xEF\xBB\xBF", "")
+  local name = path:match "[^/]+$" or path
+  local function fail(line, format, ...) raise(("csv.read: %s:%d: " .. format):format(name, line, ...)) end
+  local all = records(text, separator, fail)
+  local header = table.remove(all, 1)
+  if not header then fail(1, "expected names of columns, got an empty file") end
+  local rows, known = {columns = {}}, {}
+  for c = 1, header.n do
+    local column = header[c] == nil and "" or tostring(header[c])
+    if known[column] then fail(1, "column '%s' stands there twice", column) end
+    known[column], rows.columns[c] = true, column
+  end
+  for _, record in ipairs(all) do
+    -- an empty line is none
+    if not (record.n == 1 and record[1] == nil and header.n > 1) then
+      if record.n ~= header.n then fail(record.line, "expected %d cells, got %d", header.n, record.n) end
+      local row = {}
+      for c, column in ipairs(rows.columns) do row[column] = record[c] end
+      rows[#rows + 1] = row
+    end
+  end
+  return rows
+end
+
+return csv

@@ -1,0 +1,156 @@
+--- What a list of measured numbers says.
+local raise = require "clench.raise"
+local described = require "clench.described"
+local read_options = require "clench.options"
+local stats = {}
+
+local function fail(name, format, ...) raise(("stats.%s: " .. format):format(name, ...)) end
+
+-- a list of finite numbers, at least one
+local function check_values(name, values)
+  if type(values) ~= "table" then fail(name, "expected a list of numbers, got %s", described(values)) end
+  local count = 0
+  for _ in pairs(values) do count = count + 1 end
+  if count == 0 then fail(name, "expected at least one number, got none") end
+  for i = 1, count do
+    local x = values[i]
+    if type(x) ~= "number" or x ~= x or x - x ~= 0 then
+      fail(name, "values[%d]: expected a finite number, got %s", i, described(x))
+    end
+  end
+end
+
+local function sorted_copy(values)
+  local sorted = table.move(values, 1, #values, 1, {})
+  table.sort(sorted)
+  return sorted
+end
+
+-- of a sorted list, linear between neighbours
+local function quantile_of(sorted, part)
+  local at = 1 + part * (#sorted - 1)
+  local low = math.floor(at)
+  local high = math.min(low + 1, #sorted)
+  return sorted[low] + (at - low) * (sorted[high] - sorted[low])
+end
+
+local function mean_of(values)
+  local mean = 0
+  for i, value in ipairs(values) do mean = mean + (value - mean) / i end
+  return mean
+end
+
+local function std_of(values)
+  local mean, squares = mean_of(values), 0
+  for _, value in ipairs(values) do squares = squares + (value - mean) ^ 2 end
+  return #values > 1 and math.sqrt(squares / (#values - 1)) or 0
+end
+
+--- The arithmetic mean.
+---@param values number[]  at least one
+---@return number
+--- > clench.stats.mean {1, 2, 6}  --> 3.0
+--- > clench.stats.mean {}  --> error: stats.mean: expected at least one number, got none
+function stats.mean(values)
+  check_values("mean", values)
+  return mean_of(values)
+end
+
+--- The standard deviation of the sample: divided by one less than their number. 0 of a single number.
+---@param values number[]  at least one
+---@return number
+--- > clench.stats.std {1, 3}  --> 1.4142135623731
+function stats.std(values)
+  check_values("std", values)
+  return std_of(values)
+end
+
+--- The number below which a part of all lie, linear between neighbours.
+---@param values number[]  at least one
+---@param part number  0 the least, 0.5 the median, 1 the largest
+---@return number
+--- > clench.stats.quantile({5, 1, 2, 4, 3}, 0.5)  --> 3.0
+--- > clench.stats.quantile({1, 2}, 50)  --> error: stats.quantile: part: expected a number from 0 to 1, got 50
+function stats.quantile(values, part)
+  check_values("quantile", values)
+  if type(part) ~= "number" or not (part >= 0 and part <= 1) then
+    fail("quantile", "part: expected a number from 0 to 1, got %s", described(part))
+  end
+  return quantile_of(sorted_copy(values), part)
+end
+
+--- All at once: how many they are, mean, standard deviation of the sample, least, largest, median, and what 5 and 95 % lie below.
+---@param values number[]  at least one
+---@return {count: integer, mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number}
+--- > s = clench.stats.summary {4, 1, 3, 2, 5}
+--- > s.count, s.min, s.median, s.max  --> 5, 1, 3.0, 5
+function stats.summary(values)
+  check_values("summary", values)
+  local sorted = sorted_copy(values)
+  return {count = #values, mean = mean_of(values), std = std_of(values), min = sorted[1],
+          p05 = quantile_of(sorted, 0.05), median = quantile_of(sorted, 0.5), p95 = quantile_of(sorted, 0.95),
+          max = sorted[#sorted]}
+end
+
+--- How many numbers lie in each of some intervals of the same width, each with its lower end, the last with both. Without `bins` there are
+--- as many as Sturges (1926) recommends, 1 + log2 of the count, rounded up; numbers outside `low` and `high` are counted beside them.
+---@param values number[]  at least one
+---@param options? {bins?: integer, low?: number, high?: number}  the least and the largest number, unless given
+---@return {edges: number[], counts: integer[], below: integer, above: integer}  one edge more than counts
+--- > h = clench.stats.histogram({0, 1, 1, 2, 3, 4}, {bins = 2})
+--- > h.edges  --> {0.0, 2.0, 4.0}
+--- > h.counts  --> {3, 3}
+--- > clench.stats.histogram({1, 2, 9}, {bins = 2, low = 0, high = 4}).above  --> 1
+function stats.histogram(values, options)
+  check_values("histogram", values)
+  local read = read_options("stats.histogram", options or {})
+  local least, largest = values[1], values[1]
+  for _, value in ipairs(values) do least, largest = math.min(least, value), math.max(largest, value) end
+  local bins = read:count("bins", math.max(1, math.ceil(1 + math.log(#values, 2))), 1, 100000)
+  local low, high = read:number("low", least), read:number("high", largest)
+  read:done()
+  -- equal numbers need a width, too
+  if low == high then low, high = low - 0.5, high + 0.5 end
+  if low > high then fail("histogram", "expected low below high, got %s and %s", described(low), described(high)) end
+  local out = {edges = {}, counts = {}, below = 0, above = 0}
+  for i = 0, bins do out.edges[i + 1] = i == bins and high + 0.0 or low + (high - low) * i / bins end
+  for i = 1, bins do out.counts[i] = 0 end
+  for _, value in ipairs(values) do
+    if value < low then
+      out.below = out.below + 1
+    elseif value > high then
+      out.above = out.above + 1
+    else
+      local bin = math.min(bins, 1 + math.floor((value - low) / (high - low) * bins))
+      -- where rounding has put it beside an edge
+      while bin > 1 and value < out.edges[bin] do bin = bin - 1 end
+      while bin < bins and value >= out.edges[bin + 1] do bin = bin + 1 end
+      out.counts[bin] = out.counts[bin] + 1
+    end
+  end
+  return out
+end
+
+--- The interval that holds a probability with 95 % confidence, after so many successes in so many trials. Source: Wilson (1927).
+---@param successes integer
+---@param trials integer
+---@return {low: number, high: number}
+--- > i = clench.stats.interval(8, 10)
+--- > i.low < 0.5 and i.high > 0.9  --> true
+function stats.interval(successes, trials)
+  for name, n in pairs {successes = successes, trials = trials} do
+    if not math.tointeger(n) or n < 0 then
+      fail("interval", "%s: expected a whole number >= 0, got %s", name, described(n))
+    end
+  end
+  if trials == 0 or successes > trials then
+    fail("interval", "expected at least one trial, and no more successes than trials, got %d of %d", successes, trials)
+  end
+  local z = 1.959963984540054
+  local p, n = successes / trials, trials
+  local centre = (p + z * z / (2 * n)) / (1 + z * z / n)
+  local half = z / (1 + z * z / n) * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
+  return {low = math.max(0, centre - half), high = math.min(1, centre + half)}
+end
+
+return stats
