@@ -62,14 +62,26 @@ void Canvas::rectangle(const Vector2f& low, const Vector2f& high, const Color& c
 void Canvas::line(const Vector2f& from, const Vector2f& to, float width, const Color& color) {
   const float reach = width / 2 + 1;
   const Vector2f low = from.cwiseMin(to), high = from.cwiseMax(to);
-  const PixelRange xs = pixels_of(low.x() - reach, high.x() + reach, picture_.width);
   const PixelRange ys = pixels_of(low.y() - reach, high.y() + reach, picture_.height);
-  for (int y = ys.first; y <= ys.last; ++y)
+  const Vector2f way = to - from;
+  for (int y = ys.first; y <= ys.last; ++y) {
+    // the part of the line that this row comes near to, as shares of its way
+    const float row = static_cast<float>(y) + 0.5f;
+    float begin = 0, end = 1;
+    if (way.y() != 0) {
+      const float a = (row - reach - from.y()) / way.y(), b = (row + reach - from.y()) / way.y();
+      begin = std::clamp(std::min(a, b), 0.0f, 1.0f);
+      end = std::clamp(std::max(a, b), 0.0f, 1.0f);
+    }
+    const float x0 = from.x() + begin * way.x(), x1 = from.x() + end * way.x();
+    const PixelRange xs =
+        pixels_of(std::min(x0, x1) - reach, std::max(x0, x1) + reach, picture_.width);
     for (int x = xs.first; x <= xs.last; ++x) {
-      const Vector2f centre(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+      const Vector2f centre(static_cast<float>(x) + 0.5f, row);
       const float inside = width / 2 + 0.5f - distance_to_segment(centre, from, to);
       if (inside > 0) blend(x, y, std::min(inside, 1.0f), color);
     }
+  }
 }
 
 void Canvas::text(const TextLine& line, const Color& color) {

@@ -130,3 +130,29 @@ test("what is no list of numbers is refused", function(t)
   t.fails(function() stats.histogram({1}, {low = 2, high = 1}) end, "expected low below high, got 2 and 1")
   t.fails(function() stats.interval(3, 2) end, "no more successes than trials, got 3 of 2")
 end)
+
+test("figures of numbers are drawn and saved, and sheets hold them", function(t)
+  local line = clench.plot {series = {{name = "a", y = {1, false, 3, 0 / 0, 5}}, {kind = "points", x = {0, 9}, y = {2, 2}}},
+                            title = "t", x_label = "x [m]", y_label = "y", y_range = {0, 4}, width = 300, height = 200}
+  t.equal(tostring(line), "plot of 300 x 200 pixels")
+  t.ok(line.picture == line.picture and line.picture.width == 300)
+  local bars = clench.plot {series = {clench.stats.histogram({1, 2, 2, 5}, {low = 1, high = 4})}, width = 200, height = 200}
+  for _, ending in ipairs {".svg", ".png"} do
+    local path = os.tmpname() .. ending
+    line:save(path)
+    local file = assert(io.open(path, "rb"))
+    local head = file:read(5)
+    file:close()
+    os.remove(path)
+    os.remove((path:gsub("%.%l+$", "")))
+    t.equal(head, ending == ".svg" and "<svg " or "\x89PNG\r")
+  end
+  local sheet = clench.sheet {pictures = {line.picture, bars.picture}, captions = {"line", "bars"}, columns = 1, gap = 10}
+  t.equal({sheet.width, sheet.height}, {320, 10 + 2 * (200 + 22 + 10)})
+  t.fails(function() clench.plot {series = {{y = {1, "2"}}}} end, "series[1]: y[2]: expected a number, or false, got '2'")
+  t.fails(function() clench.plot {series = {{y = {1}, kind = "bar"}}} end, "did you mean 'bars'?")
+  t.fails(function() clench.plot {series = {{edges = {0, 1}}}} end, "counts")
+  t.fails(function() clench.plot {series = {{y = {1}}}, x_range = {1}} end, "x_range: expected 2 numbers, got 1")
+  t.fails(function() clench.sheet {pictures = {line}} end, "pictures[1]: expected a picture, got a plot")
+  t.fails(function() clench.sheet {pictures = {line.picture}, columns = 0} end, "columns: expected at least 1, got 0")
+end)

@@ -16,6 +16,7 @@
 #include "clench/motion/drive.h"
 #include "clench/motion/eigengrasps.h"
 #include "clench/motion/move.h"
+#include "clench/render/drawing.h"
 #include "clench/render/lettering.h"
 #include "clench/render/picture.h"
 #include "clench/scene/scene.h"
@@ -376,6 +377,24 @@ inline const Class& class_of<Picture>() {
 }
 
 inline size_t owned_bytes(const Picture& picture) { return picture.pixels.capacity(); }
+
+// --- plot: numbers over numbers as a figure. ---
+
+struct PlotHandle {
+  std::shared_ptr<const Drawing> drawing;
+};
+
+extern const Class plot_class;
+extern const Library plot_library;
+
+template <>
+inline const Class& class_of<PlotHandle>() {
+  return plot_class;
+}
+
+inline size_t owned_bytes(const PlotHandle& handle) {
+  return handle.drawing->items.size() * (sizeof(Drawing::Item) + 4 * sizeof(Eigen::Vector2f));
+}
 
 // --- cameras of worlds. ---
 

@@ -9,11 +9,11 @@ namespace clench {
 
 std::span<const Library* const> all_libraries() {
   static const Library* const libraries[] = {
-      &units_library,        &vec3_library,        &pose_library,    &random_library,
-      &catalog_library,      &convert_library,     &entries_library, &json_library,
-      &log_library,          &world_library,       &grasp_library,   &measures_library,
-      &wrench_space_library, &eigengrasps_library, &files_library,   &render_library,
-      &chart_library,        &progress_library,    &grasps_library,
+      &units_library,        &vec3_library,        &pose_library,     &random_library,
+      &catalog_library,      &convert_library,     &entries_library,  &json_library,
+      &log_library,          &world_library,       &grasp_library,    &measures_library,
+      &wrench_space_library, &eigengrasps_library, &files_library,    &render_library,
+      &chart_library,        &plot_library,        &progress_library, &grasps_library,
   };
   return libraries;
 }
@@ -31,7 +31,8 @@ std::span<const Class* const> all_classes() {
       &measures_class,    &patch_class,
       &grasp_class,       &wrench_space_class,
       &projection_class,  &picture_class,
-      &progress_class,    &grasps_class,
+      &plot_class,        &progress_class,
+      &grasps_class,
   };
   return classes;
 }

@@ -1,0 +1,194 @@
+#include "clench/base/file.h"
+#include "clench/base/text.h"
+#include "clench/render/plot.h"
+#include "clench/render/sheet.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/lua/getter.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+// numbers, or false where one is missing
+static std::vector<double> read_gappy(lua_State* L, Table& series, const char* key) {
+  std::vector<double> out;
+  series.push(key);
+  const int list = lua_gettop(L);
+  const What what = series.what(key);
+  const int count = read_list_size(L, list, what, "a list of numbers");
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, list, i);
+    const bool none = lua_isboolean(L, -1) && !lua_toboolean(L, -1);
+    const bool number = lua_type(L, -1) == LUA_TNUMBER;
+    if (!none && !number) fail_expected(what.item(i), "a number, or false", lua_gettop(L));
+    out.push_back(none ? NAN : lua_tonumber(L, -1));
+    lua_pop(L, 1);
+  }
+  lua_pop(L, 1);
+  return out;
+}
+
+static PlotSeries read_plot_series(lua_State* L, int index, const What& what) {
+  if (!lua_istable(L, index)) fail_expected(what, "{x = ..., y = ...}", index);
+  Table one(L, index, what.text());
+  PlotSeries series;
+  series.name = one.string("name", "");
+  if (one.has("edges")) {
+    // what clench.stats.histogram gives
+    series.kind = PlotKind::bars;
+    series.x = one.numbers("edges");
+    series.y = one.numbers("counts");
+    one.number("below", 0), one.number("above", 0);
+  } else {
+    const std::string kind = one.choice("kind", {"line", "points", "bars"}, "line");
+    series.kind = kind == "line"     ? PlotKind::line
+                  : kind == "points" ? PlotKind::points
+                                     : PlotKind::bars;
+    series.y = read_gappy(L, one, "y");
+    if (one.has("x"))
+      series.x = read_gappy(L, one, "x");
+    else
+      for (size_t i = 1; i <= series.y.size(); ++i) series.x.push_back(static_cast<double>(i));
+  }
+  one.done();
+  return series;
+}
+
+static PlotAxis read_axis(Table& options, const char* label, const char* range) {
+  PlotAxis axis{options.string(label, "")};
+  if (!options.has(range)) return axis;
+  const auto ends = options.numbers(range, 2);
+  axis.range = std::array{ends[0], ends[1]};
+  return axis;
+}
+
+static int make_plot(lua_State* L) {
+  Table options(L, 1);
+  Plot plot;
+  plot.title = options.string("title", "");
+  plot.x = read_axis(options, "x_label", "x_range");
+  plot.y = read_axis(options, "y_label", "y_range");
+  plot.width = options.integer("width", plot.width);
+  plot.height = options.integer("height", plot.height);
+  const What what = options.what("series");
+  options.push("series");
+  const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list of series");
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, list, i);
+    plot.series.push_back(read_plot_series(L, lua_gettop(L), what.item(i)));
+    lua_pop(L, 1);
+  }
+  lua_pop(L, 1);
+  options.done();
+  const Font font;
+  warn_without_letters(L, font);
+  return push_object(L, PlotHandle{std::make_shared<const Drawing>(draw_plot(plot, font))});
+}
+
+static int get_picture(lua_State* L) {
+  return push_object(L, paint(*self<PlotHandle>(L).drawing, Font()));
+}
+
+static int save(lua_State* L) {
+  const auto& plot = self<PlotHandle>(L);
+  const std::string path = check_string(L, 2, "path");
+  if (path.ends_with(".svg"))
+    write_file(path, svg_text(*plot.drawing));
+  else if (path.ends_with(".png"))
+    save_png(paint(*plot.drawing, Font()), path);
+  else
+    fail("{}: expected a name that ends in .svg or .png, got {}", subject(L), in_quotes(path));
+  return 0;
+}
+
+static int text(lua_State* L) {
+  const Drawing& drawing = *self<PlotHandle>(L).drawing;
+  return push(L, fmt::format("plot of {} x {} pixels", drawing.width, drawing.height));
+}
+
+static int make_sheet(lua_State* L) {
+  Table options(L, 1);
+  SheetOptions arranging;
+  std::vector<const Picture*> pictures;
+  const What what = options.what("pictures");
+  options.push("pictures");
+  const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list of pictures");
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, list, i);
+    const auto* picture = to<Picture>(L, -1);
+    if (!picture) fail_object(what.item(i), class_of<Picture>(), lua_gettop(L));
+    pictures.push_back(picture);  // the list keeps it alive
+    lua_pop(L, 1);
+  }
+  if (options.push("captions") != LUA_TNIL) {
+    const What captions = options.what("captions");
+    const int texts = lua_gettop(L), size = read_list_size(L, texts, captions, "a list of texts");
+    for (int i = 1; i <= size; ++i) {
+      lua_rawgeti(L, texts, i);
+      arranging.captions.push_back(read_string(L, -1, captions.item(i)));
+      lua_pop(L, 1);
+    }
+  }
+  lua_pop(L, 1);
+  if (options.has("columns")) {
+    arranging.columns = options.integer("columns");
+    if (arranging.columns < 1)
+      fail("{}: columns: expected at least 1, got {}", options.subject(), arranging.columns);
+  }
+  arranging.gap = options.integer("gap", arranging.gap);
+  options.done();
+  const Font font;
+  if (!arranging.captions.empty()) warn_without_letters(L, font);
+  Picture out = contact_sheet(pictures, arranging, font);
+  lua_pop(L, 1);
+  return push_object(L, std::move(out));
+}
+
+static const Entry functions[] = {
+    {"plot", guarded<make_plot>, R"(
+Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them. `false` and what is
+not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no
+graphics hardware.
+@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], width?: integer, height?: integer}  kind: "line" (default), "points" or "bars"; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; 720 x 480 pixels by default
+@return plot
+> p = clench.plot{series = {{name = "epsilon", x = {0, 1, 2}, y = {0.1, 0.3, 0.2}}}, x_label = "angle [rad]"}
+> p  --> plot of 720 x 480 pixels
+> clench.plot{series = {clench.stats.histogram{1, 2, 2, 3}}}.picture  --> picture of 720 x 480 pixels
+> clench.plot{series = {{x = {1, 2}, y = {1}}}}  --> error: series 1: expected 1 values of x, as there are of y, got 2)"},
+    {"sheet", guarded<make_sheet>, R"(
+Several pictures in one, in rows, each with its caption under it.
+@param options {pictures: picture[], captions?: string[], columns?: integer, gap?: integer}  columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
+@return picture
+> small = clench.render(world, {size = {64, 48}})
+> clench.sheet{pictures = {small, small, small}, captions = {"a", "b", "c"}, columns = 3, gap = 4}  --> picture of 208 x 78 pixels
+> clench.sheet{pictures = {}}  --> error: expected at least one picture, got none)"},
+};
+
+static const Entry fields[] = {
+    {"picture", guarded<get_picture>, R"(
+It as pixels, on white.
+@type picture
+> clench.plot{series = {{y = {1, 2}}}, width = 100, height = 80}.picture.width  --> 100)"},
+};
+
+static const Entry methods[] = {
+    {"save", guarded<save>, R"(
+Writes a file: .svg, whose lines and letters a program for papers can change, or .png.
+@param path string
+> clench.plot{series = {{y = {1, 2}}}}:save "build/line.svg"
+> clench.plot{series = {{y = {1, 2}}}}:save "line.pdf"  --> error: expected a name that ends in .svg or .png, got 'line.pdf')"},
+};
+
+static const Entry operators[] = {{"__tostring", guarded<text>, ""}};
+
+const Library plot_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class plot_class{.name = "plot",
+                       .variable = "plot",
+                       .doc = "Numbers as a figure, made by `clench.plot`.",
+                       .fields = fields,
+                       .methods = methods,
+                       .operators = operators};
+
+}  // namespace clench
