@@ -632,6 +632,15 @@ function picture:save(path) end
 ---@return integer blue
 function picture:pixel(x, y) end
 
+---Numbers as a figure, made by `clench.plot`.
+---@class plot
+---@field picture picture # It as pixels, on white.
+local plot = {}
+
+---Writes a file: .svg, whose lines and letters a program for papers can change, or .png.
+---@param path string
+function plot:save(path) end
+
 ---How far a script's loop is, as `clench.progress` shows it.
 ---@class progress
 ---@field done number # Steps that are done.
@@ -767,6 +776,16 @@ function clench.render(world, options) end
 ---@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
 ---@return picture
 function clench.chart(options) end
+
+---Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no graphics hardware.
+---@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], width?: integer, height?: integer} # kind: "line" (default), "points" or "bars"; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; 720 x 480 pixels by default
+---@return plot
+function clench.plot(options) end
+
+---Several pictures in one, in rows, each with its caption under it.
+---@param options {pictures: picture[], captions?: string[], columns?: integer, gap?: integer} # columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
+---@return picture
+function clench.sheet(options) end
 
 ---Shows how far a loop is: a bar on a terminal, with the time that is left; nothing in a pipe or a file. Over a number or a list it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It disappears at the loop's end, or by `close`.
 ---@param total? integer|any[] # how many steps, or what to go through; without, only the text is shown

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float capital_height = 0.729f;  // of DejaVu Sans, in its font size
 
-struct Painter {
+struct ItemPainter {
   Canvas& canvas;
 
   void operator()(const Drawing::Line& line) const {
@@ -96,7 +96,7 @@ struct SvgWriter {
 Picture paint(const Drawing& drawing, const Font& font) {
   Picture picture = blank_picture(drawing.width, drawing.height);
   Canvas canvas(picture, font);
-  for (const Drawing::Item& item : drawing.items) std::visit(Painter{canvas}, item);
+  for (const Drawing::Item& item : drawing.items) std::visit(ItemPainter{canvas}, item);
   return picture;
 }
 
