@@ -68,7 +68,7 @@ static const std::string trust =
 
 static int main_of(int argc, char** argv) {
   CommandLine line = split(argc, argv);
-  CLI::App app("Clench simulates, judges and plans robotic grasps.", "clench");
+  CLI::App app("Clench closes robot hands on objects and judges the grasps.", "clench");
   app.footer(
       "Examples:\n  clench run examples/01_first_grasp.lua\n  clench -e 'print(clench.version)'\n  "
       "clench -i scene.lua\n"

@@ -113,3 +113,24 @@ test("rings of alike round cones end in time, and their brackets hold", function
     t.equal(ring(case[1], case[2], "exact"):epsilon(), epsilon)
   end
 end)
+
+test("the weakest direction is a load on the object, which the contacts answer with its opposite", function(t)
+  local world = clench.load "worlds/dlr_flask.wld"
+  local hand, flask = world.robots[1], world.objects[1]
+  -- the object's axes, wherever it stands
+  flask.pose = clench.pose {xyz = {0.1, 0.2, 0.3}, rpy = {0.4, 0.5, 0.6}} * flask.pose
+  hand.pose = clench.pose {xyz = {0.1, 0.2, 0.3}, rpy = {0.4, 0.5, 0.6}} * hand.pose
+  hand:autograsp()
+  local grasp = clench.grasp(hand, flask)
+  local space = grasp:wrench_space()
+  local weakest, most = space:weakest(), -math.huge
+  for _, contact in ipairs(space:wrenches()) do
+    for _, wrench in ipairs(contact) do
+      local against = 0
+      for i = 1, 6 do against = against - wrench[i] * weakest.direction[i] end
+      most = math.max(most, against)
+    end
+  end
+  t.close(most, weakest.resistance, 1e-12)
+  t.close(weakest.resistance, grasp:quality "epsilon", 1e-12)
+end)

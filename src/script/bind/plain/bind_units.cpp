@@ -43,7 +43,7 @@ Version of the engine, major.minor.patch.
 const Library units_library{
     .name = "clench",
     .doc =
-        "Simulates, judges and plans robotic grasps. Lengths are metres, angles radians, masses "
+        "Closes robot hands on objects and judges the grasps. Lengths are metres, angles radians, masses "
         "kilograms, forces "
         "newtons; poses and vectors are in the world frame unless a text says otherwise.",
     .functions = functions,
