@@ -668,7 +668,7 @@ function grasps:add(grasp) end
 ---@param path string
 function grasps:save(path) end
 
----Simulates, judges and plans robotic grasps. Lengths are metres, angles radians, masses kilograms, forces newtons; poses and vectors are in the world frame unless a text says otherwise.
+---Closes robot hands on objects and judges the grasps. Lengths are metres, angles radians, masses kilograms, forces newtons; poses and vectors are in the world frame unless a text says otherwise.
 ---@class clench
 ---@field version string # Version of the engine, major.minor.patch.
 local clench = {}

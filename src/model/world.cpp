@@ -99,7 +99,7 @@ void World::set_name(Id<Body> id, const std::string& name) {
 
 // --- adding and removing ---
 
-Id<Body> World::insert(Body body, const Pose& X_WB, const std::string& name) {
+Id<Body> World::insert(Body body, Pose X_WB, const std::string& name) {
   check_name(name, "body");
   if (!name.empty() && (find_body(name) || find_robot(name)))
     fail("the name '{}' is taken in this world", excerpt(name));
@@ -112,8 +112,7 @@ Id<Body> World::insert(Body body, const Pose& X_WB, const std::string& name) {
   return id;
 }
 
-Id<Body> World::add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB,
-                         const std::string& name) {
+Id<Body> World::add_body(const BodySpec& spec, BodyKind kind, Pose X_WB, const std::string& name) {
   check_body(spec, "body");
   check_appearance(spec.appearance, the_body(spec.name));
   check_place(X_WB, the_body(spec.name));
@@ -128,7 +127,7 @@ static std::string part_name(const std::string& part, const std::string& was,
   return part.starts_with(was) ? is + part.substr(was.size()) : part;
 }
 
-Id<Robot> World::add_robot(const RobotSpec& spec, const Pose& X_WB, const std::string& name) {
+Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& name) {
   check_robot(spec);
   check_name(name, "robot");
   check_place(X_WB, fmt::format("robot '{}'", excerpt(spec.name)));
@@ -227,8 +226,7 @@ void World::switch_off_neighbours(const Robot& robot, bool chain_links_collide) 
         if (j < i) set_collision(false, robot.links[j].body, robot.links[i].body);
 }
 
-void World::mount(Id<Robot> child, Id<Robot> parent, int link, const Pose& X_LB,
-                  const BodySpec* piece) {
+void World::mount(Id<Robot> child, Id<Robot> parent, int link, Pose X_LB, const BodySpec* piece) {
   const std::string& name = robot(child).name;
   const Robot& parent_robot = robot(parent);
   if (robot(child).mounting)

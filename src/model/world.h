@@ -14,15 +14,15 @@ namespace clench {
 class World {
  public:
   // --- things ---
+  // Poses are copied, for those that pose() gives move as the world grows.
   /// `name` empty: the spec's, made unique by a number.
   /// throws  Error when the name is taken
-  Id<Body> add_body(const BodySpec& spec, BodyKind kind, const Pose& X_WB,
-                    const std::string& name = "");
-  Id<Robot> add_robot(const RobotSpec& spec, const Pose& X_WB, const std::string& name = "");
+  Id<Body> add_body(const BodySpec& spec, BodyKind kind, Pose X_WB, const std::string& name = "");
+  Id<Robot> add_robot(const RobotSpec& spec, Pose X_WB, const std::string& name = "");
   /// Carries `child` on a link of the parent from now on.
   /// throws  Error when that closes a circle, the link does not exist, or the child is carried
   ///         already
-  void mount(Id<Robot> child, Id<Robot> parent, int link, const Pose& X_LB,
+  void mount(Id<Robot> child, Id<Robot> parent, int link, Pose X_LB,
              const BodySpec* piece = nullptr);
   /// an object or obstacle
   /// throws  Error for a part of a robot
@@ -132,7 +132,7 @@ class World {
   Body& edit(Id<Body> id);
   Robot& edit(Id<Robot> id);
   uint32_t next_serial() { return ++lineage_->serials; }
-  Id<Body> insert(Body body, const Pose& X_WB, const std::string& name);
+  Id<Body> insert(Body body, Pose X_WB, const std::string& name);
   std::string unique_name(const std::string& expected);
   void switch_off_neighbours(const Robot& robot, bool chain_links_collide);
   void add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB);

@@ -34,6 +34,18 @@ TEST_CASE(
   CHECK(world.body(later).inertia_per_mass == given);
 }
 
+TEST_CASE("a new thing may stand where another one stands, however the world grows") {
+  World world;
+  const auto first = add_box(world, "box", {1, 2, 3});
+  for (int i = 0; i < 40; ++i) {
+    const auto body = world.add_body(body_spec("box", box(0.02, 0.02, 0.02)), BodyKind::object,
+                                     world.pose(first));
+    CHECK(world.pose(body) == world.pose(first));
+    const auto robot = world.add_robot(two_finger(), world.pose(first));
+    CHECK(world.pose(world.robot(robot).base) == world.pose(first));
+  }
+}
+
 TEST_CASE("names are unique: the second box of the same name gets a number") {
   World world;
   add_box(world, "box", {0, 0, 0});
