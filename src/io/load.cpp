@@ -11,7 +11,7 @@
 #include "clench/io/text/repair_names.h"
 #include "clench/io/tree/closing_choice.h"
 #include "clench/io/tree_files.h"
-#include "clench/spec/made_up.h"
+#include "clench/spec/assumed.h"
 #include "clench/spec/plausibility.h"
 
 namespace clench {
@@ -67,7 +67,7 @@ static RobotSpec load_robot(const fs::path& path, Library& library) {
   check_plausible(robot, path.filename().string(), options.listeners());
   std::vector<const BodySpec*> parts = {&robot.base};
   for (const LinkSpec& link : robot.links) parts.push_back(&link.body);
-  tell_made_up(parts, path.filename().string(), options.listeners());
+  tell_assumed(parts, path.filename().string(), options.listeners());
   if (!is_robot_tree(path)) choose_closing(robot, path.filename().string(), options);
   if (!options.folder.empty()) robot.files.folder = absolute_name(options.folder);
   for (const auto& [name, folder] : options.packages)

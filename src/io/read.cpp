@@ -12,7 +12,7 @@
 #include "clench/io/load.h"
 #include "clench/io/text/file_errors.h"
 #include "clench/io/tree_files.h"
-#include "clench/spec/made_up.h"
+#include "clench/spec/assumed.h"
 #include "clench/spec/plausibility.h"
 
 namespace clench {
@@ -72,7 +72,7 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
             fmt::format("{}: '{}'", found.filename().string(), excerpt(placed.body.name)),
             options.listeners());
       }
-    tell_made_up(objects, found.filename().string(), options.listeners());
+    tell_assumed(objects, found.filename().string(), options.listeners());
     world.source = path.generic_string();
     return world;
   });

@@ -49,4 +49,12 @@ double within_limits(const Robot& robot, int dof, double value, std::string_view
        text(value), other_unit({low, high}, value, slides));
 }
 
+void check_dof_numbers(const Robot& robot, std::span<const int> dofs, std::string_view subject) {
+  const int count = static_cast<int>(robot.dofs.size());
+  for (const int dof : dofs)
+    if (dof < 0 || dof >= count)
+      fail("{} of '{}': expected DOFs from 1 to {}, got {}", subject, excerpt(robot.name), count,
+           dof + 1);
+}
+
 }  // namespace clench

@@ -14,4 +14,8 @@ bool dof_slides(const Robot& robot, int dof);
 /// throws  Error "robot 'dlr': DOF 3 'thumb_1' must lie in [0, 1.571] rad, got 90; degrees? clench.rad(90) is 1.571"
 double within_limits(const Robot& robot, int dof, double value, std::string_view subject);
 
+/// subject  "autograsp": what the sentence begins with
+/// throws  Error "autograsp of 'dlr': expected DOFs from 1 to 12, got 13" for a number, from 0, that no DOF has
+void check_dof_numbers(const Robot& robot, std::span<const int> dofs, std::string_view subject);
+
 }  // namespace clench

@@ -4,6 +4,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
+#include "clench/model/dof.h"
 #include "clench/motion/blocked_joints.h"
 #include "clench/motion/drive.h"
 
@@ -40,11 +41,7 @@ DriveResult autograsp(World& world, Id<Robot> id, double speed, const DriveOptio
          speed);
   DofGroup all(robot.dofs.size());
   std::iota(all.begin(), all.end(), 0);
-  for (const DofGroup& stage : stages)
-    for (const int dof : stage)
-      if (dof < 0 || dof >= static_cast<int>(all.size()))
-        fail("autograsp of '{}': expected DOFs from 1 to {}, got {}", excerpt(robot.name),
-             all.size(), dof + 1);
+  for (const DofGroup& stage : stages) check_dof_numbers(robot, stage, "autograsp");
   if (stages.empty()) return close_stage(world, id, speed, all, options);
   DriveResult result;
   result.stops.assign(all.size(), DofStop::not_driven);

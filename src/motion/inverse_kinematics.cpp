@@ -8,6 +8,7 @@
 #include "clench/base/text.h"
 #include "clench/math/decompositions.h"
 #include "clench/model/carrying.h"
+#include "clench/model/dof.h"
 #include "clench/model/jacobian.h"
 
 namespace clench {
@@ -18,10 +19,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double turn_length = 0.1;  // a turn by 1 rad counts as this way [m]
-constexpr int max_iterations = 300;  // of a start
-constexpr double no_step = 1e-12;    // a step below this is none [rad or m]
-constexpr double least_damping = 1e-9, most_damping = 1e9;  // of the error squared
+constexpr double turn_length = 0.1;                      // a turn by 1 rad counts as this way [m]
+constexpr int max_iterations = 300;                      // of a start
+constexpr double no_step = 1e-12;                        // a step below this is none [rad or m]
+constexpr double min_damping = 1e-9, max_damping = 1e9;  // of the error squared
 
 // values of the DOFs, and how far from the target they leave the frame
 struct Posture {
@@ -136,10 +137,10 @@ Posture Search::descend(const VectorXd& start, int& iterations) {
       Posture next = at(q);
       if (next.error() < best.error()) {
         best = std::move(next);
-        damping = std::max(damping / 10, least_damping);
+        damping = std::max(damping / 10, min_damping);
         break;
       }
-      if (damping > most_damping) return best;
+      if (damping > max_damping) return best;
       damping *= 10;
     }
   }
@@ -152,9 +153,7 @@ void check(const World& world, Id<Robot> id, const Pose& X_WT, const IkOptions& 
     return fmt::format("inverse kinematics of '{}'", excerpt(robot.name));
   };
   if (!X_WT.is_finite() || !options.X_BT.is_finite()) fail("{}: expected a finite pose", subject());
-  for (const int dof : options.dofs)
-    if (dof < 0 || dof >= static_cast<int>(robot.dofs.size()))
-      fail("{}: expected DOFs from 1 to {}, got {}", subject(), robot.dofs.size(), dof + 1);
+  check_dof_numbers(robot, options.dofs, "inverse kinematics");
   if (options.starts < 1 || options.starts > 1'000'000)
     fail("{}: starts: expected 1 to 1000000, got {}", subject(), options.starts);
   for (const double tolerance : {options.tolerance, options.angle_tolerance})

@@ -23,8 +23,8 @@ constexpr float text_height = 10, heading_height = 13, border = 14, gap = 8;  //
 constexpr float line_width = 2, point_width = 6, frame_width = 1, sample_length = 24;
 constexpr double tick_room_x = 90, tick_room_y = 45;  // between two lines of an axis [pixels]
 constexpr double margin_of_data = 0.04;               // beside the outermost numbers
-constexpr int least_size = 64, most_size = 8192;
-constexpr size_t most_points = 200'000;
+constexpr int min_plot_size = 64, max_plot_size = 8192;
+constexpr size_t max_points = 200'000;
 constexpr double largest_number = 1e300;
 
 const Drawing::Color dark(0.13f, 0.16f, 0.20f), grid(0.88f, 0.89f, 0.91f);
@@ -64,11 +64,12 @@ void check_plot(const Plot& plot) {
     check_series(plot.series[i], i + 1);
     points += plot.series[i].y.size();
   }
-  if (points > most_points)
-    fail(ErrorKind::limit, "plot: expected at most {} values in all, got {}", most_points, points);
+  if (points > max_points)
+    fail(ErrorKind::limit, "plot: expected at most {} values in all, got {}", max_points, points);
   for (const auto& [name, size] : {std::pair("width", plot.width), {"height", plot.height}})
-    if (size < least_size || size > most_size)
-      fail("plot: expected a {} of {} to {} pixels, got {}", name, least_size, most_size, size);
+    if (size < min_plot_size || size > max_plot_size)
+      fail("plot: expected a {} of {} to {} pixels, got {}", name, min_plot_size, max_plot_size,
+           size);
   for (const auto& [name, axis] : {std::pair("x", &plot.x), {"y", &plot.y}}) {
     if (!axis->range) continue;
     const auto [low, high] = *axis->range;
@@ -126,7 +127,7 @@ struct Scale {
     std::vector<double> out;
     const double slack = 1e-9 * step, first = std::ceil((range[0] - slack) / step);
     // by their number, for adding 1 changes nothing of a large one
-    const int count = floor_between((range[1] - range[0]) / step, 0, most_size) + 1;
+    const int count = floor_between((range[1] - range[0]) / step, 0, max_plot_size) + 1;
     for (int i = 0; i <= count; ++i) {
       const double value = (first + i) * step;
       if (value <= range[1] + slack) out.push_back(value == 0 ? 0.0 : value);

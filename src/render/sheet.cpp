@@ -11,7 +11,7 @@
 
 namespace clench {
 
-static constexpr int most_side = 16384;                         // [pixels]
+static constexpr int max_side = 16384;                          // [pixels]
 static constexpr float caption_height = 10, caption_room = 22;  // [pixels]
 
 static void check_sheet(const std::vector<const Picture*>& pictures, const SheetOptions& options) {
@@ -19,8 +19,8 @@ static void check_sheet(const std::vector<const Picture*>& pictures, const Sheet
   if (!options.captions.empty() && options.captions.size() != pictures.size())
     fail("sheet: expected {} captions, one per picture, got {}", pictures.size(),
          options.captions.size());
-  if (options.columns < 0 || options.columns > most_side)
-    fail("sheet: expected 1 to {} columns, got {}", most_side, options.columns);
+  if (options.columns < 0 || options.columns > max_side)
+    fail("sheet: expected 1 to {} columns, got {}", max_side, options.columns);
   if (options.gap < 0 || options.gap > 1000)
     fail("sheet: expected a gap of 0 to 1000 pixels, got {}", options.gap);
 }
@@ -50,9 +50,9 @@ Picture contact_sheet(const std::vector<const Picture*>& pictures, const SheetOp
   const int rows = (count + columns - 1) / columns;
   const double width = columns * (cell_width + double(options.gap)) + options.gap,
                height = rows * (cell_height + below + double(options.gap)) + options.gap;
-  if (width > most_side || height > most_side)
-    fail(ErrorKind::limit, "sheet: expected at most {} pixels a side, got {} x {}", most_side,
-         width, height);
+  if (width > max_side || height > max_side)
+    fail(ErrorKind::limit, "sheet: expected at most {} pixels a side, got {} x {}", max_side, width,
+         height);
 
   Picture sheet = blank_picture(floor_int(width), floor_int(height));
   Canvas canvas(sheet, font);

@@ -12,9 +12,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double ball_size = 0.25;                   // its radius, of the fingers' length
-constexpr double fineness = 0.3;                     // distance of points on a link, of the radius
-constexpr int least_points = 20, most_points = 400;  // on a link
+constexpr double ball_size = 0.25;                // its radius, of the fingers' length
+constexpr double fineness = 0.3;                  // distance of points on a link, of the radius
+constexpr int min_points = 20, max_points = 400;  // on a link
 constexpr int closing_steps = 24;
 constexpr double apart = 0.02,
                  touching = 0.1;         // gaps of a ball that comes, and of contact: of the radius
@@ -23,7 +23,7 @@ constexpr int directions = 100;          // against which contacts are held
 constexpr double first_closing = 0.05;   // share of the way
 constexpr double common = 0.4;           // mean of unit vectors: longer means they agree
 constexpr double nearly_axis = 0.94;  // cosine of 20 degrees: a direction this near an axis is it
-constexpr double most_work = 1e6;     // points that all steps of a closing look at, by DOF
+constexpr double max_work = 1e6;      // points that all steps of a closing look at, by DOF
 
 // i of n points of a spiral, each for the same area of the unit sphere
 Vector3d on_sphere(int i, int n) {
@@ -40,8 +40,8 @@ std::vector<Vector3d> points_on(const Mesh& mesh, double distance, uint64_t seed
     sums.push_back(sums.back() + 0.5 * (b - a).cross(c - a).norm());
   }
   if (!(sums.back() > 0) || !std::isfinite(sums.back())) return {};
-  const double wanted = std::min(sums.back() / (distance * distance), double{most_points});
-  const int count = std::max(static_cast<int>(wanted), least_points);
+  const double wanted = std::min(sums.back() / (distance * distance), double{max_points});
+  const int count = std::max(static_cast<int>(wanted), min_points);
   Random random(seed);
   std::vector<Vector3d> out;
   for (int i = 0; i < count; ++i) {
@@ -84,14 +84,14 @@ BallTrial::BallTrial(const RobotSpec& robot) : hand_(hand_tree(robot)), open_(ha
   open_.poses = link_poses(robot, open_.q);
   const Span fingers = span();
   // of short fingers, as those of grippers that slide, the gap between them counts
-  radius_ = ball_size * std::max(fingers.mean_length, fingers.least_gap);
+  radius_ = ball_size * std::max(fingers.mean_length, fingers.min_gap);
   if (!(radius_ > 0) || !std::isfinite(radius_)) return;
   for (int l = -1; l < static_cast<int>(robot.links.size()); ++l) add_part(l);
   double work = 0;
   for (const Closing& c : closing_)
     for (const int l : c.links)
       work += closing_steps * static_cast<double>(part(l).points.size() + 1);
-  possible_ = work <= most_work;
+  possible_ = work <= max_work;
 }
 
 std::vector<int> BallTrial::moved_links(int dof) const {

@@ -41,7 +41,7 @@ class BallTrial {
     double radius = 0;
   };
   struct Span {
-    double mean_length, least_gap;  // of fingers, along their links; between two tips
+    double mean_length, min_gap;  // of fingers, along their links; between two tips
   };
 
   const Part& part(int link) const { return parts_[link + 1]; }

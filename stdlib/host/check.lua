@@ -109,7 +109,7 @@ function print_kind.robot(robot)
     end
   end
   columns(rows, "  ")
-  print(("  approaches along %s, what it grasps at %s m"):format(vector(robot.approach.direction, "%.3g"),
+  print(("  approaches along %s, approach point %s m"):format(vector(robot.approach.direction, "%.3g"),
     vector(robot.approach.point, "%.3f")))
   if robot.kept then print("  kept, without effect yet: " .. kept_words(robot.kept)) end
 end

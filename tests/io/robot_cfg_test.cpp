@@ -248,7 +248,8 @@ TEST_CASE(
   const RobotSpec r = cfg.read(options);
   REQUIRE(notes.size() == 2);
   CHECK(notes[0] == "hand.cfg:19: FlockOfBirds: no bird number, 0 is used");
-  CHECK(notes[1] == "hand.cfg: no material is given: wood: 'hand_base', 'hand_chain0_link0'");
+  CHECK(notes[1] ==
+        "hand.cfg: no material is given; wood is assumed: 'hand_base', 'hand_chain0_link0'");
   CHECK(r.files.eigengrasps.empty());
   CHECK(r.files.virtual_contacts.empty());
   CHECK(r.tracker->number == 0);

@@ -242,9 +242,10 @@ TEST_CASE("types and elements that are unknown are warned of, a type that is mis
         "Hand");
   REQUIRE(notes.size() == 3);
   CHECK(notes[0] == "hand.xml:1: robot: no type; it is taken for a Hand");
-  CHECK(notes[2] == "hand.xml: no material is given: wood: 'hand_base'");
-  CHECK(notes[1] ==
-        "hand.xml: no mass and no material is given: 0.3 kg of wood: 'hand_chain0_link0'");
+  CHECK(notes[2] == "hand.xml: no material is given; wood is assumed: 'hand_base'");
+  CHECK(
+      notes[1] ==
+      "hand.xml: no mass and no material is given; 0.3 kg of wood is assumed: 'hand_chain0_link0'");
 }
 
 TEST_CASE("a DOF that moves nothing is warned of") {

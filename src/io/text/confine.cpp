@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 
 /// Where a path leads, whether anything is there or not; empty when links lead in a circle.
 static fs::path resolved(const fs::path& path) {
-  constexpr int most_links = 40;  // as many as the system follows
+  constexpr int link_limit = 40;  // as many as the system follows
   std::error_code code;
   std::vector<fs::path> rest;  // the next part last
   const auto add = [&](const fs::path& parts) {
@@ -30,7 +30,7 @@ static fs::path resolved(const fs::path& path) {
     const fs::path target = fs::read_symlink(next, code);
     if (code)
       out = next;
-    else if (++links > most_links)
+    else if (++links > link_limit)
       return {};
     else
       add(target);

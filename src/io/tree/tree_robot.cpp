@@ -159,9 +159,9 @@ void RobotMaker::tell_closing() {
   const Eigen::Vector3d z = robot_.X_BA->rotation * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d& p = robot_.X_BA->position;
   library_.note(fmt::format(
-      "{}: by its geometry it approaches along ({:.3g}, {:.3g}, {:.3g}), what it grasps at "
-      "({:.3f}, "
-      "{:.3f}, {:.3f}) m of its base; the option 'approach' says otherwise",
+      "{}: by its geometry its approach direction is ({:.3g}, {:.3g}, {:.3g}) and its approach "
+      "point ({:.3f}, {:.3f}, "
+      "{:.3f}) m in its base; the option 'approach' says otherwise",
       file_, z.x() + 0.0, z.y() + 0.0, z.z() + 0.0, p.x() + 0.0, p.y() + 0.0, p.z() + 0.0));
 }
 

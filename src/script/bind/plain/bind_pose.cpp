@@ -34,11 +34,11 @@ static Quaterniond quat_of(Table& t) {
 }
 
 // beyond these, degrees and millimetres are more likely
-static constexpr double most_turn = 2 * std::numbers::pi, most_way = 10;
+static constexpr double max_turn = 2 * std::numbers::pi, max_distance = 10;
 
 static void suspect_degrees(lua_State* L, const Table& t, const char* key, double angle) {
   static const char told = 0;
-  if (std::abs(angle) > most_turn)
+  if (std::abs(angle) > max_turn)
     warn_once(L, &told,
               fmt::format("{}: {} is {:.6g}: radians? clench.rad({:.6g}) is {:.4g}", t.subject(),
                           key, angle, angle, angle * std::numbers::pi / 180));
@@ -47,7 +47,7 @@ static void suspect_degrees(lua_State* L, const Table& t, const char* key, doubl
 static void suspect_millimetres(lua_State* L, const Table& t, const Vector3d& p) {
   static const char told = 0;
   const double far = p.cwiseAbs().maxCoeff();
-  if (far > most_way)
+  if (far > max_distance)
     warn_once(L, &told,
               fmt::format("{}: it is {:.6g} m away: metres? clench.mm({:.6g}) is {:.4g}",
                           t.subject(), far, far, far / 1000));

@@ -12,7 +12,7 @@
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
-#include "clench/spec/made_up.h"
+#include "clench/spec/assumed.h"
 #include "clench/spec/plausibility.h"
 
 namespace clench {
@@ -37,7 +37,7 @@ static int add_body(lua_State* L, BodyKind kind) {
   if (kind == BodyKind::object) {
     const std::string file = std::filesystem::path(spec.file).filename().string();
     check_plausible_object(spec, file.empty() ? subject(L) + ": mesh" : file, reading.listeners());
-    if (!file.empty()) tell_made_up(std::array{&spec}, file, reading.listeners());
+    if (!file.empty()) tell_assumed(std::array{&spec}, file, reading.listeners());
   }
   const Pose pose = options.pose("pose", Pose{});
   const bool named = options.has("name");

@@ -1,11 +1,11 @@
-#include "clench/spec/made_up.h"
+#include "clench/spec/assumed.h"
 
 #include "clench/base/error.h"
 #include "clench/spec/plausibility.h"
 
 namespace clench {
 
-void tell_made_up(std::span<const BodySpec* const> bodies, const std::string& place,
+void tell_assumed(std::span<const BodySpec* const> bodies, const std::string& place,
                   const Listeners& listeners) {
   std::vector<std::string> neither, weightless, of_nothing, balls;
   for (const BodySpec* body : bodies) {
@@ -18,7 +18,7 @@ void tell_made_up(std::span<const BodySpec* const> bodies, const std::string& pl
       of_nothing.push_back(body->name);
     if (inertia_is_of_ball(*body)) balls.push_back(body->name);
   }
-  const BodySpec made_up;
+  const BodySpec assumed;
   // which of several
   const auto those = [&](const std::vector<std::string>& names) {
     return bodies.size() > 1 ? ": " + some_names(names) : "";
@@ -27,10 +27,10 @@ void tell_made_up(std::span<const BodySpec* const> bodies, const std::string& pl
     if (!names.empty() && listeners.note)
       listeners.note(fmt::format("{}: {}{}", place, what, those(names)));
   };
-  note(neither, fmt::format("no mass and no material is given: {} kg of {}", made_up.mass,
-                            made_up.material));
-  note(weightless, fmt::format("no mass is given: {} kg", made_up.mass));
-  note(of_nothing, fmt::format("no material is given: {}", made_up.material));
+  note(neither, fmt::format("no mass and no material is given; {} kg of {} is assumed",
+                            assumed.mass, assumed.material));
+  note(weightless, fmt::format("no mass is given; {} kg is assumed", assumed.mass));
+  note(of_nothing, fmt::format("no material is given; {} is assumed", assumed.material));
   if (!balls.empty())
     tell(listeners.suspect, listeners.warn,
          fmt::format("{}: no inertia is given, and the surface bounds no solid; it is that of a "

@@ -1,4 +1,4 @@
-#include "clench/spec/made_up.h"
+#include "clench/spec/assumed.h"
 
 #include "support/meshes.h"
 #include "support/shapes.h"
@@ -23,7 +23,7 @@ struct Told {
     Listeners listeners;
     listeners.note = [&](const std::string& s) { notes.push_back(s); };
     listeners.suspect = [&](const std::string& s) { suspected.push_back(s); };
-    tell_made_up(list, "w.wld", listeners);
+    tell_assumed(list, "w.wld", listeners);
   }
 };
 
@@ -39,10 +39,12 @@ TEST_CASE("what nobody gives is told of each body that has it") {
   frame.name = "frame";
   const Told told({full, weightless, bare, frame, bare});
   CHECK(told.notes ==
-        Sentences{"w.wld: no mass and no material is given: 0.3 kg of wood: 'bare', 'bare'",
-                  "w.wld: no mass is given: 0.3 kg: 'weightless'"});
+        Sentences{
+            "w.wld: no mass and no material is given; 0.3 kg of wood is assumed: 'bare', 'bare'",
+            "w.wld: no mass is given; 0.3 kg is assumed: 'weightless'"});
   CHECK(told.suspected.empty());
-  CHECK(Told({bare}).notes == Sentences{"w.wld: no mass and no material is given: 0.3 kg of wood"});
+  CHECK(Told({bare}).notes ==
+        Sentences{"w.wld: no mass and no material is given; 0.3 kg of wood is assumed"});
 }
 
 TEST_CASE("an inertia is that of a ball only with a warning") {

@@ -1,4 +1,4 @@
-// What bodies of files have only because a body must have it.
+// Masses, materials and inertias that no file gives.
 #pragma once
 #include <span>
 
@@ -10,7 +10,7 @@ namespace clench {
 /// Notes masses and materials that no file gives, and warns of inertias that are a ball's because the surface bounds no
 /// solid. Bodies without a surface are frames, and left out.
 /// place  what the sentences begin with, "w.wld"
-void tell_made_up(std::span<const BodySpec* const> bodies, const std::string& place,
+void tell_assumed(std::span<const BodySpec* const> bodies, const std::string& place,
                   const Listeners& listeners);
 
 }  // namespace clench
