@@ -82,7 +82,7 @@ end
 --- > rows = clench.csv.read "build/table.csv"
 --- > table.concat(rows.columns, " ")  --> epsilon note object
 --- > rows[1].epsilon, rows[2].epsilon, rows[2].note  --> 0.25, nil, 7
---- > clench.csv.write("no/such/folder/a.csv", {{a = 1}})  --> error: no/such/folder/a.csv
+--- > clench.csv.write("no/such/folder/a.csv", {{a = 1}})  --> error: no such folder: no/such/folder
 function csv.write(path, rows, options)
   if type(path) ~= "string" then raise("csv.write: path: expected a name, got " .. described(path)) end
   if type(rows) ~= "table" then raise("csv.write: rows: expected a list, got " .. described(rows)) end
@@ -101,17 +101,7 @@ function csv.write(path, rows, options)
     for c, name in ipairs(columns) do cells[c] = field(row[name], separator, ("rows[%d].%s"):format(i, name)) end
     lines[i + 1] = table.concat(cells, separator)
   end
-  local text = table.concat(lines, "\n") .. "\n"
-  local part = path .. ".part"
-  local file, why = io.open(part, "wb")
-  if not file then raise("csv.write: " .. why:gsub("%.part", "", 1)) end
-  local ok, fault = file:write(text)
-  ok, fault = file:close() and ok, fault
-  if ok then ok, fault = os.rename(part, path) end
-  if not ok then
-    os.remove(part)
-    raise(("csv.write: %s: %s"):format(path, fault or "it could not be written"))
-  end
+  clench.files.save_text(path, table.concat(lines, "\n") .. "\n")
 end
 
 -- cells of a text from `at` on, as values: a list for each line, with its number of cells and of the line

@@ -1,6 +1,7 @@
 #include "clench/script/bind/bind.h"
 
 #include "clench/base/convert.h"
+#include "clench/base/file.h"
 #include "clench/contact/friction_edges.h"
 #include "clench/io/graspit/eigengrasps.h"
 #include "clench/io/graspit/glove_files.h"
@@ -24,6 +25,13 @@ static Value read_with(lua_State* L, Value (*read)(const fs::path&, const ReadOp
   const ReadOptions reading = read_options(L, options);
   options.done();
   return read(find_file(path, {}, reading), reading);
+}
+
+static int save_text(lua_State* L) {
+  const std::string path = check_string(L, 1, "path");
+  if (lua_type(L, 2) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a text", 2);
+  write_file(path, string_at(L, 2));
+  return 0;
 }
 
 static int eigengrasps(lua_State* L) {
@@ -260,6 +268,12 @@ Pre-grasps of a planner's list, in the object's frame.
 > list = clench.files.pregrasps(path)
 > os.remove(path)
 > list[1].direction, list[1].spread  --> (0, 0, -1), 1.0)"},
+    {"save_text", guarded<save_text>, R"(
+Writes a text as a file, whole or not at all: what stood there stays when it cannot be written.
+@param path string
+@param text string
+> clench.files.save_text("build/note.txt", "held")
+> clench.files.save_text("no/such/folder/a.txt", "")  --> error: no such folder: no/such/folder)"},
     {"save_pregrasps", guarded<save_pregrasps>, R"(
 Writes pre-grasps as a planner's list.
 @param path string
