@@ -883,6 +883,11 @@ function clench.files.primitives(path, options) end
 ---@return {point: vec3, direction: vec3, thumb: vec3, spread: number}[] # [m, rad]
 function clench.files.pregrasps(path, options) end
 
+---Writes a text as a file, whole or not at all: what stood there stays when it cannot be written.
+---@param path string
+---@param text string
+function clench.files.save_text(path, text) end
+
 ---Writes pre-grasps as a planner's list.
 ---@param path string
 ---@param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[]
