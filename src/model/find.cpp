@@ -49,18 +49,30 @@ std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Bod
   return colliding_of(world, near_bodies(world, a, b, 0, *memory), *memory);
 }
 
-bool collides(const World& world, QueryContext* context) {
-  Remember memory(world, context);
-  const auto near = near_bodies(world, 0, *memory);
+static bool any_collides(const World& world, const std::vector<BodyPair>& near,
+                         QueryContext& context) {
   std::vector<PairCache*> caches(near.size());
   for (size_t i = 0; i < near.size(); ++i) {
-    caches[i] = &cache_of(near[i], *memory);
+    caches[i] = &cache_of(near[i], context);
     // a pair that once collided is asked first
     if (caches[i]->hit_a >= 0 && pair_collides(world, near[i], *caches[i])) return true;
   }
   for (size_t i = 0; i < near.size(); ++i)
     if (caches[i]->hit_a < 0 && pair_collides(world, near[i], *caches[i])) return true;
   return false;
+}
+
+bool collides(const World& world, QueryContext* context) {
+  Remember memory(world, context);
+  return any_collides(world, near_bodies(world, 0, *memory), *memory);
+}
+
+bool collides(const World& world, std::span<const Id<Body>> bodies, QueryContext* context) {
+  Remember memory(world, context);
+  std::vector<BodyPair> near = near_bodies(world, 0, *memory);
+  const auto among = [&](Id<Body> id) { return std::ranges::find(bodies, id) != bodies.end(); };
+  std::erase_if(near, [&](const BodyPair& p) { return !among(p.first) && !among(p.second); });
+  return any_collides(world, near, *memory);
 }
 
 BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,

@@ -16,6 +16,8 @@ std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Bod
                                       std::span<const Id<Body>> b, QueryContext* context = nullptr);
 /// Does any? It ends at the first that is found.
 bool collides(const World& world, QueryContext* context = nullptr);
+/// Does one of these with anything?
+bool collides(const World& world, std::span<const Id<Body>> bodies, QueryContext* context = nullptr);
 
 struct BodyDistance {
   double distance = 0;       ///< [m]; 0 when colliding; infinite when a body has no geometry

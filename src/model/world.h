@@ -66,6 +66,9 @@ class World {
   /// throws  Error on a wrong count or a number that is not finite; values outside the limits are
   ///         refused by name
   void set_dofs(Id<Robot> robot, const Eigen::VectorXd& q);
+  /// Base and DOFs at once, as a search wants it; DOFs outside their limits are brought to the nearest one.
+  /// throws  Error when the robot is carried, on a wrong count, or when something is not finite; nothing moves then
+  void set_posture(Id<Robot> robot, const Pose& X_WB, const Eigen::VectorXd& q);
   /// The same, with joints that do not follow; used by motion, which has its own checks.
   /// apart  one per joint
   void set_dofs_unchecked(Id<Robot> robot, const Eigen::VectorXd& q,
@@ -137,8 +140,13 @@ class World {
   void switch_off_neighbours(const Robot& robot, bool chain_links_collide);
   void add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB);
   void erase(Id<Body> id);
+  /// throws Error when another robot carries it
+  void check_free(Id<Robot> robot) const;
+  void check_dof_count(Id<Robot> robot, const Eigen::VectorXd& q) const;
   /// A pose of a robot's base, and of all that moves with it: where they are to be.
   void find_places(Id<Robot> robot, const Pose& X_WB);
+  void set_joints(Id<Robot> robot, const Pose& X_WB, const Eigen::VectorXd& q,
+                  std::span<const JointPosition> own);
   /// throws Error, and moves nothing, when one of them would be no place
   void place(Id<Robot> robot, const Pose& X_WB);
 

@@ -17,10 +17,14 @@ void World::set_pose(Id<Body> id, const Pose& X_WB) {
   state_.X_WB[id.index] = X_WB;
 }
 
-void World::set_pose(Id<Robot> id, const Pose& X_WB) {
+void World::check_free(Id<Robot> id) const {
   if (robot(id).mounting)
     fail("robot '{}' is carried by '{}': move that one", excerpt(robot(id).name),
          excerpt(robot(robot(id).mounting->parent).name));
+}
+
+void World::set_pose(Id<Robot> id, const Pose& X_WB) {
+  check_free(id);
   check_place(X_WB, fmt::format("robot '{}'", excerpt(robot(id).name)));
   place(id, X_WB);
 }
@@ -79,18 +83,41 @@ RobotFrames World::frames(Id<Robot> id) const {
   return out;
 }
 
+void World::check_dof_count(Id<Robot> id, const Eigen::VectorXd& q) const {
+  if (q.size() != static_cast<Eigen::Index>(robot(id).dofs.size()))
+    fail("robot '{}': expected {} DOF values, got {}", excerpt(robot(id).name),
+         robot(id).dofs.size(), q.size());
+}
+
 void World::set_dofs(Id<Robot> id, const Eigen::VectorXd& q) {
+  check_dof_count(id, q);
   const Robot& r = robot(id);
-  if (q.size() != static_cast<Eigen::Index>(r.dofs.size()))
-    fail("robot '{}': expected {} DOF values, got {}", excerpt(r.name), r.dofs.size(), q.size());
   Eigen::VectorXd inside = q;
   for (int i = 0; i < q.size(); ++i) inside[i] = within_limits(r, i, q[i], "robot");
   // a value set by hand re-engages every joint
-  set_dofs_unchecked(id, inside, {});
+  set_joints(id, pose(r.base), inside, {});
+}
+
+void World::set_posture(Id<Robot> id, const Pose& X_WB, const Eigen::VectorXd& q) {
+  check_free(id);
+  check_dof_count(id, q);
+  const Robot& r = robot(id);
+  if (!is_place(X_WB)) check_place(X_WB, fmt::format("robot '{}'", excerpt(r.name)));
+  Eigen::VectorXd inside = q;
+  for (int i = 0; i < q.size(); ++i) {
+    if (std::isnan(q[i])) within_limits(r, i, q[i], "robot");
+    inside[i] = std::clamp(q[i], r.limits[i][0], r.limits[i][1]);
+  }
+  set_joints(id, X_WB, inside, {});
 }
 
 void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
                                std::span<const JointPosition> own) {
+  set_joints(id, pose(robot(id).base), q, own);
+}
+
+void World::set_joints(Id<Robot> id, const Pose& X_WB, const Eigen::VectorXd& q,
+                       std::span<const JointPosition> own) {
   const Robot& r = robot(id);
   const auto dofs = state_.dofs.begin() + static_cast<std::ptrdiff_t>(r.first_dof);
   const auto joints = state_.joints.begin() + static_cast<std::ptrdiff_t>(r.first_joint);
@@ -106,7 +133,7 @@ void World::set_dofs_unchecked(Id<Robot> id, const Eigen::VectorXd& q,
     follows[j] = !has_own;
   }
   try {
-    place(id, pose(r.base));
+    place(id, X_WB);
   } catch (const Error&) {
     std::ranges::copy(scratch_.dofs, dofs);
     std::ranges::copy(scratch_.joints, joints);

@@ -2,6 +2,7 @@
 
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/bind/planning/planning.h"
 
 namespace clench {
 
@@ -14,6 +15,7 @@ std::span<const Library* const> all_libraries() {
       &log_library,          &world_library,       &grasp_library,    &measures_library,
       &wrench_space_library, &eigengrasps_library, &files_library,    &render_library,
       &chart_library,        &plot_library,        &progress_library, &grasps_library,
+      &energy_library,       &annealing_library,
   };
   return libraries;
 }
@@ -32,7 +34,8 @@ std::span<const Class* const> all_classes() {
       &grasp_class,       &wrench_space_class,
       &projection_class,  &picture_class,
       &plot_class,        &progress_class,
-      &grasps_class,
+      &grasps_class,      &energy_class,
+      &annealing_class,
   };
   return classes;
 }

@@ -1,0 +1,99 @@
+// Simulated annealing of a hand about an object: one chain, step by step.
+// source  Ingber (1989), Very fast simulated re-annealing; Ciocarlie & Allen (2009), sec. 5
+#pragma once
+#include <optional>
+
+#include "clench/base/progress.h"
+#include "clench/base/random.h"
+#include "clench/planning/energy/energy.h"
+#include "clench/planning/search/best_list.h"
+
+namespace clench {
+
+/// Temperatures at step k: t0 exp(-decay k^(1 / dimensions)).
+struct AnnealingSchedule {
+  double neighbour_decay = 7, error_decay = 7;
+  double neighbour_dimensions = 8, error_dimensions = 8;
+  double neighbour_scale = 1;  ///< of the temperature of neighbours
+  double error_scale = 1e-6;   ///< of energies
+  double t0 = 1e6;
+  int first_step = 30000;  ///< k of the first step
+
+  double neighbour_temperature(double step) const;
+  double error_temperature(double step) const;
+};
+
+/// "default", "loop", "modified", "strict", "online".   throws Error with the nearest name
+AnnealingSchedule annealing_schedule(const std::string& name);
+
+struct AnnealingOptions {
+  AnnealingSchedule schedule = {};
+  uint64_t seed = 0;
+  int max_tries = 11;  ///< of neighbours, for a legal one, >= 1
+  bool collisions = true;  ///< is a hand that collides illegal?
+  BestListOptions best = {};
+};
+
+/// What became of the steps.
+struct AnnealingCounts {
+  int64_t steps = 0;         ///< with a legal neighbour
+  int64_t accepted = 0;
+  int64_t improved = 0;      ///< accepted ones that lowered the energy
+  int64_t stuck = 0;         ///< tries of steps that found no legal neighbour; they do not count as steps
+  int64_t in_collision = 0;  ///< neighbours
+  int64_t avoided = 0;       ///< neighbours near a state of the avoid list
+  int64_t outside = 0;       ///< neighbours that 100 draws did not bring into the range of a variable
+};
+
+/// A chain of its own world: each thread one. It stands at a state, and the best it met are in its list.
+class Annealing {
+ public:
+  /// world   is moved by every step; the hand is carried by nobody
+  /// throws  Error when an option is out of range or the hand is carried
+  Annealing(World& world, const HandAndObject& who, SearchSpace space, EnergyPtr energy,
+            const AnnealingOptions& options = {});
+
+  /// Takes `count` more steps with a legal neighbour.
+  /// returns  fewer where 10,000 tries in a row found none
+  /// throws   Stopped, between two steps, and what an energy throws
+  int run(int count, const Progress& progress = {});
+
+  const SearchSpace& space() const { return space_; }
+  const Values& values() const { return values_; }
+  double energy() const { return energy_value_; }
+  double first_energy() const { return first_energy_; }
+  const AnnealingCounts& counts() const { return counts_; }
+  BestList& best() { return best_; }
+  const BestList& best() const { return best_; }
+  int64_t step() const { return k_; }  ///< of the schedule
+  /// The schedule begins anew; the state stays.
+  void reset_schedule() { k_ = options_.schedule.first_step; }
+  /// Goes to a state.   throws Error as SearchSpace::state
+  void go_to(const Values& values);
+  bool any_thread() const { return energy_->any_thread(); }
+  World& world() const { return world_; }
+  const HandAndObject& who() const { return who_; }
+
+ private:
+  enum class Verdict { legal, collides, avoided };
+  std::optional<Values> neighbour();
+  double jump(const Variable& variable, double value, double temperature);
+  Verdict place(const HandState& state);
+  bool take_step();
+
+  World& world_;
+  HandAndObject who_;
+  SearchSpace space_;
+  EnergyPtr energy_;
+  AnnealingOptions options_;
+  Random random_;
+  BestList best_;
+  AnnealingCounts counts_;
+  Pose X_WR_;  // the object, which stays
+  Values values_;
+  std::vector<Id<Body>> parts_;
+  double energy_value_ = 0, first_energy_ = 0;
+  int64_t k_ = 0;
+};
+
+}  // namespace clench

@@ -1,0 +1,327 @@
+#include "clench/planning/search/run_together.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/planning/planning.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/getter.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+namespace {
+
+AnnealingSchedule read_schedule(lua_State* L, Table& options) {
+  const int type = options.push("schedule");
+  const int at = lua_gettop(L);
+  if (type == LUA_TSTRING || type == LUA_TNIL) {
+    const std::string name = type == LUA_TNIL ? "default" : std::string(string_at(L, at));
+    lua_pop(L, 1);
+    return annealing_schedule(name);
+  }
+  if (type != LUA_TTABLE) fail_expected(options.what("schedule"), "a name or a table", at);
+  Table of(L, at, options.what("schedule").text());
+  AnnealingSchedule s = annealing_schedule(of.string("like", "default"));
+  s.neighbour_decay = of.number("neighbour_decay", s.neighbour_decay);
+  s.error_decay = of.number("error_decay", s.error_decay);
+  s.neighbour_dimensions = of.number("neighbour_dimensions", s.neighbour_dimensions);
+  s.error_dimensions = of.number("error_dimensions", s.error_dimensions);
+  s.neighbour_scale = of.number("neighbour_scale", s.neighbour_scale);
+  s.error_scale = of.number("error_scale", s.error_scale);
+  s.t0 = of.number("t0", s.t0);
+  s.first_step = of.integer("first_step", s.first_step);
+  of.done();
+  lua_pop(L, 1);
+  return s;
+}
+
+BestListOptions read_best(lua_State* L, Table& options, const World& world, Id<Body> object) {
+  BestListOptions out;
+  const double radius = world.body(object).max_radius();
+  out.radius = radius > 0 ? radius : 1;
+  options.push("best");
+  Table of(L, lua_gettop(L), options.what("best").text());
+  out.size = of.integer("size", out.size);
+  out.distance = of.number("distance", out.distance);
+  out.posture = of.boolean("posture", out.posture);
+  out.max_energy = of.number("max_energy", out.max_energy);
+  of.done();
+  lua_pop(L, 1);
+  return out;
+}
+
+// the hand and the object of the options in the world that the search moves, theirs or a clone of it
+HandAndObject read_who(Table& options, WorldPtr& world) {
+  const auto* hand = options.object<RobotHandle>("hand");
+  const auto* object = options.object<BodyHandle>("object");
+  if (!hand || !object)
+    fail("{}: {}: expected {}, got nothing", options.subject(), hand ? "object" : "hand",
+         hand ? "a body" : "a robot");
+  world = hand->world;
+  if (const auto* given = options.object<WorldHandle>("world")) world = given->world;
+  for (const WorldPtr& of : {hand->world, object->world})
+    if (of->lineage() != world->lineage())
+      fail("{}: hand and object belong to another world", options.subject());
+  if (world->body(object->id).robot)
+    fail("{}: object: '{}' is a part of a robot", options.subject(), (*object)->name);
+  if (world->robot(hand->id).mounting)
+    fail("{}: hand: '{}' is carried by another robot; plan for a hand that stands free",
+         options.subject(), (*hand)->name);
+  return {hand->id, object->id};
+}
+
+int make_annealing(lua_State* L) {
+  Table options(L, 1);
+  WorldPtr world;
+  const HandAndObject who = read_who(options, world);
+  SearchSpace space = read_space(L, options, *world, who);
+  AnnealingOptions annealing;
+  annealing.schedule = read_schedule(L, options);
+  annealing.best = read_best(L, options, *world, who.object);
+  annealing.seed = options.seed("seed", annealing.seed);
+  annealing.collisions = options.boolean("collisions", annealing.collisions);
+  annealing.max_tries = options.integer("max_tries", annealing.max_tries);
+  options.push("energy");
+  WorldPtr about;
+  EnergyPtr energy = read_energy(L, lua_gettop(L), about);
+  lua_pop(L, 1);
+  options.done();
+  if (about && about->lineage() != world->lineage())
+    fail("{}: energy: it is about another world", options.subject());
+  const CallingState calling(L);
+  return push_object(
+      L, AnnealingHandle{world, std::make_shared<Annealing>(*world, who, std::move(space),
+                                                           std::move(energy), annealing)});
+}
+
+int check_steps(lua_State* L, int i, const char* name) {
+  const int steps = check_int(L, i, name);
+  if (steps < 0) fail("{}: {} must be >= 0, got {}", subject(L), name, steps);
+  return steps;
+}
+
+int run(lua_State* L) {
+  const auto search = self<AnnealingHandle>(L).search;
+  const int steps = check_steps(L, 2, "steps");
+  const Watching watching(L);
+  const CallingState calling(L);
+  return push(L, search->run(steps, watching.progress()));
+}
+
+int run_all(lua_State* L) {
+  const int count = read_list_size(L, 1, {L, {}, "searches"}, "a list of searches");
+  const auto steps = check_numbers(L, 2, "steps", count);
+  const int threads = given(L, 3) ? check_int(L, 3, "threads") : 1;
+  std::vector<std::shared_ptr<Annealing>> searches;
+  std::vector<Share> shares;
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, 1, i);
+    const auto* handle = to<AnnealingHandle>(L, -1);
+    if (!handle) fail_object(What{L, {}, "searches"}.item(i), annealing_class, -1);
+    if (!(steps[i - 1] >= 0 && steps[i - 1] <= 1e9))
+      fail("{}: steps[{}]: expected 0 to 1e9, got {}", subject(L), i, steps[i - 1]);
+    searches.push_back(handle->search);
+    shares.push_back({handle->search.get(), static_cast<int>(steps[i - 1])});
+    lua_pop(L, 1);
+  }
+  const Watching watching(L);
+  const CallingState calling(L);
+  run_together(shares, threads, watching.progress());
+  return push_list_of(L, shares, [L](const Share& share) { push(L, share.taken); });
+}
+
+int push_state(lua_State* L, const Annealing& search, const FoundState& found) {
+  push_list(L, 0, 5);
+  set_field(L, "energy", found.energy);
+  set_field(L, "step", static_cast<double>(found.step));
+  set_field(L, "pose", found.state.X_RH);
+  push_vector(L, found.state.dofs);
+  lua_setfield(L, -2, "dofs");
+  push_values(L, search.space(), found.values);
+  lua_setfield(L, -2, "values");
+  return 1;
+}
+
+int get_best(lua_State* L) {
+  const Annealing& search = *self<AnnealingHandle>(L).search;
+  return push_list_of(L, search.best().states(),
+                      [&](const FoundState& found) { push_state(L, search, found); });
+}
+
+int get_values(lua_State* L) {
+  const Annealing& search = *self<AnnealingHandle>(L).search;
+  return push_values(L, search.space(), search.values());
+}
+
+int get_state(lua_State* L) {
+  const Annealing& search = *self<AnnealingHandle>(L).search;
+  return push_state(L, search,
+                    {search.values(), search.space().state(search.values()), search.energy(),
+                     search.counts().steps});
+}
+
+int get_counts(lua_State* L) {
+  const AnnealingCounts& c = self<AnnealingHandle>(L).search->counts();
+  push_list(L, 0, 7);
+  for (const auto& [name, count] :
+       {std::pair{"steps", c.steps}, std::pair{"accepted", c.accepted},
+        std::pair{"improved", c.improved}, std::pair{"stuck", c.stuck},
+        std::pair{"in_collision", c.in_collision}, std::pair{"avoided", c.avoided},
+        std::pair{"outside", c.outside}}) {
+    lua_pushinteger(L, count);
+    lua_setfield(L, -2, name);
+  }
+  return 1;
+}
+
+int get_energy(lua_State* L) {
+  return push_unbounded(L, self<AnnealingHandle>(L).search->energy());
+}
+int get_first(lua_State* L) {
+  return push_unbounded(L, self<AnnealingHandle>(L).search->first_energy());
+}
+
+// {pose =, dofs =} of the hand, the pose in the object, as `best` lists them
+HandState read_state(lua_State* L, int i, const Annealing& search) {
+  Table of(L, i, subject(L) + ": state");
+  HandState out{of.pose("pose"), {}};
+  const auto dofs =
+      of.numbers("dofs", static_cast<int>(search.world().dofs(search.who().hand).size()));
+  out.dofs = Eigen::Map<const Eigen::VectorXd>(dofs.data(), static_cast<int>(dofs.size()));
+  of.has("energy"), of.has("step"), of.has("values");  // what `best` says besides
+  of.done();
+  return out;
+}
+
+int avoid(lua_State* L) {
+  Annealing& search = *self<AnnealingHandle>(L).search;
+  search.best().avoid(read_state(L, 2, search));
+  return 0;
+}
+
+int go_to(lua_State* L) {
+  Annealing& search = *self<AnnealingHandle>(L).search;
+  const CallingState calling(L);
+  search.go_to(search.space().values(read_state(L, 2, search)));
+  return get_values(L);
+}
+
+int reset(lua_State* L) {
+  self<AnnealingHandle>(L).search->reset_schedule();
+  return 0;
+}
+
+int clear(lua_State* L) {
+  self<AnnealingHandle>(L).search->best().clear();
+  return 0;
+}
+
+int text(lua_State* L) {
+  const Annealing& search = *self<AnnealingHandle>(L).search;
+  return push(L, fmt::format("annealing after {} steps, energy {:.6g}", search.counts().steps,
+                             search.energy()));
+}
+
+}  // namespace
+
+static const Entry functions[] = {
+    {"annealing", guarded<make_annealing>, R"(
+A chain of simulated annealing, to be run by hand: what `clench.plan` is made of. It moves the world's hand.
+@param options {hand: robot, object: body, energy: energy|function, world?: world, position?: string, posture?: string, semi_axes?: vec3, limits?: table, jumps?: table, values?: table, targets?: table, fixed?: string[], start?: string, variables?: table, schedule?: string|table, seed?: integer, collisions?: boolean, max_tries?: integer, best?: table}  world: a clone to move instead; position: "axis_angle" (default: Tx Ty Tz theta phi alpha), "complete", "ellipsoid", "approach", "fixed"; posture: "eigengrasps" (default), "dofs", "fixed"; limits: {Tx = {min, max}}; values: where variables begin, and stay when they are `fixed`; start: "hand", from where it is; targets: {Tx = {value, confidence}} draw neighbours near them; variables: the user's own, {name = {min =, max =, value =, jump =, circular =}}; schedule: "default", "loop", "modified", "strict", "online", or {like =, t0 =, first_step =, ...}; collisions = false: states that collide are legal; best: {size = 20, distance = 0.2, posture = true, max_energy =}
+@return annealing
+> search = clench.annealing {hand = hand, object = flask, energy = clench.energy.contact {hand = hand, object = flask}, seed = 1}
+> search:run(100), search.counts.steps  --> 100, 100
+> search.best[1].energy <= search.first_energy  --> true
+> clench.annealing {hand = hand, object = flask, energy = 3}  --> error: expected an energy, or a function that gives a number
+> clench.annealing {hand = hand, object = flask, energy = search.run, limits = {Txx = {0, 1}}}  --> error: no search variable 'Txx')"},
+    {"run_annealings", guarded<run_all>, R"(
+Runs several chains at once, each in a world of its own; what they find does not depend on the number of threads.
+@param searches annealing[]
+@param steps integer[]  one per chain
+@param threads? integer  1 by default
+@return integer[] taken  fewer than asked where no legal neighbour was found
+> energy = clench.energy.contact {hand = hand, object = flask}
+> a = clench.annealing {world = world:clone(), hand = hand, object = flask, energy = energy, seed = 1}
+> b = clench.annealing {world = world:clone(), hand = hand, object = flask, energy = energy, seed = 1}
+> clench.run_annealings({a, b}, {50, 50}, 2)  --> {50, 50}
+> a.energy == b.energy  --> true
+> clench.run_annealings({a, a}, {5, 5})  --> error: need a world each)"},
+};
+
+static const Entry fields[] = {
+    {"best", guarded<get_best>, R"(
+The best states met, no two alike: `energy`, `step`, `pose` of the hand in the object, `dofs`, and `values` of the variables
+by name.
+@type {energy: number, step: integer, pose: pose, dofs: number[], values: table}[]
+> search = clench.annealing {hand = hand, object = flask, energy = clench.energy.contact {hand = hand, object = flask}}
+> search:run(20)
+> #search.best >= 1, #search.best[1].dofs  --> true, 12)"},
+    {"state", guarded<get_state>, R"(
+Where the chain is, as `best` says it.
+@type table
+> search = clench.annealing {hand = hand, object = flask, energy = clench.energy.contact {hand = hand, object = flask}}
+> search.state.energy == search.energy  --> true)"},
+    {"values", guarded<get_values>, R"(
+Values of its variables by name.
+@type table
+> search = clench.annealing {hand = hand, object = flask, energy = clench.energy.contact {hand = hand, object = flask}}
+> search.values.Tz  --> 0.35)"},
+    {"energy", guarded<get_energy>, R"(
+Of the state that the chain is at; infinite where it begins in collision.
+@type number
+> clench.annealing {hand = hand, object = flask, energy = function() return 2 end}.energy  --> 2.0)"},
+    {"first_energy", guarded<get_first>, R"(
+Of the state that it began with.
+@type number
+> clench.annealing {hand = hand, object = flask, energy = function() return 2 end}.first_energy  --> 2.0)"},
+    {"counts", guarded<get_counts>, R"(
+What became of its steps: `steps`, `accepted`, `improved`; and of neighbours that were none: `in_collision`, `avoided`, `outside`
+their ranges; `stuck`: how often all tries of a step failed.
+@type table
+> search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
+> search:run(5)
+> search.counts.steps  --> 5)"},
+};
+
+static const Entry methods[] = {
+    {"run", guarded<run>, R"(
+Takes steps, each to a legal neighbour that is accepted or not.
+@param steps integer
+@return integer taken  fewer where 10,000 tries in a row found no legal neighbour
+> search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
+> search:run(3)  --> 3
+> search:run(-1)  --> error: steps must be >= 0, got -1)"},
+    {"avoid", guarded<avoid>, R"(
+Goes around a state from now on: its like are illegal.
+@param state {pose: pose, dofs: number[]}  as `best` lists them
+> search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
+> search:avoid(search.best[1])
+> search:run(5), search.counts.avoided > 0  --> 5, true)"},
+    {"go_to", guarded<go_to>, R"(
+Goes to a state, or as near as its variables can.
+@param state {pose: pose, dofs: number[]}
+@return table values
+> search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
+> search:go_to {pose = flask.pose:inverse() * hand.pose, dofs = hand.dofs}.alpha >= 0  --> true)"},
+    {"reset", guarded<reset>, R"(
+Begins the schedule of temperatures anew.
+> clench.annealing {hand = hand, object = flask, energy = function() return 2 end}:reset())"},
+    {"clear", guarded<clear>, R"(
+Empties the list of the best states; what is avoided stays so.
+> search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
+> search:clear()
+> #search.best  --> 0)"},
+};
+
+static const Entry operators[] = {{"__tostring", guarded<text>, ""}};
+
+const Library annealing_library{.name = "clench", .doc = "", .functions = functions};
+
+const Class annealing_class{.name = "annealing",
+                            .variable = "search",
+                            .doc = "A chain of simulated annealing, made by `clench.annealing`.",
+                            .fields = fields,
+                            .methods = methods,
+                            .operators = operators};
+
+}  // namespace clench

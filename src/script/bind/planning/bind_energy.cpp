@@ -1,0 +1,370 @@
+#include <numbers>
+
+#include "clench/planning/energy/closing_energy.h"
+#include "clench/planning/energy/constraint_energy.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/planning/planning.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+namespace {
+
+struct Subject {
+  WorldPtr world;
+  HandAndObject who;
+};
+
+WorldPtr read_hand(Table& options, HandAndObject& who) {
+  const auto* hand = options.object<RobotHandle>("hand");
+  if (!hand) fail("{}: hand: expected a robot, got nothing", options.subject());
+  hand->world->robot(hand->id);  // alive
+  who.hand = hand->id;
+  return hand->world;
+}
+
+Subject read_subject(Table& options) {
+  Subject out;
+  out.world = read_hand(options, out.who);
+  const auto* object = options.object<BodyHandle>("object");
+  if (!object) fail("{}: object: expected a body, got nothing", options.subject());
+  if (object->world != out.world)
+    fail("{}: object: '{}' belongs to another world than the hand", options.subject(),
+         (*object)->name);
+  out.who.object = object->id;
+  return out;
+}
+
+SiteKind read_contacts(Table& options) {
+  const std::string kind = options.choice("contacts", {"preset", "live"}, "preset");
+  return kind == "live" ? SiteKind::live : SiteKind::preset;
+}
+
+int push_energy(lua_State* L, const WorldPtr& world, EnergyPtr energy) {
+  return push_object(L, EnergyHandle{world, std::move(energy)});
+}
+
+Facing read_facing(Table& options, const std::string& usual) {
+  const std::string facing = options.choice("facing", {"nearest", "surface", "away"}, usual);
+  return facing == "nearest" ? Facing::nearest
+         : facing == "away"  ? Facing::away
+                             : Facing::surface;
+}
+
+ContactEnergy::Options read_contact_options(Table& options) {
+  ContactEnergy::Options out{.contacts = read_contacts(options)};
+  out.normal_weight = options.number("normal_weight", out.normal_weight);
+  out.facing = read_facing(options, "nearest");
+  return out;
+}
+
+PotentialQuality::Options read_potential_options(Table& options, SiteKind contacts) {
+  PotentialQuality::Options out{.contacts = contacts};
+  out.reach = options.positive("reach", out.reach);
+  out.min_count = options.integer("min_count", out.min_count);
+  out.torques = options.boolean("torques", out.torques);
+  return out;
+}
+
+std::vector<Vector6d> read_tasks(Table& options) {
+  std::vector<Vector6d> out;
+  if (options.has("tasks"))
+    for (const auto& row : options.rows("tasks", 6))
+      out.push_back(Eigen::Map<const Vector6d>(row.data()));
+  return out;
+}
+
+ClosingEnergy::Options read_closing_options(Table& options, ClosingEnergy::Options out) {
+  out.volume_weight = options.number("volume_weight", out.volume_weight);
+  out.epsilon_weight = options.number("epsilon_weight", out.epsilon_weight);
+  out.tasks = read_tasks(options);
+  out.task_weight = options.number("task_weight", out.tasks.empty() ? 0 : 1);
+  if (const auto edges = read_edges(options)) out.grasp.edges = *edges;
+  return out;
+}
+
+// --- the named energies ---
+
+int contact(lua_State* L) {
+  Table options(L, 1);
+  const auto [world, who] = read_subject(options);
+  const auto reading = read_contact_options(options);
+  options.done();
+  return push_energy(L, world, std::make_unique<ContactEnergy>(*world, who, reading));
+}
+
+int potential_quality(lua_State* L) {
+  Table options(L, 1);
+  const auto [world, who] = read_subject(options);
+  const auto reading = read_potential_options(options, read_contacts(options));
+  options.done();
+  return push_energy(L, world, std::make_unique<PotentialQuality>(*world, who, reading));
+}
+
+int guided_potential_quality(lua_State* L) {
+  Table options(L, 1);
+  const auto [world, who] = read_subject(options);
+  const auto reading = read_contact_options(options);
+  const auto potential = read_potential_options(options, reading.contacts);
+  options.done();
+  return push_energy(
+      L, world,
+      std::make_unique<GuidedEnergy>(std::make_unique<PotentialQuality>(*world, who, potential),
+                                     std::make_unique<ContactEnergy>(*world, who, reading)));
+}
+
+int closing(lua_State* L, const ClosingEnergy::Options& usual) {
+  Table options(L, 1);
+  const auto [world, who] = read_subject(options);
+  const auto reading = read_closing_options(options, usual);
+  options.done();
+  return push_energy(L, world, std::make_unique<ClosingEnergy>(who, reading));
+}
+
+int autograsp_quality(lua_State* L) { return closing(L, {}); }
+int strict_autograsp(lua_State* L) {
+  return closing(L, {.nothing = 1e8, .approach = 0.03, .palm = true});
+}
+
+int guided_autograsp_quality(lua_State* L) {
+  Table options(L, 1);
+  const auto [world, who] = read_subject(options);
+  GuidedClosingEnergy::Options reading{.contacts = read_contacts(options)};
+  reading.facing = read_facing(options, "away");
+  reading.volume_weight = options.number("volume_weight", reading.volume_weight);
+  reading.near = options.positive("near", reading.near);
+  reading.min_contacts = options.integer("min_contacts", reading.min_contacts);
+  options.done();
+  return push_energy(L, world, std::make_unique<GuidedClosingEnergy>(*world, who, reading));
+}
+
+int compliant(lua_State* L) {
+  Table options(L, 1);
+  const auto [world, who] = read_subject(options);
+  CompliantEnergy::Options reading;
+  reading.approach = options.positive("approach", reading.approach);
+  reading.min_epsilon = options.number("min_epsilon", reading.min_epsilon);
+  options.done();
+  return push_energy(L, world, std::make_unique<CompliantEnergy>(who, reading));
+}
+
+// --- constraints ---
+
+int approach_cone(lua_State* L) {
+  Table options(L, 1);
+  HandAndObject who;
+  const WorldPtr world = read_hand(options, who);
+  const Eigen::Vector3d axis = options.vec3("axis");
+  const double angle = options.number("angle", 0);
+  options.done();
+  return push_energy(L, world, std::make_unique<ApproachCone>(who.hand, axis, angle));
+}
+
+int keep_out(lua_State* L) {
+  Table options(L, 1);
+  HandAndObject who;
+  const WorldPtr world = read_hand(options, who);
+  const Pose pose = options.pose("pose", Pose{});
+  const Eigen::Vector3d low = options.vec3("low"), high = options.vec3("high");
+  options.done();
+  return push_energy(L, world, std::make_unique<KeepOutBox>(who.hand, pose, low, high));
+}
+
+int clearance(lua_State* L) {
+  Table options(L, 1);
+  const auto [world, who] = read_subject(options);
+  const double distance = options.number("distance");
+  options.done();
+  return push_energy(L, world, std::make_unique<ClearanceEnergy>(who, distance));
+}
+
+int reach(lua_State* L) {
+  Table options(L, 1);
+  HandAndObject who;
+  const WorldPtr world = read_hand(options, who);
+  const Eigen::Vector3d point = options.vec3("point");
+  const double radius = options.number("radius");
+  options.done();
+  return push_energy(L, world, std::make_unique<ReachEnergy>(who.hand, point, radius));
+}
+
+int penetration(lua_State* L) {
+  Table options(L, 1);
+  HandAndObject who;
+  const WorldPtr world = read_hand(options, who);
+  const int points = options.integer("points", 64);
+  options.done();
+  return push_energy(L, world, std::make_unique<PenetrationEnergy>(*world, who.hand, points));
+}
+
+// --- trees of terms ---
+
+// a term, or a function as one; the world of the first term found is theirs
+EnergyPtr read_term(lua_State* L, int index, WorldPtr& world) {
+  if (lua_type(L, index) == LUA_TFUNCTION)
+    return std::make_unique<EnergyFunction>(script_number(L, index));
+  const auto* handle = to<EnergyHandle>(L, index);
+  if (!handle) fail_expected({L, {}, ""}, "an energy, or a function that gives a number", index);
+  if (world && handle->world && world != handle->world)
+    fail("{}: the energies belong to two worlds", subject(L));
+  if (handle->world) world = handle->world;
+  return handle->energy->clone();
+}
+
+int add(lua_State* L) {
+  WorldPtr world;
+  std::vector<EnergySum::Term> terms;
+  terms.push_back({1, read_term(L, 1, world)});
+  terms.push_back({1, read_term(L, 2, world)});
+  return push_energy(L, world, std::make_unique<EnergySum>(std::move(terms)));
+}
+
+int multiply(lua_State* L) {
+  const int number = lua_type(L, 1) == LUA_TNUMBER ? 1 : 2;
+  WorldPtr world;
+  std::vector<EnergySum::Term> terms;
+  const double weight = check_number(L, number, "weight");
+  terms.push_back({weight, read_term(L, 3 - number, world)});
+  return push_energy(L, world, std::make_unique<EnergySum>(std::move(terms)));
+}
+
+int within(lua_State* L) {
+  const auto& handle = self<EnergyHandle>(L);
+  const double low = given(L, 2) ? check_number(L, 2, "low") : -infinite;
+  const double high = given(L, 3) ? check_number(L, 3, "high") : infinite;
+  return push_energy(L, handle.world,
+                     std::make_unique<EnergyWithin>(handle.energy->clone(), low, high));
+}
+
+int call(lua_State* L) {
+  const auto& handle = self<EnergyHandle>(L);
+  if (!handle.world) fail("energy: a function alone: call it by itself");
+  const CallingState calling(L);
+  const auto energy = handle.energy;  // a function may drop the last reference
+  const auto world = handle.world;
+  return push_unbounded(L, energy->value(*world));
+}
+
+int text(lua_State* L) {
+  return push(L, self<EnergyHandle>(L).energy->any_thread() ? "energy" : "energy with a function of a script");
+}
+
+}  // namespace
+
+EnergyPtr read_energy(lua_State* L, int index, WorldPtr& world) {
+  return read_term(L, index, world);
+}
+
+static const Entry functions[] = {
+    {"contact", guarded<contact>, R"(
+How far the hand's virtual contacts are from the object, and how they face it: the mean of distance [mm] +
+normal_weight (1 - cosine of the angle). Needs no closing: the quickest energy.
+@param options {hand: robot, object: body, contacts?: string, normal_weight?: number, facing?: string}  contacts: "preset" (default), the hand's virtual contacts, or "live", the point of each link that is nearest; normal_weight: 50 [mm]; facing: the normal against the way to the "nearest" point (default), the "surface" there, or "away" from it
+@return energy
+> e = clench.energy.contact {hand = hand, object = flask}
+> e() > 0  --> true
+> e2 = e + 0.5 * clench.energy.penetration {hand = hand}
+> e2() == e()  --> true
+> clench.energy.contact {hand = hand}  --> error: object: expected a body, got nothing
+> clench.energy.contact {hand = hand, object = hand.base}  --> error: the object is a part of a robot)"},
+    {"potential_quality", guarded<potential_quality>, R"(
+What the virtual contacts could hold if they touched, nearer ones more: minus epsilon of their forces (with
+`torques`, of their wrenches). 1 where fewer than min_count are near and face the object, or they hold not in all directions.
+@param options {hand: robot, object: body, contacts?: string, reach?: number, min_count?: integer, torques?: boolean}  reach: 0.05 [m], beyond which a contact does not count; min_count 3
+@return energy
+> clench.energy.potential_quality {hand = hand, object = flask}() <= 1  --> true)"},
+    {"guided_potential_quality", guarded<guided_potential_quality>, R"(
+potential_quality where that is at most 0, else contact, which leads there.
+@param options {hand: robot, object: body, contacts?: string, normal_weight?: number, facing?: string, reach?: number, min_count?: integer, torques?: boolean}
+@return energy
+> clench.energy.guided_potential_quality {hand = hand, object = flask}() < 1000  --> true)"},
+    {"autograsp_quality", guarded<autograsp_quality>, R"(
+Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_weight * epsilon) of the grasp; with
+`tasks`, also minus task_weight times the largest multiple of all these wrenches on the object that it resists.
+@param options {hand: robot, object: body, volume_weight?: number, epsilon_weight?: number, tasks?: number[][], task_weight?: number, edges?: integer|string}  weights 30, 100 and, with tasks, 1; tasks: {fx, fy, fz, tx, ty, tz} each, object axes, about its centre of mass [N, N m]
+@return energy
+> e = clench.energy.autograsp_quality {hand = hand, object = flask, volume_weight = 0, epsilon_weight = 1}
+> math.abs(e() + grasp:quality "epsilon") < 1e-6  --> true)"},
+    {"guided_autograsp_quality", guarded<guided_autograsp_quality>, R"(
+contact, and, where two virtual contacts are near the object and face it, less volume_weight times the volume of the
+closed grasp. GraspIt! has the sign of the angle wrong here, and its numbers are the default; `facing = "nearest"` is the
+right one.
+@param options {hand: robot, object: body, contacts?: string, facing?: string, volume_weight?: number, near?: number, min_contacts?: integer}  facing: "away" (default), "nearest", "surface"; volume_weight 1000; near 0.02 [m]; min_contacts 4, that the closed grasp needs
+@return energy
+> clench.energy.guided_autograsp_quality {hand = hand, object = flask}() < 1000  --> true)"},
+    {"strict_autograsp", guarded<strict_autograsp>, R"(
+autograsp_quality after an approach of 30 mm that ends at a touch; where the base touches nothing then, the hand stays
+where it was. 1e8 where the grasp is worth nothing.
+@param options {hand: robot, object: body, volume_weight?: number, epsilon_weight?: number, tasks?: number[][], task_weight?: number, edges?: integer|string}
+@return energy
+> clench.energy.strict_autograsp {hand = hand, object = flask}() < 0  --> true)"},
+    {"compliant", guarded<compliant>, R"(
+For hands with springs: comes to the first touch along the approach direction, closes, and asks for the balance of
+contacts and joints at full effort: -200 + the unbalanced force [N]; 1 where a finger moves on, fewer than two touch, or epsilon is below
+min_epsilon.
+@param options {hand: robot, object: body, approach?: number, min_epsilon?: number}  0.2 [m], 0.05
+@return energy
+> clench.energy.compliant {hand = hand, object = flask}() <= 1  --> true)"},
+    {"approach_cone", guarded<approach_cone>, R"(
+How much the hand's approach direction leans from an axis beyond an angle [rad]: grasps from above, or from one side.
+@param options {hand: robot, axis: vec3, angle?: number}  axis: in the world; angle: 0 [rad]
+@return energy
+> d = hand.approach.direction
+> clench.energy.approach_cone {hand = hand, axis = d}() < 1e-9  --> true
+> clench.energy.approach_cone {hand = hand, axis = -d, angle = 1}() - (math.pi - 1) < 1e-9  --> true)"},
+    {"keep_out", guarded<keep_out>, R"(
+How deep the hand reaches into a box of space, by the boxes around its bodies [mm].
+@param options {hand: robot, low: vec3, high: vec3, pose?: pose}  corners along the axes of the pose [m]
+@return energy
+> clench.energy.keep_out {hand = hand, low = {9, 9, 9}, high = {10, 10, 10}}()  --> 0.0)"},
+    {"clearance", guarded<clearance>, R"(
+How much nearer than a distance the hand is to anything but its object and itself [mm].
+@param options {hand: robot, object: body, distance: number}  [m]
+@return energy
+> clench.energy.clearance {hand = hand, object = flask, distance = 0.01}()  --> 0.0)"},
+    {"reach", guarded<reach>, R"(
+How much farther than a radius the hand's approach point is from a point [mm].
+@param options {hand: robot, point: vec3, radius: number}  [m]
+@return energy
+> clench.energy.reach {hand = hand, point = hand.approach.point, radius = 0.1}()  --> 0.0)"},
+    {"penetration", guarded<penetration>, R"(
+How deep the hand is in what it collides with, by points on its bodies, summed over the pairs [mm]; 0 only where nothing
+collides. A search with this term and `collisions = false` may cross states that collide.
+@param options {hand: robot, points?: integer}  64 on each body
+@return energy
+> clench.energy.penetration {hand = hand}()  --> 0.0)"},
+};
+
+static const Entry methods[] = {
+    {"within", guarded<within>, R"(
+The same, but never below `low` nor above `high`; nil: no such bound.
+@param low? number
+@param high? number
+@return energy
+> clench.energy.contact {hand = hand, object = flask}:within(nil, 1)() <= 1  --> true)"},
+};
+
+static const Entry operators[] = {
+    {"__add", guarded<add>, ""},
+    {"__mul", guarded<multiply>, ""},
+    {"__call", guarded<call>, ""},
+    {"__tostring", guarded<text>, ""},
+};
+
+const Library energy_library{
+    .name = "clench.energy",
+    .doc = "What searches make small. Each function makes an energy of a hand and an object: called, `e()`, it gives its "
+           "number for how they stand now. Energies are added and weighted, `a + 0.3 * b`, functions of a script among "
+           "them. Distances count in millimetres, so that the numbers are those of GraspIt!.",
+    .functions = functions};
+
+const Class energy_class{.name = "energy",
+                         .variable = "energy",
+                         .doc = "A number for how a hand stands to an object, made by `clench.energy`.",
+                         .fields = {},
+                         .methods = methods,
+                         .operators = operators};
+
+}  // namespace clench

@@ -1,0 +1,127 @@
+// The options of a search that say what it varies.
+#include "clench/script/bind/planning/planning.h"
+
+#include <algorithm>
+
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/push.h"
+
+namespace clench {
+
+namespace {
+
+// Visits the names of a table {name = value}, each value on top of the stack.
+template <class Visit>
+void each_named(lua_State* L, Table& options, const char* key, Visit visit) {
+  const int type = options.push(key);
+  if (type != LUA_TNIL && type != LUA_TTABLE)
+    fail_expected(options.what(key), "a table by names of variables", lua_gettop(L));
+  if (type == LUA_TTABLE) {
+    // in the order of names, so that the first fault told is always the same
+    std::vector<std::string> names;
+    for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1)) {
+      if (lua_type(L, -2) != LUA_TSTRING)
+        fail("{}: expected names of variables, got {}", options.what(key).text(),
+             described(L, lua_gettop(L) - 1));
+      names.emplace_back(string_at(L, -2));
+    }
+    std::ranges::sort(names);
+    for (const std::string& name : names) {
+      lua_pushlstring(L, name.data(), name.size());
+      lua_rawget(L, -2);
+      visit(name, What{L, {}, std::string(key) + '.' + name});
+      lua_pop(L, 1);
+    }
+  }
+  lua_pop(L, 1);
+}
+
+PositionKind read_position(Table& options) {
+  const std::string kind = options.choice(
+      "position", {"axis_angle", "complete", "ellipsoid", "approach", "fixed"}, "axis_angle");
+  if (kind == "complete") return PositionKind::complete;
+  if (kind == "ellipsoid") return PositionKind::ellipsoid;
+  if (kind == "approach") return PositionKind::approach;
+  return kind == "fixed" ? PositionKind::fixed : PositionKind::axis_angle;
+}
+
+PostureKind read_posture(Table& options) {
+  const std::string kind =
+      options.choice("posture", {"eigengrasps", "dofs", "fixed"}, "eigengrasps");
+  if (kind == "dofs") return PostureKind::dofs;
+  return kind == "fixed" ? PostureKind::fixed : PostureKind::eigengrasps;
+}
+
+Variable read_variable(lua_State* L, int i, const std::string& name, const What& what) {
+  if (!lua_istable(L, i)) fail_expected(what, "a table of min, max, value, jump", i);
+  Table of(L, i, what.text());
+  Variable out{.name = name};
+  out.min = of.number("min"), out.max = of.number("max");
+  out.value = of.number("value", out.min);
+  out.jump = of.number("jump", out.max > out.min ? (out.max - out.min) / 2 : 1);
+  out.circular = of.boolean("circular", false);
+  of.done();
+  return out;
+}
+
+}  // namespace
+
+SearchSpace read_space(lua_State* L, Table& options, const World& world, const HandAndObject& who) {
+  SpaceOptions kinds{.position = read_position(options), .posture = read_posture(options)};
+  kinds.semi_axes = options.vec3("semi_axes", kinds.semi_axes);
+  const Robot& hand = world.robot(who.hand);
+  const HandState start{world.pose(who.object).inverse() * world.pose(hand.base),
+                        world.dofs(who.hand)};
+  SearchSpace space(hand, start, kinds);
+  const auto of = [&](const std::string& name) -> Variable& {
+    return space.variables()[find_variable(space.variables(), name)];
+  };
+
+  each_named(L, options, "variables", [&](const std::string& name, const What& what) {
+    space.add_variable(read_variable(L, lua_gettop(L), name, what));
+  });
+  each_named(L, options, "limits", [&](const std::string& name, const What& what) {
+    const auto range = read_numbers(L, lua_gettop(L), what, 2);
+    Variable& v = of(name);
+    v.min = range[0], v.max = range[1];
+    if (v.min < v.max) v.value = std::clamp(v.value, v.min, v.max);
+    v.circular = false;
+  });
+  each_named(L, options, "jumps", [&](const std::string& name, const What& what) {
+    of(name).jump = read_number(L, lua_gettop(L), what);
+  });
+  if (options.choice("start", {"default", "hand"}, "default") == "hand") {
+    const Values now = space.values(start);
+    for (int i = 0; i < now.size(); ++i)
+      space.variables()[i].value =
+          std::clamp(now[i], space.variables()[i].min, space.variables()[i].max);
+  }
+  each_named(L, options, "values", [&](const std::string& name, const What& what) {
+    of(name).value = read_number(L, lua_gettop(L), what);
+  });
+  each_named(L, options, "targets", [&](const std::string& name, const What& what) {
+    const auto target = read_numbers(L, lua_gettop(L), what, 2);
+    of(name).target = target[0], of(name).confidence = target[1];
+  });
+  if (options.push("fixed") != LUA_TNIL) {
+    const int list = lua_gettop(L);
+    const int count = read_list_size(L, list, options.what("fixed"), "a list of names");
+    for (int i = 1; i <= count; ++i) {
+      lua_rawgeti(L, list, i);
+      of(read_string(L, -1, options.what("fixed").item(i))).fixed = true;
+      lua_pop(L, 1);
+    }
+  }
+  lua_pop(L, 1);
+  space.check();
+  return space;
+}
+
+int push_values(lua_State* L, const SearchSpace& space, const Values& values) {
+  push_list(L, 0, static_cast<int>(values.size()));
+  for (int i = 0; i < values.size(); ++i)
+    set_field(L, space.variables()[i].name.c_str(), values[i]);
+  return 1;
+}
+
+}  // namespace clench
