@@ -156,9 +156,10 @@ function world:hash() end
 ---@return table?
 function world:raycast(origin, direction, reach) end
 
----Does anything collide that may? The fastest test: it ends at the first pair that is found.
+---Does anything collide that may, or one entity with anything? The fastest test: it ends at the first pair that is found.
+---@param entity? body|robot
 ---@return boolean
-function world:collides() end
+function world:collides(entity) end
 
 ---Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
 ---@param a? body|robot
@@ -253,6 +254,22 @@ local mesh = {}
 ---@return boolean
 function mesh:is_watertight() end
 
+---The surface point nearest to a point of the body frame, with the outward normal of its triangle there.
+---@param point vec3 # [m]
+---@return {point: vec3, normal: vec3, triangle: integer, distance: number} # [m]
+function mesh:closest_point(point) end
+
+---Does the solid hold a point of the body frame? An open mesh holds none.
+---@param point vec3 # [m]
+---@return boolean
+function mesh:contains(point) end
+
+---Points of the surface at random, each piece of it as likely as its area, with the outward normals of their triangles.
+---@param random random
+---@param count integer
+---@return {point: vec3, normal: vec3, triangle: integer}[] # [m]
+function mesh:sample(random, count) end
+
 ---Writes the triangles, in metres. Numbers keep every digit, in .stl seven.
 ---@param path string # .obj .off .ply .stl
 function mesh:save(path) end
@@ -335,6 +352,11 @@ local dofs = {}
 ---@param options? {joint_positions?: number[][]} # rows {chain, joint, value}
 function dofs:set_dofs(values, options) end
 
+---Sets the pose of its base and all its DOFs at once, whatever is in the way; DOFs stop at their limits. All joints follow their DOFs.
+---@param pose pose
+---@param values number[]|table<string, number> # one per DOF, or some by name [rad or m]
+function dofs:set_posture(pose, values) end
+
 ---Drives all DOFs in proportion towards values, until contact stops them.
 ---@param values number[]|table<string, number> # as of set_dofs
 ---@param options? {stop_at_contact?: boolean} # true: end at the first new contact of any link
@@ -391,6 +413,9 @@ function robot:place_approach(target, direction, standoff) end
 ---@param parent robot
 ---@param options? {chain?: integer, link?: string, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean} # chain 1 by default; pose of the base in the link; file of an adapter
 function robot:mount_on(parent, options) end
+
+---Takes the robot off the one that carries it: it stays where it is, without its adapter.
+function robot:dismount() end
 
 ---A few postures whose sums are a hand's: each posture is an origin and an amplitude for each eigengrasp.
 ---@class eigengrasps
@@ -536,6 +561,10 @@ function patch:torsion_limit(options) end
 ---@field joint_positions number[] # Positions of the hand's joints when the grasp was measured. [rad or m]
 ---@field measures table<string, number> # Measures that were asked for so far, by name; in a file they are kept with the grasp.
 ---@field info table<string, number> # Numbers that a script notes, by name: a seed, an energy, the number of a run. They are kept in files.
+---@field labels table<string, string> # Words that a script notes, by name: its planner, its script. They are kept in files.
+---@field pregrasp {pose: pose, dofs: number[]}? # How the hand stands before it comes to the object and closes: the `pose` of its base in the object, and its `dofs`. nil: not known. Planners set it; files keep it.
+---@field collision_free boolean? # Did nothing collide as the hand grasped? nil: nobody looked. Planners set it; files keep it.
+---@field epsilon number # The measure "epsilon", as it was measured or, else, from its points.
 ---@field contacts contact[] # The contacts on the object when the grasp was measured.
 ---@field points {point: vec3, normal: vec3, mu: number, torsion_radius: number}[] # The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers. [m]
 ---@field links string[] # Names of what touches at each of the points.
@@ -668,6 +697,47 @@ function grasps:add(grasp) end
 ---@param path string
 function grasps:save(path) end
 
+---A number for how a hand stands to an object, made by `clench.energy`.
+---@class energy
+---@field any_thread boolean # Is it made of the engine's terms alone? One with a function of a script runs on the script's thread, and in its world.
+local energy = {}
+
+---The same, but never below `low` nor above `high`; nil: no such bound.
+---@param low? number
+---@param high? number
+---@return energy
+function energy:within(low, high) end
+
+---A chain of simulated annealing, made by `clench.annealing`.
+---@class annealing
+---@field best {energy: number, step: integer, pose: pose, dofs: number[], values: table}[] # The best states met, no two alike: `energy`, `step`, `pose` of the hand in the object, `dofs`, and `values` of the variables by name.
+---@field state table # Where the chain is, as `best` says it.
+---@field values table # Values of its variables by name.
+---@field energy number # Of the state that the chain is at; infinite where it begins in collision.
+---@field first_energy number # Of the state that it began with.
+---@field counts table # What became of its steps: `steps`, `accepted`, `improved`; and of neighbours that were none: `in_collision`, `avoided`, `outside` their ranges; `stuck`: how often all tries of a step failed.
+local annealing = {}
+
+---Takes steps, each to a legal neighbour that is accepted or not.
+---@param steps integer
+---@return integer taken # fewer where 10,000 tries in a row found no legal neighbour
+function annealing:run(steps) end
+
+---Goes around a state from now on: its like are illegal.
+---@param state {pose: pose, dofs: number[]} # as `best` lists them
+function annealing:avoid(state) end
+
+---Goes to a state, or as near as its variables can.
+---@param state {pose: pose, dofs: number[]}
+---@return table values
+function annealing:go_to(state) end
+
+---Begins the schedule of temperatures anew.
+function annealing:reset() end
+
+---Empties the list of the best states; what is avoided stays so.
+function annealing:clear() end
+
 ---Closes robot hands on objects and judges the grasps. Lengths are metres, angles radians, masses kilograms, forces newtons; poses and vectors are in the world frame unless a text says otherwise.
 ---@class clench
 ---@field version string # Version of the engine, major.minor.patch.
@@ -687,6 +757,10 @@ function clench.deg(radians) end
 ---@param millimetres number
 ---@return number # [m]
 function clench.mm(millimetres) end
+
+---Seconds of a clock that runs evenly from some moment: how long something took.
+---@return number # [s]
+function clench.clock() end
 
 ---A vector of three finite numbers, from a list or one by one. Wherever a vec3 is expected, {x, y, z} will do.
 ---@param x number[]|number
@@ -798,6 +872,18 @@ function clench.progress(total, text) end
 ---@param options? {root?: string, confine?: string}
 ---@return grasps
 function clench.grasps(path, options) end
+
+---A chain of simulated annealing, to be run by hand: what `clench.plan` is made of. It moves the world's hand.
+---@param options {hand: robot, object: body, energy: energy|function, world?: world, position?: string, posture?: string, semi_axes?: vec3, limits?: table, jumps?: table, values?: table, targets?: table, fixed?: string[], start?: string, variables?: table, schedule?: string|table, seed?: integer, collisions?: boolean, max_tries?: integer, best?: table} # world: a clone to move instead; position: "axis_angle" (default: Tx Ty Tz theta phi alpha), "complete", "ellipsoid", "approach", "fixed"; posture: "eigengrasps" (default), "dofs", "fixed"; limits: {Tx = {min, max}}; values: where variables begin, and stay when they are `fixed`; start: "hand", from where it is; targets: {Tx = {value, confidence}} draw neighbours near them; variables: the user's own, {name = {min =, max =, value =, jump =, circular =}}; schedule: "default", "loop", "modified", "strict", "online", or {like =, t0 =, first_step =, ...}; collisions = false: states that collide are legal; best: {size = 20, distance = 0.2, posture = true, max_energy =}
+---@return annealing
+function clench.annealing(options) end
+
+---Runs several chains at once, each in a world of its own; what they find does not depend on the number of threads.
+---@param searches annealing[]
+---@param steps integer[] # one per chain
+---@param threads? integer # 1 by default
+---@return integer[] taken # fewer than asked where no legal neighbour was found
+function clench.run_annealings(searches, steps, threads) end
 
 ---Values as JSON text, and back.
 ---@class clench.json
@@ -915,5 +1001,69 @@ function clench.files.glove_calibration(path, options) end
 ---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {distance?: number, sensors?: integer[], dof_of_sensor?: integer[], joints?: number[], pose: pose}[]
 function clench.files.glove_poses(path, options) end
+
+---What searches make small. Each function makes an energy of a hand and an object: called, `e()`, it gives its number for how they stand now. Energies are added and weighted, `a + 0.3 * b`, functions of a script among them. Distances count in millimetres, so that the numbers are those of GraspIt!.
+---@class clench.energy
+clench.energy = {}
+
+---How far the hand's virtual contacts are from the object, and how they face it: the mean of distance [mm] + normal_weight (1 - cosine of the angle). Needs no closing: the quickest energy.
+---@param options {hand: robot, object: body, contacts?: string, normal_weight?: number, facing?: string} # contacts: "preset" (default), the hand's virtual contacts, or "live", the point of each link that is nearest; normal_weight: 50 [mm]; facing: the normal against the way to the "nearest" point (default), the "surface" there, or "away" from it
+---@return energy
+function clench.energy.contact(options) end
+
+---What the virtual contacts could hold if they touched, nearer ones more: minus epsilon of their forces (with `torques`, of their wrenches). 1 where fewer than min_count are near and face the object, or they hold not in all directions.
+---@param options {hand: robot, object: body, contacts?: string, reach?: number, min_count?: integer, torques?: boolean} # reach: 0.05 [m], beyond which a contact does not count; min_count 3
+---@return energy
+function clench.energy.potential_quality(options) end
+
+---potential_quality where that is at most 0, else contact, which leads there.
+---@param options {hand: robot, object: body, contacts?: string, normal_weight?: number, facing?: string, reach?: number, min_count?: integer, torques?: boolean}
+---@return energy
+function clench.energy.guided_potential_quality(options) end
+
+---Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_weight * epsilon) of the grasp; with `tasks`, also minus task_weight times the largest multiple of all these wrenches on the object that it resists.
+---@param options {hand: robot, object: body, volume_weight?: number, epsilon_weight?: number, tasks?: number[][], task_weight?: number, edges?: integer|string} # weights 30, 100 and, with tasks, 1; tasks: {fx, fy, fz, tx, ty, tz} each, object axes, about its centre of mass [N, N m]
+---@return energy
+function clench.energy.autograsp_quality(options) end
+
+---contact, and, where two virtual contacts are near the object and face it, less volume_weight times the volume of the closed grasp. GraspIt! has the sign of the angle wrong here, and its numbers are the default; `facing = "nearest"` is the right one.
+---@param options {hand: robot, object: body, contacts?: string, facing?: string, volume_weight?: number, near?: number, min_contacts?: integer} # facing: "away" (default), "nearest", "surface"; volume_weight 1000; near 0.02 [m]; min_contacts 4, that the closed grasp needs
+---@return energy
+function clench.energy.guided_autograsp_quality(options) end
+
+---autograsp_quality after an approach of 30 mm that ends at a touch; where the base touches nothing then, the hand stays where it was. 1e8 where the grasp is worth nothing.
+---@param options {hand: robot, object: body, volume_weight?: number, epsilon_weight?: number, tasks?: number[][], task_weight?: number, edges?: integer|string}
+---@return energy
+function clench.energy.strict_autograsp(options) end
+
+---For hands with springs: comes to the first touch along the approach direction, closes, and asks for the balance of contacts and joints at full effort: -200 + the unbalanced force [N]; 1 where a finger moves on, fewer than two touch, or epsilon is below min_epsilon.
+---@param options {hand: robot, object: body, approach?: number, min_epsilon?: number} # 0.2 [m], 0.05
+---@return energy
+function clench.energy.compliant(options) end
+
+---How much the hand's approach direction leans from an axis beyond an angle [rad]: grasps from above, or from one side.
+---@param options {hand: robot, axis: vec3, angle?: number} # axis: in the world; angle: 0 [rad]
+---@return energy
+function clench.energy.approach_cone(options) end
+
+---How deep the hand reaches into a box of space, by the boxes around its bodies [mm].
+---@param options {hand: robot, low: vec3, high: vec3, pose?: pose} # corners along the axes of the pose [m]
+---@return energy
+function clench.energy.keep_out(options) end
+
+---How much nearer than a distance the hand is to anything but its object and itself [mm].
+---@param options {hand: robot, object: body, distance: number} # [m]
+---@return energy
+function clench.energy.clearance(options) end
+
+---How much farther than a radius the hand's approach point is from a point [mm].
+---@param options {hand: robot, point: vec3, radius: number} # [m]
+---@return energy
+function clench.energy.reach(options) end
+
+---How deep the hand is in what it collides with, by points on its bodies, summed over the pairs [mm]; 0 only where nothing collides. A search with this term and `collisions = false` may cross states that collide.
+---@param options {hand: robot, points?: integer} # 64 on each body
+---@return energy
+function clench.energy.penetration(options) end
 
 return clench

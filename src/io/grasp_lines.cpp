@@ -31,14 +31,16 @@ static Json numbers_of(const std::map<std::string, double>& named) {
   return out;
 }
 
+static Json json_of(const Pose& X) {
+  const Eigen::Quaterniond& q = X.rotation;
+  return {{"xyz", list_of(X.position)}, {"quat", {q.w(), q.x(), q.y(), q.z()}}};
+}
+
 static Json json_of(const GraspSpec& g) {
   Json out = {{"hand", g.hand_name}, {"object", g.object_name}};
   if (!g.hand_file.empty()) out["hand_file"] = g.hand_file;
   if (!g.object_file.empty()) out["object_file"] = g.object_file;
-  if (g.X_OH) {
-    const Eigen::Quaterniond& q = g.X_OH->rotation;
-    out["pose"] = {{"xyz", list_of(g.X_OH->position)}, {"quat", {q.w(), q.x(), q.y(), q.z()}}};
-  }
+  if (g.X_OH) out["pose"] = json_of(*g.X_OH);
   out["dofs"] = g.dofs;
   out["joints"] = g.joints;
   Json points = Json::array();
@@ -60,19 +62,32 @@ static Json json_of(const GraspSpec& g) {
   out["modulus"] = g.options.modulus == ModulusRule::larger ? "larger" : "series";
   out["measures"] = numbers_of(g.measures);
   out["info"] = numbers_of(g.info);
+  if (!g.labels.empty()) out["labels"] = g.labels;
+  if (g.pregrasp) {
+    out["pregrasp"] = json_of(g.pregrasp->X_OH);
+    out["pregrasp"]["dofs"] = g.pregrasp->dofs;
+  }
+  if (g.collision_free) out["collision_free"] = *g.collision_free;
   return out;
 }
 
+// text that is no UTF-8 is no reason to lose the rest
+static std::string text_of(const Json& value) {
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string grasp_line(const GraspSpec& grasp) { return text_of(json_of(grasp)); }
+
+std::string grasps_head() {
+  return text_of({{"format", format_name},
+                  {"version", version},
+                  {"units", "m, kg, s, rad, N"},
+                  {"pose", "of the hand's base in the object's frame; quat is w x y z"}});
+}
+
 void write_grasps(const std::vector<GraspSpec>& grasps, const fs::path& path) {
-  // text that is no UTF-8 is no reason to lose the rest
-  const auto line = [](const Json& value) {
-    return value.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-  };
-  std::string text = line({{"format", format_name},
-                           {"version", version},
-                           {"units", "m, kg, s, rad, N"},
-                           {"pose", "of the hand's base in the object's frame; quat is w x y z"}});
-  for (const GraspSpec& grasp : grasps) text += line(json_of(grasp));
+  std::string text = grasps_head() + "\n";
+  for (const GraspSpec& grasp : grasps) text += grasp_line(grasp) + "\n";
   write_file(path, text);
 }
 
@@ -136,6 +151,16 @@ class Fields {
     }
     return out;
   }
+  std::map<std::string, std::string> words(const char* key) {
+    std::map<std::string, std::string> out;
+    const Json& object = get(key);
+    if (!object.is_object()) refuse(at(key), "an object of strings", object);
+    for (const auto& [name, x] : object.items()) {
+      if (!x.is_string()) refuse(at(key) + "." + excerpt(name), "a string", x);
+      out[name] = x.get<std::string>();
+    }
+    return out;
+  }
   std::string at(const char* key) const { return fmt::format("{}: {}", place_, key); }
   void done() const {
     for (const auto& [key, value] : json_.items())
@@ -168,13 +193,26 @@ PointContact read_point(Fields& fields) {
   return out;
 }
 
-Pose read_pose(Fields fields) {
+Pose read_pose(Fields& fields) {
   const auto q = fields.numbers("quat", 4);
   Pose out;
   out.position = fields.vec3("xyz");
   out.rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
   if (!(std::abs(out.rotation.norm() - 1) < 1e-6))
     Fields::refuse(fields.at("quat"), "a quaternion of length 1", fields.get("quat"));
+  return out;
+}
+
+Pose read_pose(const Json& json, const std::string& place) {
+  Fields fields(json, place);
+  const Pose out = read_pose(fields);
+  fields.done();
+  return out;
+}
+
+PregraspState read_pregrasp(const Json& json, const std::string& place) {
+  Fields fields(json, place);
+  PregraspState out{read_pose(fields), fields.numbers("dofs")};
   fields.done();
   return out;
 }
@@ -186,7 +224,7 @@ GraspSpec read_line(const Json& json, const std::string& place) {
   out.object_name = fields.text("object", true);
   out.hand_file = fields.text("hand_file", false);
   out.object_file = fields.text("object_file", false);
-  if (const Json* pose = fields.find("pose")) out.X_OH = read_pose({*pose, fields.at("pose")});
+  if (const Json* pose = fields.find("pose")) out.X_OH = read_pose(*pose, fields.at("pose"));
   out.dofs = fields.numbers("dofs");
   out.joints = fields.numbers("joints");
   const Json& points = fields.get("points");
@@ -218,6 +256,13 @@ GraspSpec read_line(const Json& json, const std::string& place) {
   out.options.modulus = modulus == "larger" ? ModulusRule::larger : ModulusRule::series;
   out.measures = fields.named("measures");
   out.info = fields.named("info");
+  if (fields.find("labels")) out.labels = fields.words("labels");
+  if (const Json* pregrasp = fields.find("pregrasp"))
+    out.pregrasp = read_pregrasp(*pregrasp, fields.at("pregrasp"));
+  if (const Json* free = fields.find("collision_free")) {
+    if (!free->is_boolean()) Fields::refuse(fields.at("collision_free"), "true or false", *free);
+    out.collision_free = free->get<bool>();
+  }
   fields.done();
   return out;
 }

@@ -1,6 +1,7 @@
 // Lists of grasps as JSON lines: what kind of file it is on the first, a grasp on each that follows.
 #pragma once
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "clench/io/text/read_options.h"
@@ -16,5 +17,9 @@ std::vector<GraspSpec> read_grasps(const std::filesystem::path& path,
 /// The same list gives the same bytes. Measures and notes that are not finite are left out.
 /// throws Error as write_file does
 void write_grasps(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path);
+
+/// What one grasp is in such a file, without the end of the line; and what its first line is.
+std::string grasp_line(const GraspSpec& grasp);
+std::string grasps_head();
 
 }  // namespace clench

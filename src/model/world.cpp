@@ -268,6 +268,16 @@ void World::mount(Id<Robot> child, Id<Robot> parent, int link, Pose X_LB, const 
   }
 }
 
+void World::unmount(Id<Robot> child) {
+  const std::optional<Mounting> mounting = robot(child).mounting;
+  if (!mounting) fail("robot '{}' is carried by nobody", excerpt(robot(child).name));
+  // they were one rigid piece
+  const Id<Body> last = robot(mounting->parent).links[mounting->link].body;
+  set_collision(true, last, robot(child).base);
+  if (mounting->piece) erase(*mounting->piece);
+  edit(child).mounting.reset();
+}
+
 void World::erase(Id<Body> id) {
   WorldModel& model = edit_model();
   model.bodies[id.index].used = false;

@@ -24,6 +24,9 @@ class World {
   ///         already
   void mount(Id<Robot> child, Id<Robot> parent, int link, Pose X_LB,
              const BodySpec* piece = nullptr);
+  /// Nobody carries it any more; it stays where it is, and its adapter goes.
+  /// throws  Error when nobody carries it
+  void unmount(Id<Robot> child);
   /// an object or obstacle
   /// throws  Error for a part of a robot
   void remove(Id<Body> body);

@@ -32,6 +32,12 @@ struct GraspOptions {
   ModulusRule modulus = ModulusRule::series;
 };
 
+/// How a hand stands before it comes to the object and closes.
+struct PregraspState {
+  Pose X_OH;                 ///< its base in the object
+  std::vector<double> dofs;  ///< values of all [rad or m]
+};
+
 struct GraspSpec {
   std::string hand_name = {}, object_name = {};
   std::string hand_file = {}, object_file = {};  ///< where they come from; empty: not known
@@ -48,6 +54,9 @@ struct GraspSpec {
       {};  ///< of the grasp, by name, as far as they were asked for
   std::map<std::string, double> info =
       {};  ///< what its maker notes: energy, seed, run, spread [rad]
+  std::map<std::string, std::string> labels = {};  ///< the same in words: planner, script
+  std::optional<PregraspState> pregrasp = {};
+  std::optional<bool> collision_free = {};  ///< was the hand, as it grasped? empty: nobody looked
 
   double length(TorqueLength which) const {
     return which == TorqueLength::largest_radius ? largest_radius : gyration_radius;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "clench/io/grasp_lines.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/json.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 
@@ -100,6 +102,70 @@ static int set_info(lua_State* L) {
   return 0;
 }
 
+static int get_labels(lua_State* L) {
+  const auto& labels = self<GraspHandle>(L).grasp.labels;
+  push_list(L, 0, static_cast<int>(labels.size()));
+  for (const auto& [name, text] : labels) set_field(L, name.c_str(), std::string_view(text));
+  return 1;
+}
+
+static int set_labels(lua_State* L) {
+  auto& g = self<GraspHandle>(L);
+  std::map<std::string, std::string> labels;
+  if (!lua_istable(L, 2)) fail_expected({L, {}, "value"}, "a table of names and strings", 2);
+  for (lua_pushnil(L); lua_next(L, 2); lua_pop(L, 1)) {
+    if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TSTRING)
+      fail("{}: expected names with strings, got {} = {}", subject(L), described(L, -2),
+           described(L, -1));
+    labels[std::string(string_at(L, -2))] = string_at(L, -1);
+  }
+  g.grasp.labels = std::move(labels);
+  return 0;
+}
+
+static int get_pregrasp(lua_State* L) {
+  const auto& pregrasp = self<GraspHandle>(L).grasp.pregrasp;
+  if (!pregrasp) return lua_pushnil(L), 1;
+  push_list(L, 0, 2);
+  set_field(L, "pose", pregrasp->X_OH);
+  push_numbers(L, pregrasp->dofs);
+  lua_setfield(L, -2, "dofs");
+  return 1;
+}
+
+static int set_pregrasp(lua_State* L) {
+  auto& g = self<GraspHandle>(L).grasp;
+  if (!given(L, 2)) return g.pregrasp.reset(), 0;
+  Table table(L, 2);
+  g.pregrasp = PregraspState{table.pose("pose"), table.numbers("dofs", static_cast<int>(g.dofs.size()))};
+  table.done();
+  return 0;
+}
+
+static int get_collision_free(lua_State* L) {
+  const auto& free = self<GraspHandle>(L).grasp.collision_free;
+  return free ? push(L, *free) : (lua_pushnil(L), 1);
+}
+
+static int set_collision_free(lua_State* L) {
+  auto& g = self<GraspHandle>(L).grasp;
+  g.collision_free.reset();
+  if (given(L, 2)) g.collision_free = check_boolean(L, 2, "value");
+  return 0;
+}
+
+static int get_epsilon(lua_State* L) {
+  const Grasp& g = self<GraspHandle>(L).grasp;
+  const auto known = g.measures.find("epsilon");
+  return push(L, known == g.measures.end() ? space_of(g)->epsilon() : known->second);
+}
+
+// what it is in a file
+static int as_json(lua_State* L) {
+  read_json(L, grasp_line(self<GraspHandle>(L).grasp));
+  return 1;
+}
+
 // puts the hand where the grasp has it, and measures it there
 static int apply(lua_State* L) {
   const auto& g = self<GraspHandle>(L);
@@ -109,6 +175,8 @@ static int apply(lua_State* L) {
   Grasp measured = measure_grasp(*world, world->find_robot(g.grasp.hand_name),
                                  world->find_body(g.grasp.object_name), g.grasp.options);
   measured.info = g.grasp.info;
+  measured.labels = g.grasp.labels;
+  measured.pregrasp = g.grasp.pregrasp;
   return push_object(L, GraspHandle{world, std::move(measured)});
 }
 
@@ -236,6 +304,31 @@ Numbers that a script notes, by name: a seed, an energy, the number of a run. Th
 > grasp.info.seed  --> 7.0
 > grasp.info = {seed = "x"}  --> error: expected names with finite numbers)",
      guarded<set_info>},
+    {"labels", guarded<get_labels>, R"(
+Words that a script notes, by name: its planner, its script. They are kept in files.
+@type table<string, string>
+> grasp.labels = {planner = "mine"}
+> grasp.labels.planner  --> mine
+> grasp.labels = {planner = 3}  --> error: expected names with strings)",
+     guarded<set_labels>},
+    {"pregrasp", guarded<get_pregrasp>, R"(
+How the hand stands before it comes to the object and closes: the `pose` of its base in the object, and its `dofs`. nil: not
+known. Planners set it; files keep it.
+@type {pose: pose, dofs: number[]}?
+> grasp.pregrasp  --> nil
+> grasp.pregrasp = {pose = grasp.pose, dofs = grasp.dofs}
+> #grasp.pregrasp.dofs == #hand.dofs  --> true)",
+     guarded<set_pregrasp>},
+    {"collision_free", guarded<get_collision_free>, R"(
+Did nothing collide as the hand grasped? nil: nobody looked. Planners set it; files keep it.
+@type boolean?
+> grasp.collision_free = not world:collides()
+> grasp.collision_free  --> true)",
+     guarded<set_collision_free>},
+    {"epsilon", guarded<get_epsilon>, R"(
+The measure "epsilon", as it was measured or, else, from its points.
+@type number
+> grasp.epsilon == grasp:quality "epsilon"  --> true)"},
     {"contacts", guarded<get_contacts>, R"(
 The contacts on the object when the grasp was measured.
 @type contact[]
@@ -291,6 +384,7 @@ in some of the coordinates "fx" to "tz". The same options give the same space, w
 
 static const Entry grasp_operators[] = {
     {"__tostring", guarded<grasp_text>, ""},
+    {"__json", guarded<as_json>, ""},
 };
 
 const Library grasp_library{.name = "clench", .doc = "", .functions = functions};

@@ -53,6 +53,11 @@ static int length(lua_State* L) {
   return push(L, static_cast<int>(self<GraspList>(L).grasps.size()));
 }
 
+static int as_json(lua_State* L) {
+  auto& list = self<GraspList>(L);
+  return push_list_of(L, list.grasps, [L](const GraspHandle& g) { push_object(L, g); });
+}
+
 static int list_text(lua_State* L) {
   return push(L, fmt::format("{} grasps", self<GraspList>(L).grasps.size()));
 }
@@ -91,6 +96,7 @@ gives the same bytes.
 
 static const Entry operators[] = {{"__index", guarded<item>, ""},
                                   {"__len", guarded<length>, ""},
+                                  {"__json", guarded<as_json>, ""},
                                   {"__tostring", guarded<list_text>, ""}};
 
 const Library grasps_library{.name = "clench", .doc = "", .functions = functions};

@@ -1,5 +1,7 @@
 #include "clench/script/bind/bind.h"
 
+#include <chrono>
+
 #include "clench/base/units.h"
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/guard.h"
@@ -13,6 +15,11 @@ static int mm(lua_State* L) {
   return push(L, check_number(L, 1, "millimetres") * units::millimetre);
 }
 static int version(lua_State* L) { return push(L, CLENCH_VERSION); }
+
+static int clock_now(lua_State* L) {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return push(L, std::chrono::duration<double>(now).count());
+}
 
 static const Entry functions[] = {
     {"rad", guarded<rad>, R"(
@@ -31,6 +38,11 @@ Millimetres to metres.
 @param millimetres number
 @return number  [m]
 > clench.mm(25)  --> 0.025)"},
+    {"clock", guarded<clock_now>, R"(
+Seconds of a clock that runs evenly from some moment: how long something took.
+@return number  [s]
+> before = clench.clock()
+> clench.clock() >= before  --> true)"},
 };
 
 static const Entry fields[] = {

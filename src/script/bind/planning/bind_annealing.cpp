@@ -305,7 +305,9 @@ Goes to a state, or as near as its variables can.
 > search:go_to {pose = flask.pose:inverse() * hand.pose, dofs = hand.dofs}.alpha >= 0  --> true)"},
     {"reset", guarded<reset>, R"(
 Begins the schedule of temperatures anew.
-> clench.annealing {hand = hand, object = flask, energy = function() return 2 end}:reset())"},
+> search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
+> search:reset()
+> search.energy  --> 2.0)"},
     {"clear", guarded<clear>, R"(
 Empties the list of the best states; what is avoided stays so.
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}

@@ -4,6 +4,7 @@
 #include "clench/planning/energy/constraint_energy.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/planning/planning.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -337,6 +338,15 @@ collides. A search with this term and `collisions = false` may cross states that
 > clench.energy.penetration {hand = hand}()  --> 0.0)"},
 };
 
+static const Entry fields[] = {
+    {"any_thread",
+     getter<[](const EnergyHandle& x) { return x.energy->any_thread(); }>, R"(
+Is it made of the engine's terms alone? One with a function of a script runs on the script's thread, and in its world.
+@type boolean
+> e = clench.energy.contact {hand = hand, object = flask}
+> e.any_thread, (e + function() return 1 end).any_thread  --> true, false)"},
+};
+
 static const Entry methods[] = {
     {"within", guarded<within>, R"(
 The same, but never below `low` nor above `high`; nil: no such bound.
@@ -363,7 +373,7 @@ const Library energy_library{
 const Class energy_class{.name = "energy",
                          .variable = "energy",
                          .doc = "A number for how a hand stands to an object, made by `clench.energy`.",
-                         .fields = {},
+                         .fields = fields,
                          .methods = methods,
                          .operators = operators};
 

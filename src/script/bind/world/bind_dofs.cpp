@@ -59,6 +59,12 @@ static int set_dofs(lua_State* L) {
   return 0;
 }
 
+static int set_posture(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  robot.world->set_posture(robot.id, check_pose(L, 2, "pose"), check_dofs(L, 3, robot));
+  return 0;
+}
+
 static int get_dof_limits(lua_State* L) {
   return push_list_of(L, self<RobotHandle>(L)->limits,
                       [&](const std::array<double, 2>& range) { push_numbers(L, range); });
@@ -197,6 +203,13 @@ springs, follow again, but for those that the options name by chain, joint and t
 > hand:set_dofs{dof44 = 0.2}  --> error: has no DOF 'dof44'; did you mean 'dof4'?
 > hand:set_dofs{dof3 = 20}  --> error: degrees? clench.rad(20) is 0.3491
 > hand:set_dofs{1, 2, 3}  --> error: expected 12 DOF values, got 3)"},
+    {"set_posture", guarded<set_posture>, R"(
+Sets the pose of its base and all its DOFs at once, whatever is in the way; DOFs stop at their limits. All joints follow
+their DOFs.
+@param pose pose
+@param values number[]|table<string, number>  one per DOF, or some by name [rad or m]
+> hand:set_posture(hand.pose, hand.dofs)
+> hand:set_posture(hand.pose, {1})  --> error: expected 12 DOF values, got 1)"},
     {"move_dofs", guarded<move_dofs>, R"(
 Drives all DOFs in proportion towards values, until contact stops them.
 @param values number[]|table<string, number>  as of set_dofs

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "clench/io/mesh/write_mesh.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -40,6 +42,56 @@ static int get_triangles(lua_State* L) {
   return push_list_of(L, shape_of(L).mesh().triangles, [&](const Triangle& t) {
     push_list_of(L, t, [&](int index) { push(L, index + 1); });
   });
+}
+
+static int push_surface_point(lua_State* L, const Shape& shape, const Eigen::Vector3d& point,
+                              int triangle) {
+  const auto [a, b, c] = shape.mesh().corners(triangle);
+  push_list(L, 0, 4);
+  set_field(L, "point", point);
+  set_field(L, "normal", Eigen::Vector3d((b - a).cross(c - a).stableNormalized()));
+  set_field(L, "triangle", triangle + 1);
+  return 1;
+}
+
+static int closest(lua_State* L) {
+  const Shape& shape = shape_of(L);
+  const ClosestPoint near = closest_point(shape, check_vec3(L, 2, "point"));
+  push_surface_point(L, shape, near.point, near.triangle);
+  set_field(L, "distance", near.distance);
+  return 1;
+}
+
+static int holds(lua_State* L) {
+  return push(L, contains(shape_of(L), check_vec3(L, 2, "point")));
+}
+
+static int sample(lua_State* L) {
+  const Shape& shape = shape_of(L);
+  Random& random = check_object<Random>(L, 2, "random");
+  const int count = check_int(L, 3, "count");
+  constexpr int most = 1'000'000;
+  if (count < 0 || count > most) fail("{}: count: expected 0 to {}, got {}", subject(L), most, count);
+  // of each triangle, the area of all up to its end
+  std::vector<double> areas;
+  double sum = 0;
+  for (int t = 0; t < std::ssize(shape.mesh().triangles); ++t) {
+    const auto [a, b, c] = shape.mesh().corners(t);
+    areas.push_back(sum += 0.5 * (b - a).cross(c - a).norm());
+  }
+  if (!(sum > 0)) fail("{}: the mesh has no area", subject(L));
+  push_list(L, count);
+  for (int i = 1; i <= count; ++i) {
+    const double at = random.uniform(0, sum);
+    const auto t = std::min<std::ptrdiff_t>(std::ranges::upper_bound(areas, at) - areas.begin(),
+                                            std::ssize(areas) - 1);
+    const auto [a, b, c] = shape.mesh().corners(static_cast<int>(t));
+    double u = random.uniform(), v = random.uniform();
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    push_surface_point(L, shape, a + u * (b - a) + v * (c - a), static_cast<int>(t));
+    lua_rawseti(L, -2, i);
+  }
+  return 1;
 }
 
 static int save(lua_State* L) {
@@ -104,6 +156,24 @@ static const Entry methods[] = {
 Does the surface bound a solid: every edge between two triangles that agree?
 @return boolean
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh:is_watertight()  --> true)"},
+    {"closest_point", guarded<closest>, R"(
+The surface point nearest to a point of the body frame, with the outward normal of its triangle there.
+@param point vec3  [m]
+@return {point: vec3, normal: vec3, triangle: integer, distance: number}  [m]
+> near = world:add_object(clench.shapes.box {1, 1, 1}).mesh:closest_point {0.1, 0, 2}
+> near.point, near.normal, near.distance  --> (0.1, 0, 0.5), (0, 0, 1), 1.5)"},
+    {"contains", guarded<holds>, R"(
+Does the solid hold a point of the body frame? An open mesh holds none.
+@param point vec3  [m]
+@return boolean
+> world:add_object(clench.shapes.box {1, 1, 1}).mesh:contains {0.1, 0, 0.4}  --> true)"},
+    {"sample", guarded<sample>, R"(
+Points of the surface at random, each piece of it as likely as its area, with the outward normals of their triangles.
+@param random random
+@param count integer
+@return {point: vec3, normal: vec3, triangle: integer}[]  [m]
+> points = flask.mesh:sample(clench.random(1), 3)
+> #points, flask.mesh:closest_point(points[1].point).distance < 1e-9  --> 3, true)"},
     {"save", guarded<save>, R"(
 Writes the triangles, in metres. Numbers keep every digit, in .stl seven.
 @param path string  .obj .off .ply .stl

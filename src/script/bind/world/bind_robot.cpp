@@ -130,6 +130,12 @@ static int place_approach(lua_State* L) {
   return 0;
 }
 
+static int dismount(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  robot.world->unmount(robot.id);
+  return 0;
+}
+
 static int mount_on(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const auto& parent = check_object<RobotHandle>(L, 2, "parent");
@@ -256,6 +262,9 @@ Fixes the robot to a link of another one: that of a name, or the last of a chain
 @param parent robot
 @param options? {chain?: integer, link?: string, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean}  chain 1 by default; pose of the base in the link; file of an adapter
 > hand:mount_on(hand)  --> error: which it carries itself)"},
+    {"dismount", guarded<dismount>, R"(
+Takes the robot off the one that carries it: it stays where it is, without its adapter.
+> hand:dismount()  --> error: is carried by nobody)"},
 };
 
 static const Entry operators[] = {

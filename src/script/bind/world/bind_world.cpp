@@ -170,8 +170,9 @@ static int cast(lua_State* L) {
 }
 
 static int collides(lua_State* L) {
-  World& world = *self<WorldHandle>(L).world;
-  return push(L, clench::collides(world, &world.context()));
+  const WorldPtr& world = self<WorldHandle>(L).world;
+  if (!given(L, 2)) return push(L, clench::collides(*world, &world->context()));
+  return push(L, clench::collides(*world, check_bodies(L, 2, "entity", world), &world->context()));
 }
 
 static int colliding(lua_State* L) {
@@ -418,8 +419,10 @@ What a ray meets first: `body`, `point`, `normal` out of its surface, `distance`
 > hit.body == box, hit.distance, hit.normal  --> true, 10.5, (0, 0, 1)
 > world:raycast({0, 0, 20}, {0, 0, -1}, 10)  --> nil)"},
     {"collides", guarded<collides>, R"(
-Does anything collide that may? The fastest test: it ends at the first pair that is found.
+Does anything collide that may, or one entity with anything? The fastest test: it ends at the first pair that is found.
+@param entity? body|robot
 @return boolean
+> world:collides(hand)  --> false
 > world:collides()  --> false)"},
     {"colliding", guarded<colliding>, R"(
 Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.

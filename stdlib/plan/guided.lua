@@ -1,0 +1,103 @@
+-- stdlib/plan/guided.lua
+local new_job = require "clench.plan.job"
+local new_run = require "clench.plan.run"
+local chain = require "clench.plan.chain"
+local closing = require "clench.plan.closing"
+
+local piece = 100            -- steps of the parent between two looks at its children
+local child_steps = 200
+local max_seeds, seed_distance = 20, 0.3
+local seed_energy = -0.1     -- below it a state of the parent is a seed, see GraspIt!'s "Multi-Threaded"
+local trust = {position = 0.65, posture = 0.5}
+
+-- where the children's variables are drawn to: all that the seed has, those of the posture less
+local function targets_of(state)
+  local targets = {}
+  for name, value in pairs(state.values) do
+    targets[name] = {value, name:find "^EG %d" and trust.posture or trust.position}
+  end
+  return targets
+end
+
+-- A new seed of the parent: its best state below the threshold that is like none of those before.
+local function take_seed(parent, told)
+  local best = parent.best[1]
+  if best and best.energy < seed_energy then
+    told.seeds = told.seeds + 1
+    parent:avoid(best)
+    parent:clear()
+    parent:reset()
+    return best
+  end
+end
+
+--- Annealing that is guided by what virtual contacts could hold, and, from each promising state, a child that looks for
+--- the best closed grasp near it. Children run beside the parent and are merged at fixed steps, so that any number of
+--- threads gives the same grasps.
+---@param options {hand: robot, object: body, steps?: integer, seconds?: number, seed?: integer, threads?: integer, children?: integer, child_steps?: integer, energy?: string|energy|function, child_energy?: string|energy|function, count?: integer, world?: world}  steps: of the parent, 70000; children: at most so many at once, 1; child_steps: 200; energy: "guided_potential_quality", of the children "strict_autograsp"; and as of plan.anneal
+---@return {grasps: grasps, report: table} # grasps in force closure, the largest epsilon first
+--- > run = clench.plan.guided {hand = hand, object = flask, steps = 500, seed = 1}
+--- > run.report.steps, run.report.seeds >= 0  --> 500, true
+return function(options)
+  local children, steps_of_child, child_energy, count
+  local job = new_job("plan.guided", options, function(read, job)
+    job.energy = read:raw "energy" or "guided_potential_quality"
+    job.steps = read:count("steps", 70000, 0, 1e9)
+    children = read:count("children", 1, 1, 64)
+    steps_of_child = read:count("child_steps", child_steps, 1, 1e6)
+    child_energy = read:raw "child_energy" or "strict_autograsp"
+    count = read:count("count", 1000000, 1, 1000000)
+  end)
+  local parent = job:annealing {energy = job:energy_of(job.energy), seed = job.seed,
+                                best = {distance = seed_distance, size = max_seeds, max_energy = seed_energy}}
+  local energy_of_child = job:energy_of(child_energy)
+  local told = {planner = "plan.guided", seeds = 0, threshold = seed_energy, trace = {}, first = parent.first_energy, best = parent.energy}
+  local found, running, waiting = {}, {}, {}
+
+  -- a child begins in a world of its own; it is merged where the parent has taken another piece of steps
+  local function begin_child(seed)
+    local number = told.seeds
+    local world = job.world:clone()
+    local search = job:annealing {world = world, energy = energy_of_child, seed = job.seed + 7919 * number,
+                                  schedule = "strict", targets = targets_of(seed), values = seed.values,
+                                  best = {size = 4, distance = 0.1}}
+    return {search = search, world = world, number = number, seed = seed}
+  end
+
+  local function merge(child)
+    local hand, object = child.world:robot(job.hand.name), child.world:body(job.object.name)
+    for _, state in ipairs(child.search.best) do
+      if state.energy < 0 then
+        local grasp = closing.close(hand, object, state, {approach = 0.03, grasp = job.grasp_options})
+        if grasp and grasp.epsilon > 0 then
+          found[#found + 1] = closing.note(grasp, "guided", {energy = state.energy, step = state.step, seed = job.seed, child = child.number})
+        end
+      end
+    end
+  end
+
+  local bar <close> = clench.progress(job.steps, job.subject)
+  local done = 0
+  while (done < job.steps or #waiting > 0) and not job:is_over() and #found < count do
+    while #running < children and #waiting > 0 do
+      running[#running + 1] = begin_child(table.remove(waiting, 1))
+    end
+    local asked = math.min(piece, job.steps - done)
+    local searches, steps = {parent}, {asked}
+    for i, child in ipairs(running) do searches[i + 1], steps[i + 1] = child.search, steps_of_child end
+    local taken = clench.run_annealings(searches, steps, job.threads)
+    for _, child in ipairs(running) do merge(child) end
+    running = {}
+    done = done + taken[1]
+    bar:step(taken[1], ("%d grasps"):format(#found))
+    told.best = math.min(told.best, parent.best[1] and parent.best[1].energy or parent.energy)
+    told.trace[#told.trace + 1] = {done, told.best}
+    if #waiting < max_seeds then waiting[#waiting + 1] = take_seed(parent, told) end
+    if taken[1] < asked then break end
+  end
+  local counts = parent.counts
+  for _, name in ipairs {"steps", "accepted", "in_collision", "avoided", "stuck"} do told[name] = counts[name] end
+  table.sort(found, function(a, b) return a.epsilon > b.epsilon end)
+  job:finish()
+  return new_run(job, found, told, {count = count, distance = 0.1})
+end

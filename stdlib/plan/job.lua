@@ -1,0 +1,92 @@
+--- What all planners are given: a hand, an object, and a world to move, which is a clone unless a script's function looks
+--- at the world itself.
+local raise = require "clench.raise"
+local read_options = require "clench.options"
+local described = require "clench.described"
+local Job = {}
+Job.__index = Job
+
+-- what clench.annealing reads
+local space_keys = {"position", "posture", "semi_axes", "limits", "jumps", "values", "targets", "fixed", "start",
+                    "variables", "collisions", "max_tries"}
+
+local function check(read, name, kind)
+  local value = read:raw(name)
+  if described(value) ~= kind then read:expected(name, kind, value) end
+  return value
+end
+
+--- an energy by its name, or what was given
+function Job:energy_of(energy)
+  if type(energy) ~= "string" then return energy end
+  local known, make = pcall(function() return clench.energy[energy] end)
+  if not known then raise(("%s: energy: %s"):format(self.subject, make)) end
+  return make {hand = self.hand, object = self.object}
+end
+
+--- Another chain of annealing in a world of its own, or in the job's.
+---@param options table  of clench.annealing, over what the planner was given
+function Job:annealing(options)
+  local all = {hand = self.hand, object = self.object, world = self.world}
+  for key, value in pairs(self.space) do all[key] = value end
+  for key, value in pairs(options) do all[key] = value end
+  return clench.annealing(all)
+end
+
+--- has the time of the options run out?
+function Job:is_over() return self.seconds ~= nil and clench.clock() - self.began >= self.seconds end
+
+function Job:elapsed() return clench.clock() - self.began end
+
+--- the hand as it was given is put back, where the planner moved it
+function Job:finish()
+  if self.before then self.given_world:restore(self.before) end
+end
+
+--- a hand that an arm carries is planned for alone: a clone of the world without the arm
+local function freed(world, name)
+  local free = world:clone()
+  local hand = free:robot(name)
+  local arm = hand.parent
+  hand:dismount()
+  free:remove(arm)
+  return free
+end
+
+---@param subject string  "plan.anneal"
+---@param given table
+---@param own? fun(read: table, job: table)  reads the planner's own options
+return function(subject, given, own)
+  local read = read_options(subject, given)
+  local job = setmetatable({subject = subject, space = {}}, Job)
+  local hand, object = check(read, "hand", "a robot"), check(read, "object", "a body")
+  local world = read:raw "world" or hand.world
+  if described(world) ~= "a world" then read:expected("world", "a world", world) end
+  if hand.world ~= world or object.world ~= world then
+    read:fail("hand and object must be in the same world")
+  end
+  job.given_world, job.arm = world, hand.parent
+  job.seed = read:count("seed", 1, math.mininteger, math.maxinteger)
+  job.threads = read:count("threads", 1, 1, 1024)
+  job.seconds = read:raw "seconds"
+  if job.seconds ~= nil then job.seconds = read:positive "seconds" end
+  job.grasp_options = read:raw "grasp" or {}
+  if type(job.grasp_options) ~= "table" then read:expected("grasp", "a table of options of clench.grasp", job.grasp_options) end
+  for _, key in ipairs(space_keys) do job.space[key] = read:raw(key) end
+  if own then own(read, job) end
+  read:done()
+
+  local energy = job.energy
+  local has_function = type(energy) == "function" or described(energy) == "a energy" and not energy.any_thread
+  job.in_place = has_function
+  if has_function then
+    job.world, job.before = world, world:snapshot()
+  else
+    job.world = job.arm and freed(world, hand.name) or world:clone()
+  end
+  job.hand, job.object = job.world:robot(hand.name), job.world:body(object.name)
+  job.given_hand, job.given_object = hand, object
+  job.hand_radius = 1
+  job.began = clench.clock()
+  return job
+end

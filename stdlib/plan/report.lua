@@ -1,0 +1,131 @@
+--- What a planner did: counts by reason, best energy over its steps, and, where nothing was found, why.
+local Report = {__name = "report"}
+
+--- the best energy over the steps, as a figure
+local methods = {}
+function methods:chart(options)
+  local steps, best = {}, {}
+  for i, point in ipairs(self.trace) do steps[i], best[i] = point[1], point[2] end
+  local drawing = {title = self.planner, x_label = "step", y_label = "best energy",
+                   lines = {{x = steps, y = best}}}
+  for key, value in pairs(options or {}) do drawing[key] = value end
+  return clench.plot(drawing)
+end
+
+Report.__index = methods
+
+local function add(lines, format, ...) lines[#lines + 1] = format:format(...) end
+
+local function share(part, whole) return whole > 0 and 100 * part / whole or 0 end
+
+local function tell_steps(lines, r)
+  if not r.steps then return end
+  add(lines, "%d steps in %.3g s, %.0f a second; %.0f %% accepted", r.steps, r.seconds, r.steps_per_second,
+      share(r.accepted, r.steps))
+  if r.first then add(lines, "energy %.4g at first, %.4g at best", r.first, r.best) end
+  add(lines, "neighbours in collision %d, near avoided states %d, steps without a legal neighbour %d", r.in_collision,
+      r.avoided, r.stuck)
+end
+
+local function tell_candidates(lines, r)
+  if not r.candidates then return end
+  add(lines, "%d candidates in %.3g s", r.candidates, r.seconds)
+  local reasons = {}
+  for reason in pairs(r.rejected) do reasons[#reasons + 1] = reason end
+  table.sort(reasons)
+  for _, reason in ipairs(reasons) do add(lines, "%s: %d", reason, r.rejected[reason]) end
+end
+
+function Report:__tostring()
+  local lines = {("%s: %d grasps"):format(self.planner, self.grasps)}
+  tell_steps(lines, self)
+  tell_candidates(lines, self)
+  if self.alike > 0 then add(lines, "%d more were like one of these", self.alike) end
+  if self.one_thread then add(lines, "an energy of the script ran on one thread") end
+  for _, cause in ipairs(self.causes) do lines[#lines + 1] = "why: " .. cause end
+  return table.concat(lines, "\n")
+end
+
+-- is the hand in collision with itself where it stands?
+local function self_collision(job)
+  local world = job.world:clone()
+  local hand, object = world:robot(job.hand.name), world:body(job.object.name)
+  for _, body in ipairs(world.bodies) do
+    local is_part = body == hand.base
+    for _, link in ipairs(hand.links) do is_part = is_part or body == link end
+    if not is_part and body ~= object then world:set_collision(false, body) end
+  end
+  world:set_collision(false, object)
+  local pair = world:colliding(hand)[1]
+  return pair and ("the hand collides with itself where it starts: %s and %s"):format(pair[1].name, pair[2].name)
+end
+
+-- how wide the hand opens: the largest distance of the points of two links along any axis, about
+local function aperture(hand)
+  local open = 0
+  local points = {}
+  for _, link in ipairs(hand.links) do points[#points + 1] = link.bounds_in_world end
+  for _, a in ipairs(points) do
+    for _, b in ipairs(points) do
+      open = math.max(open, ((a.low + a.high) * 0.5 - (b.low + b.high) * 0.5):norm())
+    end
+  end
+  return open
+end
+
+local function too_large(job)
+  local bounds = job.object.mesh.bounds
+  local size = bounds.high - bounds.low
+  local least = math.min(size.x, size.y, size.z)
+  local world = job.world:clone()
+  local hand = world:robot(job.hand.name)
+  local ok = pcall(function() hand:open() end)
+  local open = ok and aperture(hand) or math.huge
+  if least > open then
+    return ("the object is %.0f mm wide where it is narrowest, and the hand opens to some %.0f mm"):format(1000 * least, 1000 * open)
+  end
+end
+
+local function rejected_most(told)
+  if not told.rejected then return end
+  local most, why = 0, nil
+  for reason, count in pairs(told.rejected) do
+    if count > most or count == most and why and reason < why then most, why = count, reason end
+  end
+  if why then return ("most candidates were rejected: %s (%d of %d)"):format(why, most, told.candidates) end
+end
+
+local function search_causes(told)
+  if not told.steps then return end
+  if told.steps == 0 then return "no legal state was found: all neighbours collide" end
+  if told.in_collision > 4 * told.steps then
+    return ("%d of %d neighbours collided: widen the limits, or move what is in the way"):format(told.in_collision, told.in_collision + told.steps)
+  end
+  if told.threshold and told.best > told.threshold then
+    return ("the energy came down to %.4g and never below %.4g, where grasps are looked for: more steps, wider limits, or another energy"):format(told.best, told.threshold)
+  end
+end
+
+--- are the limits of the place so far that no finger reaches the object from there?
+local function out_of_reach(job, told)
+  if told.nearest and told.nearest > 0 then
+    return ("the hand never came nearer to the object than %.0f mm: it cannot reach it within its limits"):format(1000 * told.nearest)
+  end
+end
+
+---@param job table
+---@param told table  planner, grasps, alike, and counts
+return function(job, told)
+  told.trace = told.trace or {}
+  told.causes = {}
+  told.one_thread = job.in_place and job.threads > 1 or nil
+  if told.steps then told.steps_per_second = told.steps / math.max(told.seconds, 1e-9) end
+  if told.grasps == 0 then
+    for _, cause in ipairs {self_collision(job) or false, out_of_reach(job, told) or false, too_large(job) or false,
+                            search_causes(told) or false, rejected_most(told) or false} do
+      if cause then told.causes[#told.causes + 1] = cause end
+    end
+    if #told.causes == 0 then told.causes[1] = "none that is known; try more steps or another seed" end
+  end
+  return setmetatable(told, Report)
+end

@@ -1,0 +1,54 @@
+--- What a planner gives: grasps, best first, and a report.
+local report = require "clench.plan.report"
+
+--- grasps that are alike are kept once: hands nearer than `distance` of the object's radius, turned by less than that part
+--- of half a turn, and no DOF farther apart than that part of its range
+local function are_alike(a, b, hand, radius, distance)
+  local between = a.pose:inverse() * b.pose
+  local approach = hand.approach_in_base
+  local way = ((a.pose * approach).position - (b.pose * approach).position):norm()
+  if way / radius >= distance or between:angle() / math.pi >= distance then return false end
+  for i, range in ipairs(hand.ranges) do
+    if range > 0 and math.abs(a.dofs[i] - b.dofs[i]) / range >= distance then return false end
+  end
+  return true
+end
+
+-- what of the hand counts: its approach point in its base, and how far each DOF goes
+local function of_hand(hand)
+  local ranges = {}
+  for i, limit in ipairs(hand.dof_limits) do
+    local range = limit[2] - limit[1]
+    ranges[i] = range < math.huge and range or 0
+  end
+  return {ranges = ranges, approach_in_base = hand.pose:inverse() * clench.pose {xyz = hand.approach.point}}
+end
+
+local Run = {__name = "run"}
+Run.__index = Run
+function Run:__tostring() return ("%d grasps: %s"):format(#self.grasps, tostring(self.report)) end
+
+---@param job table
+---@param found grasp[]  in the order in which they count
+---@param told table  of plan.report
+---@param options {count?: integer, distance?: number}
+return function(job, found, told, options)
+  local hand = of_hand(job.hand)
+  local bounds = job.object.mesh.bounds
+  local radius = math.max((bounds.high - bounds.low):norm() / 2, 1e-6)
+  local grasps, kept = clench.grasps(), {}
+  for _, grasp in ipairs(found) do
+    if options.count and #kept >= options.count then break end
+    local new = true
+    for _, other in ipairs(kept) do
+      if are_alike(grasp, other, hand, radius, options.distance or 0) then new = false break end
+    end
+    if new then
+      kept[#kept + 1] = grasp
+      grasps:add(grasp)
+    end
+  end
+  told.grasps, told.alike = #kept, #found - #kept
+  told.seconds = job:elapsed()
+  return setmetatable({grasps = grasps, report = report(job, told)}, Run)
+end
