@@ -92,6 +92,7 @@ Eye DrawList::to_scene(const Eye& world) const {
   Eye out = world;
   out.eye = (world.eye - centre) / scale;
   out.target = (world.target - centre) / scale;
+  out.ortho_height = world.ortho_height / scale;
   return out;
 }
 
@@ -99,6 +100,7 @@ Eye DrawList::to_world(const Eye& scene) const {
   Eye out = scene;
   out.eye = centre + scale * scene.eye;
   out.target = centre + scale * scene.target;
+  out.ortho_height = scale * scene.ortho_height;
   return out;
 }
 
@@ -147,13 +149,15 @@ DrawList make_draw_list(const Scene& scene) {
   return list;
 }
 
-std::vector<uint32_t> back_to_front(const DrawList& list, const Eigen::Vector3f& eye) {
+std::vector<uint32_t> back_to_front(const DrawList& list, const Eye& eye) {
+  const Eigen::Vector3f from = eye.eye.cast<float>(),
+                        away = (eye.eye - eye.target).normalized().cast<float>();
   std::vector<std::pair<float, uint32_t>> order;
   const auto add = [&](const Batch& batch) {
     for (int at = batch.first; at < batch.first + batch.count; at += 3) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (int k = 0; k < 3; ++k) sum += list.corners[list.indices[at + k]].p;
-      order.push_back({-(sum / 3 - eye).squaredNorm(), static_cast<uint32_t>(at)});
+      order.push_back({eye.ortho_height > 0 ? away.dot(sum) : -(sum / 3 - from).squaredNorm(), static_cast<uint32_t>(at)});
     }
   };
   for (const Batch& batch : list.clear) add(batch);

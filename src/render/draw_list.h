@@ -43,7 +43,7 @@ inline constexpr int floor_lines = 113;
 ///         half angle outside [0, pi/2)
 DrawList make_draw_list(const Scene& scene);
 
-/// Indices of `clear`, the triangles farthest from the eye first.
-std::vector<uint32_t> back_to_front(const DrawList& list, const Eigen::Vector3f& eye);
+/// Indices of `clear`, the triangles farthest from the eye first; scene units.
+std::vector<uint32_t> back_to_front(const DrawList& list, const Eye& eye);
 
 }  // namespace clench
