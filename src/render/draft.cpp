@@ -30,6 +30,7 @@ struct Placed {
   Eigen::Vector4f color;
   bool background;
   double distance;  // of its centre from the eye, scene units
+  bool one_side = false;  // is all that can be seen
 };
 
 Eigen::Matrix4d moved_by(const DrawMesh& mesh, const StoredMesh& stored, const Extent& extent) {
@@ -51,7 +52,10 @@ class Draft {
   void load_marks(const Scene& scene);
   void load_floor(const Scene& scene);
   void cast();
-  void draw(const Placed& placed, unsigned program, const Eigen::Matrix4d& clip) const;
+  void draw_triangles(const StoredMesh& mesh, bool one_side) const;
+  void draw_depth(const Placed& placed, const Eigen::Matrix4d& clip, bool one_side) const;
+  void draw(const Placed& placed, unsigned program, const Eigen::Matrix4d& clip,
+            bool both_sides = false) const;
   void draw_glass(const Eigen::Matrix4d& clip) const;
   void draw_marks(const Eigen::Matrix4d& clip) const;
   struct Seen;
@@ -97,6 +101,8 @@ void Draft::load(MeshStore& store, const Scene& scene) {
     Placed placed{&stored, moved_by(mesh, stored, extent_), {}, mesh.background, 0};
     placed.color << mesh.color.cwiseMax(0.0f).cwiseMin(1.0f), mesh.opacity;
     placed.distance = (placed.to_scene.topRightCorner<3, 1>() - eye_.eye).norm();
+    placed.one_side = stored.closed && hides_inside(placed.to_scene.topRightCorner<3, 1>(),
+                                                    stored.scale / extent_.scale, eye_);
     (mesh.opacity >= draft_solid || mesh.background ? solid_ : clear_).push_back(placed);
   }
   std::ranges::stable_sort(clear_, std::ranges::greater{}, &Placed::distance);
@@ -148,10 +154,7 @@ void Draft::cast() {
   clip.row(2) *= -1;
   const auto cast_one = [&](const Placed& placed) {
     options_.progress.check();
-    gl::set(programs_.draft_shadow, "to_clip",
-            Eigen::Matrix4f((clip * placed.to_scene).cast<float>()));
-    glBindVertexArray(placed.mesh->array);
-    glDrawElements(GL_TRIANGLES, placed.mesh->count, GL_UNSIGNED_INT, nullptr);
+    draw_depth(placed, clip, placed.mesh->closed);
   };
   for (const Placed& placed : solid_)
     if (!placed.background) cast_one(placed);
@@ -162,26 +165,48 @@ void Draft::give_light(unsigned program) const {
   gl::bind(program, "map", 0, map_, true);
   gl::set(program, "map_axes", std::vector{Eigen::Matrix3f(map_axes_.cast<float>())});
   gl::set(program, "to_lamp", Eigen::Vector3f(to_lamp_.cast<float>()));
+  gl::set(program, "taps", 4);
   gl::set(program, "texel", static_cast<float>(2 * draft_reach / draft_map_size));
 }
 
-void Draft::draw(const Placed& placed, unsigned program, const Eigen::Matrix4d& clip) const {
+// of a closed mesh only the side that faces the eye can be nearest
+void Draft::draw_triangles(const StoredMesh& mesh, bool one_side) const {
+  glBindVertexArray(mesh.array);
+  if (one_side) glEnable(GL_CULL_FACE), glCullFace(GL_BACK);
+  glDrawElements(GL_TRIANGLES, mesh.count, GL_UNSIGNED_INT, nullptr);
+  if (one_side) glDisable(GL_CULL_FACE);
+}
+
+void Draft::draw_depth(const Placed& placed, const Eigen::Matrix4d& clip,
+                       bool one_side) const {
+  gl::set(programs_.draft_shadow, "to_clip",
+          Eigen::Matrix4f((clip * placed.to_scene).cast<float>()));
+  draw_triangles(*placed.mesh, one_side);
+}
+
+void Draft::draw(const Placed& placed, unsigned program, const Eigen::Matrix4d& clip,
+                 bool both_sides) const {
   gl::set(program, "to_scene", Eigen::Matrix4f(placed.to_scene.cast<float>()));
   gl::set(program, "to_clip", Eigen::Matrix4f((clip * placed.to_scene).cast<float>()));
   gl::set(program, "painted", placed.mesh->painted ? 1.0f : 0.0f);
   gl::set(program, "one_color", placed.color);
-  glBindVertexArray(placed.mesh->array);
-  glDrawElements(GL_TRIANGLES, placed.mesh->count, GL_UNSIGNED_INT, nullptr);
+  if (both_sides) {
+    glBindVertexArray(placed.mesh->array);
+    glDrawElements(GL_TRIANGLES, placed.mesh->count, GL_UNSIGNED_INT, nullptr);
+  } else {
+    draw_triangles(*placed.mesh, placed.one_side);
+  }
 }
 
-// far bodies first, and of each its far side
+// far bodies first, and of each its far side; no shadow falls on them
 void Draft::draw_glass(const Eigen::Matrix4d& clip) const {
+  gl::set(programs_.draft, "taps", 0);
   glDepthMask(GL_FALSE);
   glEnable(GL_CULL_FACE);
   for (const Placed& placed : clear_)
     for (const GLenum side : {GL_FRONT, GL_BACK}) {
       glCullFace(side);
-      draw(placed, programs_.draft, clip);
+      draw(placed, programs_.draft, clip, true);
     }
   glDisable(GL_CULL_FACE);
   glDepthMask(GL_TRUE);
@@ -258,10 +283,19 @@ void Draft::paint(const Tile& tile, Picture& out) {
   give_light(programs_.draft);
   gl::set(programs_.draft, "eye", shading_eye(eye_));
   gl::set(programs_.draft, "glow", 0.0f);
+  // depths alone first, so that light is found for what is seen only
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  for (const Placed& placed : solid_) {
+    options_.progress.check();
+    draw_depth(placed, clip, placed.one_side);
+  }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
   for (const Placed& placed : solid_) {
     options_.progress.check();
     draw(placed, programs_.draft, clip);
   }
+  glDepthFunc(GL_LESS);
   if (floor_) {
     give_light(programs_.draft_floor);
     give_backdrop(programs_.draft_floor);

@@ -18,7 +18,8 @@ out vec4 paint;
 void main() {
   at = (to_scene * vec4(p, 1)).xyz;
   normal = mat3(to_scene) * n;
-  paint = vec4(mix(one_color.rgb, color.rgb, painted), one_color.a);
+  // of a colour on a screen; nothing is so black that its shape is lost
+  paint = vec4(0.012 + 0.988 * pow(mix(one_color.rgb, color.rgb, painted), vec3(2.2)), one_color.a);
   gl_Position = to_clip * vec4(p, 1);
 }
 )";
@@ -36,22 +37,38 @@ uniform sampler2DArrayShadow map;
 uniform mat3 map_axes;       // rows: across, across, towards the lamp
 uniform vec3 to_lamp;
 uniform float texel;         // of the map, in scene units
+uniform int taps;            // 4, or 0 without shadow
 
-// part of the lamp that reaches p; smooth over some texels
-float lit(vec3 p, vec3 n) {
+// part of the lamp that reaches p, where it is asked; smooth over some texels. A loop ends early where a branch would
+// calculate both sides
+float lit(vec3 p, vec3 n, bool asked) {
   float facing = dot(n, to_lamp);
   vec3 q = map_axes * (p + n * texel * (1.5 + 2.5 * sqrt(max(0, 1 - facing * facing))));
-  vec2 size = vec2(textureSize(map, 0).xy);
-  float sum = 0;
-  for (int y = -1; y <= 1; ++y)
-    for (int x = -1; x <= 1; ++x)
-      sum += texture(map, vec4(0.5 + 0.5 * q.xy + 1.5 * vec2(x, y) / size, 0, min(0.5 - 0.5 * q.z, 0.99999)));
-  return sum / 9;
+  vec3 at = vec3(0.5 + 0.5 * q.xy, min(0.5 - 0.5 * q.z, 0.99999));
+  bool inside = asked && dot(q.xy, q.xy) < 1.1;
+  float wide = 0.75 / float(textureSize(map, 0).x), sum = 0;
+  int count = inside ? taps : 0;
+  for (int i = 0; i < count; ++i) {
+    vec2 by = vec2((i & 1) * 2 - 1, (i & 2) - 1);
+    sum += texture(map, vec4(at.xy + wide * by, 0, at.z));
+  }
+  return count > 0 ? sum / float(count) : 1;
 }
 )";
 
 /// bodies, friction cones and arrows
 inline constexpr const char* draft_fragment = R"(
+uniform vec3 eye;
+// what a varnish returns of the lamp and of the room
+vec3 shine(vec3 n, vec3 v, float direct) {
+  float over = 1 - clamp(dot(n, v), 0, 1), over2 = over * over;
+  float half_way = max(0, dot(n, normalize(to_lamp + v)));
+  float g = half_way * half_way;
+  g *= g, g *= g, g *= g;
+  float gloss = g * g * g;  // to the power of 48
+  vec3 room = mix(vec3(0.30), vec3(0.98, 1.0, 1.04), smoothstep(-0.35, 0.5, reflect(-v, n).z));
+  return 0.35 * (vec3(direct * gloss) + 0.8 * room * (0.04 + 0.96 * over2 * over2 * over));
+}
 in vec3 at;
 in vec3 normal;
 in vec4 paint;
@@ -59,16 +76,17 @@ uniform float glow;          // 1: cones and arrows, whatever the light
 out vec4 result;
 void main() {
   vec3 n = normalize(gl_FrontFacing ? normal : -normal), v = normalize(eye - at);
-  vec3 color = linear(paint.rgb);
+  vec3 color = paint.rgb;
   float across = clamp(dot(n, v), 0, 1), cover = paint.a;
   if (glow > 0.5) {
     color *= 0.75 + 0.30 * across + 0.25 * max(0, n.z);
   } else {
     float direct = 0.62 * max(0, dot(n, to_lamp));
-    if (direct > 0) direct *= lit(at, n);
+    direct *= lit(at, n, direct > 0);
     float room = 0.62 * mix(0.42, 1.0, smoothstep(0, 1, 0.5 + 0.5 * n.z)) * (0.75 + 0.25 * across);
-    color = color * (room + direct) + varnish(n, v, to_lamp, direct, 0.8);
-    if (cover < 0.999) cover = mix(cover, 1, 0.75 * pow(1 - across, 2.5));
+    color = color * (room + direct) + shine(n, v, direct);
+    float rim = (1 - across) * (1 - across);
+    if (cover < 0.999) cover = mix(cover, 1, 0.75 * rim);
   }
   result = vec4(developed(color) * cover, cover);
 }
@@ -83,7 +101,7 @@ uniform float bare;          // 1: nothing is behind but the shadow
 out vec4 result;
 void main() {
   vec3 n = vec3(0, 0, 1);
-  float shadow = 0.45 * (1 - lit(at, n)) * (1 - smoothstep(0.5, 1.0, length(at) / 5));
+  float shadow = 0.45 * (1 - lit(at, n, true)) * (1 - smoothstep(0.5, 1.0, length(at) / 5));
   vec3 color = developed(backdrop() * (1 - shadow));
   result = mix(vec4(color, 1), vec4(0, 0, 0, 0.8 * shadow), bare);
 }

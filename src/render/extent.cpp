@@ -18,7 +18,7 @@ Extent extent_of(const Scene& scene) {
       if (!mesh.shape || mesh.opacity == 0 || mesh.background != background) continue;
       for (const auto& p : mesh.shape->mesh().vertices) {
         const Eigen::Vector3d p_W = mesh.X_WM * p;
-        if (!p_W.allFinite()) fail("picture: mesh {}: its pose moves it beyond all numbers", i + 1);
+        if (!p_W.allFinite()) fail("picture: mesh {}: lies beyond all numbers", i + 1);
         what(p_W);
       }
     }

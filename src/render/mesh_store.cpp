@@ -6,6 +6,7 @@
 
 #include "clench/base/convert.h"
 #include "clench/render/corner_normals.h"
+#include "clench/render/outward.h"
 #include "clench/render/shadows.h"
 
 namespace clench {
@@ -81,6 +82,7 @@ const StoredMesh& MeshStore::at(const DrawMesh& mesh) {
   entry.mesh.centre = centre;
   entry.mesh.scale = scale;
   entry.mesh.painted = painted;
+  entry.mesh.closed = faces_outward(*mesh.shape);
   entry.bytes = corners.size() * sizeof(Corner) + indices.size() * sizeof(uint32_t) +
                 entry.colors.size() * sizeof(Eigen::Vector3f);
   bytes_ += entry.bytes;

@@ -14,6 +14,7 @@ struct StoredMesh {
   int count = 0;  ///< of indices
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double scale = 1;
+  bool closed = false;   ///< a solid whose triangles all run counter-clockwise seen from outside
   bool painted = false;  ///< triangles have colours of their own
 };
 

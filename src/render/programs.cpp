@@ -21,7 +21,7 @@ Programs::Programs() {
   shadow = gl::make_program(lights(1), shadow_vertex, depth_fragment);
   gather = gl::make_program(lights(lights_at_once), cover_vertex, light + gather_fragment);
   smooth = gl::make_program("", cover_vertex, smooth_fragment);
-  draft = gl::make_program("", draft_vertex, shading + curve + draft_part + draft_fragment);
+  draft = gl::make_program("", draft_vertex, curve + draft_part + draft_fragment);
   draft_floor =
       gl::make_program("", draft_vertex, backdrop + curve + draft_part + draft_floor_fragment);
   draft_behind = gl::make_program("", cover_vertex, backdrop + curve + draft_behind_fragment);

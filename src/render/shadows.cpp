@@ -89,8 +89,11 @@ void Shadows::cast(const DrawList& list, const LoadedList& loaded,
     glClear(GL_DEPTH_BUFFER_BIT);
     gl::set(program, "axes", std::vector{axes_[i]});
     const auto draw = [](const Batch& batch) {
+      // the far side of a closed body lies in the shadow of the near one
+      if (batch.outward) glEnable(GL_CULL_FACE), glCullFace(GL_BACK);
       glDrawElements(GL_TRIANGLES, batch.caster_count, GL_UNSIGNED_INT,
                      reinterpret_cast<const void*>(batch.first_caster * sizeof(uint32_t)));
+      if (batch.outward) glDisable(GL_CULL_FACE);
     };
     for (const Batch& batch : list.solid) draw(batch);
     // bodies take turns, so that two of half opacity do not stop the same lights
