@@ -13,13 +13,13 @@
 #include "clench/render/lights.h"
 #include "clench/render/outline.h"
 #include "clench/render/pieces.h"
+#include "clench/render/smooth_edges.h"
 #include "clench/render/tile.h"
 
 namespace clench {
 namespace {
 
-constexpr int draft_samples = 4;          // a pixel
-constexpr int draft_map_size = 1024;      // [pixels]
+constexpr int max_draft_map = 2048;       // [pixels]
 constexpr double draft_reach = 1.03;      // of the map: the scene's ball and a margin
 constexpr float draft_solid = 0.999f;     // opacity above which nothing shines through
 
@@ -39,6 +39,23 @@ Eigen::Matrix4d moved_by(const DrawMesh& mesh, const StoredMesh& stored, const E
       mesh.X_WM.rotation.toRotationMatrix() * (stored.scale / extent.scale);
   out.topRightCorner<3, 1>() = (mesh.X_WM * stored.centre - extent.centre) / extent.scale;
   return out;
+}
+
+// texels about as wide as the pixels of the picture
+int draft_map_size(const RenderOptions& options) {
+  int size = 128;
+  while (size < max_draft_map && 5 * size < 4 * std::max(options.width, options.height)) size *= 2;
+  return size;
+}
+
+// colours were multiplied by alpha
+void divide_by_alpha(Picture& picture) {
+  for (size_t i = 0; i < picture.alpha.size(); ++i)
+    for (size_t at = 3 * i; picture.alpha[i] > 0 && at < 3 * i + 3; ++at) {
+      const int alpha = picture.alpha[i];
+      picture.pixels[at] =
+          static_cast<uint8_t>(std::min(255, (picture.pixels[at] * 255 + alpha / 2) / alpha));
+    }
 }
 
 class Draft {
@@ -74,13 +91,15 @@ class Draft {
   double ground_ = 0;
   Eigen::Vector3d to_lamp_;
   Eigen::Matrix3d map_axes_;
+  int map_size_;
   gl::Object map_, map_target_;
   Cover cover_;
 };
 
 Draft::Draft(const Programs& programs, MeshStore& store, const Scene& scene, const Eye& eye,
              const RenderOptions& options)
-    : programs_(programs), options_(options), extent_(extent_of(scene)), eye_(eye) {
+    : programs_(programs), options_(options), extent_(extent_of(scene)), eye_(eye),
+      map_size_(draft_map_size(options)) {
   eye_.eye = (eye.eye - extent_.centre) / extent_.scale;
   eye_.target = (eye.target - extent_.centre) / extent_.scale;
   eye_.ortho_height /= extent_.scale;
@@ -105,6 +124,8 @@ void Draft::load(MeshStore& store, const Scene& scene) {
                                                     stored.scale / extent_.scale, eye_);
     (mesh.opacity >= draft_solid || mesh.background ? solid_ : clear_).push_back(placed);
   }
+  // near bodies first, so that light is found once for what is seen; those seen through last
+  std::ranges::stable_sort(solid_, std::ranges::less{}, &Placed::distance);
   std::ranges::stable_sort(clear_, std::ranges::greater{}, &Placed::distance);
 }
 
@@ -139,10 +160,10 @@ void Draft::cast() {
   const Eigen::Vector3d across = to_lamp_.unitOrthogonal();
   map_axes_ << across.transpose(), to_lamp_.cross(across).transpose(), to_lamp_.transpose();
   map_axes_ /= draft_reach;
-  map_ = gl::make_shadow_maps(draft_map_size, 1);
+  map_ = gl::make_shadow_maps(map_size_, 1);
   map_target_ = gl::make_framebuffer({}, 0);
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, map_, 0, 0);
-  glViewport(0, 0, draft_map_size, draft_map_size);
+  glViewport(0, 0, map_size_, map_size_);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
@@ -165,8 +186,8 @@ void Draft::give_light(unsigned program) const {
   gl::bind(program, "map", 0, map_, true);
   gl::set(program, "map_axes", std::vector{Eigen::Matrix3f(map_axes_.cast<float>())});
   gl::set(program, "to_lamp", Eigen::Vector3f(to_lamp_.cast<float>()));
-  gl::set(program, "taps", 4);
-  gl::set(program, "texel", static_cast<float>(2 * draft_reach / draft_map_size));
+  gl::set(program, "taps", 1);
+  gl::set(program, "texel", static_cast<float>(2 * draft_reach / map_size_));
 }
 
 // of a closed mesh only the side that faces the eye can be nearest
@@ -209,6 +230,7 @@ void Draft::draw_glass(const Eigen::Matrix4d& clip) const {
       draw(placed, programs_.draft, clip, true);
     }
   glDisable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
   glDepthMask(GL_TRUE);
 }
 
@@ -258,11 +280,9 @@ void Draft::lay_lines(const std::vector<Placed>& group, const Seen& seen,
 
 void Draft::paint(const Tile& tile, Picture& out) {
   const int width = tile.drawn_width(), height = tile.drawn_height();
-  const gl::Object colors = gl::make_samples(gl::Format::rgba8, width, height, draft_samples),
-                   depths = gl::make_samples(gl::Format::depth, width, height, draft_samples),
-                   many = gl::make_samples_framebuffer(colors, depths),
-                   pixels = gl::make_texture(gl::Format::rgba8, width, height),
-                   target = gl::make_framebuffer({pixels}, 0);
+  const gl::Object colors = gl::make_texture(gl::Format::rgba8, width, height),
+                   depths = gl::make_texture(gl::Format::depth, width, height),
+                   target = gl::make_framebuffer({colors}, depths);
   const Eigen::Matrix4d clip = crop_to(tile, options_) * projection_;
   const bool bare = options_.backdrop != Backdrop::studio;
   const auto give_backdrop = [&](unsigned program) {
@@ -270,7 +290,7 @@ void Draft::paint(const Tile& tile, Picture& out) {
     gl::set(program, "size", Eigen::Vector2f(options_.width, options_.height));
   };
 
-  glBindFramebuffer(GL_FRAMEBUFFER, many);
+  glBindFramebuffer(GL_FRAMEBUFFER, target);
   glViewport(0, 0, width, height);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -283,13 +303,6 @@ void Draft::paint(const Tile& tile, Picture& out) {
   give_light(programs_.draft);
   gl::set(programs_.draft, "eye", shading_eye(eye_));
   gl::set(programs_.draft, "glow", 0.0f);
-  // depths alone first, so that light is found for what is seen only
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  for (const Placed& placed : solid_) {
-    options_.progress.check();
-    draw_depth(placed, clip, placed.one_side);
-  }
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthFunc(GL_LEQUAL);
   for (const Placed& placed : solid_) {
     options_.progress.check();
@@ -307,21 +320,18 @@ void Draft::paint(const Tile& tile, Picture& out) {
   std::optional<Seen> seen;
   if (options_.outline > 0) {
     seen.emplace(tile);
-    lay_lines(solid_, *seen, clip, many, true);
+    lay_lines(solid_, *seen, clip, target, true);
   }
   draw_marks(clip);
-  if (seen && marks_) lay_lines({placed_marks()}, *seen, clip, many, false);
+  if (seen && marks_) lay_lines({placed_marks()}, *seen, clip, target, false);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   draw_glass(clip);
   glDisable(GL_BLEND);
-  if (seen) lay_lines(clear_, *seen, clip, many, false);
+  if (seen) lay_lines(clear_, *seen, clip, target, false);
 
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, many);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
-  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, target);
-  read_tile(tile, options_, true, out);
+  read_tile(tile, out);
 }
 
 }  // namespace
@@ -335,6 +345,8 @@ Picture draft(const Programs& programs, MeshStore& store, const Scene& scene, co
     options.progress.check();
     drawing.paint(tile, out);
   }
+  smooth_edges(out);
+  divide_by_alpha(out);
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)
     fail(ErrorKind::internal, "picture: the OpenGL driver reports error {:#x}", error);
   return out;

@@ -11,7 +11,6 @@ namespace {
 
 void delete_texture(unsigned name) { glDeleteTextures(1, &name); }
 void delete_framebuffer(unsigned name) { glDeleteFramebuffers(1, &name); }
-void delete_samples(unsigned name) { glDeleteRenderbuffers(1, &name); }
 void delete_buffer(unsigned name) { glDeleteBuffers(1, &name); }
 void delete_vertex_array(unsigned name) { glDeleteVertexArrays(1, &name); }
 void delete_program(unsigned name) { glDeleteProgram(name); }
@@ -64,27 +63,6 @@ Object make_texture(Format format, int width, int height, const void* data) {
                format == Format::depth ? GL_DEPTH_COMPONENT : GL_RGBA, GL_FLOAT, data);
   filter(GL_TEXTURE_2D, GL_NEAREST);
   return texture;
-}
-
-Object make_samples(Format format, int width, int height, int samples) {
-  unsigned name = 0;
-  glGenRenderbuffers(1, &name);
-  Object out(name, delete_samples);
-  glBindRenderbuffer(GL_RENDERBUFFER, name);
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, stored(format), width, height);
-  return out;
-}
-
-Object make_samples_framebuffer(unsigned color, unsigned depth) {
-  unsigned name = 0;
-  glGenFramebuffers(1, &name);
-  Object framebuffer(name, delete_framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, name);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
-  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    fail(ErrorKind::internal, "picture: the OpenGL driver has no several samples a pixel");
-  return framebuffer;
 }
 
 Object make_shadow_maps(int size, int layers) {

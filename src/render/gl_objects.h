@@ -33,10 +33,6 @@ enum class Format { rgba8, rgba16f, rgba32f, depth };
 
 /// Nearest sampling, edges repeated; `data` are floats, red green blue alpha, or null.
 Object make_texture(Format format, int width, int height, const void* data = nullptr);
-/// Several samples a pixel, that can be copied from alone.
-Object make_samples(Format format, int width, int height, int samples);
-/// throws  Error when the driver cannot
-Object make_samples_framebuffer(unsigned color, unsigned depth);
 /// Layers of depth that are compared when they are read: shares of neighbours that pass.
 Object make_shadow_maps(int size, int layers);
 /// Draws to textures of one size, in the order of a program's outputs; depth 0: none.

@@ -27,6 +27,7 @@ void Outline::draw(const SeenTextures& seen, float cover, bool soft) const {
   gl::set(program_, "smooth_line", soft ? 1.0f : 0.0f);
   cover_.draw(program_);
   glDisable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
 }  // namespace clench

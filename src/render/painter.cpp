@@ -83,7 +83,7 @@ class Painter {
 // maps of the lamp about as fine as the picture
 int map_size(const RenderOptions& options) {
   int size = 256;
-  while (size < 1024 && size < std::max(options.width, options.height)) size *= 2;
+  while (size < 1024 && 5 * size < 4 * std::max(options.width, options.height)) size *= 2;
   return size;
 }
 
@@ -276,7 +276,7 @@ void Painter::paint(const Tile& tile, Picture& out) {
   gl::bind(programs_.develop, "light", 1, canvas.sum);
   cover_.draw(programs_.develop);
   done_ += double(tile.width) * tile.height;
-  read_tile(tile, options_, false, out);
+  read_tile(tile, out);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ enum class Backdrop { studio, white, transparent };
 
 struct RenderOptions {
   int width = 1280, height = 960;  ///< pixels, 16..8192
-  int samples = 8;  ///< a pixel: smoothness of edges and shadows against time, 1..256; drafts have 4
+  int samples = 8;  ///< a pixel: smoothness of edges and shadows against time, 1..256; drafts have one, with edges smoothed
   Quality quality = Quality::paper;
   Backdrop backdrop = Backdrop::studio;
   double outline = 0;  ///< width of lines around bodies and along their edges, 0..32 [pixels]

@@ -28,6 +28,10 @@ void reset_state() {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
+  // also what is off: drivers compile anew for a state that they have not seen
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glPolygonOffset(1.5f, 2);
+  glCullFace(GL_BACK);
   while (glGetError() != GL_NO_ERROR) {
   }
 }

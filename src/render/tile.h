@@ -28,9 +28,8 @@ Eigen::Vector2d depth_range(const Eye& eye);
 /// Where rays come from, for shading: a perspective eye, or a point far behind an orthographic one; scene units.
 Eigen::Vector3f shading_eye(const Eye& eye);
 
-/// Of the framebuffer that is bound, which holds the tile: red, green, blue, alpha. `premultiplied`: colours are
-/// multiplied by alpha.
-void read_tile(const Tile& tile, const RenderOptions& options, bool premultiplied, Picture& out);
+/// Of the framebuffer that is bound, which holds the tile: red, green, blue, alpha.
+void read_tile(const Tile& tile, Picture& out);
 
 /// Of this size, with alpha unless a studio is behind.
 Picture empty_picture(const RenderOptions& options);

@@ -105,7 +105,7 @@ static RenderOptions read_rendering(Table& options) {
                           ? Quality::draft
                           : Quality::paper;
   if (rendering.quality == Quality::draft && options.has("samples"))
-    fail("{}: samples: only paper quality takes them, drafts have 4", options.subject());
+    fail("{}: samples: only paper quality takes them, drafts have one", options.subject());
   rendering.samples = options.integer("samples", rendering.samples);
   const std::string behind =
       options.choice("background", {"studio", "white", "transparent"}, "studio");
