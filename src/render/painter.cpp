@@ -32,11 +32,11 @@ Canvas::Canvas(const Tile& tile) {
     return gl::make_texture(format, tile.drawn_width(), tile.drawn_height());
   };
   places = texture(Format::rgba32f);
-  facings = texture(Format::rgba16f);
+  facings = texture(Format::rgba32f);
   paints = texture(Format::rgba8);
   depths = texture(Format::depth);
   first = gl::make_framebuffer({places, facings, paints}, depths);
-  light = texture(Format::rgba16f);
+  light = texture(Format::rgba32f);
   lit = gl::make_framebuffer({light}, depths);
   sum = texture(Format::rgba32f);
   added = gl::make_framebuffer({sum}, 0);
@@ -75,7 +75,6 @@ class Painter {
 
   gl::Object sorted_;  // indices of what is seen through
   int sorted_count_ = 0;
-  unsigned room_light_ = 0, lamp_light_ = 0;  // gathered at the corners
   Cover cover_;
   Shadows shadows_;
 };
@@ -106,8 +105,8 @@ Painter::Painter(const Programs& programs, PaperScene& scene, const Eye& eye,
   const std::vector<uint32_t> sorted = back_to_front(list_, eye);
   sorted_count_ = static_cast<int>(sorted.size());
   sorted_ = gl::make_buffer(sorted.data(), sorted.size() * sizeof(uint32_t));
-  room_light_ = scene.room_light(options);
-  if (!list_.clear.empty()) lamp_light_ = scene.lamp_light(view_axes(eye), options.progress);
+  scene.light_room(options);
+  if (!list_.clear.empty()) scene.light_lamp(view_axes(eye), options.progress);
   open_light_ = scene.open_room() + light_on_floor(lamp_);
 }
 
@@ -126,7 +125,6 @@ void Painter::find_first(const Canvas& canvas, const Eigen::Matrix4f& clip) {
   glDepthFunc(GL_LESS);
   gl::set(programs_.first, "to_clip", clip);
   gl::set(programs_.first, "floor_sign", 1.0f);
-  gl::bind(programs_.first, "room", 1, room_light_);
   glBindVertexArray(loaded_.array);
   for (const Batch& batch : list_.solid) {
     const bool one_side = batch.outward && hides_inside(batch.centre, batch.radius, eye_);
@@ -155,7 +153,6 @@ void Painter::find_group(std::span<const Batch> group, const Canvas& solid, cons
   glClear(GL_COLOR_BUFFER_BIT);
   gl::set(programs_.first, "to_clip", clip);
   gl::set(programs_.first, "floor_sign", 1.0f);
-  gl::bind(programs_.first, "room", 1, room_light_);
   glBindVertexArray(loaded_.array);
   for (const Batch& batch : group) draw(batch);
   glDepthMask(GL_FALSE);
@@ -211,8 +208,6 @@ void Painter::lay_clear(const Eigen::Matrix4f& clip) {
   gl::set(programs_.through, "to_clip", clip);
   gl::set(programs_.through, "eye", shading_eye_);
   gl::set(programs_.through, "to_lamp", lamp_.front().to_light);
-  gl::bind(programs_.through, "room", 1, room_light_);
-  gl::bind(programs_.through, "lamp", 2, lamp_light_);
   glBindVertexArray(loaded_.array);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, sorted_);
   glDrawElements(GL_TRIANGLES, sorted_count_, GL_UNSIGNED_INT, nullptr);

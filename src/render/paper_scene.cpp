@@ -38,22 +38,22 @@ size_t PaperScene::bytes() const {
          2 * list_.indices.size() * sizeof(uint32_t);
 }
 
-const gl::Object& PaperScene::room_light(const RenderOptions& options) {
+void PaperScene::light_room(const RenderOptions& options) {
   const int count = room_lights(options, casters_);
-  if (count == room_count_) return room_;
+  if (count == room_count_) return;
   const std::vector<Light> lights = place_room(count);
   room_ = gather(programs_, list_, loaded_, coarse_, lights, options.progress);
   room_count_ = count;
   open_room_ = light_on_floor(lights);
-  return room_;
+  read_light(loaded_, 3, room_);
 }
 
-const gl::Object& PaperScene::lamp_light(const Eigen::Matrix3d& axes, const Progress& progress) {
-  if (lamp_axes_ == axes) return lamp_;
+void PaperScene::light_lamp(const Eigen::Matrix3d& axes, const Progress& progress) {
+  if (lamp_axes_ == axes) return;
   lamp_ = gather(programs_, list_, loaded_, coarse_,
                  place_lamp(axes, heavy() ? heavy_lamp : Shadows::most), progress);
   lamp_axes_ = axes;
-  return lamp_;
+  read_light(loaded_, 4, lamp_);
 }
 
 }  // namespace clench

@@ -23,9 +23,9 @@ class PaperScene {
   bool heavy() const { return casters_ > 100000; }
   /// Light of a room that suits a picture of this size and smoothness, kept until another is asked for.
   /// throws  Stopped, and keeps what it had
-  const gl::Object& room_light(const RenderOptions& options);
+  void light_room(const RenderOptions& options);
   /// That of a lamp as it stands for these axes of a view, at what is seen through.   throws Stopped
-  const gl::Object& lamp_light(const Eigen::Matrix3d& axes, const Progress& progress);
+  void light_lamp(const Eigen::Matrix3d& axes, const Progress& progress);
   /// What all lights of the room return from a white floor with nothing in between.
   float open_room() const { return open_room_; }
 

@@ -9,22 +9,20 @@ inline constexpr const char* surface_vertex = R"(
 layout(location = 0) in vec3 p;
 layout(location = 1) in vec3 n;
 layout(location = 2) in vec4 color;
+layout(location = 3) in vec4 room;
+layout(location = 4) in vec4 lamp;
 uniform mat4 to_clip;
-uniform sampler2D room;
-uniform sampler2D lamp;
 out vec3 at;
 out vec3 normal;
 out vec4 paint;
 out vec4 room_light;
 out vec4 lamp_light;
 void main() {
-  int width = textureSize(room, 0).x;
-  ivec2 place = ivec2(gl_VertexID % width, gl_VertexID / width);
   at = p;
   normal = n;
   paint = color;
-  room_light = texelFetch(room, place, 0);
-  lamp_light = texelFetch(lamp, place, 0);
+  room_light = room;
+  lamp_light = lamp;
   gl_Position = to_clip * vec4(p, 1);
 }
 )";
@@ -126,8 +124,12 @@ vec3 mirrored(vec3 d) {
 }
 // what the varnish returns; direct: light of the lamp, open: how much of the room is seen
 vec3 varnish(vec3 n, vec3 v, vec3 to_lamp, float direct, float open) {
-  float fresnel = 0.04 + 0.96 * pow(1 - clamp(dot(n, v), 0, 1), 5);
-  float gloss = pow(max(0, dot(n, normalize(to_lamp + v))), 48);
+  float over = 1 - clamp(dot(n, v), 0, 1), over2 = over * over;
+  float fresnel = 0.04 + 0.96 * over2 * over2 * over;
+  // to the power of 48
+  float g = max(0, dot(n, normalize(to_lamp + v)));
+  g *= g, g *= g, g *= g, g *= g;
+  float gloss = g * g * g;
   return 0.35 * (vec3(direct * gloss) + mirrored(reflect(-v, n)) * fresnel * min(1, open));
 }
 // of a colour on a screen; nothing is so black that its shape is lost

@@ -13,18 +13,28 @@ namespace {
 constexpr double reach = 1.03;  // of a map: the scene's ball and a margin [scene units]
 constexpr int gathered_width = 2048;
 
+// what was drawn, row by row
+gl::Object to_buffer(int rows) {
+  gl::Object out = gl::make_buffer(nullptr, size_t{16} * gathered_width * rows);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, out);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, gathered_width, rows, GL_RGBA, GL_FLOAT, nullptr);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  return out;
+}
+
 // neighbours on the floor share their light, so that no single shadow of the many shows
-gl::Object smooth_floor(const Programs& programs, const DrawList& list, gl::Object gathered,
+gl::Object smooth_floor(const Programs& programs, const DrawList& list, unsigned gathered,
                         int rows) {
-  if (!list.ground) return gathered;
-  gl::Object smooth = gl::make_texture(gl::Format::rgba32f, gathered_width, rows);
-  const gl::Object framebuffer = gl::make_framebuffer({smooth}, 0);
+  if (!list.ground) return to_buffer(rows);
+  const gl::Object smooth = gl::make_texture(gl::Format::rgba32f, gathered_width, rows),
+                   framebuffer = gl::make_framebuffer({smooth}, 0);
   const unsigned program = programs.smooth;
   gl::bind(program, "light", 1, gathered);
   gl::set(program, "first", static_cast<int>(list.floor_corner));
   gl::set(program, "lines", floor_lines);
   Cover().draw(program);
-  return smooth;
+  return to_buffer(rows);
 }
 
 }  // namespace
@@ -45,6 +55,13 @@ void name_corner_fields() {
   field(0, 3, GL_FLOAT, offsetof(Corner, p));
   field(1, 3, GL_FLOAT, offsetof(Corner, n));
   field(2, 4, GL_UNSIGNED_BYTE, offsetof(Corner, color));
+}
+
+void read_light(const LoadedList& loaded, int place, unsigned light) {
+  glBindVertexArray(loaded.array);
+  glBindBuffer(GL_ARRAY_BUFFER, light);
+  glEnableVertexAttribArray(place);
+  glVertexAttribPointer(place, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
 void Cover::draw(unsigned program) const {
@@ -134,7 +151,7 @@ gl::Object gather(const Programs& programs, const DrawList& list, const LoadedLi
   }
   const gl::Object points = gl::make_texture(gl::Format::rgba32f, gathered_width, rows, p.data()),
                    normals = gl::make_texture(gl::Format::rgba32f, gathered_width, rows, n.data());
-  gl::Object gathered = gl::make_texture(gl::Format::rgba32f, gathered_width, rows);
+  const gl::Object gathered = gl::make_texture(gl::Format::rgba32f, gathered_width, rows);
   const gl::Object framebuffer = gl::make_framebuffer({gathered}, 0);
   const unsigned program = programs.gather;
   const Cover cover;
@@ -156,7 +173,7 @@ gl::Object gather(const Programs& programs, const DrawList& list, const LoadedLi
     cover.draw(program);
     glDisable(GL_BLEND);
   }
-  return smooth_floor(programs, list, std::move(gathered), rows);
+  return smooth_floor(programs, list, gathered, rows);
 }
 
 }  // namespace clench

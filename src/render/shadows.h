@@ -48,7 +48,10 @@ class Shadows {
   std::vector<float> radiance_, share_;
 };
 
-/// Light at each corner, as `surface_vertex` reads it: front and back, and how open each lies.
+/// The corners of a list read this buffer of light at a place of `surface_vertex`.
+void read_light(const LoadedList& loaded, int place, unsigned light);
+
+/// Light at each corner, a buffer of four numbers each: front and back, and how open each lies.
 /// throws Error when there are more corners than a texture holds
 /// throws Stopped
 gl::Object gather(const Programs& programs, const DrawList& list, const LoadedList& loaded,
