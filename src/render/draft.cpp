@@ -115,7 +115,7 @@ Draft::Draft(const Programs& programs, MeshStore& store, const Scene& scene, con
 void Draft::load(MeshStore& store, const Scene& scene) {
   for (const DrawMesh& mesh : scene.meshes) {
     if (!mesh.shape || mesh.opacity == 0) continue;
-    options_.progress.check();
+    options_.progress.tell(0.1, "drawing");
     const StoredMesh& stored = store.at(mesh);
     Placed placed{&stored, moved_by(mesh, stored, extent_), {}, mesh.background, 0};
     placed.color << mesh.color.cwiseMax(0.0f).cwiseMin(1.0f), mesh.opacity;
@@ -174,7 +174,7 @@ void Draft::cast() {
   clip.topLeftCorner<3, 3>() = map_axes_;
   clip.row(2) *= -1;
   const auto cast_one = [&](const Placed& placed) {
-    options_.progress.check();
+    options_.progress.tell(0.4, "drawing");
     draw_depth(placed, clip, placed.mesh->closed);
   };
   for (const Placed& placed : solid_)
@@ -305,7 +305,7 @@ void Draft::paint(const Tile& tile, Picture& out) {
   gl::set(programs_.draft, "glow", 0.0f);
   glDepthFunc(GL_LEQUAL);
   for (const Placed& placed : solid_) {
-    options_.progress.check();
+    options_.progress.tell(0.6, "drawing");
     draw(placed, programs_.draft, clip);
   }
   glDepthFunc(GL_LESS);
