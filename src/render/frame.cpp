@@ -305,7 +305,7 @@ Eye frame(const Scene& scene, double aspect, bool ortho) {
     const Eigen::Vector3d direction = turn * (k < around ? default_back : steeper_back);
     const double value =
         worth(sight, fit(some, direction, aspect, ortho), aspect) + (k == 0 ? 0.15 : 0) -
-                         0.4 * std::max(0.0, beside(sight, direction));
+                         0.5 * beside(sight, direction);
     if (value > most) best = direction, most = value;
   }
   Eye eye = fit(sight.framed, best, aspect, ortho);

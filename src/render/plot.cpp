@@ -163,7 +163,7 @@ struct Scale {
 };
 
 std::string tick_text(const Scale& scale, double value) {
-  if (scale.logarithmic) return fmt::format("{:.3g}", std::pow(10.0, value));
+  if (scale.logarithmic) return fmt::format("{:.4g}", std::pow(10.0, value));
   // as many digits as tell a line from the next
   const double largest = std::max(std::abs(scale.range[0]), std::abs(scale.range[1]));
   const double digits = std::ceil(std::log10(largest / scale.step)) + 1;

@@ -161,7 +161,7 @@ void main() {
   float fade = nothing ? 1 : smoothstep(0.5, 1.0, length(p) / reach);
   // a tenth of the light is missing all around, and is no shadow
   float shadow = clamp((1 - (place.w + direct) / open_light - 0.1) / 0.9, 0, 1);
-  vec4 alone = on_floor || nothing ? vec4(0, 0, 0, shadow * (1 - fade)) : vec4(light, 1);
+  vec4 alone = on_floor || nothing ? vec4(0, 0, 0, 0.75 * shadow * (1 - fade)) : vec4(light, 1);
   result = mix(vec4(mix(light, behind, fade), 1), alone, bare);
 }
 )";

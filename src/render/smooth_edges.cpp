@@ -61,7 +61,10 @@ Mix mix_at(const Brightness& b, int x, int y) {
     int steps = 1;
     for (; steps < reach_along; ++steps) {
       const int px = x + (level ? way * steps : 0), py = y + (level ? 0 : way * steps);
-      if (px < 1 || py < 1 || px >= b.width - 1 || py >= b.height - 1) break;
+      if (px < 1 || py < 1 || px >= b.width - 1 || py >= b.height - 1) {
+        steps = reach_along;  // nobody knows where it ends
+        break;
+      }
       off = 0.5f * static_cast<float>(b.at(px, py) + b.at(px + mix.dx, py + mix.dy)) - middle;
       if (std::abs(off) >= steep) break;
     }
@@ -70,10 +73,11 @@ Mix mix_at(const Brightness& b, int x, int y) {
     all += distance;
   }
   // only on that side of the step that the edge cuts
-  if ((end < 0) != (static_cast<float>(m) - middle < 0)) mix.part = 0.5f - nearest / all;
+  if (std::abs(end) >= steep && (end < 0) != (static_cast<float>(m) - middle < 0)) mix.part = 0.5f - nearest / all;
   const float around = static_cast<float>(2 * (n + s + e + w) + ne + nw + se + sw) / 12;
-  const float alone =
-      std::clamp(std::abs(around - static_cast<float>(m)) / static_cast<float>(range), 0.0f, 1.0f);
+  // a third beside a level edge, which is as it should be
+  const float unlike = std::abs(around - static_cast<float>(m)) / static_cast<float>(range);
+  const float alone = std::clamp((unlike - 0.35f) / 0.65f, 0.0f, 1.0f);
   const float spot = alone * alone * (3 - 2 * alone);
   mix.part = std::max(mix.part, max_spot * spot * spot);
   return mix;
