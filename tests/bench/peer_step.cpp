@@ -13,8 +13,9 @@ namespace {
 
 class FclEmbreeStep : public PeerStep {
  public:
-  FclEmbreeStep(World& world, const HandAndObject& who, const SearchSpace& space, uint64_t seed)
-      : world_(world),
+  FclEmbreeStep(World& world, const HandAndObject& who, const SearchSpace& space, uint64_t seed, PeerKind kind)
+      : tuned_(kind == PeerKind::tuned),
+        world_(world),
         who_(who),
         space_(space),
         random_(seed),
@@ -24,7 +25,6 @@ class FclEmbreeStep : public PeerStep {
         k_(schedule_.first_step) {
     const auto parts = world.bodies_of(who.hand);
     const auto is_part = [&](Id<Body> body) { return std::ranges::find(parts, body) != parts.end(); };
-    // the object first: what collided last is likely to collide again
     for (const auto part : parts)
       for (const auto other : world.bodies()) {
         const bool once = !is_part(other) || part < other;
@@ -53,7 +53,7 @@ class FclEmbreeStep : public PeerStep {
       if (sphere_gap(world_, pair.a, pair.b) > 0) continue;
       if (*pair.peer->collide(world_.pose(pair.a).inverse() * world_.pose(pair.b))) {
         // the pair that collided last is asked first
-        std::rotate(pairs_.begin(), pairs_.begin() + std::ptrdiff_t(i), pairs_.begin() + std::ptrdiff_t(i) + 1);
+        if (tuned_) std::rotate(pairs_.begin(), pairs_.begin() + std::ptrdiff_t(i), pairs_.begin() + std::ptrdiff_t(i) + 1);
         return false;
       }
     }
@@ -62,7 +62,7 @@ class FclEmbreeStep : public PeerStep {
 
   double value(double bound) {
     const Pose X_OW = world_.pose(who_.object).inverse();
-    const double enough = bound * sites_.size() + 1e-9 * sites_.size();
+    const double enough = !tuned_ ? infinite : bound * sites_.size() + 1e-9 * sites_.size();
     double sum = 0;
     for (int i = 0; i < sites_.size() && !(sum > enough); ++i) {
       const ContactSite& site = sites_.site(i);
@@ -106,6 +106,7 @@ class FclEmbreeStep : public PeerStep {
     return true;
   }
 
+  bool tuned_;
   World& world_;
   HandAndObject who_;
   SearchSpace space_;
@@ -121,13 +122,14 @@ class FclEmbreeStep : public PeerStep {
 
 }  // namespace
 
-std::unique_ptr<PeerStep> peer_step(World& world, const HandAndObject& who, const SearchSpace& space, uint64_t seed) {
-  return std::make_unique<FclEmbreeStep>(world, who, space, seed);
+std::unique_ptr<PeerStep> peer_step(World& world, const HandAndObject& who, const SearchSpace& space, uint64_t seed,
+                                    PeerKind kind) {
+  return std::make_unique<FclEmbreeStep>(world, who, space, seed, kind);
 }
 
 #else
 
-std::unique_ptr<PeerStep> peer_step(World&, const HandAndObject&, const SearchSpace&, uint64_t) { return nullptr; }
+std::unique_ptr<PeerStep> peer_step(World&, const HandAndObject&, const SearchSpace&, uint64_t, PeerKind) { return nullptr; }
 
 #endif
 

@@ -17,7 +17,12 @@ class PeerStep {
   virtual const Values& values() const = 0;
 };
 
+/// plain: every pair of bodies whose spheres meet, in creation order, up to the first that collides, and all sites.
+/// tuned: with what ours has besides faster queries: the pair that collided last first, and no more of the sum than is needed.
+enum class PeerKind { plain, tuned };
+
 /// null: this program was built without one of them
-std::unique_ptr<PeerStep> peer_step(World& world, const HandAndObject& who, const SearchSpace& space, uint64_t seed);
+std::unique_ptr<PeerStep> peer_step(World& world, const HandAndObject& who, const SearchSpace& space, uint64_t seed,
+                                    PeerKind kind);
 
 }  // namespace clench::bench
