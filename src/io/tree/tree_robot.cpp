@@ -120,6 +120,7 @@ JointSpec RobotMaker::joint_spec(const TreeJoint& joint, const Pose& before) con
   spec.max = joint.max - offset;
   spec.viscous = joint.viscous;
   spec.coulomb = joint.coulomb;
+  spec.armature = joint.armature;
   spec.spring = joint.spring;
   spec.rest = joint.rest - offset;
   return spec;
@@ -188,6 +189,11 @@ RobotSpec RobotMaker::make() {
   const auto part = [&](int link) { return link == 0 ? -1 : now[link - 1]; };
   for (const auto& [a, b] : tree_.never_meet)
     robot_.collision_rules.pairs_off.push_back({part(a), part(b)});
+  for (ActuatorSpec actuator : tree_.actuators) {
+    if (const int joint = actuator.dof; joint >= 0)
+      actuator.dof = dof_of_[tree_.joints[joint].leader < 0 ? joint : tree_.joints[joint].leader];
+    robot_.actuators.push_back(std::move(actuator));
+  }
   close_hand();
   check_read_robot(robot_, file_, library_.options());
   return std::move(robot_);

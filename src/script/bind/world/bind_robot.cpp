@@ -47,6 +47,9 @@ static void push_joint(lua_State* L, const RobotHandle& robot, int joint) {
   const DofKind kind = robot->dofs[spec.dof].kind;
   set_field(L, "broken_away", left && kind == DofKind::breakaway);
   set_field(L, "spring_deflection", spec.ratio * robot.world->dofs(robot.id)[spec.dof] - q);
+  if (spec.viscous > 0) set_field(L, "damping", spec.viscous);
+  if (spec.coulomb > 0) set_field(L, "friction", spec.coulomb);
+  if (spec.armature > 0) set_field(L, "armature", spec.armature);
   if (spec.spring > 0) set_field(L, "spring", spec.spring), set_field(L, "rest", spec.rest);
 }
 
