@@ -325,7 +325,7 @@ function dofs:open(options) end
 ---@field name string # Unique in its world.
 ---@field pose pose # Where its base is, in the world frame. Setting it moves the robot at once, with all that it carries; see move_to.
 ---@field links body[] # Its links, chain by chain, without the base.
----@field chains table[] # Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, of joints that have one).
+---@field chains table[] # Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, damping [N m s/rad or N s/m], friction [N m or N] and armature [kg m^2 or kg], of joints that have them).
 ---@field base body # Its base: palm or stand.
 ---@field bodies body[] # Base, links, and mount if it has one.
 ---@field approach {point: vec3, direction: vec3, frame: pose} # How it approaches what it grasps, in the world frame: `point` that goes there, on the palm or where it would hold a small object, `direction`, `frame` with +z along it. From its file, or a guess, which `clench check` tells.

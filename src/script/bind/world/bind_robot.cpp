@@ -196,7 +196,8 @@ Its links, chain by chain, without the base.
 Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link
 where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max,
 value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N
-m/rad or N/m] and rest, the value where it is slack, of joints that have one).
+m/rad or N/m] and rest, the value where it is slack, damping [N m s/rad or N s/m], friction [N m or N] and armature [kg
+m^2 or kg], of joints that have them).
 @type table[]
 > #hand.chains  --> 4
 > hand.chains[1].joints[1].kind  --> revolute)"},

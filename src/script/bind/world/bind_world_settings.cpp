@@ -158,7 +158,7 @@ Acceleration of everything that is free to fall, in the world frame: what weighs
 > world.gravity  --> (0, 0, -9.80665)
 > world.gravity = {0, 0, -1.62}
 > world.gravity.z  --> -1.62
-> world.gravity = {0, 0, 1e9}  --> error: gravity: expected a number from -1e+06 to 1e+06 [m/s^2], got 1e+09)",
+> world.gravity = {0, 0, 1e9}  --> error: gravity: expected a number from -1e+06 to 1e+06 [m/s^2])",
      guarded<set_gravity>},
     {"keyframes", guarded<get_keyframes>, R"(
 Names of its named states, those of its file first; `set_keyframe` goes there.
@@ -206,7 +206,7 @@ robot that is carried stays on its carrier.
 > hand:open()
 > world:set_keyframe "closed"
 > world:contacts(hand, flask)[1] ~= nil  --> true
-> world:set_keyframe "clsed"  --> error: no keyframe 'clsed' in this world, expected closed)"},
+> world:set_keyframe "clsed"  --> error: no keyframe 'clsed' in this world, expected one of closed)"},
 };
 
 const Class world_settings_class{.name = "world_settings",
