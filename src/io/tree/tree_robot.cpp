@@ -17,8 +17,9 @@ namespace {
 
 class RobotMaker {
  public:
-  RobotMaker(TreeModel tree, const std::string& file, const Library& library)
-      : tree_(std::move(tree)), file_(file), library_(library) {}
+  RobotMaker(TreeModel tree, const std::string& file, const Library& library,
+             const std::function<void(RobotSpec&)>& known)
+      : tree_(std::move(tree)), file_(file), library_(library), known_(known) {}
   RobotSpec make();
 
  private:
@@ -28,10 +29,12 @@ class RobotMaker {
   JointSpec joint_spec(const TreeJoint& joint, const Pose& before) const;
   void close_hand();
   void tell_closing();
+  void tell_approach();
 
   TreeModel tree_;
   const std::string& file_;
   const Library& library_;
+  const std::function<void(RobotSpec&)>& known_;
   RobotSpec robot_;
   std::vector<int> dof_of_;    // one per joint: of the leader; -1 for followers
   std::vector<bool> passive_;  // one per DOF
@@ -156,6 +159,10 @@ void RobotMaker::tell_closing() {
                         "'close' says otherwise",
                         file_, name_list(closing))
           : fmt::format("{}: no DOF is found to close it; the option 'close' names some", file_));
+  tell_approach();
+}
+
+void RobotMaker::tell_approach() {
   if (!robot_.X_BA || library_.options().approach) return;
   const Eigen::Vector3d z = robot_.X_BA->rotation * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d& p = robot_.X_BA->position;
@@ -167,6 +174,14 @@ void RobotMaker::tell_closing() {
 }
 
 void RobotMaker::close_hand() {
+  if (known_) {
+    known_(robot_);
+    choose_closing(robot_, file_, library_.options());
+    if (robot_.X_BA) return;
+    robot_.X_BA = guess_approach(robot_);
+    tell_approach();
+    return;
+  }
   const auto senses = guess_closing(robot_, passive_);
   for (size_t d = 0; d < senses.size(); ++d) set_closing(robot_, static_cast<int>(d), senses[d]);
   choose_closing(robot_, file_, library_.options());
@@ -201,8 +216,9 @@ RobotSpec RobotMaker::make() {
 
 }  // namespace
 
-RobotSpec make_robot(TreeModel tree, const std::string& file, const Library& library) {
-  return RobotMaker(std::move(tree), file, library).make();
+RobotSpec make_robot(TreeModel tree, const std::string& file, const Library& library,
+                     const std::function<void(RobotSpec&)>& known) {
+  return RobotMaker(std::move(tree), file, library, known).make();
 }
 
 }  // namespace clench
