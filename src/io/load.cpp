@@ -58,6 +58,9 @@ void finish_robot(RobotSpec& robot, const fs::path& path, Library& library) {
   for (const LinkSpec& link : robot.links) parts.push_back(&link.body);
   tell_assumed(parts, path.filename().string(), options.listeners());
   if (!is_robot_tree(path)) choose_closing(robot, path.filename().string(), options);
+  if (!robot.X_BA && options.note)
+    options.note(path.filename().string() +
+                 ": no approach direction is given; it is the z axis of its base, from its origin");
   if (!options.folder.empty()) robot.files.folder = absolute_name(options.folder);
   for (const auto& [name, folder] : options.packages)
     robot.files.packages[name] = absolute_name(folder);

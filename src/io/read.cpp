@@ -91,14 +91,16 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
     WorldSpec world = world_of(found, library);
     std::set<std::string> told;  // of what stands there more than once, one
     std::vector<const BodySpec*> objects;
-    for (const PlacedBody& placed : world.bodies)
-      if (placed.role == Role::object && told.insert(placed.body.file).second) {
+    for (const PlacedBody& placed : world.bodies) {
+      const std::string& file = placed.body.file.empty() ? placed.body.name : placed.body.file;
+      if (placed.role == Role::object && told.insert(file).second) {
         objects.push_back(&placed.body);
         check_plausible_object(
             placed.body,
             fmt::format("{}: '{}'", found.filename().string(), excerpt(placed.body.name)),
             options.listeners());
       }
+    }
     tell_assumed(objects, found.filename().string(), options.listeners());
     world.source = path.generic_string();
     return world;

@@ -80,7 +80,7 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     body.appearance = visual.shape ? visual.appearance : collision.appearance;
     if (!same_surface(visual.shape, collision.shape)) body.appearance.visual = visual.shape;
     body.material = "plastic";
-    body.material_given = body.mass_given = true;  // or told here
+    body.material_given = body.mass_given = body.inertia_told = true;  // or told here
     if (visual.shape && !collision.shape) ghosts.push_back(body.name);
     if (pieces[i].has_inertial) continue;
     const bool seen = !body.shape;  // its pieces for pictures alone

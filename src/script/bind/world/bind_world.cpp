@@ -34,7 +34,10 @@ static int add_body(lua_State* L, BodyKind kind) {
   if (kind == BodyKind::object) {
     const std::string file = std::filesystem::path(spec.file).filename().string();
     check_plausible_object(spec, file.empty() ? subject(L) + ": mesh" : file, reading.listeners());
-    if (!file.empty()) tell_assumed(std::array{&spec}, file, reading.listeners());
+    Listeners told = reading.listeners();
+    // a script knows what it leaves open
+    if (file.empty()) told.note = {};
+    tell_assumed(std::array{&spec}, file.empty() ? subject(L) + ": mesh" : file, told);
   }
   const Pose pose = options.pose("pose", Pose{});
   const bool named = options.has("name");
