@@ -1086,4 +1086,17 @@ function clench.energy.reach(options) end
 ---@return energy
 function clench.energy.penetration(options) end
 
+---Work in many threads.
+---@class clench.parallel
+---@field cores integer # Threads that this machine runs at once.
+clench.parallel = {}
+
+---Calls a function for each item of a list, in many threads, each with a state of Lua and worlds of its own. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew.
+---@param task function|string # (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
+---@param items table # a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
+---@param options? {threads?: integer, shared?: any, each?: function} # threads: all cores by default; shared: what every state is given once; each(result, number): called here in the order of the items, as soon as they are done
+---@return table results # an item that failed gives {error = string}, and so does one that was not done when it was stopped
+---@return integer failed
+function clench.parallel.map(task, items, options) end
+
 return clench
