@@ -36,6 +36,7 @@ std::span<const Class* const> all_classes() {
       &plot_class,        &progress_class,
       &grasps_class,      &energy_class,
       &annealing_class,
+      &world_settings_class, &world_queries_class,
   };
   return classes;
 }
