@@ -12,3 +12,15 @@ test("a size that is none and an up along the view are refused by name", functio
   fails({eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, -3}}, "up not along the view")
   fails({up = {0, 0, 0}}, "up not along the view")
 end)
+
+test("options of figures are refused by name", function(t)
+  local world = clench.world()
+  local function fails(options, message) t.fails(function() clench.render(world, options) end, message) end
+  fails({quality = "draft", samples = 4}, "samples: only paper quality takes them, drafts have one")
+  fails({outline = 40}, "outline: expected 0 to 32 pixels, got 40")
+  fails({letters = -1}, "letters: expected 0 to 200 pixels, got -1")
+  fails({orthographic = "yes"}, "orthographic: expected true, false, or a height > 0 in metres")
+  fails({orthographic = -1}, "orthographic: expected true, false, or a height > 0 in metres")
+  fails({background = "black"}, "background")
+  fails({cones = "force"}, "cones: 'force' needs the option forces")
+end)
