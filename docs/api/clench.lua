@@ -85,14 +85,11 @@ function random:direction() end
 function random:rotation() end
 
 ---Bodies and robots, what may collide with what, friction. Lists are in creation order.
----@class world
+---@class world: world_queries
 ---@field bodies body[] # All bodies in creation order: objects, obstacles, robot bases, links, mounts.
 ---@field objects body[] # The bodies that can be grasped.
 ---@field obstacles body[] # The bodies that only stand in the way.
 ---@field robots robot[] # All robots in creation order.
----@field contact_threshold number # Surfaces closer than this touch; motion stops with a gap below it. [m]
----@field materials string[] # Names of the materials, the seven of the original first.
----@field camera {eye: vec3, target: vec3, up: vec3, field_of_view: number}? # The camera of its file, as `clench.render` takes it: `clench.render(world, world.camera)`. nil when the file has none. It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_distance` [m].
 ---@field source string # File that the world was loaded from; empty when it was made by a script.
 local world = {}
 
@@ -120,7 +117,7 @@ function world:add_obstacle(body, options) end
 
 ---Adds a robot from a file.
 ---@param path string # .cfg .xml .urdf .mjcf
----@param options? {pose?: pose, name?: string, root?: string, confine?: string, strict?: boolean, folder?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}} # folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; eigengrasps, virtual_contacts: files to read in place of those it names; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
+---@param options? {pose?: pose, name?: string, root?: string, confine?: string, strict?: boolean, body?: string, folder?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}} # body: of a scene of MuJoCo, the body that the robot's tree of joints begins with; folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; eigengrasps, virtual_contacts: files to read in place of those it names; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
 ---@return robot
 function world:add_robot(path, options) end
 
@@ -148,57 +145,6 @@ function world:save(path, options) end
 ---Fingerprint of the state: equal bits, equal text.
 ---@return string # 16 hexadecimal digits
 function world:hash() end
-
----What a ray meets first: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil when it meets nothing.
----@param origin vec3
----@param direction vec3 # of any length
----@param reach? number # how far it goes [m]; as far as there is something by default
----@return table?
-function world:raycast(origin, direction, reach) end
-
----Does anything collide that may, or one entity with anything? The fastest test: it ends at the first pair that is found.
----@param entity? body|robot
----@return boolean
-function world:collides(entity) end
-
----Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
----@param a? body|robot
----@param b? body|robot
----@return body[][] # pairs
-function world:colliding(a, b) end
-
----Least distance of two things, 0 when they collide, with the closest points in the world frame.
----@param a body|robot
----@param b body|robot
----@return number distance # [m]; infinite where one has no surface
----@return vec3 on_a
----@return vec3 on_b
-function world:distance(a, b) end
-
----Where surfaces touch: everywhere, on one entity, or of `a` on `b`.
----@param a? body|robot
----@param b? body|robot
----@return contact[] # on b; without arguments on the object of each pair
-function world:contacts(a, b) end
-
----Switches collision on or off: for the whole world, for one entity against everything, or for a pair.
----@param on boolean
----@param a? body|robot
----@param b? body|robot
-function world:set_collision(on, a, b) end
-
----Sets the Coulomb coefficients of a pair of materials; new names become materials.
----@param a string
----@param b string
----@param friction {static: number, kinetic?: number} # kinetic: static - 0.1 unless given
-function world:set_friction(a, b, friction) end
-
----The coefficients of a pair of materials.
----@param a string
----@param b string
----@return number static
----@return number kinetic
-function world:friction(a, b) end
 
 ---The state of a world at a moment; `world:restore` goes back to it.
 ---@class snapshot
@@ -283,6 +229,7 @@ function mesh:save(path) end
 ---@field tracker {number: integer, pose: pose}? # Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
 ---@field tendons {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[] # Tendons of its file, as they are there: they do not act yet. Points are in the frame of their link. [N/m, m]
 ---@field tendon_wrappers {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[] # Posts that tendons wrap around, each an endless cylinder; `exempt` names the tendons that pass it by, `sides` say on which side of it the others lie. They do not act yet.
+---@field actuators table[] # Actuators as an MJCF file describes them, kept for dynamics: `name`, `kind` ("motor", "position", "general"), `joint` or `tendon`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] + bias[2] * length + bias[3] * velocity. Nothing acts on them yet.
 ---@field tactile_sensors {link: body, low: vec3, high: vec3}[] # Boxes in which contacts count as one sensor's, by their `low` and `high` corners in the frame of their `link`. They do not act yet.
 local hand = {}
 
@@ -378,7 +325,7 @@ function dofs:open(options) end
 ---@field name string # Unique in its world.
 ---@field pose pose # Where its base is, in the world frame. Setting it moves the robot at once, with all that it carries; see move_to.
 ---@field links body[] # Its links, chain by chain, without the base.
----@field chains table[] # Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, of joints that have one).
+---@field chains table[] # Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value where it is slack, damping [N m s/rad or N s/m], friction [N m or N] and armature [kg m^2 or kg], of joints that have them).
 ---@field base body # Its base: palm or stand.
 ---@field bodies body[] # Base, links, and mount if it has one.
 ---@field approach {point: vec3, direction: vec3, frame: pose} # How it approaches what it grasps, in the world frame: `point` that goes there, on the palm or where it would hold a small object, `direction`, `frame` with +z along it. From its file, or a guess, which `clench check` tells.
@@ -740,6 +687,79 @@ function annealing:reset() end
 ---Empties the list of the best states; what is avoided stays so.
 function annealing:clear() end
 
+---What holds for all of a world: friction of materials, what may collide, gravity, its camera, its named states.
+---@class world_settings
+---@field contact_threshold number # Surfaces closer than this touch; motion stops with a gap below it. [m]
+---@field materials string[] # Names of the materials, the seven of the original first.
+---@field camera {eye: vec3, target: vec3, up: vec3, field_of_view: number}? # The camera of its file, as `clench.render` takes it: `clench.render(world, world.camera)`. nil when the file has none. It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_distance` [m].
+---@field gravity vec3 # Acceleration of everything that is free to fall, in the world frame: what weighs on joints and objects. [m/s^2]
+---@field keyframes string[] # Names of its named states, those of its file first; `set_keyframe` goes there.
+local world_settings = {}
+
+---Switches collision on or off: for the whole world, for one entity against everything, or for a pair.
+---@param on boolean
+---@param a? body|robot
+---@param b? body|robot
+function world_settings:set_collision(on, a, b) end
+
+---Sets the Coulomb coefficients of a pair of materials; new names become materials.
+---@param a string
+---@param b string
+---@param friction {static: number, kinetic?: number} # kinetic: static - 0.1 unless given
+function world_settings:set_friction(a, b, friction) end
+
+---The coefficients of a pair of materials.
+---@param a string
+---@param b string
+---@return number static
+---@return number kinetic
+function world_settings:friction(a, b) end
+
+---Gives a name to a state: to that of now, or to one that a list tells. A keyframe of the same name gives way.
+---@param name string
+---@param states? table[] # {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[]}; what is not listed stays where it is
+function world_settings:add_keyframe(name, states) end
+
+---Moves everything that a keyframe names to where it says, whatever is in the way. What was removed since stays out, and a robot that is carried stays on its carrier.
+---@param name string
+function world_settings:set_keyframe(name) end
+
+---What every world answers: what collides, how far things are apart, where they touch, what a ray meets.
+---@class world_queries: world_settings
+local world_queries = {}
+
+---What a ray meets first: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil when it meets nothing.
+---@param origin vec3
+---@param direction vec3 # of any length
+---@param reach? number # how far it goes [m]; as far as there is something by default
+---@return table?
+function world_queries:raycast(origin, direction, reach) end
+
+---Does anything collide that may, or one entity with anything? The fastest test: it ends at the first pair that is found.
+---@param entity? body|robot
+---@return boolean
+function world_queries:collides(entity) end
+
+---Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
+---@param a? body|robot
+---@param b? body|robot
+---@return body[][] # pairs
+function world_queries:colliding(a, b) end
+
+---Least distance of two things, 0 when they collide, with the closest points in the world frame.
+---@param a body|robot
+---@param b body|robot
+---@return number distance # [m]; infinite where one has no surface
+---@return vec3 on_a
+---@return vec3 on_b
+function world_queries:distance(a, b) end
+
+---Where surfaces touch: everywhere, on one entity, or of `a` on `b`.
+---@param a? body|robot
+---@param b? body|robot
+---@return contact[] # on b; without arguments on the object of each pair
+function world_queries:contacts(a, b) end
+
 ---Closes robot hands on objects and judges the grasps. Lengths are metres, angles radians, masses kilograms, forces newtons; poses and vectors are in the world frame unless a text says otherwise.
 ---@class clench
 ---@field version string # Version of the engine, major.minor.patch.
@@ -815,9 +835,9 @@ function clench.entries() end
 ---@return world
 function clench.world(options) end
 
----A world from a file. Names in it are looked up beside the file, then below the root. A .lua file is run, with a table that holds the root and with the folder of the file as its arguments, and returns a world. With `confine`, here and wherever files are read, nothing is read that does not lie below that folder, links followed, and no .lua file is run.
----@param path string # .wld, .xml or .lua
----@param options? {root?: string, confine?: string, strict?: boolean} # strict: what would be warned of is an error
+---A world from a file. Names in it are looked up beside the file, then below the root. A .lua file is run, with a table that holds the root and with the folder of the file as its arguments, and returns a world. With `confine`, here and wherever files are read, nothing is read that does not lie below that folder, links followed, and no .lua file is run. A scene of MuJoCo becomes one, too: every tree of joints a robot, free bodies objects, what is fixed obstacles. From the file of a robot or a body comes a world with that one thing in it.
+---@param path string # .wld, .xml, .lua or .mjcf; or any file of a robot or a body
+---@param options? {root?: string, confine?: string, strict?: boolean, keyframe?: string, folder?: string, package?: string|table, unit?: string, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: table} # strict: what would be warned of is an error; keyframe: the named state to begin with; the rest as add_robot and add_object have it, for a file of one robot or body
 ---@return world
 function clench.load(path, options) end
 
@@ -1067,5 +1087,18 @@ function clench.energy.reach(options) end
 ---@param options {hand: robot, points?: integer} # 64 on each body
 ---@return energy
 function clench.energy.penetration(options) end
+
+---Work in many threads.
+---@class clench.parallel
+---@field cores integer # Threads that this machine runs at once.
+clench.parallel = {}
+
+---Calls a function for each item of a list, in many threads, each with a state of Lua and worlds of its own. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew.
+---@param task function|string # (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
+---@param items table # a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
+---@param options? {threads?: integer, shared?: any, each?: function} # threads: all cores by default; shared: what every state is given once; each(result, number): called here in the order of the items, as soon as they are done
+---@return table results # an item that failed gives {error = string}, and so does one that was not done when it was stopped
+---@return integer failed
+function clench.parallel.map(task, items, options) end
 
 return clench

@@ -50,18 +50,7 @@ static BodySpec load_body(const fs::path& path, Library& library) {
   return body;
 }
 
-static RobotSpec load_robot(const fs::path& path, Library& library) {
-  const std::string extension = ending_of(path);
-  RobotSpec robot;
-  if (extension == ".cfg")
-    robot = read_robot_cfg(path, library);
-  else if (is_robot_tree(path))
-    robot = read_robot_tree(path, library);
-  else if (extension == ".xml")
-    robot = read_robot_xml(path, library);
-  else
-    fail("{}: expected a robot from .cfg, .xml, .urdf or .mjcf, got {}", path.filename().string(),
-         in_quotes(extension));
+void finish_robot(RobotSpec& robot, const fs::path& path, Library& library) {
   robot.file = absolute_name(path);
   const ReadOptions& options = library.options();
   check_plausible(robot, path.filename().string(), options.listeners());
@@ -69,9 +58,29 @@ static RobotSpec load_robot(const fs::path& path, Library& library) {
   for (const LinkSpec& link : robot.links) parts.push_back(&link.body);
   tell_assumed(parts, path.filename().string(), options.listeners());
   if (!is_robot_tree(path)) choose_closing(robot, path.filename().string(), options);
+  if (!robot.X_BA && options.note)
+    options.note(path.filename().string() +
+                 ": no approach direction is given; it is the z axis of its base, from its origin");
   if (!options.folder.empty()) robot.files.folder = absolute_name(options.folder);
   for (const auto& [name, folder] : options.packages)
     robot.files.packages[name] = absolute_name(folder);
+}
+
+static RobotSpec load_robot(const fs::path& path, const std::string& body, Library& library) {
+  const std::string extension = ending_of(path);
+  RobotSpec robot;
+  if (!body.empty() && !is_scene(path))
+    fail("{}: body: expected a scene of MJCF, got another file", path.filename().string());
+  if (extension == ".cfg")
+    robot = read_robot_cfg(path, library);
+  else if (is_robot_tree(path))
+    robot = read_robot_tree(path, body, library);
+  else if (extension == ".xml")
+    robot = read_robot_xml(path, library);
+  else
+    fail("{}: expected a robot from .cfg, .xml, .urdf or .mjcf, got {}", path.filename().string(),
+         in_quotes(extension));
+  finish_robot(robot, path, library);
   return robot;
 }
 

@@ -7,4 +7,7 @@ namespace clench {
 /// What a Library reads files with: all formats.
 extern const Loaders all_formats;
 
+/// What every robot is given, and told of, that was read from a file, wherever it stands.
+void finish_robot(RobotSpec& robot, const std::filesystem::path& path, Library& library);
+
 }  // namespace clench

@@ -10,7 +10,9 @@
 #include "clench/io/graspit/world_wld.h"
 #include "clench/io/graspit/world_xml.h"
 #include "clench/io/load.h"
+#include "clench/io/mjcf/mjcf.h"
 #include "clench/io/text/file_errors.h"
+#include "clench/io/text/file_kind.h"
 #include "clench/io/tree_files.h"
 #include "clench/spec/assumed.h"
 #include "clench/spec/plausibility.h"
@@ -38,11 +40,47 @@ BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options
 RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
   return of_file([&] {
-    RobotSpec robot = Library(options, all_formats).robot(find_file(path.string(), "", options));
+    RobotSpec robot = Library(options, all_formats).robot(find_file(path.string(), "", options), options.body);
     robot.source = path.generic_string();
     read_chosen_files(robot, options);
     return robot;
   });
+}
+
+/// A world with one thing in it.
+static WorldSpec around(RobotSpec robot) {
+  WorldSpec world;
+  world.robots.push_back({std::move(robot), {}, {}, {}});
+  world.order.push_back({WorldEntry::Kind::robot, 0});
+  return world;
+}
+
+static WorldSpec around(BodySpec body) {
+  WorldSpec world;
+  world.bodies.push_back({std::move(body), Role::object, {}});
+  world.order.push_back({WorldEntry::Kind::body, 0});
+  return world;
+}
+
+static WorldSpec world_of(const std::filesystem::path& path, Library& library) {
+  const FileKind kind = file_kind(path);
+  if (kind == FileKind::robot && is_scene(path)) {
+    WorldSpec world = read_world_mjcf(path, library);
+    for (PlacedRobot& placed : world.robots) finish_robot(placed.robot, path, library);
+    return world;
+  }
+  if (kind == FileKind::robot) {
+    RobotSpec robot = library.robot(path);
+    read_chosen_files(robot, library.options());
+    return around(std::move(robot));
+  }
+  if (kind == FileKind::body) return around(library.body(path));
+  if (kind != FileKind::world)
+    fail("{}: expected a world, a robot or a body, got {}", path.filename().string(),
+         kind_name(kind));
+  if (ending_of(path) == ".lua")
+    fail("{}: expected a world, a robot or a body, got a script", path.filename().string());
+  return ending_of(path) == ".wld" ? read_world_wld(path, library) : read_world_xml(path, library);
 }
 
 WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& options) {
@@ -50,28 +88,19 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
   return of_file([&] {
     Library library(options, all_formats);
     const auto found = find_file(path.string(), "", options);
-    const std::string extension = lower_case(found.extension().string());
-    WorldSpec world;
-    if (is_robot_tree(found))
-      fail("{}: expected a world, got a robot; world:add_robot loads it",
-           found.filename().string());
-    if (extension == ".wld")
-      world = read_world_wld(found, library);
-    else if (extension == ".xml")
-      world = read_world_xml(found, library);
-    else
-      fail("{}: expected a world from .wld or .xml, got {}", found.filename().string(),
-           in_quotes(extension));
+    WorldSpec world = world_of(found, library);
     std::set<std::string> told;  // of what stands there more than once, one
     std::vector<const BodySpec*> objects;
-    for (const PlacedBody& placed : world.bodies)
-      if (placed.role == Role::object && told.insert(placed.body.file).second) {
+    for (const PlacedBody& placed : world.bodies) {
+      const std::string& file = placed.body.file.empty() ? placed.body.name : placed.body.file;
+      if (placed.role == Role::object && told.insert(file).second) {
         objects.push_back(&placed.body);
         check_plausible_object(
             placed.body,
             fmt::format("{}: '{}'", found.filename().string(), excerpt(placed.body.name)),
             options.listeners());
       }
+    }
     tell_assumed(objects, found.filename().string(), options.listeners());
     world.source = path.generic_string();
     return world;

@@ -12,7 +12,7 @@ BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options
 /// A robot from .cfg or .xml of GraspIt!, .urdf, .mjcf, or .xml that holds one of these.
 RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// A world from .wld or .xml.
+/// A world from .wld, .xml or a scene of MJCF; with one thing in it from the file of a robot or a body.
 WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace clench

@@ -68,6 +68,11 @@ std::string SavedFiles::name(const std::string& file) const {
   return file;
 }
 
+std::string SavedFiles::name(const RobotSpec& robot) const {
+  const std::string& body = robot.files.body;
+  return name(robot.file) + (body.empty() ? "" : "#" + body);
+}
+
 // --- what files hold ---
 
 void SavedFiles::check_within(const std::string& file) const {
@@ -100,12 +105,13 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
   try {
     check_within(robot.file);
     if (robot.files.folder.empty() && robot.files.packages.empty()) {
-      read = &library_.robot(robot.file);
+      read = &library_.robot(robot.file, robot.files.body);
     } else {
       ReadOptions options = reading_;
       options.folder = robot.files.folder;
       options.packages.insert(robot.files.packages.begin(), robot.files.packages.end());
-      read = &(given_[robot.name] = Library(options, all_formats).robot(robot.file));
+      read = &(given_[robot.name] = Library(options, all_formats)
+                                       .robot(robot.file, robot.files.body));
     }
   } catch (const Error& error) {
     fail(error.kind(), "robot '{}' cannot be saved: {}", excerpt(robot.name), error.what());

@@ -17,6 +17,8 @@ class SavedFiles {
 
   /// A file as the world names it. Reading it with the same root finds that very file.
   std::string name(const std::string& file) const;
+  /// The same of a robot's file; of one of a scene's, "scene.xml#arm".
+  std::string name(const RobotSpec& robot) const;
   /// The file from the root on, when it lies below that; else empty.
   std::string below_root(const std::string& file) const;
   const std::filesystem::path& root() const { return root_; }      ///< absolute, or empty

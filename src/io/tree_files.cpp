@@ -17,11 +17,18 @@ bool is_robot_tree(const fs::path& path) {
   return xml_root_name(text) == "mujoco" || looks_like_urdf(text);
 }
 
-RobotSpec read_robot_tree(const fs::path& path, Library& library) {
+bool is_scene(const fs::path& path) {
+  const std::string extension = lower_case(path.extension().string());
+  return (extension == ".xml" || extension == ".mjcf" || extension == ".urdf") &&
+         xml_root_name(read_text(path)) == "mujoco";
+}
+
+RobotSpec read_robot_tree(const fs::path& path, const std::string& body, Library& library) {
   const std::string file = path.filename().string();
   if (lower_case(path.extension().string()) == ".xacro")
     fail("{}: xacro is no robot yet; expand it first: xacro {} > robot.urdf", file, file);
   const std::string text = read_text(path);
+  if (!body.empty()) return read_robot_mjcf(path, body, library);
   if (xml_root_name(text) == "mujoco") return read_robot_mjcf(path, library);
   return read_robot_urdf(path, library);
 }

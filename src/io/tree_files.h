@@ -10,6 +10,11 @@ namespace clench {
 bool is_robot_tree(const std::filesystem::path& path);
 
 /// throws Error naming the line, or saying that xacro must be expanded first
-RobotSpec read_robot_tree(const std::filesystem::path& path, Library& library);
+/// body  of a scene: the body that the robot begins with; empty: the file's robot
+RobotSpec read_robot_tree(const std::filesystem::path& path, const std::string& body,
+                          Library& library);
+
+/// Is it MJCF?
+bool is_scene(const std::filesystem::path& path);
 
 }  // namespace clench

@@ -128,6 +128,7 @@ class LuaWriter {
   std::string choices_of(const RobotSpec& now, const RobotSpec& was);
   void switch_collision();
   void add_camera();
+  void add_keyframes();
   std::string file(const std::string& path);
   std::string root_option() const { return files_.root().empty() ? "" : ", root = root"; }
   void line(const std::string& text) { out_ += text + "\n"; }
@@ -162,6 +163,7 @@ void LuaWriter::begin() {
   line(world_.contact_threshold ? "local world = clench.world {contact_threshold = " +
                                       number(*world_.contact_threshold) + "}"
                                 : "local world = clench.world()");
+  if (world_.gravity) line("world.gravity = " + list(*world_.gravity));
   for (const FrictionSpec& f : world_.friction)
     line(fmt::format("world:set_friction({}, {}, {{static = {}, kinetic = {}}})", as_lua(f.a),
                      as_lua(f.b), number(f.statics), number(f.kinetic)));
@@ -180,6 +182,9 @@ void LuaWriter::add_body(const PlacedBody& placed) {
     made = mesh_table(body.shape->mesh());
   else
     made = file(files_.write_body(body).generic_string());
+  if (!read && body.appearance.visual)
+    files_.warn(fmt::format("the surface that pictures show of '{}' is not saved",
+                            excerpt(body.name)));
   if (!read && !body.appearance.triangle_colors.empty())
     files_.warn(
         fmt::format("the colours of the triangles of '{}' are not saved", excerpt(body.name)));
@@ -294,6 +299,7 @@ std::string LuaWriter::sets_of(const RobotSpec& now, const RobotSpec& was) {
 /// What its reading was given, and what was chosen of how it closes and approaches.
 std::string LuaWriter::choices_of(const RobotSpec& now, const RobotSpec& was) {
   std::string out, list;
+  if (!now.files.body.empty()) out += ", body = " + as_lua(now.files.body);
   if (!now.files.folder.empty()) out += ", folder = " + file(now.files.folder);
   for (const auto& [name, folder] : now.files.packages)
     list += fmt::format("[{}] = {}, ", as_lua(name), file(folder));
@@ -382,6 +388,20 @@ void LuaWriter::add_camera() {
                    number(world_.camera->focal_distance)));
 }
 
+void LuaWriter::add_keyframes() {
+  for (const KeyframeSpec& keyframe : world_.keyframes) {
+    line(fmt::format("world:add_keyframe({}, {{", as_lua(keyframe.name)));
+    for (const auto& placed : keyframe.bodies)
+      line(fmt::format("  {{body = world:body({}), pose = {}}},",
+                       as_lua(world_.bodies[placed.body].body.name), pose(placed.X_WB)));
+    for (const auto& placed : keyframe.robots)
+      line(fmt::format("  {{robot = robots[{}], {}dofs = {}}},", placed.robot + 1,
+                       placed.X_WB ? "pose = " + pose(*placed.X_WB) + ", " : "",
+                       list(placed.dofs)));
+    line("})");
+  }
+}
+
 std::string LuaWriter::write() {
   begin();
   std::vector<bool> connected(world_.connections.size());
@@ -399,6 +419,7 @@ std::string LuaWriter::write() {
     if (!connected[i]) add_connection(world_.connections[i]);
   switch_collision();
   add_camera();
+  add_keyframes();
   line("return world");
   return std::move(out_);
 }

@@ -6,10 +6,12 @@
 #include "clench/io/read.h"
 #include "clench/io/text/find_file.h"
 #include "clench/io/text/xml.h"
+#include "clench/io/urdf_clench_text.h"
 #include "clench/io/urdf_losses.h"
 #include "clench/io/urdf_plan.h"
 #include "clench/io/write_robot.h"
 #include "clench/spec/check_robot.h"
+#include "clench/spec/plausibility.h"
 
 namespace clench {
 
@@ -37,7 +39,6 @@ class UrdfText {
   UrdfText(const RobotSpec& robot, RobotFolder& folder)
       : robot_(robot), folder_(folder), plan_(plan_urdf(robot)) {}
   std::string text();
-  void write_beside(const std::string& text);
 
  private:
   void add(const std::string& indent, const std::string& line) { out_ += indent + line + "\n"; }
@@ -53,11 +54,12 @@ class UrdfText {
   void beside_eigengrasps();
   void beside_glove();
   void beside_contacts(const std::string& text);
-  void tell_beside(const char* what, const char* option, const std::string& name) const;
+  void tell_moved_frames() const;
 
   const RobotSpec& robot_;
   RobotFolder& folder_;
   const UrdfPlan plan_;
+  UrdfBeside beside_;
   std::string out_;
   std::vector<std::string> colors_;  // of materials, by number
 };
@@ -162,7 +164,12 @@ std::string UrdfText::text() {
   add("", fmt::format("<robot name=\"{}\">", xml_escaped(plan_.name)));
   for (const UrdfLink& link : plan_.links) add_link(link);
   for (const UrdfJoint& joint : plan_.joints) add_joint(joint);
+  beside_eigengrasps();
+  beside_glove();
+  beside_contacts(out_ + "</robot>\n");
+  out_ += clench_element(robot_, plan_, beside_);
   add("", "</robot>");
+  tell_moved_frames();
   for (const std::string& sentence : plan_.renamed) folder_.warn(folder_.file() + ": " + sentence);
   for (const UrdfLink& link : plan_.links)
     if (!link.body)
@@ -178,9 +185,15 @@ std::string UrdfText::text() {
 
 // --- what stands beside ---
 
-void UrdfText::tell_beside(const char* what, const char* option, const std::string& name) const {
-  folder_.warn(fmt::format("{} names no {}; they stand beside it: read it with {} = \"{}\"",
-                           folder_.file(), what, option, name));
+/// A URDF has its links' frames on the axes of their joints.
+void UrdfText::tell_moved_frames() const {
+  std::vector<std::string> moved;
+  for (const UrdfLink& link : plan_.links)
+    if (link.body && !(link.X_UB == Pose{})) moved.push_back(link.name);
+  if (!moved.empty())
+    folder_.warn(fmt::format("{}: the frames of these links are others in it, on the axes of their "
+                             "joints: {}",
+                             folder_.file(), some_names(moved)));
 }
 
 bool UrdfText::has_all_dofs(const char* what) const {
@@ -201,7 +214,7 @@ void UrdfText::beside_eigengrasps() {
     (*set.norm)[d] *= scale_of(d);
     if (set.origin) (*set.origin)[d] *= scale_of(d);
   }
-  tell_beside("eigengrasps", "eigengrasps", folder_.eigengrasps(set));
+  beside_.eigengrasps = folder_.eigengrasps(set);
 }
 
 void UrdfText::beside_glove() {
@@ -211,8 +224,7 @@ void UrdfText::beside_glove() {
     glove.slopes.row(d) *= scale_of(d);
     glove.intercepts[d] *= scale_of(d);
   }
-  folder_.warn(fmt::format("{} names no calibration of a glove; it stands beside it in {}",
-                           folder_.file(), folder_.glove(glove)));
+  beside_.glove = folder_.glove(glove);
 }
 
 /// Chains and links have the numbers that a reader of the file gives them: they are looked up by
@@ -235,13 +247,7 @@ void UrdfText::beside_contacts(const std::string& text) {
     if (!(link.X_UB == Pose{})) contact.X_LC = link.X_UB * contact.X_LC;
   }
   const auto set = contact_set(robot_.name, chains_of(read), std::move(contacts));
-  tell_beside("virtual contacts", "virtual_contacts", folder_.virtual_contacts(set));
-}
-
-void UrdfText::write_beside(const std::string& text) {
-  beside_eigengrasps();
-  beside_glove();
-  beside_contacts(text);
+  beside_.virtual_contacts = folder_.virtual_contacts(set);
 }
 
 /// Products of numbers that are in order may not be.
@@ -267,7 +273,6 @@ void write_robot(const RobotSpec& robot, const fs::path& path, const WriteOption
   RobotFolder folder(path, options);
   UrdfText urdf(robot, folder);
   const std::string text = urdf.text();
-  urdf.write_beside(text);
   report_losses(robot, folder);
   folder.write(text);
 }

@@ -32,7 +32,7 @@ static std::string body_block(const PlacedBody& placed, SavedFiles& files) {
 static std::string robot_block(const PlacedRobot& placed, SavedFiles& files) {
   files.again(placed.robot);
   files.warn_of_folders(placed.robot);
-  return "Robot\n" + in_a_line(files.name(placed.robot.file)) + dof_values(placed) + "\nT " +
+  return "Robot\n" + in_a_line(files.name(placed.robot)) + dof_values(placed) + "\nT " +
          full_transform(placed.X_WB) + "\n\n";
 }
 

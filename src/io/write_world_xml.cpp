@@ -25,7 +25,7 @@ static std::string body_element(const PlacedBody& placed, SavedFiles& files) {
 static std::string robot_element(const PlacedRobot& placed, SavedFiles& files) {
   files.again(placed.robot);
   files.warn_of_folders(placed.robot);
-  return "  <robot>\n" + element("filename", files.name(placed.robot.file)) +
+  return "  <robot>\n" + element("filename", files.name(placed.robot)) +
          element("dofValues", dof_values(placed)) + transform_element(placed.X_WB) + "  </robot>\n";
 }
 

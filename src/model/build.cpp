@@ -118,6 +118,7 @@ class Builder {
   Builder(const WorldSpec& spec, const Listeners& listeners)
       : spec_(spec),
         listeners_(listeners),
+        bodies_(spec.bodies.size()),
         robots_(spec.robots.size()),
         connected_(spec.connections.size()) {}
   World build();
@@ -125,12 +126,16 @@ class Builder {
  private:
   void add_robot(int index);
   void add_connection(int index);
+  void set_larger_friction(const std::string& material);
   void switch_collision();
+  void add_keyframe(const KeyframeSpec& spec);
   Id<Body> named(const std::string& name) const;
+  Id<Body> part(const PartRef& ref) const;
 
   const WorldSpec& spec_;
   const Listeners& listeners_;
   World world_;
+  std::vector<Id<Body>> bodies_;
   std::vector<Id<Robot>> robots_;
   std::vector<bool> connected_;
 };
@@ -170,16 +175,44 @@ void Builder::switch_collision() {
   world_.set_collision(spec_.collision->on);
 }
 
+Id<Body> Builder::part(const PartRef& ref) const {
+  return ref.kind == WorldEntry::Kind::body ? bodies_.at(ref.index)
+                                            : world_.robot(robots_.at(ref.index)).body_of(ref.link);
+}
+
+void Builder::add_keyframe(const KeyframeSpec& spec) {
+  Keyframe keyframe{spec.name, {}, {}};
+  for (const auto& placed : spec.bodies)
+    keyframe.bodies.push_back({bodies_.at(placed.body), placed.X_WB});
+  for (const auto& placed : spec.robots)
+    keyframe.robots.push_back({robots_.at(placed.robot), placed.X_WB, placed.dofs});
+  world_.add_keyframe(std::move(keyframe));
+}
+
+void Builder::set_larger_friction(const std::string& material) {
+  const MaterialTable standard;
+  const int own = world_.materials().index(material);
+  const Friction f = world_.materials().friction(own, own);
+  for (const std::string& other : standard.names()) {
+    const int i = standard.index(other);
+    const Friction g = standard.friction(i, i);
+    if (g.statics > 0)
+      world_.set_friction(material, other,
+                          {std::max(f.statics, g.statics), std::max(f.kinetic, g.kinetic)});
+  }
+}
+
 World Builder::build() {
   if (spec_.contact_threshold) world_.set_contact_threshold(*spec_.contact_threshold);
   for (const FrictionSpec& f : spec_.friction)
     world_.set_friction(f.a, f.b, {f.statics, f.kinetic});
+  for (const std::string& name : spec_.larger_friction) set_larger_friction(name);
   for (const WorldEntry& entry : spec_.order) {
     if (entry.kind == WorldEntry::Kind::body) {
       const PlacedBody& placed = spec_.bodies[entry.index];
-      world_.add_body(placed.body,
-                      placed.role == Role::object ? BodyKind::object : BodyKind::obstacle,
-                      placed.X_WB);
+      bodies_[entry.index] = world_.add_body(
+          placed.body, placed.role == Role::object ? BodyKind::object : BodyKind::obstacle,
+          placed.X_WB);
     } else if (entry.kind == WorldEntry::Kind::robot) {
       add_robot(entry.index);
     } else {
@@ -189,6 +222,9 @@ World Builder::build() {
   for (size_t i = 0; i < connected_.size(); ++i)
     if (!connected_[i]) add_connection(static_cast<int>(i));
   if (spec_.collision) switch_collision();
+  for (const auto& [a, b] : spec_.never_meet) world_.set_collision(false, part(a), part(b));
+  if (spec_.gravity) world_.set_gravity(*spec_.gravity);
+  for (const KeyframeSpec& keyframe : spec_.keyframes) add_keyframe(keyframe);
   world_.set_camera(spec_.camera);
   world_.set_source(spec_.source);
   return std::move(world_);

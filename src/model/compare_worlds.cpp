@@ -188,6 +188,9 @@ void Comparer::switches() {
       bodies_off(a_, a_bodies_) != bodies_off(b_, b_bodies_))
     add("which bodies may collide");
   if (!same(a_.contact_threshold(), b_.contact_threshold())) add("the contact threshold");
+  if (a_.gravity() != b_.gravity()) add("gravity");
+  const auto names = [](const Keyframe& keyframe) { return keyframe.name; };
+  if (!std::ranges::equal(a_.keyframes(), b_.keyframes(), {}, names, names)) add("the keyframes");
 }
 
 std::vector<std::string> Comparer::compare() {

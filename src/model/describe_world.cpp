@@ -1,6 +1,7 @@
 #include "clench/model/describe_world.h"
 
 #include <algorithm>
+#include <map>
 
 namespace clench {
 
@@ -21,9 +22,11 @@ class Describer {
   void add_connection(Id<Robot> child);
   void add_friction();
   void add_collision();
+  void add_keyframes();
 
   const World& world_;
   WorldSpec out_;
+  std::map<Id<Body>, int> body_numbers_;  // in out_.bodies
 };
 
 BodySpec Describer::body(Id<Body> id) const {
@@ -69,6 +72,7 @@ RobotSpec Describer::robot(const Robot& r) const {
     out.tactile = r.passive->tactile;
     out.tendons = r.passive->tendons;
     out.wrappers = r.passive->wrappers;
+    out.actuators = r.passive->actuators;
   }
   return out;
 }
@@ -115,6 +119,7 @@ void Describer::add_body(Id<Body> id) {
   if (b.kind == BodyKind::object || b.kind == BodyKind::obstacle) {
     out_.order.push_back({WorldEntry::Kind::body, static_cast<int>(out_.bodies.size())});
     const Role role = b.kind == BodyKind::object ? Role::object : Role::obstacle;
+    body_numbers_[id] = static_cast<int>(out_.bodies.size());
     out_.bodies.push_back({body(id), role, world_.pose(id)});
   } else if (b.kind == BodyKind::base) {
     out_.order.push_back({WorldEntry::Kind::robot, number(b.robot)});
@@ -154,12 +159,28 @@ void Describer::add_collision() {
   out_.collision = std::move(spec);
 }
 
+/// What was removed since is in no keyframe.
+void Describer::add_keyframes() {
+  for (const Keyframe& keyframe : world_.keyframes()) {
+    KeyframeSpec spec{keyframe.name, {}, {}};
+    for (const auto& placed : keyframe.bodies)
+      if (const auto found = body_numbers_.find(placed.body); found != body_numbers_.end())
+        spec.bodies.push_back({found->second, placed.X_WB});
+    for (const auto& placed : keyframe.robots)
+      if (world_.alive(placed.robot))
+        spec.robots.push_back({number(placed.robot), placed.X_WB, placed.dofs});
+    out_.keyframes.push_back(std::move(spec));
+  }
+}
+
 WorldSpec Describer::describe() {
   out_.source = world_.source();
   for (const auto id : world_.robots()) out_.robots.push_back(placed(id));
   for (const auto id : world_.bodies()) add_body(id);
   out_.camera = world_.camera();
   out_.contact_threshold = world_.contact_threshold();
+  out_.gravity = world_.gravity();
+  add_keyframes();
   add_friction();
   add_collision();
   return std::move(out_);

@@ -143,9 +143,8 @@ Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& 
   robot.X_BA = spec.X_BA.value_or(Pose{});
   robot.files = spec.files;
   robot.tracker = spec.tracker;
-  if (!(spec.tactile.empty() && spec.tendons.empty() && spec.wrappers.empty()))
-    robot.passive =
-        std::make_shared<PassiveParts>(PassiveParts{spec.tactile, spec.tendons, spec.wrappers});
+  if (PassiveParts parts{spec.tactile, spec.tendons, spec.wrappers, spec.actuators}; !parts.empty())
+    robot.passive = std::make_shared<PassiveParts>(std::move(parts));
   if (spec.eigengrasps) robot.eigengrasps = std::make_shared<EigengraspSet>(*spec.eigengrasps);
   if (spec.virtual_contacts)
     robot.virtual_contacts =

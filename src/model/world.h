@@ -105,6 +105,9 @@ class World {
   void set_contact_threshold(double threshold);
   const std::optional<Camera>& camera() const { return settings_->camera; }
   void set_camera(const std::optional<Camera>& camera);
+  const Eigen::Vector3d& gravity() const { return settings_->gravity; }
+  /// throws Error when gravity_rule refuses a number
+  void set_gravity(const Eigen::Vector3d& gravity);
   const std::string& source() const { return model_->source; }
   void set_source(const std::string& source) { edit_model().source = source; }
 
@@ -113,6 +116,17 @@ class World {
   void set_collision(bool on, Id<Body> body);           ///< one body against everything
   void set_collision(bool on, Id<Body> a, Id<Body> b);  ///< a pair
   bool may_collide(Id<Body> a, Id<Body> b) const;
+
+  // --- named states ---
+  const std::vector<Keyframe>& keyframes() const { return settings_->keyframes; }
+  /// In place of one of the same name.
+  /// throws Error for a name or a place that is none, a stale id, or DOFs outside their limits
+  void add_keyframe(Keyframe keyframe);
+  /// Where all bodies and robots are now, as one.
+  Keyframe current_keyframe(const std::string& name) const;
+  /// Everything that it names goes where it says, but for what was removed or is carried.
+  /// throws Error that lists the names when there is none of this one
+  void set_keyframe(std::string_view name);
 
   // --- time machine ---
   std::shared_ptr<const Snapshot> snapshot() const;

@@ -78,6 +78,19 @@ uint64_t World::hash() const {
     }
   for (const auto& [a, b] : settings_->pairs_off) h.add(body(a).name), h.add(body(b).name);
   h.add(settings_->contact_threshold);
+  for (const double x : settings_->gravity) h.add(x);
+  for (const Keyframe& keyframe : settings_->keyframes) {
+    h.add(keyframe.name);
+    for (const auto& placed : keyframe.bodies)
+      if (alive(placed.body)) h.add(body(placed.body).name), add(h, placed.X_WB);
+    for (const auto& placed : keyframe.robots) {
+      if (!alive(placed.robot)) continue;
+      h.add(robot(placed.robot).name);
+      flag(placed.X_WB.has_value());
+      if (placed.X_WB) add(h, *placed.X_WB);
+      for (const double q : placed.dofs) h.add(q);
+    }
+  }
   flag(settings_->collision_on);
   return h.value();
 }

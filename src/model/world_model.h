@@ -39,6 +39,9 @@ struct WorldModel {
   size_t bytes() const;  ///< that it takes, about; meshes, which are shared, left out
 };
 
+/// A named state. What of it was removed stays out.
+using Keyframe = KeyframeOf<Id<Body>, Id<Robot>>;
+
 /// What is set for all; shared likewise.
 struct WorldSettings {
   MaterialTable materials;
@@ -47,6 +50,8 @@ struct WorldSettings {
   std::set<Id<Body>> switched_off;  ///< bodies that collide with nothing
   std::set<BodyPair> pairs_off;     ///< as ordered gives them
   std::optional<Camera> camera;
+  Eigen::Vector3d gravity{0, 0, -standard_gravity};  ///< in the world frame [m/s^2]
+  std::vector<Keyframe> keyframes;                   ///< of different names
   uint64_t stamp = 0;  ///< as the model's
 
   /// as far as the settings go

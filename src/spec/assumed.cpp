@@ -7,7 +7,7 @@ namespace clench {
 
 void tell_assumed(std::span<const BodySpec* const> bodies, const std::string& place,
                   const Listeners& listeners) {
-  std::vector<std::string> neither, weightless, of_nothing, balls;
+  std::vector<std::string> neither, weightless, of_nothing, balls, uniform;
   for (const BodySpec* body : bodies) {
     if (!body->shape) continue;
     if (!body->mass_given && !body->material_given)
@@ -16,7 +16,10 @@ void tell_assumed(std::span<const BodySpec* const> bodies, const std::string& pl
       weightless.push_back(body->name);
     else if (!body->material_given)
       of_nothing.push_back(body->name);
-    if (inertia_is_of_ball(*body)) balls.push_back(body->name);
+    if (inertia_is_of_ball(*body))
+      balls.push_back(body->name);
+    else if (!body->inertia_per_mass && !body->inertia_told)
+      uniform.push_back(body->name);
   }
   const BodySpec assumed;
   // which of several
@@ -31,6 +34,7 @@ void tell_assumed(std::span<const BodySpec* const> bodies, const std::string& pl
                             assumed.mass, assumed.material));
   note(weightless, fmt::format("no mass is given; {} kg is assumed", assumed.mass));
   note(of_nothing, fmt::format("no material is given; {} is assumed", assumed.material));
+  note(uniform, "no inertia is given; that of a solid of one density is assumed");
   if (!balls.empty())
     tell(listeners.suspect, listeners.warn,
          fmt::format("{}: no inertia is given, and the surface bounds no solid; it is that of a "

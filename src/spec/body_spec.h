@@ -31,6 +31,7 @@ struct BodySpec {
   std::string material = "wood";
   double mass = 0.3;                                ///< [kg]
   bool material_given = false, mass_given = false;  ///< do they come from a file or a script?
+  bool inertia_told = false;                        ///< was it told where an inertia not given comes from?
   std::optional<Eigen::Vector3d>
       com;  ///< centre of mass in the body frame [m]; else from the shape
   std::optional<Eigen::Matrix3d> inertia_per_mass;  ///< about com [m^2]; else from the shape

@@ -43,6 +43,7 @@ static void check_joint(const JointSpec& joint, const RobotSpec& robot,
   check_each(not_negative_rule,
              {{"viscous friction", joint.viscous},
               {"Coulomb friction", joint.coulomb},
+              {"armature", joint.armature},
               {"spring", joint.spring}},
              subject);
 }
@@ -122,6 +123,28 @@ static void check_sets(const RobotSpec& robot, const std::string& name) {
   for (const double x : robot.glove->intercepts) check(number_rule.called("intercept"), x, glove);
 }
 
+static void check_actuators(const RobotSpec& robot, const std::string& name) {
+  for (size_t i = 0; i < robot.actuators.size(); ++i) {
+    const ActuatorSpec& actuator = robot.actuators[i];
+    const std::string subject = fmt::format("{}: actuator {}", name, i + 1);
+    for (const std::string* text : {&actuator.name, &actuator.joint, &actuator.tendon})
+      check_name(*text, subject);
+    const int dofs = static_cast<int>(robot.dofs.size());
+    if (actuator.dof < -1 || actuator.dof >= dofs)
+      fail("{}: expected a DOF from 0 to {}, or -1 for none, got {}", subject, dofs - 1,
+           actuator.dof);
+    check_each(number_rule,
+               {{"gear", actuator.gear},
+                {"gain", actuator.gain},
+                {"bias", actuator.bias[0]},
+                {"bias", actuator.bias[1]},
+                {"bias", actuator.bias[2]}},
+               subject);
+    for (const auto& range : {actuator.control_range, actuator.force_range})
+      if (range) check_each(number_rule, {{"range", (*range)[0]}, {"range", (*range)[1]}}, subject);
+  }
+}
+
 static void check_bodies(const RobotSpec& robot, const std::string& name) {
   for (const std::string* other : {&robot.class_name, &robot.database_name})
     check_name(*other, name);
@@ -155,6 +178,7 @@ void check_robot(const RobotSpec& robot) {
       fail("{}: DOF {}: {}", name, i, no_range(range));
   check_parts(robot);
   check_tendons(robot);
+  check_actuators(robot, name);
 }
 
 }  // namespace clench

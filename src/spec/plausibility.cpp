@@ -10,6 +10,7 @@
 namespace clench {
 
 static constexpr double min_size = 1e-3, max_size = 3;        // [m]
+static constexpr double rounding = 1e-6;                      // of limits [rad or m]
 static constexpr double max_mass = 1000;                      // [kg]
 static constexpr double max_turn = 4 * 2 * std::numbers::pi;  // [rad]
 
@@ -25,6 +26,32 @@ static bool has_no_area(const Mesh& mesh) {
   return true;
 }
 
+/// Where its mass may be: its surface, or that which is shown, and as much again around it.
+static bool within_reach(const BodySpec& body, const Eigen::Vector3d& p) {
+  for (const ShapePtr& shape : {body.shape, body.appearance.visual}) {
+    if (!shape) continue;
+    const auto box = shape->bounds();
+    const double size = box.size().maxCoeff();
+    if (((p - box.low).array() >= -size).all() && ((box.high - p).array() >= -size).all())
+      return true;
+  }
+  return false;
+}
+
+/// Does a file give a centre of mass far from the surface?
+static bool com_is_elsewhere(const BodySpec& body) {
+  return body.com && body.shape && !within_reach(body, *body.com);
+}
+
+/// Does it give an inertia that mass within twice its radius cannot have?
+static bool inertia_is_larger(const BodySpec& body) {
+  if (!body.inertia_per_mass || !body.shape) return false;
+  double r = largest_radius(body.shape->mesh(), com_of(body));
+  if (const ShapePtr& visual = body.appearance.visual)
+    r = std::max(r, largest_radius(visual->mesh(), com_of(body)));
+  return body.inertia_per_mass->diagonal().maxCoeff() > 4 * r * r;
+}
+
 void check_plausible_object(const BodySpec& body, const std::string& place,
                             const Listeners& listeners) {
   if (!body.shape) return;
@@ -33,6 +60,11 @@ void check_plausible_object(const BodySpec& body, const std::string& place,
     suspect(listeners, place + ": none of its triangles has an area");
   else if (length < min_size || length > max_size)
     suspect(listeners, fmt::format("{}: it is {:.4g} m large: is its unit right?", place, length));
+  if (com_is_elsewhere(body))
+    suspect(listeners, place + ": its centre of mass is far from its surface: is its unit right?");
+  if (inertia_is_larger(body))
+    suspect(listeners,
+            place + ": its inertia is that of a much larger body: is it divided by the mass?");
 }
 
 std::string some_names(const std::vector<std::string>& names) {
@@ -45,11 +77,13 @@ std::string some_names(const std::vector<std::string>& names) {
 }
 
 void check_plausible(const RobotSpec& robot, const std::string& file, const Listeners& listeners) {
-  std::vector<std::string> small, large, heavy, turning;
+  std::vector<std::string> small, large, heavy, turning, off, broad, outside;
   const auto look = [&](const BodySpec& body) {
     if (body.shape && length_of(body) < min_size) small.push_back(body.name);
     if (body.shape && length_of(body) > max_size) large.push_back(body.name);
     if (body.mass > max_mass) heavy.push_back(body.name);
+    if (com_is_elsewhere(body)) off.push_back(body.name);
+    if (inertia_is_larger(body)) broad.push_back(body.name);
   };
   look(robot.base);
   for (const LinkSpec& link : robot.links) look(link.body);
@@ -58,6 +92,13 @@ void check_plausible(const RobotSpec& robot, const std::string& file, const List
         std::max(std::abs(joint->min), std::abs(joint->max)) > max_turn)
       turning.push_back(joint->name.empty() ? fmt::format("{} of chain {}", number, chain)
                                             : joint->name);
+  for (size_t d = 0; d < robot.dofs.size(); ++d) {
+    const DofSpec& dof = robot.dofs[d];
+    const auto [low, high] = dof_range(robot, static_cast<int>(d));
+    if (dof.default_value != 0 &&
+        (dof.default_value < low - rounding || dof.default_value > high + rounding))
+      outside.push_back(dof.name.empty() ? fmt::format("{}", d) : dof.name);
+  }
   const auto tell_of = [&](const std::vector<std::string>& names, const char* what,
                            const char* question) {
     if (!names.empty())
@@ -67,6 +108,11 @@ void check_plausible(const RobotSpec& robot, const std::string& file, const List
   tell_of(large, "parts larger than 3 m",
           "is the unit of their geometry right, or a scale of 0.001 missing?");
   tell_of(heavy, "parts heavier than a tonne", "is the unit of their mass or geometry right?");
+  tell_of(off, "parts whose centre of mass is far from their surface", "is its unit right?");
+  tell_of(broad, "parts with the inertia of a much larger body",
+          "is its unit right, and its mass?");
+  tell_of(outside, "DOFs whose default value lies outside their limits, to which it is moved",
+          "are limits or value exchanged?");
   tell_of(turning, "joints that turn more than four times", "is the unit of their limits right?");
 }
 

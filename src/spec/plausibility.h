@@ -5,13 +5,14 @@
 
 namespace clench {
 
-/// Of a body that is to be grasped: smaller than a millimetre or larger than 3 m, or without area.
+/// Of a body that is to be grasped: smaller than a millimetre or larger than 3 m, or without area; a centre of mass or an
+/// inertia that contradicts its surface.
 /// `place`: what the sentence begins with, "w.wld:3"
 void check_plausible_object(const BodySpec& body, const std::string& place,
                             const Listeners& listeners);
 
-/// Of a robot: parts as small or large, or heavier than a tonne; joints that turn more than four
-/// times.   `file`: what the sentences begin with
+/// Of a robot: the same of its parts, or one heavier than a tonne; joints that turn more than four
+/// times; default values outside the limits.   `file`: what the sentences begin with
 void check_plausible(const RobotSpec& robot, const std::string& file, const Listeners& listeners);
 
 /// "'a', 'b' and 7 more"

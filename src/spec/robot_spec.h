@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "clench/math/pose.h"
+#include "clench/spec/actuator_spec.h"
 #include "clench/spec/body_spec.h"
 #include "clench/spec/eigengrasp_spec.h"
 #include "clench/spec/glove_spec.h"
@@ -42,6 +43,7 @@ struct JointSpec {
   double min = 0, max = 0;  ///< of q [rad or m]
   double viscous = 0;       ///< friction [N m s/rad or N s/m]
   double coulomb = 0;       ///< friction [N m or N]
+  double armature = 0;      ///< inertia of its motor's rotor, as the joint feels it [kg m^2 or kg]
   double spring = 0;        ///< stiffness [N m/rad or N/m]
   double rest = 0;          ///< q at which the spring is slack [rad or m]
 };
@@ -77,6 +79,7 @@ struct RobotFiles {
   /// what its reading was given to find them, absolute: a folder, and folders of URDF packages
   std::string folder = {};
   std::map<std::string, std::string> packages = {};
+  std::string body = {};  ///< of a scene: the body that its tree of joints begins with
 };
 
 struct RobotSpec {
@@ -100,6 +103,7 @@ struct RobotSpec {
   std::vector<TactileSpec> tactile;
   std::vector<TendonSpec> tendons;
   std::vector<TendonWrapper> wrappers;
+  std::vector<ActuatorSpec> actuators;  ///< in the file's order; nothing acts on them yet
 };
 
 /// Approach frame from a reference point and a direction, both in the base frame.

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "clench/spec/actuator_spec.h"
+
 namespace clench {
 
 /// Where a tendon is tied to a link, or runs through an eyelet on it.
@@ -51,6 +53,11 @@ struct PassiveParts {
   std::vector<TactileSpec> tactile;
   std::vector<TendonSpec> tendons;
   std::vector<TendonWrapper> wrappers;
+  std::vector<ActuatorSpec> actuators;
+
+  bool empty() const {
+    return tactile.empty() && tendons.empty() && wrappers.empty() && actuators.empty();
+  }
 };
 
 }  // namespace clench

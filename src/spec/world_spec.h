@@ -64,6 +64,33 @@ struct CollisionSpec {
   std::vector<std::array<std::string, 2>> pairs_off;
 };
 
+/// A body, or a base or link of a robot.
+struct PartRef {
+  WorldEntry::Kind kind = WorldEntry::Kind::body;  ///< body or robot
+  int index = 0;                                   ///< into bodies or robots
+  int link = -1;                                   ///< of the robot; -1: its base
+};
+
+/// A state of a world by its name: what stands where then. What it does not name stays as it is.
+template <class BodyRef, class RobotRef>
+struct KeyframeOf {
+  struct PlacedBody {
+    BodyRef body;
+    Pose X_WB;
+  };
+  struct PlacedRobot {
+    RobotRef robot;
+    std::optional<Pose> X_WB;  ///< of its base; absent: it is carried
+    std::vector<double> dofs;  ///< one per DOF, within the limits [rad or m]
+  };
+  std::string name;
+  std::vector<PlacedBody> bodies;
+  std::vector<PlacedRobot> robots;
+};
+using KeyframeSpec = KeyframeOf<int, int>;  ///< indices into bodies and robots
+
+inline constexpr double standard_gravity = 9.80665;  ///< [m/s^2]
+
 struct WorldSpec {
   std::string source;
   std::vector<PlacedBody> bodies;
@@ -73,7 +100,12 @@ struct WorldSpec {
   std::optional<Camera> camera;
   std::optional<double> contact_threshold;  ///< [m]; absent: that of an empty world
   std::vector<FrictionSpec> friction;       ///< in the order in which new materials get their names
+  /// materials whose friction on those that every world begins with, but for frictionless, is the larger of both's own
+  std::vector<std::string> larger_friction;
   std::optional<CollisionSpec> collision;   ///< absent: what the robots bring along
+  std::vector<std::array<PartRef, 2>> never_meet;  ///< beside what the robots bring along
+  std::optional<Eigen::Vector3d> gravity;   ///< in the world frame [m/s^2]; absent: standard_gravity along -z
+  std::vector<KeyframeSpec> keyframes;
 };
 
 }  // namespace clench

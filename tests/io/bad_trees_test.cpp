@@ -70,12 +70,6 @@ TEST_CASE("a circle of includes over several files is found") {
   CHECK_THROWS_WITH_AS(read_robot(file), "c.xml:2: include: 'b.xml' includes itself", Error);
 }
 
-TEST_CASE("a robot is no world, and the error says what loads it") {
-  CHECK_THROWS_WITH_AS(read_world("tests/data/urdf/gripper.urdf"),
-                       "gripper.urdf: expected a world, got a robot; world:add_robot loads it",
-                       Error);
-}
-
 TEST_CASE("how a hand closes and approaches may be said of robots of every format") {
   ReadOptions options;
   options.closing = {{"1", -1}, {"2", 0}};

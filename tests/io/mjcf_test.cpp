@@ -47,7 +47,10 @@ TEST_CASE("a model of many elements is read whole") {
   CHECK(
       hand.warned("hand.mjcf:12: a geom of the world itself, on no body, is no part of the robot"));
   CHECK(hand.warned("<sensor> is not used"));
-  CHECK(hand.warned("of <joint>, here and further on, not used: armature"));
+  CHECK(hand.joint("index_mcp").armature > 0);
+  REQUIRE(hand.robot.actuators.size() == 3);
+  CHECK(hand.robot.actuators[0].tendon == "index_tendon");
+  CHECK(hand.robot.actuators[0].dof == 0);
 }
 
 TEST_CASE("geoms that collide and geoms that are drawn are kept apart") {

@@ -116,6 +116,46 @@ TEST_CASE("limits in degrees where radians are meant are suspicious") {
                   "limits right?"));
 }
 
+TEST_CASE("a centre of mass or an inertia that contradicts the surface is suspicious") {
+  const TemporaryFolder folder;
+  const auto robot = [&](const std::string& inertial) {
+    return ToldRobot(folder.write(
+        "a.urdf", "<robot name='a'><link name='b'><inertial>" + inertial +
+                      "</inertial><collision><geometry><box size='0.1 0.1 0.1'/></geometry>"
+                      "</collision></link></robot>"));
+  };
+  const std::string fits = "<mass value='1'/><inertia ixx='0.002' iyy='0.002' izz='0.002'/>";
+  CHECK(robot(fits).warnings.empty());
+  CHECK(robot("<origin xyz='0 0 20'/>" + fits)
+            .warned("a.urdf: parts whose centre of mass is far from their surface: 'a_b': is its unit "
+                    "right?"));
+  CHECK(robot("<mass value='1'/><inertia ixx='2000' iyy='2000' izz='2000'/>")
+            .warned("a.urdf: parts with the inertia of a much larger body: 'a_b': is its unit right, "
+                    "and its mass?"));
+  BodySpec body;
+  body.shape = Shape::make(test::box(0.1, 0.1, 0.1));
+  body.com = Eigen::Vector3d(0, 0, 5);
+  Sentences told;
+  const Listeners listeners{{}, {}, {}, [&](const std::string& s) { told.push_back(s); }};
+  check_plausible_object(body, "mug.iv", listeners);
+  body.com.reset();
+  body.inertia_per_mass = Eigen::Matrix3d::Identity();
+  check_plausible_object(body, "mug.iv", listeners);
+  CHECK(told ==
+        Sentences{"mug.iv: its centre of mass is far from its surface: is its unit right?",
+                  "mug.iv: its inertia is that of a much larger body: is it divided by the mass?"});
+}
+
+TEST_CASE("default values outside the limits are suspicious") {
+  RobotSpec robot = read_robot("tests/data/two_finger/claw.cfg");
+  robot.dofs[0].default_value = dof_range(robot, 0)[1] + 1;
+  robot.dofs[0].name = "d";
+  Sentences told;
+  check_plausible(robot, "claw.cfg", {{}, {}, {}, [&](const std::string& s) { told.push_back(s); }});
+  CHECK(told == Sentences{"claw.cfg: DOFs whose default value lies outside their limits, to which it is "
+                          "moved: 'd': are limits or value exchanged?"});
+}
+
 TEST_CASE("a negative eigenvalue is suspicious, in text and in XML") {
   const TemporaryFolder folder;
   for (const auto& [name, text, place] :

@@ -246,7 +246,11 @@ TEST_CASE(
   std::vector<std::string> notes;
   options.note = [&](const std::string& sentence) { notes.push_back(sentence); };
   const RobotSpec r = cfg.read(options);
-  REQUIRE(notes.size() == 2);
+  REQUIRE(notes.size() == 4);
+  CHECK(notes[2] == "hand.cfg: no inertia is given; that of a solid of one density is assumed: "
+                    "'hand_base', 'hand_chain0_link0'");
+  CHECK(notes[3] ==
+        "hand.cfg: no approach direction is given; it is the z axis of its base, from its origin");
   CHECK(notes[0] == "hand.cfg:19: FlockOfBirds: no bird number, 0 is used");
   CHECK(notes[1] ==
         "hand.cfg: no material is given; wood is assumed: 'hand_base', 'hand_chain0_link0'");

@@ -81,14 +81,14 @@ TEST_CASE("an unknown element is warned of, and what stands nowhere is at the or
   CHECK(warnings.list ==
         std::vector<std::string>{"w.xml:3: unknown element <grspableBody> in <world> is not used; "
                                  "did you mean 'graspableBody'?"});
-  REQUIRE(notes.size() == 5);
+  REQUIRE(notes.size() == 8);
   CHECK(notes[0] == "w.xml:4: graspableBody: no <transform>; it stands at the origin");
   CHECK(notes[1] ==
         "hand.cfg: no mass and no material is given; 0.3 kg of wood is assumed: 'hand_base', "
         "'hand_chain0_link0'");
-  CHECK(notes[2] == "w.xml:5: robot: no <dofValues>; its DOFs start at their defaults");
-  CHECK(notes[3] == "w.xml:5: robot: no <transform>; it stands at the origin");
-  CHECK(notes[4] == "w.xml: no mass is given; 0.3 kg is assumed");
+  CHECK(notes[4] == "w.xml:5: robot: no <dofValues>; its DOFs start at their defaults");
+  CHECK(notes[5] == "w.xml:5: robot: no <transform>; it stands at the origin");
+  CHECK(notes[6] == "w.xml: no mass is given; 0.3 kg is assumed");
 }
 
 TEST_CASE("a name of another generation finds the file of this one, and a note says so") {

@@ -87,9 +87,8 @@ TEST_CASE("a robot from a .urdf comes back from one as it was") {
   const auto urdf = written(robot, folder.path() / "other.urdf");
   check_same_kinematics(robot, urdf.robot);
   CHECK(largest_gap(robot, urdf.robot) < 1e-15);
-  CHECK(
-      urdf.told("other.urdf does not hold the approach frame; it is guessed from the geometry "
-                "when it is read"));
+  CHECK(urdf.lost.empty());
+  CHECK(*urdf.robot.X_BA == *robot.X_BA);
   CHECK(contents(folder.path() / "other.urdf").find("rgba=\"0.5 0.5 0.6 1\"") != std::string::npos);
 }
 

@@ -47,7 +47,7 @@ test("the fuzzer knows every entry of the API, and the standard library's", func
     end
   end
   for name in pairs(clench.shapes) do t.ok(known["clench.shapes." .. name], name) end
-  t.ok(known["clench.wrench_space{contacts}"] and known["world:add_object{mass}"] and known["world.camera ={eye}"])
+  t.ok(known["clench.wrench_space{contacts}"] and known["world:add_object{mass}"] and known["world_settings.camera ={eye}"])
 end)
 
 test("statements reach every entry and every key, and Lua reads them", function(t)

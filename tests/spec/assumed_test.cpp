@@ -41,10 +41,15 @@ TEST_CASE("what nobody gives is told of each body that has it") {
   CHECK(told.notes ==
         Sentences{
             "w.wld: no mass and no material is given; 0.3 kg of wood is assumed: 'bare', 'bare'",
-            "w.wld: no mass is given; 0.3 kg is assumed: 'weightless'"});
+            "w.wld: no mass is given; 0.3 kg is assumed: 'weightless'",
+            "w.wld: no inertia is given; that of a solid of one density is assumed: 'full', "
+            "'weightless', 'bare', 'bare'"});
   CHECK(told.suspected.empty());
   CHECK(Told({bare}).notes ==
-        Sentences{"w.wld: no mass and no material is given; 0.3 kg of wood is assumed"});
+        Sentences{"w.wld: no mass and no material is given; 0.3 kg of wood is assumed",
+                  "w.wld: no inertia is given; that of a solid of one density is assumed"});
+  full.inertia_told = true;
+  CHECK(Told({full}).notes.empty());
 }
 
 TEST_CASE("an inertia is that of a ball only with a warning") {

@@ -4,8 +4,6 @@
 
 namespace clench {
 
-inline constexpr double standard_gravity = 9.80665;  ///< along -z of the world [m/s^2]
-
 /// Torque or force that gravity gives to a joint through all that it moves: links, and robots that it carries [N m or N].
 double link_weight(const World& world, const JointRef& joint);
 

@@ -18,9 +18,9 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 namespace {
 
-Vector6d weight_of(const Body& body) {
+Vector6d weight_of(const World& world, const Body& body) {
   Vector6d weight = Vector6d::Zero();
-  weight[2] = -standard_gravity * body.mass;
+  weight.head<3>() = world.gravity() * body.mass;
   return weight;
 }
 
@@ -99,7 +99,7 @@ RobustnessProblem MeasuredGrasp::robustness_problem() {
     problem.mu[static_cast<Index>(i)] = grasp_.points[i].mu;
   problem.compliance = VectorXd::Ones(problem.G.cols());
   const Body& object = world_.body(grasp_.object);
-  const Vector6d weight = weight_of(object);
+  const Vector6d weight = weight_of(world_, object);
   problem.load.head<3>() =
       world_.pose(grasp_.object).rotation.conjugate() * Eigen::Vector3d(weight.head<3>());
   return problem;
@@ -127,7 +127,7 @@ double polygon_irregularity(MeasuredGrasp& g) {
 
 double gravity_effort(MeasuredGrasp& g) {
   const ForceResult held =
-      contact_forces(g.world(), g.grasp(), {.load = weight_of(g.world().body(g.grasp().object))});
+      contact_forces(g.world(), g.grasp(), {.load = weight_of(g.world(), g.world().body(g.grasp().object))});
   return held.status == ForceStatus::optimal ? held.objective : unbounded;
 }
 

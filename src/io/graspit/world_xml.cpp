@@ -149,11 +149,7 @@ void XmlWorldReader::read_camera(const XmlElement& element) {
 
 WorldSpec read_world_xml(const fs::path& path, Library& library) {
   const XmlFile file(path);
-  const XmlElement root = file.root();
-  if (root.name() == "robot")
-    root.fail("expected a <world>, got a <robot>: a robot is added to a world");
-  if (root.name() != "world") root.fail("expected a <world>, got <{}>", excerpt(root.name()));
-  return XmlWorldReader(root, path, library).read();
+  return XmlWorldReader(file.root(), path, library).read();
 }
 
 }  // namespace clench

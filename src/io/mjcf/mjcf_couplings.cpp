@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "clench/base/suggest.h"
 
@@ -15,12 +16,19 @@ struct Tendon {
   XmlElement element;
   std::vector<std::pair<int, double>> joints;  // and coefficients, none 0
   bool whole = true;                           // are all its joints read?
+  bool elsewhere = false;                      // are some of another robot?
 };
 
 class Couplings {
  public:
-  Couplings(MjcfDocument& document, Library& library, TreeModel& tree)
-      : document_(document), library_(library), tree_(tree) {
+  Couplings(MjcfDocument& document, Library& library, TreeModel& tree,
+            const std::set<std::string>& elsewhere, bool tells)
+      : document_(document),
+        library_(library),
+        tree_(tree),
+        elsewhere_(elsewhere),
+        tells_(tells),
+        unused_(tells ? document.unused() : told_already_) {
     for (size_t j = 0; j < tree.joints.size(); ++j)
       numbers_[tree.joints[j].name] = static_cast<int>(j);
     for (const MjcfNode* node : document.section("worldbody")) find_names(*node, false);
@@ -37,6 +45,7 @@ class Couplings {
     library_.warn(at.place() + ": " + what);
   }
   void find_names(const MjcfNode& node, bool copied);
+  bool concerns(const XmlValues& values) const;
   std::string why_not(const std::string& name) const;
   std::optional<int> joint(const XmlValues& values, const char* attribute);
   const Tendon& tendon(const XmlValues& values, const char* attribute) const;
@@ -47,6 +56,7 @@ class Couplings {
   void tie_joint(const XmlElement& element, const XmlValues& values);
   void tie_tendon(const XmlElement& element, const XmlValues& values);
   void read_actuator(const XmlElement& element);
+  ActuatorSpec actuator_spec(const XmlElement& element, const XmlValues& values);
   void drive_joint(const XmlElement& element, const XmlValues& values, int joint);
   void drive_tendon(const XmlElement& element, const Tendon& tendon);
   void take_control_range(const XmlElement& element, const XmlValues& values, TreeJoint& joint,
@@ -65,7 +75,29 @@ class Couplings {
   std::vector<int> driven_;
   std::vector<int> turns_of_balls_;  // what became of balls that were asked for
   bool has_actuators_ = false;
+  const std::set<std::string>& elsewhere_;  // joints of other robots
+  const bool tells_;                        // of what concerns no joint at all
+  UnusedXml told_already_;
+  UnusedXml& unused_;
+  std::set<std::string> unknown_laws_;
 };
+
+/// Does it concern this robot? What names joints of others alone does not; what names none is told once.
+bool Couplings::concerns(const XmlValues& values) const {
+  bool others = false;
+  for (const char* attribute : {"joint", "jointinparent", "joint1", "joint2"}) {
+    const std::string name = values.text(attribute, "");
+    if (numbers_.contains(name) || numbers_.contains(name + "_x")) return true;
+    others = others || elsewhere_.contains(name);
+  }
+  for (const char* attribute : {"tendon", "tendon1", "tendon2"}) {
+    const auto found = tendons_.find(values.text(attribute, ""));
+    if (found == tendons_.end()) continue;
+    if (!found->second.joints.empty()) return true;
+    others = others || found->second.elsewhere;
+  }
+  return tells_ && !others;
+}
 
 /// Names of joints that are no joints of the robot, or not under their names.
 void Couplings::find_names(const MjcfNode& node, bool copied) {
@@ -83,6 +115,7 @@ void Couplings::find_names(const MjcfNode& node, bool copied) {
 /// Why a name of the file is none of the robot's joints; empty: it stands nowhere.
 std::string Couplings::why_not(const std::string& name) const {
   if (numbers_.contains(name + "_x")) return "is a ball, which became three turns";
+  if (elsewhere_.contains(name)) return "is of another robot";
   if (const auto found = others_.find(name); found != others_.end())
     return found->second ? "is free, and no joint of the robot" : "is of a body that is not read";
   for (const std::string& first : copied_)
@@ -145,18 +178,20 @@ void Couplings::follow(const XmlElement& at, int follower, int leader, double ra
 void Couplings::read_tendons() {
   for (const MjcfNode* node : document_.section("tendon")) {
     if (node->name() != "fixed") {
-      document_.unused().element(node->element);
+      unused_.element(node->element);
       // its name is known all the same
       if (const auto name = node->element.attribute("name")) tendons_[*name] = {node->element, {}};
       continue;
     }
-    document_.unused().attributes(node->element, {"name", "class"});
+    unused_.attributes(node->element, {"name", "class"});
     Tendon tendon{node->element, {}};
     for (const auto& child : node->children) {
       const XmlValues values(child.element);
       const double coefficient = values.number("coef");
       if (child.name() != "joint")
-        document_.unused().element(child.element);
+        unused_.element(child.element);
+      else if (elsewhere_.contains(values.text("joint")))
+        tendon.whole = false, tendon.elsewhere = true;
       else if (const auto number = joint(values, "joint"); !number)
         tendon.whole = false;
       else if (coefficient != 0)
@@ -216,6 +251,7 @@ void Couplings::tie_tendon(const XmlElement& element, const XmlValues& values) {
 
 void Couplings::read_equality(const XmlElement& element) {
   const XmlValues values = document_.values(element, "", "equality");
+  if (!concerns(values)) return;
   if (!values.boolean("active", true)) {
     warn(element, fmt::format("equality: <{}> is not active; not used", excerpt(element.name())));
     return;
@@ -277,6 +313,10 @@ void Couplings::drive_joint(const XmlElement& element, const XmlValues& values, 
 /// A motor on a tendon moves its joints together: nothing else is said of how they share its length,
 /// so each takes its part in proportion to its coefficient.
 void Couplings::drive_tendon(const XmlElement& element, const Tendon& tendon) {
+  if (tendon.elsewhere && !tendon.joints.empty())
+    warn(element, fmt::format("{}: drives a tendon that joins two robots; of each it moves its own "
+                              "joints",
+                              excerpt(element.name())));
   if (tendon.joints.empty()) {
     warn(element, fmt::format("{}: drives a tendon that is not used", excerpt(element.name())));
     return;
@@ -299,25 +339,84 @@ void Couplings::drive_tendon(const XmlElement& element, const Tendon& tendon) {
   }
 }
 
+/// As a file says it, with how its force follows from control, length and velocity.
+ActuatorSpec Couplings::actuator_spec(const XmlElement& element, const XmlValues& values) {
+  ActuatorSpec out;
+  out.kind = element.name();
+  out.name = values.text("name", "");
+  out.joint = values.text("joint", values.text("jointinparent", ""));
+  if (out.joint.empty()) out.tendon = values.text("tendon", "");
+  if (values.has("gear")) out.gear = values.numbers("gear", 1, 6)[0];
+  const auto limits = [&](const char* range, const char* limited) {
+    std::optional<std::array<double, 2>> bounds;
+    if (!values.has(range) || values.text(limited, "auto") == "false") return bounds;
+    auto both = values.numbers(range, 2, 2);
+    if (both[0] > both[1]) {
+      // of a servo's that was told before
+      if (out.kind != "position" || out.joint.empty() || range != std::string_view("ctrlrange"))
+        values.range(range, document_.repairs());
+      std::swap(both[0], both[1]);
+    }
+    if (both[0] != 0 || both[1] != 0) bounds = std::array{both[0], both[1]};
+    return bounds;
+  };
+  out.control_range = limits("ctrlrange", "ctrllimited");
+  out.force_range = limits("forcerange", "forcelimited");
+  if (out.kind == "position") {
+    out.gain = values.number("kp", 1);
+    out.bias = {0, -out.gain, -values.number("kv", 0)};
+  } else if (out.kind == "velocity") {
+    out.gain = values.number("kv", 1);
+    out.bias = {0, 0, -out.gain};
+  } else if (out.kind == "general") {
+    if (values.has("gainprm")) out.gain = values.numbers("gainprm", 1, 100)[0];
+    const std::string bias = values.text("biastype", "none");
+    if (bias == "affine" && values.has("biasprm")) {
+      const auto given = values.numbers("biasprm", 1, 100);
+      for (size_t i = 0; i < std::min<size_t>(3, given.size()); ++i) out.bias[i] = given[i];
+    }
+    out.law_known = (bias == "none" || bias == "affine") &&
+                    values.text("gaintype", "fixed") == "fixed" &&
+                    values.text("dyntype", "none") == "none";
+  } else {
+    out.law_known = out.kind == "motor";
+  }
+  if (!out.law_known && unknown_laws_.insert(out.kind).second)
+    warn(element, fmt::format("<{}>: how its force follows from its control is not kept",
+                              excerpt(out.kind)));
+  return out;
+}
+
 void Couplings::read_actuator(const XmlElement& element) {
   const XmlValues values = document_.values(element, "", "general");
+  const bool on_joint = values.has("joint") || values.has("jointinparent");
+  if (on_joint || values.has("tendon")) has_actuators_ = true;
+  if (!concerns(values)) return;
   values.tell_unused(document_.unused(),
                      {"name", "class", "joint", "jointinparent", "tendon", "ctrlrange",
-                      "ctrllimited", "forcerange", "forcelimited", "kp", "kv", "gear"});
-  if (values.has("joint") || values.has("jointinparent")) {
-    has_actuators_ = true;
+                      "ctrllimited", "forcerange", "forcelimited", "kp", "kv", "gear", "gaintype",
+                      "gainprm", "biastype", "biasprm", "dyntype"});
+  int moved = -1;
+  if (on_joint) {
     turns_of_balls_.clear();
     const auto number = joint(values, values.has("joint") ? "joint" : "jointinparent");
     if (number)
       drive_joint(element, values, *number);
     else
       driven_.insert(driven_.end(), turns_of_balls_.begin(), turns_of_balls_.end());
+    if (!number) return;
+    moved = *number;
   } else if (values.has("tendon")) {
-    has_actuators_ = true;
-    drive_tendon(element, tendon(values, "tendon"));
+    const Tendon& pulled = tendon(values, "tendon");
+    drive_tendon(element, pulled);
+    if (pulled.joints.empty()) return;
+    moved = pulled.joints.front().first;
   } else {
     document_.unused().element(element);
+    return;
   }
+  tree_.actuators.push_back(actuator_spec(element, values));
+  tree_.actuators.back().dof = moved;
 }
 
 void Couplings::mark_passive() {
@@ -339,8 +438,9 @@ void Couplings::mark_passive() {
 
 }  // namespace
 
-void read_mjcf_couplings(MjcfDocument& document, Library& library, TreeModel& tree) {
-  Couplings(document, library, tree).read();
+void read_mjcf_couplings(MjcfDocument& document, Library& library, TreeModel& tree,
+                         const std::set<std::string>& elsewhere, bool tells) {
+  Couplings(document, library, tree, elsewhere, tells).read();
 }
 
 }  // namespace clench

@@ -10,8 +10,8 @@
 
 namespace clench {
 
-MjcfGeoms::MjcfGeoms(MjcfDocument& document, Library& library)
-    : document_(document), library_(library), geometry_(library.options()) {
+MjcfGeoms::MjcfGeoms(MjcfDocument& document, Library& library, bool scene)
+    : document_(document), library_(library), geometry_(library.options()), scene_(scene) {
   read_assets();
 }
 
@@ -180,14 +180,40 @@ void MjcfGeoms::set_primitive(const std::string& type, const XmlValues& values, 
         type == "sphere" ? capsule_solid(size[0], 0) : ellipsoid_solid({size[0], size[1], size[2]});
 }
 
+// a plane has no end and no thickness
+static constexpr double plane_half_size = 5;    // [m]
+static constexpr double plane_thickness = 0.1;  // [m]
+
+/// A plate below z = 0, at least 10 m wide.
+void MjcfGeoms::set_plane(const XmlValues& values, MjcfGeom& geom) {
+  double x = plane_half_size, y = x;
+  if (values.has("size")) {
+    const auto size = values.numbers("size", 1, 3);
+    x = std::max(x, std::abs(size[0]));
+    y = std::max(y, size.size() > 1 ? std::abs(size[1]) : 0);
+  }
+  Mesh mesh = box_mesh({2 * x, 2 * y, plane_thickness});
+  for (auto& p : mesh.vertices) p.z() -= plane_thickness / 2;
+  geom.piece.geometry = geometry_.made(fmt::format("plane {} {}", x, y), std::move(mesh));
+  library_.note(fmt::format("{}: geom: a plane has no end; a plate of {} x {} x {} m stands for it",
+                            values.element().place(), 2 * x, 2 * y, plane_thickness));
+}
+
 std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::string& child_class,
-                                        const Pose& X_frame) {
+                                        const Pose& X_frame, bool of_world) {
   if (++count_ > max_pieces) element.fail("expected at most {} geoms", max_pieces);
   const XmlValues values = document_.values(element, child_class);
-  values.tell_unused(
-      document_.unused(),
-      {"name", "class", "type", "size", "pos", "quat", "axisangle", "euler", "xyaxes", "zaxis",
-       "fromto", "mesh", "material", "rgba", "contype", "conaffinity", "group", "mass", "density"});
+  if (scene_)
+    values.tell_unused(document_.unused(),
+                       {"name", "class", "type", "size", "pos", "quat", "axisangle", "euler",
+                        "xyaxes", "zaxis", "fromto", "mesh", "material", "rgba", "contype",
+                        "conaffinity", "group", "mass", "density", "friction", "condim",
+                        "priority"});
+  else
+    values.tell_unused(document_.unused(),
+                       {"name", "class", "type", "size", "pos", "quat", "axisangle", "euler",
+                        "xyaxes", "zaxis", "fromto", "mesh", "material", "rgba", "contype",
+                        "conaffinity", "group", "mass", "density"});
   const std::string type = values.word(
       "type",
       {"plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "sdf"},
@@ -196,9 +222,20 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
     library_.warn(fmt::format("{}: geom: {}; it is not used", element.place(), what));
     return std::nullopt;
   };
-  if (type == "plane" || type == "hfield" || type == "sdf")
-    return skip(fmt::format("a {} is no part of a robot here", type));
+  if ((type == "plane" && !of_world) || type == "hfield" || type == "sdf")
+    return skip(of_world ? fmt::format("no obstacle is made of a {} here", type)
+                         : fmt::format("a {} is no part of a {} here", type,
+                                       scene_ ? "body" : "robot"));
   MjcfGeom geom;
+  if (scene_) {
+    if (values.has("friction"))
+      geom.friction.mu = document_.repairs().magnitude(values.numbers("friction", 1, 3)[0],
+                                                       values.subject("friction"));
+    if (const auto wrong = fault(friction_rule, geom.friction.mu); !wrong.empty())
+      values.fail("friction", "{}", wrong);
+    geom.friction.priority = values.integer("priority", 0);
+    geom.friction.frictionless = values.integer("condim", 3) == 1;
+  }
   geom.type = static_cast<unsigned>(values.integer("contype", 1));
   geom.affinity = static_cast<unsigned>(values.integer("conaffinity", 1));
   const int group = values.integer("group", 0);
@@ -210,6 +247,8 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
                                 element.place(), type));
     geom.piece.geometry = mesh(values, geom.collides());
     if (!geom.piece.geometry) return {};
+  } else if (type == "plane") {
+    set_plane(values, geom);
   } else {
     set_primitive(type, values, geom, X);
   }

@@ -9,22 +9,35 @@
 
 namespace clench {
 
+/// What a geom says of friction. Of two that touch, the one of the higher priority counts; of the same
+/// priority the larger coefficient, and none where both are frictionless.
+struct MjcfFriction {
+  double mu = 1;
+  int priority = 0;
+  bool frictionless = false;  ///< condim is 1
+
+  auto operator<=>(const MjcfFriction&) const = default;
+};
+
 struct MjcfGeom {
   GeometryPiece piece;
   bool drawn = false;               ///< of the groups 0 to 2, which viewers show
   unsigned type = 1, affinity = 1;  ///< bits: two geoms meet when type and affinity share one
   double mass = 0;                  ///< [kg]
 
+  MjcfFriction friction;            ///< of a scene's geoms
+
   bool collides() const { return type != 0 || affinity != 0; }
 };
 
 class MjcfGeoms {
  public:
-  MjcfGeoms(MjcfDocument& document, Library& library);
+  /// scene  are planes and friction read?
+  MjcfGeoms(MjcfDocument& document, Library& library, bool scene);
 
   /// A geom in the frame of its body; empty for what we do not use, which is told.
   std::optional<MjcfGeom> read(const XmlElement& element, const std::string& child_class,
-                               const Pose& X_frame);
+                               const Pose& X_frame, bool of_world = false);
   TreeGeometry& geometry() { return geometry_; }
 
  private:
@@ -38,11 +51,13 @@ class MjcfGeoms {
   std::shared_ptr<const Geometry> read_mesh(Asset& asset);
   std::shared_ptr<const Geometry> inline_mesh(const Asset& asset);
   void set_primitive(const std::string& type, const XmlValues& values, MjcfGeom& geom, Pose& X);
+  void set_plane(const XmlValues& values, MjcfGeom& geom);
   std::optional<PieceColor> color(const XmlValues& geom) const;
 
   MjcfDocument& document_;
   Library& library_;
   TreeGeometry geometry_;
+  bool scene_;
   std::map<std::string, Asset> meshes_;
   std::map<std::string, PieceColor> materials_;
   size_t count_ = 0;

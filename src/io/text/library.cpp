@@ -14,10 +14,11 @@ const BodySpec& Library::body(const fs::path& path) {
   return found->second;
 }
 
-const RobotSpec& Library::robot(const fs::path& path) {
+const RobotSpec& Library::robot(const fs::path& path, const std::string& body) {
   options_.progress.tell(-1, path.filename().string());
-  auto found = robots_.find(path);
-  if (found == robots_.end()) found = robots_.emplace(path, loaders_.robot(path, *this)).first;
+  const std::pair key(path, body);
+  auto found = robots_.find(key);
+  if (found == robots_.end()) found = robots_.emplace(key, loaders_.robot(path, body, *this)).first;
   return found->second;
 }
 
@@ -35,7 +36,11 @@ BodySpec Library::named_body(const std::string& name, const fs::path& referrer,
 RobotSpec Library::named_robot(const std::string& name, const fs::path& referrer,
                                const std::string& place) {
   try {
-    RobotSpec out = robot(find_model(name, referrer, ModelKind::robot, place, options_));
+    const size_t at = name.rfind('#');
+    const bool part = at != std::string::npos && at > 0;
+    const std::string file = part ? name.substr(0, at) : name;
+    RobotSpec out = robot(find_model(file, referrer, ModelKind::robot, place, options_),
+                          part ? name.substr(at + 1) : "");
     out.source = name;
     return out;
   } catch (const Error& error) {

@@ -12,7 +12,8 @@ class Library;
 /// How a file that was found becomes a spec. What else it names is asked of the library.
 struct Loaders {
   BodySpec (*body)(const std::filesystem::path& path, Library& library);
-  RobotSpec (*robot)(const std::filesystem::path& path, Library& library);
+  /// body  of a scene: the body that the robot's tree of joints begins with; empty: the robot of the file
+  RobotSpec (*robot)(const std::filesystem::path& path, const std::string& body, Library& library);
 };
 
 /// Bodies and robots by the file they stand in. Lives as long as one call of read_robot or
@@ -33,10 +34,11 @@ class Library {
   }
   /// `path` as find_model gives it
   const BodySpec& body(const std::filesystem::path& path);
-  const RobotSpec& robot(const std::filesystem::path& path);
+  const RobotSpec& robot(const std::filesystem::path& path, const std::string& body = "");
   /// The body that a line of another file names; errors begin with `place`, "dlr.wld:3".
   BodySpec named_body(const std::string& name, const std::filesystem::path& referrer,
                       const std::string& place);
+  /// "scene.xml#arm": that robot of a scene.
   RobotSpec named_robot(const std::string& name, const std::filesystem::path& referrer,
                         const std::string& place);
   /// The body of a link: names in a robot's file `robot` count from the folder iv/ beside it,
@@ -51,7 +53,7 @@ class Library {
   const ReadOptions& options_;
   const Loaders& loaders_;
   std::map<std::filesystem::path, BodySpec> bodies_;
-  std::map<std::filesystem::path, RobotSpec> robots_;
+  std::map<std::pair<std::filesystem::path, std::string>, RobotSpec> robots_;
 };
 
 }  // namespace clench

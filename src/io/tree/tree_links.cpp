@@ -63,7 +63,7 @@ static bool same_surface(const ShapePtr& a, const ShapePtr& b) {
 }
 
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
-                 const std::string& file, const Library& library) {
+                 const std::string& file, const Library& library, bool friction_known) {
   const bool any = std::any_of(pieces.begin(), pieces.end(),
                                [](const LinkPieces& p) { return !p.collision.empty(); });
   const bool any_visual = std::any_of(pieces.begin(), pieces.end(),
@@ -80,7 +80,7 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     body.appearance = visual.shape ? visual.appearance : collision.appearance;
     if (!same_surface(visual.shape, collision.shape)) body.appearance.visual = visual.shape;
     body.material = "plastic";
-    body.material_given = body.mass_given = true;  // or told here
+    body.material_given = body.mass_given = body.inertia_told = true;  // or told here
     if (visual.shape && !collision.shape) ghosts.push_back(body.name);
     if (pieces[i].has_inertial) continue;
     const bool seen = !body.shape;  // its pieces for pictures alone
@@ -105,7 +105,8 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
         fmt::format("{}: links without a mass whose surface is open, and so bounds no "
                     "volume, weigh {} kg: {}",
                     first_open, frame_mass, some_names(open)));
-  library.note(fmt::format("{}: says nothing of friction; all links count as plastic", file));
+  if (!friction_known)
+    library.note(fmt::format("{}: says nothing of friction; all links count as plastic", file));
 }
 
 }  // namespace clench

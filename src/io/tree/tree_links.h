@@ -18,8 +18,9 @@ struct LinkPieces {
 /// link of the robot has any, all collide with the visual ones. Links without mass in the file weigh
 /// what water of their volume does, frames without geometry and open surfaces a gram. Tells what it guesses.
 /// `pieces`  one per link
+/// `friction_known`  does the file say it?
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
-                 const std::string& file, const Library& library);
+                 const std::string& file, const Library& library, bool friction_known = false);
 
 /// Mass, centre and inertia of a link from the inertia about its centre of mass [kg m^2].
 Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,

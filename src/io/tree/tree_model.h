@@ -22,6 +22,7 @@ struct TreeJoint {
   double min = 0, max = 0;                           ///< [rad or m]
   double effort = 0, velocity = 0;                   ///< largest; 0: not known
   double viscous = 0, coulomb = 0, spring = 0, rest = 0;  ///< as JointSpec
+  double armature = 0;                                    ///< likewise
   double kp = 0, kd = 0;                                  ///< as DofSpec
   double start = 0;                                       ///< value of a leader at first [rad or m]
   bool passive = false;                                   ///< no motor drives it
@@ -41,6 +42,7 @@ struct TreeModel {
   std::string name, class_name;
   std::vector<TreeLink> links;  ///< [0] is the root, and becomes the base
   std::vector<TreeJoint> joints;
+  std::vector<ActuatorSpec> actuators;  ///< `dof`: the joint that each moves
   std::vector<std::pair<int, int>> never_meet;  ///< links whose collisions the file switches off
 };
 

@@ -17,8 +17,9 @@ namespace {
 
 class RobotMaker {
  public:
-  RobotMaker(TreeModel tree, const std::string& file, const Library& library)
-      : tree_(std::move(tree)), file_(file), library_(library) {}
+  RobotMaker(TreeModel tree, const std::string& file, const Library& library,
+             const std::function<void(RobotSpec&)>& known)
+      : tree_(std::move(tree)), file_(file), library_(library), known_(known) {}
   RobotSpec make();
 
  private:
@@ -28,10 +29,12 @@ class RobotMaker {
   JointSpec joint_spec(const TreeJoint& joint, const Pose& before) const;
   void close_hand();
   void tell_closing();
+  void tell_approach();
 
   TreeModel tree_;
   const std::string& file_;
   const Library& library_;
+  const std::function<void(RobotSpec&)>& known_;
   RobotSpec robot_;
   std::vector<int> dof_of_;    // one per joint: of the leader; -1 for followers
   std::vector<bool> passive_;  // one per DOF
@@ -120,6 +123,7 @@ JointSpec RobotMaker::joint_spec(const TreeJoint& joint, const Pose& before) con
   spec.max = joint.max - offset;
   spec.viscous = joint.viscous;
   spec.coulomb = joint.coulomb;
+  spec.armature = joint.armature;
   spec.spring = joint.spring;
   spec.rest = joint.rest - offset;
   return spec;
@@ -155,6 +159,10 @@ void RobotMaker::tell_closing() {
                         "'close' says otherwise",
                         file_, name_list(closing))
           : fmt::format("{}: no DOF is found to close it; the option 'close' names some", file_));
+  tell_approach();
+}
+
+void RobotMaker::tell_approach() {
   if (!robot_.X_BA || library_.options().approach) return;
   const Eigen::Vector3d z = robot_.X_BA->rotation * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d& p = robot_.X_BA->position;
@@ -166,6 +174,14 @@ void RobotMaker::tell_closing() {
 }
 
 void RobotMaker::close_hand() {
+  if (known_) {
+    known_(robot_);
+    choose_closing(robot_, file_, library_.options());
+    if (robot_.X_BA) return;
+    robot_.X_BA = guess_approach(robot_);
+    tell_approach();
+    return;
+  }
   const auto senses = guess_closing(robot_, passive_);
   for (size_t d = 0; d < senses.size(); ++d) set_closing(robot_, static_cast<int>(d), senses[d]);
   choose_closing(robot_, file_, library_.options());
@@ -188,6 +204,11 @@ RobotSpec RobotMaker::make() {
   const auto part = [&](int link) { return link == 0 ? -1 : now[link - 1]; };
   for (const auto& [a, b] : tree_.never_meet)
     robot_.collision_rules.pairs_off.push_back({part(a), part(b)});
+  for (ActuatorSpec actuator : tree_.actuators) {
+    if (const int joint = actuator.dof; joint >= 0)
+      actuator.dof = dof_of_[tree_.joints[joint].leader < 0 ? joint : tree_.joints[joint].leader];
+    robot_.actuators.push_back(std::move(actuator));
+  }
   close_hand();
   check_read_robot(robot_, file_, library_.options());
   return std::move(robot_);
@@ -195,8 +216,9 @@ RobotSpec RobotMaker::make() {
 
 }  // namespace
 
-RobotSpec make_robot(TreeModel tree, const std::string& file, const Library& library) {
-  return RobotMaker(std::move(tree), file, library).make();
+RobotSpec make_robot(TreeModel tree, const std::string& file, const Library& library,
+                     const std::function<void(RobotSpec&)>& known) {
+  return RobotMaker(std::move(tree), file, library, known).make();
 }
 
 }  // namespace clench

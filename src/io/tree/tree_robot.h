@@ -1,6 +1,8 @@
 // A robot as files of today describe it becomes ours: followers count by their leaders' DOFs, the links of a chain stand
 // side by side. Each link keeps its name and its pose for all joint values.
 #pragma once
+#include <functional>
+
 #include "clench/io/text/library.h"
 #include "clench/io/tree/tree_model.h"
 
@@ -12,6 +14,9 @@ constexpr double min_follower_range = 0.1;
 /// Guesses what closes the hand and how it approaches, as far as the options do not say it, and
 /// tells. `file` is the name shown in sentences.
 /// throws  Error naming the joint, the DOF or the option that is wrong
-RobotSpec make_robot(TreeModel tree, const std::string& file, const Library& library);
+/// known  gives it what its file says of it beyond its tree; of how it closes nothing is guessed then, nor of its approach
+/// where that is known
+RobotSpec make_robot(TreeModel tree, const std::string& file, const Library& library,
+                     const std::function<void(RobotSpec&)>& known = {});
 
 }  // namespace clench

@@ -10,6 +10,7 @@
 #include "clench/io/tree/tree_robot.h"
 #include "clench/io/tree/tree_shapes.h"
 #include "clench/io/tree/tree_xml.h"
+#include "clench/io/urdf/urdf_clench.h"
 #include "clench/io/urdf/urdf_files.h"
 
 namespace clench {
@@ -446,9 +447,11 @@ RobotSpec UrdfReader::read() {
   for (const auto& child : root.children()) {
     if (child.name() == "link")
       read_link(child);
-    else if (child.name() != "joint" && child.name() != "material")
+    else if (child.name() != "joint" && child.name() != "material" && child.name() != "clench")
       unused_.element(child);
   }
+  const auto own = root.children("clench");
+  if (own.size() > 1) own[1].fail("robot: expected one <clench>, got another");
   for (const auto& child : root.children("joint")) read_joint_names(child);
   for (const FileJoint& joint : joints_) {
     if (joint.type == "floating" || joint.type == "planar")
@@ -461,8 +464,11 @@ RobotSpec UrdfReader::read() {
   }
   order_links();
   read_mimics();
-  dress_links(tree_, pieces_, geometry_, file_, library_);
-  RobotSpec robot = make_robot(std::move(tree_), file_, library_);
+  dress_links(tree_, pieces_, geometry_, file_, library_, !own.empty());
+  std::function<void(RobotSpec&)> known;
+  if (!own.empty())
+    known = [&](RobotSpec& made) { read_clench_element(own.front(), made, path_, library_); };
+  RobotSpec robot = make_robot(std::move(tree_), file_, library_, known);
   robot.source = path_.generic_string();
   repairs_.tell();
   inertial_faults_.tell(library_);

@@ -95,6 +95,10 @@ void warn_once(lua_State* L, const void* key, const std::string& message);
 LogLevel log_level(lua_State* L);
 void set_log_level(lua_State* L, LogLevel level);
 
+// --- clench.parallel: items in many states; in host, which makes states. ---
+
+extern const Library parallel_library;
+
 // --- clench.json: values as text for other programs. ---
 
 extern const Library json_library;
@@ -376,7 +380,7 @@ inline const Class& class_of<Picture>() {
   return picture_class;
 }
 
-inline size_t owned_bytes(const Picture& picture) { return picture.pixels.capacity(); }
+inline size_t owned_bytes(const Picture& picture) { return picture.pixels.capacity() + picture.alpha.capacity(); }
 
 // --- plot: numbers over numbers as a figure. ---
 

@@ -43,6 +43,7 @@ struct SnapshotHandle {
   std::shared_ptr<const Snapshot> moment;
 };
 
+extern const Class world_settings_class, world_queries_class;
 extern const Class world_class, body_class, robot_class, snapshot_class;
 extern const Library world_library;
 

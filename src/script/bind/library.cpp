@@ -15,7 +15,7 @@ std::span<const Library* const> all_libraries() {
       &log_library,          &world_library,       &grasp_library,    &measures_library,
       &wrench_space_library, &eigengrasps_library, &files_library,    &render_library,
       &chart_library,        &plot_library,        &progress_library, &grasps_library,
-      &energy_library,       &annealing_library,
+      &energy_library,       &annealing_library,   &parallel_library,
   };
   return libraries;
 }
@@ -36,6 +36,7 @@ std::span<const Class* const> all_classes() {
       &plot_class,        &progress_class,
       &grasps_class,      &energy_class,
       &annealing_class,
+      &world_settings_class, &world_queries_class,
   };
   return classes;
 }

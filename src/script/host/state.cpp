@@ -201,6 +201,22 @@ void State::interrupt() {
   if (running_ != L_) lua_sethook(running_, on_hook, all_events, 1);
 }
 
+void State::on_count(lua_State* L, lua_Debug*) {
+  void* data = nullptr;
+  lua_getallocf(L, &data);
+  if (!static_cast<State*>(data)->ended_) return;
+  lua_pushliteral(L, "stopped");
+  make_error_value(L, "stopped");
+  lua_error(L);
+}
+
+void State::look_for_end() { lua_sethook(L_, on_count, LUA_MASKCOUNT, 1000); }
+
+void State::end() {
+  ended_ = true;
+  bar_->stop();
+}
+
 // takes what a call left above base off the stack
 State::Result State::finish(int status, int base) {
   lua_sethook(L_, nullptr, 0, 0);

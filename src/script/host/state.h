@@ -51,10 +51,16 @@ class State {
   void set_confine(const std::string& folder);
   /// Messages below errors are not shown from now on.
   void set_quiet();
+  lua_State* lua() { return L_; }
 
   /// Makes the running chunk fail with "interrupted", coroutines too. What catches that error has half a second to end;
   /// then, or when called again, nothing can catch it. May be called from a signal handler.
   void interrupt();
+
+  /// For a state in a thread of its own: from now on it looks by itself whether `end` was called.
+  void look_for_end();
+  /// Makes the running chunk fail with "stopped", uncatchably. May be called from any thread.
+  void end();
 
  private:
   struct Memory {
@@ -66,6 +72,7 @@ class State {
   static void* allocate(void* state, void* block, size_t old_size, size_t new_size);
   static void warn(void* state, const char* text, int to_be_continued);
   static void on_hook(lua_State* L, lua_Debug*);
+  static void on_count(lua_State* L, lua_Debug*);
   static int track(lua_State* L);
 
   void set_arguments(const std::string& path, const std::vector<std::string>& arguments);
@@ -77,6 +84,7 @@ class State {
   std::shared_ptr<Bar> bar_;               // what watches the engine
   lua_State* volatile running_ = nullptr;  // the coroutine that runs, for interrupt
   std::atomic<int> interrupts_ = 0;        // since a run began
+  std::atomic<bool> ended_ = false;
   std::atomic<double> patient_until_ = 0;  // then an interruption can no longer be caught [s]
 };
 

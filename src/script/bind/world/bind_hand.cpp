@@ -285,6 +285,30 @@ static int get_tactile_sensors(lua_State* L) {
   });
 }
 
+static int get_actuators(lua_State* L) {
+  return push_parts(L, &PassiveParts::actuators, [L](const RobotHandle&, const ActuatorSpec& a) {
+    push_list(L, 0, 10);
+    if (!a.name.empty()) set_field(L, "name", std::string_view(a.name));
+    set_field(L, "kind", std::string_view(a.kind));
+    if (!a.joint.empty()) set_field(L, "joint", std::string_view(a.joint));
+    if (!a.tendon.empty()) set_field(L, "tendon", std::string_view(a.tendon));
+    if (a.dof >= 0) set_field(L, "dof", a.dof + 1);
+    set_field(L, "gear", a.gear);
+    if (a.law_known) {
+      set_field(L, "gain", a.gain);
+      push_numbers(L, a.bias);
+      lua_setfield(L, -2, "bias");
+    }
+    const auto set_range = [L](const char* key, const auto& range) {
+      if (!range) return;
+      push_numbers(L, *range);
+      lua_setfield(L, -2, key);
+    };
+    set_range("control_range", a.control_range);
+    set_range("force_range", a.force_range);
+  });
+}
+
 // --- tables ---
 
 static const Entry fields[] = {
@@ -330,6 +354,12 @@ Posts that tendons wrap around, each an endless cylinder; `exempt` names the ten
 side of it the others lie. They do not act yet.
 @type {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[]
 > #hand.tendon_wrappers  --> 0)"},
+    {"actuators", guarded<get_actuators>, R"(
+Actuators as an MJCF file describes them, kept for dynamics: `name`, `kind` ("motor", "position", "general"), `joint` or
+`tendon`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] +
+bias[2] * length + bias[3] * velocity. Nothing acts on them yet.
+@type table[]
+> #hand.actuators  --> 0)"},
     {"tactile_sensors", guarded<get_tactile_sensors>, R"(
 Boxes in which contacts count as one sensor's, by their `low` and `high` corners in the frame of their `link`. They do not
 act yet.

@@ -47,6 +47,9 @@ static void push_joint(lua_State* L, const RobotHandle& robot, int joint) {
   const DofKind kind = robot->dofs[spec.dof].kind;
   set_field(L, "broken_away", left && kind == DofKind::breakaway);
   set_field(L, "spring_deflection", spec.ratio * robot.world->dofs(robot.id)[spec.dof] - q);
+  if (spec.viscous > 0) set_field(L, "damping", spec.viscous);
+  if (spec.coulomb > 0) set_field(L, "friction", spec.coulomb);
+  if (spec.armature > 0) set_field(L, "armature", spec.armature);
   if (spec.spring > 0) set_field(L, "spring", spec.spring), set_field(L, "rest", spec.rest);
 }
 
@@ -193,7 +196,8 @@ Its links, chain by chain, without the base.
 Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link
 where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max,
 value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N
-m/rad or N/m] and rest, the value where it is slack, of joints that have one).
+m/rad or N/m] and rest, the value where it is slack, damping [N m s/rad or N s/m], friction [N m or N] and armature [kg
+m^2 or kg], of joints that have them).
 @type table[]
 > #hand.chains  --> 4
 > hand.chains[1].joints[1].kind  --> revolute)"},

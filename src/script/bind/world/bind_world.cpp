@@ -1,10 +1,7 @@
-#include <algorithm>
 #include <array>
-#include <limits>
 
 #include "clench/base/suggest.h"
 #include "clench/model/build.h"
-#include "clench/model/raycast.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/bind/read_spec.h"
@@ -37,7 +34,10 @@ static int add_body(lua_State* L, BodyKind kind) {
   if (kind == BodyKind::object) {
     const std::string file = std::filesystem::path(spec.file).filename().string();
     check_plausible_object(spec, file.empty() ? subject(L) + ": mesh" : file, reading.listeners());
-    if (!file.empty()) tell_assumed(std::array{&spec}, file, reading.listeners());
+    Listeners told = reading.listeners();
+    // a script knows what it leaves open
+    if (file.empty()) told.note = {};
+    tell_assumed(std::array{&spec}, file.empty() ? subject(L) + ": mesh" : file, told);
   }
   const Pose pose = options.pose("pose", Pose{});
   const bool named = options.has("name");
@@ -56,6 +56,7 @@ static int add_robot(lua_State* L) {
   Table options(L, 3);
   ReadOptions reading = read_options(L, options);
   read_robot_options(L, options, reading);
+  reading.body = options.string("body", "");
   const Pose pose = options.pose("pose", Pose{});
   const std::string name = options.string("name", "");
   options.done();
@@ -145,119 +146,6 @@ static int restore(lua_State* L) {
 
 static int hash(lua_State* L) { return push(L, fmt::format("{:016x}", world_of(L).hash())); }
 
-// --- who touches whom ---
-
-static int cast(lua_State* L) {
-  const WorldPtr& world = self<WorldHandle>(L).world;
-  const Eigen::Vector3d origin = check_vec3(L, 2, "origin"), along = check_vec3(L, 3, "direction");
-  const double reach =
-      given(L, 4) ? check_number(L, 4, "reach") : std::numeric_limits<double>::infinity();
-  if (!(along.stableNorm() > 1e-9))
-    fail("{}: direction: expected a direction, got zero", subject(L));
-  if (!(reach >= 0)) fail("{}: reach: expected a number >= 0 [m], got {}", subject(L), reach);
-  const auto hit = raycast(*world, origin, along.stableNormalized(), reach);
-  if (!hit) {
-    lua_pushnil(L);
-    return 1;
-  }
-  push_list(L, 0, 5);
-  set_field(L, "body", BodyHandle{world, hit->body});
-  set_field(L, "point", hit->p_W);
-  set_field(L, "normal", hit->n_W);
-  set_field(L, "distance", hit->distance);
-  set_field(L, "triangle", hit->triangle + 1);
-  return 1;
-}
-
-static int collides(lua_State* L) {
-  const WorldPtr& world = self<WorldHandle>(L).world;
-  if (!given(L, 2)) return push(L, clench::collides(*world, &world->context()));
-  return push(L, clench::collides(*world, check_bodies(L, 2, "entity", world), &world->context()));
-}
-
-static int colliding(lua_State* L) {
-  const auto& world = self<WorldHandle>(L).world;
-  if (!given(L, 2)) return push_pairs(L, world, colliding_pairs(*world, &world->context()));
-  const auto a = check_bodies(L, 2, "a", world);
-  const auto b = given(L, 3) ? check_bodies(L, 3, "b", world) : world->bodies();
-  return push_pairs(L, world, colliding_pairs(*world, a, b, &world->context()));
-}
-
-static int measure_distance(lua_State* L) {
-  const auto& world = self<WorldHandle>(L).world;
-  const auto a = check_bodies(L, 2, "a", world), b = check_bodies(L, 3, "b", world);
-  const BodyDistance d =
-      distance(*world, a, b, std::numeric_limits<double>::infinity(), &world->context());
-  push_unbounded(L, d.distance);
-  push(L, d.p_a);
-  push(L, d.p_b);
-  return 3;
-}
-
-static int find_contacts(lua_State* L) {
-  const auto& world = self<WorldHandle>(L).world;
-  if (!given(L, 2)) return push_contacts(L, world, contacts(*world, &world->context()));
-  const auto a = check_bodies(L, 2, "a", world);
-  const auto b = given(L, 3) ? check_bodies(L, 3, "b", world) : world->bodies();
-  // one argument: the contacts on it
-  return push_contacts(L, world,
-                       given(L, 3) ? contacts(*world, a, b, &world->context())
-                                   : contacts(*world, b, a, &world->context()));
-}
-
-static int set_collision(lua_State* L) {
-  const auto& world = self<WorldHandle>(L).world;
-  const bool on = check_boolean(L, 2, "on");
-  if (!given(L, 3)) {
-    world->set_collision(on);
-    return 0;
-  }
-  const auto group_a = check_bodies(L, 3, "a", world);
-  if (!given(L, 4)) {
-    for (const auto a : group_a) world->set_collision(on, a);
-    return 0;
-  }
-  const auto group_b = check_bodies(L, 4, "b", world);
-  for (const auto a : group_a)
-    for (const auto b : group_b)
-      if (a != b) world->set_collision(on, a, b);
-  return 0;
-}
-
-// --- friction ---
-
-static int set_friction(lua_State* L) {
-  const std::string a = check_string(L, 2, "material"), b = check_string(L, 3, "material");
-  Table options(L, 4);
-  const double statics = options.number("static");
-  const Friction friction{.statics = statics,
-                          .kinetic = options.number("kinetic", std::max(0.0, statics - 0.1))};
-  options.done();
-  world_of(L).set_friction(a, b, friction);
-  return 0;
-}
-
-static int friction(lua_State* L) {
-  const MaterialTable& table = world_of(L).materials();
-  const Friction f = table.friction(table.index(check_string(L, 2, "material")),
-                                    table.index(check_string(L, 3, "material")));
-  push(L, f.statics);
-  push(L, f.kinetic);
-  return 2;
-}
-
-static int get_materials(lua_State* L) {
-  return push_list_of(L, world_of(L).materials().names(),
-                      [&](const std::string& name) { push(L, name); });
-}
-
-static int get_contact_threshold(lua_State* L) { return push(L, world_of(L).contact_threshold()); }
-
-static int set_contact_threshold(lua_State* L) {
-  world_of(L).set_contact_threshold(check_number(L, 2));
-  return 0;
-}
-
 static int get_source(lua_State* L) { return push(L, world_of(L).source()); }
 
 static int text(lua_State* L) {
@@ -288,10 +176,14 @@ An empty world.
 A world from a file. Names in it are looked up beside the file, then below the root. A .lua file is run, with a table
 that holds the root and with the folder of the file as its arguments, and returns a world. With `confine`, here and wherever
 files are read, nothing is read that does not lie below that folder, links followed, and no .lua file is run.
-@param path string  .wld, .xml or .lua
-@param options? {root?: string, confine?: string, strict?: boolean}  strict: what would be warned of is an error
+A scene of MuJoCo becomes one, too: every tree of joints a robot, free bodies objects, what is fixed obstacles. From the file
+of a robot or a body comes a world with that one thing in it.
+@param path string  .wld, .xml, .lua or .mjcf; or any file of a robot or a body
+@param options? {root?: string, confine?: string, strict?: boolean, keyframe?: string, folder?: string, package?: string|table, unit?: string, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: table}  strict: what would be warned of is an error; keyframe: the named state to begin with; the rest as add_robot and add_object have it, for a file of one robot or body
 @return world
 > #clench.load("worlds/dlr_flask.wld", {root = "."}).robots  --> 1
+> #clench.load("models/objects/flask.iv", {root = "."}).objects  --> 1
+> clench.load("models/objects/flask.iv", {root = ".", keyframe = "home"})  --> error: no keyframe 'home' in this world, which has none
 > clench.load("no/such.wld")  --> error: no/such.wld)"},
 };
 
@@ -312,24 +204,6 @@ The bodies that only stand in the way.
 All robots in creation order.
 @type robot[]
 > world.robots[1] == hand  --> true)"},
-    {"contact_threshold", guarded<get_contact_threshold>, R"(
-Surfaces closer than this touch; motion stops with a gap below it.
-@type number  [m]
-> world.contact_threshold  --> 0.0001)",
-     guarded<set_contact_threshold>},
-    {"materials", guarded<get_materials>, R"(
-Names of the materials, the seven of the original first.
-@type string[]
-> world.materials[1]  --> frictionless)"},
-    {"camera", guarded<get_camera>, R"(
-The camera of its file, as `clench.render` takes it: `clench.render(world, world.camera)`. nil when the file has none.
-It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_distance` [m].
-@type {eye: vec3, target: vec3, up: vec3, field_of_view: number}?
-> clench.world().camera  --> nil
-> world.camera = {eye = {1, 0, 0.5}, target = {0, 0, 0}, up = {0, 0, 1}}
-> world.camera.eye  --> (1, 0, 0.5)
-> world.camera = {eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}  --> error: up not along the view)",
-     guarded<set_camera>},
     {"source", guarded<get_source>, R"(
 File that the world was loaded from; empty when it was made by a script.
 @type string
@@ -367,7 +241,7 @@ Adds a body that only stands in the way; as add_object.
     {"add_robot", guarded<add_robot>, R"(
 Adds a robot from a file.
 @param path string  .cfg .xml .urdf .mjcf
-@param options? {pose?: pose, name?: string, root?: string, confine?: string, strict?: boolean, folder?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}}  folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; eigengrasps, virtual_contacts: files to read in place of those it names; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
+@param options? {pose?: pose, name?: string, root?: string, confine?: string, strict?: boolean, body?: string, folder?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}}  body: of a scene of MuJoCo, the body that the robot's tree of joints begins with; folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; eigengrasps, virtual_contacts: files to read in place of those it names; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
 @return robot
 > world:add_robot("nothing.cfg")  --> error: nothing.cfg)"},
     {"remove", guarded<remove>, R"(
@@ -408,63 +282,6 @@ new one has been read again; what the format cannot hold is told in a warning.
 Fingerprint of the state: equal bits, equal text.
 @return string  16 hexadecimal digits
 > #world:hash()  --> 16)"},
-    {"raycast", guarded<cast>, R"(
-What a ray meets first: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil when it meets nothing.
-@param origin vec3
-@param direction vec3  of any length
-@param reach? number  how far it goes [m]; as far as there is something by default
-@return table?
-> box = world:add_object(clench.shapes.box {1, 1, 1}, {pose = {xyz = {0, 0, 9}}})
-> hit = world:raycast({0, 0, 20}, {0, 0, -1})
-> hit.body == box, hit.distance, hit.normal  --> true, 10.5, (0, 0, 1)
-> world:raycast({0, 0, 20}, {0, 0, -1}, 10)  --> nil)"},
-    {"collides", guarded<collides>, R"(
-Does anything collide that may, or one entity with anything? The fastest test: it ends at the first pair that is found.
-@param entity? body|robot
-@return boolean
-> world:collides(hand)  --> false
-> world:collides()  --> false)"},
-    {"colliding", guarded<colliding>, R"(
-Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
-@param a? body|robot
-@param b? body|robot
-@return body[][]  pairs
-> #world:colliding()  --> 0)"},
-    {"distance", guarded<measure_distance>, R"(
-Least distance of two things, 0 when they collide, with the closest points in the world frame.
-@param a body|robot
-@param b body|robot
-@return number distance  [m]; infinite where one has no surface
-@return vec3 on_a
-@return vec3 on_b
-> world:distance(hand, flask) <= world.contact_threshold  --> true)"},
-    {"contacts", guarded<find_contacts>, R"(
-Where surfaces touch: everywhere, on one entity, or of `a` on `b`.
-@param a? body|robot
-@param b? body|robot
-@return contact[]  on b; without arguments on the object of each pair
-> world:contacts(hand, flask)[1].body == flask  --> true)"},
-    {"set_collision", guarded<set_collision>, R"(
-Switches collision on or off: for the whole world, for one entity against everything, or for a pair.
-@param on boolean
-@param a? body|robot
-@param b? body|robot
-> world:set_collision(false, hand, flask)
-> #world:contacts(hand, flask)  --> 0)"},
-    {"set_friction", guarded<set_friction>, R"(
-Sets the Coulomb coefficients of a pair of materials; new names become materials.
-@param a string
-@param b string
-@param friction {static: number, kinetic?: number}  kinetic: static - 0.1 unless given
-> world:set_friction("cork", "wood", {static = 0.7})
-> world:friction("wood", "cork")  --> 0.7, 0.6)"},
-    {"friction", guarded<friction>, R"(
-The coefficients of a pair of materials.
-@param a string
-@param b string
-@return number static
-@return number kinetic
-> world:friction("rubber", "stone")  --> 1.5, 1.4)"},
 };
 
 static const Entry operators[] = {
@@ -485,7 +302,8 @@ const Class world_class{.name = "world",
                             "friction. Lists are in creation order.",
                         .fields = fields,
                         .methods = methods,
-                        .operators = operators};
+                        .operators = operators,
+                        .parent = &world_queries_class};
 
 const Class snapshot_class{
     .name = "snapshot",

@@ -108,9 +108,12 @@ WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& re
 int load_world(lua_State* L) {
   const std::string path = check_string(L, 1, "path");
   Table options(L, 2);
-  const ReadOptions reading = read_options(L, options);
+  ReadOptions reading = read_options(L, options);
+  read_robot_options(L, options, reading);
+  const std::string keyframe = options.string("keyframe", "");
   options.done();
-  push_world_of(L, find_file(path, {}, reading), reading);
+  const WorldPtr world = push_world_of(L, find_file(path, {}, reading), reading);
+  if (!keyframe.empty()) world->set_keyframe(keyframe);
   return 1;
 }
 

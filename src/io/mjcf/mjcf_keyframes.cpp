@@ -1,0 +1,161 @@
+#include "clench/io/mjcf/mjcf_keyframes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/base/text.h"
+
+namespace clench {
+
+namespace {
+
+constexpr int max_key_numbers = 100'000;
+// followers are off by so much where a simulation had settled [rad or m]
+constexpr double settled = 0.01;
+
+class KeyReader {
+ public:
+  KeyReader(const XmlValues& values, const Library& library, const WorldSpec& world)
+      : values_(values), library_(library), world_(world) {}
+  KeyframeSpec read(const std::vector<SceneBody>& bodies, const std::string& name);
+
+ private:
+  Pose pose_at(const std::vector<double>& numbers, size_t at, const char* attribute) const;
+  void add_robot(const SceneBody& body, const Pose& X_WB, const double* q);
+
+  const XmlValues& values_;
+  const Library& library_;
+  const WorldSpec& world_;
+  KeyframeSpec out_;
+};
+
+Eigen::Quaterniond turn_at(const XmlValues& values, const char* attribute, const double* wxyz) {
+  const Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  if (!(q.norm() > 1e-9)) values.fail(attribute, "expected a quaternion, got zeros");
+  return q.normalized();
+}
+
+Pose KeyReader::pose_at(const std::vector<double>& numbers, size_t at,
+                        const char* attribute) const {
+  return {turn_at(values_, attribute, &numbers[at + 3]),
+          {numbers[at], numbers[at + 1], numbers[at + 2]}};
+}
+
+/// Angles about x, y and z, one after the other.
+Eigen::Vector3d three_turns(const Eigen::Quaterniond& q) {
+  const Eigen::Matrix3d R = q.toRotationMatrix();
+  return {std::atan2(-R(1, 2), R(2, 2)), std::asin(std::clamp(R(0, 2), -1.0, 1.0)),
+          std::atan2(-R(0, 1), R(0, 0))};
+}
+
+/// q  one per joint
+void KeyReader::add_robot(const SceneBody& body, const Pose& X_WB, const double* q) {
+  const RobotSpec& robot = world_.robots[body.robot].robot;
+  std::vector<double> dofs, moved;
+  for (size_t j = 0; j < body.joints.size(); ++j) {
+    const TreeJoint& joint = body.joints[j];
+    if (joint.leader < 0) {
+      const auto [low, high] = dof_range(robot, static_cast<int>(dofs.size()));
+      dofs.push_back(std::clamp(q[j], low, high));
+      if (std::abs(dofs.back() - q[j]) > 1e-6)
+        library_.repaired(fmt::format("{}: joint '{}' is at {}, outside [{}, {}]; moved to the limit",
+                                      values_.subject("qpos"), excerpt(joint.name), q[j], low,
+                                      high));
+    } else if (std::abs(joint.ratio * q[joint.leader] + joint.offset - q[j]) > settled) {
+      library_.warn(fmt::format("{}: joint '{}' follows '{}', and is at {} rather than at {}; it "
+                                "follows",
+                                values_.subject("qpos"), excerpt(joint.name),
+                                excerpt(body.joints[joint.leader].name), q[j],
+                                joint.ratio * q[joint.leader] + joint.offset));
+    }
+  }
+  out_.robots.push_back({body.robot, X_WB, std::move(dofs)});
+}
+
+KeyframeSpec KeyReader::read(const std::vector<SceneBody>& bodies, const std::string& name) {
+  out_.name = name;
+  const bool given = values_.has("qpos"), moves = values_.has("mpos"), turns = values_.has("mquat");
+  const auto qpos = given ? values_.numbers("qpos", 1, max_key_numbers) : std::vector<double>();
+  const int mocaps = static_cast<int>(std::ranges::count_if(bodies, &SceneBody::mocap));
+  const auto mpos = moves ? values_.numbers("mpos", 3 * mocaps, 3 * mocaps) : std::vector<double>();
+  const auto mquat =
+      turns ? values_.numbers("mquat", 4 * mocaps, 4 * mocaps) : std::vector<double>();
+  size_t at = 0, mocap = 0;
+  for (const SceneBody& body : bodies) {
+    Pose X_WB = body.X_WB;
+    if (body.mocap && moves) X_WB.position = Eigen::Vector3d::Map(&mpos[3 * mocap]);
+    if (body.mocap && turns) X_WB.rotation = turn_at(values_, "mquat", &mquat[4 * mocap]);
+    mocap += body.mocap;
+    // a free body's place stands first
+    if (body.free && given) X_WB = pose_at(qpos, at, "qpos");
+    if (body.free) at += 7;
+    for (const auto& part : body.bodies)
+      if (body.free || body.mocap) out_.bodies.push_back({part.body, X_WB * part.X_SB});
+    if (body.robot < 0) continue;
+    std::vector<double> q;
+    for (const TreeJoint& joint : body.joints) q.push_back(joint.start);
+    for (const auto& slots : body.slots)
+      for (const QposSlot& slot : slots) {
+        if (slot.kind == QposSlot::Kind::joint) {
+          if (given) q[slot.joint] = qpos[at];
+        } else if (slot.kind == QposSlot::Kind::ball && given) {
+          const Eigen::Vector3d turn = three_turns(turn_at(values_, "qpos", &qpos[at]));
+          std::copy(turn.begin(), turn.end(), q.begin() + slot.joint);
+        }
+        if (slot.kind != QposSlot::Kind::free) at += slot.size();
+      }
+    const bool on_world = !body.free && !body.mocap;
+    add_robot(body, on_world ? world_.robots[body.robot].X_WB : X_WB, q.data());
+  }
+  return std::move(out_);
+}
+
+/// How many numbers a row has.
+int qpos_size(const std::vector<SceneBody>& bodies) {
+  int count = 0;
+  for (const SceneBody& body : bodies) {
+    count += body.free ? 7 : 0;
+    for (const auto& slots : body.slots)
+      for (const QposSlot& slot : slots)
+        count += slot.kind == QposSlot::Kind::free ? 0 : slot.size();
+  }
+  return count;
+}
+
+}  // namespace
+
+void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& bodies, bool lossy,
+                         const Library& library, WorldSpec& world) {
+  const int expected = qpos_size(bodies);
+  int number = 0;
+  for (const MjcfNode* node : document.section("keyframe")) {
+    if (node->name() != "key") {
+      document.unused().element(node->element);
+      continue;
+    }
+    ++number;
+    document.unused().attributes(node->element, {"name", "class", "qpos", "mpos", "mquat"});
+    const XmlValues values(node->element);
+    const std::string name = values.text("name", fmt::format("{}", number));
+    const int got =
+        values.has("qpos") ? static_cast<int>(values.numbers("qpos", 1, max_key_numbers).size())
+                           : expected;
+    if (got != expected && lossy) {
+      library.warn(fmt::format("{}: keyframe '{}' has {} numbers, and the bodies that are read take "
+                               "{}; it is not used",
+                               values.subject("qpos"), excerpt(name), got, expected));
+      continue;
+    }
+    if (got != expected) values.fail("qpos", "expected {} numbers, got {}", expected, got);
+    if (std::ranges::find(world.keyframes, name, &KeyframeSpec::name) != world.keyframes.end()) {
+      document.repairs().add("key",
+                             fmt::format("{}: key: there is another one of the name '{}'; the "
+                                         "first one counts",
+                                         node->element.place(), excerpt(name)));
+      continue;
+    }
+    world.keyframes.push_back(KeyReader(values, library, world).read(bodies, name));
+  }
+}
+
+}  // namespace clench

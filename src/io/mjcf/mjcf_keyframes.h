@@ -1,0 +1,28 @@
+// Keyframes of an MJCF scene: rows of numbers become poses of bodies and values of DOFs.
+#pragma once
+#include "clench/io/mjcf/mjcf_model.h"
+#include "clench/spec/world_spec.h"
+
+namespace clench {
+
+/// A body directly in the world and what became of it.
+struct SceneBody {
+  struct Part {
+    int body = 0;  ///< into WorldSpec::bodies
+    Pose X_SB;     ///< in the scene's body
+  };
+  std::string name;
+  Pose X_WB;  ///< as the file places it
+  bool free = false, mocap = false;
+  int robot = -1;                             ///< into WorldSpec::robots
+  std::vector<Part> bodies;                   ///< of objects and obstacles
+  std::vector<std::vector<QposSlot>> slots;   ///< of a robot: of each link's joints
+  std::vector<TreeJoint> joints;              ///< of a robot; leaders are its DOFs, in their order
+};
+
+/// lossy  are there bodies that are not read, whose numbers qpos has, too?
+/// throws Error  "scene.xml:31: key: qpos: expected 9 numbers, got 8"
+void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& bodies, bool lossy,
+                         const Library& library, WorldSpec& world);
+
+}  // namespace clench

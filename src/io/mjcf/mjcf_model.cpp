@@ -1,0 +1,151 @@
+#include "clench/io/mjcf/mjcf_model.h"
+
+#include <algorithm>
+
+#include "clench/base/text.h"
+#include "clench/io/mjcf/mjcf_couplings.h"
+#include "clench/io/tree/tree_robot.h"
+
+namespace clench {
+
+MjcfModel::MjcfModel(const std::filesystem::path& path, Library& library, const char* whole)
+    : library_(library),
+      whole_(whole),
+      document_(path, library),
+      geoms_(document_, library, whole == std::string_view("world")) {
+  name_ = document_.root().element.attribute("model").value_or("");
+  if (name_.empty()) name_ = document_.path().stem().string();
+  std::vector<std::string_view> known = {"compiler", "default",  "asset",  "worldbody",
+                                         "contact",  "equality", "tendon", "actuator"};
+  if (whole == std::string_view("world")) known.insert(known.end(), {"option", "keyframe"});
+  for (const auto& node : document_.root().children)
+    if (std::find(known.begin(), known.end(), node.name()) == known.end())
+      document_.unused().element(node.element);
+  worldbody_ = read_worldbody(document_, library, whole);
+}
+
+std::vector<const TopBody*> MjcfModel::joint_trees() const {
+  std::vector<const TopBody*> out;
+  for (const TopBody& body : worldbody_.bodies)
+    if (body.joints > 0) out.push_back(&body);
+  return out;
+}
+
+MjcfTree MjcfModel::read_tree(const TopBody& body) {
+  MjcfTreeReader reader(document_, geoms_, library_, whole_);
+  if (body.own_joints) reader.add_world();
+  reader.read_body(body, !body.own_joints);
+  return reader.take();
+}
+
+static void find_joints(const MjcfNode& node, std::set<std::string>& into) {
+  for (const MjcfNode& child : node.children) {
+    if (child.name() == "joint")
+      if (const auto name = child.element.attribute("name")) into.insert(*name);
+    find_joints(child, into);
+  }
+}
+
+MjcfRobot MjcfModel::scene_robot(const TopBody& body, bool first) {
+  const auto trees = joint_trees();
+  std::set<std::string> elsewhere;
+  for (const TopBody* other : trees)
+    if (other->node != body.node) find_joints(*other->node, elsewhere);
+  MjcfRobot out =
+      make(read_tree(body), trees.size() == 1 ? name_ : body.name, elsewhere, first);
+  out.robot.files.body = body.name;
+  return out;
+}
+
+// --- what may meet ---
+
+void MjcfModel::read_excludes(MjcfTree& tree) {
+  const bool alone = whole_ == std::string_view("robot");
+  for (const MjcfNode* node : document_.section("contact")) {
+    if (node->name() != "exclude") {
+      if (alone) document_.unused().element(node->element);
+      continue;
+    }
+    if (alone) document_.unused().attributes(node->element, {"name", "class", "body1", "body2"});
+    const XmlValues values(node->element);
+    const auto a = tree.links.find(values.text("body1")), b = tree.links.find(values.text("body2"));
+    if (a == tree.links.end() || b == tree.links.end()) {
+      // a scene looks at them all
+      if (alone)
+        library_.warn(fmt::format(
+            "{}: exclude: '{}' and '{}' are not both bodies of the robot; not used",
+            node->element.place(), excerpt(values.text("body1")), excerpt(values.text("body2"))));
+    } else if (a != b) {
+      tree.model.never_meet.emplace_back(a->second, b->second);
+    }
+  }
+}
+
+/// Pairs that the geoms' bits keep apart. Geoms of one link are one surface here, so bits count for
+/// the link whole.
+void MjcfModel::keep_masks(MjcfTree& tree) {
+  const int count = static_cast<int>(tree.model.links.size());
+  std::vector<unsigned> type(count), affinity(count);
+  for (int i = 0; i < count; ++i)
+    for (const MjcfGeom& geom : tree.geoms[i]) type[i] |= geom.type, affinity[i] |= geom.affinity;
+  int apart = 0;
+  for (int i = 0; i < count; ++i)
+    for (int j = i + 1; j < count; ++j) {
+      if ((type[i] | affinity[i]) == 0 || (type[j] | affinity[j]) == 0) continue;
+      if ((type[i] & affinity[j]) || (type[j] & affinity[i])) continue;
+      tree.model.never_meet.emplace_back(i, j);
+      ++apart;
+    }
+  if (apart > 0)
+    library_.note(
+        fmt::format("{}: {} pair{} of links never collide{}, as contype and conaffinity say",
+                    document_.file(), apart, apart == 1 ? "" : "s", apart == 1 ? "s" : ""));
+}
+
+// --- robots ---
+
+MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
+                          const std::set<std::string>& elsewhere, bool tells) {
+  TreeModel& model = tree.model;
+  model.name = robot_name;
+  model.class_name = document_.root().element.attribute("model").value_or("");
+  read_excludes(tree);
+  keep_masks(tree);
+  read_mjcf_couplings(document_, library_, model, elsewhere, tells);
+  for (size_t i = 0; i < tree.geoms.size(); ++i)
+    for (const MjcfGeom& geom : tree.geoms[i]) {
+      if (geom.collides()) tree.pieces[i].collision.push_back(geom.piece);
+      if (geom.drawn) tree.pieces[i].visual.push_back(geom.piece);
+    }
+  dress_links(model, tree.pieces, geoms_.geometry(), document_.file(), library_,
+              whole_ == std::string_view("world"));
+  resolve_leaders(model);
+  MjcfRobot out;
+  out.tree.model.joints = model.joints;
+  const bool several = joint_trees().size() > 1 && whole_ == std::string_view("world");
+  out.robot = make_robot(
+      std::move(model),
+      several ? fmt::format("{}: '{}'", document_.file(), excerpt(robot_name)) : document_.file(),
+      library_);
+  out.robot.source = document_.path().generic_string();
+  tree.faults.tell(library_);
+  out.tree.geoms = std::move(tree.geoms);
+  out.tree.slots = std::move(tree.slots);
+  out.tree.links = std::move(tree.links);
+  // the tree's links may have changed places
+  std::map<std::string, int> numbers;
+  for (size_t l = 0; l < out.robot.links.size(); ++l)
+    numbers[out.robot.links[l].body.name] = static_cast<int>(l);
+  for (const auto& [name, number] : out.tree.links) {
+    const auto found = numbers.find(out.robot.name + "_" + name);
+    out.parts[name] = number == 0 || found == numbers.end() ? -1 : found->second;
+  }
+  return out;
+}
+
+void MjcfModel::tell() {
+  document_.repairs().tell();
+  for (const auto& sentence : document_.unused().sentences()) library_.warn(sentence);
+}
+
+}  // namespace clench

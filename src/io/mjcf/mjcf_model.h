@@ -1,0 +1,49 @@
+// An MJCF model in memory, and the robots that its trees of joints are.
+#pragma once
+#include <set>
+
+#include "clench/io/mjcf/mjcf_tree.h"
+
+namespace clench {
+
+/// A tree as a robot, with what others need to know of it.
+struct MjcfRobot {
+  RobotSpec robot;
+  MjcfTree tree;                  ///< its model is what remains: joints after couplings, no links
+  std::map<std::string, int> parts;  ///< links of the robot by the names of bodies; -1: the base
+};
+
+class MjcfModel {
+ public:
+  /// whole  what is read: "robot" or "world"
+  MjcfModel(const std::filesystem::path& path, Library& library, const char* whole);
+
+  const Worldbody& worldbody() const { return worldbody_; }
+  MjcfDocument& document() { return document_; }
+  MjcfGeoms& geoms() { return geoms_; }
+  const std::string& name() const { return name_; }  ///< its own, else the file's stem
+  /// Bodies directly in the world that joints hang on.
+  std::vector<const TopBody*> joint_trees() const;
+  /// A tree alone: as a base of its own where it has no joint itself, else below a frame.
+  MjcfTree read_tree(const TopBody& body);
+  /// The tree that begins with a body, as one of the robots of a scene.
+  MjcfRobot scene_robot(const TopBody& body, bool first);
+  /// elsewhere  joints of other robots; tells  of what concerns no joint at all?
+  MjcfRobot make(MjcfTree tree, const std::string& robot_name,
+                 const std::set<std::string>& elsewhere, bool tells);
+  /// Tells what is left to tell of the whole file.
+  void tell();
+
+ private:
+  void read_excludes(MjcfTree& tree);
+  void keep_masks(MjcfTree& tree);
+
+  Library& library_;
+  const char* whole_;
+  MjcfDocument document_;
+  MjcfGeoms geoms_;
+  Worldbody worldbody_;
+  std::string name_;
+};
+
+}  // namespace clench

@@ -1,0 +1,412 @@
+// A scene of MJCF as a world.
+#include <algorithm>
+#include <cmath>
+
+#include "clench/base/text.h"
+#include "clench/io/mjcf/mjcf.h"
+#include "clench/io/mjcf/mjcf_keyframes.h"
+#include "clench/spec/plausibility.h"
+
+namespace clench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A body or a part of a robot, as far as what meets what goes.
+struct ScenePart {
+  PartRef ref;
+  unsigned type = 0, affinity = 0;
+  bool fixed = false;  // to the world
+};
+
+class SceneReader {
+ public:
+  SceneReader(const fs::path& path, Library& library)
+      : library_(library), model_(path, library, "world") {}
+  WorldSpec read();
+
+ private:
+  void add_geom(const WorldGeom& from);
+  void add_body(const TopBody& body);
+  void add_robot(const TopBody& body, SceneBody& scene);
+  void add_object(const TopBody& body, SceneBody& scene);
+  void add_obstacles(const TopBody& body, SceneBody& scene);
+  int add_thing(const std::string& name, Role role, const Pose& X_WB, LinkPieces pieces,
+                const std::vector<MjcfGeom>& geoms, const BodySpec* weighed);
+  std::string material(const std::vector<MjcfGeom>& geoms, const std::string& name);
+  void dress_things();
+  void set_friction();
+  void read_options();
+  void exclude();
+  void never_meet();
+  ScenePart part_of(PartRef ref, const std::vector<MjcfGeom>& geoms, bool fixed) const;
+
+  Library& library_;
+  MjcfModel model_;
+  WorldSpec world_;
+  TreeModel things_;  // bodies of the world that are no robot's, one per link
+  std::vector<LinkPieces> thing_pieces_;
+  std::vector<ScenePart> parts_;
+  std::map<std::string, PartRef> by_name_;
+  std::vector<SceneBody> scene_;  // one per body directly in the world
+  std::map<MjcfFriction, std::string> materials_;
+  std::vector<std::string> mixed_;  // bodies of several coefficients
+  int trees_ = 0;
+};
+
+// --- friction ---
+
+std::string material_name(const MjcfFriction& friction) {
+  std::string out = fmt::format("friction {}", friction.mu);
+  if (friction.frictionless) out += " frictionless";
+  if (friction.priority != 0) out += fmt::format(" priority {}", friction.priority);
+  return out;
+}
+
+/// Of two geoms that touch.
+double combined(const MjcfFriction& a, const MjcfFriction& b) {
+  const auto own = [](const MjcfFriction& f) { return f.frictionless ? 0 : f.mu; };
+  if (a.priority != b.priority) return own(a.priority > b.priority ? a : b);
+  return a.frictionless && b.frictionless ? 0 : std::max(a.mu, b.mu);
+}
+
+/// A body is of one material here: that of the geom which would win against the others.
+std::string SceneReader::material(const std::vector<MjcfGeom>& geoms, const std::string& name) {
+  const MjcfGeom* first = nullptr;
+  bool mixed = false;
+  for (const MjcfGeom& geom : geoms) {
+    if (!geom.collides()) continue;
+    mixed = mixed || (first && geom.friction != first->friction);
+    const auto rank = [](const MjcfGeom& g) {
+      return std::tuple(g.friction.priority, !g.friction.frictionless, g.friction.mu);
+    };
+    if (!first || rank(geom) > rank(*first)) first = &geom;
+  }
+  if (mixed) mixed_.push_back(name);
+  const MjcfFriction friction = first ? first->friction : MjcfFriction{};
+  return materials_.try_emplace(friction, material_name(friction)).first->second;
+}
+
+void SceneReader::set_friction() {
+  for (const auto& [friction, name] : materials_) {
+    const double own = combined(friction, friction);
+    world_.friction.push_back({name, name, own, own});
+    world_.larger_friction.push_back(name);
+  }
+  for (auto a = materials_.begin(); a != materials_.end(); ++a)
+    for (auto b = materials_.begin(); b != a; ++b) {
+      const double mu = combined(a->first, b->first);
+      world_.friction.push_back({a->second, b->second, mu, mu});
+    }
+  if (!mixed_.empty())
+    library_.warn(fmt::format("{}: bodies whose geoms differ in friction, of which that of the "
+                              "highest priority, then the largest counts for all: {}",
+                              model_.document().file(), some_names(mixed_)));
+}
+
+// --- bodies ---
+
+ScenePart SceneReader::part_of(PartRef ref, const std::vector<MjcfGeom>& geoms, bool fixed) const {
+  ScenePart out{ref, 0, 0, fixed};
+  for (const MjcfGeom& geom : geoms) out.type |= geom.type, out.affinity |= geom.affinity;
+  return out;
+}
+
+/// An object or obstacle, whose shape is made when all are known.   returns  its number in the world
+int SceneReader::add_thing(const std::string& name, Role role, const Pose& X_WB, LinkPieces pieces,
+                           const std::vector<MjcfGeom>& geoms, const BodySpec* weighed) {
+  const int number = static_cast<int>(world_.bodies.size());
+  TreeLink link;
+  if (weighed) link.body = *weighed;
+  link.body.name = name;
+  link.body.source = model_.document().path().generic_string();
+  pieces.has_inertial = weighed || role == Role::obstacle;  // nobody lifts an obstacle
+  things_.links.push_back(link);
+  thing_pieces_.push_back(std::move(pieces));
+  PlacedBody placed;
+  placed.role = role;
+  placed.X_WB = X_WB;
+  placed.body.material = material(geoms, name);
+  world_.bodies.push_back(std::move(placed));
+  world_.order.push_back({WorldEntry::Kind::body, number});
+  const PartRef ref{WorldEntry::Kind::body, number, -1};
+  parts_.push_back(part_of(ref, geoms, role == Role::obstacle));
+  return number;
+}
+
+static void add_piece(LinkPieces& into, const MjcfGeom& geom, const Pose& X) {
+  GeometryPiece piece = geom.piece;
+  piece.X_LG = X * piece.X_LG;
+  if (geom.collides()) into.collision.push_back(piece);
+  if (geom.drawn) into.visual.push_back(piece);
+}
+
+void SceneReader::add_geom(const WorldGeom& from) {
+  auto geom = model_.geoms().read(from.node->element, from.child_class, from.X_frame, true);
+  if (!geom) return;
+  const Pose X = geom->piece.X_LG;
+  const std::string name = from.node->element.attribute("name").value_or("");
+  LinkPieces pieces;
+  pieces.place = from.node->element.place();
+  add_piece(pieces, *geom, X.inverse());
+  if (pieces.collision.empty() && pieces.visual.empty()) return;
+  // the inverse is rounded
+  for (auto* list : {&pieces.collision, &pieces.visual})
+    for (GeometryPiece& piece : *list) piece.X_LG = Pose{};
+  add_thing(name.empty() ? "world_geom" : name, Role::obstacle, X, std::move(pieces), {*geom},
+            nullptr);
+}
+
+std::vector<Pose> tree_poses(const TreeModel& tree) {
+  std::vector<Pose> out;
+  for (const TreeLink& link : tree.links)
+    out.push_back(link.parent < 0 ? link.X_PL : out[link.parent] * link.X_PL);
+  return out;
+}
+
+/// Mass, centre and inertia of all links together; empty when one of them is not known.
+std::optional<BodySpec> weigh(const MjcfTree& tree, const std::vector<Pose>& X) {
+  double mass = 0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  const auto known = [&](size_t i) {
+    const BodySpec& body = tree.model.links[i].body;
+    return tree.pieces[i].has_inertial && body.com && body.inertia_per_mass;
+  };
+  for (size_t i = 0; i < X.size(); ++i) {
+    if (!known(i)) {
+      if (!tree.geoms[i].empty()) return {};
+      continue;
+    }
+    const BodySpec& body = tree.model.links[i].body;
+    mass += body.mass;
+    moment += body.mass * (X[i] * *body.com);
+  }
+  if (!mass_rule.allows(mass)) return {};
+  const Eigen::Vector3d com = moment / mass;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (size_t i = 0; i < X.size(); ++i) {
+    if (!known(i)) continue;
+    const BodySpec& body = tree.model.links[i].body;
+    const Eigen::Matrix3d R = X[i].matrix();
+    const Eigen::Vector3d off = X[i] * *body.com - com;
+    inertia += body.mass * (R * *body.inertia_per_mass * R.transpose() +
+                            off.squaredNorm() * Eigen::Matrix3d::Identity() - off * off.transpose());
+  }
+  BodySpec out;
+  if (X.size() == 1) {
+    out = tree.model.links[0].body;  // to the bit
+  } else {
+    out.mass = mass;
+    out.com = com;
+    out.inertia_per_mass = inertia / mass;
+  }
+  out.mass_given = true;
+  return out;
+}
+
+/// A free body, and what is fixed to it, as one.
+void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
+  MjcfTree tree = model_.read_tree(body);
+  tree.faults.tell(library_);
+  const auto X = tree_poses(tree.model);
+  LinkPieces pieces;
+  pieces.place = body.node->element.place();
+  std::vector<MjcfGeom> geoms;
+  for (size_t i = 0; i < X.size(); ++i)
+    for (const MjcfGeom& geom : tree.geoms[i]) {
+      add_piece(pieces, geom, X[i]);
+      geoms.push_back(geom);
+    }
+  const auto weighed = weigh(tree, X);
+  const int number = add_thing(body.name, Role::object, scene.X_WB, std::move(pieces), geoms,
+                               weighed ? &*weighed : nullptr);
+  scene.bodies.push_back({number, Pose{}});
+  scene.free = true;
+  for (const auto& [name, link] : tree.links)
+    by_name_[name] = {WorldEntry::Kind::body, number, -1};
+}
+
+/// A fixed body, and those on it, each as an obstacle, as far as they have geoms.
+void SceneReader::add_obstacles(const TopBody& body, SceneBody& scene) {
+  MjcfTree tree = model_.read_tree(body);
+  const auto X = tree_poses(tree.model);
+  for (size_t i = 0; i < X.size(); ++i) {
+    LinkPieces pieces;
+    pieces.place = tree.pieces[i].place;
+    for (const MjcfGeom& geom : tree.geoms[i]) add_piece(pieces, geom, Pose{});
+    if (pieces.collision.empty() && pieces.visual.empty()) continue;
+    const std::string& name = tree.model.links[i].body.name;
+    const int number = add_thing(name, Role::obstacle, scene.X_WB * X[i], std::move(pieces),
+                                 tree.geoms[i], nullptr);
+    scene.bodies.push_back({number, X[i]});
+    by_name_[name] = {WorldEntry::Kind::body, number, -1};
+  }
+}
+
+void SceneReader::add_robot(const TopBody& body, SceneBody& scene) {
+  const int number = static_cast<int>(world_.robots.size());
+  MjcfRobot made = model_.scene_robot(body, trees_++ == 0);
+  PlacedRobot placed;
+  placed.X_WB = body.own_joints ? Pose{} : scene.X_WB;
+  RobotSpec& robot = made.robot;
+  std::vector<bool> fixed(robot.links.size());
+  for (size_t l = 0; l < fixed.size(); ++l)
+    fixed[l] = robot.links[l].joints.empty() &&
+               (robot.links[l].parent < 0 || fixed[robot.links[l].parent]);
+  const bool stands = !body.free && !body.mocap;
+  for (const auto& [name, link] : made.parts) {
+    const auto& geoms = made.tree.geoms[made.tree.links.at(name)];
+    BodySpec& part = link < 0 ? robot.base : robot.links[link].body;
+    part.material = material(geoms, part.name);
+    const PartRef ref{WorldEntry::Kind::robot, number, link};
+    parts_.push_back(part_of(ref, geoms, stands && (link < 0 || fixed[link])));
+    by_name_[name] = ref;
+  }
+  for (const DofSpec& dof : robot.dofs) placed.dofs.push_back(dof.default_value);
+  scene.robot = number;
+  scene.free = body.free;
+  scene.slots = std::move(made.tree.slots);
+  scene.joints = std::move(made.tree.model.joints);
+  placed.robot = std::move(robot);
+  world_.robots.push_back(std::move(placed));
+  world_.order.push_back({WorldEntry::Kind::robot, number});
+}
+
+void SceneReader::add_body(const TopBody& body) {
+  SceneBody scene;
+  scene.name = body.name;
+  scene.mocap = body.mocap;
+  scene.X_WB = body.X_frame * model_.document().pose(XmlValues(body.node->element));
+  if (body.joints > 0)
+    add_robot(body, scene);
+  else if (body.free)
+    add_object(body, scene);
+  else
+    add_obstacles(body, scene);
+  scene_.push_back(std::move(scene));
+}
+
+/// Shapes and looks of all that is no robot.
+void SceneReader::dress_things() {
+  if (things_.links.empty()) return;
+  dress_links(things_, thing_pieces_, model_.geoms().geometry(), model_.document().file(),
+              library_, true);
+  for (size_t i = 0; i < things_.links.size(); ++i) {
+    BodySpec& body = things_.links[i].body;
+    body.material = std::move(world_.bodies[i].body.material);
+    world_.bodies[i].body = std::move(body);
+  }
+}
+
+// --- what may meet ---
+
+void SceneReader::exclude() {
+  for (const MjcfNode* node : model_.document().section("contact")) {
+    if (node->name() != "exclude") {
+      model_.document().unused().element(node->element);
+      continue;
+    }
+    model_.document().unused().attributes(node->element, {"name", "class", "body1", "body2"});
+    const XmlValues values(node->element);
+    std::array<PartRef, 2> pair;
+    bool known = true;
+    for (int i = 0; i < 2; ++i) {
+      const std::string name = values.text(i ? "body2" : "body1");
+      const auto found = by_name_.find(name);
+      if (found == by_name_.end())
+        library_.warn(fmt::format("{}: exclude: no body {} is read; this is not used",
+                                  node->element.place(), in_quotes(name)));
+      else
+        pair[i] = found->second;
+      known = known && found != by_name_.end();
+    }
+    const bool one_robot = pair[0].kind == WorldEntry::Kind::robot && pair[0].kind == pair[1].kind &&
+                           pair[0].index == pair[1].index;
+    const bool one = pair[0].kind == pair[1].kind && pair[0].index == pair[1].index;
+    if (known && !one && !one_robot) world_.never_meet.push_back(pair);
+  }
+}
+
+/// What is fixed never meets what is fixed, nor do geoms whose bits keep them apart.
+void SceneReader::never_meet() {
+  int apart = 0;
+  for (size_t i = 0; i < parts_.size(); ++i)
+    for (size_t j = i + 1; j < parts_.size(); ++j) {
+      const ScenePart &a = parts_[i], &b = parts_[j];
+      if (a.ref.kind == b.ref.kind && a.ref.index == b.ref.index) continue;  // of one robot
+      if ((a.type | a.affinity) == 0 || (b.type | b.affinity) == 0) continue;
+      const bool meet = (a.type & b.affinity) || (b.type & a.affinity);
+      if (meet && !(a.fixed && b.fixed)) continue;
+      apart += !meet;
+      world_.never_meet.push_back({a.ref, b.ref});
+    }
+  if (apart > 0)
+    library_.note(fmt::format("{}: {} pair{} of bodies never collide{}, as contype and "
+                              "conaffinity say",
+                              model_.document().file(), apart, apart == 1 ? "" : "s",
+                              apart == 1 ? "s" : ""));
+}
+
+// --- what holds for all ---
+
+void SceneReader::read_options() {
+  world_.gravity = Eigen::Vector3d(0, 0, -9.81);  // where a file of MuJoCo says nothing
+  for (const MjcfNode& node : model_.document().root().children) {
+    if (node.name() != "option") continue;
+    const XmlValues values(node.element);
+    model_.document().unused().attributes(node.element, {"gravity"});
+    for (const MjcfNode& child : node.children) {
+      const XmlValues flags(child.element);
+      if (child.name() == "flag" && flags.word("gravity", {"enable", "disable"}, "enable") ==
+                                        std::string_view("disable"))
+        world_.gravity = Eigen::Vector3d::Zero();
+      else
+        model_.document().unused().element(child.element);
+    }
+    if (!values.has("gravity")) continue;
+    const Eigen::Vector3d gravity = values.vec3("gravity", {0, 0, 0});
+    for (const double x : gravity)
+      if (const auto wrong = fault(gravity_rule, x); !wrong.empty())
+        values.fail("gravity", "{}", wrong);
+    world_.gravity = gravity;
+  }
+}
+
+WorldSpec SceneReader::read() {
+  const Worldbody& worldbody = model_.worldbody();
+  const ReadOptions& options = library_.options();
+  const size_t trees = model_.joint_trees().size();
+  if (trees != 1 && (!options.closing.empty() || options.approach))
+    fail("{}: {}: expected a file of one robot, got {}; world:add_robot with the option 'body' "
+         "takes one of them",
+         model_.document().file(), options.closing.empty() ? "approach" : "close", trees);
+  for (const auto& [is_body, number] : worldbody.order) {
+    if (is_body)
+      add_body(worldbody.bodies[number]);
+    else
+      add_geom(worldbody.geoms[number]);
+  }
+  if (world_.bodies.empty() && world_.robots.empty())
+    fail("{}: expected bodies or geoms in <worldbody>, got none", model_.document().file());
+  if (trees == 0)
+    for (const char* section : {"equality", "tendon", "actuator"})
+      for (const MjcfNode* node : model_.document().section(section))
+        model_.document().unused().element(node->element);
+  dress_things();
+  set_friction();
+  read_options();
+  exclude();
+  never_meet();
+  read_mjcf_keyframes(model_.document(), scene_, worldbody.lacks_bodies, library_, world_);
+  model_.tell();
+  return std::move(world_);
+}
+
+}  // namespace
+
+WorldSpec read_world_mjcf(const fs::path& path, Library& library) {
+  return SceneReader(path, library).read();
+}
+
+}  // namespace clench

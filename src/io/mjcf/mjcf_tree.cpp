@@ -1,0 +1,348 @@
+#include "clench/io/mjcf/mjcf_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/base/text.h"
+
+namespace clench {
+
+// --- what stands in the world ---
+
+static int count_joints(const MjcfNode& node) {
+  int count = 0;
+  for (const auto& child : node.children) {
+    if (child.name() == "joint" && child.element.attribute("type").value_or("") != "free") ++count;
+    count += count_joints(child);
+  }
+  return count;
+}
+
+static int count_elements(const MjcfNode& node, const std::string& name) {
+  int count = 0;
+  for (const auto& child : node.children)
+    count += (child.name() == name) + count_elements(child, name);
+  return count;
+}
+
+static bool moves_freely(const MjcfNode& node) {
+  return std::any_of(node.children.begin(), node.children.end(), [](const MjcfNode& child) {
+    return child.name() == "freejoint" ||
+           (child.name() == "joint" && child.element.attribute("type").value_or("") == "free");
+  });
+}
+
+static bool has_own_joints(const MjcfNode& node) {
+  return std::any_of(node.children.begin(), node.children.end(), [](const MjcfNode& child) {
+    return (child.name() == "frame" && has_own_joints(child)) ||
+           (child.name() == "joint" && child.element.attribute("type").value_or("") != "free");
+  });
+}
+
+bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const Library& library,
+                  const char* whole) {
+  const std::string name = node.name();
+  const auto warn = [&](const std::string& what) {
+    library.warn(node.element.place() + ": " + what);
+  };
+  if (name == "replicate" || name == "composite" || name == "flexcomp") {
+    const std::string what =
+        name == "replicate"
+            ? fmt::format("all that it repeats (bodies: {}, geoms: {})",
+                          count_elements(node, "body"), count_elements(node, "geom"))
+            : "the bodies that it makes";
+    warn(fmt::format("<{}> is not used: the {} lacks {}; save the model expanded by MuJoCo",
+                     excerpt(name), whole, what));
+    return true;
+  }
+  if (name == "attach") {
+    warn(fmt::format("<attach> is not used: the {} lacks the body {} of model {} and all that "
+                     "hangs on it; save the model expanded by MuJoCo",
+                     whole, in_quotes(node.element.attribute("body").value_or("")),
+                     in_quotes(node.element.attribute("model").value_or(""))));
+    return true;
+  }
+  document.unused().element(node.element);
+  return false;
+}
+
+static void find_in_world(const MjcfNode& node, const std::string& child_class,
+                          const Pose& X_frame, MjcfDocument& document, const Library& library,
+                          const char* whole, Worldbody& into) {
+  if (node.name() == "body") {
+    const auto name = node.element.attribute("name").value_or("");
+    const int number = static_cast<int>(into.bodies.size());
+    into.order.emplace_back(true, number);
+    into.bodies.push_back({&node, child_class, X_frame,
+                           name.empty() ? fmt::format("body{}", number + 1) : name,
+                           count_joints(node), has_own_joints(node), moves_freely(node),
+                           XmlValues(node.element).boolean("mocap", false)});
+  } else if (node.name() == "frame") {
+    const std::string inherited = node.element.attribute("childclass").value_or(child_class);
+    const Pose X = X_frame * document.pose(XmlValues(node.element));
+    for (const auto& child : node.children)
+      find_in_world(child, inherited, X, document, library, whole, into);
+  } else if (node.name() == "geom") {
+    into.order.emplace_back(false, static_cast<int>(into.geoms.size()));
+    into.geoms.push_back({&node, child_class, X_frame});
+  } else if (warn_of_loss(node, document, library, whole)) {
+    into.lacks_bodies = true;
+  }
+}
+
+Worldbody read_worldbody(MjcfDocument& document, const Library& library, const char* whole) {
+  Worldbody out;
+  for (const MjcfNode* node : document.section("worldbody"))
+    find_in_world(*node, "", Pose{}, document, library, whole, out);
+  return out;
+}
+
+// --- bodies ---
+
+/// The name, or another where an element before has it.
+std::string MjcfTreeReader::own_name(const XmlElement& element, const std::string& name,
+                                 const std::map<std::string, int>& taken) {
+  if (!taken.contains(name)) return name;
+  const std::string own = unused_name(name, taken);
+  document_.repairs().add(std::string(element.name()),
+                          fmt::format("{}: {}: there is another one of the name '{}'; it is called "
+                                      "'{}'",
+                                      element.place(), element.name(), excerpt(name), own));
+  return own;
+}
+
+int MjcfTreeReader::add_link(const XmlElement& element, const std::string& name, int parent,
+                         const Pose& X_PL) {
+  const int number = static_cast<int>(tree_.model.links.size());
+  if (number >= max_links) element.fail("expected at most {} bodies", max_links);
+  TreeLink link;
+  link.parent = parent;
+  link.X_PL = X_PL;
+  link.body.name = name.empty() ? fmt::format("body{}", number) : name;
+  link.body.source = document_.path().generic_string();
+  link.body.name = own_name(element, link.body.name, tree_.links);
+  tree_.links[link.body.name] = number;
+  tree_.model.links.push_back(std::move(link));
+  tree_.pieces.emplace_back().place = element.place();
+  tree_.geoms.emplace_back();
+  tree_.slots.emplace_back();
+  return number;
+}
+
+void MjcfTreeReader::read_body(const MjcfNode& node, int parent, const std::string& child_class,
+                               const Pose& X_frame, bool base, const std::string& name) {
+  const XmlElement& element = node.element;
+  document_.unused().attributes(
+      element, {"name", "pos", "quat", "axisangle", "euler", "xyaxes", "zaxis", "childclass",
+                "mocap"});
+  const XmlValues values(element);
+  const std::string inherited = values.text("childclass", child_class);
+  document_.check_class(element, inherited);
+  const Pose X = X_frame * document_.pose(values);
+  // where the base stands is the world's to say
+  const int link = add_link(element, name, parent, base ? Pose{} : X);
+  if (base && whole_ == std::string_view("robot") && !(X == Pose{}))
+    library_.note(fmt::format("{}: body '{}' is the base; its place in the file is not used",
+                              element.place(), excerpt(tree_.model.links[link].body.name)));
+  read_contents(node, link, inherited, Pose{});
+  if (!tree_.pieces[link].has_inertial || document_.inertia_from_geoms()) weigh_geoms(link);
+}
+
+void MjcfTreeReader::read_contents(const MjcfNode& node, int link, const std::string& child_class,
+                               const Pose& X_frame) {
+  for (const MjcfNode& child : node.children) {
+    const std::string name = child.name();
+    if (name == "body") {
+      read_body(child, link, child_class, X_frame, false,
+                child.element.attribute("name").value_or(""));
+    } else if (name == "frame") {
+      const XmlValues values(child.element);
+      const std::string inherited = values.text("childclass", child_class);
+      document_.check_class(child.element, inherited);
+      read_contents(child, link, inherited, X_frame * document_.pose(values));
+    } else if (name == "joint" || name == "freejoint") {
+      read_joint(child.element, link, child_class, X_frame);
+    } else if (name == "inertial") {
+      read_inertial(child.element, link, X_frame);
+    } else if (name == "geom") {
+      if (auto geom = geoms_.read(child.element, child_class, X_frame))
+        tree_.geoms[link].push_back(std::move(*geom));
+    } else {
+      warn_of_loss(child, document_, library_, whole_);
+    }
+  }
+}
+
+// --- joints ---
+
+/// Is there a range that limits?
+static bool given_range(const XmlValues& values) {
+  if (!values.has("range")) return false;
+  const auto range = values.numbers("range", 2, 2);
+  return range[0] != 0 || range[1] != 0 || values.text("limited", "auto") == "true";
+}
+
+void MjcfTreeReader::set_range(const XmlValues& values, TreeJoint& joint) {
+  const bool turns = joint.kind == JointKind::revolute;
+  const double unit = turns ? document_.angle_unit() : 1;
+  const std::string limited = values.word("limited", {"auto", "true", "false"}, "auto");
+  // two zeros undo what a class says
+  const bool has_range = given_range(values);
+  if (limited == "auto" && has_range && !document_.autolimits())
+    document_.repairs().add(
+        "autolimits", values.subject("range") +
+                          ": expected limited=\"true\" beside it, as autolimits is off; the range "
+                          "is used");
+  if (limited == "true" && !values.has("range"))
+    document_.repairs().add(
+        "limited", values.subject("limited") + ": expected a range, got none; there are no limits");
+  if (limited == "false" || !has_range) {
+    const double endless = turns ? endless_turn : endless_slide;
+    joint.min = joint.zero - endless, joint.max = joint.zero + endless;
+    library_.note(fmt::format("{}: joint '{}' has no limits; it may go from {:.4g} to {:.4g} {}",
+                              joint.place, excerpt(joint.name), joint.min, joint.max,
+                              turns ? "rad" : "m"));
+    return;
+  }
+  const auto range = values.range("range", document_.repairs());
+  joint.min = range[0] * unit;
+  joint.max = range[1] * unit;
+  if (joint.min == joint.max)
+    library_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}", joint.place,
+                              excerpt(joint.name), joint.min, turns ? "rad" : "m"));
+}
+
+void MjcfTreeReader::add_joint(TreeJoint joint, const XmlElement& element, int link) {
+  if (tree_.model.joints.size() >= max_joints) element.fail("expected at most {} joints", max_joints);
+  const int number = static_cast<int>(tree_.model.joints.size());
+  joint.name = own_name(element, joint.name, tree_.joints);
+  tree_.joints[joint.name] = number;
+  joint.start = std::clamp(joint.zero, joint.min, joint.max);
+  tree_.model.joints.push_back(std::move(joint));
+  tree_.model.links[link].joints.push_back(number);
+}
+
+void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::string& child_class,
+                            const Pose& X_frame) {
+  const XmlValues values = document_.values(element, child_class);
+  values.tell_unused(document_.unused(),
+                     {"name", "class", "type", "pos", "axis", "range", "limited", "ref",
+                      "stiffness", "springref", "damping", "frictionloss", "armature"});
+  const std::string type = element.name() == "freejoint"
+                               ? "free"
+                               : values.word("type", {"hinge", "slide", "ball", "free"}, "hinge");
+  TreeJoint joint;
+  joint.place = element.place();
+  joint.name = values.text("name", "");
+  const std::string& body = tree_.model.links[link].body.name;
+  if (joint.name.empty())
+    joint.name = tree_.model.links[link].joints.empty()
+                     ? body + "_joint"
+                     : fmt::format("{}_joint{}", body, tree_.model.links[link].joints.size() + 1);
+  if (type == "free") {
+    tree_.slots[link].push_back({QposSlot::Kind::free});
+    // the base goes where the world puts it
+    if (link == 0) return;
+    warn(element, fmt::format("joint '{}' is free; body '{}' stays where the file puts it",
+                              excerpt(joint.name), excerpt(body)));
+    return;
+  }
+  joint.kind = type == "slide" ? JointKind::prismatic : JointKind::revolute;
+  const double unit = type == "slide" ? 1 : document_.angle_unit();
+  joint.anchor = X_frame * values.vec3("pos", {0, 0, 0});
+  const Eigen::Vector3d axis = values.vec3("axis", {0, 0, 1});
+  if (!(axis.stableNorm() > 1e-9)) values.fail("axis", "expected a direction, got none");
+  joint.axis = (X_frame.rotation * axis.stableNormalized()).normalized();
+  joint.viscous = values.not_negative("damping", 0, document_.repairs());
+  joint.coulomb = values.not_negative("frictionloss", 0, document_.repairs());
+  joint.armature = values.not_negative("armature", 0, document_.repairs());
+  joint.spring = values.not_negative("stiffness", 0, document_.repairs());
+  joint.rest = values.number("springref", 0) * unit;
+  if (type != "ball") {
+    joint.zero = values.number("ref", 0) * unit;
+    set_range(values, joint);
+    tree_.slots[link].push_back(
+        {QposSlot::Kind::joint, static_cast<int>(tree_.model.joints.size())});
+    add_joint(std::move(joint), element, link);
+    return;
+  }
+  // a ball is three turns, about x, y and z; its range is the most that it leans
+  double most = endless_turn / 2;
+  if (given_range(values) && values.text("limited", "auto") != "false")
+    most = std::min(most, values.numbers("range", 2, 2)[1] * unit);
+  if (!(most > 0)) values.fail("range", "expected a largest angle > 0");
+  library_.note(
+      fmt::format("{}: joint '{}' is a ball; it becomes three turns of at most {:.4g} rad",
+                  joint.place, excerpt(joint.name), most));
+  tree_.slots[link].push_back({QposSlot::Kind::ball, static_cast<int>(tree_.model.joints.size())});
+  for (int i = 0; i < 3; ++i) {
+    TreeJoint turn = joint;
+    turn.name += fmt::format("_{}", "xyz"[i]);
+    turn.axis = X_frame.rotation * Eigen::Vector3d::Unit(i);
+    turn.min = -most, turn.max = most, turn.rest = 0;
+    add_joint(std::move(turn), element, link);
+  }
+}
+
+// --- masses ---
+
+void MjcfTreeReader::read_inertial(const XmlElement& element, int link, const Pose& X_frame) {
+  document_.unused().attributes(element, {"pos", "quat", "axisangle", "euler", "xyaxes", "zaxis",
+                                          "mass", "diaginertia", "fullinertia"});
+  BodySpec& body = tree_.model.links[link].body;
+  const XmlValues values(element);
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  if (values.has("fullinertia")) {
+    const auto v = values.numbers("fullinertia", 6, 6);
+    inertia << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
+  } else if (values.has("diaginertia")) {
+    inertia.diagonal() = values.vec3("diaginertia", {0, 0, 0});
+  }
+  const double mass = values.number("mass");
+  if (const auto wrong = fault(mass_rule, mass); !wrong.empty()) {
+    warn(element,
+         fmt::format("body '{}': mass: {}; the geometry gives it", excerpt(body.name), wrong));
+    return;
+  }
+  const Inertial inertial = set_inertial(body, mass, X_frame * document_.pose(values), inertia);
+  const bool given = values.has("fullinertia") || values.has("diaginertia");
+  tree_.faults.add(given ? inertial : Inertial::not_given, element.place(), body.name);
+  tree_.pieces[link].has_inertial = true;
+}
+
+/// Mass, centre and inertia of all geoms of a body, as MuJoCo takes them where a file gives none.
+void MjcfTreeReader::weigh_geoms(int link) {
+  double mass = 0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  std::vector<std::pair<const MjcfGeom*, MassProperties>> parts;
+  for (const MjcfGeom& geom : tree_.geoms[link]) {
+    if (!(geom.mass > 0)) continue;
+    parts.emplace_back(&geom, solid_of(geom.piece));
+    if (!parts.back().second.centroid.allFinite()) return;
+    mass += geom.mass;
+    moment += geom.mass * (geom.piece.X_LG * parts.back().second.centroid);
+  }
+  if (!mass_rule.allows(mass)) return;
+  const Eigen::Vector3d com = moment / mass;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (const auto& [geom, solid] : parts) {
+    const Eigen::Matrix3d R = geom->piece.X_LG.matrix();
+    const Eigen::Vector3d off = geom->piece.X_LG * solid.centroid - com;
+    inertia +=
+        geom->mass * (R * solid.inertia * R.transpose() +
+                      off.squaredNorm() * Eigen::Matrix3d::Identity() - off * off.transpose());
+  }
+  BodySpec with = tree_.model.links[link].body;
+  if (set_inertial(with, mass, Pose::translation(com), inertia) == Inertial::not_definite) return;
+  tree_.model.links[link].body = std::move(with);
+  tree_.pieces[link].has_inertial = true;
+}
+
+void MjcfTreeReader::read_body(const TopBody& body, bool base) {
+  read_body(*body.node, tree_.model.links.empty() ? -1 : 0, body.child_class, body.X_frame, base,
+            whole_ == std::string_view("robot")
+                ? body.node->element.attribute("name").value_or("")
+                : body.name);
+}
+
+}  // namespace clench

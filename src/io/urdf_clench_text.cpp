@@ -1,0 +1,170 @@
+#include "clench/io/urdf_clench_text.h"
+
+#include <algorithm>
+
+#include "clench/base/text.h"
+#include "clench/io/text/xml.h"
+
+namespace clench {
+
+namespace {
+
+class ClenchText {
+ public:
+  ClenchText(const RobotSpec& robot, const UrdfPlan& plan) : robot_(robot), plan_(plan) {}
+  std::string text(const UrdfBeside& beside);
+
+ private:
+  std::string attribute(const char* name, const std::string& value) const {
+    return fmt::format(" {}=\"{}\"", name, xml_escaped(value));
+  }
+  std::string attribute(const char* name, double value) const {
+    return fmt::format(" {}=\"{}\"", name, value + 0.0);
+  }
+  /// what is as it would be without is left out
+  std::string unless(double usual, const char* name, double value) const {
+    return value == usual ? "" : attribute(name, value);
+  }
+  std::string pose(const Pose& X) const;
+  std::string link_name(int part) const { return plan_.links[plan_.link(part)].name; }
+  void add_dof(int number);
+  void add_joint(const UrdfJoint& joint);
+  void add_link(const UrdfLink& link);
+  void add_collision();
+  void add_actuator(const ActuatorSpec& actuator);
+  void line(const std::string& text) { out_ += "    " + text + "\n"; }
+
+  const RobotSpec& robot_;
+  const UrdfPlan& plan_;
+  std::string out_;
+};
+
+std::string ClenchText::pose(const Pose& X) const {
+  const auto& p = X.position;
+  const auto& q = X.rotation;
+  return fmt::format(" xyz=\"{} {} {}\" quat=\"{} {} {} {}\"", p.x(), p.y(), p.z(), q.w(), q.x(),
+                     q.y(), q.z());
+}
+
+/// A value of the DOF is `scale` times as much in the file: forces are so much less.
+void ClenchText::add_dof(int number) {
+  if (plan_.leader_of[number] < 0) return;
+  const DofSpec& dof = robot_.dofs[number];
+  const UrdfJoint& leader = plan_.joints[plan_.leader_of[number]];
+  const double scale = leader.factor;
+  constexpr const char* kinds[] = {"rigid", "breakaway", "compliant"};
+  line("<dof" + attribute("joint", leader.name) +
+       attribute("kind", std::string(kinds[static_cast<int>(dof.kind)])) +
+       attribute("velocity", dof.default_velocity * scale) +
+       unless(0, "kp", dof.kp / scale / scale) + unless(0, "kd", dof.kd / scale / scale) +
+       unless(0, "breakaway", dof.breakaway_torque / scale) +
+       unless(0, "handle", dof.dragger_scale) + attribute("start", dof.default_value * scale) +
+       "/>");
+}
+
+/// A leader that turns against its DOF turns along in the file.
+void ClenchText::add_joint(const UrdfJoint& joint) {
+  if (!joint.spec) return;
+  const JointSpec& spec = *joint.spec;
+  if (spec.spring == 0 && spec.rest == 0 && spec.armature == 0) return;
+  const double sense = joint.leads && spec.ratio < 0 ? -1 : 1;
+  line("<joint" + attribute("name", joint.name) + unless(0, "spring", spec.spring) +
+       unless(0, "rest", sense * spec.rest) + unless(0, "armature", spec.armature) + "/>");
+}
+
+void ClenchText::add_link(const UrdfLink& link) {
+  if (!link.body) return;
+  const BodySpec& body = *link.body;
+  const BodySpec plain;
+  std::string out;
+  if (body.material != "plastic") out += attribute("material", body.material);
+  if (body.elastic_modulus) out += attribute("elastic_modulus", *body.elastic_modulus);
+  out += unless(plain.soft_layer, "soft_layer", body.soft_layer);
+  out += unless(plain.poisson_ratio, "poisson_ratio", body.poisson_ratio);
+  if (body.tracker) out += fmt::format(" tracker=\"{}\"", *body.tracker);
+  if (!out.empty()) line("<link" + attribute("name", link.name) + out + "/>");
+}
+
+void ClenchText::add_collision() {
+  const CollisionRules& rules = robot_.collision_rules;
+  std::string inside;
+  const auto pair = [&](int a, int b) {
+    inside += "      <never_pair" + attribute("link1", link_name(a)) +
+              attribute("link2", link_name(b)) + "/>\n";
+  };
+  for (const int part : rules.parts_off)
+    inside += "      <never" + attribute("link", link_name(part)) + "/>\n";
+  for (const auto& [a, b] : rules.pairs_off) pair(a, b);
+  // in the file a link that two joints move is no neighbour of the base
+  for (size_t l = 0; l < robot_.links.size(); ++l)
+    if (!robot_.chain_links_collide && robot_.links[l].parent < 0 &&
+        robot_.links[l].joints.size() > 1)
+      pair(-1, static_cast<int>(l));
+  std::string flags;
+  if (!robot_.chain_links_collide) flags += " chain_links=\"false\"";
+  if (rules.near_pairs_off) flags += " near_pairs=\"false\"";
+  if (inside.empty() && flags.empty()) return;
+  line("<collision" + flags + (inside.empty() ? "/>" : ">"));
+  if (!inside.empty()) out_ += inside + "    </collision>\n";
+}
+
+void ClenchText::add_actuator(const ActuatorSpec& actuator) {
+  std::string out;
+  double sense = 1;
+  if (!actuator.name.empty()) out += attribute("name", actuator.name);
+  out += attribute("kind", actuator.kind);
+  if (!actuator.joint.empty()) {
+    std::string name = actuator.joint;
+    for (const UrdfJoint& joint : plan_.joints)
+      if (joint.spec && joint.spec->name == actuator.joint) {
+        name = joint.name;
+        sense = joint.leads && joint.spec->ratio < 0 ? -1 : 1;
+      }
+    out += attribute("joint", name);
+  }
+  if (!actuator.tendon.empty()) out += attribute("tendon", actuator.tendon);
+  if (actuator.dof >= 0 && plan_.leader_of[actuator.dof] >= 0)
+    out += attribute("moves", plan_.joints[plan_.leader_of[actuator.dof]].name);
+  out += attribute("gear", sense * actuator.gear);
+  if (actuator.law_known)
+    out += attribute("gain", actuator.gain) + fmt::format(" bias=\"{} {} {}\"", actuator.bias[0],
+                                                          actuator.bias[1], actuator.bias[2]);
+  const auto range = [&](const char* name, const auto& bounds) {
+    if (bounds) out += fmt::format(" {}=\"{} {}\"", name, (*bounds)[0], (*bounds)[1]);
+  };
+  range("control_range", actuator.control_range);
+  range("force_range", actuator.force_range);
+  line("<actuator" + out + "/>");
+}
+
+std::string ClenchText::text(const UrdfBeside& beside) {
+  // worlds take none for that of the base
+  line("<approach" + pose(robot_.X_BA.value_or(Pose{})) + "/>");
+  if (robot_.tracker)
+    line(fmt::format("<tracker number=\"{}\"{}/>", robot_.tracker->number,
+                     pose(robot_.tracker->X_BS)));
+  for (int d = 0; d < static_cast<int>(robot_.dofs.size()); ++d) add_dof(d);
+  for (const UrdfJoint& joint : plan_.joints) add_joint(joint);
+  for (const UrdfLink& link : plan_.links) add_link(link);
+  add_collision();
+  for (const ActuatorSpec& actuator : robot_.actuators) add_actuator(actuator);
+  const auto file = [&](const char* element, const std::string& name) {
+    if (!name.empty()) line(fmt::format("<{}", element) + attribute("file", name) + "/>");
+  };
+  file("eigengrasps", beside.eigengrasps);
+  file("virtual_contacts", beside.virtual_contacts);
+  file("glove", beside.glove);
+  std::string head = "  <clench";
+  if (!robot_.class_name.empty() && robot_.class_name != plan_.name)
+    head += attribute("class", robot_.class_name);
+  if (!robot_.database_name.empty()) head += attribute("database_name", robot_.database_name);
+  return head + ">\n" + out_ + "  </clench>\n";
+}
+
+}  // namespace
+
+std::string clench_element(const RobotSpec& robot, const UrdfPlan& plan, const UrdfBeside& beside) {
+  return ClenchText(robot, plan).text(beside);
+}
+
+}  // namespace clench

@@ -1,0 +1,120 @@
+#include <limits>
+
+#include "clench/model/raycast.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+
+namespace clench {
+
+// --- who touches whom ---
+
+static int cast(lua_State* L) {
+  const WorldPtr& world = self<WorldHandle>(L).world;
+  const Eigen::Vector3d origin = check_vec3(L, 2, "origin"), along = check_vec3(L, 3, "direction");
+  const double reach =
+      given(L, 4) ? check_number(L, 4, "reach") : std::numeric_limits<double>::infinity();
+  if (!(along.stableNorm() > 1e-9))
+    fail("{}: direction: expected a direction, got zero", subject(L));
+  if (!(reach >= 0)) fail("{}: reach: expected a number >= 0 [m], got {}", subject(L), reach);
+  const auto hit = raycast(*world, origin, along.stableNormalized(), reach);
+  if (!hit) {
+    lua_pushnil(L);
+    return 1;
+  }
+  push_list(L, 0, 5);
+  set_field(L, "body", BodyHandle{world, hit->body});
+  set_field(L, "point", hit->p_W);
+  set_field(L, "normal", hit->n_W);
+  set_field(L, "distance", hit->distance);
+  set_field(L, "triangle", hit->triangle + 1);
+  return 1;
+}
+
+static int collides(lua_State* L) {
+  const WorldPtr& world = self<WorldHandle>(L).world;
+  if (!given(L, 2)) return push(L, clench::collides(*world, &world->context()));
+  return push(L, clench::collides(*world, check_bodies(L, 2, "entity", world), &world->context()));
+}
+
+static int colliding(lua_State* L) {
+  const auto& world = self<WorldHandle>(L).world;
+  if (!given(L, 2)) return push_pairs(L, world, colliding_pairs(*world, &world->context()));
+  const auto a = check_bodies(L, 2, "a", world);
+  const auto b = given(L, 3) ? check_bodies(L, 3, "b", world) : world->bodies();
+  return push_pairs(L, world, colliding_pairs(*world, a, b, &world->context()));
+}
+
+static int measure_distance(lua_State* L) {
+  const auto& world = self<WorldHandle>(L).world;
+  const auto a = check_bodies(L, 2, "a", world), b = check_bodies(L, 3, "b", world);
+  const BodyDistance d =
+      distance(*world, a, b, std::numeric_limits<double>::infinity(), &world->context());
+  push_unbounded(L, d.distance);
+  push(L, d.p_a);
+  push(L, d.p_b);
+  return 3;
+}
+
+static int find_contacts(lua_State* L) {
+  const auto& world = self<WorldHandle>(L).world;
+  if (!given(L, 2)) return push_contacts(L, world, contacts(*world, &world->context()));
+  const auto a = check_bodies(L, 2, "a", world);
+  const auto b = given(L, 3) ? check_bodies(L, 3, "b", world) : world->bodies();
+  // one argument: the contacts on it
+  return push_contacts(L, world,
+                       given(L, 3) ? contacts(*world, a, b, &world->context())
+                                   : contacts(*world, b, a, &world->context()));
+}
+
+// --- tables ---
+
+static const Entry methods[] = {
+    {"raycast", guarded<cast>, R"(
+What a ray meets first: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil when it meets nothing.
+@param origin vec3
+@param direction vec3  of any length
+@param reach? number  how far it goes [m]; as far as there is something by default
+@return table?
+> box = world:add_object(clench.shapes.box {1, 1, 1}, {pose = {xyz = {0, 0, 9}}})
+> hit = world:raycast({0, 0, 20}, {0, 0, -1})
+> hit.body == box, hit.distance, hit.normal  --> true, 10.5, (0, 0, 1)
+> world:raycast({0, 0, 20}, {0, 0, -1}, 10)  --> nil)"},
+    {"collides", guarded<collides>, R"(
+Does anything collide that may, or one entity with anything? The fastest test: it ends at the first pair that is found.
+@param entity? body|robot
+@return boolean
+> world:collides(hand)  --> false
+> world:collides()  --> false)"},
+    {"colliding", guarded<colliding>, R"(
+Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
+@param a? body|robot
+@param b? body|robot
+@return body[][]  pairs
+> #world:colliding()  --> 0)"},
+    {"distance", guarded<measure_distance>, R"(
+Least distance of two things, 0 when they collide, with the closest points in the world frame.
+@param a body|robot
+@param b body|robot
+@return number distance  [m]; infinite where one has no surface
+@return vec3 on_a
+@return vec3 on_b
+> world:distance(hand, flask) <= world.contact_threshold  --> true)"},
+    {"contacts", guarded<find_contacts>, R"(
+Where surfaces touch: everywhere, on one entity, or of `a` on `b`.
+@param a? body|robot
+@param b? body|robot
+@return contact[]  on b; without arguments on the object of each pair
+> world:contacts(hand, flask)[1].body == flask  --> true)"},
+};
+
+const Class world_queries_class{.name = "world_queries",
+                                .variable = "world",
+                                .doc = "What every world answers: what collides, how far things are apart, where "
+                                       "they touch, what a ray meets.",
+                                .fields = {},
+                                .methods = methods,
+                                .parent = &world_settings_class};
+
+}  // namespace clench

@@ -1,0 +1,219 @@
+#include <algorithm>
+
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+static World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
+
+// --- what may collide ---
+
+static int set_collision(lua_State* L) {
+  const auto& world = self<WorldHandle>(L).world;
+  const bool on = check_boolean(L, 2, "on");
+  if (!given(L, 3)) {
+    world->set_collision(on);
+    return 0;
+  }
+  const auto group_a = check_bodies(L, 3, "a", world);
+  if (!given(L, 4)) {
+    for (const auto a : group_a) world->set_collision(on, a);
+    return 0;
+  }
+  const auto group_b = check_bodies(L, 4, "b", world);
+  for (const auto a : group_a)
+    for (const auto b : group_b)
+      if (a != b) world->set_collision(on, a, b);
+  return 0;
+}
+
+// --- friction ---
+
+static int set_friction(lua_State* L) {
+  const std::string a = check_string(L, 2, "material"), b = check_string(L, 3, "material");
+  Table options(L, 4);
+  const double statics = options.number("static");
+  const Friction friction{.statics = statics,
+                          .kinetic = options.number("kinetic", std::max(0.0, statics - 0.1))};
+  options.done();
+  world_of(L).set_friction(a, b, friction);
+  return 0;
+}
+
+static int friction(lua_State* L) {
+  const MaterialTable& table = world_of(L).materials();
+  const Friction f = table.friction(table.index(check_string(L, 2, "material")),
+                                    table.index(check_string(L, 3, "material")));
+  push(L, f.statics);
+  push(L, f.kinetic);
+  return 2;
+}
+
+static int get_materials(lua_State* L) {
+  return push_list_of(L, world_of(L).materials().names(),
+                      [&](const std::string& name) { push(L, name); });
+}
+
+static int get_contact_threshold(lua_State* L) { return push(L, world_of(L).contact_threshold()); }
+
+static int set_contact_threshold(lua_State* L) {
+  world_of(L).set_contact_threshold(check_number(L, 2));
+  return 0;
+}
+
+// --- gravity ---
+
+static int get_gravity(lua_State* L) { return push(L, world_of(L).gravity()); }
+
+static int set_gravity(lua_State* L) {
+  world_of(L).set_gravity(check_vec3(L, 2, "gravity"));
+  return 0;
+}
+
+// --- named states ---
+
+static int get_keyframes(lua_State* L) {
+  return push_list_of(L, world_of(L).keyframes(),
+                      [&](const Keyframe& keyframe) { push(L, keyframe.name); });
+}
+
+static int set_keyframe(lua_State* L) {
+  world_of(L).set_keyframe(check_string(L, 2, "name"));
+  return 0;
+}
+
+// of the list's table on top of the stack
+static void read_state(lua_State* L, int i, const WorldPtr& world, Keyframe& into) {
+  const std::string what = fmt::format("{}: state {}", subject(L), i);
+  if (!lua_istable(L, -1)) fail("{}: expected a table, got {}", what, described(L, -1));
+  Table values(L, lua_gettop(L), what);
+  const bool of_robot = values.has("robot");
+  values.push(of_robot ? "robot" : "body");
+  const auto* body = to<BodyHandle>(L, -1);
+  const auto* robot = to<RobotHandle>(L, -1);
+  if (of_robot ? !robot : !body)
+    fail("{}: expected body = a body or robot = a robot, got {}", what, described(L, -1));
+  if ((of_robot ? robot->world : body->world) != world)
+    fail("{}: it belongs to another world", what);
+  const Id<Body> body_id = of_robot ? Id<Body>{} : body->id;
+  const Id<Robot> robot_id = of_robot ? robot->id : Id<Robot>{};
+  lua_pop(L, 1);
+  if (of_robot) {
+    std::optional<Pose> X_WB;
+    if (values.has("pose")) X_WB = values.pose("pose", Pose{});
+    into.robots.push_back({robot_id, X_WB, values.numbers("dofs")});
+  } else {
+    into.bodies.push_back({body_id, values.pose("pose", Pose{})});
+  }
+  values.done();
+}
+
+static int add_keyframe(lua_State* L) {
+  const WorldPtr& world = self<WorldHandle>(L).world;
+  const std::string name = check_string(L, 2, "name");
+  if (!given(L, 3)) {
+    world->add_keyframe(world->current_keyframe(name));
+    return 0;
+  }
+  if (!lua_istable(L, 3)) fail("{}: expected a list of states, got {}", subject(L), described(L, 3));
+  Keyframe keyframe{name, {}, {}};
+  const int count = static_cast<int>(lua_rawlen(L, 3));
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, 3, i);
+    read_state(L, i, world, keyframe);
+    lua_pop(L, 1);
+  }
+  world->add_keyframe(std::move(keyframe));
+  return 0;
+}
+
+// --- tables ---
+
+static const Entry fields[] = {
+    {"contact_threshold", guarded<get_contact_threshold>, R"(
+Surfaces closer than this touch; motion stops with a gap below it.
+@type number  [m]
+> world.contact_threshold  --> 0.0001)",
+     guarded<set_contact_threshold>},
+    {"materials", guarded<get_materials>, R"(
+Names of the materials, the seven of the original first.
+@type string[]
+> world.materials[1]  --> frictionless)"},
+    {"camera", guarded<get_camera>, R"(
+The camera of its file, as `clench.render` takes it: `clench.render(world, world.camera)`. nil when the file has none.
+It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_distance` [m].
+@type {eye: vec3, target: vec3, up: vec3, field_of_view: number}?
+> clench.world().camera  --> nil
+> world.camera = {eye = {1, 0, 0.5}, target = {0, 0, 0}, up = {0, 0, 1}}
+> world.camera.eye  --> (1, 0, 0.5)
+> world.camera = {eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}  --> error: up not along the view)",
+     guarded<set_camera>},
+    {"gravity", guarded<get_gravity>, R"(
+Acceleration of everything that is free to fall, in the world frame: what weighs on joints and objects.
+@type vec3  [m/s^2]
+> world.gravity  --> (0, 0, -9.80665)
+> world.gravity = {0, 0, -1.62}
+> world.gravity.z  --> -1.62
+> world.gravity = {0, 0, 1e9}  --> error: gravity: expected a number from -1e+06 to 1e+06 [m/s^2])",
+     guarded<set_gravity>},
+    {"keyframes", guarded<get_keyframes>, R"(
+Names of its named states, those of its file first; `set_keyframe` goes there.
+@type string[]
+> #world.keyframes  --> 0)"},
+};
+
+static const Entry methods[] = {
+    {"set_collision", guarded<set_collision>, R"(
+Switches collision on or off: for the whole world, for one entity against everything, or for a pair.
+@param on boolean
+@param a? body|robot
+@param b? body|robot
+> world:set_collision(false, hand, flask)
+> #world:contacts(hand, flask)  --> 0)"},
+    {"set_friction", guarded<set_friction>, R"(
+Sets the Coulomb coefficients of a pair of materials; new names become materials.
+@param a string
+@param b string
+@param friction {static: number, kinetic?: number}  kinetic: static - 0.1 unless given
+> world:set_friction("cork", "wood", {static = 0.7})
+> world:friction("wood", "cork")  --> 0.7, 0.6)"},
+    {"friction", guarded<friction>, R"(
+The coefficients of a pair of materials.
+@param a string
+@param b string
+@return number static
+@return number kinetic
+> world:friction("rubber", "stone")  --> 1.5, 1.4)"},
+    {"add_keyframe", guarded<add_keyframe>, R"(
+Gives a name to a state: to that of now, or to one that a list tells. A keyframe of the same name gives way.
+@param name string
+@param states? table[]  {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[]}; what is not listed stays where it is
+> world:add_keyframe "closed"
+> world:add_keyframe("away", {{body = flask, pose = {xyz = {9, 0, 0}}}})
+> world.keyframes[2]  --> away
+> world:add_keyframe("away", {{robot = hand, dofs = {1}}})  --> error: expected 12 DOF values, got 1
+> world:add_keyframe("away", {{body = 1}})  --> error: state 1: expected body = a body or robot = a robot, got 1
+> world:add_keyframe("away", {1})  --> error: state 1: expected a table, got 1)"},
+    {"set_keyframe", guarded<set_keyframe>, R"(
+Moves everything that a keyframe names to where it says, whatever is in the way. What was removed since stays out, and a
+robot that is carried stays on its carrier.
+@param name string
+> world:add_keyframe "closed"
+> hand:open()
+> world:set_keyframe "closed"
+> world:contacts(hand, flask)[1] ~= nil  --> true
+> world:set_keyframe "clsed"  --> error: no keyframe 'clsed' in this world, expected one of closed)"},
+};
+
+const Class world_settings_class{.name = "world_settings",
+                                 .variable = "world",
+                                 .doc = "What holds for all of a world: friction of materials, what may collide, "
+                                        "gravity, its camera, its named states.",
+                                 .fields = fields,
+                                 .methods = methods};
+
+}  // namespace clench

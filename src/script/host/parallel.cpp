@@ -1,0 +1,358 @@
+// clench.parallel.map: a function for each item of a list, in as many states of Lua as there are threads.
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "clench/base/error.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/parcel.h"
+#include "clench/script/host/state.h"
+#include "clench/script/lua/getter.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/packed.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/read.h"
+#include "clench/script/lua/setting.h"
+#include "clench/script/lua/stack.h"
+#include "clench/script/lua/table.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+namespace {
+
+struct Outcome {
+  Parcel value;
+  std::string error;  // empty: none
+};
+
+// what the states do, as text or compiled, and what all of them are given
+struct Task {
+  std::string module, compiled;  // one of them
+  std::string name;              // of the function in messages
+  std::string path, cpath;       // where require looks
+  std::string script_folder, confine;
+  LogLevel log_level = LogLevel::info;
+  std::vector<Parcel> items;
+};
+
+// --- in a worker's state: slot 1 of its stack is the function, slot 2 what is shared ---
+
+struct Worker {
+  State state;
+  Parcel shared;
+  std::vector<std::pair<WorldPtr, std::shared_ptr<const Snapshot>>> moments;  // of the shared worlds
+};
+
+void set_path(lua_State* L, const char* field, const std::string& path) {
+  lua_getglobal(L, LUA_LOADLIBNAME);
+  lua_pushlstring(L, path.data(), path.size());
+  lua_setfield(L, -2, field);
+  lua_pop(L, 1);
+}
+
+// (task, worker) -> function, shared
+int prepare(lua_State* L) {
+  const auto& task = *static_cast<const Task*>(lua_touserdata(L, 1));
+  auto& worker = *static_cast<Worker*>(lua_touserdata(L, 2));
+  set_path(L, "path", task.path);
+  set_path(L, "cpath", task.cpath);
+  if (task.module.empty()) {
+    const int status = luaL_loadbufferx(L, task.compiled.data(), task.compiled.size(), task.name.c_str(), "b");
+    if (status != LUA_OK) fail("{}", string_at(L, -1));
+    // its one upvalue is _ENV, whatever it was outside
+    lua_pushglobaltable(L);
+    if (!lua_setupvalue(L, -2, 1)) lua_pop(L, 1);
+  } else {
+    lua_getglobal(L, "require");
+    lua_pushlstring(L, task.module.data(), task.module.size());
+    protected_call(L, 1, 1);
+    if (!lua_isfunction(L, -1))
+      fail("module '{}': expected one that returns a function, got {}", task.module, described(L, -1));
+  }
+  worker.shared.unpack(L);
+  for (const WorldPtr& world : worker.shared.worlds())
+    worker.moments.emplace_back(world, world->snapshot());
+  return 2;
+}
+
+struct Turn {
+  const Parcel* item;
+  lua_Integer number;
+  Outcome* outcome;
+};
+
+int seed_random(lua_State* L, lua_Integer number) {
+  lua_getglobal(L, LUA_MATHLIBNAME);
+  lua_getfield(L, -1, "randomseed");
+  lua_pushinteger(L, number);
+  protected_call(L, 1, 0);
+  lua_pop(L, 1);
+  return 0;
+}
+
+// (turn, function, shared): calls function(item, shared, number)
+int take_turn(lua_State* L) {
+  const auto& turn = *static_cast<const Turn*>(lua_touserdata(L, 1));
+  seed_random(L, turn.number);
+  lua_pushvalue(L, 2);
+  turn.item->unpack(L);
+  lua_pushvalue(L, 3);
+  lua_pushinteger(L, turn.number);
+  protected_call(L, 3, 1);
+  turn.outcome->value = Parcel(L, -1, "the result");
+  return 0;
+}
+
+// (error value) -> its words
+int tell_error(lua_State* L) {
+  push_packed(L, "host.error_text");
+  lua_pushvalue(L, 1);
+  protected_call(L, 1, 1);
+  return 1;
+}
+
+// pops the error's value
+std::string take_error(lua_State* L) {
+  lua_pushcfunction(L, guarded<tell_error>);
+  lua_insert(L, -2);
+  const bool told = lua_pcall(L, 1, 1, 0) == LUA_OK && lua_type(L, -1) == LUA_TSTRING && lua_rawlen(L, -1) > 0;
+  std::string out(told ? string_at(L, -1) : std::string_view("an error without words"));
+  lua_pop(L, 1);
+  return out;
+}
+
+bool make_ready(Worker& worker, const Task& task, std::string& error) {
+  lua_State* L = worker.state.lua();
+  if (!task.script_folder.empty()) set_setting(L, Setting::modules, task.script_folder);
+  if (!task.confine.empty()) set_setting(L, Setting::confine, task.confine);
+  set_log_level(L, task.log_level);
+  worker.state.look_for_end();
+  lua_pushcfunction(L, guarded<prepare>);
+  lua_pushlightuserdata(L, const_cast<Task*>(&task));
+  lua_pushlightuserdata(L, &worker);
+  if (lua_pcall(L, 2, 2, 0) == LUA_OK) return true;
+  error = take_error(L);
+  return false;
+}
+
+// as if no other item had been before it
+void do_item(Worker& worker, const Task& task, size_t i, Outcome& outcome) {
+  lua_State* L = worker.state.lua();
+  for (const auto& [world, moment] : worker.moments) world->restore(*moment);
+  Turn turn{&task.items[i], static_cast<lua_Integer>(i) + 1, &outcome};
+  lua_pushcfunction(L, guarded<take_turn>);
+  lua_pushlightuserdata(L, &turn);
+  lua_pushvalue(L, 1);
+  lua_pushvalue(L, 2);
+  if (lua_pcall(L, 3, 0, 0) == LUA_OK) return;
+  outcome.error = take_error(L);
+}
+
+// --- the threads ---
+
+class Crew {
+ public:
+  Crew(const Task& task, std::vector<Parcel> shared) : task_(task), outcomes_(task.items.size()) {
+    for (Parcel& parcel : shared) {
+      workers_.push_back(std::make_unique<Worker>());
+      workers_.back()->shared = std::move(parcel);
+    }
+    for (auto& worker : workers_) threads_.emplace_back([this, w = worker.get()] { run(*w); });
+  }
+  ~Crew() { end(); }
+
+  void end() {
+    ended_ = true;
+    for (auto& worker : workers_) worker->state.end();
+  }
+
+  /// Waits at most so long for the outcome of item i.   returns null when it is not there
+  Outcome* wait(size_t i, std::chrono::milliseconds time) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, time, [&] { return outcomes_[i] || broken() || idle_ == workers_.size(); });
+    if (broken()) fail("{}", broken_);
+    return outcomes_[i] ? &*outcomes_[i] : nullptr;
+  }
+  bool is_over() {
+    const std::lock_guard lock(mutex_);
+    return idle_ == workers_.size();
+  }
+  size_t done() {
+    const std::lock_guard lock(mutex_);
+    return done_;
+  }
+
+ private:
+  bool broken() const { return !broken_.empty(); }
+
+  void run(Worker& worker) {
+    std::string error;
+    const bool ready = make_ready(worker, task_, error);
+    for (size_t i; ready && !ended_ && (i = next_++) < outcomes_.size();) {
+      Outcome outcome;
+      do_item(worker, task_, i, outcome);
+      const std::lock_guard lock(mutex_);
+      outcomes_[i] = std::move(outcome);
+      ++done_;
+      changed_.notify_one();
+    }
+    const std::lock_guard lock(mutex_);
+    if (!ready && !ended_) broken_ = error;
+    ++idle_;
+    changed_.notify_one();
+  }
+
+  const Task& task_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::optional<Outcome>> outcomes_;
+  std::string broken_;
+  size_t idle_ = 0, done_ = 0;
+  std::atomic<size_t> next_ = 0;
+  std::atomic<bool> ended_ = false;
+  std::vector<std::unique_ptr<Worker>> workers_;
+  std::vector<std::jthread> threads_;  // the last member: joined before all else goes
+};
+
+// --- in the state that calls ---
+
+int write_chunk(lua_State*, const void* data, size_t size, void* to) {
+  static_cast<std::string*>(to)->append(static_cast<const char*>(data), size);
+  return 0;
+}
+
+void read_function(lua_State* L, Task& task) {
+  if (lua_type(L, 1) == LUA_TSTRING) {
+    task.module = string_at(L, 1);
+    return;
+  }
+  if (!lua_isfunction(L, 1)) fail_expected({L, "", "task"}, "a function or a module's name", 1);
+  for (int i = 1; const char* name = lua_getupvalue(L, 1, i); ++i) {
+    lua_pop(L, 1);
+    if (std::string_view(name) != "_ENV" || i > 1)
+      fail("{}: function: it uses '{}' of the lines around it, which other states do not have; give that in `shared`, "
+           "or as a part of each item", subject(L), name);
+  }
+  lua_pushvalue(L, 1);
+  if (lua_dump(L, write_chunk, &task.compiled, 0) != 0)
+    fail("{}: function: expected one written in Lua", subject(L));
+  lua_pop(L, 1);
+}
+
+std::string package_path(lua_State* L, const char* field) {
+  std::string out;
+  if (lua_getglobal(L, LUA_LOADLIBNAME) == LUA_TTABLE) {
+    lua_pushstring(L, field);
+    if (lua_rawget(L, -2) == LUA_TSTRING) out = string_at(L, -1);
+    lua_pop(L, 1);
+  }
+  lua_pop(L, 1);
+  return out;
+}
+
+void read_items(lua_State* L, Task& task, const std::string& subject) {
+  if (!lua_istable(L, 2)) fail("{}: items: expected a list, got {}", subject, described(L, 2));
+  const auto count = static_cast<lua_Integer>(lua_rawlen(L, 2));
+  for (lua_Integer i = 1; i <= count; ++i) {
+    lua_rawgeti(L, 2, i);
+    task.items.emplace_back(L, lua_gettop(L), fmt::format("{}: items[{}]", subject, i));
+    lua_pop(L, 1);
+  }
+}
+
+void push_outcome(lua_State* L, const Outcome* outcome) {
+  if (outcome && outcome->error.empty()) return outcome->value.unpack(L);
+  lua_createtable(L, 0, 1);
+  push(L, outcome ? std::string_view(outcome->error) : "stopped before it was done");
+  lua_setfield(L, -2, "error");
+}
+
+int map(lua_State* L) {
+  lua_settop(L, 3);
+  const std::string subject = clench::subject(L);
+  Task task;
+  read_function(L, task);
+  read_items(L, task, subject);
+  Table options(L, 3);
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = options.integer("threads", cores);
+  if (threads < 1 || threads > 1024) fail("{}: threads: expected 1 to 1024, got {}", subject, threads);
+  const bool told = options.push_function("each");
+  const int each = lua_gettop(L);
+  options.push("shared");
+  const int shared = lua_gettop(L);
+  std::vector<Parcel> copies;
+  const size_t count = task.items.size();
+  for (size_t i = 0; i < std::min<size_t>(threads, count); ++i)
+    copies.emplace_back(L, shared, subject + ": shared");
+  options.done();
+  task.name = "=" + subject;
+  task.path = package_path(L, "path");
+  task.cpath = package_path(L, "cpath");
+  task.script_folder = get_setting(L, Setting::modules);
+  task.confine = get_setting(L, Setting::confine);
+  task.log_level = log_level(L);
+
+  lua_createtable(L, static_cast<int>(count), 0);
+  const int results = lua_gettop(L);
+  lua_Integer failed = 0;
+  if (count > 0) {
+    Crew crew(task, std::move(copies));
+    const Watching watching(L);
+    for (size_t i = 0; i < count; ++i) {
+      const Outcome* outcome = nullptr;
+      while (!(outcome = crew.wait(i, std::chrono::milliseconds(20)))) {
+        if (watching.progress().stop_asked()) crew.end();
+        if (crew.is_over() && !(outcome = crew.wait(i, {}))) break;
+        if (!watching.progress().stop_asked())
+          watching.progress().tell(static_cast<double>(crew.done()) / static_cast<double>(count), subject);
+      }
+      failed += !outcome || !outcome->error.empty();
+      push_outcome(L, outcome);
+      lua_rawseti(L, results, static_cast<lua_Integer>(i) + 1);
+      if (!told || !outcome) continue;
+      lua_pushvalue(L, each);
+      lua_rawgeti(L, results, static_cast<lua_Integer>(i) + 1);
+      lua_pushinteger(L, static_cast<lua_Integer>(i) + 1);
+      protected_call(L, 2, 0);
+    }
+  }
+  lua_pushvalue(L, results);
+  lua_pushinteger(L, failed);
+  return 2;
+}
+
+int get_cores(lua_State* L) {
+  lua_pushinteger(L, std::max(1u, std::thread::hardware_concurrency()));
+  return 1;
+}
+
+const Entry functions[] = {
+    {"map", guarded<map>, R"(
+Calls a function for each item of a list, in many threads, each with a state of Lua and worlds of its own. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew.
+@param task function|string  (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
+@param items table  a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
+@param options? {threads?: integer, shared?: any, each?: function}  threads: all cores by default; shared: what every state is given once; each(result, number): called here in the order of the items, as soon as they are done
+@return table results  an item that failed gives {error = string}, and so does one that was not done when it was stopped
+@return integer failed
+> clench.parallel.map(function(x) return x * x end, {1, 2, 3})  --> {1, 4, 9}, 0
+> clench.parallel.map(function(p, s) s.body.pose = p; return s.body.pose.position.z end, {clench.pose {xyz = {0, 0, 2}}}, {shared = {body = flask}})  --> {2.0}, 0
+> clench.parallel.map(function(x) return hand.dofs end, {1})[1].error:match "global 'hand'" ~= nil  --> true
+> clench.parallel.map(function() return world end, {print})  --> error: items[1]: a function cannot be handed over)"},
+};
+
+const Entry fields[] = {
+    {"cores", guarded<get_cores>, R"(
+Threads that this machine runs at once.
+@type integer
+> clench.parallel.cores >= 1  --> true)"},
+};
+
+}  // namespace
+
+extern const Library parallel_library = {"clench.parallel", "Work in many threads.", functions, fields};
+
+}  // namespace clench

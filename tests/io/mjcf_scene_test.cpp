@@ -1,0 +1,307 @@
+// Scenes of MJCF as worlds.
+#include "clench/base/error.h"
+#include "told_robot.h"
+#include "temporary.h"
+
+using namespace clench;
+using namespace clench::test;
+
+namespace {
+
+struct ToldWorld {
+  std::vector<std::string> warnings, notes;
+  TemporaryFolder folder;
+  WorldSpec world;
+
+  explicit ToldWorld(const std::string& in_world, const std::string& beside = "",
+                     ReadOptions options = {}) {
+    options.warn = [this](const std::string& s) { warnings.push_back(s); };
+    options.note = [this](const std::string& s) { notes.push_back(s); };
+    world = read_world(folder.write("scene.xml", "<mujoco model='m'><compiler angle='radian'/>" +
+                                                     beside + "<worldbody>" + in_world +
+                                                     "</worldbody></mujoco>"),
+                       options);
+  }
+  bool warned(const std::string& part) const { return ToldRobot::has(warnings, part); }
+  bool noted(const std::string& part) const { return ToldRobot::has(notes, part); }
+  const PlacedBody& body(const std::string& name) const {
+    for (const PlacedBody& placed : world.bodies)
+      if (placed.body.name == name) return placed;
+    FAIL("no body " << name);
+    return world.bodies.at(0);
+  }
+  double friction(const std::string& a, const std::string& b) const {
+    for (const FrictionSpec& f : world.friction)
+      if ((f.a == a && f.b == b) || (f.a == b && f.b == a)) return f.statics;
+    FAIL("no friction of " << a << " and " << b);
+    return -1;
+  }
+};
+
+std::string failure(const std::string& in_world, const std::string& beside = "",
+                    const ReadOptions& options = {}) {
+  try {
+    const ToldWorld told(in_world, beside, options);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const std::string arm =
+    "<body name='arm' pos='0 0 1'><geom size='0.1'/><body name='upper' pos='0 0 0.3'>"
+    "<joint name='a' range='-1 1' damping='2' frictionloss='3' armature='4'/><geom size='0.1'/>"
+    "</body></body>";
+const std::string door =
+    "<body name='door' pos='3 0 0'><joint name='hinge' range='0 2'/><geom size='0.1'/></body>";
+const std::string mug =
+    "<body name='mug' pos='0 2 0'><freejoint/><geom size='0.1' mass='0.5'/></body>";
+
+}  // namespace
+
+TEST_CASE("of a scene trees of joints are robots, free bodies objects, what is fixed obstacles") {
+  const ToldWorld told("<geom name='shelf' type='box' size='1 2 3' pos='0 0 -9'/>" + arm + door +
+                       mug + "<body name='wall' pos='0 0 -5'><geom size='1'/></body>");
+  REQUIRE(told.world.robots.size() == 2);
+  CHECK(told.world.robots[0].robot.name == "arm");
+  CHECK(told.world.robots[0].X_WB.position.z() == 1);
+  CHECK(told.world.robots[0].robot.files.body == "arm");
+  // a tree that begins with a joint stands on a frame
+  CHECK(told.world.robots[1].robot.base.name == "door_world");
+  CHECK(told.world.robots[1].robot.dofs.size() == 1);
+  CHECK(told.body("mug").role == Role::object);
+  CHECK(told.body("mug").body.mass == 0.5);
+  CHECK(told.body("mug").X_WB.position.y() == 2);
+  CHECK(told.body("shelf").role == Role::obstacle);
+  CHECK(told.body("shelf").X_WB.position.z() == -9);
+  CHECK(told.body("shelf").body.shape->bounds().high.z() == 3);
+  CHECK(told.body("wall").role == Role::obstacle);
+  // in the file's order
+  CHECK(told.world.order[0].kind == WorldEntry::Kind::body);
+  CHECK(told.world.order[1].kind == WorldEntry::Kind::robot);
+}
+
+TEST_CASE("one robot is called as the model is, and a free tree stands where its body does") {
+  const ToldWorld told("<body name='hand' pos='0 0 2'><freejoint/><geom size='0.1'/><body>"
+                       "<joint name='a' range='0 1'/><geom size='0.1' pos='0 0 0.5'/></body></body>");
+  REQUIRE(told.world.robots.size() == 1);
+  CHECK(told.world.robots[0].robot.name == "m");
+  CHECK(told.world.robots[0].X_WB.position.z() == 2);
+}
+
+TEST_CASE("what is fixed to a free body is part of it") {
+  const ToldWorld told("<body name='mug'><freejoint/><geom type='box' size='1 1 1' mass='3'/>"
+                       "<body pos='4 0 0'><geom type='box' size='1 1 1' mass='1'/></body></body>");
+  REQUIRE(told.world.bodies.size() == 1);
+  const BodySpec& body = told.world.bodies[0].body;
+  CHECK(body.mass == 4);
+  CHECK(body.com->x() == doctest::Approx(1));
+  CHECK(body.shape->bounds().high.x() == doctest::Approx(5));
+  // 2/3 of each about its own centre, and 3 * 1 + 1 * 9 from there
+  CHECK((*body.inertia_per_mass)(1, 1) == doctest::Approx(2.0 / 3 + 12.0 / 4));
+}
+
+TEST_CASE("a plane is a large plate below it") {
+  const ToldWorld told("<geom name='floor' type='plane' size='0 7 1' pos='0 0 1'/>");
+  const PlacedBody& floor = told.body("floor");
+  CHECK(floor.X_WB.position.z() == 1);
+  CHECK(floor.body.shape->bounds().high.isApprox(Eigen::Vector3d(5, 7, 0)));
+  CHECK(floor.body.shape->bounds().low.z() == doctest::Approx(-0.1));
+  CHECK(told.noted("scene.xml:1: geom: a plane has no end; a plate of 10 x 14 x 0.1 m stands for it"));
+}
+
+TEST_CASE("friction becomes materials that combine as MuJoCo has it") {
+  const ToldWorld told(
+      "<geom name='a' size='1' friction='0.8'/><geom name='b' size='1' friction='0.5 0.1 0.1'/>"
+      "<geom name='c' size='1' friction='0.1' priority='1'/>"
+      "<geom name='d' size='1' friction='0.7' condim='1'/><geom name='e' size='1'/>");
+  const auto material = [&](const char* name) { return told.body(name).body.material; };
+  CHECK(material("a") == "friction 0.8");
+  CHECK(material("c") == "friction 0.1 priority 1");
+  CHECK(material("d") == "friction 0.7 frictionless");
+  CHECK(material("e") == "friction 1");
+  CHECK(told.friction(material("a"), material("a")) == 0.8);
+  CHECK(told.friction(material("a"), material("b")) == 0.8);
+  CHECK(told.friction(material("a"), material("c")) == 0.1);
+  CHECK(told.friction(material("d"), material("d")) == 0);
+  CHECK(told.friction(material("d"), material("b")) == 0.7);
+  CHECK(told.world.larger_friction.size() == 5);
+  const ToldWorld mixed("<body name='x'><geom size='1' friction='0.2'/><geom size='1' friction='2'/>"
+                        "</body>");
+  CHECK(mixed.world.bodies[0].body.material == "friction 2");
+  CHECK(mixed.warned("scene.xml: bodies whose geoms differ in friction, of which that of the "
+                     "highest priority, then the largest counts for all: 'x'"));
+  CHECK(failure("<geom size='1' friction='2e6'/>") ==
+        "scene.xml:1: geom: friction: expected a number from 0 to 1e+06, got 2000000");
+}
+
+TEST_CASE("gravity is that of the file, else that of MuJoCo") {
+  CHECK(ToldWorld(mug).world.gravity->z() == -9.81);
+  CHECK(ToldWorld(mug, "<option gravity='1 2 3'/>").world.gravity->y() == 2);
+  CHECK(ToldWorld(mug, "<option><flag gravity='disable'/></option>").world.gravity->isZero(0));
+  CHECK(failure(mug, "<option gravity='0 0 2e6'/>") ==
+        "scene.xml:1: option: gravity: expected a number from -1e+06 to 1e+06 [m/s^2], got 2000000");
+}
+
+TEST_CASE("damping, friction and armature of joints and actuators are kept") {
+  const ToldWorld told(arm, "<actuator><position name='p' joint='a' kp='5' kv='0.5' gear='2' "
+                            "ctrlrange='-1 1'/><velocity joint='a' kv='3' forcerange='-7 7'/>"
+                            "<general joint='a' gainprm='9' biastype='affine' biasprm='1 -2 -3'/>"
+                            "<motor joint='a'/><damper joint='a'/><damper joint='a'/></actuator>");
+  const RobotSpec& robot = told.world.robots[0].robot;
+  const JointSpec& joint = robot.links[0].joints[0];
+  CHECK(joint.viscous == 2);
+  CHECK(joint.coulomb == 3);
+  CHECK(joint.armature == 4);
+  REQUIRE(robot.actuators.size() == 6);
+  const ActuatorSpec& servo = robot.actuators[0];
+  CHECK(servo.name == "p");
+  CHECK(servo.joint == "a");
+  CHECK(servo.dof == 0);
+  CHECK(servo.gear == 2);
+  CHECK(servo.gain == 5);
+  CHECK(servo.bias == std::array{0.0, -5.0, -0.5});
+  CHECK(servo.control_range == std::array{-1.0, 1.0});
+  CHECK(robot.actuators[1].bias == std::array{0.0, 0.0, -3.0});
+  CHECK(robot.actuators[1].force_range == std::array{-7.0, 7.0});
+  CHECK(robot.actuators[2].gain == 9);
+  CHECK(robot.actuators[2].bias == std::array{1.0, -2.0, -3.0});
+  CHECK(robot.actuators[3].kind == "motor");
+  CHECK(!robot.actuators[4].law_known);
+  // one warning a kind
+  CHECK(std::ranges::count_if(told.warnings, [](const std::string& s) {
+          return s.find("<damper>: how its force follows from its control is not kept") !=
+                 std::string::npos;
+        }) == 1);
+}
+
+TEST_CASE("couplings and actuators belong to the robot whose joints they name") {
+  const std::string finger = "<body name='f'><joint name='p' range='0 1'/><geom size='0.1'/><body>"
+                             "<joint name='q' range='0 1'/><geom size='0.1'/></body></body>";
+  const ToldWorld told(arm + finger,
+                       "<equality><joint joint1='q' joint2='p'/><joint joint1='a' joint2='p'/>"
+                       "</equality><actuator><motor joint='p'/></actuator>");
+  CHECK(told.world.robots[1].robot.dofs.size() == 1);
+  CHECK(told.world.robots[0].robot.actuators.empty());
+  CHECK(told.world.robots[1].robot.actuators.size() == 1);
+  CHECK(told.warned("joint: joint 'a' is of another robot; this is not used"));
+  CHECK(told.noted("scene.xml: joints that no actuator drives do not close: 'a'"));
+  const ToldWorld shared(arm + finger,
+                         "<tendon><fixed name='t'><joint joint='a' coef='1'/><joint joint='p' "
+                         "coef='1'/></fixed></tendon><actuator><motor tendon='t'/></actuator>");
+  CHECK(shared.warned("motor: drives a tendon that joins two robots; of each it moves its own joints"));
+}
+
+TEST_CASE("keyframes become named states") {
+  const ToldWorld told(
+      mug + arm + door + "<body name='m' mocap='true' pos='9 0 0'><geom size='1'/></body>",
+      "<keyframe><key name='home' qpos='1 2 3 0 0 0 2 0.5 1.5' mpos='0 0 9'/>"
+      "<key qpos='1 2 3 1 0 0 0 0.5 7' ctrl='1'/></keyframe>");
+  REQUIRE(told.world.keyframes.size() == 2);
+  const KeyframeSpec& home = told.world.keyframes[0];
+  CHECK(home.name == "home");
+  REQUIRE(home.bodies.size() == 2);
+  CHECK(home.bodies[0].X_WB.position == Eigen::Vector3d(1, 2, 3));
+  CHECK(home.bodies[0].X_WB.rotation.z() == 1);
+  CHECK(home.bodies[1].X_WB.position.z() == 9);
+  REQUIRE(home.robots.size() == 2);
+  CHECK(home.robots[0].dofs == std::vector{0.5});
+  CHECK(home.robots[1].dofs == std::vector{1.5});
+  CHECK(told.world.keyframes[1].name == "2");
+  CHECK(told.world.keyframes[1].robots[1].dofs == std::vector{2.0});
+  CHECK(told.warned("key: qpos: joint 'hinge' is at 7, outside [0, 2]; moved to the limit"));
+  CHECK(told.warned("of <key>, here and further on, not used: ctrl"));
+}
+
+TEST_CASE("in keyframes balls are three turns and followers follow") {
+  const ToldWorld told("<body name='a'><body name='b'><joint name='ball' type='ball'/><geom size='1'/>"
+                       "</body><body name='c'><joint name='p' range='0 1'/><geom size='1'/>"
+                       "<body name='d'><joint name='q' range='0 2'/><geom size='1'/></body></body></body>",
+                       "<equality><joint joint1='q' joint2='p' polycoef='0 2'/></equality>"
+                       "<keyframe><key qpos='2 2 0 0 0.5 0.3'/></keyframe>");
+  const auto& dofs = told.world.keyframes.at(0).robots.at(0).dofs;
+  REQUIRE(dofs.size() == 4);
+  CHECK(dofs[0] == doctest::Approx(1.5707963267948966));
+  CHECK(dofs[1] == doctest::Approx(0));
+  CHECK(dofs[3] == 0.5);
+  CHECK(told.warned("joint 'q' follows 'p', and is at 0.3 rather than at 1; it follows"));
+}
+
+TEST_CASE("keyframes that do not fit are refused, or told where bodies are missing") {
+  CHECK(failure(arm, "<keyframe><key qpos='1 2'/></keyframe>") ==
+        "scene.xml:1: key: qpos: expected 1 numbers, got 2");
+  CHECK(failure(mug, "<keyframe><key qpos='0 0 0 0 0 0 0'/></keyframe>") ==
+        "scene.xml:1: key: qpos: expected a quaternion, got zeros");
+  const ToldWorld lossy(arm + "<replicate count='2'><body><freejoint/><geom size='1'/></body></replicate>",
+                        "<keyframe><key name='k' qpos='1 2'/></keyframe>");
+  CHECK(lossy.world.keyframes.empty());
+  CHECK(lossy.warned("<replicate> is not used: the world lacks all that it repeats"));
+  CHECK(lossy.warned("key: qpos: keyframe 'k' has 2 numbers, and the bodies that are read take 1; it "
+                     "is not used"));
+  const ToldWorld twice(arm, "<keyframe><key name='k' qpos='1'/><key name='k' qpos='0'/></keyframe>");
+  CHECK(twice.world.keyframes.size() == 1);
+  CHECK(twice.warned("key: there is another one of the name 'k'; the first one counts"));
+}
+
+TEST_CASE("what a scene's bits and excludes keep apart never meets, nor what is fixed") {
+  const ToldWorld told("<geom size='1'/>" + arm + mug +
+                           "<body name='ghost'><freejoint/><geom size='1' contype='2' conaffinity='2'/></body>",
+                       "<contact><exclude body1='mug' body2='upper'/><exclude body1='mug' body2='no'/>"
+                       "<pair geom1='x' geom2='y'/></contact>");
+  const auto count = [&](WorldEntry::Kind a, WorldEntry::Kind b) {
+    return std::ranges::count_if(told.world.never_meet, [&](const auto& pair) {
+      return (pair[0].kind == a && pair[1].kind == b) || (pair[0].kind == b && pair[1].kind == a);
+    });
+  };
+  using Kind = WorldEntry::Kind;
+  // the arm's base with the obstacle, both its parts with the ghost; the mug with one of them
+  CHECK(count(Kind::body, Kind::robot) == 4);
+  // the ghost with obstacle and mug
+  CHECK(count(Kind::body, Kind::body) == 2);
+  CHECK(told.noted("4 pairs of bodies never collide, as contype and conaffinity say"));
+  CHECK(told.warned("exclude: no body 'no' is read; this is not used"));
+  CHECK(told.warned("<pair> is not used"));
+}
+
+TEST_CASE("what a scene holds and a world does not is told, one warning a kind of element") {
+  const ToldWorld told("<light/><light/><geom type='hfield' hfield='h'/>" + mug,
+                       "<option timestep='1'/><sensor/><visual/>");
+  CHECK(told.warned("<light> is not used, nor is another one"));
+  CHECK(told.warned("<sensor> is not used"));
+  CHECK(told.warned("of <option>, here and further on, not used: timestep"));
+  CHECK(told.warned("geom: no obstacle is made of a hfield here; it is not used"));
+  CHECK(ToldWorld("<body name='b'><geom type='plane' size='1 1 1'/><geom size='1'/></body>")
+            .warned("geom: a plane is no part of a body here; it is not used"));
+  CHECK(failure("<light/>").ends_with("scene.xml: expected bodies or geoms in <worldbody>, got none"));
+}
+
+TEST_CASE("options of one robot are for files of one robot") {
+  CHECK(failure(arm + door, "", {.root = {}, .closing = {{"a", 1}}}) ==
+        "scene.xml: close: expected a file of one robot, got 2; world:add_robot with the option 'body' "
+        "takes one of them");
+  CHECK(ToldWorld(arm + mug, "", {.root = {}, .closing = {{"a", -1}}}).world.robots[0].robot.dofs[0].default_velocity ==
+        -1);
+}
+
+TEST_CASE("one robot of a scene is read by its body") {
+  TemporaryFolder folder;
+  const auto path = folder.write("scene.xml", "<mujoco model='m'><worldbody>" + arm + door + mug +
+                                                  "</worldbody></mujoco>");
+  const RobotSpec robot = read_robot(path, {.root = {}, .body = "door"});
+  CHECK(robot.name == "door");
+  CHECK(robot.dofs.size() == 1);
+  CHECK_THROWS_WITH_AS(read_robot(path, {.root = {}, .body = "mug"}),
+                       "scene.xml: body: expected one that a tree of joints begins with, got 'mug', "
+                       "expected one of arm, door",
+                       Error);
+  CHECK_THROWS_WITH_AS(read_robot("tests/data/two_finger/claw.cfg", {.root = {}, .body = "x"}),
+                       "claw.cfg: body: expected a scene of MJCF, got another file", Error);
+}
+
+TEST_CASE("the file of a robot or a body is a world with that in it") {
+  CHECK(read_world("tests/data/two_finger/claw.cfg").robots.size() == 1);
+  CHECK(read_world("models/objects/flask.iv").bodies.size() == 1);
+  TemporaryFolder folder;
+  CHECK_THROWS_WITH_AS(read_world(folder.write("a.egr", "")),
+                       "a.egr: expected a world, a robot or a body, got eigengrasps", Error);
+}

@@ -1,0 +1,121 @@
+local test, clench = require "test", require "clench"
+
+local folder = os.tmpname()
+os.remove(folder)
+assert(os.execute("mkdir " .. folder))
+
+local function write(name, text)
+  local file = assert(io.open(folder .. "/" .. name, "wb"))
+  file:write(text)
+  file:close()
+  return folder .. "/" .. name
+end
+
+-- a table, an arm with its own friction, a door, a mug
+local scene = write("scene.xml", [[
+<mujoco model="kitchen"><compiler angle="radian"/><option gravity="0 0 -1.62"/>
+<worldbody>
+  <geom name="floor" type="plane" size="1 1 1"/>
+  <body name="arm"><geom type="box" size="0.05 0.05 0.05" pos="0 0 0.05"/>
+    <body name="upper" pos="0 0 0.2"><joint name="shoulder" axis="0 1 0" range="-1 1" damping="0.5" armature="0.01" frictionloss="0.1"/>
+      <geom type="box" size="0.02 0.02 0.05" friction="0.7"/></body></body>
+  <body name="door" pos="1 1 0.5"><joint name="hinge" range="0 1.5"/><geom type="box" size="0.2 0.01 0.4" pos="0.2 0 0"/></body>
+  <body name="mug" pos="0.5 0 0.5"><freejoint/><geom type="box" size="0.03 0.03 0.04" mass="0.2" friction="1.2"/></body>
+</worldbody>
+<actuator><position name="servo" joint="shoulder" kp="100" ctrlrange="-1 1"/></actuator>
+<keyframe><key name="home" qpos="0.1 0.5 0.5 0.1 0.6 1 0 0 0"/><key name="away" qpos="0 0 2 2 2 0 0 0 1"/></keyframe>
+</mujoco>]])
+
+test("a scene of MuJoCo is a world", function(t)
+  local world = clench.load(scene)
+  t.equal(#world.robots, 2)
+  t.equal(world.objects[1].name, "mug")
+  t.equal(world.obstacles[1].name, "floor")
+  t.equal(world.gravity.z, -1.62)
+  t.equal(world:friction("friction 1.2", "friction 0.7"), 1.2)
+  -- on materials that every world has: the larger of both's own
+  t.equal(world:friction("friction 0.7", "rubber"), world:friction("rubber", "rubber"))
+  t.equal(world:friction("friction 1.2", "frictionless"), 0.0)
+  local joint = world:robot("arm").chains[1].joints[1]
+  t.equal(joint.damping, 0.5)
+  t.equal(joint.friction, 0.1)
+  t.equal(joint.armature, 0.01)
+  local servo = world:robot("arm").actuators[1]
+  t.equal(servo.name, "servo")
+  t.equal(servo.dof, 1)
+  t.equal(servo.gain, 100.0)
+  t.equal(servo.bias[2], -100.0)
+  t.equal(#world:robot("door").actuators, 0)
+  -- the base on the floor is fixed to it, and the door's frame stands in it
+  t.equal(#world:colliding(), 0)
+end)
+
+test("keyframes are named states", function(t)
+  local world = clench.load(scene, {keyframe = "home"})
+  t.equal(table.concat(world.keyframes, " "), "home away")
+  t.equal(world:robot("arm").dofs[1], 0.1)
+  t.equal(world:body("mug").pose.position.z, 0.6)
+  world:set_keyframe "away"
+  t.equal(world:robot("door").dofs[1], 0.0)
+  t.equal(world:body("mug").pose.position.x, 2.0)
+  world:remove(world:body "mug")
+  world:set_keyframe "home"
+  t.equal(world:robot("arm").dofs[1], 0.1)
+  local copy = world:clone()
+  copy:add_keyframe "home"
+  t.equal(#copy.keyframes, 2)
+  t.fails(function() world:set_keyframe "hme" end, "no keyframe 'hme' in this world, expected one of home, away")
+  t.fails(function() clench.load(scene, {keyframe = "x"}) end, "no keyframe 'x'")
+  t.fails(function() world:add_keyframe "" end, "keyframe: expected a name, got none")
+  t.fails(function() world:add_keyframe("x", {{robot = world:robot "arm", dofs = {2}}}) end, "keyframe 'x': robot 'arm': DOF 1: expected a value in [-1, 1], got 2")
+  t.fails(function() world:add_keyframe("x", {{body = world:robot("arm").base}}) end, "is a part of robot 'arm': place the robot")
+  t.fails(function() world:add_keyframe("x", {{body = clench.load(scene):body "mug"}}) end, "belongs to another world")
+  t.fails(function() world:add_keyframe("x", {{body = copy:body "floor", poes = 1}}) end, "belongs to another world")
+  t.fails(function() world:add_keyframe("x", {{body = world:body "floor", poes = 1}}) end, "unknown key 'poes'")
+end)
+
+test("gravity is part of a world, and weighs on joints", function(t)
+  local world = clench.world()
+  local before = world:hash()
+  world.gravity = {0, 0, -1}
+  t.equal(world:hash() == before, false)
+  local moment = world:snapshot()
+  world.gravity = {0, 0, 0}
+  world:restore(moment)
+  t.equal(world.gravity.z, -1.0)
+  t.fails(function() world.gravity = {0, 2e6, 0} end, "gravity: expected a number from")
+end)
+
+test("saved scenes come back equal", function(t)
+  local world = clench.load(scene, {keyframe = "home"})
+  world:save(folder .. "/saved.lua")
+  t.equal(clench.load(folder .. "/saved.lua"):hash(), world:hash())
+  -- once more from what was read
+  clench.load(folder .. "/saved.lua"):save(folder .. "/again.lua")
+  t.equal(clench.load(folder .. "/again.lua"):hash(), world:hash())
+  local said = {}
+  clench.log.sink(function(level, text) if level == "warning" then said[#said + 1] = text end end)
+  world:save(folder .. "/saved.wld")
+  local text = clench.load(folder .. "/saved.wld")
+  world:save(folder .. "/saved.xml")
+  local xml = clench.load(folder .. "/saved.xml")
+  clench.log.sink()
+  t.ok(table.concat(said, "\n"):find("the material of 'floor'", 1, true))
+  for _, other in ipairs {text, xml} do
+    t.equal(#other.robots, 2)
+    t.equal(other.robots[2].name, "door")
+    t.equal(other.robots[1].dofs[1], world.robots[1].dofs[1])
+    t.equal(other.objects[1].pose, world.objects[1].pose)
+  end
+end)
+
+test("one robot of a scene is added by the body that it begins with", function(t)
+  local world = clench.world()
+  t.equal(#world:add_robot(scene, {body = "arm", pose = {xyz = {0, 0, 1}}}).links, 1)
+  t.fails(function() world:add_robot(scene, {body = "mug"}) end, "body: expected one that a tree of joints begins with, got 'mug', expected one of arm, door")
+end)
+
+test("a robot's or a body's file is a world with that in it", function(t)
+  t.equal(#clench.load("tests/data/two_finger/claw.cfg").robots, 1)
+  t.equal(clench.load("models/objects/flask.iv", {root = "."}).objects[1].name, "flask")
+end)
