@@ -51,14 +51,19 @@ std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Bod
 
 static bool any_collides(const World& world, const std::vector<BodyPair>& near,
                          QueryContext& context) {
-  std::vector<PairCache*> caches(near.size());
-  for (size_t i = 0; i < near.size(); ++i) {
-    caches[i] = &cache_of(near[i], context);
-    // a pair that once collided is asked first
-    if (caches[i]->hit_a >= 0 && pair_collides(world, near[i], *caches[i])) return true;
+  // the answer is the same in any order: pairs that collided often of late are asked first
+  std::vector<std::pair<PairCache*, const BodyPair*>> order;
+  order.reserve(near.size());
+  for (const BodyPair& p : near) order.emplace_back(&cache_of(p, context), &p);
+  std::ranges::stable_sort(order, [](const auto& x, const auto& y) {
+    return x.first->hit_rate > y.first->hit_rate;
+  });
+  for (const auto& [cache, pair] : order) {
+    const bool hit = pair_collides(world, *pair, *cache);
+    constexpr float memory = 0.9F;
+    cache->hit_rate = memory * cache->hit_rate + (hit ? 1 - memory : 0);
+    if (hit) return true;
   }
-  for (size_t i = 0; i < near.size(); ++i)
-    if (caches[i]->hit_a < 0 && pair_collides(world, near[i], *caches[i])) return true;
   return false;
 }
 
