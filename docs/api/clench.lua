@@ -520,10 +520,11 @@ function patch:torsion_limit(options) end
 ---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # The options with which clench.grasp measures another grasp in the same way. rho [m], normal_force [N]
 local grasp = {}
 
----Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by name. Nothing else moves, and collisions are not checked: see `world:collides`.
+---Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it does not have stay. Nothing else moves, and collisions are not checked: see `world:collides`.
 ---@param world? world # default: its own
+---@param options? {hand?: robot, object?: body}
 ---@return grasp
-function grasp:apply(world) end
+function grasp:apply(world, options) end
 
 ---Can it resist every wrench?
 ---@return boolean
@@ -640,9 +641,10 @@ local grasps = {}
 ---@return integer count
 function grasps:add(grasp) end
 
----Writes the list as JSON lines: a head with the version, then a grasp on each line, numbers to the bit. The same list gives the same bytes.
+---Writes the list. JSON lines hold all there is: a head with the version, then a grasp on each line, numbers to the bit. `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, GraspGen's and MultiGripperGrasp's `.json` by `format`; a warning names what a format does not hold. The same list gives the same bytes.
 ---@param path string
-function grasps:save(path) end
+---@param options? {format?: string} # as clench.grasps takes it
+function grasps:save(path, options) end
 
 ---A number for how a hand stands to an object, made by `clench.energy`.
 ---@class energy
@@ -887,9 +889,9 @@ function clench.sheet(options) end
 ---@return progress
 function clench.progress(total, text) end
 
----A list of grasps: an empty one, or one from a file that `save` wrote. Its grasps belong to no world: they have contacts, posture, measures and wrench spaces, and `apply` puts them into a world.
+---A list of grasps: an empty one, or one from a file, in any format that `save` writes; the ending or `format` says which, and of `.json` and `.txt` files their content does. Its grasps belong to no world: they have what the file holds of contacts, posture and measures, and `apply` puts them into a world.
 ---@param path? string
----@param options? {root?: string, confine?: string}
+---@param options? {root?: string, confine?: string, format?: string} # format: "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper" or "graspit" (results of its planner)
 ---@return grasps
 function clench.grasps(path, options) end
 

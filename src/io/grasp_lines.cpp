@@ -42,6 +42,8 @@ static Json json_of(const GraspSpec& g) {
   if (!g.object_file.empty()) out["object_file"] = g.object_file;
   if (g.X_OH) out["pose"] = json_of(*g.X_OH);
   out["dofs"] = g.dofs;
+  if (!g.dof_names.empty()) out["dof_names"] = g.dof_names;
+  if (!g.dof_units.empty()) out["dof_units"] = g.dof_units;
   out["joints"] = g.joints;
   Json points = Json::array();
   for (size_t i = 0; i < g.points.size(); ++i) {
@@ -137,6 +139,14 @@ class Fields {
       if (!x.is_number()) refuse(at(key), expected, x);
     return list.get<std::vector<double>>();
   }
+  std::vector<std::string> texts(const char* key, size_t count) {
+    const Json& list = get(key);
+    const std::string expected = fmt::format("a list of {} strings", count);
+    if (!list.is_array() || list.size() != count) refuse(at(key), expected, list);
+    for (const Json& x : list)
+      if (!x.is_string()) refuse(at(key), expected, x);
+    return list.get<std::vector<std::string>>();
+  }
   Vector3d vec3(const char* key) {
     const auto x = numbers(key, 3);
     return Vector3d::Map(x.data());
@@ -226,6 +236,8 @@ GraspSpec read_line(const Json& json, const std::string& place) {
   out.object_file = fields.text("object_file", false);
   if (const Json* pose = fields.find("pose")) out.X_OH = read_pose(*pose, fields.at("pose"));
   out.dofs = fields.numbers("dofs");
+  for (const auto& [key, list] : {std::pair{"dof_names", &out.dof_names}, {"dof_units", &out.dof_units}})
+    if (fields.find(key)) *list = fields.texts(key, out.dofs.size());
   out.joints = fields.numbers("joints");
   const Json& points = fields.get("points");
   if (!points.is_array() || points.size() > max_values)

@@ -40,8 +40,17 @@ Picture blank_picture(int width, int height) {
 
 void Canvas::blend(int x, int y, float part, const Color& color) {
   uint8_t* pixel = &picture_.pixels[3 * (static_cast<size_t>(y) * picture_.width + x)];
+  // over what lets through, letters count by how much each covers
+  float keep = 1 - part;
+  if (!picture_.alpha.empty()) {
+    uint8_t& alpha = picture_.alpha[static_cast<size_t>(y) * picture_.width + x];
+    const float under = (1 - part) * static_cast<float>(alpha) / 255, all = part + under;
+    if (!(all > 0)) return;
+    keep = under / all, part = part / all;
+    alpha = static_cast<uint8_t>(floor_between(255 * all + 0.5f, 0, 255));
+  }
   for (int k = 0; k < 3; ++k) {
-    const float mixed = (1 - part) * pixel[k] + part * 255 * color[k];
+    const float mixed = keep * pixel[k] + part * 255 * color[k];
     pixel[k] = static_cast<uint8_t>(floor_between(mixed + 0.5, 0, 255));
   }
 }

@@ -44,6 +44,8 @@ void find_scale(std::span<const Piece> pieces, DrawList& list) {
 
 Batch append(Piece& piece, DrawList& list) {
   for (auto& p : piece.p_W) p = (p - list.centre) / list.scale;
+  Bounds bounds;
+  for (const auto& p : piece.p_W) bounds.add(p);
   const auto normals = corner_normals(piece.p_W, piece.triangles, crease);
   std::vector<Corner> corners;
   for (size_t i = 0; i < piece.triangles.size(); ++i) {
@@ -53,7 +55,11 @@ Batch append(Piece& piece, DrawList& list) {
       corners.push_back({piece.p_W[piece.triangles[i][k]].cast<float>(), normals[i][k], color});
   }
   const auto fine = piece.mark ? corners : split_long_edges(corners, longest_edge, max_triangles);
-  Batch batch{.opacity = piece.opacity};
+  Batch batch{.opacity = piece.opacity, .outward = piece.outward};
+  if (!bounds.empty()) {
+    batch.centre = 0.5 * (bounds.low + bounds.high);
+    batch.radius = 0.5 * bounds.size().norm();
+  }
   batch.first_caster = static_cast<int>(list.indices.size());
   if (piece.mark || piece.background) corners.clear();
   batch.caster_count = static_cast<int>(corners.size());
@@ -88,10 +94,16 @@ void append_floor(DrawList& list) {
 
 }  // namespace
 
+bool hides_inside(const Eigen::Vector3d& centre, double radius, const Eye& eye) {
+  // the near plane lies at less than half the way to the scene
+  return eye.ortho_height > 0 || (centre - eye.eye).norm() > 1.5 * radius + 0.03;
+}
+
 Eye DrawList::to_scene(const Eye& world) const {
   Eye out = world;
   out.eye = (world.eye - centre) / scale;
   out.target = (world.target - centre) / scale;
+  out.ortho_height = world.ortho_height / scale;
   return out;
 }
 
@@ -99,6 +111,7 @@ Eye DrawList::to_world(const Eye& scene) const {
   Eye out = scene;
   out.eye = centre + scale * scene.eye;
   out.target = centre + scale * scene.target;
+  out.ortho_height = scale * scene.ortho_height;
   return out;
 }
 
@@ -147,13 +160,15 @@ DrawList make_draw_list(const Scene& scene) {
   return list;
 }
 
-std::vector<uint32_t> back_to_front(const DrawList& list, const Eigen::Vector3f& eye) {
+std::vector<uint32_t> back_to_front(const DrawList& list, const Eye& eye) {
+  const Eigen::Vector3f from = eye.eye.cast<float>(),
+                        away = (eye.eye - eye.target).normalized().cast<float>();
   std::vector<std::pair<float, uint32_t>> order;
   const auto add = [&](const Batch& batch) {
     for (int at = batch.first; at < batch.first + batch.count; at += 3) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (int k = 0; k < 3; ++k) sum += list.corners[list.indices[at + k]].p;
-      order.push_back({-(sum / 3 - eye).squaredNorm(), static_cast<uint32_t>(at)});
+      order.push_back({eye.ortho_height > 0 ? away.dot(sum) : -(sum / 3 - from).squaredNorm(), static_cast<uint32_t>(at)});
     }
   };
   for (const Batch& batch : list.clear) add(batch);

@@ -33,12 +33,6 @@ void check_libraries() {
 
 GlContext::GlContext() {
   check_libraries();
-  old_display_ = eglGetCurrentDisplay();
-  old_context_ = eglGetCurrentContext();
-  old_draw_ = eglGetCurrentSurface(EGL_DRAW);
-  old_read_ = eglGetCurrentSurface(EGL_READ);
-  old_api_ = eglQueryAPI();
-
   if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
     refuse("this EGL cannot draw without a display (EGL_MESA_platform_surfaceless)");
   // the display belongs to the process, not to us: other threads may use it, so it is never
@@ -47,6 +41,7 @@ GlContext::GlContext() {
       eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
     refuse("EGL found no driver that draws without a display");
+  const EGLenum old_api = eglQueryAPI();
   eglBindAPI(EGL_OPENGL_API);
   const EGLint expected[] = {EGL_CONTEXT_MAJOR_VERSION,
                              3,
@@ -56,19 +51,29 @@ GlContext::GlContext() {
                              EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                              EGL_NONE};
   EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, expected);
+  eglBindAPI(old_api);
+  if (context == EGL_NO_CONTEXT) refuse("the driver offers no OpenGL 3.3 core context");
   display_ = display;
-  if (context == EGL_NO_CONTEXT ||
-      !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
-    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-    eglBindAPI(old_api_);
-    refuse("the driver offers no OpenGL 3.3 core context");
-  }
   context_ = context;
 }
 
-GlContext::~GlContext() {
+GlContext::~GlContext() { eglDestroyContext(display_, context_); }
+
+GlContext::Entered::Entered(const GlContext& context)
+    : display_(context.display_),
+      old_display_(eglGetCurrentDisplay()),
+      old_context_(eglGetCurrentContext()),
+      old_draw_(eglGetCurrentSurface(EGL_DRAW)),
+      old_read_(eglGetCurrentSurface(EGL_READ)),
+      old_api_(eglQueryAPI()) {
+  eglBindAPI(EGL_OPENGL_API);
+  if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context_)) return;
+  eglBindAPI(old_api_);
+  refuse("the driver offers no OpenGL 3.3 core context");
+}
+
+GlContext::Entered::~Entered() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  eglDestroyContext(display_, context_);
   eglBindAPI(old_api_);
   if (old_context_ != EGL_NO_CONTEXT)
     eglMakeCurrent(old_display_, old_draw_, old_read_, old_context_);

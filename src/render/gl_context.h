@@ -1,10 +1,9 @@
-// OpenGL 3.3 core without display, window or device file, for as long as this lives.
+// OpenGL 3.3 core without display, window or device file.
 #pragma once
 
 namespace clench {
 
-/// Current on the calling thread from construction to destruction; what was current before is so
-/// again after. Needs nothing but the libraries: EGL_PLATFORM_SURFACELESS_MESA of EGL 1.5.
+/// Current on a thread only where it is entered, so that any thread may use it, one at a time. Needs nothing but the libraries: EGL_PLATFORM_SURFACELESS_MESA of EGL 1.5.
 class GlContext {
  public:
   /// throws Error that says what to install when there is no EGL or no OpenGL 3.3
@@ -13,11 +12,24 @@ class GlContext {
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
+  /// Current on this thread as long as this lives; what was current before is so again after.
+  class Entered {
+   public:
+    /// throws Error when the driver cannot
+    explicit Entered(const GlContext& context);
+    ~Entered();
+    Entered(const Entered&) = delete;
+    Entered& operator=(const Entered&) = delete;
+
+   private:
+    void* display_;
+    void *old_display_, *old_context_, *old_draw_, *old_read_;
+    unsigned old_api_;
+  };
+
  private:
   void* display_ = nullptr;
   void* context_ = nullptr;
-  void *old_display_ = nullptr, *old_context_ = nullptr, *old_draw_ = nullptr, *old_read_ = nullptr;
-  unsigned old_api_ = 0;
 };
 
 }  // namespace clench

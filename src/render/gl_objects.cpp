@@ -152,6 +152,10 @@ void set(unsigned program, const char* name, const Eigen::Vector3f& value) {
   use(program);
   glUniform3fv(at(program, name), 1, value.data());
 }
+void set(unsigned program, const char* name, const Eigen::Vector4f& value) {
+  use(program);
+  glUniform4fv(at(program, name), 1, value.data());
+}
 void set(unsigned program, const char* name, const Eigen::Matrix4f& value) {
   use(program);
   glUniformMatrix4fv(at(program, name), 1, GL_FALSE, value.data());

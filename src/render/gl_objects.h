@@ -52,6 +52,7 @@ void set(unsigned program, const char* name, int value);
 void set(unsigned program, const char* name, float value);
 void set(unsigned program, const char* name, const Eigen::Vector2f& value);
 void set(unsigned program, const char* name, const Eigen::Vector3f& value);
+void set(unsigned program, const char* name, const Eigen::Vector4f& value);
 void set(unsigned program, const char* name, const Eigen::Matrix4f& value);
 void set(unsigned program, const char* name, const std::vector<float>& values);
 void set(unsigned program, const char* name, const std::vector<Eigen::Vector3f>& values);

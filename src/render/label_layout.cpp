@@ -52,8 +52,10 @@ std::optional<PixelBox> find_room(const PixelBox& expected, const Vector2f& pict
 std::optional<Vector2f> seen_at(const Eigen::Vector3d& p_W, const Eye& eye,
                                 const Vector2f& picture) {
   const Eigen::Vector3d p = view_axes(eye).transpose() * (p_W - eye.eye);
-  if (!(p.z() < 0)) return {};
-  const double pixels = 0.5 * picture.y() / std::tan(eye.field_of_view / 2) / -p.z();
+  if (eye.ortho_height == 0 && !(p.z() < 0)) return {};
+  const double pixels = eye.ortho_height > 0
+                            ? picture.y() / eye.ortho_height
+                            : 0.5 * picture.y() / std::tan(eye.field_of_view / 2) / -p.z();
   const Vector2f at(static_cast<float>(0.5 * picture.x() + pixels * p.x()),
                     static_cast<float>(0.5 * picture.y() - pixels * p.y()));
   if ((at.array() < 0).any() || (at.array() > picture.array()).any()) return {};
@@ -87,9 +89,9 @@ std::vector<std::string> broken(const std::string& line, float height, float wid
   return lines;
 }
 
-void place_caption(const Scene& scene, const Vector2f& picture, const Font& font,
+void place_caption(const Scene& scene, const Vector2f& picture, const Font& font, float letters,
                    std::vector<PlacedText>& out) {
-  const float height = std::max(min_letters, caption_part * picture.y());
+  const float height = letters > 0 ? letters : std::max(min_letters, caption_part * picture.y());
   const float room = picture.x() - 2 * height;
   std::vector<std::string> lines;
   for (const std::string& line : scene.caption)
@@ -118,15 +120,15 @@ std::vector<std::optional<PixelBox>> spread_boxes(std::span<const PixelBox> expe
 }
 
 std::vector<PlacedText> place_texts(const Scene& scene, const Eye& eye, const Vector2f& picture,
-                                    const Font& font) {
+                                    const Font& font, float letters) {
   std::vector<PlacedText> texts;
   if (picture.minCoeff() < min_picture) return texts;
-  place_caption(scene, picture, font, texts);
+  place_caption(scene, picture, font, letters, texts);
   std::vector<PixelBox> taken, expected;
   for (const PlacedText& text : texts) taken.push_back(text.box);
   for (const DrawArrow& arrow : scene.arrows) take_arrow(arrow, eye, picture, taken);
 
-  const float height = std::max(min_letters, label_part * picture.y());
+  const float height = letters > 0 ? letters : std::max(min_letters, label_part * picture.y());
   const Vector2f around(air * height, air * height);
   std::vector<PlacedText> labels;
   for (const DrawLabel& label : scene.labels) {

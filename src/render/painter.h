@@ -1,14 +1,16 @@
-// A draw list to pixels, tile by tile and pass by pass.
+// A scene to pixels, tile by tile and pass by pass.
 #pragma once
-#include "clench/render/draw_list.h"
+#include "clench/render/paper_scene.h"
 #include "clench/render/picture.h"
+#include "clench/render/programs.h"
 #include "clench/render/render_options.h"
 
 namespace clench {
 
 /// Lives inside the life of a GlContext; `eye` is in scene units.
-/// throws  Error when the driver refuses
+/// throws  Stopped; Error when the driver refuses
 /// source  Haeberli & Akeley (1990), The accumulation buffer: soft shadows, smooth edges
-Picture paint(const DrawList& list, const Eye& eye, const RenderOptions& options);
+Picture paint(const Programs& programs, PaperScene& scene, const Eye& eye,
+              const RenderOptions& options);
 
 }  // namespace clench

@@ -6,11 +6,17 @@
 
 namespace clench {
 
-/// RGB, 8 bits a channel, rows from the top.
+/// RGB, 8 bits a channel, rows from the top; and, where it lets through what it is laid on, how much it covers.
 struct Picture {
   int width = 0, height = 0;
   std::vector<uint8_t> pixels;
+  std::vector<uint8_t> alpha = {};  ///< one a pixel, 255 covers all; empty: all covers
+
+  bool operator==(const Picture&) const = default;
 };
+
+/// On white, all covered.
+Picture on_white(const Picture& picture);
 
 /// throws Error naming the path when it cannot be written
 void save_png(const Picture& picture, const std::string& path);

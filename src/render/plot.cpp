@@ -57,6 +57,11 @@ void check_series(const PlotSeries& series, size_t number) {
         fail("{}: expected ascending edges, got {} as number {}", subject, series.x[i], i + 1);
 }
 
+bool any_bars(const Plot& plot) {
+  return std::ranges::any_of(plot.series,
+                             [](const PlotSeries& s) { return s.kind == PlotKind::bars; });
+}
+
 void check_plot(const Plot& plot) {
   if (plot.series.empty()) fail("plot: expected at least one series, got none");
   size_t points = 0;
@@ -71,10 +76,19 @@ void check_plot(const Plot& plot) {
       fail("plot: expected a {} of {} to {} pixels, got {}", name, min_plot_size, max_plot_size,
            size);
   for (const auto& [name, axis] : {std::pair("x", &plot.x), {"y", &plot.y}}) {
+    if (axis == &plot.y && axis->logarithmic && any_bars(plot))
+      fail("plot: y_scale: bars stand on 0, which a logarithmic axis has not");
+    for (size_t i = 0; axis == &plot.x && axis->logarithmic && i < plot.series.size(); ++i)
+      if (plot.series[i].kind == PlotKind::bars && !(plot.series[i].x[0] > 0))
+        fail("plot: x_scale: expected edges of bars > 0 on a logarithmic axis, got {}",
+             plot.series[i].x[0]);
     if (!axis->range) continue;
     const auto [low, high] = *axis->range;
     if (!shown(low) || !shown(high) || !wide_enough({low, high}))
       fail("plot: {}_range: expected a lower and a higher number, got {} and {}", name, low, high);
+    if (axis->logarithmic && !(low > 0))
+      fail("plot: {}_range: expected numbers > 0 on a logarithmic axis, got {} and {}", name, low,
+           high);
   }
 }
 
@@ -97,11 +111,6 @@ std::array<Range, 2> data_ranges(const Plot& plot) {
   return {xs, ys};
 }
 
-bool any_bars(const Plot& plot) {
-  return std::ranges::any_of(plot.series,
-                             [](const PlotSeries& s) { return s.kind == PlotKind::bars; });
-}
-
 // room beside the data; bars stand on the axis, and reach its ends
 Range with_margin(const Range& data, bool low_end, bool high_end) {
   if (!wide_enough(data)) {
@@ -117,13 +126,30 @@ Range with_margin(const Range& data, bool low_end, bool high_end) {
 struct Scale {
   Range range;
   double step = 1;
+  bool logarithmic = false;  // all numbers here are powers of ten
   float from = 0, to = 0;  // pixels at the ends of the range
 
   float at(double value) const {
     const double part = (value - range[0]) / (range[1] - range[0]);
     return static_cast<float>(from + part * (to - from));
   }
+  // 1, 2 and 5 times powers of ten, where at least two of these lie in the range
+  std::vector<double> decades(std::vector<double> at) const {
+    std::vector<double> out;
+    const double first = std::floor(range[0]);
+    const int count = floor_between(range[1] - first, 0, 700);
+    for (int i = 0; i <= count; ++i)
+      for (const double digit : at) {
+        const double value = first + i + std::log10(digit);
+        if (value >= range[0] - 1e-9 && value <= range[1] + 1e-9) out.push_back(value);
+      }
+    return out;
+  }
   std::vector<double> lines() const {
+    if (logarithmic && step <= 1) {
+      if (const auto some = decades({1, 2, 5}); some.size() >= 2 && some.size() <= 8) return some;
+      if (const auto some = decades({1}); some.size() >= 2) return some;
+    }
     std::vector<double> out;
     const double slack = 1e-9 * step, first = std::ceil((range[0] - slack) / step);
     // by their number, for adding 1 changes nothing of a large one
@@ -137,15 +163,36 @@ struct Scale {
 };
 
 std::string tick_text(const Scale& scale, double value) {
+  if (scale.logarithmic) return fmt::format("{:.4g}", std::pow(10.0, value));
   // as many digits as tell a line from the next
   const double largest = std::max(std::abs(scale.range[0]), std::abs(scale.range[1]));
   const double digits = std::ceil(std::log10(largest / scale.step)) + 1;
   return fmt::format("{:.{}g}", value, floor_between(digits, 3, 15));
 }
 
-Scale make_scale(const Range& range, double pixels, double room) {
-  const double count = std::max(1.0, pixels / room);
-  return {range, round_step((range[1] - range[0]) / count)};
+Scale make_scale(const Range& range, double pixels, double room, bool logarithmic) {
+  const double count = std::max(1.0, pixels / room), step = round_step((range[1] - range[0]) / count);
+  // of powers of ten, whole ones
+  return {range, logarithmic && range[1] - range[0] > 2 ? std::max(1.0, std::ceil(step)) : step,
+          logarithmic};
+}
+
+// numbers of a logarithmic axis as powers of ten, which all else counts in; what is not > 0 has none
+void take_logarithms(const PlotAxis& axis, std::vector<double>& values) {
+  if (!axis.logarithmic) return;
+  for (double& value : values) value = value > 0 ? std::log10(value) : NAN;
+}
+
+Plot in_scale(const Plot& plot) {
+  Plot out = plot;
+  for (PlotSeries& series : out.series) {
+    take_logarithms(out.x, series.x);
+    take_logarithms(out.y, series.y);
+  }
+  for (PlotAxis* axis : {&out.x, &out.y})
+    if (axis->logarithmic && axis->range)
+      axis->range = {std::log10((*axis->range)[0]), std::log10((*axis->range)[1])};
+  return out;
 }
 
 /// The figure, as it grows.
@@ -225,13 +272,13 @@ void Figure::set_scales(float top) {
       plot_.y.range ? *plot_.y.range : with_margin(ys, !bars || ys[0] < 0, !bars || ys[1] > 0);
   const float bottom = static_cast<float>(plot_.height) - border - text_height - gap -
                        (plot_.x.label.empty() ? 0 : text_height + gap);
-  y_ = make_scale(y_range, bottom - top, tick_room_y);
+  y_ = make_scale(y_range, bottom - top, tick_room_y, plot_.y.logarithmic);
   y_.from = std::max(bottom, top + 1), y_.to = top + text_height / 2;
   float widest = 0;
   for (const double value : y_.lines()) widest = std::max(widest, width_of(tick_text(y_, value)));
   const float left = border + (plot_.y.label.empty() ? 0 : text_height + gap) + widest + gap;
   const float right = static_cast<float>(plot_.width) - 2 * border;
-  x_ = make_scale(x_range, right - left, tick_room_x);
+  x_ = make_scale(x_range, right - left, tick_room_x, plot_.x.logarithmic);
   x_.from = left, x_.to = std::max(right, left + 1);
 }
 
@@ -346,7 +393,8 @@ Drawing Figure::draw() {
 
 Drawing draw_plot(const Plot& plot, const Font& font) {
   check_plot(plot);
-  return Figure(plot, font).draw();
+  const Plot scaled = in_scale(plot);
+  return Figure(scaled, font).draw();
 }
 
 }  // namespace clench

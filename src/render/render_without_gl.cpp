@@ -1,5 +1,6 @@
 #include "clench/base/error.h"
-#include "clench/render/render.h"
+#include "clench/render/frame.h"
+#include "clench/render/renderer.h"
 
 namespace clench {
 namespace {
@@ -8,7 +9,17 @@ namespace {
 
 }  // namespace
 
-Picture render(const Scene&, const RenderOptions&, const Font&) { refuse(); }
+// nothing to keep
+struct Renderer::Kept {};
+struct Renderer::Framed {};
+Renderer::Renderer() = default;
+Renderer::~Renderer() = default;
+void Renderer::clear() {}
+size_t Renderer::bytes() const { return 0; }
+Picture Renderer::draw(const Scene&, const RenderOptions&, const Font&) { refuse(); }
+Eye Renderer::frame_all(const Scene& scene, double aspect, bool ortho) {
+  return frame(scene, aspect, ortho);
+}
 
 void save_png(const Picture&, const std::string&) { refuse(); }
 

@@ -9,22 +9,20 @@ inline constexpr const char* surface_vertex = R"(
 layout(location = 0) in vec3 p;
 layout(location = 1) in vec3 n;
 layout(location = 2) in vec4 color;
+layout(location = 3) in vec4 room;
+layout(location = 4) in vec4 lamp;
 uniform mat4 to_clip;
-uniform sampler2D room;
-uniform sampler2D lamp;
 out vec3 at;
 out vec3 normal;
 out vec4 paint;
 out vec4 room_light;
 out vec4 lamp_light;
 void main() {
-  int width = textureSize(room, 0).x;
-  ivec2 place = ivec2(gl_VertexID % width, gl_VertexID / width);
   at = p;
   normal = n;
   paint = color;
-  room_light = texelFetch(room, place, 0);
-  lamp_light = texelFetch(lamp, place, 0);
+  room_light = room;
+  lamp_light = lamp;
   gl_Position = to_clip * vec4(p, 1);
 }
 )";
@@ -126,8 +124,12 @@ vec3 mirrored(vec3 d) {
 }
 // what the varnish returns; direct: light of the lamp, open: how much of the room is seen
 vec3 varnish(vec3 n, vec3 v, vec3 to_lamp, float direct, float open) {
-  float fresnel = 0.04 + 0.96 * pow(1 - clamp(dot(n, v), 0, 1), 5);
-  float gloss = pow(max(0, dot(n, normalize(to_lamp + v))), 48);
+  float over = 1 - clamp(dot(n, v), 0, 1), over2 = over * over;
+  float fresnel = 0.04 + 0.96 * over2 * over2 * over;
+  // to the power of 48
+  float g = max(0, dot(n, normalize(to_lamp + v)));
+  g *= g, g *= g, g *= g, g *= g;
+  float gloss = g * g * g;
   return 0.35 * (vec3(direct * gloss) + mirrored(reflect(-v, n)) * fresnel * min(1, open));
 }
 // of a colour on a screen; nothing is so black that its shape is lost
@@ -142,6 +144,7 @@ uniform sampler2D paints;
 uniform sampler2D depths;
 uniform float open_light;    // what comes to the floor with nothing in between
 uniform float reach;         // of the floor
+uniform float bare;          // 1: nothing is behind but a shadow on the floor
 out vec4 result;
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy);
@@ -156,7 +159,10 @@ void main() {
                         : linear(paint.rgb) * (place.w + direct) + varnish(n, v, to_light[0], direct, facing.w);
   // far away everything melts into the backdrop
   float fade = nothing ? 1 : smoothstep(0.5, 1.0, length(p) / reach);
-  result = vec4(mix(light, behind, fade), 1);
+  // a tenth of the light is missing all around, and is no shadow
+  float shadow = clamp((1 - (place.w + direct) / open_light - 0.1) / 0.9, 0, 1);
+  vec4 alone = on_floor || nothing ? vec4(0, 0, 0, 0.75 * shadow * (1 - fade)) : vec4(light, 1);
+  result = mix(vec4(mix(light, behind, fade), 1), alone, bare);
 }
 )";
 
@@ -229,6 +235,42 @@ vec3 backdrop() {
 }
 )";
 
+/// lines around bodies, where the surface seen in one pixel does not go on in its neighbours, and along edges
+inline constexpr const char* outline_fragment = R"(
+uniform sampler2D places;
+uniform sampler2D facings;
+uniform sampler2D paints;
+uniform vec3 eye;
+uniform float spread;        // of a pixel, in scene units, at a distance of 1 where that matters
+uniform float flat_view;     // 1: it does not
+uniform float radius;        // of the line, pixels
+uniform float cover;
+uniform float smooth_line;   // 1: a line has soft sides, where pixels have one sample
+out vec4 result;
+bool there(ivec2 at) { return texelFetch(paints, at, 0).a > 0.5; }
+bool differ(ivec2 a, ivec2 b, float step) {
+  if (there(a) != there(b)) return true;
+  if (!there(a)) return false;
+  vec3 p = texelFetch(places, a, 0).xyz, q = texelFetch(places, b, 0).xyz,
+       n = texelFetch(facings, a, 0).xyz, m = texelFetch(facings, b, 0).xyz;
+  return max(abs(dot(n, q - p)), abs(dot(m, q - p))) > 2.5 * step + 0.004 || dot(n, m) < 0.6;
+}
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy), last = textureSize(places, 0) - 1;
+  float away = flat_view > 0.5 ? 1 : length(eye - texelFetch(places, here, 0).xyz);
+  float hits = 0;
+  for (int ring = 1; ring <= 2; ++ring)
+    for (int k = 0; k < 8; ++k) {
+      float angle = 0.785398163 * float(k), r = 0.5 * radius * float(ring);
+      ivec2 at = ivec2(floor(gl_FragCoord.xy + r * vec2(cos(angle), sin(angle))));
+      at = clamp(at, ivec2(0), last);
+      if (differ(here, at, spread * away * max(r, 1))) hits += 1;
+    }
+  float part = cover * (smooth_line > 0.5 ? min(1, hits / 5) : min(1, hits));
+  result = vec4(0, 0, 0, part);
+}
+)";
+
 /// one pass, weighted
 inline constexpr const char* add_fragment = R"(
 uniform sampler2D light;
@@ -242,12 +284,19 @@ inline constexpr const char* develop_fragment = R"(
 uniform sampler2D light;
 out vec4 result;
 void main() {
-  vec3 c = max(vec3(0), texelFetch(light, ivec2(gl_FragCoord.xy), 0).rgb);
+  vec4 all = texelFetch(light, ivec2(gl_FragCoord.xy), 0);
+  result = vec4(developed(max(vec3(0), all.rgb / max(all.a, 1e-4))), all.a);
+}
+)";
+
+/// part of what develops
+inline constexpr const char* curve_part = R"(
+vec3 developed(vec3 c) {
   const float knee = 0.7;
   vec3 over = max(vec3(0), c - knee);
   c = min(c, knee) + (1 - knee) * (1 - exp(-over / (1 - knee)));
   c = mix(12.92 * c, 1.055 * pow(c, vec3(1 / 2.4)) - 0.055, step(0.0031308, c));
-  result = vec4(c, 1);
+  return c;
 }
 )";
 

@@ -6,7 +6,6 @@
 #include <cstddef>
 
 #include "clench/base/error.h"
-#include "clench/render/shaders.h"
 
 namespace clench {
 namespace {
@@ -14,27 +13,40 @@ namespace {
 constexpr double reach = 1.03;  // of a map: the scene's ball and a margin [scene units]
 constexpr int gathered_width = 2048;
 
+// what was drawn, row by row
+gl::Object to_buffer(int rows) {
+  gl::Object out = gl::make_buffer(nullptr, size_t{16} * gathered_width * rows);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, out);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, gathered_width, rows, GL_RGBA, GL_FLOAT, nullptr);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  return out;
+}
+
 // neighbours on the floor share their light, so that no single shadow of the many shows
-gl::Object smooth_floor(const DrawList& list, gl::Object gathered, int rows) {
-  if (!list.ground) return gathered;
-  gl::Object smooth = gl::make_texture(gl::Format::rgba32f, gathered_width, rows);
-  const gl::Object framebuffer = gl::make_framebuffer({smooth}, 0);
-  const gl::Object program = gl::make_program("", shaders::cover_vertex, shaders::smooth_fragment);
+gl::Object smooth_floor(const Programs& programs, const DrawList& list, unsigned gathered,
+                        int rows) {
+  if (!list.ground) return to_buffer(rows);
+  const gl::Object smooth = gl::make_texture(gl::Format::rgba32f, gathered_width, rows),
+                   framebuffer = gl::make_framebuffer({smooth}, 0);
+  const unsigned program = programs.smooth;
   gl::bind(program, "light", 1, gathered);
   gl::set(program, "first", static_cast<int>(list.floor_corner));
   gl::set(program, "lines", floor_lines);
   Cover().draw(program);
-  return smooth;
+  return to_buffer(rows);
 }
 
 }  // namespace
-
-std::string shader_head(int lights) { return fmt::format("#define LIGHTS {}\n", lights); }
 
 LoadedList::LoadedList(const DrawList& list)
     : array(gl::make_vertex_array()),
       corners(gl::make_buffer(list.corners.data(), list.corners.size() * sizeof(Corner))),
       indices(gl::make_buffer(list.indices.data(), list.indices.size() * sizeof(uint32_t), true)) {
+  name_corner_fields();
+}
+
+void name_corner_fields() {
   const auto field = [](int at, int count, GLenum type, size_t offset) {
     glEnableVertexAttribArray(at);
     glVertexAttribPointer(at, count, type, type == GL_UNSIGNED_BYTE, sizeof(Corner),
@@ -45,21 +57,28 @@ LoadedList::LoadedList(const DrawList& list)
   field(2, 4, GL_UNSIGNED_BYTE, offsetof(Corner, color));
 }
 
+void read_light(const LoadedList& loaded, int place, unsigned light) {
+  glBindVertexArray(loaded.array);
+  glBindBuffer(GL_ARRAY_BUFFER, light);
+  glEnableVertexAttribArray(place);
+  glVertexAttribPointer(place, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
+
 void Cover::draw(unsigned program) const {
   gl::use(program);
   glBindVertexArray(array_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-Shadows::Shadows(const DrawList& list, const LoadedList& loaded, int size)
-    : list_(list),
-      loaded_(loaded),
+Shadows::Shadows(const Programs& programs, int size, int count)
+    : programs_(programs),
       size_(size),
-      program_(gl::make_program(shader_head(1), shaders::shadow_vertex, shaders::depth_fragment)),
-      maps_(gl::make_shadow_maps(size, most)),
+      maps_(gl::make_shadow_maps(size, count)),
       framebuffer_(gl::make_framebuffer({}, 0)) {}
 
-void Shadows::cast(std::span<const Light> lights) {
+void Shadows::cast(const DrawList& list, const LoadedList& loaded,
+                   std::span<const Light> lights) {
+  const unsigned program = programs_.shadow;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glViewport(0, 0, size_, size_);
   glEnable(GL_DEPTH_TEST);
@@ -67,7 +86,7 @@ void Shadows::cast(std::span<const Light> lights) {
   glDepthMask(GL_TRUE);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.5f, 2);
-  glBindVertexArray(loaded_.array);
+  glBindVertexArray(loaded.array);
   axes_.assign(most, Eigen::Matrix3f::Zero());
   to_light_.assign(most, Eigen::Vector3f::Zero());
   radiance_.assign(most, 0);
@@ -85,16 +104,19 @@ void Shadows::cast(std::span<const Light> lights) {
 
     glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps_, 0, static_cast<int>(i));
     glClear(GL_DEPTH_BUFFER_BIT);
-    gl::set(program_, "axes", std::vector{axes_[i]});
+    gl::set(program, "axes", std::vector{axes_[i]});
     const auto draw = [](const Batch& batch) {
+      // the far side of a closed body lies in the shadow of the near one
+      if (batch.outward) glEnable(GL_CULL_FACE), glCullFace(GL_BACK);
       glDrawElements(GL_TRIANGLES, batch.caster_count, GL_UNSIGNED_INT,
                      reinterpret_cast<const void*>(batch.first_caster * sizeof(uint32_t)));
+      if (batch.outward) glDisable(GL_CULL_FACE);
     };
-    for (const Batch& batch : list_.solid) draw(batch);
+    for (const Batch& batch : list.solid) draw(batch);
     // bodies take turns, so that two of half opacity do not stop the same lights
-    for (size_t b = 0; b < list_.clear.size(); ++b) {
+    for (size_t b = 0; b < list.clear.size(); ++b) {
       const double turn = light.chance + 0.38196601125 * static_cast<double>(b);
-      if (turn - std::floor(turn) < list_.clear[b].opacity) draw(list_.clear[b]);
+      if (turn - std::floor(turn) < list.clear[b].opacity) draw(list.clear[b]);
     }
   }
   glDisable(GL_POLYGON_OFFSET_FILL);
@@ -109,8 +131,8 @@ void Shadows::give(unsigned program) const {
   gl::bind(program, "maps", 0, maps_, true);
 }
 
-gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Light>& lights,
-                  const Progress& progress) {
+gl::Object gather(const Programs& programs, const DrawList& list, const LoadedList& loaded,
+                  Shadows& shadows, const std::vector<Light>& lights, const Progress& progress) {
   const int rows = std::max<int>(1, (list.corners.size() + gathered_width - 1) / gathered_width);
   GLint max_rows = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_rows);
@@ -129,11 +151,9 @@ gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Ligh
   }
   const gl::Object points = gl::make_texture(gl::Format::rgba32f, gathered_width, rows, p.data()),
                    normals = gl::make_texture(gl::Format::rgba32f, gathered_width, rows, n.data());
-  gl::Object gathered = gl::make_texture(gl::Format::rgba32f, gathered_width, rows);
+  const gl::Object gathered = gl::make_texture(gl::Format::rgba32f, gathered_width, rows);
   const gl::Object framebuffer = gl::make_framebuffer({gathered}, 0);
-  const std::string light = shaders::light_part;
-  const gl::Object program = gl::make_program(shader_head(Shadows::most), shaders::cover_vertex,
-                                              light + shaders::gather_fragment);
+  const unsigned program = programs.gather;
   const Cover cover;
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
@@ -141,7 +161,7 @@ gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Ligh
     if (list.corners.size() > 100000)
       glFinish();  // or a stop would wait for all that was drawn before
     progress.check();
-    shadows.cast(std::span(lights).subspan(i, std::min<size_t>(Shadows::most, lights.size() - i)));
+    shadows.cast(list, loaded, std::span(lights).subspan(i, std::min<size_t>(Shadows::most, lights.size() - i)));
     shadows.give(program);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, gathered_width, rows);
@@ -153,7 +173,7 @@ gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Ligh
     cover.draw(program);
     glDisable(GL_BLEND);
   }
-  return smooth_floor(list, std::move(gathered), rows);
+  return smooth_floor(programs, list, gathered, rows);
 }
 
 }  // namespace clench

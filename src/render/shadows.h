@@ -5,6 +5,7 @@
 #include "clench/render/draw_list.h"
 #include "clench/render/gl_objects.h"
 #include "clench/render/lights.h"
+#include "clench/render/programs.h"
 
 namespace clench {
 
@@ -13,6 +14,9 @@ struct LoadedList {
   explicit LoadedList(const DrawList& list);
   gl::Object array, corners, indices;
 };
+
+/// The vertex array that is bound reads the buffer of corners that is bound.
+void name_corner_fields();
 
 /// One triangle over all of the framebuffer; reads nothing but the program.
 class Cover {
@@ -23,35 +27,34 @@ class Cover {
   gl::Object array_ = gl::make_vertex_array();
 };
 
-/// What every program begins with: the count of lights that it takes at a time.
-std::string shader_head(int lights);
-
 class Shadows {
  public:
-  static constexpr int most = 12;  ///< lights at a time; those that are not cast are dark
+  static constexpr int most = lights_at_once;  ///< lights at a time; those that are not cast are dark
 
-  /// `size` of the maps in pixels
-  Shadows(const DrawList& list, const LoadedList& loaded, int size);
+  /// `size` of the maps in pixels, `count` of them
+  Shadows(const Programs& programs, int size, int count = most);
 
-  /// Draws the maps of these lights. Bodies that are seen through stop a part of the lights.
-  void cast(std::span<const Light> lights);
+  /// Draws the maps of these lights, at most `count`. Bodies that are seen through stop a part of the lights.
+  void cast(const DrawList& list, const LoadedList& loaded, std::span<const Light> lights);
   /// The lights just cast, for a program that has `light_part`; takes texture unit 0.
   void give(unsigned program) const;
 
  private:
-  const DrawList& list_;
-  const LoadedList& loaded_;
+  const Programs& programs_;
   int size_;
-  gl::Object program_, maps_, framebuffer_;
+  gl::Object maps_, framebuffer_;
   std::vector<Eigen::Matrix3f> axes_;
   std::vector<Eigen::Vector3f> to_light_;
   std::vector<float> radiance_, share_;
 };
 
-/// Light at each corner, as `surface_vertex` reads it: front and back, and how open each lies.
+/// The corners of a list read this buffer of light at a place of `surface_vertex`.
+void read_light(const LoadedList& loaded, int place, unsigned light);
+
+/// Light at each corner, a buffer of four numbers each: front and back, and how open each lies.
 /// throws Error when there are more corners than a texture holds
 /// throws Stopped
-gl::Object gather(const DrawList& list, Shadows& shadows, const std::vector<Light>& lights,
-                  const Progress& progress);
+gl::Object gather(const Programs& programs, const DrawList& list, const LoadedList& loaded,
+                  Shadows& shadows, const std::vector<Light>& lights, const Progress& progress);
 
 }  // namespace clench

@@ -60,7 +60,7 @@ Picture contact_sheet(const std::vector<const Picture*>& pictures, const SheetOp
     const Picture& picture = *pictures[i];
     const int left = options.gap + i % columns * (cell_width + options.gap);
     const int top = options.gap + i / columns * (cell_height + below + options.gap);
-    copy(picture, sheet, left + (cell_width - picture.width) / 2,
+    copy(on_white(picture), sheet, left + (cell_width - picture.width) / 2,
          top + (cell_height - picture.height) / 2);
     if (options.captions.empty()) continue;
     const auto room = static_cast<float>(cell_width);

@@ -6,7 +6,9 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <span>
 
+#include "clench/base/error.h"
 #include "clench/model/find.h"
 #include "clench/scene/palette.h"
 
@@ -70,7 +72,7 @@ void lower_crowded(std::vector<DrawCone>& cones) {
   }
 }
 
-std::vector<DrawCone> draw_contacts(const World& world) {
+std::vector<Contact> contacts_on_objects(const World& world) {
   std::vector<Id<Body>> parts, objects;
   for (const Id<Body> id : world.bodies()) {
     const BodyKind kind = world.body(id).kind;
@@ -79,8 +81,40 @@ std::vector<DrawCone> draw_contacts(const World& world) {
     else if (kind != BodyKind::obstacle)
       parts.push_back(id);
   }
+  return contacts(world, parts, objects);
+}
+
+// the measure that heights are in proportion to
+double cone_measure(const Contact& contact, const SceneOptions& options) {
+  if (options.cone_sizes == ConeSizes::friction) return contact.friction.statics;
+  if (options.cone_sizes != ConeSizes::force) return 1;
+  double most = 0;
+  for (const ContactLoad& load : options.loads)
+    if (load.p_W == contact.p_W) most = std::max(most, load.force);
+  return most;
+}
+
+// heights in proportion to what they tell, the largest of the size that is asked for
+void scale_cones(std::span<const Contact> contacts, const SceneOptions& options,
+                 std::vector<DrawCone>& cones) {
+  double most = 0, height = options.cone_height;
+  for (size_t i = 0; i < cones.size(); ++i) {
+    most = std::max(most, cone_measure(contacts[i], options));
+    if (options.cone_height == 0) height = std::max(height, cones[i].height);
+  }
+  for (size_t i = 0; i < cones.size(); ++i)
+    cones[i].height = most > 0 ? height * cone_measure(contacts[i], options) / most : 0;
+  std::erase_if(cones, [](const DrawCone& cone) { return !(cone.height > 0); });
+}
+
+std::vector<DrawCone> draw_contacts(const World& world, std::span<const Contact> contacts,
+                                    const SceneOptions& options) {
+  if (!(options.cone_height >= 0 && std::isfinite(options.cone_height)))
+    fail("picture: the height of cones must be >= 0 [m], got {}", options.cone_height);
+  for (const ContactLoad& load : options.loads)
+    if (!std::isfinite(load.force)) fail("picture: forces must be finite numbers");
   std::vector<DrawCone> cones;
-  for (const Contact& contact : contacts(world, parts, objects)) {
+  for (const Contact& contact : contacts) {
     const bool rubs = contact.kind != ContactKind::frictionless && contact.friction.statics > 0;
     cones.push_back({.apex = contact.p_W,
                      .axis = contact.n_W,
@@ -88,8 +122,30 @@ std::vector<DrawCone> draw_contacts(const World& world) {
                      .height = cone_size * world.body(contact.body).max_radius(),
                      .color = rubs ? palette::cone : palette::needle});
   }
+  if (options.cone_sizes != ConeSizes::apart) {
+    scale_cones(contacts, options, cones);
+    return cones;
+  }
+  if (options.cone_height > 0)
+    for (DrawCone& cone : cones) cone.height = options.cone_height;
   lower_crowded(cones);
   return cones;
+}
+
+// the objects that robots touch, and the links of those robots
+std::set<Id<Body>> touched_bodies(const World& world, std::span<const Contact> contacts) {
+  std::set<Id<Body>> out;
+  for (const Contact& contact : contacts) {
+    for (const auto& [object, part] : {std::pair(contact.body, contact.other),
+                                       std::pair(contact.other, contact.body)}) {
+      const Id<Robot> robot = world.body(part).robot;
+      if (world.body(object).kind != BodyKind::object || !robot) continue;
+      out.insert(object);
+      for (const Id<Body> id : world.bodies_of(robot))
+        if (world.body(id).kind == BodyKind::link) out.insert(id);
+    }
+  }
+  return out;
 }
 
 constexpr int patch_rings = 8, patch_segments = 48;
@@ -182,6 +238,11 @@ Scene make_scene(const World& world, const SceneOptions& options) {
   for (const Id<Body> id : world.bodies())
     bounds.push_back(bounds_in_world(world.body(id), world.pose(id)));
 
+  std::vector<Contact> touches;
+  if (options.contacts || options.framing == Framing::contacts)
+    touches = contacts_on_objects(world);
+  const std::set<Id<Body>> touched = touched_bodies(world, touches);
+
   Scene scene;
   bool floor = false;
   Bounds all;
@@ -190,12 +251,14 @@ Scene make_scene(const World& world, const SceneOptions& options) {
     if (!drawn(body)) continue;
     scene.meshes.push_back(draw_body(body, world.pose(world.bodies()[i]), options));
     scene.meshes.back().background = body.kind == BodyKind::obstacle && is_floor(bounds[i], bounds);
+    scene.meshes.back().framed = options.framing == Framing::all || touched.empty() ||
+                                 touched.contains(world.bodies()[i]);
     floor = floor || scene.meshes.back().background;
     all.add(bounds[i].low), all.add(bounds[i].high);
   }
   if (options.patches) draw_patches(world, scene.meshes);
   if (options.approach) draw_approaches(world, scene);
-  if (options.contacts) scene.cones = draw_contacts(world);
+  if (options.contacts) scene.cones = draw_contacts(world, touches, options);
   if (options.ground && !floor && !all.empty()) scene.ground = all.low.z();
   scene.eye = options.eye;
   return scene;

@@ -17,6 +17,7 @@ struct DrawMesh {
   std::vector<Eigen::Vector3f> triangle_colors = {};  ///< one per triangle, or empty
   float opacity = 1;                                  ///< 0 invisible .. 1 solid
   bool background = false;  ///< a floor: takes shadows, throws none, may leave the frame
+  bool framed = true;       ///< false: a view that is chosen may leave it out, in part or whole
 };
 
 /// Friction cone: apex at the contact, opening along the axis. A half angle of 0 draws a needle.
@@ -49,6 +50,7 @@ struct Eye {
   Eigen::Vector3d eye = Eigen::Vector3d::UnitX(), target = Eigen::Vector3d::Zero(),
                   up = Eigen::Vector3d::UnitZ();
   double field_of_view = 0.6;  ///< vertical [rad], in [0.001, 3]
+  double ortho_height = 0;     ///< height that an orthographic view shows [m]; 0: a perspective one
 };
 
 struct Scene {
@@ -61,6 +63,20 @@ struct Scene {
   std::optional<Eye> eye = {};            ///< empty: frame everything
 };
 
+/// How large friction cones are: apart, each lowered where its neighbours are near; of one size; or their heights
+/// in proportion to the friction coefficient or to the normal force, the largest of that size.
+enum class ConeSizes { apart, equal, friction, force };
+
+/// The normal force at a contact, by its place.
+struct ContactLoad {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< [m]
+  double force = 0;                               ///< [N]
+};
+
+/// What a view that is chosen must hold: all, or, where robots touch objects, those objects and the links of
+/// those robots, but not their bases and what carries them.
+enum class Framing { contacts, all };
+
 struct SceneOptions {
   bool contacts = true;  ///< draw friction cones at the contacts of robots with objects
   bool patches = false;  ///< draw the patches of all soft contacts
@@ -68,6 +84,10 @@ struct SceneOptions {
       false;  ///< draw an arrow from the approach point of each robot that closes, along its direction
   bool ground = true;  ///< a floor under the lowest point, unless an obstacle is the floor
   bool transparent_objects = true;  ///< so that contacts show
+  ConeSizes cone_sizes = ConeSizes::apart;
+  double cone_height = 0;  ///< of the highest cone [m]; 0: 0.15 of the object's largest radius
+  std::vector<ContactLoad> loads = {};  ///< for ConeSizes::force; contacts without one have no cone
+  Framing framing = Framing::contacts;
   bool file_colors = true;  ///< colours of the files, where they give any; else by kind of body
   std::vector<Id<Robot>> see_through = {};  ///< what is in and behind their links shows
   std::optional<Eye> eye = {};
@@ -77,6 +97,7 @@ struct SceneOptions {
 /// between a part of a robot and an object, opening into the object by its friction angle. With
 /// patches, at each soft contact the fitted surface of the object, or of the body that is touched, as
 /// far as it was looked at, and on it the rim of the ellipse that presses at 5 N.
+/// throws  Error on a cone height that is negative or not finite, and on a force that is not finite
 Scene make_scene(const World& world, const SceneOptions& options = {});
 
 }  // namespace clench

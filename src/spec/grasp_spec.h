@@ -42,7 +42,9 @@ struct GraspSpec {
   std::string hand_name = {}, object_name = {};
   std::string hand_file = {}, object_file = {};  ///< where they come from; empty: not known
   std::optional<Pose> X_OH = {};    ///< the hand's base in the object; empty: put together by hand
-  std::vector<double> dofs = {};    ///< values of all [rad or m]
+  std::vector<double> dofs = {};    ///< values of all [rad or m]; of those that are named, else
+  std::vector<std::string> dof_names = {};  ///< empty: not known, and the DOFs are all in order
+  std::vector<std::string> dof_units = {};  ///< "rad" or "m", as many as names
   std::vector<double> joints = {};  ///< positions of all [rad or m]
   std::vector<PointContact> points = {};
   std::vector<std::string> links = {};             ///< one per contact: what touches there

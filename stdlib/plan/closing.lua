@@ -8,18 +8,51 @@ function closing.place(hand, object, state)
   return not hand.world:collides(hand)
 end
 
+local function measure(hand, object, options)
+  hand:autograsp()
+  local grasp = clench.grasp(hand, object, options)
+  if #grasp.points == 0 then return nil end
+  grasp:quality "epsilon"
+  return grasp
+end
+
+-- Closes where the hand touched; then, while that holds nothing, again from one step further back, and so on.
+local function close_behind(hand, object, dofs, steps, options)
+  local touched, grasp = hand.pose, nil
+  local back = -hand.approach.direction
+  for i = 0, steps.count do
+    if i > 0 then
+      hand:set_posture(clench.pose {xyz = back * (i * steps.length)} * touched, dofs)
+      if hand.world:collides(hand) then break end
+    end
+    local next_grasp = measure(hand, object, options)
+    if next_grasp and (not grasp or next_grasp.epsilon > grasp.epsilon) then grasp = next_grasp end
+    if grasp and grasp.epsilon > 0 then break end
+  end
+  return grasp
+end
+
+local at_once = {count = 0, length = 0}
+
 ---@param hand robot
 ---@param object body
----@param state {pose: pose, dofs: number[]}  of the hand in the object
----@param options {approach?: number, grasp?: table, needs_contact?: boolean}
+---@param state {pose: pose, dofs: number[], reach?: number, set_back?: number}  of the hand in the object; reach: how far it goes on where nothing touches; set_back: from the first touch [m]
+---@param options {approach?: number, back?: {count: integer, length: number}, grasp?: table}  approach: at most so far, to the first touch [m]
 ---@return grasp? grasp, string? why  what was in the way
 function closing.close(hand, object, state, options)
   if not closing.place(hand, object, state) then return nil, "in collision at the start" end
-  if options.approach then hand:approach_object {reach = options.approach} end
-  hand:autograsp()
-  local grasp = clench.grasp(hand, object, options.grasp)
-  if #grasp.points == 0 then return nil, "nothing touched" end
-  grasp:quality "epsilon"
+  if state.reach then
+    hand:approach_object {reach = state.reach}
+  elseif options.approach then
+    local move = hand:approach_object {reach = options.approach}
+    if not move.touched then return nil, "the object is out of reach" end
+    if (state.set_back or 0) > 0 then
+      local back = math.min(state.set_back, move.fraction * options.approach)
+      hand.pose = clench.pose {xyz = hand.approach.direction * -back} * hand.pose
+    end
+  end
+  local grasp = close_behind(hand, object, state.dofs, options.back or at_once, options.grasp)
+  if not grasp then return nil, "nothing touched" end
   grasp.pregrasp = {pose = state.pose, dofs = state.dofs}
   grasp.collision_free = not hand.world:collides(hand)
   return grasp

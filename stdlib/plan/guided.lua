@@ -4,7 +4,7 @@ local new_run = require "clench.plan.run"
 local chain = require "clench.plan.chain"
 local closing = require "clench.plan.closing"
 
-local piece = 100            -- steps of the parent between two looks at its children
+local piece = 2000           -- steps of the parent while its children run: about as long as a child's
 local child_steps = 200
 local max_seeds, seed_distance = 20, 0.3
 local seed_energy = -0.1     -- below it a state of the parent is a seed, see GraspIt!'s "Multi-Threaded"
@@ -34,7 +34,7 @@ end
 --- Annealing that is guided by what virtual contacts could hold, and, from each promising state, a child that looks for
 --- the best closed grasp near it. Children run beside the parent and are merged at fixed steps, so that any number of
 --- threads gives the same grasps.
----@param options {hand: robot, object: body, steps?: integer, seconds?: number, seed?: integer, threads?: integer, children?: integer, child_steps?: integer, energy?: string|energy|function, child_energy?: string|energy|function, count?: integer, world?: world}  steps: of the parent, 70000; children: at most so many at once, 1; child_steps: 200; energy: "guided_potential_quality", of the children "strict_autograsp"; and as of plan.anneal
+---@param options {hand: robot, object: body, steps?: integer, seconds?: number, seed?: integer, threads?: integer, children?: integer, child_steps?: integer, energy?: string|energy|function, child_energy?: string|energy|function, count?: integer, world?: world}  steps: of the parent, 70000; children: at most so many at once, 1; child_steps: 200; energy: "guided_potential_quality"; child_energy: "strict_autograsp" without its volume; and as of plan.anneal
 ---@return {grasps: grasps, report: table} # grasps in force closure, the largest epsilon first
 --- > run = clench.plan.guided {hand = hand, object = flask, steps = 500, seed = 1}
 --- > run.report.steps, run.report.seeds >= 0  --> 500, true
@@ -45,12 +45,14 @@ return function(options)
     job.steps = read:count("steps", 70000, 0, 1e9)
     children = read:count("children", 1, 1, 64)
     steps_of_child = read:count("child_steps", child_steps, 1, 1e6)
-    child_energy = read:raw "child_energy" or "strict_autograsp"
+    child_energy = read:raw "child_energy"
     count = read:count("count", 1000000, 1, 1000000)
   end)
   local parent = job:annealing {energy = job:energy_of(job.energy), seed = job.seed,
                                 best = {distance = seed_distance, size = max_seeds, max_energy = seed_energy}}
-  local energy_of_child = job:energy_of(child_energy)
+  -- without the volume, which takes longest and matters least
+  local energy_of_child = child_energy and job:energy_of(child_energy) or
+                          clench.energy.strict_autograsp {hand = job.hand, object = job.object, volume_weight = 0}
   local told = {planner = "plan.guided", seeds = 0, threshold = seed_energy, trace = {}, first = parent.first_energy, best = parent.energy}
   local found, running, waiting = {}, {}, {}
 

@@ -39,18 +39,9 @@ class EmbreePoint : public PointPeer {
     rtcReleaseDevice(device_);
   }
 
-  std::optional<double> distance(const Eigen::Vector3d& p) override {
-    Search search{mesh_, p, std::numeric_limits<double>::infinity()};
-    RTCPointQuery query{};
-    query.x = static_cast<float>(p.x());
-    query.y = static_cast<float>(p.y());
-    query.z = static_cast<float>(p.z());
-    query.radius = std::numeric_limits<float>::infinity();
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(scene_, &query, &context, visit, &search);
-    return search.distance;
-  }
+  std::optional<double> distance(const Eigen::Vector3d& p) override { return search(p).distance; }
+  std::optional<Eigen::Vector3d> nearest(const Eigen::Vector3d& p) override { return search(p).q; }
+
 
   std::optional<double> cast(const Eigen::Vector3d& o, const Eigen::Vector3d& d) override {
     RTCIntersectContext context;
@@ -75,13 +66,28 @@ class EmbreePoint : public PointPeer {
     const Mesh& mesh;
     Eigen::Vector3d p;
     double distance;
+    Eigen::Vector3d q = {};
   };
+  Search search(const Eigen::Vector3d& p) const {
+    Search out{mesh_, p, std::numeric_limits<double>::infinity()};
+    RTCPointQuery query{};
+    query.x = static_cast<float>(p.x());
+    query.y = static_cast<float>(p.y());
+    query.z = static_cast<float>(p.z());
+    query.radius = std::numeric_limits<float>::infinity();
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(scene_, &query, &context, visit, &out);
+    return out;
+  }
   static bool visit(RTCPointQueryFunctionArguments* arguments) {
     auto& search = *static_cast<Search*>(arguments->userPtr);
-    const double d =
-        point_triangle(search.p, search.mesh.corners(static_cast<int>(arguments->primID))).distance;
+    const auto found =
+        point_triangle(search.p, search.mesh.corners(static_cast<int>(arguments->primID)));
+    const double d = found.distance;
     if (d >= search.distance) return false;
     search.distance = d;
+    search.q = found.q;
     arguments->query->radius = static_cast<float>(d * 1.00001);
     return true;
   }

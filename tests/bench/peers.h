@@ -21,6 +21,7 @@ class PointPeer {
  public:
   virtual ~PointPeer() = default;
   virtual std::optional<double> distance(const Eigen::Vector3d&) { return {}; }
+  virtual std::optional<Eigen::Vector3d> nearest(const Eigen::Vector3d&) { return {}; }
   /// of the first hit; infinity for none
   virtual std::optional<double> cast(const Eigen::Vector3d&, const Eigen::Vector3d&) { return {}; }
 };

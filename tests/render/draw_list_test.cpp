@@ -88,7 +88,9 @@ TEST_CASE("the farthest triangles come first") {
   scene.meshes[0].opacity = 0.5f;
   const DrawList list = make_draw_list(scene);
   const Eigen::Vector3f eye(3, -4, 2);
-  const auto order = back_to_front(list, eye);
+  Eye from;
+  from.eye = eye.cast<double>();
+  const auto order = back_to_front(list, from);
   CHECK(order.size() == static_cast<size_t>(list.clear[0].count));
   float last = std::numeric_limits<float>::infinity();
   for (size_t i = 0; i < order.size(); i += 3) {

@@ -74,6 +74,32 @@ TEST_CASE("the view is from that side which shows what is seen through") {
   CHECK((moved.eye - moved.target).normalized().dot(side) < 0.5);
 }
 
+TEST_CASE("what need not be seen may leave the frame, and the view is not from its side") {
+  Scene scene;
+  scene.meshes.push_back(solid(ball(0.1)));
+  const Eye alone = frame_all(scene, 1.2);
+  for (const Eigen::Vector3d& at : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-0.5, 0.6, 0.2),
+                                    Eigen::Vector3d(0.4, -0.8, 0.3)}) {
+    scene.meshes.resize(1);
+    scene.meshes.push_back(solid(box(0.3, 0.3, 0.3), {1, 1, 1}, Pose::translation(at)));
+    scene.meshes[1].framed = false;
+    const Eye eye = frame_all(scene, 1.2);
+    const double distance = (eye.eye - eye.target).norm();
+    CHECK(distance == doctest::Approx((alone.eye - alone.target).norm()).epsilon(0.05));
+    CHECK((eye.eye - eye.target).normalized().dot(at.normalized()) < 0.75);
+  }
+}
+
+TEST_CASE("an orthographic view holds everything as well") {
+  for (const double aspect : {0.5, 2.0}) {
+    Scene scene;
+    scene.meshes.push_back(solid(box(0.2, 1, 3), {1, 1, 1}, Pose::translation({5, 5, 5})));
+    const Eye eye = frame_all(scene, aspect, true);
+    CHECK(eye.ortho_height > 0);
+    CHECK(reach(scene, eye, aspect) == doctest::Approx(0.84).epsilon(1e-4));
+  }
+}
+
 TEST_CASE("axes are a rotation whose back points from the target to the eye, whatever up is") {
   Eye eye;
   for (const Eigen::Vector3d& at :

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "clench/base/error.h"
 #include "clench/model/find.h"
 #include "clench/scene/palette.h"
 #include "support/robots.h"
@@ -106,6 +107,52 @@ TEST_CASE("cones of contacts that lie close do not reach each other, and stay in
     }
     if (side > 0.05) CHECK(cones[0].height == doctest::Approx(usual));
   }
+}
+
+TEST_CASE("cones are of one size, or in proportion to friction or to force, as asked") {
+  World world;
+  world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
+  world.add_robot(block(box(0.01, 0.01, 0.05)), Pose::translation({0, 0, -0.075 - 1e-5}));
+  const double usual = 0.15 * std::sqrt(3) * 0.05;
+  const auto heights = [&](SceneOptions options) {
+    std::vector<double> out;
+    for (const DrawCone& cone : make_scene(world, options).cones) out.push_back(cone.height);
+    return out;
+  };
+  for (const ConeSizes sizes : {ConeSizes::equal, ConeSizes::friction})
+    for (const double height : heights({.cone_sizes = sizes})) CHECK(height == doctest::Approx(usual));
+  for (const double height : heights({.cone_sizes = ConeSizes::equal, .cone_height = 0.02}))
+    CHECK(height == 0.02);
+
+  // two contacts with forces, one twice the other; the others have no cone
+  const std::vector<DrawCone> cones = make_scene(world).cones;
+  REQUIRE(cones.size() >= 4);
+  SceneOptions options{.cone_sizes = ConeSizes::force, .cone_height = 0.03};
+  options.loads = {{cones[0].apex, 1}, {cones[2].apex, 2}, {cones[1].apex, 0}};
+  CHECK(heights(options) == std::vector<double>{0.015, 0.03});
+
+  CHECK_THROWS_WITH_AS(make_scene(world, {.cone_height = -1}),
+                       "picture: the height of cones must be >= 0 [m], got -1", Error);
+  options.loads[0].force = NAN;
+  CHECK_THROWS_WITH_AS(make_scene(world, options), "picture: forces must be finite numbers", Error);
+}
+
+TEST_CASE("a view holds the objects that robots touch and the links of those robots, or everything") {
+  World world;
+  world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
+  world.add_body(body("far", box(0.1, 0.1, 0.1)), BodyKind::object, Pose::translation({3, 0, 0}));
+  const auto framed = [&](Framing framing) {
+    std::vector<bool> out;
+    for (const DrawMesh& mesh : make_scene(world, {.framing = framing}).meshes)
+      out.push_back(mesh.framed);
+    return out;
+  };
+  // without contacts all of it
+  CHECK(framed(Framing::contacts) == std::vector{true, true});
+  // a palm without links
+  world.add_robot(block(box(0.05, 0.05, 0.05)), Pose::translation({0, 0, -0.075 - 1e-5}));
+  CHECK(framed(Framing::contacts) == std::vector{true, false, false});
+  CHECK(framed(Framing::all) == std::vector{true, true, true});
 }
 
 TEST_CASE("links of a robot that is seen through are clear, its base and other robots are not") {

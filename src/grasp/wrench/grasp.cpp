@@ -5,6 +5,9 @@
 #include <map>
 
 #include "clench/base/error.h"
+#include "clench/base/suggest.h"
+#include "clench/base/text.h"
+#include "clench/model/dof.h"
 
 namespace clench {
 
@@ -81,6 +84,11 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   const auto dofs = world.dofs(hand), joints = world.joints(hand);
   grasp.dofs.assign(dofs.begin(), dofs.end());
   grasp.joints.assign(joints.begin(), joints.end());
+  const Robot& robot = world.robot(hand);
+  for (int d = 0; d < static_cast<int>(robot.dofs.size()); ++d) {
+    grasp.dof_names.push_back(dof_name(robot, d));
+    grasp.dof_units.push_back(dof_slides(robot, d) ? "m" : "rad");
+  }
   grasp.com = held.com;
   grasp.options = options;
   // a body without extent has no contacts either: any length will do
@@ -106,28 +114,61 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   return grasp;
 }
 
+// values of all DOFs of a hand: those of the grasp, by their names where it has them, the others as they are
+static Eigen::VectorXd dofs_for(const World& world, Id<Robot> hand, const GraspSpec& grasp,
+                                const std::string& place) {
+  const Robot& robot = world.robot(hand);
+  Eigen::VectorXd q = world.dofs(hand);
+  std::vector<std::string> names;
+  for (int d = 0; d < static_cast<int>(robot.dofs.size()); ++d) names.push_back(dof_name(robot, d));
+  for (size_t i = 0; i < grasp.dofs.size(); ++i) {
+    size_t d = i;
+    if (!grasp.dof_names.empty()) {
+      d = static_cast<size_t>(std::ranges::find(names, grasp.dof_names[i]) - names.begin());
+      if (d == names.size())
+        fail("{}: the hand has no DOF {}{}", place, in_quotes(grasp.dof_names[i]),
+             instead_of(grasp.dof_names[i], names));
+    }
+    q[static_cast<Eigen::Index>(d)] = grasp.dofs[i];
+  }
+  return q;
+}
+
 void apply_grasp(World& world, const GraspSpec& grasp) {
-  const auto refuse = [&](const std::string& why) {
-    fail("grasp of {} by {}: {}", grasp.object_name, grasp.hand_name, why);
-  };
   const auto hand = world.find_robot(grasp.hand_name);
   const auto object = world.find_body(grasp.object_name);
-  if (!hand) refuse("there is no such hand in this world");
-  if (!object) refuse("there is no such object in this world");
-  if (!grasp.X_OH) refuse("it was put together by hand and says not how the hand stands");
+  const auto missing = [&](const std::string& name, const char* what) {
+    if (name.empty())
+      fail("grasp of {} by {}: it does not name its {}; one has to be given", in_quotes(grasp.object_name),
+           in_quotes(grasp.hand_name), what);
+    fail("grasp of {} by {}: there is no such {} in this world", grasp.object_name, grasp.hand_name, what);
+  };
+  if (!hand) missing(grasp.hand_name, "hand");
+  if (!object) missing(grasp.object_name, "object");
+  apply_grasp(world, grasp, hand, object);
+}
+
+void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object) {
   const Robot& robot = world.robot(hand);
-  if (grasp.dofs.size() != robot.dofs.size() || grasp.joints.size() != robot.joints.size())
-    refuse(fmt::format("it has {} DOFs and {} joints, the hand {} and {}", grasp.dofs.size(),
-                       grasp.joints.size(), robot.dofs.size(), robot.joints.size()));
+  const std::string place = fmt::format("grasp of {} by {}", world.body(object).name, robot.name);
+  if (!grasp.X_OH) fail("{}: it was put together by hand and says not how the hand stands", place);
+  // what names its DOFs may name some of them; what knows no joints leaves them to the DOFs
+  const bool own_joints = !grasp.joints.empty();
+  const bool whole = own_joints || (grasp.dof_names.empty() && !grasp.dofs.empty());
+  if ((whole && grasp.dofs.size() != robot.dofs.size()) ||
+      (own_joints && grasp.joints.size() != robot.joints.size()))
+    fail("{}: it has {} DOFs and {} joints, the hand {} and {}", place, grasp.dofs.size(),
+         grasp.joints.size(), robot.dofs.size(), robot.joints.size());
+  const Eigen::VectorXd q = dofs_for(world, hand, grasp, place);
   const Pose before = world.pose(robot.base);
   world.set_pose(hand, world.pose(object) * *grasp.X_OH);
-  const auto q = Eigen::Map<const Eigen::VectorXd>(grasp.dofs.data(), std::ssize(grasp.dofs));
   try {
     world.set_dofs(hand, q);
   } catch (const Error&) {
     world.set_pose(hand, before);
     throw;
   }
+  if (!own_joints) return;
   std::vector<JointPosition> own(grasp.joints.size());
   for (size_t j = 0; j < own.size(); ++j)
     if (grasp.joints[j] != world.joints(hand)[static_cast<Eigen::Index>(j)])

@@ -27,9 +27,12 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
 void check_unmoved(const World& world, const Grasp& grasp);
 
 /// Puts hand and joints where they stood about the object, wherever that is now. Nothing else moves; the hand may collide.
+/// DOFs are found by their names where the grasp has them; those that it does not name stay.
 /// throws Error when the world has no such hand or object, the hand has other DOFs or joints, a value lies outside its limits,
 ///        the grasp was put together by hand, or another robot carries the hand
 void apply_grasp(World& world, const GraspSpec& grasp);
+/// The same with another hand and object than those of its names.
+void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object);
 
 /// throws  Error when edges, rho or coordinates are not as they should be
 WrenchSpace wrench_space(const GraspSpec& grasp, const GraspSpaceOptions& options = {});

@@ -380,7 +380,7 @@ inline const Class& class_of<Picture>() {
   return picture_class;
 }
 
-inline size_t owned_bytes(const Picture& picture) { return picture.pixels.capacity(); }
+inline size_t owned_bytes(const Picture& picture) { return picture.pixels.capacity() + picture.alpha.capacity(); }
 
 // --- plot: numbers over numbers as a figure. ---
 

@@ -171,9 +171,33 @@ static int apply(lua_State* L) {
   const auto& g = self<GraspHandle>(L);
   if (!given(L, 2)) world_of(L, g);
   const WorldPtr world = given(L, 2) ? check_object<WorldHandle>(L, 2, "world").world : g.world;
-  apply_grasp(*world, g.grasp);
-  Grasp measured = measure_grasp(*world, world->find_robot(g.grasp.hand_name),
-                                 world->find_body(g.grasp.object_name), g.grasp.options);
+  Table options(L, 3);
+  const auto in_world = [&](const WorldPtr& other, const char* key) {
+    if (other != world) fail("{}: {}: expected one of that world, got one of another", subject(L), key);
+  };
+  Id<Robot> hand;
+  Id<Body> object;
+  if (options.push("hand") != LUA_TNIL) {
+    const auto& given_hand = check_object<RobotHandle>(L, -1, "hand");
+    in_world(given_hand.world, "hand");
+    hand = given_hand.id;
+  }
+  if (options.push("object") != LUA_TNIL) {
+    const auto& given_object = check_object<BodyHandle>(L, -1, "object");
+    in_world(given_object.world, "object");
+    object = given_object.id;
+  }
+  options.done();
+  GraspSpec named = g.grasp;
+  if (hand) named.hand_name = world->robot(hand).name;
+  if (object) named.object_name = world->body(object).name;
+  if (!hand) hand = world->find_robot(named.hand_name);
+  if (!object) object = world->find_body(named.object_name);
+  if (hand && object)
+    apply_grasp(*world, named, hand, object);
+  else
+    apply_grasp(*world, named);
+  Grasp measured = measure_grasp(*world, hand, object, g.grasp.options);
   measured.info = g.grasp.info;
   measured.labels = g.grasp.labels;
   measured.pregrasp = g.grasp.pregrasp;
@@ -359,9 +383,12 @@ The options with which clench.grasp measures another grasp in the same way.
 static const Entry grasp_methods[] = {
     {"apply", guarded<apply>, R"(
 Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp
-there. Hand and object are found by name. Nothing else moves, and collisions are not checked: see `world:collides`.
+there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it
+does not have stay. Nothing else moves, and collisions are not checked: see `world:collides`.
 @param world? world  default: its own
+@param options? {hand?: robot, object?: body}
 @return grasp
+> #grasp:apply(world, {hand = hand, object = flask}).contacts == #grasp.contacts  --> true
 > hand:open()
 > again = grasp:apply()
 > #again.contacts == #grasp.contacts, math.abs(again:quality "epsilon" - grasp:quality "epsilon") < 1e-9  --> true, true

@@ -1,6 +1,6 @@
 #include "clench/script/bind/bind.h"
 
-#include "clench/io/grasp_lines.h"
+#include "clench/io/grasp_files.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -15,9 +15,10 @@ static int list_grasps(lua_State* L) {
     const std::string path = check_string(L, 1, "path");
     Table options(L, 2);
     const ReadOptions reading = read_options(L, options);
+    const std::string format = options.has("format") ? options.string("format") : "";
     options.done();
     const Watching watching(L);
-    for (GraspSpec& spec : read_grasps(path, reading)) {
+    for (GraspSpec& spec : read_grasp_file(path, format, reading)) {
       Grasp grasp;
       static_cast<GraspSpec&>(grasp) = std::move(spec);
       list.grasps.push_back({nullptr, std::move(grasp)});
@@ -37,7 +38,10 @@ static int save(lua_State* L) {
   const std::string path = check_string(L, 2, "path");
   std::vector<GraspSpec> specs;
   for (const GraspHandle& handle : list.grasps) specs.push_back(handle.grasp);
-  write_grasps(specs, path);
+  Table options(L, 3);
+  const std::string format = options.has("format") ? options.string("format") : "";
+  options.done();
+  write_grasp_file(specs, path, format, {.warn = [L](const std::string& lost) { log_warning(L, lost); }});
   return 0;
 }
 
@@ -64,10 +68,11 @@ static int list_text(lua_State* L) {
 
 static const Entry functions[] = {
     {"grasps", guarded<list_grasps>, R"(
-A list of grasps: an empty one, or one from a file that `save` wrote. Its grasps belong to no world: they have
-contacts, posture, measures and wrench spaces, and `apply` puts them into a world.
+A list of grasps: an empty one, or one from a file, in any format that `save` writes; the ending or `format` says which, and
+of `.json` and `.txt` files their content does. Its grasps belong to no world: they have what the file holds of contacts, posture
+and measures, and `apply` puts them into a world.
 @param path? string
-@param options? {root?: string, confine?: string}
+@param options? {root?: string, confine?: string, format?: string}  format: "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper" or "graspit" (results of its planner)
 @return grasps
 > list = clench.grasps()
 > list:add(grasp)
@@ -77,7 +82,8 @@ contacts, posture, measures and wrench spaces, and `apply` puts them into a worl
 > os.remove(path)
 > #again, again[1].hand_name == hand.name, again[1]:wrench_space():epsilon() == grasp:quality "epsilon"  --> 1, true, true
 > again[1].hand  --> error: grasp:apply(world) gives one that does
-> clench.grasps "no.jsonl"  --> error: no such file: no.jsonl)"},
+> clench.grasps "no.jsonl"  --> error: no such file: no.jsonl
+> clench.grasps("no.jsonl", {format = "cvs"})  --> error: no such file: no.jsonl)"},
 };
 
 static const Entry methods[] = {
@@ -87,10 +93,14 @@ Adds a grasp at the end: its value as it is now, measures included.
 @return integer count
 > clench.grasps():add(grasp)  --> 1)"},
     {"save", guarded<save>, R"(
-Writes the list as JSON lines: a head with the version, then a grasp on each line, numbers to the bit. The same list
-gives the same bytes.
+Writes the list. JSON lines hold all there is: a head with the version, then a grasp on each line, numbers to the bit.
+`.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, GraspGen's and MultiGripperGrasp's `.json` by
+`format`; a warning names what a format does not hold. The same list gives the same bytes.
 @param path string
+@param options? {format?: string}  as clench.grasps takes it
 > list = clench.grasps()
+> list:save("grasps.json")  --> error: .json may be several formats
+> list:save("grasps.txt", {format = "cvs"})  --> error: unknown format 'cvs', expected one of jsonl, csv
 > list:save "no_such_folder/grasps.jsonl"  --> error: no such folder)"},
 };
 

@@ -55,8 +55,9 @@ static PlotSeries read_plot_series(lua_State* L, int index, const What& what) {
   return series;
 }
 
-static PlotAxis read_axis(Table& options, const char* label, const char* range) {
+static PlotAxis read_axis(Table& options, const char* label, const char* range, const char* scale) {
   PlotAxis axis{options.string(label, "")};
+  axis.logarithmic = options.choice(scale, {"linear", "log"}, "linear") == "log";
   if (!options.has(range)) return axis;
   const auto ends = options.numbers(range, 2);
   axis.range = std::array{ends[0], ends[1]};
@@ -67,8 +68,8 @@ static int make_plot(lua_State* L) {
   Table options(L, 1);
   Plot plot;
   plot.title = options.string("title", "");
-  plot.x = read_axis(options, "x_label", "x_range");
-  plot.y = read_axis(options, "y_label", "y_range");
+  plot.x = read_axis(options, "x_label", "x_range", "x_scale");
+  plot.y = read_axis(options, "y_label", "y_range", "y_scale");
   plot.width = options.integer("width", plot.width);
   plot.height = options.integer("height", plot.height);
   const What what = options.what("series");
@@ -150,11 +151,13 @@ static const Entry functions[] = {
 Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them. `false` and what is
 not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no
 graphics hardware.
-@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], width?: integer, height?: integer}  kind: "line" (default), "points" or "bars"; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; 720 x 480 pixels by default
+@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer}  kind: "line" (default), "points" or "bars"; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
 @return plot
 > p = clench.plot{series = {{name = "epsilon", x = {0, 1, 2}, y = {0.1, 0.3, 0.2}}}, x_label = "angle [rad]"}
 > p  --> plot of 720 x 480 pixels
 > clench.plot{series = {clench.stats.histogram{1, 2, 2, 3}}}.picture  --> picture of 720 x 480 pixels
+> clench.plot{series = {{x = {1, 10, 100}, y = {1, 4, 9}}}, x_scale = "log"}  --> plot of 720 x 480 pixels
+> clench.plot{series = {{y = {1, 2}}}, y_scale = "log", y_range = {0, 1}}  --> error: y_range: expected numbers > 0 on a logarithmic axis, got 0 and 1
 > clench.plot{series = {{x = {1, 2}, y = {1}}}}  --> error: series 1: expected 1 values of x, as there are of y, got 2)"},
     {"sheet", guarded<make_sheet>, R"(
 Several pictures in one, in rows, each with its caption under it.

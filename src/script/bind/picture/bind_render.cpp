@@ -1,7 +1,7 @@
 #include "clench/script/bind/bind.h"
 
 #include "clench/base/convert.h"
-#include "clench/render/render.h"
+#include "clench/render/renderer.h"
 #include "clench/scene/force_arrows.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/lua/getter.h"
@@ -31,6 +31,7 @@ static constexpr double longest_arrow = 0.6;  // part of the object's largest ra
 struct GivenForces {
   std::vector<PlacedForce> forces;
   std::vector<Id<Robot>> robots;  // that press
+  std::vector<Eigen::Vector3d> normals;  // of the contacts, into the objects
   double longest = 0;             // length of an arrow that suits the objects [m]
 };
 
@@ -45,6 +46,7 @@ static GivenForces read_forces(lua_State* L, Table& options) {
       const auto* contact = item.object<ContactHandle>("contact");
       if (!contact) fail_expected(item.what("contact"), "a contact", lua_gettop(L) + 1);
       given.forces.push_back({contact->contact.p_W, item.vec3("force")});
+      given.normals.push_back(contact->contact.n_W);
       given.robots.push_back(contact->world->body(contact->contact.other).robot);
       const double radius = contact->world->body(contact->contact.body).max_radius();
       given.longest = std::max(given.longest, longest_arrow * radius);
@@ -69,7 +71,28 @@ void warn_without_letters(lua_State* L, const Font& font) {
   if (!font.fault().empty()) warn_once(L, &told, font.fault());
 }
 
-Picture draw_scene(lua_State* L, Table& options, Scene scene) {
+// what a Lua state keeps from picture to picture
+static Renderer& renderer_of(lua_State* L) {
+  static const char key = 0;  // its address names the state's
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &key) != LUA_TUSERDATA) {
+    lua_pop(L, 1);
+    new (lua_newuserdatauv(L, sizeof(Renderer), 0)) Renderer;
+    lua_createtable(L, 0, 1);
+    lua_pushcfunction(L, [](lua_State* state) {
+      static_cast<Renderer*>(lua_touserdata(state, 1))->~Renderer();
+      return 0;
+    });
+    lua_setfield(L, -2, "__gc");
+    lua_setmetatable(L, -2);
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &key);
+  }
+  auto& renderer = *static_cast<Renderer*>(lua_touserdata(L, -1));
+  lua_pop(L, 1);
+  return renderer;
+}
+
+static RenderOptions read_rendering(Table& options) {
   RenderOptions rendering;
   const auto size =
       options.has("size") ? options.numbers("size", 2) : std::vector<double>{1280, 960};
@@ -78,20 +101,91 @@ Picture draw_scene(lua_State* L, Table& options, Scene scene) {
       fail("{}: size: expected whole numbers of pixels, at least 1, got {}", options.subject(), n);
   rendering.width = floor_int(size[0]);
   rendering.height = floor_int(size[1]);
+  rendering.quality = options.choice("quality", {"paper", "draft"}, "paper") == "draft"
+                          ? Quality::draft
+                          : Quality::paper;
+  if (rendering.quality == Quality::draft && options.has("samples"))
+    fail("{}: samples: only paper quality takes them, drafts have one", options.subject());
   rendering.samples = options.integer("samples", rendering.samples);
+  const std::string behind =
+      options.choice("background", {"studio", "white", "transparent"}, "studio");
+  rendering.backdrop = behind == "white"         ? Backdrop::white
+                       : behind == "transparent" ? Backdrop::transparent
+                                                 : Backdrop::studio;
+  const auto pixels = [&](const char* key, double most) {
+    const double n = options.number(key, 0);
+    if (!(n >= 0 && n <= most))
+      fail("{}: {}: expected 0 to {} pixels, got {}", options.subject(), key, most, n);
+    return n;
+  };
+  rendering.outline = pixels("outline", 32);
+  rendering.letters = pixels("letters", 200);
+  return rendering;
+}
+
+// height of an orthographic view [m]: true keeps what is framed, or what a camera shows at its target
+static double read_ortho(lua_State* L, Table& options, const Eye& eye) {
+  const int type = options.push("orthographic");
+  const double height = lua_tonumber(L, -1);
+  const bool on = lua_toboolean(L, -1);
+  if (type != LUA_TNIL && type != LUA_TBOOLEAN &&
+      (type != LUA_TNUMBER || !(height > 0 && std::isfinite(height))))
+    fail_expected(options.what("orthographic"), "true, false, or a height > 0 in metres", -1);
+  lua_pop(L, 1);
+  if (type == LUA_TNUMBER) return height;
+  if (!on) return 0;
+  if (eye.ortho_height > 0) return eye.ortho_height;
+  return 2 * (eye.eye - eye.target).norm() * std::tan(eye.field_of_view / 2);
+}
+
+Picture draw_scene(lua_State* L, Table& options, Scene scene) {
+  RenderOptions rendering = read_rendering(options);
   // a camera that is given in part begins from the one that frames everything
   const int parts =
       options.has("eye") + options.has("target") + options.has("up") + options.has("field_of_view");
+  const bool ortho = options.push("orthographic") != LUA_TNIL && lua_toboolean(L, -1);
+  lua_pop(L, 1);
   const bool whole = parts == 4;
-  const Eye framed = whole ? Eye{} : frame_all(scene, size[1] > 0 ? size[0] / size[1] : 1);
-  const Eye eye = read_eye(options, framed);
-  if (parts > 0) scene.eye = eye;
+  const double aspect = static_cast<double>(rendering.width) / rendering.height;
+  check(rendering);
+  const Eye framed = whole ? Eye{} : renderer_of(L).frame_all(scene, aspect, ortho);
+  Eye eye = read_eye(options, framed);
+  // where something else is looked at, the height is that at the target
+  if (options.has("eye") || options.has("target") || options.has("field_of_view"))
+    eye.ortho_height = 0;
+  eye.ortho_height = read_ortho(L, options, eye);
+  if (parts > 0 || ortho) scene.eye = eye;
   options.done();
   const Font font;
   if (!scene.labels.empty() || !scene.caption.empty()) warn_without_letters(L, font);
   const Watching watching(L);
   rendering.progress = watching.progress();
-  return render(scene, rendering, font);
+  return renderer_of(L).draw(scene, rendering, font);
+}
+
+// heights in proportion to normal forces; those of grasp:contact_forces name their contacts
+static std::vector<ContactLoad> read_loads(const GivenForces& given) {
+  std::vector<ContactLoad> loads;
+  for (size_t i = 0; i < given.forces.size(); ++i)
+    loads.push_back({given.forces[i].p_W, given.forces[i].f_W.dot(given.normals[i])});
+  return loads;
+}
+
+static void read_cones(Table& options, const GivenForces& given, SceneOptions& showing) {
+  const std::string sizes =
+      options.choice("cones", {"apart", "equal", "friction", "force"}, "apart");
+  showing.cone_sizes = sizes == "equal"      ? ConeSizes::equal
+                       : sizes == "friction" ? ConeSizes::friction
+                       : sizes == "force"    ? ConeSizes::force
+                                             : ConeSizes::apart;
+  if (showing.cone_sizes == ConeSizes::force && given.forces.empty())
+    fail("{}: cones: 'force' needs the option forces", options.subject());
+  showing.cone_height = options.positive("cone_height", 1);
+  if (!options.has("cone_height")) showing.cone_height = 0;
+  showing.loads = read_loads(given);
+  showing.framing = options.choice("frame", {"contacts", "all"}, "contacts") == "all"
+                        ? Framing::all
+                        : Framing::contacts;
 }
 
 static int draw(lua_State* L) {
@@ -105,6 +199,9 @@ static int draw(lua_State* L) {
   showing.file_colors = options.boolean("file_colors", showing.file_colors);
   showing.approach = options.boolean("approach", showing.approach);
   GivenForces given = read_forces(L, options);
+  read_cones(options, given, showing);
+  const bool arrows = options.boolean("arrows", true);
+  if (!arrows) given.forces.clear(), given.robots.clear();
   showing.see_through = std::move(given.robots);
   Scene scene = make_scene(world, showing);
   add_forces(options, given, scene);
@@ -129,6 +226,15 @@ static int pixel(lua_State* L) {
   return 3;
 }
 
+static int alpha(lua_State* L) {
+  const Picture& p = self<Picture>(L);
+  const int x = check_int(L, 2, "x"), y = check_int(L, 3, "y");
+  if (x < 1 || x > p.width || y < 1 || y > p.height)
+    fail("{}: expected 1..{}, 1..{}, got {}, {}", subject(L), p.width, p.height, x, y);
+  const size_t at = static_cast<size_t>(y - 1) * p.width + (x - 1);
+  return push(L, p.alpha.empty() ? 255 : static_cast<int>(p.alpha[at]));
+}
+
 static int text(lua_State* L) {
   const Picture& p = self<Picture>(L);
   return push(L, fmt::format("picture of {} x {} pixels", p.width, p.height));
@@ -136,17 +242,17 @@ static int text(lua_State* L) {
 
 static int equal(lua_State* L) {
   const auto *a = to<Picture>(L, 1), *b = to<Picture>(L, 2);
-  return push(L,
-              a && b && a->width == b->width && a->height == b->height && a->pixels == b->pixels);
+  return push(L, a && b && *a == *b);
 }
 
 static const Entry functions[] = {
     {"render", guarded<draw>, R"(
 Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of
-all soft contacts, without the cones, which would cover them. The camera frames everything unless it is given, in whole
-or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
+all soft contacts, without the cones, which would cover them. The camera looks at the objects that robots touch and the
+links of those robots, or at everything, unless it is given, in whole or in part. The same world gives the same bytes.
+It needs EGL and OpenGL, but no display. What a picture needs is kept for the next one, which is drawn faster.
 @param world world
-@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number}  size: width and height in pixels; field_of_view: vertical [rad]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
+@param options? {size?: integer[], quality?: string, background?: string, outline?: number, letters?: number, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, frame?: string, contacts?: boolean, cones?: string, cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number, arrows?: boolean}  size: width and height in pixels; quality: "paper", or "draft", a fraction of the time; background: "studio", "white" or "transparent", both with the shadow on the floor; outline: width of lines around bodies [pixels]; letters: height of capital letters [pixels]; field_of_view: vertical [rad]; orthographic: true, or the height that is shown [m]; frame: what a camera that is not given looks at, "contacts" or "all"; cones: their sizes, "apart" (lowered where they are close together), "equal", or in proportion to "friction" or to the normal "force"; cone_height: of the highest cone [m]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]; arrows: false leaves the arrows out, so that forces only size the cones
 @return picture
 > clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels
 > held = grasp:contact_forces{load = {0, 0, -3, 0, 0, 0}}
@@ -154,6 +260,9 @@ or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no
 > clench.render(world, {size = {64, 48}, approach = true}) == clench.render(world, {size = {64, 48}})  --> false
 > bare = clench.render(world, {size = {64, 48}, patches = true, contacts = false})
 > clench.render(world, {size = {64, 48}, patches = true}) == bare  --> true
+> clench.render(world, {size = {64, 48}, quality = "draft"})  --> picture of 64 x 48 pixels
+> clench.render(world, {size = {64, 48}, background = "white", orthographic = true, outline = 1})  --> picture of 64 x 48 pixels
+> clench.render(world, {cones = "force"})  --> error: 'force' needs the option forces
 > clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: expected a contact, got nothing)"},
 };
 
@@ -170,7 +279,7 @@ Its height.
 
 static const Entry methods[] = {
     {"save", guarded<save>, R"(
-Writes a PNG file.
+Writes a PNG file, with alpha where the background is transparent.
 @param path string
 > clench.render(world, {size = {64, 48}}):save("no/such/folder/a.png")  --> error: no/such/folder/a.png
 > clench.render(world, {size = {64, 48}}):save("a.jpg")  --> error: .png)"},
@@ -182,6 +291,13 @@ Red, green and blue of a pixel, 0 to 255; (1, 1) is the upper left.
 @return integer green
 @return integer blue
 > select("#", clench.render(world, {size = {64, 48}}):pixel(1, 1))  --> 3)"},
+    {"alpha", guarded<alpha>, R"(
+How much a pixel covers, 0 to 255: less than 255 where a transparent background shows through; (1, 1) is the upper left.
+@param x integer
+@param y integer
+@return integer alpha
+> clench.render(world, {size = {64, 48}}):alpha(1, 1)  --> 255
+> clench.render(world, {size = {64, 48}, background = "transparent"}):alpha(1, 1)  --> 0)"},
 };
 
 static const Entry operators[] = {
@@ -194,7 +310,7 @@ const Library render_library{.name = "clench", .doc = "", .functions = functions
 const Class picture_class{.name = "picture",
                           .variable = "picture",
                           .doc =
-                              "A picture: red, green and blue, 8 bits each. "
+                              "A picture: red, green and blue, 8 bits each, and how much each pixel covers. "
                               "`==` compares every pixel.",
                           .fields = fields,
                           .methods = methods,

@@ -1,0 +1,29 @@
+// Lists of grasps in files of every format that holds them; the ending, or an option, says which.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "clench/io/text/read_options.h"
+#include "clench/io/text/write_options.h"
+#include "clench/spec/grasp_spec.h"
+
+namespace clench {
+
+enum class GraspFormat { lines, csv, npz, isaac_grasp, graspgen, multigripper, graspit };
+
+/// "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper", "graspit"
+/// throws Error  "unknown format 'cvs', expected one of jsonl, csv, ..."
+GraspFormat grasp_format(const std::string& name);
+
+/// format  empty: what the ending says, and of .json and others what stands in the file
+/// throws Error as the readers of the formats do
+std::vector<GraspSpec> read_grasp_file(const std::filesystem::path& path, const std::string& format = {},
+                                       const ReadOptions& options = {});
+
+/// format  empty: .csv, .npz, .yaml and .yml (isaac_grasp) by their endings, else JSON lines; of .json it has to be given
+/// Warns of what a format does not hold.
+void write_grasp_file(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path,
+                      const std::string& format = {}, const WriteOptions& options = {});
+
+}  // namespace clench

@@ -1,0 +1,39 @@
+// What the writers of lists of grasps share: numbers as text, and what is lost in a format.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "clench/io/text/write_options.h"
+#include "clench/spec/grasp_spec.h"
+
+namespace clench {
+
+/// All digits, and seen to be no integer: "0.25", "1.0", "1e-300", "nan".
+std::string real_text(double x);
+/// [1.0, 0.5]
+std::string real_list(const std::vector<double>& numbers);
+
+/// Position, then quaternion w x y z.
+std::vector<double> pose_numbers(const Pose& pose);
+
+/// Names of the DOFs, "dof1" where none is known.
+std::vector<std::string> dof_names_of(const GraspSpec& grasp);
+
+/// A measure or note by its name, else `other`.
+double number_of(const std::map<std::string, double>& named, const std::string& name, double other);
+
+/// What a format can hold beside poses.
+struct Holds {
+  bool dofs = false, epsilon = false, pregrasp_dofs = false, notes = false;
+};
+/// Warns once of what the grasps have and the format does not hold:
+/// "g.yaml: the format isaac_grasp does not hold contacts and joint positions, which are not written"
+void report_lost(const std::vector<GraspSpec>& grasps, const Holds& holds, const std::string& file,
+                 const std::string& format, const WriteOptions& options);
+
+/// The pose of each grasp; of one hand, or of one object, where the format names but one.
+/// throws Error  "g.json: grasps[2]: expected a pose, got none"
+void check_writable(const std::vector<GraspSpec>& grasps, const std::string& file, bool one_hand,
+                    bool one_object);
+
+}  // namespace clench

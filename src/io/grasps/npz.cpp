@@ -1,0 +1,240 @@
+#include "clench/io/grasps/npz.h"
+
+#include <array>
+#include <cstdint>
+
+#include "clench/base/text.h"
+#include "clench/io/text/byte_reader.h"
+#include "clench/io/text/byte_writer.h"
+
+namespace clench {
+
+static constexpr std::string_view npy_mark = "\x93NUMPY";
+static constexpr uint32_t local_mark = 0x04034b50, entry_mark = 0x02014b50, end_mark = 0x06054b50;
+
+static uint32_t crc32(std::string_view bytes) {
+  static const auto table = [] {
+    std::array<uint32_t, 256> out{};
+    for (uint32_t i = 0; i < 256; ++i) {
+      uint32_t c = i;
+      for (int bit = 0; bit < 8; ++bit) c = c & 1 ? 0xEDB88320U ^ (c >> 1) : c >> 1;
+      out[i] = c;
+    }
+    return out;
+  }();
+  uint32_t crc = ~0U;
+  for (const char c : bytes) crc = table[(crc ^ static_cast<unsigned char>(c)) & 255] ^ (crc >> 8);
+  return ~crc;
+}
+
+// bytes that are no UTF-8 stand for themselves
+static std::vector<uint32_t> code_points(std::string_view text) {
+  std::vector<uint32_t> out;
+  for (size_t i = 0; i < text.size();) {
+    const size_t size = std::max<size_t>(utf8_size(text, i), 1);
+    uint32_t code = static_cast<unsigned char>(text[i]);
+    if (size > 1) code &= 0x7FU >> size;
+    for (size_t k = 1; k < size; ++k) code = (code << 6) | (static_cast<unsigned char>(text[i + k]) & 63);
+    out.push_back(code);
+    i += size;
+  }
+  return out;
+}
+
+static void append_code_point(std::string& out, uint32_t code) {
+  const auto tail = [&](int shift) { out += static_cast<char>(0x80 | ((code >> shift) & 63)); };
+  if (code < 0x80) {
+    out += static_cast<char>(code);
+  } else if (code < 0x800) {
+    out += static_cast<char>(0xC0 | (code >> 6));
+    tail(0);
+  } else if (code < 0x10000) {
+    out += static_cast<char>(0xE0 | (code >> 12));
+    tail(6), tail(0);
+  } else {
+    out += static_cast<char>(0xF0 | (code >> 18));
+    tail(12), tail(6), tail(0);
+  }
+}
+
+static std::string npy_bytes(const NpyArray& array) {
+  std::string body, type = "<f8";
+  if (array.is_text) {
+    std::vector<std::vector<uint32_t>> words;
+    size_t longest = 1;
+    for (const auto& text : array.texts) {
+      words.push_back(code_points(text));
+      longest = std::max(longest, words.back().size());
+    }
+    type = fmt::format("<U{}", longest);
+    for (auto& word : words) {
+      word.resize(longest, 0);
+      for (const uint32_t code : word) append_little_endian(body, code);
+    }
+  } else {
+    for (const double x : array.numbers) append_little_endian(body, x);
+  }
+  std::string shape;
+  for (const size_t n : array.shape) shape += fmt::format("{}, ", n);
+  if (array.shape.size() > 1) shape.resize(shape.size() - 2);
+  std::string head = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, trim(shape));
+  head.append((64 - (10 + head.size() + 1) % 64) % 64, ' ');
+  head += '\n';
+  std::string out(npy_mark);
+  out += {'\1', '\0'};
+  append_little_endian(out, static_cast<uint16_t>(head.size()));
+  return out + head + body;
+}
+
+std::string npz_bytes(const std::map<std::string, NpyArray>& arrays) {
+  std::string out, directory;
+  for (const auto& [key, array] : arrays) {
+    const std::string name = key + ".npy", body = npy_bytes(array);
+    if (out.size() + body.size() > 0xF0000000U) fail("an .npz holds at most 4 GB of arrays");
+    const auto place = static_cast<uint32_t>(out.size());
+    // version 2.0, no flags, stored, the first of January 1980
+    std::string fields;
+    for (const int x : {20, 0, 0, 0, 33}) append_little_endian(fields, static_cast<uint16_t>(x));
+    append_little_endian(fields, crc32(body));
+    append_little_endian(fields, static_cast<uint32_t>(body.size()));
+    append_little_endian(fields, static_cast<uint32_t>(body.size()));
+    append_little_endian(fields, static_cast<uint16_t>(name.size()));
+    append_little_endian(fields, uint16_t{0});
+    append_little_endian(out, local_mark);
+    out += fields + name + body;
+    append_little_endian(directory, entry_mark);
+    append_little_endian(directory, uint16_t{20});
+    directory += fields;
+    for (int i = 0; i < 3; ++i) append_little_endian(directory, uint16_t{0});
+    append_little_endian(directory, uint32_t{0});
+    append_little_endian(directory, place);
+    directory += name;
+  }
+  const auto start = static_cast<uint32_t>(out.size());
+  out += directory;
+  append_little_endian(out, end_mark);
+  for (const size_t x : {size_t{0}, size_t{0}, arrays.size(), arrays.size()}) append_little_endian(out, static_cast<uint16_t>(x));
+  append_little_endian(out, static_cast<uint32_t>(directory.size()));
+  append_little_endian(out, start);
+  append_little_endian(out, uint16_t{0});
+  return out;
+}
+
+// --- reading ---
+
+template <class T>
+static double next_number(ByteReader& reader) {
+  return static_cast<double>(reader.next<T>());
+}
+
+static double read_number(ByteReader& reader, char kind, size_t size) {
+  if (kind == 'f') return size == 4 ? next_number<float>(reader) : next_number<double>(reader);
+  if (kind == 'b' || (kind == 'u' && size == 1)) return next_number<uint8_t>(reader);
+  if (kind == 'i')
+    return size == 1   ? next_number<int8_t>(reader)
+           : size == 2 ? next_number<int16_t>(reader)
+           : size == 4 ? next_number<int32_t>(reader)
+                       : next_number<int64_t>(reader);
+  return size == 2   ? next_number<uint16_t>(reader)
+         : size == 4 ? next_number<uint32_t>(reader)
+                     : next_number<uint64_t>(reader);
+}
+
+// what stands behind 'key': in the head, up to the comma that ends it
+static std::string_view head_value(std::string_view head, std::string_view key) {
+  const size_t at = head.find(key);
+  if (at == std::string_view::npos) return {};
+  const std::string_view rest = trim(head.substr(at + key.size()));
+  const char open = rest.empty() ? '\0' : rest[0];
+  const size_t end = open == '(' ? rest.find(')') : rest.find_first_of(",}");
+  return end == std::string_view::npos ? std::string_view() : rest.substr(0, open == '(' ? end + 1 : end);
+}
+
+static NpyArray read_npy(const std::string& place, std::string_view bytes) {
+  if (bytes.size() < 12 || !bytes.starts_with(npy_mark)) fail("{}: expected an array of NumPy, got other bytes", place);
+  const int version = bytes[6];
+  ByteReader lengths(bytes.substr(8));
+  const size_t size = version == 1 ? lengths.next<uint16_t>() : lengths.next<uint32_t>();
+  const size_t from = version == 1 ? 10 : 12;
+  if (bytes.size() < from + size) fail("{}: expected a head of {} bytes, got {}", place, size, bytes.size() - from);
+  const std::string_view head = bytes.substr(from, size);
+  std::string_view type = head_value(head, "'descr':");
+  const std::string_view order = head_value(head, "'fortran_order':"), shape = head_value(head, "'shape':");
+  if (type.size() < 5 || type.front() != '\'' || shape.empty()) fail("{}: expected a head with type and shape, got {}", place, in_quotes(head));
+  type = trim(type.substr(1, type.size() - 2));
+  if (order != "False") fail("{}: arrays in Fortran's order are not read", place);
+  NpyArray out;
+  size_t count = 1;
+  for (const auto word : split_words(shape.substr(1, shape.size() - 2), ",")) {
+    const auto n = parse_integer(word);
+    if (!n || *n < 0) fail("{}: expected a shape of whole numbers, got {}", place, in_quotes(shape));
+    out.shape.push_back(static_cast<size_t>(*n));
+    if (*n > 0 && count > bytes.size() / static_cast<size_t>(*n)) fail("{}: the array ends before its shape {} does", place, excerpt(shape));
+    count *= static_cast<size_t>(*n);
+  }
+  const char kind = type.size() > 1 ? type[1] : '\0';
+  const auto width = parse_integer(type.substr(std::min<size_t>(2, type.size())));
+  const bool number = (kind == 'f' && width && (*width == 4 || *width == 8)) || (kind == 'b' && width == 1) ||
+                      ((kind == 'i' || kind == 'u') && width && (*width == 1 || *width == 2 || *width == 4 || *width == 8));
+  if (!number && !(kind == 'U' && width && *width >= 0 && *width < 100000)) fail("{}: expected numbers or texts, got the type {}", place, in_quotes(type));
+  ByteReader reader(bytes.substr(from + size), type[0] == '>');
+  const size_t each = kind == 'U' ? 4 * static_cast<size_t>(*width) : static_cast<size_t>(*width);
+  if (each > 0 && reader.left() / each < count) fail("{}: the array ends before its shape {} does", place, excerpt(shape));
+  out.is_text = kind == 'U';
+  for (size_t i = 0; i < count; ++i) {
+    if (!out.is_text) {
+      out.numbers.push_back(read_number(reader, kind, each));
+      continue;
+    }
+    std::string& text = out.texts.emplace_back();
+    for (int k = 0; k < *width; ++k)
+      if (const auto code = reader.next<uint32_t>(); code > 0 && code < 0x110000) append_code_point(text, code);
+  }
+  return out;
+}
+
+std::map<std::string, NpyArray> read_npz(const std::string& file, std::string_view bytes) {
+  // the directory's end: 22 bytes, and a comment that is perhaps there
+  size_t end = std::string_view::npos;
+  for (size_t back = 22; back <= std::min<size_t>(bytes.size(), 22 + 65535); ++back)
+    if (ByteReader(bytes.substr(bytes.size() - back)).next<uint32_t>() == end_mark) {
+      end = bytes.size() - back;
+      break;
+    }
+  if (end == std::string_view::npos) fail("{}: expected a zip archive of arrays, got other bytes", file);
+  ByteReader tail(bytes.substr(end + 10));
+  const size_t count = tail.next<uint16_t>();
+  tail.next<uint32_t>();
+  const size_t start = tail.next<uint32_t>();
+  std::map<std::string, NpyArray> out;
+  ByteReader entries(bytes.substr(std::min(start, bytes.size())));
+  for (size_t i = 0; i < count; ++i) {
+    if (entries.left() < 46 || entries.next<uint32_t>() != entry_mark) fail("{}: the archive's directory is broken", file);
+    entries.skip(6);
+    const auto method = entries.next<uint16_t>();
+    entries.skip(4);
+    const auto crc = entries.next<uint32_t>();
+    const size_t packed = entries.next<uint32_t>();
+    entries.skip(4);
+    const size_t name_size = entries.next<uint16_t>(), extra = entries.next<uint16_t>(), comment = entries.next<uint16_t>();
+    entries.skip(8);
+    const size_t place = entries.next<uint32_t>();
+    if (entries.left() < name_size) fail("{}: the archive's directory is broken", file);
+    std::string name(bytes.substr(start + entries.position(), name_size));
+    entries.skip(name_size + extra + comment);
+    if (name.ends_with(".npy")) name.resize(name.size() - 4);
+    const std::string where = fmt::format("{}: {}", file, excerpt(name));
+    if (method != 0) fail("{}: compressed arrays are not read; np.savez writes them uncompressed", where);
+    ByteReader local(bytes.substr(std::min(place, bytes.size())));
+    if (local.left() < 30 || local.next<uint32_t>() != local_mark) fail("{}: the archive's directory is broken", file);
+    local.skip(22);
+    const size_t skip = size_t{local.next<uint16_t>()} + local.next<uint16_t>();
+    if (local.left() < skip || local.left() - skip < packed) fail("{}: the archive ends within the array", where);
+    const std::string_view body = bytes.substr(place + 30 + skip, packed);
+    if (crc32(body) != crc) fail("{}: the array's checksum is wrong", where);
+    out[name] = read_npy(where, body);
+  }
+  return out;
+}
+
+}  // namespace clench

@@ -1,0 +1,26 @@
+// NumPy's arrays in a file: .npy arrays of numbers or texts in a zip archive without compression, as np.savez writes it.
+#pragma once
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clench {
+
+/// An array, the last index running fastest: of numbers, or of texts.
+struct NpyArray {
+  std::vector<size_t> shape = {};
+  std::vector<double> numbers = {};
+  std::vector<std::string> texts = {};
+  bool is_text = false;
+};
+
+/// Numbers as float64, texts as UTF-32. The same arrays give the same bytes.
+/// source  NumPy enhancement proposal 1 (format 1.0 of .npy); PKWARE's APPNOTE (zip)
+std::string npz_bytes(const std::map<std::string, NpyArray>& arrays);
+
+/// Numbers of all of NumPy's real types become doubles.
+/// throws Error  "g.npz: poses: compressed arrays are not read; np.savez writes them uncompressed"
+std::map<std::string, NpyArray> read_npz(const std::string& file, std::string_view bytes);
+
+}  // namespace clench

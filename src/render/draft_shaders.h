@@ -1,0 +1,128 @@
+// The programs of drafts, as text: one pass, one shadow, light that is found where it falls.
+#pragma once
+
+namespace clench::shaders {
+
+/// corners of a mesh, in its own units, to the picture
+inline constexpr const char* draft_vertex = R"(
+layout(location = 0) in vec3 p;
+layout(location = 1) in vec3 n;
+layout(location = 2) in vec4 color;
+uniform mat4 to_scene;
+uniform mat4 to_clip;        // of the mesh's units
+uniform float painted;       // 1: corners have colours of their own
+uniform vec4 one_color;
+out vec3 at;
+out vec3 normal;
+out vec4 paint;
+void main() {
+  at = (to_scene * vec4(p, 1)).xyz;
+  normal = mat3(to_scene) * n;
+  // of a colour on a screen; nothing is so black that its shape is lost
+  paint = vec4(0.012 + 0.988 * pow(mix(one_color.rgb, color.rgb, painted), vec3(2.2)), one_color.a);
+  gl_Position = to_clip * vec4(p, 1);
+}
+)";
+
+/// corners to the depth that the lamp sees
+inline constexpr const char* draft_shadow_vertex = R"(
+layout(location = 0) in vec3 p;
+uniform mat4 to_clip;
+void main() { gl_Position = to_clip * vec4(p, 1); }
+)";
+
+/// part of what shades: a lamp with one map of shadows, and a bright room
+inline constexpr const char* draft_light_part = R"(
+uniform sampler2DArrayShadow map;
+uniform mat3 map_axes;       // rows: across, across, towards the lamp
+uniform vec3 to_lamp;
+uniform float texel;         // of the map, in scene units
+uniform int taps;            // 1, or 0 without shadow
+
+// part of the lamp that reaches p, where it is asked. A loop ends early where a branch would
+// calculate both sides
+float lit(vec3 p, vec3 n, bool asked) {
+  float facing = dot(n, to_lamp);
+  vec3 q = map_axes * (p + n * texel * (1.5 + 2.5 * sqrt(max(0, 1 - facing * facing))));
+  vec3 at = vec3(0.5 + 0.5 * q.xy, min(0.5 - 0.5 * q.z, 0.99999));
+  bool inside = asked && dot(q.xy, q.xy) < 1.1;
+  float part = 1;
+  int count = inside ? taps : 0;
+  for (int i = 0; i < count; ++i) part = texture(map, vec4(at.xy, 0, at.z));
+  return part;
+}
+)";
+
+/// bodies, friction cones and arrows
+inline constexpr const char* draft_fragment = R"(
+uniform vec3 eye;
+// what a varnish returns of the lamp and of the room
+vec3 shine(vec3 n, vec3 v, float direct) {
+  float over = 1 - clamp(dot(n, v), 0, 1), over2 = over * over;
+  float half_way = max(0, dot(n, normalize(to_lamp + v)));
+  float g = half_way * half_way;
+  g *= g, g *= g, g *= g;
+  float gloss = g * g * g;  // to the power of 48
+  vec3 room = mix(vec3(0.30), vec3(0.98, 1.0, 1.04), smoothstep(-0.35, 0.5, reflect(-v, n).z));
+  return 0.35 * (vec3(direct * gloss) + 0.8 * room * (0.04 + 0.96 * over2 * over2 * over));
+}
+in vec3 at;
+in vec3 normal;
+in vec4 paint;
+uniform float glow;          // 1: cones and arrows, whatever the light
+out vec4 result;
+void main() {
+  vec3 n = normalize(gl_FrontFacing ? normal : -normal), v = normalize(eye - at);
+  vec3 color = paint.rgb;
+  float across = clamp(dot(n, v), 0, 1), cover = paint.a;
+  if (glow > 0.5) {
+    color *= 0.75 + 0.30 * across + 0.25 * max(0, n.z);
+  } else {
+    float direct = 0.62 * max(0, dot(n, to_lamp));
+    direct *= lit(at, n, direct > 0);
+    float room = 0.62 * mix(0.42, 1.0, smoothstep(0, 1, 0.5 + 0.5 * n.z)) * (0.75 + 0.25 * across);
+    color = color * (room + direct) + shine(n, v, direct);
+    float rim = (1 - across) * (1 - across);
+    if (cover < 0.999) cover = mix(cover, 1, 0.75 * rim);
+  }
+  result = vec4(developed(color) * cover, cover);
+}
+)";
+
+/// a floor without end, that takes the shadow
+inline constexpr const char* draft_floor_fragment = R"(
+in vec3 at;
+in vec3 normal;
+in vec4 paint;
+uniform float bare;          // 1: nothing is behind but the shadow
+out vec4 result;
+void main() {
+  vec3 n = vec3(0, 0, 1);
+  float shadow = 0.45 * (1 - lit(at, n, true)) * (1 - smoothstep(0.5, 1.0, length(at) / 5));
+  vec3 color = developed(backdrop() * (1 - shadow));
+  result = mix(vec4(color, 1), vec4(0, 0, 0, 0.8 * shadow), bare);
+}
+)";
+
+/// what is behind everything
+inline constexpr const char* draft_behind_fragment = R"(
+out vec4 result;
+void main() { result = vec4(developed(backdrop()), 1); }
+)";
+
+/// what lines are found by: where, which way it faces, that it is there
+inline constexpr const char* draft_seen_fragment = R"(
+in vec3 at;
+in vec3 normal;
+in vec4 paint;
+layout(location = 0) out vec4 place;
+layout(location = 1) out vec4 facing;
+layout(location = 2) out vec4 colors;
+void main() {
+  place = vec4(at, 0);
+  facing = vec4(normalize(gl_FrontFacing ? normal : -normal), 0);
+  colors = vec4(1);
+}
+)";
+
+}  // namespace clench::shaders

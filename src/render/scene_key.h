@@ -1,0 +1,21 @@
+// Is what a scene shows the same as before? Then what was prepared for it is good for the next picture.
+#pragma once
+#include <vector>
+
+#include "clench/scene/scene.h"
+
+namespace clench {
+
+/// The meshes, cones, arrows and floor of a scene; keeps its shapes alive.
+struct SceneKey {
+  std::vector<DrawMesh> meshes = {};
+  std::vector<DrawCone> cones = {};
+  std::vector<DrawArrow> arrows = {};
+  std::optional<double> ground = {};
+
+  explicit SceneKey(const Scene& scene);
+  /// equal to the bit
+  bool matches(const Scene& scene) const;
+};
+
+}  // namespace clench

@@ -1,0 +1,80 @@
+local new_job = require "clench.plan.job"
+local new_run = require "clench.plan.run"
+local crowd = require "clench.plan.crowd"
+local starts = require "clench.plan.starts"
+local opposition = require "clench.plan.opposition"
+local primitive_starts = require "clench.plan.primitive_starts"
+
+-- DOFs that closing does not move spread the fingers: not at all to oppose the thumb, by a third of their way around
+local function derived_preshapes(hand)
+  local open, closes = starts.opened(hand)
+  local shapes = {opposing = {}, circle = {}}
+  for i, limit in ipairs(hand.dof_limits) do
+    local low, high = limit[1], limit[2]
+    local free = not closes[i] and high - low < math.huge
+    local none = math.max(low, math.min(high, 0))
+    shapes.opposing[i] = free and none or open[i]
+    shapes.circle[i] = free and (none + (high - none) / 3) or open[i]
+  end
+  return shapes
+end
+
+local function read_preshapes(read, hand)
+  local given = read:raw "preshapes"
+  local shapes = derived_preshapes(hand)
+  if given == nil then return shapes end
+  if type(given) ~= "table" then read:expected("preshapes", "a table {opposing = dofs, circle = dofs}", given) end
+  for name, dofs in pairs(given) do
+    if not shapes[name] then read:fail("preshapes: unknown key '%s'; it has 'opposing' and 'circle'", tostring(name)) end
+    if type(dofs) ~= "table" or #dofs ~= #hand.dofs then
+      read:expected("preshapes." .. name, ("%d numbers, one per DOF"):format(#hand.dofs), dofs)
+    end
+    shapes[name] = dofs
+  end
+  return shapes
+end
+
+local function read_primitives(read)
+  local given = read:raw "primitives"
+  if type(given) == "string" then return clench.files.primitives(given) end
+  if type(given) ~= "table" or #given == 0 then
+    read:expected("primitives", "a file, or a list {kind =, pose =, size = or radius =, height =}", given)
+  end
+  return given
+end
+
+--- An object as boxes, spheres, cylinders and cones, each approached from all sides (Miller, Knoop, Christensen and Allen
+--- 2003): the hand comes to the first touch, closes, and where that holds nothing once more from a step further back.
+---@param options {hand: robot, object: body, primitives: string|table, density?: integer, preshapes?: table, thumb?: vec3, rule?: string, seconds?: number, threads?: integer, count?: integer, on_grasp?: function, grasp?: table, world?: world}  primitives: a file of clench.files.primitives, or such a list; density: 2; preshapes: {opposing = dofs, circle = dofs}, otherwise derived; thumb: where it is, across the approach, in the frame of the hand's base; rule: "corrected" (default), or "graspit" with the original's sizes of boxes and limits
+---@return {grasps: grasps, report: table} # in force closure, the largest epsilon first
+--- > list = {{kind = "cylinder", pose = clench.pose {}, radius = 0.03, height = 0.1}}
+--- > clench.plan.primitive {hand = hand, object = flask, primitives = list, density = 1}.report.candidates  --> 12
+--- > clench.plan.primitive {hand = hand, object = flask}  --> error: primitives must be a file, or a list
+return function(options)
+  local own = {}
+  local job = new_job("plan.primitive", options, function(read, job)
+    own.primitives = read_primitives(read)
+    own.density = read:count("density", 2, 1, 100)
+    own.rule = read:raw "rule" or "corrected"
+    if own.rule ~= "corrected" and own.rule ~= "graspit" then read:expected("rule", "'corrected' or 'graspit'", own.rule) end
+    own.preshapes = read_preshapes(read, options.hand)
+    own.thumb = read:raw "thumb"
+    own.count = read:count("count", 1000000, 1, 1000000)
+    own.on_grasp = read:raw "on_grasp"
+  end)
+  local hand = job.hand
+  local thumb = own.thumb and hand.pose:rotate(own.thumb) or opposition.thumb(hand)
+  if not thumb then require "clench.raise" "plan.primitive: thumb: this hand has no two fingers to tell it from; say where it is" end
+  local X_FH = opposition.base_in_frame(hand, thumb)
+  local list = primitive_starts(own.primitives, own.density, own.rule)
+  local function next_state(number)
+    local at = list[number]
+    if not at then return end
+    return {pose = opposition.frame(at.position, at.direction, at.thumb) * X_FH, dofs = own.preshapes[at.preshape]}
+  end
+  local told = {planner = "plan.primitive"}
+  local found = crowd.try(job, told, next_state, {planner = "primitive", limit = #list, count = own.count, on_grasp = own.on_grasp,
+                                                  approach = 1, back = {count = 20, length = 0.004}})
+  job:finish()
+  return new_run(job, crowd.sort(found), told, {distance = 1e-9})
+end

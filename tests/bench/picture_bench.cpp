@@ -1,0 +1,136 @@
+// Pictures of 640 x 480 in software or on the graphics card: the first of a world, the second, one after its hand has
+// moved, and one from another side, as drafts and in paper quality, beside the same triangles drawn once by bare OpenGL.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "clench/io/read.h"
+#include "clench/model/build.h"
+#include "clench/motion/drive.h"
+#include "clench/render/frame.h"
+#include "clench/render/render.h"
+#include "clench/render/renderer.h"
+#include "peer_bare_gl.h"
+#include "report.h"
+
+using namespace clench;
+using namespace clench::bench;
+
+namespace {
+
+constexpr int width = 640, height = 480;
+constexpr double aspect = static_cast<double>(width) / height;
+
+// so many DLR hands on flasks, side by side: 31,708 triangles each
+Scene hands(int count, bool moved) {
+  World world = build_world(read_world("worlds/dlr_flask.wld", {.root = "."}));
+  autograsp(world, world.robots()[0]);
+  if (moved) {
+    const auto hand = world.robots()[0];
+    Eigen::VectorXd dofs = world.dofs(hand);
+    dofs[1] -= 0.1;
+    world.set_dofs(hand, dofs);
+  }
+  const Scene one = make_scene(world);
+  Scene scene = one;
+  for (int i = 1; i < count; ++i) {
+    const Pose aside = Pose::translation({0.35 * (i % 3), 0.35 * (i / 3), 0});
+    for (DrawMesh mesh : one.meshes) {
+      mesh.X_WM = aside * mesh.X_WM;
+      scene.meshes.push_back(std::move(mesh));
+    }
+    for (DrawCone cone : one.cones) {
+      cone.apex = aside * cone.apex;
+      scene.cones.push_back(cone);
+    }
+  }
+  return scene;
+}
+
+int triangles(const Scene& scene) {
+  int count = 0;
+  for (const DrawMesh& mesh : scene.meshes)
+    if (mesh.shape) count += static_cast<int>(mesh.shape->mesh().triangles.size());
+  return count;
+}
+
+Scene from_aside(const Scene& scene) {
+  Scene out = scene;
+  Eye eye = frame_all(scene, aspect);
+  eye.eye = eye.target + Pose::turn(0.5, Eigen::Vector3d::UnitZ()) * (eye.eye - eye.target);
+  out.eye = eye;
+  return out;
+}
+
+void measure(int count, const std::string& name, Quality quality, int rounds, Report& report) {
+  const Font font;
+  const RenderOptions options{.width = width, .height = height, .quality = quality};
+  const std::string kind = quality == Quality::draft ? "draft" : "paper";
+  const Scene scene = hands(count, false), moved = hands(count, true), aside = from_aside(scene);
+  Eye eye = frame_all(scene, aspect);
+  BareGl bare(scene, view_projection(eye, aspect, 0.01, 10), width, height);
+  report.check(bare.draw() > width * height / 20, "the bare peer shows nothing");
+  Times first, second, posed, turned;
+  Renderer used;
+  for (int i = 0; i < rounds; ++i) {
+    Renderer fresh;
+    const Picture a = timed(first["ours"], [&] { return fresh.draw(scene, options, font); });
+    used.draw(scene, options, font);
+    const Picture b = timed(second["ours"], [&] { return used.draw(scene, options, font); });
+    report.check(a == b, name + ", " + kind + ": a used renderer draws something else");
+    timed(turned["ours"], [&] { return used.draw(aside, options, font); });
+    timed(posed["ours"], [&] { return used.draw(moved, options, font); });
+    for (int k = 0; k < 3; ++k) timed(second["bare"], [&] { return bare.draw(); });
+  }
+  for (Times* times : {&first, &posed, &turned}) (*times)["bare"] = second["bare"];
+  report.add("first, " + kind, name, first);
+  report.add("second, " + kind, name, second);
+  report.add("from aside, " + kind, name, turned);
+  report.add("moved, " + kind, name, posed);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool check = false, brief = false;
+  std::string csv;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--check")
+      check = true;
+    else if (word == "--brief")
+      brief = true;
+    else if (word == "--csv" && i + 1 < argc)
+      csv = argv[++i];
+    else
+      return fmt::print(stderr, "usage: bench_picture [--brief] [--csv FILE] [--check]\n"), 2;
+  }
+  Report report;
+  const int few = triangles(hands(1, false)), many = triangles(hands(9, false));
+  const std::string small = fmt::format("{} triangles", few),
+                    large = fmt::format("{} triangles", many);
+  for (const Quality quality : {Quality::draft, Quality::paper}) {
+    measure(1, small, quality, brief ? 1 : 7, report);
+    if (!brief) measure(9, large, quality, 5, report);
+  }
+  report.print({"ours", "bare"});
+  std::vector<Aim> aims;
+  const auto aim = [&](const std::string& query, const std::string& pair, double must) {
+    aims.push_back({query + ", " + pair + " [ms]", report.median(query, pair) / 1000, must, true});
+  };
+  aim("second, draft", small, 40);
+  aim("moved, draft", small, 40);
+  aim("second, paper", small, 1000);
+  if (!brief) {
+    aim("second, draft", large, 150);
+    aim("moved, draft", large, 150);
+    aim("second, paper", large, 1000);
+  }
+  // of drawing the triangles once with nothing: geometric mean over the worlds
+  aims.push_back({"second draft / bare", 1 / report.ratio("second, draft", "bare", "second, draft"), 8, true});
+  aims.push_back({"second paper / bare", 1 / report.ratio("second, paper", "bare", "second, paper"), 60, true});
+  const bool good = report.judge(aims);
+  const bool written = csv.empty() || report.write_csv(csv);
+  return written && (good || !check) ? 0 : 1;
+}

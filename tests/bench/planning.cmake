@@ -1,0 +1,10 @@
+# The annealing step beside the same step made from FCL and Embree, where both are installed.
+add_executable(bench_planning bench/planning_bench.cpp bench/peer_step.cpp bench/report.cpp)
+target_include_directories(bench_planning PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+target_link_libraries(bench_planning PRIVATE clench_planning clench_io)
+if(fcl_FOUND AND embree_FOUND)
+  target_sources(bench_planning PRIVATE bench/peer_fcl.cpp bench/peer_embree.cpp)
+  target_compile_definitions(bench_planning PRIVATE CLENCH_BENCH_FCL CLENCH_BENCH_EMBREE)
+  target_link_libraries(bench_planning PRIVATE fcl embree)
+endif()
+add_test(NAME "bench: planning" COMMAND bench_planning --brief WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})

@@ -1,0 +1,89 @@
+local test = require "test"
+local clench = require "clench"
+
+local function path(ending) return os.tmpname() .. ending end
+
+-- a closed hand of ours, and its grasp in a list
+local function closed()
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local hand, flask = world.robots[1], world.objects[1]
+  hand:autograsp()
+  local grasp = clench.grasp(hand, flask)
+  grasp:quality "epsilon"
+  grasp.info, grasp.labels = {seed = 7, energy = -0.5}, {planner = "007"}
+  local list = clench.grasps()
+  list:add(grasp)
+  return world, grasp, list
+end
+
+test("a table of grasps has the types that it was written with", function(t)
+  local _, grasp, list = closed()
+  local file = path ".csv"
+  list:save(file)
+  local row = clench.csv.read(file)[1]
+  t.equal(row.seed, 7)
+  t.equal(math.type(row.seed), "integer")
+  t.equal(row.planner, "007")
+  t.equal(row.epsilon, grasp.epsilon)
+  t.equal(row.energy, -0.5)
+  t.equal(row["x [m]"], grasp.pose.position.x)
+  t.equal(clench.grasps(file)[1].labels.planner, "007")
+  os.remove(file)
+end)
+
+test("a grasp goes through every format that holds DOFs into a world where the object has another name", function(t)
+  local _, grasp, list = closed()
+  for _, one in ipairs {{".csv"}, {".npz"}, {".yaml"}, {".json", "multigripper"}} do
+    local file = path(one[1])
+    list:save(file, {format = one[2]})
+    local other = clench.load("worlds/dlr_flask.wld", {root = "."})
+    local hand, flask = other.robots[1], other.objects[1]
+    flask.name = "an object"
+    local back = clench.grasps(file)[1]
+    t.fails(function() back:apply(other) end, "there is no such object in this world")
+    local again = back:apply(other, {hand = hand, object = flask})
+    t.equal(#again.contacts, #grasp.contacts)
+    t.close(again:quality "epsilon", grasp.epsilon, 1e-6)
+    os.remove(file)
+  end
+end)
+
+test("DOFs go by their names, and a name that no DOF has is refused", function(t)
+  local world, _, list = closed()
+  local file = path ".yaml"
+  list:save(file)
+  local input = assert(io.open(file))
+  local text = input:read "a"
+  input:close()
+  local name = text:match "cspace_position:\n%s+\"([^\"]+)\""
+  clench.files.save_text(file, (text:gsub('"' .. name .. '"', '"nothing"')))
+  t.fails(function() clench.grasps(file)[1]:apply(world) end, "the hand has no DOF 'nothing'")
+  os.remove(file)
+end)
+
+test("a grasp of no hand needs one, and one of that world", function(t)
+  local world, _, list = closed()
+  local file = path ".json"
+  list:save(file, {format = "graspgen"})
+  local back = clench.grasps(file)[1]
+  t.fails(function() back:apply(world, {object = world.objects[1]}) end, "it does not name its hand; one has to be given")
+  t.fails(function() back:apply(world, {hand = world:clone().robots[1]}) end, "hand: expected one of that world, got one of another")
+  t.fails(function() back:apply(world, {hands = 1}) end, "unknown key 'hands'")
+  local before = world.robots[1].dofs
+  back:apply(world, {hand = world.robots[1], object = world.objects[1]})
+  t.equal(world.robots[1].dofs[1], before[1])
+  os.remove(file)
+end)
+
+test("numpy reads what we write, where there is one", function(t)
+  local _, grasp, list = closed()
+  local file = path ".npz"
+  list:save(file)
+  local pipe = io.popen("python3 -c 'import numpy,sys; a=numpy.load(sys.argv[1]); print(a[\"poses\"].shape[1], a[\"dofs\"].shape[1], repr(float(a[\"epsilon\"][0])), a[\"hands\"][0])' "
+    .. file .. " 2>/dev/null")
+  local said = pipe:read "a"
+  pipe:close()
+  if said ~= "" then t.equal(said, ("7 %d %.17g %s\n"):format(#grasp.dofs, grasp.epsilon, grasp.hand_name)) end
+  t.equal(clench.grasps(file)[1].hand_name, grasp.hand_name)
+  os.remove(file)
+end)
