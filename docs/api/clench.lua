@@ -591,13 +591,13 @@ local projection = {}
 ---@return picture
 function projection:render(options) end
 
----A picture: red, green and blue, 8 bits each. `==` compares every pixel.
+---A picture: red, green and blue, 8 bits each, and how much each pixel covers. `==` compares every pixel.
 ---@class picture
 ---@field width integer # Its width. pixels
 ---@field height integer # Its height. pixels
 local picture = {}
 
----Writes a PNG file.
+---Writes a PNG file, with alpha where the background is transparent.
 ---@param path string
 function picture:save(path) end
 
@@ -608,6 +608,12 @@ function picture:save(path) end
 ---@return integer green
 ---@return integer blue
 function picture:pixel(x, y) end
+
+---How much a pixel covers, 0 to 255: less than 255 where a transparent background shows through; (1, 1) is the upper left.
+---@param x integer
+---@param y integer
+---@return integer alpha
+function picture:alpha(x, y) end
 
 ---Numbers as a figure, made by `clench.plot`.
 ---@class plot
@@ -862,9 +868,9 @@ function clench.wrench_space(options) end
 ---@return eigengrasps
 function clench.eigengrasps(options) end
 
----Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of all soft contacts, without the cones, which would cover them. The camera frames everything unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display.
+---Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of all soft contacts, without the cones, which would cover them. The camera looks at the objects that robots touch and the links of those robots, or at everything, unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display. What a picture needs is kept for the next one, which is drawn faster.
 ---@param world world
----@param options? {size?: integer[], eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, contacts?: boolean, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number} # size: width and height in pixels; field_of_view: vertical [rad]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]
+---@param options? {size?: integer[], quality?: string, background?: string, outline?: number, letters?: number, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, frame?: string, contacts?: boolean, cones?: string, cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number, arrows?: boolean} # size: width and height in pixels; quality: "paper", or "draft", a fraction of the time; background: "studio", "white" or "transparent", both with the shadow on the floor; outline: width of lines around bodies [pixels]; letters: height of capital letters [pixels]; field_of_view: vertical [rad]; orthographic: true, or the height that is shown [m]; frame: what a camera that is not given looks at, "contacts" or "all"; cones: their sizes, "apart" (lowered where they are close together), "equal", or in proportion to "friction" or to the normal "force"; cone_height: of the highest cone [m]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]; arrows: false leaves the arrows out, so that forces only size the cones
 ---@return picture
 function clench.render(world, options) end
 
@@ -874,7 +880,7 @@ function clench.render(world, options) end
 function clench.chart(options) end
 
 ---Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no graphics hardware.
----@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], width?: integer, height?: integer} # kind: "line" (default), "points" or "bars"; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; 720 x 480 pixels by default
+---@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer} # kind: "line" (default), "points" or "bars"; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
 ---@return plot
 function clench.plot(options) end
 
