@@ -86,6 +86,7 @@ local function of_kept(robot)
   local kept = {
     tendons = #robot.tendons > 0 and names(robot.tendons) or nil,
     tendon_wrappers = #robot.tendon_wrappers > 0 and #robot.tendon_wrappers or nil,
+    actuators = #robot.actuators > 0 and #robot.actuators or nil,
     tactile_sensors = #robot.tactile_sensors > 0 and #robot.tactile_sensors or nil,
     glove = robot.glove and {dofs = #robot.glove.slopes, sensors = #robot.glove.slopes[1]},
     tracker = robot.tracker and robot.tracker.number,

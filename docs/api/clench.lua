@@ -825,7 +825,7 @@ function clench.file_kind(path, options) end
 ---@return {hands: string[], arms: string[], objects: string[], obstacles: string[], worlds: string[]}
 function clench.catalog() end
 
----Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as .urdf, worlds as .wld .xml .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml. What the format cannot hold is told in warnings.
+---Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as .urdf, worlds and scenes of MuJoCo as .wld .lua, worlds as .xml, too, eigengrasps as .egr .xml, virtual contacts as .vgr .xml. What the format cannot hold is told in warnings.
 ---@param from string
 ---@param to string
 ---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # of reading; of robots those of add_robot, too

@@ -62,6 +62,7 @@ local function kept_words(kept)
   local function add(format, ...) list[#list + 1] = format:format(...) end
   if kept.tendons then add("%s (%s)", several(#kept.tendons, "tendon"), name_list(kept.tendons)) end
   if kept.tendon_wrappers then add("%s", several(kept.tendon_wrappers, "tendon wrapper")) end
+  if kept.actuators then add("%s", several(kept.actuators, "actuator")) end
   if kept.tactile_sensors then add("%s", several(kept.tactile_sensors, "tactile sensor")) end
   if kept.glove then add("a glove of %s for %s", several(kept.glove.sensors, "sensor"), several(kept.glove.dofs, "DOF")) end
   if kept.tracker then add("position sensor %d", kept.tracker) end

@@ -275,6 +275,14 @@ TEST_CASE("what a scene holds and a world does not is told, one warning a kind o
   CHECK(failure("<light/>").ends_with("scene.xml: expected bodies or geoms in <worldbody>, got none"));
 }
 
+TEST_CASE("names that are none are repaired") {
+  const ToldWorld told("<geom name='a&#9;b' size='1'/>" + arm,
+                       "<keyframe><key name='c&#9;d' qpos='0'/></keyframe>");
+  CHECK(told.world.bodies[0].body.name == "a?b");
+  CHECK(told.world.keyframes[0].name == "c?d");
+  CHECK(told.warned("key: name: expected no control characters, got 'c?d'; it becomes 'c?d'"));
+}
+
 TEST_CASE("options of one robot are for files of one robot") {
   CHECK(failure(arm + door, "", {.root = {}, .closing = {{"a", 1}}}) ==
         "scene.xml: close: expected a file of one robot, got 2; world:add_robot with the option 'body' "

@@ -39,6 +39,27 @@ class TreeBench {
     folder_.write("defaults.xml", read_text("tests/data/mjcf/defaults.xml"));
     options_.packages["gripper_description"] = folder_.path();
   }
+  /// The same of a scene.
+  bool scene_refused(const std::string& name, const std::string& text) {
+    const fs::path file = folder_.write(name, text);
+    try {
+      const WorldSpec world = read_world(file, options_);
+      for (const auto& placed : world.robots) check_sane(placed.robot);
+      for (const auto& placed : world.bodies) {
+        check_body(placed.body, "body");
+        check_place(placed.X_WB, "body");
+      }
+      for (const auto& keyframe : world.keyframes)
+        for (const auto& placed : keyframe.robots) {
+          const RobotSpec& robot = world.robots.at(placed.robot).robot;
+          CHECK(placed.dofs.size() == robot.dofs.size());
+        }
+      return false;
+    } catch (const Error& error) {
+      CHECK_MESSAGE(std::string(error.what()).starts_with(name), error.what());
+      return true;
+    }
+  }
   /// returns  was it refused?   fails the test when the sentence names none of the files
   bool refused(const std::string& name, const std::string& text) {
     const fs::path file = folder_.write(name, text);
@@ -58,6 +79,8 @@ class TreeBench {
 };
 
 const std::string urdf = read_text("tests/data/urdf/gripper.urdf");
+const std::string own = read_text("tests/data/urdf/own.urdf");
+const std::string scene = read_text("tests/data/mjcf/scene.xml");
 const std::string mjcf = read_text("tests/data/mjcf/hand.mjcf");
 
 void cut_tree_everywhere(const std::string& name, const std::string& text) {
@@ -134,6 +157,23 @@ TEST_CASE("the robots of this file are sound") {
   TreeBench bench;
   CHECK_FALSE(bench.refused("a.urdf", urdf));
   CHECK_FALSE(bench.refused("a.xml", mjcf));
+  CHECK_FALSE(bench.refused("a.urdf", own));
+  CHECK_FALSE(bench.scene_refused("a.xml", scene));
+}
+TEST_CASE("a URDF with an element of ours, changed at random, is an Error or a robot") {
+  change_tree_at_random("a.urdf", own, 400);
+}
+TEST_CASE("a scene changed at random is an Error or a world") {
+  TreeBench bench;
+  int refused = 0;
+  for (int i = 0; i < 400; ++i) {
+    Random random(23, static_cast<uint64_t>(i));
+    const std::string bad = changed(scene, random);
+    INFO(bad);
+    refused += bench.scene_refused("a.xml", bad);
+  }
+  CHECK(refused > 40);
+  CHECK(refused < 400);
 }
 TEST_CASE("a URDF file cut short anywhere is an Error") { cut_tree_everywhere("a.urdf", urdf); }
 TEST_CASE("an MJCF file cut short anywhere is an Error") { cut_tree_everywhere("a.mjcf", mjcf); }

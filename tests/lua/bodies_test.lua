@@ -32,7 +32,8 @@ test("a body without area, and objects of a size that no hand grasps, are suspic
     return (told(function() return world[method or "add_object"](world, mesh) end))
   end
   t.equal(doubts {vertices = {{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}}, triangles = {{1, 2, 3}}},
-          {"suspicious world:add_object: mesh: none of its triangles has an area"})
+          {"suspicious world:add_object: mesh: none of its triangles has an area",
+           "suspicious world:add_object: mesh: no inertia is given, and the surface bounds no solid; it is that of a ball around it"})
   t.equal(doubts(clench.shapes.box {100, 20, 30}),
           {"suspicious world:add_object: mesh: it is 100 m large: is its unit right?"})
   t.equal(doubts(clench.shapes.box {1e-4, 1e-4, 1e-4}),

@@ -122,7 +122,8 @@ Whirl { }
 Coordinate3 { point [0 0 0, 9 0 0, 0 9 0, 0 0 9] }
 IndexedFaceSet { coordIndex [0 1 2 -1 0 3 1 -1 0 2 3 -1 1 3 2 -1] }]])
   t.equal(r.error, nil)
-  t.ok(#r.inferred == 2 and r.inferred[1]:find "Units FEET" and r.inferred[2]:find "no mass and no material is given")
+  t.ok(#r.inferred == 3 and r.inferred[1]:find "Units FEET" and r.inferred[2]:find "no mass and no material is given")
+  t.ok(r.inferred[3]:find "no inertia is given")
   t.ok(#r.repaired == 1 and r.repaired[1]:find "flipped to face outward")
   t.ok(#r.ignored == 1 and r.ignored[1]:find "Whirl")
   t.ok(#r.suspicious == 1 and r.suspicious[1]:find "youngs")

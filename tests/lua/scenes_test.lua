@@ -109,6 +109,27 @@ test("saved scenes come back equal", function(t)
   end
 end)
 
+test("a scene is converted to a world, and its robots are kept with their actuators", function(t)
+  clench.convert(scene, folder .. "/made.lua")
+  local world = clench.load(folder .. "/made.lua")
+  t.equal(#world.robots, 2)
+  t.equal(world.keyframes[1], "home")
+  t.equal(#world:robot("arm").actuators, 1)
+end)
+
+test("gravity may be none", function(t)
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local hand, flask = world.robots[1], world.objects[1]
+  hand:autograsp()
+  local grasp = clench.grasp(hand, flask)
+  local there = grasp:quality "gravity_effort"
+  world.gravity = {0, 0, -2 * 9.80665}
+  t.close(grasp:quality "gravity_effort", 2 * there, 1e-6 * there)
+  world.gravity = {0, 0, 0}
+  t.close(grasp:quality "gravity_effort", 0, 1e-9)
+  t.ok(grasp:quality "grasp_robustness" >= 0)
+end)
+
 test("one robot of a scene is added by the body that it begins with", function(t)
   local world = clench.world()
   t.equal(#world:add_robot(scene, {body = "arm", pose = {xyz = {0, 0, 1}}}).links, 1)

@@ -136,7 +136,12 @@ void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& b
     ++number;
     document.unused().attributes(node->element, {"name", "class", "qpos", "mpos", "mquat"});
     const XmlValues values(node->element);
-    const std::string name = values.text("name", fmt::format("{}", number));
+    std::string name = values.text("name", fmt::format("{}", number));
+    if (const auto wrong = name_fault(name); !wrong.empty()) {
+      name = repaired_name(name);
+      library.repaired(fmt::format("{}: {}; it becomes '{}'", values.subject("name"), wrong,
+                                   excerpt(name)));
+    }
     const int got =
         values.has("qpos") ? static_cast<int>(values.numbers("qpos", 1, max_key_numbers).size())
                            : expected;

@@ -5,6 +5,7 @@
 #include "clench/base/text.h"
 #include "clench/io/mjcf/mjcf.h"
 #include "clench/io/mjcf/mjcf_keyframes.h"
+#include "clench/io/text/repair_names.h"
 #include "clench/spec/plausibility.h"
 
 namespace clench {
@@ -294,6 +295,7 @@ void SceneReader::dress_things() {
               library_, true);
   for (size_t i = 0; i < things_.links.size(); ++i) {
     BodySpec& body = things_.links[i].body;
+    repair_names(body, thing_pieces_[i].place, library_.options());
     body.material = std::move(world_.bodies[i].body.material);
     world_.bodies[i].body = std::move(body);
   }

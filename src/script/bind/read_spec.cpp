@@ -110,6 +110,7 @@ static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
     const double density = options.number("density");
     check(density_rule, density, options.subject());
     spec.mass = mass_of(L, spec, density);
+    spec.inertia_told = true;  // by the density
   }
   spec.mass = options.number("mass", spec.mass);
   if (options.has("com")) spec.com = options.vec3("com");

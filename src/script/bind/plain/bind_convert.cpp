@@ -20,7 +20,9 @@ static int convert(lua_State* L) {
   const FileKind kind = file_kind(found);
   if (kind == FileKind::robot) read_robot_options(L, options, reading);
   options.done();
-  if (kind == FileKind::world)  // built on the way, which tells what the new file does not hold
+  const std::string ending = ending_of(to);
+  const bool as_world = kind == FileKind::robot && (ending == ".lua" || ending == ".wld");
+  if (kind == FileKind::world || as_world)  // built on the way, which tells what the new file does not hold
     save_world(L, *push_world_of(L, found, reading), to,
                {.root = reading.root, .confine = reading.confine});
   else
@@ -32,7 +34,7 @@ static int convert(lua_State* L) {
 static const Entry functions[] = {
     {"convert", guarded<convert>, R"(
 Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as
-.urdf, worlds as .wld .xml .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml. What the format cannot hold is
+.urdf, worlds and scenes of MuJoCo as .wld .lua, worlds as .xml, too, eigengrasps as .egr .xml, virtual contacts as .vgr .xml. What the format cannot hold is
 told in warnings.
 @param from string
 @param to string
