@@ -56,7 +56,7 @@ double ContactEnergy::bounded_value(World& world, double bound) {
   // no term is less than the distance counts
   double least = 0;
   for (int i = 0; i < count; ++i)
-    least += least_[i] = energy_length * sites_.least_distance(world, i);
+    least += least_[i] = bound < infinite ? energy_length * sites_.least_distance(world, i) : 0;
   for (const int i : order_) {
     if (least * (1 - 1e-12) > enough) return least / count;
     terms_[i] = of(measure(world, i));
