@@ -73,7 +73,7 @@ return function(options)
   local hand = job.hand
   local thumb = own.thumb and hand.pose:rotate(own.thumb) or opposition.thumb(hand)
   if not thumb then require "clench.raise" "plan.primitive: thumb: this hand has no two fingers to tell it from; say where it is" end
-  local X_FH = opposition.base_in_frame(hand, thumb)
+  local X_FH = opposition.base_in_frame(hand, hand.approach.point, thumb)
   local list = primitive_starts(own.primitives, own.density, own.rule)
   local function next_state(number)
     local at = list[number]

@@ -52,7 +52,7 @@ end)
 
 test("threads change no byte of what any planner finds", function(t)
   local planners = {
-    sample = {count = 3, refine = 2}, random = {count = 5}, guided = {steps = 4000, child_steps = 30, children = 2},
+    sample = {count = 3, refine = 2}, random = {count = 5}, guided = {steps = 6000, child_steps = 60, children = 2},
   }
   for name, options in pairs(planners) do
     local bytes
@@ -160,7 +160,7 @@ test("wrong options are told", function(t)
   fails("sample", {verify = 3}, "verify must be a boolean or a table")
   fails("sample", {on_grasp = 3}, "on_grasp must be a function")
   fails("sample", {standoff = -1}, "standoff must be a number > 0")
-  fails("random", {verify = true}, "plan.sample refines and verifies")
+  fails("random", {verify = true}, "unknown key 'verify'")
   fails("primitive", {}, "primitives must be")
   fails("primitive", {primitives = "nowhere.iv"}, "nowhere.iv")
   fails("primitive", {primitives = {{}}}, "primitives[1]")
