@@ -60,6 +60,7 @@ static void add_reading(CLI::App& verb, ReadingOptions& reading) {
   verb.add_flag("--strict", reading.strict, "what would be warned of is an error");
 }
 
+// what is typed as a number is looked at here, and handed on as it is
 static void add_plan(CLI::App& verb, PlanOptions& plan) {
   verb.add_option("HAND", plan.hand, "a robot's file")->required();
   verb.add_option("OBJECT", plan.object, "a body's file, or a mesh")->required();
@@ -94,7 +95,7 @@ static void add_plan(CLI::App& verb, PlanOptions& plan) {
   verb.add_option("--report", plan.report, "a page with a table, pictures and each grasp in 3-D")
       ->type_name("FILE.html");
   verb.add_option("--sheet", plan.sheet, "pictures of the best grasps, in one")->type_name("FILE.png");
-  verb.add_flag("!--no-verify", plan.verify, "keep all in force closure, loads and errors unseen");
+  verb.add_flag("--no-verify", plan.unverified, "keep all in force closure, loads and errors unseen");
 }
 
 // what --help says of every verb that loads

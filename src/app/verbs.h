@@ -56,7 +56,7 @@ struct PlanOptions {
   std::string pose, mass;                              ///< of the object
   std::string count, seconds, seed, threads;
   std::string out, format, report, sheet;  ///< what is written
-  bool verify = true;
+  bool unverified = false;  ///< is force closure enough?
   bool quiet = false;
   ReadingOptions reading;
 };

@@ -9,6 +9,9 @@ local report_rows = require "clench.plan.report_rows"
 local plan = {}
 local job = {found = {}}  -- what `search` leaves for `finish`
 
+-- names are hostile: a terminal obeys control characters
+local function printable(text) return (in_utf8(text):gsub("%c", function(c) return c == "\n" and c or "?" end)) end
+
 local function fail(text) error({usage = text}, 0) end
 
 -- "X,Y,Z" [m] or "X,Y,Z,ROLL,PITCH,YAW" [m and degrees]
@@ -62,7 +65,10 @@ end
 local function run_of_found()
   local stopped = {hand = job.hand, object = job.object, world = job.world, threads = 1,
                    elapsed = function() return clench.clock() - job.began end}
-  return require "clench.plan.run"(stopped, require "clench.plan.crowd".sort(job.found), {planner = "plan.sample"}, {distance = 0.1})
+  local found = require "clench.plan.crowd".sort(job.found)
+  local run = require "clench.plan.run"(stopped, found, {planner = "plan.sample"}, {distance = 0.1})
+  run.report.causes = {}  -- of nothing found there is one: it was interrupted
+  return run
 end
 
 local function search(root, folder, package, unit, strict, ...)
@@ -130,12 +136,12 @@ local function finish(interrupted)
   for i = 1, math.min(#run.grasps, job.count or math.huge) do grasps:add(run.grasps[i]) end
   job.files:save(grasps)
   local title = ("%s grasps %s"):format(job.hand.name, job.object.name)
-  print(in_utf8(title) .. (interrupted and ": interrupted" or ""))
+  print(printable(title) .. (interrupted and ": interrupted" or ""))
   if #grasps > 0 then print_table(report_rows(job.hand, job.object, grasps)) end
   local words = tostring(run.report)
   if #grasps < #run.grasps then words = words .. ("\nthe best %d are kept"):format(#grasps) end
   if interrupted then words = words .. "\ninterrupted: these are the grasps until then" end
-  print(in_utf8(words))
+  print(printable(words))
   local subtitle = ("%s, %s, seed %s"):format(job.given.hand, job.given.object, job.given.seed or "1")
   job.files:show(job.hand, job.object, grasps, {title = title, subtitle = subtitle, report = words})
   return #grasps

@@ -39,11 +39,9 @@ function Files.open(given)
   end
   if not self.out then return self end
   clench.grasps():save(self.out, {format = self.format})
-  if self.format == "jsonl" or not self.format and self.out:lower():find "%.jsonl$" then
-    local file, why = io.open(self.out, "ab")
-    if not file then fail("-o: %s", why) end
-    self.lines = file
-  end
+  local file, why = io.open(self.out, "a+b")
+  if not file then fail("-o: %s", why) end
+  if (file:read "l" or ""):find '^{"format":"clench grasps"' then self.lines = file else file:close() end
   return self
 end
 
@@ -82,9 +80,7 @@ function Files:show(hand, object, grasps, words)
     draw_sheet(hand, object, grasps):save(self.sheet)
     print(("%s: %d pictures"):format(in_utf8(self.sheet), math.min(#grasps, on_sheet)))
   end
-  if not self.page then
-    return
-  end
+  if not self.page then return end
   local html, notes = require "clench.plan.report_page"(hand, object, grasps, words)
   clench.files.save_text(self.page, html)
   print(("%s: a page of %.1f MB"):format(in_utf8(self.page), #html / 1e6))

@@ -51,12 +51,12 @@ end
 
 local view = [==[
 <main><div id="side"><div id="view"><div class="shown"></div><div class="note">drag: turn &middot; wheel: zoom &middot; right button: move &middot; arrow keys: next grasp</div></div>
-<div id="controls"><label><input type="checkbox" id="before"> before the hand closes</label>
+<div class="controls"><label><input type="checkbox" id="before"> before the hand closes</label>
 <label><input type="checkbox" id="contacts" checked> contacts</label>
 <label><input type="checkbox" id="through" checked> see through the object</label>
-<button id="reset" type="button">reset view</button>
-<span><span class="key" style="background:#8fa6c0"></span>hand</span><span><span class="key" style="background:#e0963c"></span>object</span>
-<span><span class="key" style="background:#1f9d55"></span>friction cones</span></div></div>
+<button id="reset" type="button">reset view</button></div>
+<div class="controls"><span><span class="key" style="background:#a9b4c2"></span>hand</span><span><span class="key" style="background:#79b5c4"></span>object</span>
+<span><span class="key" style="background:#f4511e"></span>friction cones</span></div></div>
 ]==]
 
 local function table_of(rows, pictures)

@@ -14,8 +14,8 @@ main { display: grid; grid-template-columns: minmax(340px, 1fr) minmax(560px, 1f
 #view canvas { display: block; }
 #view .note { position: absolute; left: 12px; bottom: 8px; color: var(--soft); font-size: 12.5px; pointer-events: none; }
 #view .shown { position: absolute; left: 12px; top: 8px; font-weight: 600; pointer-events: none; }
-#controls { display: flex; flex-wrap: wrap; gap: 4px 18px; padding: 8px 2px; font-size: 13.5px; color: var(--soft); }
-#controls button { font: inherit; color: inherit; border: 1px solid var(--line); border-radius: 5px; background: #fff; cursor: pointer; }
+.controls { display: flex; flex-wrap: wrap; gap: 4px 18px; padding: 6px 2px 0; font-size: 13.5px; color: var(--soft); }
+.controls button { font: inherit; color: inherit; border: 1px solid var(--line); border-radius: 5px; background: #fff; cursor: pointer; }
 .key { display: inline-block; width: 11px; height: 11px; border-radius: 3px; margin-right: 5px; }
 .card { background: #fff; border: 1px solid var(--line); border-radius: 8px; overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; }

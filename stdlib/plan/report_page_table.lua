@@ -12,7 +12,7 @@ function select(row) {
 body.addEventListener("click", e => { const row = e.target.closest("tr"); if (row) select(row); });
 document.addEventListener("keydown", e => {
   const row = body.querySelector("[aria-selected=true]");
-  const next = e.key === "ArrowDown" ? row.nextElementSibling : e.key === "ArrowUp" ? row.previousElementSibling : null;
+  const next = !row ? null : e.key === "ArrowDown" ? row.nextElementSibling : e.key === "ArrowUp" ? row.previousElementSibling : null;
   if (!next) return;
   e.preventDefault();
   select(next);

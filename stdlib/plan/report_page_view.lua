@@ -58,22 +58,24 @@ function place(mesh, n) {
 let renderer = null;
 try {
   renderer = new THREE.WebGLRenderer({antialias: true, alpha: true});
+  renderer.gammaOutput = true;
+  renderer.gammaFactor = 2.2;
 } catch (_) {
   view.querySelector(".note").textContent = "This browser draws no WebGL: the table and its pictures remain.";
 }
 const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(32, 1, 0.001, 100);
 camera.up.set(0, 0, 1);
 scene.add(camera);
-scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 0.75));
-const lamp = new THREE.DirectionalLight(0xfff6ea, 0.85), fill = new THREE.DirectionalLight(0xdfeaff, 0.25);
+scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 0.6));
+const lamp = new THREE.DirectionalLight(0xfff8f0, 0.7), fill = new THREE.DirectionalLight(0xe6eeff, 0.2);
 lamp.position.set(-0.6, 0.9, 0.6);
 fill.position.set(0.9, -0.1, 0.5);
 camera.add(lamp, lamp.target, fill, fill.target);
 
 const looks = {
-  link: paint(0x8fa6c0), base: paint(0x5b6b7f), obstacle: paint(0xc9c2b2),
-  object: paint(0xe0963c, {transparent: true, opacity: 0.55, depthWrite: false}),
-  cone: paint(0x1f9d55, {transparent: true, opacity: 0.8, side: THREE.DoubleSide}), point: paint(0xc81e3a),
+  link: paint(0xa9b4c2), base: paint(0x59626e), obstacle: paint(0xcfc8b8),
+  object: paint(0x4fa3b8, {transparent: true, opacity: 0.34, depthWrite: false}),
+  cone: paint(0xf4511e, {side: THREE.DoubleSide}), point: paint(0x8e1b0a),
 };
 const geometries = data.meshes.map(geometryOf);
 const solid = part => {
@@ -115,6 +117,23 @@ if (data.still.length === 1 && data.still[0].kind === "object") {
 // --- the camera: azimuth and elevation about a target ---
 const orbit = {target: new THREE.Vector3(), distance: 1, azimuth: 0, elevation: 0.4, turned: false};
 
+// the side from which fingers hide the fewest contacts, the hand's base is not in front, and no obstacle either
+function sideThatShows(item) {
+  const normals = item.points.map(p => new THREE.Vector3(p[3], p[4], p[5]).applyQuaternion(touches.quaternion));
+  const way = new THREE.Vector3(...item.approach), ray = new THREE.Raycaster();
+  const obstacles = still.filter((_, i) => data.still[i].kind === "obstacle");
+  let best = [-1, 0.4], most = -Infinity;
+  for (const elevation of [0.3, 0.6, 0.95]) for (let i = 0; i < 24; ++i) {
+    const azimuth = i * Math.PI / 12, c = Math.cos(elevation);
+    const d = new THREE.Vector3(c * Math.cos(azimuth), c * Math.sin(azimuth), Math.sin(elevation));
+    ray.set(orbit.target, d);
+    let score = -1.5 * Math.max(0, -d.dot(way) - 0.1) - 0.4 * elevation - 2 * (ray.intersectObjects(obstacles).length > 0);
+    for (const n of normals) score += Math.min(0.3, d.dot(n)) / normals.length;
+    if (score > most) { most = score; best = [azimuth, elevation]; }
+  }
+  return best;
+}
+
 function frame(item) {
   scene.updateMatrixWorld(true);
   const box = new THREE.Box3();
@@ -122,13 +141,12 @@ function frame(item) {
   const sphere = box.getBoundingSphere(new THREE.Sphere());
   const object = new THREE.Box3().setFromObject(still[0]).getCenter(new THREE.Vector3());
   orbit.target.copy(sphere.center).lerp(object, 0.35);
-  orbit.distance = 0.92 * sphere.radius / Math.sin(camera.fov * Math.PI / 360);
+  orbit.distance = 0.8 * sphere.radius / Math.sin(camera.fov * Math.PI / 360);
   if (grid) { grid.position.set(object.x, object.y, box.min.z - 0.002); }
   if (orbit.turned) return;
-  // from the side of the hand's way, so that palm and fingers are seen beside the object
-  const [ax, ay] = item.approach;
-  orbit.azimuth = Math.hypot(ax, ay) > 0.2 ? Math.atan2(ay, ax) - 1.9 : -1.0;
-  orbit.elevation = 0.38;
+  const [azimuth, elevation] = sideThatShows(item);
+  orbit.azimuth = azimuth;
+  orbit.elevation = elevation;
 }
 
 function draw() {
@@ -159,7 +177,9 @@ function resize() {
 
 let shown = 0;
 function pose() {
-  const item = data.grasps[shown], before = document.getElementById("before").checked && item.before;
+  const item = data.grasps[shown];
+  if (!item) return;
+  const before = document.getElementById("before").checked && item.before;
   moving.forEach((mesh, i) => place(mesh, (before || item.poses)[i]));
   touches.visible = document.getElementById("contacts").checked && !before;
   redraw();
@@ -194,15 +214,16 @@ view.addEventListener("pointermove", e => {
   redraw();
 });
 view.addEventListener("wheel", e => { e.preventDefault(); orbit.distance *= Math.exp(0.001 * e.deltaY); redraw(); }, {passive: false});
-document.getElementById("reset").addEventListener("click", () => { orbit.turned = false; frame(data.grasps[shown]); redraw(); });
+document.getElementById("reset").addEventListener("click", () => { orbit.turned = false; if (data.grasps[shown]) frame(data.grasps[shown]); redraw(); });
 for (const id of ["before", "contacts"]) document.getElementById(id).addEventListener("change", pose);
 document.getElementById("through").addEventListener("change", e => {
   const look = looks.object;
-  look.opacity = e.target.checked ? 0.55 : 1;
+  look.opacity = e.target.checked ? 0.34 : 1;
   look.depthWrite = !e.target.checked;
   redraw();
 });
-if (renderer) {
+if (data.grasps.length === 0) view.querySelector(".note").textContent = "No grasp was found; what the search did is told below.";
+if (renderer && data.grasps.length > 0) {
   view.appendChild(renderer.domElement);
   window.addEventListener("resize", resize);
 }
