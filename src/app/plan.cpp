@@ -55,8 +55,8 @@ int plan_grasps(const PlanOptions& options) {
   if (!options.reading.confine.empty()) state.set_confine(options.reading.confine);
   catch_interrupts();
   std::string done = call(state, "search", words_of(options));
-  // an interrupted search has grasps, which are written in a run that Ctrl-C has not touched
-  if (done == "finish" || done == "interrupted") done = call(state, "finish", {done});
+  // what an interrupted search has found is written in a run that Ctrl-C has not touched
+  if (done == "finish" || done == "interrupted" || done == "failed") done = call(state, "finish", {done});
   return std::atoi(done.c_str());
 }
 

@@ -50,7 +50,9 @@ local function load_world(given, said)
     options.pose = pose and pose_of(option, pose) or nil
     return options
   end
-  local hand = world:add_robot(given.hand, reading("robot", said))
+  local of_robot = reading("robot", said)
+  of_robot.unit = nil  -- robots' files have units of their own
+  local hand = world:add_robot(given.hand, of_robot)
   local options = body("--pose", given.pose)
   options.mass = tonumber(given.mass)
   local object = world:add_object(given.object, options)
@@ -102,7 +104,7 @@ end
 
 --- Loads and searches.
 ---@param root string  this and the next four: what is said of reading, "" when nothing is
----@return string  the exit code, or "finish" where there are grasps or a report to write, "interrupted" where Ctrl-C came
+---@return string  the exit code, or how it ended where there are files to write: "finish", "interrupted" by Ctrl-C, or "failed"
 function plan.search(...)
   local ok, problem = pcall(search, ...)
   if ok then return "finish" end
@@ -111,7 +113,7 @@ function plan.search(...)
     return job.began and "interrupted" or "130"
   end
   tell(text)
-  return tostring(code)
+  return #job.found > 0 and "failed" or tostring(code)
 end
 
 local shown = 20  -- rows of the table that is printed
@@ -130,17 +132,17 @@ local function print_table(rows)
   print "azimuth, elevation: where the hand comes from [degrees]"
 end
 
-local function finish(interrupted)
+local function finish(how)
   local run = job.run or run_of_found()
   local grasps = clench.grasps()
   for i = 1, math.min(#run.grasps, job.count or math.huge) do grasps:add(run.grasps[i]) end
   job.files:save(grasps)
   local title = ("%s grasps %s"):format(job.hand.name, job.object.name)
-  print(printable(title) .. (interrupted and ": interrupted" or ""))
+  print(printable(title) .. (how == "finish" and "" or ": " .. how))
   if #grasps > 0 then print_table(report_rows(job.hand, job.object, grasps)) end
   local words = tostring(run.report)
   if #grasps < #run.grasps then words = words .. ("\nthe best %d are kept"):format(#grasps) end
-  if interrupted then words = words .. "\ninterrupted: these are the grasps until then" end
+  if how ~= "finish" then words = words .. ("\n%s: these are the grasps until then"):format(how) end
   print(printable(words))
   local subtitle = ("%s, %s, seed %s"):format(job.given.hand, job.given.object, job.given.seed or "1")
   job.files:show(job.hand, job.object, grasps, {title = title, subtitle = subtitle, report = words})
@@ -148,15 +150,13 @@ local function finish(interrupted)
 end
 
 --- Writes the files, prints the table and what was done.
----@param how "finish"|"interrupted"
+---@param how "finish"|"interrupted"|"failed"
 ---@return string  the exit code
 function plan.finish(how)
-  local ok, result = pcall(finish, how == "interrupted")
-  if not ok then
-    tell((sentence(result)))
-    return how == "interrupted" and "130" or "1"
-  end
-  return how == "interrupted" and "130" or result > 0 and "0" or "1"
+  local ok, result = pcall(finish, how)
+  if not ok then tell((sentence(result))) end
+  if how == "interrupted" then return "130" end
+  return ok and how == "finish" and result > 0 and "0" or "1"
 end
 
 return plan

@@ -109,9 +109,10 @@ function showContacts(points) {
 // the floor that tells lengths: squares of 5 cm below everything, where no obstacle stands
 let grid = null;
 if (data.still.length === 1 && data.still[0].kind === "object") {
-  grid = new THREE.GridHelper(1, 20, 0xb4bec8, 0xcfd6dd);
+  grid = new THREE.GridHelper(1, 20, 0x76828e, 0x9aa5b0);
   grid.rotation.x = Math.PI / 2;
   scene.add(grid);
+  view.querySelector(".note").append(" \u00b7 squares: 5 cm");
 }
 
 // --- the camera: azimuth and elevation about a target ---
