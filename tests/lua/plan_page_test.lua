@@ -127,7 +127,7 @@ local function in_browser(html)
 end
 
 -- what a reader does: the load's column is clicked, the second grasp is chosen, and the mouse drags the view
-local reader = [[<script>
+local reader = [==[<script>
   const tell = document.documentElement.dataset, rows = () => [...document.querySelectorAll("tbody tr")].map(r => r.dataset.grasp).join();
   document.querySelectorAll("th[data-column]")[2].click();
   tell.down = rows();
@@ -140,7 +140,7 @@ local reader = [[<script>
   for (const [name, x] of [["pointerdown", 100], ["pointermove", 150], ["pointerup", 150]])
     view.dispatchEvent(new PointerEvent(name, {clientX: x, clientY: 100, bubbles: true}));
   tell.turned = (before - orbit.azimuth).toFixed(3);
-</script>]]
+</script>]==]
 
 test("in Chromium the table sorts, a click shows a grasp, and the mouse turns it", function(t)
   if not three then t.skip(missing) end
