@@ -106,10 +106,12 @@ local function search_causes(told)
   end
 end
 
+local far = 0.02  -- from where closing fingers still reach an object, most of them [m]
+
 --- are the limits of the place so far that no finger reaches the object from there?
 local function out_of_reach(job, told)
-  if told.nearest and told.nearest > 0 then
-    return ("the hand never came nearer to the object than %.0f mm: it cannot reach it within its limits"):format(1000 * told.nearest)
+  if told.nearest and told.nearest > far then
+    return ("in its best states the hand is still %.0f mm from the object: within its limits it does not reach it"):format(1000 * told.nearest)
   end
 end
 
