@@ -17,6 +17,15 @@ static std::string epsilons(const std::string& path) {
   return run("-q -e 'for _, g in ipairs(clench.grasps(\"" + path + "\")) do print(g.epsilon) end'").out;
 }
 
+// a cube as an OBJ file [m]
+static std::string cube_of(double side) {
+  std::string text;
+  for (int i = 0; i < 8; ++i)
+    text += fmt::format("v {} {} {}\n", side * ((i & 1) ^ (i >> 1 & 1)), side * (i >> 1 & 1), side * (i >> 2));
+  return text + "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\n"
+                "f 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
+}
+
 TEST_CASE("plan lists the best grasps, writes them best first, and says what was done") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
@@ -73,11 +82,12 @@ TEST_CASE("an object without triangles cannot be planned for") {
 TEST_CASE("where nothing is found, plan ends with 1 and says why") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
-  const auto result = run(
-      "plan models/hands/parallel_jaw/parallel_jaw.cfg models/objects/plane.iv --seconds 0.5 -o " + out);
+  const auto object = folder.file("cube.obj", cube_of(1));
+  const auto result = run("plan models/hands/parallel_jaw/parallel_jaw.cfg " + object +
+                          " --unit m --seconds 0.5 -o " + out);
   CHECK(result.code == 1);
   CHECK(has(result.out, "plan.sample: 0 grasps"));
-  CHECK(has(result.out, "\nwhy: "));
+  CHECK(has(result.out, "\nwhy: the object is 1000 mm wide where it is narrowest, and the hand opens to"));
   CHECK(epsilons(out).empty());
 }
 
@@ -120,10 +130,7 @@ TEST_CASE("a search that is killed leaves its grasps in a list that can be read"
 
 TEST_CASE("names that are HTML or no UTF-8 stay words in the page and in the list") {
   const Folder folder;
-  const std::string cube =
-      "v 0 0 0\nv .05 0 0\nv .05 .05 0\nv 0 .05 0\nv 0 0 .05\nv .05 0 .05\nv .05 .05 .05\nv 0 .05 .05\n"
-      "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
-  const auto object = folder.file("<script>alert(1)<\x2fscript><img src=x>\xE9'.obj", cube);
+  const auto object = folder.file("<script>alert(1)<\x2fscript><img src=x>\xE9'.obj", cube_of(0.05));
   const auto page = folder / "a.html", out = folder / "a.jsonl";
   const std::string quoted = "\"" + object + "\"";
   const auto result = run("plan models/hands/barrett/barrett.cfg " + quoted +
