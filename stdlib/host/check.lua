@@ -113,6 +113,7 @@ function print_kind.world(world)
                        robot.parent and "mounted on " .. robot.parent or "stands by itself"}
   end
   columns(rows, "  ")
+  if world.keyframes[1] then print("  keyframes " .. name_list(world.keyframes)) end
   for _, robot in ipairs(world.robots) do
     if robot.kept then print(("  %s: kept, without effect yet: %s"):format(robot.name, kept_words(robot.kept))) end
   end

@@ -22,5 +22,5 @@ return function(name, options, read_more)
   local told = {planner = "plan." .. name}
   local found = crowd.try(job, told, starts.random(job, own), own)
   job:finish()
-  return new_run(job, crowd.sort(found), told, {distance = own.distance})
+  return new_run(job, crowd.sort(found), told, {count = own.count, distance = own.distance})
 end

@@ -168,3 +168,22 @@ test("wrong options are told", function(t)
   fails("list", {states = 3}, "states")
   fails("guided", {child_energy = "strct"}, "strct")
 end)
+
+test("a hand on an arm keeps the grasps that the arm reaches", function(t)
+  local world = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
+  local arm, hand = world.robots[1], world.robots[2]
+  if not hand.parent then arm, hand = hand, arm end
+  local glass = world.objects[1]
+  local run = clench.plan.random {hand = hand, object = glass, count = 20, seed = 1}
+  t.ok(#run.grasps + run.report.out_of_reach + run.report.alike >= 20)
+  for _, g in ipairs(run.grasps) do
+    local dofs = {}
+    for i in ipairs(arm.dofs) do dofs[i] = g.info["arm_" .. i] end
+    arm.dofs = dofs
+    t.close((glass.pose * g.pose).position - hand.pose.position, {0, 0, 0}, 1e-5)
+  end
+  glass.pose = {xyz = {9, 9, 9}}
+  local far = clench.plan.random {hand = hand, object = glass, count = 5, seed = 1}
+  t.equal(#far.grasps, 0)
+  t.ok(tostring(far.report):find "the arm reaches none")
+end)

@@ -109,6 +109,37 @@ test("saved scenes come back equal", function(t)
   end
 end)
 
+test("clench check tells of a scene what stands in its world, and of a lone robot its parts", function(t)
+  local report = require "clench.report"
+  local r = report.of(scene)
+  local world = clench.load(scene)
+  t.equal(r.kind, "world")
+  t.equal(#r.parsed.objects, #world.objects)
+  t.equal(#r.parsed.obstacles, #world.obstacles)
+  t.equal(#r.parsed.robots, #world.robots)
+  t.equal(table.concat(r.parsed.keyframes, " "), table.concat(world.keyframes, " "))
+  t.equal(r.parsed.gravity[3], world.gravity.z)
+  t.ok(table.concat(r.inferred, "\n"):find("no approach direction is given", 1, true), table.concat(r.inferred, "\n"))
+  for _, sentence in ipairs(r.ignored) do t.ok(not sentence:find("keyframe", 1, true), sentence) end
+  t.equal(report.of("tests/data/mjcf/hand.mjcf").kind, "robot")
+
+  local broken = os.tmpname() .. ".xml"
+  clench.files.save_text(broken, '<mujoco><worldbody><geom type="bxo"/></worldbody></mujoco>')
+  t.ok(report.of(broken).error:find("did you mean 'box'?", 1, true), report.of(broken).error)
+  os.remove(broken)
+end)
+
+test("a world of one body tells itself in the singular", function(t)
+  local world = clench.world {}
+  world:add_object(clench.shapes.box {0.1, 0.1, 0.1})
+  t.equal(tostring(world), "world of 1 body, 0 robots")
+end)
+
+test("a robot's new file may be a URDF or a world", function(t)
+  t.fails(function() clench.convert(scene, folder .. "/made.foo") end,
+          "made.foo: expected a robot to .urdf, or its world to .lua or .wld, got '.foo'")
+end)
+
 test("a scene is converted to a world, and its robots are kept with their actuators", function(t)
   clench.convert(scene, folder .. "/made.lua")
   local world = clench.load(folder .. "/made.lua")
