@@ -124,7 +124,7 @@ local function print_table(rows)
     local row = rows[i]
     list[#list + 1] = {tostring(row.number), ("%.4f"):format(row.epsilon), row.load and ("%.1f"):format(row.load) or "-",
                        row.reclosed and ("%.4f"):format(row.reclosed) or "-", tostring(row.contacts),
-                       ("%.0f"):format(row.azimuth), ("%.0f"):format(row.elevation)}
+                       tostring(row.azimuth), tostring(row.elevation)}
   end
   columns(list, "")
   if #rows > shown then print(("and %d more"):format(#rows - shown)) end

@@ -80,8 +80,9 @@ local function too_large(job)
   local least = math.min(size.x, size.y, size.z)
   local world = job.world:clone()
   local hand = world:robot(job.hand.name)
-  local ok = pcall(function() hand:open() end)
-  local open = ok and aperture(hand) or math.huge
+  world:set_collision(false, hand)  -- it may stand in the object
+  hand:open()
+  local open = aperture(hand)
   if least > open then
     return ("the object is %.0f mm wide where it is narrowest, and the hand opens to some %.0f mm"):format(1000 * least, 1000 * open)
   end
