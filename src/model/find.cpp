@@ -49,35 +49,19 @@ std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Bod
   return colliding_of(world, near_bodies(world, a, b, 0, *memory), *memory);
 }
 
-static bool any_collides(const World& world, const std::vector<BodyPair>& near,
-                         QueryContext& context) {
-  // the answer is the same in any order: pairs that collided often of late are asked first
-  std::vector<std::pair<PairCache*, const BodyPair*>> order;
-  order.reserve(near.size());
-  for (const BodyPair& p : near) order.emplace_back(&cache_of(p, context), &p);
-  std::ranges::stable_sort(order, [](const auto& x, const auto& y) {
-    return x.first->hit_rate > y.first->hit_rate;
-  });
-  for (const auto& [cache, pair] : order) {
-    const bool hit = pair_collides(world, *pair, *cache);
-    constexpr float memory = 0.9F;
-    cache->hit_rate = memory * cache->hit_rate + (hit ? 1 - memory : 0);
-    if (hit) return true;
-  }
-  return false;
-}
-
 bool collides(const World& world, QueryContext* context) {
   Remember memory(world, context);
-  return any_collides(world, near_bodies(world, 0, *memory), *memory);
+  return any_near(world, *memory, [&](const BodyPair& pair, PairCache& cache) {
+    return pair_collides(world, pair, cache);
+  });
 }
 
 bool collides(const World& world, std::span<const Id<Body>> bodies, QueryContext* context) {
   Remember memory(world, context);
-  std::vector<BodyPair> near = near_bodies(world, 0, *memory);
   const auto among = [&](Id<Body> id) { return std::ranges::find(bodies, id) != bodies.end(); };
-  std::erase_if(near, [&](const BodyPair& p) { return !among(p.first) && !among(p.second); });
-  return any_collides(world, near, *memory);
+  return any_near(world, *memory, [&](const BodyPair& pair, PairCache& cache) {
+    return (among(pair.first) || among(pair.second)) && pair_collides(world, pair, cache);
+  });
 }
 
 BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span<const Id<Body>> b,

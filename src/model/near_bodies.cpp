@@ -63,7 +63,7 @@ void sweep(std::vector<SweepItem>& items, double reach, Visit visit) {
 constexpr size_t few = 64;
 
 std::vector<BodyPair> near_of_few(const World& world, double reach, QueryContext& context) {
-  const auto& [bodies, pairs] = context.candidates(world.model(), world.settings());
+  const auto& [bodies, pairs, likely] = context.candidates(world.model(), world.settings());
   std::array<const BodyBox*, few> boxes;
   for (size_t i = 0; i < bodies.size(); ++i)
     boxes[i] = &context.box(bodies[i], world.body(bodies[i]), world.pose(bodies[i]));
@@ -74,7 +74,54 @@ std::vector<BodyPair> near_of_few(const World& world, double reach, QueryContext
   return out;
 }
 
+using Asked = FunctionRef<bool(const BodyPair&, PairCache&)>;
+
+PairCache& memory_of(const BodyPair& pair, QueryContext& context) {
+  const auto [a, b] = ordered(pair.first, pair.second);
+  return context.pair(a, b);
+}
+
+bool ask(const BodyPair& pair, PairCache& cache, Asked collides) {
+  const bool hit = collides(pair, cache);
+  constexpr float memory = 0.9F;
+  cache.hit_rate = memory * cache.hit_rate + (hit ? 1 - memory : 0);
+  return hit;
+}
+
+bool any_of_few(const World& world, QueryContext& context, Asked collides) {
+  auto& [bodies, pairs, likely] = context.candidates(world.model(), world.settings());
+  std::array<const BodyBox*, few> boxes = {};
+  const auto box = [&, &ids = bodies](int i) -> const BodyBox& {
+    if (!boxes[i]) boxes[i] = &context.box(ids[i], world.body(ids[i]), world.pose(ids[i]));
+    return *boxes[i];
+  };
+  for (size_t k = 0; k < likely.size(); ++k) {
+    auto& [i, j, cache] = likely[k];
+    if (!within_reach(box(i), box(j), 0)) continue;
+    const BodyPair pair(bodies[i], bodies[j]);
+    if (!cache) cache = &memory_of(pair, context);
+    if (!ask(pair, *cache, collides)) continue;
+    for (; k > 0 && likely[k - 1].hit_rate() < likely[k].hit_rate(); --k)
+      std::swap(likely[k - 1], likely[k]);
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+bool any_near(const World& world, QueryContext& context, Asked collides) {
+  context.attend(world.lineage(), world.model());
+  if (world.bodies().size() <= few) return any_of_few(world, context, collides);
+  std::vector<std::pair<PairCache*, BodyPair>> order;
+  for (const BodyPair& p : near_bodies(world, 0, context))
+    order.emplace_back(&memory_of(p, context), p);
+  std::ranges::stable_sort(order, [](const auto& x, const auto& y) {
+    return x.first->hit_rate > y.first->hit_rate;
+  });
+  return std::ranges::any_of(
+      order, [&](const auto& x) { return ask(x.second, *x.first, collides); });
+}
 
 Pose relative_pose(const World& world, Id<Body> a, Id<Body> b) {
   return world.pose(a).inverse() * world.pose(b);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "clench/base/function_ref.h"
 #include "clench/model/world.h"
 
 namespace clench {
@@ -19,6 +20,11 @@ std::vector<BodyPair> near_bodies(const World& world, double reach, QueryContext
 /// One of each group, each pair once, in the groups' order.
 std::vector<BodyPair> near_bodies(const World& world, std::span<const Id<Body>> a,
                                   std::span<const Id<Body>> b, double reach, QueryContext& context);
+
+/// Is there a pair of bodies near enough to touch for which collides(pair, its memory) is true? Pairs that collided often of
+/// late are asked first, and when one does, no others are looked for.
+bool any_near(const World& world, QueryContext& context,
+              FunctionRef<bool(const BodyPair&, PairCache&)> collides);
 
 /// b in the frame of a.
 Pose relative_pose(const World& world, Id<Body> a, Id<Body> b);

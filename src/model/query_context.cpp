@@ -50,8 +50,8 @@ const BodyBox& QueryContext::box(Id<Body> id, const Body& body, const Pose& X_WB
   return known.box;
 }
 
-const QueryContext::Candidates& QueryContext::candidates(const WorldModel& model,
-                                                         const WorldSettings& settings) {
+QueryContext::Candidates& QueryContext::candidates(const WorldModel& model,
+                                                   const WorldSettings& settings) {
   if (model_stamp_ == model.stamp && settings_stamp_ == settings.stamp) return candidates_;
   candidates_ = {};
   for (const Id<Body> id : model.body_order)
@@ -61,6 +61,7 @@ const QueryContext::Candidates& QueryContext::candidates(const WorldModel& model
     for (int j = i + 1; j < count; ++j)
       if (settings.may_collide(candidates_.bodies[i], candidates_.bodies[j]))
         candidates_.pairs.emplace_back(i, j);
+  for (const auto& [i, j] : candidates_.pairs) candidates_.likely.push_back({i, j});
   model_stamp_ = model.stamp, settings_stamp_ = settings.stamp;
   return candidates_;
 }
@@ -84,6 +85,7 @@ PairCache& QueryContext::pair(Id<Body> a, Id<Body> b) {
 }
 
 void QueryContext::forget(Id<Body> body) {
+  model_stamp_ = 0;  // the candidates know the pairs' memories
   std::erase_if(
       pairs_, [&](const auto& entry) { return entry.second.a == body || entry.second.b == body; });
 }

@@ -44,8 +44,15 @@ class QueryContext {
   struct Candidates {
     std::vector<Id<Body>> bodies;
     std::vector<std::pair<int, int>> pairs;
+    /// The same pairs, those first that collided often of late, each with its memory once it has one.
+    struct Likely {
+      int i, j;
+      PairCache* cache = nullptr;
+      float hit_rate() const { return cache ? cache->hit_rate : 0; }
+    };
+    std::vector<Likely> likely;
   };
-  const Candidates& candidates(const WorldModel& model, const WorldSettings& settings);
+  Candidates& candidates(const WorldModel& model, const WorldSettings& settings);
   /// Bodies with geometry of a large world, in creation order where the world is made otherwise than it was, else as the
   /// last sweep has left them: nearly in order, when little has moved.
   std::vector<SweepItem>& sweep_order(const WorldModel& model);

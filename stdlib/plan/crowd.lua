@@ -2,7 +2,7 @@
 local closing = require "clench.plan.closing"
 local crowd = {}
 
-local chunk, chunks = 8, 24  -- states that one call tries; calls of a round: they do not depend on the threads
+local chunk, chunks = 4, 16  -- states that one call tries; calls of a round: they do not depend on the threads
 
 --- Only what the closing hand of a job may meet; a job whose energy is a script's function does not come here.
 ---@param job table  of clench.plan.job

@@ -47,8 +47,16 @@ double ContactEnergy::bounded_value(World& world, double bound) {
   const int count = sites_.size();
   // rounding must not cut off what lies on the bound
   const double enough = bound * count + 1e-9 * count;
+  // no term is less than the distance counts
+  least_.assign(count + 1, 0);
+  if (bound < infinite)
+    for (int i = count - 1; i >= 0; --i)
+      least_[i] = least_[i + 1] + energy_length * sites_.least_distance(world, i);
   double sum = 0;
-  for (int i = 0; i < count && !(sum > enough); ++i) sum += of(measure(world, i));
+  for (int i = 0; i < count; ++i) {
+    if (const double least = (sum + least_[i]) * (1 - 1e-12); least > enough) return least / count;
+    sum += of(measure(world, i));
+  }
   return sum / count;
 }
 

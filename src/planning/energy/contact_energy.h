@@ -38,6 +38,7 @@ class ContactEnergy : public Energy {
  private:
   ContactSites sites_;
   Options options_;
+  std::vector<double> least_;  ///< of the terms from each on
 };
 
 /// What the sites could hold if they touched: each counts by (cos(pi d / reach) + 1) where it faces the object and is within

@@ -1,5 +1,6 @@
 #include "clench/planning/energy/contact_sites.h"
 
+#include <algorithm>
 #include <array>
 
 #include "clench/base/error.h"
@@ -33,12 +34,24 @@ ContactSites::ContactSites(const World& world, const HandAndObject& who, SiteKin
 
 void ContactSites::attend(World& world) { X_OW_ = world.pose(who_.object).inverse(); }
 
+Vector3d ContactSites::position(const World& world, int i) const {
+  return X_OW_ * (world.pose(sites_[i].body) * sites_[i].X_LC.position);
+}
+
+double ContactSites::least_distance(const World& world, int i) const {
+  if (kind_ == SiteKind::live) return 0;
+  const Bounds& bounds = world.body(who_.object).shape->bounds();
+  const Vector3d p = position(world, i);
+  const double out = (bounds.low - p).cwiseMax(p - bounds.high).cwiseMax(0).norm();
+  return std::max(0.0, out - 1e-12 * p.norm());
+}
+
 SiteDistance ContactSites::measure(World& world, int i) {
   if (kind_ == SiteKind::live) return measure_live(world, i);
   ContactSite& site = sites_[i];
   const Pose& X_WL = world.pose(site.body);
   SiteDistance out;
-  out.p = X_OW_ * (X_WL * site.X_LC.position);
+  out.p = position(world, i);
   out.n = turned(X_OW_.rotation,
                  turned(X_WL.rotation, turned(site.X_LC.rotation, Vector3d::UnitZ())));
   const ClosestPoint near = closest_point(*world.body(who_.object).shape, out.p, site.triangle);

@@ -45,9 +45,13 @@ class ContactSites {
   void attend(World& world);
   /// world  as it was attended to
   SiteDistance measure(World& world, int i);
+  /// No more than measure() finds, and found sooner [m].
+  double least_distance(const World& world, int i) const;
 
  private:
   SiteDistance measure_live(World& world, int i);
+  /// of a preset one, in the object's frame
+  Eigen::Vector3d position(const World& world, int i) const;
 
   HandAndObject who_;
   SiteKind kind_;
