@@ -97,8 +97,9 @@ end
 local function of_robot(robot)
   local dofs, units = of_dofs(robot), units_of(robot)
   for i, dof in ipairs(dofs) do dof.unit = units[i] or "rad" end
+  local approach = robot.pose:inverse() * robot.approach.frame
   return {name = robot.name, base = of_body(robot.base), dofs = dofs, chains = of_chains(robot),
-          approach = {point = numbers(robot.approach.point), direction = numbers(robot.approach.direction)},
+          approach = {point = numbers(approach.position), direction = numbers(approach:rotate {0, 0, 1})},  -- in the base
           eigengrasps = #robot.eigengrasps, virtual_contacts = #robot.virtual_contacts, kept = of_kept(robot)}
 end
 
@@ -145,7 +146,9 @@ end
 local function of_scene(path, options)
   local world = clench.load(path, reading("world", options))
   if #world.robots == 1 and #world.objects == 0 and #world.obstacles == 0 then return nil end
-  return of_world(world)
+  local parsed = of_world(world)
+  parsed.is_scene = true
+  return parsed
 end
 
 local readers = {

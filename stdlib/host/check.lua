@@ -99,7 +99,7 @@ function print_kind.robot(robot)
     end
   end
   columns(rows, "  ")
-  print(("  approaches along %s, approach point %s m"):format(vector(robot.approach.direction, "%.3g"),
+  print(("  approaches along %s, approach point %s m, in its base"):format(vector(robot.approach.direction, "%.3g"),
     vector(robot.approach.point, "%.3f")))
   if robot.kept then print("  kept, without effect yet: " .. kept_words(robot.kept)) end
 end
@@ -115,7 +115,12 @@ function print_kind.world(world)
   columns(rows, "  ")
   if world.keyframes[1] then print("  keyframes " .. name_list(world.keyframes)) end
   for _, robot in ipairs(world.robots) do
-    if robot.kept then print(("  %s: kept, without effect yet: %s"):format(robot.name, kept_words(robot.kept))) end
+    if world.is_scene then  -- no other file tells its parts
+      print(("  %s:"):format(robot.name))
+      print_kind.robot(robot)
+    elseif robot.kept then
+      print(("  %s: kept, without effect yet: %s"):format(robot.name, kept_words(robot.kept)))
+    end
   end
   for _, pair in ipairs(world.overlaps) do print(("  %s and %s overlap"):format(pair[1], pair[2])) end
   if world.more_overlaps then print "  more bodies overlap" end

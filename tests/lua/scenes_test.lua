@@ -121,7 +121,17 @@ test("clench check tells of a scene what stands in its world, and of a lone robo
   t.equal(r.parsed.gravity[3], world.gravity.z)
   t.ok(table.concat(r.inferred, "\n"):find("no approach direction is given", 1, true), table.concat(r.inferred, "\n"))
   for _, sentence in ipairs(r.ignored) do t.ok(not sentence:find("keyframe", 1, true), sentence) end
-  t.equal(report.of("tests/data/mjcf/hand.mjcf").kind, "robot")
+  t.equal(r.parsed.is_scene, true)
+  local turned = write("turned.xml", [[<mujoco><worldbody><body name="arm" pos="1 2 3" euler="90 0 0"><geom size="0.1"/>
+<body name="upper"><joint range="-1 1"/><geom size="0.1" pos="0 0 0.3"/></body></body><geom size="0.1" pos="5 5 5"/></worldbody></mujoco>]])
+  local approach = report.of(turned).parsed.robots[1].approach  -- in the base: its z axis, as nothing closes
+  for i = 1, 3 do
+    t.close(approach.point[i], 0, 1e-12)
+    t.close(approach.direction[i], i == 3 and 1 or 0, 1e-12)
+  end
+  local alone = write("alone.xml", [[<mujoco><worldbody><body name="arm"><geom size="0.1"/><body name="upper">
+<joint range="-1 1"/><geom size="0.1" pos="0 0 0.3"/></body></body></worldbody></mujoco>]])
+  t.equal(report.of(alone).kind, "robot")
 
   local broken = os.tmpname() .. ".xml"
   clench.files.save_text(broken, '<mujoco><worldbody><geom type="bxo"/></worldbody></mujoco>')
