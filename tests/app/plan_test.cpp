@@ -39,7 +39,7 @@ TEST_CASE("plan lists the best grasps, writes them best first, and says what was
   CHECK((!drawn || text_of(sheet).starts_with("\x89PNG")));
   CHECK(has(result.out, "#  epsilon  load  re-closed  contacts  azimuth  elevation\n1  0."));
   CHECK(has(result.out, "no force closure: "));
-  CHECK(has(result.out, "the best 2 are kept"));
+  CHECK(has(result.out, "plan.sample: 2 grasps"));
   const std::string list = epsilons(out);
   const double first = std::stod(list), second = std::stod(list.substr(list.find('\n')));
   CHECK(first >= second);
