@@ -68,7 +68,7 @@ local function run_of_found()
   local stopped = {hand = job.hand, object = job.object, world = job.world, threads = 1,
                    elapsed = function() return clench.clock() - job.began end}
   local found = require "clench.plan.crowd".sort(job.found)
-  local run = require "clench.plan.run"(stopped, found, {planner = "plan.sample"}, {distance = 0.1})
+  local run = require "clench.plan.run"(stopped, found, {planner = "plan.sample"}, {count = job.count, distance = 0.1})
   run.report.causes = {}  -- of nothing found there is one: it was interrupted
   return run
 end
@@ -124,7 +124,7 @@ local function print_table(rows)
     local row = rows[i]
     list[#list + 1] = {tostring(row.number), ("%.4f"):format(row.epsilon), row.load and ("%.1f"):format(row.load) or "-",
                        row.reclosed and ("%.4f"):format(row.reclosed) or "-", tostring(row.contacts),
-                       ("%.0f"):format(row.azimuth), ("%.0f"):format(row.elevation)}
+                       tostring(row.azimuth), tostring(row.elevation)}
   end
   columns(list, "")
   if #rows > shown then print(("and %d more"):format(#rows - shown)) end
@@ -134,14 +134,12 @@ end
 
 local function finish(how)
   local run = job.run or run_of_found()
-  local grasps = clench.grasps()
-  for i = 1, math.min(#run.grasps, job.count or math.huge) do grasps:add(run.grasps[i]) end
+  local grasps = run.grasps
   job.files:save(grasps)
   local title = ("%s grasps %s"):format(job.hand.name, job.object.name)
   print(printable(title) .. (how == "finish" and "" or ": " .. how))
   if #grasps > 0 then print_table(report_rows(job.hand, job.object, grasps)) end
   local words = tostring(run.report)
-  if #grasps < #run.grasps then words = words .. ("\nthe best %d are kept"):format(#grasps) end
   if how ~= "finish" then words = words .. ("\n%s: these are the grasps until then"):format(how) end
   print(printable(words))
   local subtitle = ("%s, %s, seed %s"):format(job.given.hand, job.given.object, job.given.seed or "1")

@@ -73,18 +73,25 @@ local function draw_sheet(hand, object, grasps)
   return clench.sheet {pictures = pictures, captions = captions}
 end
 
---- The contact sheet and the page, where they are asked for and there is something to show.
+local function write_sheet(path, hand, object, grasps)
+  draw_sheet(hand, object, grasps):save(path)
+  print(("%s: %d pictures"):format(in_utf8(path), math.min(#grasps, on_sheet)))
+end
+
+local function write_page(path, hand, object, grasps, words)
+  local html, notes = require "clench.plan.report_page"(hand, object, grasps, words)
+  clench.files.save_text(path, html)
+  print(("%s: a page of %.1f MB"):format(in_utf8(path), #html / 1e6))
+  for _, note in ipairs(notes) do print("  " .. in_utf8(note)) end
+end
+
+--- The contact sheet and the page, where they are asked for and there is something to show; each also when the other fails.
 ---@param words {title: string, subtitle: string, report: string}
 function Files:show(hand, object, grasps, words)
-  if #grasps > 0 and self.sheet then
-    draw_sheet(hand, object, grasps):save(self.sheet)
-    print(("%s: %d pictures"):format(in_utf8(self.sheet), math.min(#grasps, on_sheet)))
-  end
-  if not self.page then return end
-  local html, notes = require "clench.plan.report_page"(hand, object, grasps, words)
-  clench.files.save_text(self.page, html)
-  print(("%s: a page of %.1f MB"):format(in_utf8(self.page), #html / 1e6))
-  for _, note in ipairs(notes) do print("  " .. in_utf8(note)) end
+  local ok, problem = true, nil
+  if #grasps > 0 and self.sheet then ok, problem = pcall(write_sheet, self.sheet, hand, object, grasps) end
+  if self.page then write_page(self.page, hand, object, grasps, words) end
+  if not ok then error(problem, 0) end
 end
 
 return Files

@@ -28,8 +28,12 @@ function crowd.try(job, told, next_state, options)
     for _, new in ipairs(result.grasps) do
       local numbers = new.numbers or {}
       numbers.number, numbers.seed = new.number, job.seed
-      found[#found + 1] = closing.note(new.grasp, options.planner, numbers)
-      if options.on_grasp then options.on_grasp(new.grasp) end
+      -- a call that Ctrl-C has broken off is made again
+      if not new.taken then
+        new.taken = true
+        found[#found + 1] = closing.note(new.grasp, options.planner, numbers)
+        if options.on_grasp then options.on_grasp(new.grasp) end
+      end
     end
     bar:step(chunk, ("%d grasps"):format(#found))
   end

@@ -18,8 +18,8 @@ local function tips_of(hand)
   for _, chain in ipairs(hand.chains) do
     local last = chain.links[#chain.links]
     if last then
-      local bounds = last.bounds_in_world
-      tips[#tips + 1] = (bounds.low + bounds.high) * 0.5
+      local bounds = last.bounds_in_world  -- nil of a frame without a surface, as URDF marks a tip
+      tips[#tips + 1] = bounds and (bounds.low + bounds.high) * 0.5 or last.pose.position
     end
   end
   return tips

@@ -40,6 +40,9 @@ function Report:__tostring()
   local lines = {("%s: %d grasps"):format(self.planner, self.grasps)}
   tell_steps(lines, self)
   tell_candidates(lines, self)
+  if self.found > self.grasps + self.alike then
+    add(lines, "of %d that were found the best %d are kept", self.found, self.grasps)
+  end
   if self.out_of_reach > 0 then add(lines, "%d more are out of the arm's reach", self.out_of_reach) end
   if self.alike > 0 then add(lines, "%d more were like one of these", self.alike) end
   if self.one_thread then add(lines, "an energy of the script ran on one thread") end
@@ -80,8 +83,9 @@ local function too_large(job)
   local least = math.min(size.x, size.y, size.z)
   local world = job.world:clone()
   local hand = world:robot(job.hand.name)
-  local ok = pcall(function() hand:open() end)
-  local open = ok and aperture(hand) or math.huge
+  world:set_collision(false, hand)  -- it may stand in the object
+  hand:open()
+  local open = aperture(hand)
   if least > open then
     return ("the object is %.0f mm wide where it is narrowest, and the hand opens to some %.0f mm"):format(1000 * least, 1000 * open)
   end

@@ -34,8 +34,8 @@ local columns = {
   {"load margin", "weights", "load", "%.1f", "load that the hand can hold within its motors' limits, in the worst of six directions"},
   {"re-closed", "epsilon", "reclosed", "%.4f", "the least epsilon when the hand closes again on the object displaced by a little, in the worst of six directions"},
   {"contacts", "", "contacts", "%d", "points of the hand that touch the object"},
-  {"azimuth", "degrees", "azimuth", "%.0f", "where the hand comes from, about the world's z, from +x towards +y"},
-  {"elevation", "degrees", "elevation", "%.0f", "where the hand comes from: 90 is from above"},
+  {"azimuth", "degrees", "azimuth", "%d", "where the hand comes from, about the world's z, from +x towards +y"},
+  {"elevation", "degrees", "elevation", "%d", "where the hand comes from: 90 is from above"},
 }
 
 local function head_of(title, subtitle)

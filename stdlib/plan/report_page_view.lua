@@ -216,7 +216,8 @@ view.addEventListener("pointermove", e => {
 });
 view.addEventListener("wheel", e => { e.preventDefault(); orbit.distance *= Math.exp(0.001 * e.deltaY); redraw(); }, {passive: false});
 document.getElementById("reset").addEventListener("click", () => { orbit.turned = false; if (data.grasps[shown]) frame(data.grasps[shown]); redraw(); });
-for (const id of ["before", "contacts"]) document.getElementById(id).addEventListener("change", pose);
+document.getElementById("contacts").addEventListener("change", pose);
+document.getElementById("before").addEventListener("change", () => { pose(); if (data.grasps[shown]) frame(data.grasps[shown]); });
 document.getElementById("through").addEventListener("change", e => {
   const look = looks.object;
   look.opacity = e.target.checked ? 0.34 : 1;

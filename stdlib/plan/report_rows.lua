@@ -1,6 +1,7 @@
 --- Grasps as rows of numbers, as tables of reports show them.
 
-local function degrees(x) return clench.deg(x) end
+-- whole ones
+local function degrees(x) return math.floor(clench.deg(x) + 0.5) end
 
 --- The place from which a hand comes that moves along a direction of the world: azimuth from +x towards +y, and elevation.
 local function comes_from(direction)

@@ -54,7 +54,7 @@ return function(job, found, told, options)
       grasps:add(grasp)
     end
   end
-  told.grasps, told.alike = #kept, alike
+  told.grasps, told.alike, told.found = #kept, alike, #found
   told.seconds = job:elapsed()
   return setmetatable({grasps = grasps, report = report(job, told)}, Run)
 end

@@ -19,7 +19,8 @@ local function close_on_free(hand, object, way, options)
     if #grasp.points == 0 or grasp:quality "epsilon" > 0 then break end
     local push = clench.vec3(0, 0, 0)
     for _, contact in ipairs(hand.world:contacts(hand, object)) do push = push + contact.normal end
-    if push:norm() < 0.5 then break end
+    -- nor does it give way where it was displaced into what it stands on
+    if push:norm() < 0.5 or hand.world:collides(object) then break end
     push = push / push:norm()
     local X_WO = object.pose
     local move = object:move_to(moved(X_WO, push * way))

@@ -39,6 +39,16 @@ test("sampled grasps are verified, and hold when measured anew", function(t)
   end
 end)
 
+test("an object that stands on a floor is displaced into it, and verifying goes on", function(t)
+  local world = clench.world()
+  local hand = world:add_robot "models/hands/dlr/dlr.cfg"
+  local bottle = world:add_object "models/objects/bottle.iv"
+  world:add_obstacle "models/obstacles/floor.iv"
+  local run = clench.plan.sample {hand = hand, object = bottle, candidates = 128, refine = 0, threads = 2}
+  t.ok(#run.grasps > 5)
+  for why in pairs(run.report.rejected) do t.equal(why:find(".lua:", 1, true), nil) end
+end)
+
 test("refining makes grasps better on average", function(t)
   local _, hand, mug = barrett_mug()
   local function mean(refine)

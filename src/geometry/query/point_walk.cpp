@@ -30,7 +30,8 @@ bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
   using Real = typename F::Real;
   Task<Real> stack[8 * deepest_tree + 8];
   int height = 0;
-  stack[height++] = {std::numeric_limits<Real>::lowest(), 0};
+  // bundle 0 holds one box alone
+  stack[height++] = {std::numeric_limits<Real>::lowest(), tree.boxes(0).child[0]};
   Real values[8];
   while (height > 0) {
     const Task<Real> task = stack[--height];
