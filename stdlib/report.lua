@@ -144,7 +144,7 @@ end
 
 -- nil when it is one robot alone
 local function of_scene(path, options)
-  local world = clench.load(path, reading("world", options))
+  local world = clench.load(path, reading("robot", options))  -- its meshes, too, may lie elsewhere
   if #world.robots == 1 and #world.objects == 0 and #world.obstacles == 0 then return nil end
   local parsed = of_world(world)
   parsed.is_scene = true

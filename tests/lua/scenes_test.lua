@@ -133,6 +133,14 @@ test("clench check tells of a scene what stands in its world, and of a lone robo
 <joint range="-1 1"/><geom size="0.1" pos="0 0 0.3"/></body></body></worldbody></mujoco>]])
   t.equal(report.of(alone).kind, "robot")
 
+  -- meshes may lie elsewhere
+  local meshed = write("meshed.xml", [[<mujoco><asset><mesh name="m" file="m.obj"/></asset><worldbody>
+<body name="tin"><freejoint/><geom type="mesh" mesh="m"/></body></worldbody></mujoco>]])
+  assert(os.execute("mkdir -p " .. folder .. "/meshes"))
+  clench.convert("models/objects/cube.iv", folder .. "/meshes/m.obj")
+  t.ok(report.of(meshed).error:find("no such file", 1, true), report.of(meshed).error)
+  t.equal(report.of(meshed, {folder = folder .. "/meshes"}).error, nil)
+
   local broken = os.tmpname() .. ".xml"
   clench.files.save_text(broken, '<mujoco><worldbody><geom type="bxo"/></worldbody></mujoco>')
   t.ok(report.of(broken).error:find("did you mean 'box'?", 1, true), report.of(broken).error)
