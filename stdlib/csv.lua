@@ -158,7 +158,7 @@ function csv.read(path, options)
   local separator = separator_of(read)
   read:done()
   local file, why = io.open(path, "rb")
-  if not file then raise("csv.read: " .. why) end
+  if not file then raise("csv.read: " .. why:gsub("^(.*): No such file or directory$", "no such file: %1")) end
   local text, fault = file:read "a"
   file:close()
   if not text then raise(("csv.read: %s: %s"):format(path, fault)) end

@@ -5,6 +5,7 @@
 ---@param home? table  in which file a name lies, unless in one of its own
 local name_list = require "clench.name_list"
 local raise = require "clench.raise"
+local suggest = require "clench.suggest"
 
 return function(subject, names, home)
   local known = {}
@@ -12,7 +13,7 @@ return function(subject, names, home)
 
   local function load(module, name)
     if not known[name] then
-      raise(("%s: there is no '%s', only %s"):format(subject, tostring(name), name_list(names)))
+      raise(("%s: there is no '%s', only %s%s"):format(subject, tostring(name), name_list(names), suggest(name, names)))
     end
     local file = home and home[name]
     local unit = require("clench." .. subject .. "." .. (file or name))

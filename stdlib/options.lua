@@ -4,6 +4,7 @@
 local raise = require "clench.raise"
 local described = require "clench.described"
 local name_list = require "clench.name_list"
+local suggest = require "clench.suggest"
 local within = require "clench.within"
 local Options = {}
 Options.__index = Options
@@ -117,7 +118,7 @@ function Options:done()
   end
   if #strange == 0 then return end
   table.sort(strange)
-  self:fail("unknown key '%s', expected any of %s", strange[1], name_list(self.known))
+  self:fail("unknown key '%s', expected any of %s%s", strange[1], name_list(self.known), suggest(strange[1], self.known))
 end
 
 ---@param subject string  the function's name, for messages

@@ -97,8 +97,9 @@ end
 local function of_robot(robot)
   local dofs, units = of_dofs(robot), units_of(robot)
   for i, dof in ipairs(dofs) do dof.unit = units[i] or "rad" end
+  local approach = robot.pose:inverse() * robot.approach.frame
   return {name = robot.name, base = of_body(robot.base), dofs = dofs, chains = of_chains(robot),
-          approach = {point = numbers(robot.approach.point), direction = numbers(robot.approach.direction)},
+          approach = {point = numbers(approach.position), direction = numbers(approach:rotate {0, 0, 1})},  -- in the base
           eigengrasps = #robot.eigengrasps, virtual_contacts = #robot.virtual_contacts, kept = of_kept(robot)}
 end
 
@@ -120,15 +121,34 @@ local function overlaps_of(world)
 end
 
 local function of_world(world)
-  local objects, obstacles, robots = {}, {}, {}
+  local objects, obstacles, robots, keyframes = {}, {}, {}, {}
   for i, body in ipairs(world.objects) do objects[i] = of_body(body) end
   for i, body in ipairs(world.obstacles) do obstacles[i] = of_body(body) end
   for i, robot in ipairs(world.robots) do
     robots[i] = of_robot(robot)
     robots[i].parent = robot.parent and robot.parent.name
   end
+  for i, name in ipairs(world.keyframes) do keyframes[i] = name end
   local overlaps, more = overlaps_of(world)
-  return {objects = objects, obstacles = obstacles, robots = robots, overlaps = overlaps, more_overlaps = more}
+  return {objects = objects, obstacles = obstacles, robots = robots, overlaps = overlaps, more_overlaps = more,
+          gravity = numbers(world.gravity), keyframes = keyframes}
+end
+
+-- MJCF holds one robot, or a scene: a world of several things
+local function is_mjcf(path)
+  local file = io.open(path, "rb")
+  local head = file and file:read(65536) or ""
+  if file then file:close() end
+  return head:find "<mujoco" ~= nil
+end
+
+-- nil when it is one robot alone
+local function of_scene(path, options)
+  local world = clench.load(path, reading("robot", options))  -- its meshes, too, may lie elsewhere
+  if #world.robots == 1 and #world.objects == 0 and #world.obstacles == 0 then return nil end
+  local parsed = of_world(world)
+  parsed.is_scene = true
+  return parsed
 end
 
 local readers = {
@@ -198,8 +218,14 @@ function report.of(path, options)
   options = options or {}
   local heard, ok, result = listen(function()
     kind = clench.file_kind(path, {confine = options.confine})
+    if kind == "robot" and is_mjcf(path) then return of_scene(path, options) end
     return readers[kind](path, reading(kind, options))
   end)
+  if ok and not result then  -- one robot alone
+    heard, ok, result = listen(function() return readers.robot(path, reading("robot", options)) end)
+  elseif ok and result.robots then
+    kind = "world"
+  end
   -- a world in Lua tells what its own files have wrong
   local told = ok and options.strict and (heard.repaired[1] or heard.ignored[1] or heard.suspicious[1])
   if told then ok, result = false, told end

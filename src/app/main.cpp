@@ -60,6 +60,44 @@ static void add_reading(CLI::App& verb, ReadingOptions& reading) {
   verb.add_flag("--strict", reading.strict, "what would be warned of is an error");
 }
 
+// what is typed as a number is looked at here, and handed on as it is
+static void add_plan(CLI::App& verb, PlanOptions& plan) {
+  verb.add_option("HAND", plan.hand, "a robot's file")->required();
+  verb.add_option("OBJECT", plan.object, "a body's file, or a mesh")->required();
+  const auto several = [&](const char* name, std::vector<std::string>& list, const char* text) {
+    return verb.add_option(name, list, text)->allow_extra_args(false);
+  };
+  several("--obstacle", plan.obstacles, "a body that stands in the way; may be repeated")
+      ->type_name("FILE");
+  verb.add_option("--pose", plan.pose, "where the object stands [m, degrees]; default: at 0,0,0")
+      ->type_name("X,Y,Z[,ROLL,PITCH,YAW]");
+  several("--obstacle-pose", plan.obstacle_poses, "the same of each obstacle, in their order")
+      ->type_name("POSE");
+  verb.add_option("--mass", plan.mass, "of the object, instead of its file's [kg]")
+      ->type_name("KG")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--count", plan.count, "the best so many are kept; default: 20, or all of --seconds")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
+  verb.add_option("--seconds", plan.seconds, "search no longer than this")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--seed", plan.seed, "of the random numbers; default: 1")
+      ->type_name("N")
+      ->check(CLI::TypeValidator<long>("INT"));
+  verb.add_option("--threads", plan.threads, "default: all cores; the grasps are the same")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  verb.add_option("-o", plan.out, "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
+      ->type_name("FILE");
+  verb.add_option("--format", plan.format, "of -o, where the ending does not say: graspgen ...")
+      ->type_name("NAME");
+  verb.add_option("--report", plan.report, "a page with a table, pictures and each grasp in 3-D")
+      ->type_name("FILE.html");
+  verb.add_option("--sheet", plan.sheet, "pictures of the best grasps, in one")->type_name("FILE.png");
+  verb.add_flag("--no-verify", plan.unverified, "keep all in force closure, loads and errors unseen");
+}
+
 // what --help says of every verb that loads
 static const std::string trust =
     "\n\nScripts and worlds in Lua are programs; files of every other format run nothing, and may "
@@ -128,9 +166,19 @@ static int main_of(int argc, char** argv) {
       "  clench convert worlds/dlr_flask.wld dlr_flask.lua\n\n"
       "What the new format cannot hold is told in warnings." +
       trust);
-  for (auto* verb : {run_verb, repl_verb, test_verb, check_verb, convert_verb})
+  PlanOptions planning;
+  auto* plan_verb = app.add_subcommand("plan", "search for grasps of a hand on an object");
+  add_plan(*plan_verb, planning);
+  add_reading(*plan_verb, planning.reading);
+  plan_verb->footer(
+      "Examples:\n  clench plan models/hands/barrett/barrett.cfg models/objects/flask.iv -o flask.jsonl\n"
+      "  clench plan --seconds 30 --unit mm hand.urdf mug.stl --obstacle table.iv --report mug.html\n\n"
+      "Exit code: 1 when nothing was found, and the report says why; 130 after Ctrl-C, with the "
+      "grasps so far written. See docs/guide/plan_command.md." +
+      trust);
+  for (auto* verb : {run_verb, repl_verb, test_verb, check_verb, convert_verb, plan_verb})
     add_confine(*verb, confine);
-  for (auto* verb : {run_verb, repl_verb, test_verb, doc_verb, check_verb, convert_verb})
+  for (auto* verb : {run_verb, repl_verb, test_verb, doc_verb, check_verb, convert_verb, plan_verb})
     verb->fallthrough();
 
   if (!line.ours.empty()) {
@@ -155,9 +203,12 @@ static int main_of(int argc, char** argv) {
 
   run.arguments = line.script;
   run.confine = checking.reading.confine = converting.reading.confine = confine;
+  planning.reading.confine = confine;
+  planning.quiet = run.quiet;
   if (test_verb->parsed()) return run_tests(test_path, confine, run.quiet);
   if (check_verb->parsed()) return check_files(checking);
   if (convert_verb->parsed()) return convert_file(converting);
+  if (plan_verb->parsed()) return plan_grasps(planning);
   if (doc_verb->parsed()) return write_docs(doc_folder, check);
   const bool nothing =
       !run_verb->parsed() && !repl_verb->parsed() && run.code.empty() && interactive.empty();

@@ -49,4 +49,19 @@ struct ConvertOptions {
 /// Writes what a file holds as another format, and says what that cannot hold.
 int convert_file(const ConvertOptions& options);
 
+/// Empty: not said. Numbers are as they were typed; the command line has looked at them.
+struct PlanOptions {
+  std::string hand, object;                            ///< files
+  std::vector<std::string> obstacles, obstacle_poses;  ///< files, and where they stand, in order
+  std::string pose, mass;                              ///< of the object
+  std::string count, seconds, seed, threads;
+  std::string out, format, report, sheet;  ///< what is written
+  bool unverified = false;  ///< is force closure enough?
+  bool quiet = false;
+  ReadingOptions reading;
+};
+
+/// Searches for grasps of a hand on an object.   returns 1 when there are none, 2 when an option makes no sense, 130 after Ctrl-C
+int plan_grasps(const PlanOptions& options);
+
 }  // namespace clench

@@ -18,10 +18,12 @@ GraspFormat grasp_format(const std::string& name);
 
 /// format  empty: what the ending says, and of .json and others what stands in the file
 /// throws Error as the readers of the formats do
-std::vector<GraspSpec> read_grasp_file(const std::filesystem::path& path, const std::string& format = {},
+std::vector<GraspSpec> read_grasp_file(const std::filesystem::path& path,
+                                       const std::string& format = {},
                                        const ReadOptions& options = {});
 
-/// format  empty: .csv, .npz, .yaml and .yml (isaac_grasp) by their endings, else JSON lines; of .json it has to be given
+/// format  empty: .csv, .npz, .yaml and .yml (isaac_grasp) by their endings, else JSON lines; of
+///         .json it has to be given
 /// Warns of what a format does not hold.
 void write_grasp_file(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path,
                       const std::string& format = {}, const WriteOptions& options = {});

@@ -3,7 +3,8 @@
 
 namespace clench {
 
-/// Current on a thread only where it is entered, so that any thread may use it, one at a time. Needs nothing but the libraries: EGL_PLATFORM_SURFACELESS_MESA of EGL 1.5.
+/// Current on a thread only where it is entered, so that any thread may use it, one at a time.
+/// Needs nothing but the libraries: EGL_PLATFORM_SURFACELESS_MESA of EGL 1.5.
 class GlContext {
  public:
   /// throws Error that says what to install when there is no EGL or no OpenGL 3.3

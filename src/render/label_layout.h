@@ -32,8 +32,10 @@ struct PlacedText {
   float height;  ///< of capital letters [pixels]
 };
 
-/// The caption in the lower left corner, its lines broken where they are too wide, and each label at its place as the eye sees it, or next to it; those behind the eye, out of the picture or
-/// without room are left out. `letters`: height of all capital letters [pixels]; 0: a part of the picture's. Nothing is written on pictures of less than 120 pixels either way.
+/// The caption in the lower left corner, its lines broken where they are too wide, and each label
+/// at its place as the eye sees it, or next to it; those behind the eye, out of the picture or
+/// without room are left out. `letters`: height of all capital letters [pixels]; 0: a part of the
+/// picture's. Nothing is written on pictures of less than 120 pixels either way.
 std::vector<PlacedText> place_texts(const Scene& scene, const Eye& eye,
                                     const Eigen::Vector2f& picture, const Font& font, float letters = 0);
 

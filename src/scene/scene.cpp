@@ -11,6 +11,7 @@
 #include "clench/base/error.h"
 #include "clench/model/find.h"
 #include "clench/scene/palette.h"
+#include "clench/scene/touched.h"
 
 namespace clench {
 namespace {
@@ -130,22 +131,6 @@ std::vector<DrawCone> draw_contacts(const World& world, std::span<const Contact>
     for (DrawCone& cone : cones) cone.height = options.cone_height;
   lower_crowded(cones);
   return cones;
-}
-
-// the objects that robots touch, and the links of those robots
-std::set<Id<Body>> touched_bodies(const World& world, std::span<const Contact> contacts) {
-  std::set<Id<Body>> out;
-  for (const Contact& contact : contacts) {
-    for (const auto& [object, part] : {std::pair(contact.body, contact.other),
-                                       std::pair(contact.other, contact.body)}) {
-      const Id<Robot> robot = world.body(part).robot;
-      if (world.body(object).kind != BodyKind::object || !robot) continue;
-      out.insert(object);
-      for (const Id<Body> id : world.bodies_of(robot))
-        if (world.body(id).kind == BodyKind::link) out.insert(id);
-    }
-  }
-  return out;
 }
 
 constexpr int patch_rings = 8, patch_segments = 48;

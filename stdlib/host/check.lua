@@ -2,6 +2,8 @@
 local report = require "clench.report"
 local described = require "clench.described"
 local name_list = require "clench.name_list"
+local in_utf8 = require "clench.in_utf8"
+local columns = require "clench.host.columns"
 local check = {}
 
 -- numbers with their unit, as people say them
@@ -24,19 +26,6 @@ local function several(n, noun) return ("%d %s%s"):format(n, noun, n == 1 and ""
 
 local function size(mesh)
   return ("%.1f x %.1f x %.1f mm"):format(mesh.size[1] * 1000, mesh.size[2] * 1000, mesh.size[3] * 1000)
-end
-
--- rows in columns, the first row above the others
-local function columns(rows, indent)
-  local widths = {}
-  for _, row in ipairs(rows) do
-    for i, cell in ipairs(row) do widths[i] = math.max(widths[i] or 0, utf8.len(cell) or #cell) end
-  end
-  for _, row in ipairs(rows) do
-    local cells = {}
-    for i, cell in ipairs(row) do cells[i] = i < #row and cell .. (" "):rep(widths[i] - (utf8.len(cell) or #cell)) or cell end
-    print((indent .. table.concat(cells, "  ")):gsub("%s+$", "") .. "")
-  end
 end
 
 local function body_row(body)
@@ -110,7 +99,7 @@ function print_kind.robot(robot)
     end
   end
   columns(rows, "  ")
-  print(("  approaches along %s, approach point %s m"):format(vector(robot.approach.direction, "%.3g"),
+  print(("  approaches along %s, approach point %s m, in its base"):format(vector(robot.approach.direction, "%.3g"),
     vector(robot.approach.point, "%.3f")))
   if robot.kept then print("  kept, without effect yet: " .. kept_words(robot.kept)) end
 end
@@ -124,8 +113,14 @@ function print_kind.world(world)
                        robot.parent and "mounted on " .. robot.parent or "stands by itself"}
   end
   columns(rows, "  ")
+  if world.keyframes[1] then print("  keyframes " .. name_list(world.keyframes)) end
   for _, robot in ipairs(world.robots) do
-    if robot.kept then print(("  %s: kept, without effect yet: %s"):format(robot.name, kept_words(robot.kept))) end
+    if world.is_scene then  -- no other file tells its parts
+      print(("  %s:"):format(robot.name))
+      print_kind.robot(robot)
+    elseif robot.kept then
+      print(("  %s: kept, without effect yet: %s"):format(robot.name, kept_words(robot.kept)))
+    end
   end
   for _, pair in ipairs(world.overlaps) do print(("  %s and %s overlap"):format(pair[1], pair[2])) end
   if world.more_overlaps then print "  more bodies overlap" end
@@ -166,25 +161,6 @@ local function print_report(r)
     for _, sentence in ipairs(r[list]) do print(("  %s: %s"):format(list, sentence)) end
   end
   if r.error then print("  error: " .. r.error) end
-end
-
--- JSON is UTF-8: bytes of names and messages that are none stand as \xE9
-local function escape_bytes(text)
-  local parts, at = {}, 1
-  while true do
-    local ok, bad = utf8.len(text, at)
-    parts[#parts + 1] = text:sub(at, ok and #text or bad - 1)
-    if ok then return table.concat(parts) end
-    parts[#parts + 1] = ("\\x%02X"):format(text:byte(bad))
-    at = bad + 1
-  end
-end
-
-local function in_utf8(value)
-  if type(value) == "string" then return escape_bytes(value) end
-  if type(value) ~= "table" then return value end
-  for key, item in pairs(value) do value[key] = in_utf8(item) end
-  return value
 end
 
 --- Prints what was parsed from each file.

@@ -29,6 +29,7 @@ return function(options)
       found[#found + 1] = closing.note(grasp, "anneal", {energy = state.energy, step = state.step, seed = job.seed})
     end
   end
+  if #found == 0 then chain.nearest(job, search, told) end
   job:finish()
   return new_run(job, found, told, {})
 end

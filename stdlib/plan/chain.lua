@@ -34,4 +34,17 @@ function chain.energies(told, search)
   told.best = math.min(told.best or math.huge, best)
 end
 
+--- how near the hand came to the object in the best states [m]: what a report of nothing tells
+function chain.nearest(job, search, told)
+  local here <close> = job.world:snapshot()
+  local nearest = math.huge
+  local states = search.best
+  for _, state in ipairs(#states > 0 and states or {search.state}) do
+    job.hand:set_posture(job.object.pose * state.pose, state.dofs)
+    nearest = math.min(nearest, (job.world:distance(job.hand, job.object)))
+  end
+  job.world:restore(here)
+  told.nearest = nearest
+end
+
 return chain

@@ -2,7 +2,7 @@
 local closing = require "clench.plan.closing"
 local crowd = {}
 
-local chunk, chunks = 8, 24  -- states that one call tries; calls of a round: they do not depend on the threads
+local chunk, chunks = 4, 16  -- states that one call tries; calls of a round: they do not depend on the threads
 
 --- Only what the closing hand of a job may meet; a job whose energy is a script's function does not come here.
 ---@param job table  of clench.plan.job
@@ -28,8 +28,12 @@ function crowd.try(job, told, next_state, options)
     for _, new in ipairs(result.grasps) do
       local numbers = new.numbers or {}
       numbers.number, numbers.seed = new.number, job.seed
-      found[#found + 1] = closing.note(new.grasp, options.planner, numbers)
-      if options.on_grasp then options.on_grasp(new.grasp) end
+      -- a call that Ctrl-C has broken off is made again
+      if not new.taken then
+        new.taken = true
+        found[#found + 1] = closing.note(new.grasp, options.planner, numbers)
+        if options.on_grasp then options.on_grasp(new.grasp) end
+      end
     end
     bar:step(chunk, ("%d grasps"):format(#found))
   end

@@ -20,7 +20,7 @@ end
 function Job:energy_of(energy)
   if type(energy) ~= "string" then return energy end
   local known, make = pcall(function() return clench.energy[energy] end)
-  if not known then raise(("%s: energy: %s"):format(self.subject, make)) end
+  if not known then raise(("%s: energy: %s"):format(self.subject, tostring(make):gsub("^stdlib/[^:]*:%d+: ", ""))) end
   return make {hand = self.hand, object = self.object}
 end
 

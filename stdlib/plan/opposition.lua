@@ -1,4 +1,5 @@
---- How a hand is turned: its approach direction, and across it the way from the fingers to the thumb.
+--- How a hand is turned: its approach direction, across it the way from the fingers to the thumb, and the middle between
+--- them, where it holds things.
 local opposition = {}
 
 --- The frame at a point, +z along the approach and +x towards the thumb, as nearly as a right angle allows.
@@ -12,37 +13,66 @@ local function mean(points)
   return sum / #points
 end
 
---- The direction to the chain whose tip stands farthest from the others' mean, across the approach, in the world.
-function opposition.thumb(hand)
-  local z = hand.approach.direction
+local function tips_of(hand)
   local tips = {}
   for _, chain in ipairs(hand.chains) do
     local last = chain.links[#chain.links]
     if last then
-      local bounds = last.bounds_in_world
-      tips[#tips + 1] = (bounds.low + bounds.high) * 0.5
+      local bounds = last.bounds_in_world  -- nil of a frame without a surface, as URDF marks a tip
+      tips[#tips + 1] = bounds and (bounds.low + bounds.high) * 0.5 or last.pose.position
     end
   end
-  local thumb, far = nil, 1e-6
+  return tips
+end
+
+local function all_but(points, number)
+  local others = {}
+  for i, p in ipairs(points) do
+    if i ~= number then others[#others + 1] = p end
+  end
+  return others
+end
+
+--- The direction to the chain whose tip stands farthest from the others' mean, across the approach, in the world.
+---@return vec3? direction, integer? chain  nil: no two chains stand apart
+function opposition.thumb(hand)
+  local z = hand.approach.direction
+  local tips = tips_of(hand)
+  local thumb, far, number = nil, 1e-6, nil
   for i, tip in ipairs(tips) do
-    local others = {}
-    for j, other in ipairs(tips) do
-      if j ~= i then others[#others + 1] = other end
-    end
+    local others = all_but(tips, i)
     if #others > 0 then
       local way = tip - mean(others)
       way = way - z * way:dot(z)
       -- of two fingers alike the first counts
-      if way:norm() > far * (1 + 1e-9) then thumb, far = way / way:norm(), way:norm() end
+      if way:norm() > far * (1 + 1e-9) then thumb, far, number = way / way:norm(), way:norm(), i end
     end
   end
-  return thumb
+  return thumb, number
 end
 
---- The pose of the hand's base where its frame of approach and thumb is the unit frame.
-function opposition.base_in_frame(hand, thumb)
-  local approach = hand.approach
-  return opposition.frame(approach.point, approach.direction, thumb):inverse() * hand.pose
+--- The middle between the thumb's tip and the others' when the hand is half closed, in the world; without a thumb the
+--- approach point.
+function opposition.middle(hand, open, closes)
+  local world = hand.world
+  local here <close> = world:snapshot()
+  local limits, half = hand.dof_limits, {}
+  for i, value in ipairs(open) do
+    local low, high = limits[i][1], limits[i][2]
+    local far = math.abs(value - low) > math.abs(value - high) and low or high
+    half[i] = closes[i] and high - low < math.huge and (value + far) / 2 or value
+  end
+  hand:set_dofs(half)
+  local tips = tips_of(hand)
+  local _, number = opposition.thumb(hand)
+  local middle = number and (tips[number] + mean(all_but(tips, number))) * 0.5 or hand.approach.point
+  world:restore(here)
+  return middle
+end
+
+--- The pose of the hand's base where a frame of approach and thumb at a point of it is the unit frame.
+function opposition.base_in_frame(hand, point, thumb)
+  return opposition.frame(point, hand.approach.direction, thumb):inverse() * hand.pose
 end
 
 return opposition

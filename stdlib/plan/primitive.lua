@@ -3,6 +3,7 @@ local new_run = require "clench.plan.run"
 local crowd = require "clench.plan.crowd"
 local starts = require "clench.plan.starts"
 local opposition = require "clench.plan.opposition"
+local described = require "clench.described"
 local primitive_starts = require "clench.plan.primitive_starts"
 
 -- DOFs that closing does not move spread the fingers: not at all to oppose the thumb, by a third of their way around
@@ -40,6 +41,13 @@ local function read_primitives(read)
   if type(given) ~= "table" or #given == 0 then
     read:expected("primitives", "a file, or a list {kind =, pose =, size = or radius =, height =}", given)
   end
+  for i, p in ipairs(given) do
+    local sized = type(p) == "table" and (p.kind == "box" and described(p.size) == "a vec3" or p.kind == "sphere" and p.radius or
+                  (p.kind == "cylinder" or p.kind == "cone") and p.radius and p.height)
+    if not sized or described(p.pose) ~= "a pose" then
+      read:expected(("primitives[%d]"):format(i), "{kind = 'box', pose =, size =}, a sphere with radius, or a cylinder or cone with radius and height", p)
+    end
+  end
   return given
 end
 
@@ -65,7 +73,7 @@ return function(options)
   local hand = job.hand
   local thumb = own.thumb and hand.pose:rotate(own.thumb) or opposition.thumb(hand)
   if not thumb then require "clench.raise" "plan.primitive: thumb: this hand has no two fingers to tell it from; say where it is" end
-  local X_FH = opposition.base_in_frame(hand, thumb)
+  local X_FH = opposition.base_in_frame(hand, hand.approach.point, thumb)
   local list = primitive_starts(own.primitives, own.density, own.rule)
   local function next_state(number)
     local at = list[number]

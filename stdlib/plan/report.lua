@@ -40,6 +40,10 @@ function Report:__tostring()
   local lines = {("%s: %d grasps"):format(self.planner, self.grasps)}
   tell_steps(lines, self)
   tell_candidates(lines, self)
+  if self.found > self.grasps + self.alike then
+    add(lines, "of %d that were found the best %d are kept", self.found, self.grasps)
+  end
+  if self.out_of_reach > 0 then add(lines, "%d more are out of the arm's reach", self.out_of_reach) end
   if self.alike > 0 then add(lines, "%d more were like one of these", self.alike) end
   if self.one_thread then add(lines, "an energy of the script ran on one thread") end
   for _, cause in ipairs(self.causes) do lines[#lines + 1] = "why: " .. cause end
@@ -79,8 +83,9 @@ local function too_large(job)
   local least = math.min(size.x, size.y, size.z)
   local world = job.world:clone()
   local hand = world:robot(job.hand.name)
-  local ok = pcall(function() hand:open() end)
-  local open = ok and aperture(hand) or math.huge
+  world:set_collision(false, hand)  -- it may stand in the object
+  hand:open()
+  local open = aperture(hand)
   if least > open then
     return ("the object is %.0f mm wide where it is narrowest, and the hand opens to some %.0f mm"):format(1000 * least, 1000 * open)
   end
@@ -95,6 +100,12 @@ local function rejected_most(told)
   if why then return ("most candidates were rejected: %s (%d of %d)"):format(why, most, told.candidates) end
 end
 
+local function arm_causes(told)
+  if told.out_of_reach > 0 then
+    return ("the arm reaches none of the %d grasps that were found: move it or the object"):format(told.out_of_reach)
+  end
+end
+
 local function search_causes(told)
   if not told.steps then return end
   if told.steps == 0 then return "no legal state was found: all neighbours collide" end
@@ -106,10 +117,12 @@ local function search_causes(told)
   end
 end
 
+local far = 0.02  -- from where closing fingers still reach an object, most of them [m]
+
 --- are the limits of the place so far that no finger reaches the object from there?
 local function out_of_reach(job, told)
-  if told.nearest and told.nearest > 0 then
-    return ("the hand never came nearer to the object than %.0f mm: it cannot reach it within its limits"):format(1000 * told.nearest)
+  if told.nearest and told.nearest > far then
+    return ("in its best states the hand is still %.0f mm from the object: within its limits it does not reach it"):format(1000 * told.nearest)
   end
 end
 
@@ -121,7 +134,7 @@ return function(job, told)
   told.one_thread = job.in_place and job.threads > 1 or nil
   if told.steps then told.steps_per_second = told.steps / math.max(told.seconds, 1e-9) end
   if told.grasps == 0 then
-    for _, cause in ipairs {self_collision(job) or false, out_of_reach(job, told) or false, too_large(job) or false,
+    for _, cause in ipairs {arm_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_large(job) or false,
                             search_causes(told) or false, rejected_most(told) or false} do
       if cause then told.causes[#told.causes + 1] = cause end
     end

@@ -1,5 +1,6 @@
 --- What a planner gives: grasps, best first, and a report.
 local report = require "clench.plan.report"
+local reach = require "clench.plan.reach"
 
 --- grasps that are alike are kept once: hands nearer than `distance` of the object's radius, turned by less than that part
 --- of half a turn, and no DOF farther apart than that part of its range
@@ -34,21 +35,26 @@ function Run:__tostring() return ("%d grasps: %s"):format(#self.grasps, tostring
 ---@param options {count?: integer, distance?: number}
 return function(job, found, told, options)
   local hand = of_hand(job.hand)
+  told.out_of_reach = 0
+  if job.arm then found, told.out_of_reach = reach.filter(job, found) end
   local bounds = job.object.mesh.bounds
   local radius = math.max((bounds.high - bounds.low):norm() / 2, 1e-6)
-  local grasps, kept = clench.grasps(), {}
+  local grasps, kept, alike = clench.grasps(), {}, 0
   for _, grasp in ipairs(found) do
     if options.count and #kept >= options.count then break end
     local new = true
     for _, other in ipairs(kept) do
-      if are_alike(grasp, other, hand, radius, options.distance or 0) then new = false break end
+      if are_alike(grasp, other, hand, radius, options.distance or 0) then
+        new, alike = false, alike + 1
+        break
+      end
     end
     if new then
       kept[#kept + 1] = grasp
       grasps:add(grasp)
     end
   end
-  told.grasps, told.alike = #kept, #found - #kept
+  told.grasps, told.alike, told.found = #kept, alike, #found
   told.seconds = job:elapsed()
   return setmetatable({grasps = grasps, report = report(job, told)}, Run)
 end

@@ -1,13 +1,7 @@
---- Where a hand may begin: before a point of the object's surface, looking at it, more or less opened.
+--- Where a hand may begin: before a point of the object's surface, looking at it, or about two points that face each other;
+--- more or less opened.
+local opposition = require "clench.plan.opposition"
 local starts = {}
-
---- A pose whose +z is a direction, turned about it by an angle.
-function starts.looking(point, direction, angle)
-  local z = direction / direction:norm()
-  local side = math.abs(z.z) < 0.9 and clench.vec3(0, 0, 1) or clench.vec3(1, 0, 0)
-  local turned = clench.pose {axis = z, angle = angle}:rotate(side)
-  return clench.pose {xyz = point, z_axis = z, x_axis = turned}
-end
 
 --- Which DOFs closing moves, and how the hand is when it is open.
 function starts.opened(hand)
@@ -22,11 +16,118 @@ function starts.opened(hand)
   return open, closes
 end
 
---- The pose of the hand's base in its approach frame.
-function starts.base_in_approach(hand)
-  local approach = hand.approach
-  local frame = starts.looking(approach.point, approach.direction, 0)
-  return frame:inverse() * hand.pose
+local far_away = clench.pose {xyz = {0, 0, 50}}  -- from all that is not the hand
+
+-- closed by a part of the way; DOFs that closing does not move (a spread) anywhere, or nearer to where they are open when
+-- the hand would collide with itself
+local function random_posture(hand, random)
+  local closed, values = random:uniform(0, 0.35), {}
+  for i in ipairs(hand.open) do values[i] = random:uniform() end
+  for spread = 1, 0, -0.25 do
+    local dofs = hand.posture(closed * spread, spread, values)
+    hand.robot:set_posture(far_away * hand.robot.pose, dofs)
+    local free = not hand.robot.world:collides(hand.robot)
+    hand.robot.world:restore(hand.before)
+    if free then return dofs end
+  end
+  return hand.open
+end
+
+-- the DOFs closed by a part of the way, and spread by a part of the way to `values` of the range
+local function posture(hand, closed, spread, values)
+  local dofs = {}
+  for i, value in ipairs(hand.open) do
+    local low, high = hand.limits[i][1], hand.limits[i][2]
+    if not (high - low < math.huge) then
+      dofs[i] = value
+    elseif hand.closes[i] then
+      local far = math.abs(value - low) > math.abs(value - high) and low or high
+      dofs[i] = value + closed * (far - value)
+    else
+      dofs[i] = value + spread * (low + values[i] * (high - low) - value)
+    end
+  end
+  return dofs
+end
+
+-- what the starts of a hand have in common
+local function describe(hand)
+  local open, closes = starts.opened(hand)
+  local thumb = opposition.thumb(hand)
+  local z = hand.approach.direction
+  local across = thumb or z:cross(math.abs(z.z) < 0.9 and clench.vec3(0, 0, 1) or clench.vec3(1, 0, 0))
+  local middle = opposition.middle(hand, open, closes)
+  local out = {robot = hand, before = hand.world:snapshot(), open = open, closes = closes, limits = hand.dof_limits,
+               has_thumb = thumb ~= nil, X_FH = opposition.base_in_frame(hand, middle, across)}
+  out.posture = function(...) return posture(out, ...) end
+  return out
+end
+
+local function across(direction, random)
+  local side = direction:cross(random:direction())
+  return side:norm() > 1e-3 and side / side:norm() or nil
+end
+
+--- Before a point of the surface, along its normal or tilted.
+local function before_surface(hand, object, random, standoff)
+  local at = object.mesh:sample(random, 1)[1]
+  local direction = -at.normal
+  local axis = across(direction, random)
+  if axis then direction = clench.pose {axis = axis, angle = random:normal() * 0.4}:rotate(direction) end
+  local side = across(direction, random)
+  if not side then return end
+  return {pose = opposition.frame(at.point - direction * standoff, direction, side) * hand.X_FH,
+          dofs = random_posture(hand, random), set_back = math.max(0, random:uniform(-0.03, 0.03))}
+end
+
+-- Two points of the surface that face each other along a line inside both friction cones: their middle, and the line.
+local function facing_points(world, object, at, friction, widest)
+  local point, normal = object.pose * at.point, object.pose:rotate(at.normal)
+  local hit = world:raycast(point - normal * 1e-5, -normal, widest)
+  if not hit or hit.body ~= object then return end
+  local line = hit.point - point
+  local width = line:norm()
+  if width < 1e-4 then return end
+  line = line / width
+  if math.abs(hit.normal:dot(line)) < math.cos(math.atan(friction)) then return end
+  local X_OW = object.pose:inverse()
+  return X_OW * ((point + hit.point) * 0.5), X_OW:rotate(line)
+end
+
+--- The thumb on one of two points that face each other and the fingers on the other, from any side across that line.
+local function about_two_points(hand, world, object, random, options)
+  local middle, line = facing_points(world, object, object.mesh:sample(random, 1)[1], options.friction, options.width)
+  local direction = middle and across(line, random)
+  if not direction then return end
+  local deeper = random:uniform(-0.01, 0.02)
+  local start = middle - direction * options.standoff
+  return {pose = opposition.frame(start, direction, line) * hand.X_FH,
+          dofs = random:uniform() < 0.5 and hand.open or random_posture(hand, random), reach = options.standoff + deeper}
+end
+
+local most_tries = 200  -- until two points face each other
+
+--- Start number n of a seed, the same in any order.
+---@param job table  of clench.plan.job
+---@param options {standoff: number, friction: number, width: number, kind: string}  kind: "antipodal", or "both", by turns
+---@return fun(number: integer): table?
+function starts.random(job, options)
+  local hand, object, world = describe(job.hand), job.object, job.world
+  return function(number)
+    local paired = hand.has_thumb and (options.kind == "antipodal" or number % 2 == 0)
+    for try = 1, most_tries do
+      local random = clench.random(job.seed, number * most_tries + try)
+      local state
+      if paired then
+        state = about_two_points(hand, world, object, random, options)
+      else
+        state = before_surface(hand, object, random, options.standoff)
+      end
+      if state then return state end
+      -- an object without such pairs is approached along its normals
+      if try == most_tries // 2 and options.kind ~= "antipodal" then paired = false end
+    end
+  end
 end
 
 return starts

@@ -8,8 +8,31 @@ verified.defaults = {displacement = 0.001, force_ratio = 10, min_load = 2, min_e
 verified.directions = {clench.vec3(1, 0, 0), clench.vec3(-1, 0, 0), clench.vec3(0, 1, 0), clench.vec3(0, -1, 0),
                        clench.vec3(0, 0, 1), clench.vec3(0, 0, -1)}
 
+local function moved(pose, way) return clench.pose {xyz = way} * pose end
+
+-- Closes on an object that lies free: while one side alone touches it, it gives way by half of what is left on the other.
+local function close_on_free(hand, object, way, options)
+  local grasp
+  for _ = 1, 3 do
+    hand:autograsp()
+    grasp = clench.grasp(hand, object, options)
+    if #grasp.points == 0 or grasp:quality "epsilon" > 0 then break end
+    local push = clench.vec3(0, 0, 0)
+    for _, contact in ipairs(hand.world:contacts(hand, object)) do push = push + contact.normal end
+    -- nor does it give way where it was displaced into what it stands on
+    if push:norm() < 0.5 or hand.world:collides(object) then break end
+    push = push / push:norm()
+    local X_WO = object.pose
+    local move = object:move_to(moved(X_WO, push * way))
+    object.pose = move.touched and moved(X_WO, push * (move.fraction * way / 2)) or X_WO
+    if not move.touched then break end
+  end
+  return grasp
+end
+
 --- The least epsilon when the hand closes again on the object displaced along each axis of the world, from the pose of
---- the grasp and the DOFs before it closed; 0 where something is in the way. Looks no further once it is not above
+--- the grasp and the DOFs before it closed; 0 where something is in the way. An object that one side alone touches gives
+--- way. Looks no further once it is not above
 --- `enough`.
 function verified.reclosed(hand, object, grasp, displacement, enough, options)
   local world = hand.world
@@ -17,16 +40,15 @@ function verified.reclosed(hand, object, grasp, displacement, enough, options)
   local X_WH, dofs, X_WO = object.pose * grasp.pose, grasp.pregrasp.dofs, object.pose
   local least = math.huge
   for _, direction in ipairs(verified.directions) do
-    object.pose = clench.pose {xyz = direction * displacement} * X_WO
+    object.pose = moved(X_WO, direction * displacement)
     hand:set_posture(X_WH, dofs)
     local epsilon = 0
     if hand.world:collides(hand) then
       -- the object is met earlier: the hand stays back by as much as it was displaced
-      hand:set_posture(clench.pose {xyz = hand.approach.direction * -2 * displacement} * X_WH, dofs)
+      hand:set_posture(moved(X_WH, hand.approach.direction * (-2 * displacement)), dofs)
     end
     if not world:collides(hand) then
-      hand:autograsp()
-      local again = clench.grasp(hand, object, options)
+      local again = close_on_free(hand, object, 4 * displacement, options)
       epsilon = #again.points > 0 and again:quality "epsilon" or 0
     end
     least = math.min(least, epsilon)

@@ -40,4 +40,8 @@ TEST_CASE("an installed Clench finds its own models, whatever lies above its pre
   const std::string there = "cd " + (elsewhere / ".") + " && " + (folder / "prefix/bin/clench");
   // in place of the command that the build made
   CHECK(run("", "", there + " " + loads + "; true").out == "2\tworld\n");
+  // when the command's file is replaced while it runs, too, as a build does
+  const std::string replaced = " -q -e 'os.remove \"" + (folder / "prefix/bin/clench") +
+                               "\" print(clench.file_kind \"worlds/barrett_mug.wld\")'; true";
+  CHECK(run("", "", there + replaced).out == "world\n");
 }

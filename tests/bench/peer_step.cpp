@@ -13,7 +13,8 @@ namespace {
 
 class FclEmbreeStep : public PeerStep {
  public:
-  FclEmbreeStep(World& world, const HandAndObject& who, const SearchSpace& space, uint64_t seed, PeerKind kind)
+  FclEmbreeStep(World& world, const HandAndObject& who, const SearchSpace& space, uint64_t seed,
+                PeerKind kind)
       : tuned_(kind == PeerKind::tuned),
         world_(world),
         who_(who),
@@ -24,12 +25,16 @@ class FclEmbreeStep : public PeerStep {
         values_(space.start()),
         k_(schedule_.first_step) {
     const auto parts = world.bodies_of(who.hand);
-    const auto is_part = [&](Id<Body> body) { return std::ranges::find(parts, body) != parts.end(); };
+    const auto is_part = [&](Id<Body> body) {
+      return std::ranges::find(parts, body) != parts.end();
+    };
     for (const auto part : parts)
       for (const auto other : world.bodies()) {
         const bool once = !is_part(other) || part < other;
-        if (once && world.may_collide(part, other) && world.body(part).shape && world.body(other).shape)
-          pairs_.push_back({part, other, fcl_pair(*world.body(part).shape, *world.body(other).shape)});
+        if (once && world.may_collide(part, other) && world.body(part).shape &&
+            world.body(other).shape)
+          pairs_.push_back(
+              {part, other, fcl_pair(*world.body(part).shape, *world.body(other).shape)});
       }
     energy_ = place(space_.state(values_)) ? value(infinite) : infinite;
   }
@@ -53,7 +58,9 @@ class FclEmbreeStep : public PeerStep {
       if (sphere_gap(world_, pair.a, pair.b) > 0) continue;
       if (*pair.peer->collide(world_.pose(pair.a).inverse() * world_.pose(pair.b))) {
         // the pair that collided last is asked first
-        if (tuned_) std::rotate(pairs_.begin(), pairs_.begin() + std::ptrdiff_t(i), pairs_.begin() + std::ptrdiff_t(i) + 1);
+        if (tuned_)
+          std::rotate(pairs_.begin(), pairs_.begin() + std::ptrdiff_t(i),
+                      pairs_.begin() + std::ptrdiff_t(i) + 1);
         return false;
       }
     }
@@ -67,7 +74,8 @@ class FclEmbreeStep : public PeerStep {
     for (int i = 0; i < sites_.size() && !(sum > enough); ++i) {
       const ContactSite& site = sites_.site(i);
       const Pose X_OC = X_OW * world_.pose(site.body) * site.X_LC;
-      const Eigen::Vector3d q = *points_->nearest(X_OC.position), n = X_OC.rotation * Eigen::Vector3d::UnitZ();
+      const Eigen::Vector3d q = *points_->nearest(X_OC.position),
+                            n = X_OC.rotation * Eigen::Vector3d::UnitZ();
       const double distance = (q - X_OC.position).norm();
       const double cosine = distance > 0 ? n.dot(q - X_OC.position) / distance : 1;
       sum += energy_length * distance + 50 * (1 - cosine);
@@ -86,7 +94,9 @@ class FclEmbreeStep : public PeerStep {
         if (variable.fixed) continue;
         do {
           const double x = 2 * random_.uniform() - 1;
-          next[v] = values_[v] + variable.jump * std::copysign(warm * (std::pow(1 + 1 / warm, std::abs(x)) - 1), x);
+          next[v] =
+              values_[v] +
+              variable.jump * std::copysign(warm * (std::pow(1 + 1 / warm, std::abs(x)) - 1), x);
           const double range = variable.max - variable.min;
           if (variable.circular && next[v] > variable.max) next[v] -= range;
           if (variable.circular && next[v] < variable.min) next[v] += range;
@@ -122,14 +132,17 @@ class FclEmbreeStep : public PeerStep {
 
 }  // namespace
 
-std::unique_ptr<PeerStep> peer_step(World& world, const HandAndObject& who, const SearchSpace& space, uint64_t seed,
-                                    PeerKind kind) {
+std::unique_ptr<PeerStep> peer_step(World& world, const HandAndObject& who,
+                                    const SearchSpace& space, uint64_t seed, PeerKind kind) {
   return std::make_unique<FclEmbreeStep>(world, who, space, seed, kind);
 }
 
 #else
 
-std::unique_ptr<PeerStep> peer_step(World&, const HandAndObject&, const SearchSpace&, uint64_t, PeerKind) { return nullptr; }
+std::unique_ptr<PeerStep> peer_step(World&, const HandAndObject&, const SearchSpace&, uint64_t,
+                                    PeerKind) {
+  return nullptr;
+}
 
 #endif
 

@@ -1,5 +1,5 @@
-// Annealing steps a second beside the step made from FCL and Embree, the same random draws in turns in one process; energies a
-// second, two threads against one, and memory over a long run.
+// Annealing steps a second beside the step made from FCL and Embree, the same random draws in turns
+// in one process; energies a second, two threads against one, and memory over a long run.
 //   bench_planning [--brief] [--csv FILE] [--check]
 #include <fmt/format.h>
 
@@ -25,29 +25,35 @@ struct Options {
   std::string csv;
 };
 
-/// A hand, an object, and what the original made of them: annealing steps a second, by CPU time where that is known.
+/// A hand, an object, and what the original made of them: annealing steps a second, by CPU time
+/// where that is known.
 struct Scene {
   std::string name, root, hand, object;
   double original = NAN;
 };
 
-// originals: one thread, contact energy at preset contacts, axis-angle space; its planner's own CPU seconds of 40,000 steps,
-// but for Barrett and flask, of which the wall time is known
+// originals: one thread, contact energy at preset contacts, axis-angle space; its planner's own CPU
+// seconds of 40,000 steps, but for Barrett and flask, of which the wall time is known
 std::vector<Scene> scenes() {
   std::vector<Scene> out = {
-      {"human hand + flask, ours", ".", "models/hands/human/human20.cfg", "models/objects/flask.iv"},
+      {"human hand + flask, ours", ".", "models/hands/human/human20.cfg",
+       "models/objects/flask.iv"},
       {"Barrett + flask, ours", ".", "models/hands/barrett/barrett.cfg", "models/objects/flask.iv"},
       {"Barrett + mug, ours", ".", "models/hands/barrett/barrett.cfg", "models/objects/mug.iv"}};
   const auto shared = test::shared();
   if (shared.empty()) {
-    fmt::print("no third-party data at ../shared or CLENCH_SHARED: measured are our own models alone\n");
+    fmt::print(
+        "no third-party data at ../shared or CLENCH_SHARED: measured are our own models alone\n");
     return out;
   }
   const std::string root = (shared / "data/graspit-xml").string();
   const auto at = [&](const char* file) { return root + "/models/" + file; };
-  out.push_back({"human hand + flask", root, at("robots/HumanHand/HumanHand20DOF.xml"), at("objects/flask.xml"), 1457});
-  out.push_back({"Barrett + flask", root, at("robots/Barrett/Barrett.xml"), at("objects/flask.xml"), 2280});
-  out.push_back({"Barrett + mug", root, at("robots/Barrett/Barrett.xml"), at("objects/mug.xml"), 1939});
+  out.push_back({"human hand + flask", root, at("robots/HumanHand/HumanHand20DOF.xml"),
+                 at("objects/flask.xml"), 1457});
+  out.push_back(
+      {"Barrett + flask", root, at("robots/Barrett/Barrett.xml"), at("objects/flask.xml"), 2280});
+  out.push_back(
+      {"Barrett + mug", root, at("robots/Barrett/Barrett.xml"), at("objects/mug.xml"), 1939});
   return out;
 }
 
@@ -83,11 +89,13 @@ World built(const Scene& scene, HandAndObject& who) {
 Chain chain_of(const World& world, const HandAndObject& who, uint64_t seed) {
   Chain out{std::make_unique<World>(world), who, nullptr, nullptr};
   const Robot& robot = world.robot(who.hand);
-  const HandState start{world.pose(who.object).inverse() * world.pose(robot.base), world.dofs(who.hand)};
+  const HandState start{world.pose(who.object).inverse() * world.pose(robot.base),
+                        world.dofs(who.hand)};
   out.space = std::make_unique<SearchSpace>(robot, start);
-  out.search = std::make_unique<Annealing>(*out.world, who, *out.space,
-                                           std::make_unique<ContactEnergy>(*out.world, who, ContactEnergy::Options{}),
-                                           AnnealingOptions{.seed = seed});
+  out.search = std::make_unique<Annealing>(
+      *out.world, who, *out.space,
+      std::make_unique<ContactEnergy>(*out.world, who, ContactEnergy::Options{}),
+      AnnealingOptions{.seed = seed});
   return out;
 }
 
@@ -109,7 +117,8 @@ Figures measure(const Scene& scene, const Options& options, Report& report) {
     double time = 0;
   };
   std::vector<Peer> peers;
-  for (const auto& [name, kind] : {std::pair{"FCL + Embree", PeerKind::plain}, {"FCL + Embree, tuned", PeerKind::tuned}}) {
+  for (const auto& [name, kind] :
+       {std::pair{"FCL + Embree", PeerKind::plain}, {"FCL + Embree, tuned", PeerKind::tuned}}) {
     Peer peer{name, kind, chain_of(world, who, seed), nullptr};
     peer.step = peer_step(*peer.chain.world, who, *peer.chain.space, seed, kind);
     if (peer.step) peers.push_back(std::move(peer));
@@ -129,8 +138,10 @@ Figures measure(const Scene& scene, const Options& options, Report& report) {
       peer.step->run(steps);
       peer.time += cpu() - start;
       const bool same = (own.search->values() - peer.step->values()).cwiseAbs().maxCoeff() < 1e-9 &&
-                        std::abs(own.search->energy() - peer.step->energy()) < 1e-6 * std::abs(peer.step->energy());
-      report.check(same, fmt::format("{}: where the chain stands after {} steps of {}", scene.name, (b + 1) * steps, peer.name));
+                        std::abs(own.search->energy() - peer.step->energy()) <
+                            1e-6 * std::abs(peer.step->energy());
+      report.check(same, fmt::format("{}: where the chain stands after {} steps of {}", scene.name,
+                                     (b + 1) * steps, peer.name));
     }
     // energies of states near the chain's, each set and measured anew
     const HandState at = own.space->state(own.search->values());
@@ -204,14 +215,16 @@ int main(int argc, char** argv) {
   Report report;
   const auto all = scenes();
   std::vector<Aim> aims;
-  fmt::print("{:26} {:>8} {:>13} {:>6} {:>8} {:>6} {:>9} {:>6} {:>11}\n", "steps a second, one thread", "ours", "FCL + Embree",
-             "ratio", "tuned", "ratio", "original", "ratio", "energies/s");
+  fmt::print("{:26} {:>8} {:>13} {:>6} {:>8} {:>6} {:>9} {:>6} {:>11}\n",
+             "steps a second, one thread", "ours", "FCL + Embree", "ratio", "tuned", "ratio",
+             "original", "ratio", "energies/s");
   double least_peer = infinite, least_original = infinite;
   bool original = false;
   for (const Scene& scene : all) {
     const Figures f = measure(scene, options, report);
-    fmt::print("{:26} {:8.0f} {:13.0f} {:6.1f} {:8.0f} {:6.1f} {:9.0f} {:6.1f} {:11.0f}\n", scene.name, f.ours, f.plain,
-               f.ours / f.plain, f.tuned, f.ours / f.tuned, scene.original, f.ours / scene.original, f.evaluations);
+    fmt::print("{:26} {:8.0f} {:13.0f} {:6.1f} {:8.0f} {:6.1f} {:9.0f} {:6.1f} {:11.0f}\n",
+               scene.name, f.ours, f.plain, f.ours / f.plain, f.tuned, f.ours / f.tuned,
+               scene.original, f.ours / scene.original, f.evaluations);
     // a missing figure stays missing
     const double ratio = f.ours / f.plain;
     least_peer = std::isnan(ratio) ? NAN : std::min(least_peer, ratio);
@@ -222,12 +235,15 @@ int main(int argc, char** argv) {
   }
   aims.push_back({"least of FCL + Embree / ours (aim 20)", least_peer, 8});
   // without the original's models there is nothing to hold its figures against
-  if (original) aims.push_back({"least of ours / the original's (aim 25)", least_original, 15});
-  else fmt::print("the original's steps a second are of its own models, which are not here\n");
+  if (original)
+    aims.push_back({"least of ours / the original's (aim 25)", least_original, 15});
+  else
+    fmt::print("the original's steps a second are of its own models, which are not here\n");
   const double growth = memory_growth(all[2], options.brief ? 400 : 40'000);
   aims.push_back({"memory at the end / after a quarter of a long run", growth, 1.02, true});
   if (!options.brief && std::thread::hardware_concurrency() > 1)
-    fmt::print("two threads / one, four chains: {:.2f} (aim 1.8 on an idle machine)\n", thread_scaling(all[0], 10'000));
+    fmt::print("two threads / one, four chains: {:.2f} (aim 1.8 on an idle machine)\n",
+               thread_scaling(all[0], 10'000));
   report.sort();
   const bool good = report.judge(aims);
   const bool written = options.csv.empty() || report.write_csv(options.csv);

@@ -39,7 +39,8 @@ std::vector<GraspSpec> some_grasps() {
 
 }  // namespace
 
-TEST_CASE("each format gives back what it holds, the same bytes twice, and tells what it does not hold") {
+TEST_CASE(
+    "each format gives back what it holds, the same bytes twice, and tells what it does not hold") {
   const TemporaryFolder folder;
   const auto list = some_grasps();
   struct Case {
@@ -47,9 +48,14 @@ TEST_CASE("each format gives back what it holds, the same bytes twice, and tells
     bool exact_pose, dofs, epsilon, notes;
   };
   const Case cases[] = {
-      {"a.csv", "", "csv does not hold contacts, poses of pregrasps, DOFs of pregrasps", true, true, true, true},
-      {"a.npz", "", "npz does not hold contacts, poses of pregrasps, DOFs of pregrasps, other measures, which", true, true, true, true},
-      {"a.yaml", "", "isaac_grasp does not hold contacts, poses of pregrasps, other measures, notes and labels", true, true, false, false},
+      {"a.csv", "", "csv does not hold contacts, poses of pregrasps, DOFs of pregrasps", true, true,
+       true, true},
+      {"a.npz", "",
+       "npz does not hold contacts, poses of pregrasps, DOFs of pregrasps, other measures, which",
+       true, true, true, true},
+      {"a.yaml", "",
+       "isaac_grasp does not hold contacts, poses of pregrasps, other measures, notes and labels",
+       true, true, false, false},
       {"a.json", "graspgen", "graspgen does not hold DOFs, contacts", false, false, false, false},
       {"b.json", "multigripper", "multigripper does not hold contacts", true, true, false, false},
   };
@@ -131,14 +137,17 @@ grasps:
 
   std::string said;
   const auto gen = read_grasp_file(
-      folder.write("g.json", R"({"object":{"file":"a/mug.obj","scale":0.5},"grasps":{"transforms":)"
-                             R"([[[1,0,0,0.1],[0,1,0,0.2],[0,0,1,0.3],[0,0,0,1]]],"object_in_gripper":[true]}})"),
+      folder.write(
+          "g.json",
+          R"({"object":{"file":"a/mug.obj","scale":0.5},"grasps":{"transforms":)"
+          R"([[[1,0,0,0.1],[0,1,0,0.2],[0,0,1,0.3],[0,0,0,1]]],"object_in_gripper":[true]}})"),
       "", {.warn = [&](const std::string& text) { said = text; }});
   CHECK(gen[0].X_OH->position == Eigen::Vector3d(0.1, 0.2, 0.3));
   CHECK(gen[0].info.at("object_in_gripper") == 1);
   CHECK(said == "g.json: the object has to be loaded at scale 0.5, at which these grasps hold it");
-  const auto multi = read_grasp_file(
-      folder.write("m.json", R"({"gripper":"Allegro","object_ID":"mug","pose":[[0,0,1,1,0,0,0]],"dofs":[[1,2]],"fall_time":[3]})"));
+  const auto multi = read_grasp_file(folder.write(
+      "m.json",
+      R"({"gripper":"Allegro","object_ID":"mug","pose":[[0,0,1,1,0,0,0]],"dofs":[[1,2]],"fall_time":[3]})"));
   CHECK(multi[0].hand_name == "Allegro");
   CHECK(multi[0].dofs == std::vector<double>{1, 2});
   CHECK(multi[0].info.at("fall_time") == 3);
@@ -150,11 +159,13 @@ grasps:
 TEST_CASE("lists of grasps in other formats that are none are refused in a sentence") {
   const TemporaryFolder folder;
   const std::string csv_head = "x [m],y [m],z [m],qw,qx,qy,qz,dof a [rad]\n";
-  const std::string isaac = "format: isaac_grasp\nformat_version: 1.0\ngrasps:\n  g:\n    position: [1, 2, 3]\n";
+  const std::string isaac =
+      "format: isaac_grasp\nformat_version: 1.0\ngrasps:\n  g:\n    position: [1, 2, 3]\n";
   const auto gen = [](const std::string& matrix) {
     return R"({"object":{"file":"m"},"grasps":{"transforms":[)" + matrix + "]}}";
   };
-  const std::string good_npz = npz_bytes({{"poses", {.shape = {1, 7}, .numbers = {0, 0, 0, 1, 0, 0, 0}}}});
+  const std::string good_npz =
+      npz_bytes({{"poses", {.shape = {1, 7}, .numbers = {0, 0, 0, 1, 0, 0, 0}}}});
   std::string packed = good_npz, spoilt = good_npz;
   packed[packed.rfind("PK\x01\x02") + 10] = 8;
   spoilt[spoilt.find("NUMPY") + 125] ^= 1;
@@ -166,33 +177,48 @@ TEST_CASE("lists of grasps in other formats that are none are refused in a sente
       {"a.csv", csv_head + "1,2,3,,0,0,0,1\n", "a.csv:2: qw: expected a number, got nothing"},
       {"a.csv", csv_head + "1,2,3,0,0,0,0,1\n", "a.csv:2: expected a quaternion of length 1"},
       {"a.csv", csv_head + "\"1", "a.csv:2: a quote that is not closed"},
-      {"a.csv", csv_head + "\"1\"2", "a.csv:2: expected a comma or the line's end behind the quote, got '2'"},
+      {"a.csv", csv_head + "\"1\"2",
+       "a.csv:2: expected a comma or the line's end behind the quote, got '2'"},
       {"a.csv", "qw,qw," + csv_head, "a.csv:1: column 'qw' stands there twice"},
-      {"a.csv", "collision_free," + csv_head + "maybe,1,2,3,1,0,0,0,1\n", "collision_free: expected true or false, got 'maybe'"},
+      {"a.csv", "collision_free," + csv_head + "maybe,1,2,3,1,0,0,0,1\n",
+       "collision_free: expected true or false, got 'maybe'"},
       {"a.npz", "hello", "a.npz: expected a zip archive of arrays, got other bytes"},
-      {"a.npz", packed, "a.npz: poses: compressed arrays are not read; np.savez writes them uncompressed"},
+      {"a.npz", packed,
+       "a.npz: poses: compressed arrays are not read; np.savez writes them uncompressed"},
       {"a.npz", spoilt, "a.npz: poses: the array's checksum is wrong"},
       {"a.npz", npz_bytes({{"p", {.shape = {0}}}}), "a.npz: expected an array 'poses', got none"},
-      {"a.npz", npz_bytes({{"poses", {.shape = {1, 2}, .numbers = {1, 2}}}}), "poses: expected n x 7 or n x 4 x 4 numbers, got 1 x 2"},
-      {"a.npz", npz_bytes({{"poses", {.shape = {1, 7}, .numbers = {0, 0, 0, 0, 0, 0, 0}}}}), "poses[0]: expected a quaternion of length 1"},
-      {"a.npz", npz_bytes({{"poses", {.shape = {0, 7}}}, {"epsilon", {.shape = {1}, .numbers = {1}}}}), "epsilon: expected 0 numbers, got 1"},
+      {"a.npz", npz_bytes({{"poses", {.shape = {1, 2}, .numbers = {1, 2}}}}),
+       "poses: expected n x 7 or n x 4 x 4 numbers, got 1 x 2"},
+      {"a.npz", npz_bytes({{"poses", {.shape = {1, 7}, .numbers = {0, 0, 0, 0, 0, 0, 0}}}}),
+       "poses[0]: expected a quaternion of length 1"},
+      {"a.npz",
+       npz_bytes({{"poses", {.shape = {0, 7}}}, {"epsilon", {.shape = {1}, .numbers = {1}}}}),
+       "epsilon: expected 0 numbers, got 1"},
       {"a.yaml", "", "a.yaml: expected a map or a list, got an empty file"},
       {"a.yaml", "format: other\n", "a.yaml:1: format: expected 'isaac_grasp', got 'other'"},
-      {"a.yaml", "format: isaac_grasp\nformat_version: 2.0\n", "a.yaml:2: format_version: expected version 1.0, got '2.0'"},
+      {"a.yaml", "format: isaac_grasp\nformat_version: 2.0\n",
+       "a.yaml:2: format_version: expected version 1.0, got '2.0'"},
       {"a.yaml", isaac, "a.yaml:5: grasps.g: expected a key 'orientation', got none"},
-      {"a.yaml", isaac + "    orientation: {w: 1, xyz: [0, 0]}\n", "grasps.g.orientation.xyz: expected 3 numbers, got a list of 2"},
-      {"a.yaml", isaac + "    orientation: {w: x, xyz: [0, 0, 0]}\n", "grasps.g.orientation.w: expected a number, got 'x'"},
-      {"a.yaml", isaac + "   orientation: 1\n", "a.yaml:6: expected a line that begins where those before it do, got 'orientation: 1'"},
+      {"a.yaml", isaac + "    orientation: {w: 1, xyz: [0, 0]}\n",
+       "grasps.g.orientation.xyz: expected 3 numbers, got a list of 2"},
+      {"a.yaml", isaac + "    orientation: {w: x, xyz: [0, 0, 0]}\n",
+       "grasps.g.orientation.w: expected a number, got 'x'"},
+      {"a.yaml", isaac + "   orientation: 1\n",
+       "a.yaml:6: expected a line that begins where those before it do, got 'orientation: 1'"},
       {"a.yaml", "a: [1, 2\n", "a.yaml:2: expected ',' or ']', got the end of the file"},
       {"a.yaml", "a: [1, 2}\n", "a.yaml:1: expected ',' or ']', got '}'"},
       {"a.yaml", "a: \"b\nc\"\n", "a.yaml:1: expected the closing quote of 'b'"},
       {"a.yaml", "a: &b 1\n", "anchors, tags and text over several lines are not read"},
       {"a.yaml", "a: 1\na: 2\n", "a.yaml:2: key 'a' stands there twice"},
-      {"a.yaml", "a: " + std::string(100000, '['), "expected lists and maps at most 16 deep, got more"},
-      {"a.json", R"({"a": 1})", "a.json: expected the keys of GraspGen (object, grasps) or of MultiGripperGrasp"},
+      {"a.yaml", "a: " + std::string(100000, '['),
+       "expected lists and maps at most 16 deep, got more"},
+      {"a.json", R"({"a": 1})",
+       "a.json: expected the keys of GraspGen (object, grasps) or of MultiGripperGrasp"},
       {"a.json", gen("1"), "a.json:1: grasps.transforms[0]: expected 4 rows of 4 numbers, got '1'"},
-      {"a.json", gen("[[2,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]"), "grasps.transforms[0]: expected a homogeneous matrix"},
-      {"a.json", R"({"gripper":"a","object_id":"b","pose":[[1,2]]})", "a.json:1: pose[0]: expected 7 numbers, got a list of 2"},
+      {"a.json", gen("[[2,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]"),
+       "grasps.transforms[0]: expected a homogeneous matrix"},
+      {"a.json", R"({"gripper":"a","object_id":"b","pose":[[1,2]]})",
+       "a.json:1: pose[0]: expected 7 numbers, got a list of 2"},
   };
   for (const auto& [name, text, message] : cases) {
     std::string said = "nothing";
@@ -204,14 +230,17 @@ TEST_CASE("lists of grasps in other formats that are none are refused in a sente
     }
     CHECK_MESSAGE(said.find(message) != std::string::npos, said << " | " << message);
   }
-  const auto refuse = [&](std::vector<GraspSpec> list, const char* file, const char* format, const char* message) {
-    CHECK_THROWS_WITH_AS(write_grasp_file(list, folder.path() / file, format), doctest::Contains(message), Error);
+  const auto refuse = [&](std::vector<GraspSpec> list, const char* file, const char* format,
+                          const char* message) {
+    CHECK_THROWS_WITH_AS(write_grasp_file(list, folder.path() / file, format),
+                         doctest::Contains(message), Error);
   };
   auto list = some_grasps();
   refuse(list, "a.json", "", "a.json: .json may be several formats");
   refuse(list, "a.json", "graspgem", "unknown format 'graspgem'");
   list[1].object_name = "other";
-  refuse(list, "a.yaml", "", "a.yaml: grasps[2]: expected one object for the whole file, '7', got 'other'");
+  refuse(list, "a.yaml", "",
+         "a.yaml: grasps[2]: expected one object for the whole file, '7', got 'other'");
   list[1].hand_name = "other";
   refuse(list, "a.yaml", "", "grasps[2]: expected one hand for the whole file");
   list[1].dof_names.clear();
@@ -222,17 +251,22 @@ TEST_CASE("lists of grasps in other formats that are none are refused in a sente
 
 TEST_CASE("broken archives and texts end in a sentence, never in a crash") {
   Random random(9);
-  const std::string npz = npz_bytes({{"poses", {.shape = {1, 7}, .numbers = {0, 0, 0, 1, 0, 0, 0}}}, {"n", {.shape = {2}, .texts = {"a", "\u00fc"}, .is_text = true}}});
+  const std::string npz =
+      npz_bytes({{"poses", {.shape = {1, 7}, .numbers = {0, 0, 0, 1, 0, 0, 0}}},
+                 {"n", {.shape = {2}, .texts = {"a", "\u00fc"}, .is_text = true}}});
   CHECK(read_npz("a", npz).at("n").texts == std::vector<std::string>{"a", "\u00fc"});
   const std::string yaml = "a: {b: [1, \"\\u00e9\"], c: 'd'}\ne:\n- f: 1\n  g: 2\n- h\n";
   CHECK(parse_yaml("y", yaml).find("e")->items[0].find("g")->text == "2");
   for (int i = 0; i < 20000; ++i) {
     std::string bytes = i % 2 ? npz : yaml;
-    for (int k = 0; k < 3; ++k) bytes[size_t(random.uniform() * double(bytes.size()))] = char(random.uniform() * 256);
+    for (int k = 0; k < 3; ++k)
+      bytes[size_t(random.uniform() * double(bytes.size()))] = char(random.uniform() * 256);
     if (i % 5 == 0) bytes.resize(size_t(random.uniform() * double(bytes.size())));
     try {
-      if (i % 2) read_npz("a", bytes);
-      else parse_yaml("y", bytes);
+      if (i % 2)
+        read_npz("a", bytes);
+      else
+        parse_yaml("y", bytes);
     } catch (const Error&) {
     }
   }

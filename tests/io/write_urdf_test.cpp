@@ -143,6 +143,26 @@ TEST_CASE("a chain may begin on a link that moves") {
   CHECK(largest_gap(robot, urdf.robot) < 1e-12);
 }
 
+TEST_CASE("axes that are nearly parallel leave every frame of a .urdf within the robot") {
+  for (const double tilt : {0.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-5}) {
+    CAPTURE(tilt);
+    RobotSpec robot = one_link("any", "near");
+    for (const char* name : {"any_middle", "any_far"}) {
+      LinkSpec link = robot.links.back();
+      link.parent = static_cast<int>(robot.links.size()) - 1;
+      link.body.name = name;
+      link.joints[0].X_PJ =
+          Pose::translation({0.01, 0, 0}) * Pose::turn(tilt, Eigen::Vector3d::UnitX());
+      robot.links.push_back(link);
+    }
+    const UrdfPlan plan = plan_urdf(robot);
+    for (const UrdfJoint& joint : plan.joints) CHECK(joint.X_PC.position.norm() < 0.2);
+    for (const UrdfLink& link : plan.links) CHECK(link.X_UB.position.norm() < 0.2);
+    const TemporaryFolder folder;
+    CHECK(largest_gap(robot, written(robot, folder.path() / "hand.urdf").robot) < 1e-12);
+  }
+}
+
 TEST_CASE("names with blanks, quotes and signs of XML come back") {
   const TemporaryFolder folder;
   const std::string name = "a \"b\" <c> & 'd'";

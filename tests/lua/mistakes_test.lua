@@ -27,6 +27,18 @@ test("degrees and millimetres in a pose are told once, with the script's line", 
   t.ok(said[2]:find("world:add_object: pose: it is 300 m away: metres? clench.mm(300) is 0.3", 1, true), said[2])
 end)
 
+test("a slip in the name of a material is told once, and a new material is none", function(t)
+  local said = warnings(function()
+    local world = clench.world {}
+    world:set_friction("cork", "wood", {static = 0.7})
+    world:set_friction("rubber 2", "wood", {static = 0.7})
+    world:set_friction("glas", "rubber", {static = 0.7})
+    world:set_friction("glass", "rubber", {static = 0.7})
+  end)
+  t.equal(#said, 1)
+  t.ok(said[1]:find("world:set_friction: 'glas' is a new material; did you mean 'glass'?", 1, true), said[1])
+end)
+
 test("unknown keys name the nearest, and all when they are few", function(t)
   local world = clench.load "worlds/dlr_flask.wld"
   local hand = world.robots[1]
@@ -37,4 +49,13 @@ test("unknown keys name the nearest, and all when they are few", function(t)
   t.fails(function() world:robot "barrett" end, "no robot 'barrett' in this world, expected one of dlr")
   t.fails(function() clench.grasp(hand, world:body "flask"):quality "epsilom" end, "did you mean 'epsilon'?")
   t.fails(function() return hand.dof_limit end, "did you mean 'dof_limits'?")
+  t.fails(function() clench.plan.sample {cuont = 1} end, "hand must be a robot, got nothing")
+  t.fails(function() clench.plan.sample {hand = hand, object = world:body "flask", cuont = 1} end,
+          "plan.sample: unknown key 'cuont', expected any of hand, object", "; did you mean 'count'?")
+  t.fails(function() return clench.plan.sampel end, "plan: there is no 'sampel'", "; did you mean 'sample'?")
+  local message = t.fails(function() clench.plan.anneal {hand = hand, object = world:body "flask", energy = "contct"} end,
+                          "plan.anneal: energy: clench.energy has no 'contct'; did you mean 'contact'?")
+  t.ok(not message:find("stdlib", 1, true), message)
+  t.fails(function() return hand:link "chain3_lnik2" end, "no link 'chain3_lnik2'; did you mean 'chain3_link2'?")
+  t.fails(function() return hand:link "dlr_chain3_lnik2" end, "; did you mean 'dlr_chain3_link2'?")
 end)

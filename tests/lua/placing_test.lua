@@ -71,6 +71,7 @@ test("a hand is placed by its approach, before a point or as a pose says", funct
   near(t, hand.approach.frame:rotate {1, 0, 0}, frame:rotate {1, 0, 0})
   t.fails(function() hand:place_approach(frame, {0, 0, 1}) end, "direction: a pose has its own")
   t.fails(function() hand:place_approach {0, 0, 0} end, "direction: expected a vec3")
+  t.fails(function() hand:place_approach(nil) end, "target: expected a vec3")
   t.fails(function() hand:place_approach({0, 0, 0}, {0, 0, 0}) end, "expected a direction, got (0, 0, 0)")
 end)
 

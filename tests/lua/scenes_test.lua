@@ -109,6 +109,55 @@ test("saved scenes come back equal", function(t)
   end
 end)
 
+test("clench check tells of a scene what stands in its world, and of a lone robot its parts", function(t)
+  local report = require "clench.report"
+  local r = report.of(scene)
+  local world = clench.load(scene)
+  t.equal(r.kind, "world")
+  t.equal(#r.parsed.objects, #world.objects)
+  t.equal(#r.parsed.obstacles, #world.obstacles)
+  t.equal(#r.parsed.robots, #world.robots)
+  t.equal(table.concat(r.parsed.keyframes, " "), table.concat(world.keyframes, " "))
+  t.equal(r.parsed.gravity[3], world.gravity.z)
+  t.ok(table.concat(r.inferred, "\n"):find("no approach direction is given", 1, true), table.concat(r.inferred, "\n"))
+  for _, sentence in ipairs(r.ignored) do t.ok(not sentence:find("keyframe", 1, true), sentence) end
+  t.equal(r.parsed.is_scene, true)
+  local turned = write("turned.xml", [[<mujoco><worldbody><body name="arm" pos="1 2 3" euler="90 0 0"><geom size="0.1"/>
+<body name="upper"><joint range="-1 1"/><geom size="0.1" pos="0 0 0.3"/></body></body><geom size="0.1" pos="5 5 5"/></worldbody></mujoco>]])
+  local approach = report.of(turned).parsed.robots[1].approach  -- in the base: its z axis, as nothing closes
+  for i = 1, 3 do
+    t.close(approach.point[i], 0, 1e-12)
+    t.close(approach.direction[i], i == 3 and 1 or 0, 1e-12)
+  end
+  local alone = write("alone.xml", [[<mujoco><worldbody><body name="arm"><geom size="0.1"/><body name="upper">
+<joint range="-1 1"/><geom size="0.1" pos="0 0 0.3"/></body></body></worldbody></mujoco>]])
+  t.equal(report.of(alone).kind, "robot")
+
+  -- meshes may lie elsewhere
+  local meshed = write("meshed.xml", [[<mujoco><asset><mesh name="m" file="m.obj"/></asset><worldbody>
+<body name="tin"><freejoint/><geom type="mesh" mesh="m"/></body></worldbody></mujoco>]])
+  assert(os.execute("mkdir -p " .. folder .. "/meshes"))
+  clench.convert("models/objects/cube.iv", folder .. "/meshes/m.obj")
+  t.ok(report.of(meshed).error:find("no such file", 1, true), report.of(meshed).error)
+  t.equal(report.of(meshed, {folder = folder .. "/meshes"}).error, nil)
+
+  local broken = os.tmpname() .. ".xml"
+  clench.files.save_text(broken, '<mujoco><worldbody><geom type="bxo"/></worldbody></mujoco>')
+  t.ok(report.of(broken).error:find("did you mean 'box'?", 1, true), report.of(broken).error)
+  os.remove(broken)
+end)
+
+test("a world of one body tells itself in the singular", function(t)
+  local world = clench.world {}
+  world:add_object(clench.shapes.box {0.1, 0.1, 0.1})
+  t.equal(tostring(world), "world of 1 body, 0 robots")
+end)
+
+test("a robot's new file may be a URDF or a world", function(t)
+  t.fails(function() clench.convert(scene, folder .. "/made.foo") end,
+          "made.foo: expected a robot to .urdf, or its world to .lua or .wld, got '.foo'")
+end)
+
 test("a scene is converted to a world, and its robots are kept with their actuators", function(t)
   clench.convert(scene, folder .. "/made.lua")
   local world = clench.load(folder .. "/made.lua")

@@ -217,7 +217,7 @@ end)
 test("an unknown key is named, with those that are known", function(t)
   t.fails(function() shapes.box {1, 2, 3, roundign = 1} end, "shapes.box: unknown key 'roundign'", "rounding")
   t.fails(function() shapes.sphere {1, 2} end, "shapes.sphere: unknown key '2'")
-  t.fails(function() shapes.bxo {1, 2, 3} end, "there is no 'bxo'", "box")
+  t.fails(function() shapes.bxo {1, 2, 3} end, "there is no 'bxo'", "; did you mean 'box'?")
 end)
 
 test("bad numbers are refused with what was expected and what was got", function(t)

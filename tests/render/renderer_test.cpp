@@ -107,7 +107,7 @@ TEST_CASE("what a renderer keeps does not grow with the pictures of one scene, a
   CHECK(renderer.bytes() == 0);
 }
 
-TEST_CASE("nothing but bodies and their shadow is on a transparent background; white is white") {
+TEST_CASE("nothing but bodies and their shadow is on a transparent background, and white is white") {
   REQUIRE_PICTURES();
   for (const Quality quality : qualities) {
     const Picture clear = render(some_things(), of(quality, Backdrop::transparent));

@@ -1,10 +1,13 @@
 #include "clench/scene/scene.h"
 
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "clench/base/error.h"
 #include "clench/model/find.h"
 #include "clench/scene/palette.h"
+#include "clench/scene/touched.h"
 #include "support/robots.h"
 #include "support/shapes.h"
 
@@ -137,7 +140,7 @@ TEST_CASE("cones are of one size, or in proportion to friction or to force, as a
   CHECK_THROWS_WITH_AS(make_scene(world, options), "picture: forces must be finite numbers", Error);
 }
 
-TEST_CASE("a view holds the objects that robots touch and the links of those robots, or everything") {
+TEST_CASE("a view holds the objects that robots touch and the links that hold them, or everything") {
   World world;
   world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
   world.add_body(body("far", box(0.1, 0.1, 0.1)), BodyKind::object, Pose::translation({3, 0, 0}));
@@ -153,6 +156,42 @@ TEST_CASE("a view holds the objects that robots touch and the links of those rob
   world.add_robot(block(box(0.05, 0.05, 0.05)), Pose::translation({0, 0, -0.075 - 1e-5}));
   CHECK(framed(Framing::contacts) == std::vector{true, false, false});
   CHECK(framed(Framing::all) == std::vector{true, true, true});
+}
+
+TEST_CASE("of a robot that touches, a view holds the links from its palm outward") {
+  // base, forearm, knuckles, and two fingers of a link each
+  RobotSpec robot = block(box(0.1, 0.1, 0.1));
+  const auto add = [&](const char* name, int parent, const Eigen::Vector3d& p) {
+    LinkSpec link{.body = body(name, box(0.04, 0.04, 0.04)), .parent = parent};
+    JointSpec joint;
+    joint.axis = Eigen::Vector3d::UnitY();
+    joint.dof = static_cast<int>(robot.dofs.size());
+    joint.X_PJ = Pose::translation(p);
+    joint.min = -1, joint.max = 1;
+    robot.dofs.push_back({});
+    link.joints = {joint};
+    robot.links.push_back(link);
+  };
+  add("forearm", -1, {0, 0, 0.2});
+  add("knuckles", 0, {0, 0, 0.2});
+  add("left", 1, {-0.1, 0, 0.1});
+  add("right", 1, {0.1, 0, 0.1});
+  World world;
+  world.add_robot(robot, {});
+  const auto framed = [&] {
+    std::set<std::string> out;
+    const auto contact_list = contacts(world);
+    for (const Id<Body> id : touched_bodies(world, contact_list)) out.insert(world.body(id).name);
+    return out;
+  };
+  CHECK(framed().empty());
+  // one finger touches
+  const Id<Body> tin = world.add_body(body("tin", box(0.16 - 2e-5, 0.1, 0.1)), BodyKind::object,
+                                      Pose::translation({-0.2, 0, 0.5}));
+  CHECK(framed() == std::set<std::string>{"knuckles", "left", "right", "tin"});
+  // the forearm touches, and nothing but its base carries more than one branch
+  world.set_pose(tin, Pose::translation({0.1, 0, 0.2}));
+  CHECK(framed() == std::set<std::string>{"forearm", "knuckles", "left", "right", "tin"});
 }
 
 TEST_CASE("links of a robot that is seen through are clear, its base and other robots are not") {

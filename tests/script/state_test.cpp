@@ -202,6 +202,26 @@ TEST_CASE("an interruption ends what the engine is at") {
   CHECK(says(caught.error, "interrupted"));
 }
 
+TEST_CASE("parallel work that is interrupted tells what is done before the error goes on") {
+  State state;
+  std::thread once([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    state.interrupt();
+  });
+  // the first item never ends, the others have ended by then
+  const auto result = state.run_code(R"(
+    told = {}
+    require("clench").parallel.map(function(i) while i == 1 do end return i end, {1, 2, 3, 4, 5},
+      {threads = 2, each = function(r, i) told[i] = r end}))",
+                                     "=test");
+  once.join();
+  CHECK(!result.ok);
+  CHECK(says(result.error, "interrupted"));
+  const auto told = state.run_code(
+      "for i = 2, 5 do assert(told[i] == i, told[i]) end assert(told[1].error)", "=test");
+  CHECK_MESSAGE(told.ok, told.error);
+}
+
 TEST_CASE("coroutines are Lua's own in all else") {
   State state;
   const auto result = state.run_code(R"(

@@ -11,7 +11,8 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-void write_grasp_arrays(const std::vector<GraspSpec>& grasps, const fs::path& path, const WriteOptions& options) {
+void write_grasp_arrays(const std::vector<GraspSpec>& grasps, const fs::path& path,
+                        const WriteOptions& options) {
   const std::string file = path.filename().string();
   check_writable(grasps, file, false, false);
   const size_t n = grasps.size();
@@ -21,7 +22,8 @@ void write_grasp_arrays(const std::vector<GraspSpec>& grasps, const fs::path& pa
   for (size_t i = 0; i < n; ++i) {
     for (const double x : pose_numbers(*grasps[i].X_OH)) poses.numbers.push_back(x);
     if (dof_names_of(grasps[i]) != names)
-      fail("{}: grasps[{}]: expected the DOFs of the first grasp, {}, got {}", file, i + 1, name_list(names), name_list(dof_names_of(grasps[i])));
+      fail("{}: grasps[{}]: expected the DOFs of the first grasp, {}, got {}", file, i + 1,
+           name_list(names), name_list(dof_names_of(grasps[i])));
     dofs.numbers.insert(dofs.numbers.end(), grasps[i].dofs.begin(), grasps[i].dofs.end());
   }
   out["poses"] = std::move(poses);
@@ -40,10 +42,13 @@ void write_grasp_arrays(const std::vector<GraspSpec>& grasps, const fs::path& pa
   numbers("epsilon", [](const GraspSpec& g) { return number_of(g.measures, "epsilon", NAN); });
   numbers("energy", [](const GraspSpec& g) { return number_of(g.info, "energy", NAN); });
   numbers("seed", [](const GraspSpec& g) { return number_of(g.info, "seed", NAN); });
-  numbers("collision_free", [](const GraspSpec& g) { return g.collision_free ? double(*g.collision_free) : NAN; });
+  numbers("collision_free",
+          [](const GraspSpec& g) { return g.collision_free ? double(*g.collision_free) : NAN; });
   texts("hands", [](const GraspSpec& g) { return g.hand_name; });
   texts("objects", [](const GraspSpec& g) { return g.object_name; });
-  texts("planners", [](const GraspSpec& g) { return g.labels.contains("planner") ? g.labels.at("planner") : std::string(); });
+  texts("planners", [](const GraspSpec& g) {
+    return g.labels.contains("planner") ? g.labels.at("planner") : std::string();
+  });
   // what is kept is not told to be lost
   std::vector<GraspSpec> rest = grasps;
   for (GraspSpec& g : rest) {
@@ -58,7 +63,9 @@ void write_grasp_arrays(const std::vector<GraspSpec>& grasps, const fs::path& pa
 Pose pose_of_matrix(const double* m, const std::string& place) {
   Eigen::Matrix3d R;
   for (int r = 0; r < 3; ++r) R.row(r) << m[4 * r], m[4 * r + 1], m[4 * r + 2];
-  const bool rigid = (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-3 && R.determinant() > 0;
+  const bool rigid =
+      (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-3 &&
+      R.determinant() > 0;
   if (!rigid || std::abs(m[12]) + std::abs(m[13]) + std::abs(m[14]) + std::abs(m[15] - 1) > 1e-6)
     fail("{}: expected a homogeneous matrix of a rotation and a translation", place);
   return {Eigen::Quaterniond(R).normalized(), {m[3], m[7], m[11]}};
@@ -94,13 +101,16 @@ std::vector<GraspSpec> read_grasp_arrays(const fs::path& path, const ReadOptions
       continue;
     }
     const auto q = made_unit({x[3], x[4], x[5], x[6]});
-    if (!q) fail("{}: expected a quaternion of length 1, got ({} {} {} {})", place, x[3], x[4], x[5], x[6]);
+    if (!q)
+      fail("{}: expected a quaternion of length 1, got ({} {} {} {})", place, x[3], x[4], x[5],
+           x[6]);
     out[i].X_OH = Pose{*q, {x[0], x[1], x[2]}};
   }
   const auto of_grasps = [&](const char* name, bool text) {
     const NpyArray* a = find(name);
     if (a && (a->is_text != text || a->shape != std::vector<size_t>{n}))
-      fail("{}: {}: expected {} {}, got {}", file, name, n, text ? "texts" : "numbers", shape_text(*a));
+      fail("{}: {}: expected {} {}, got {}", file, name, n, text ? "texts" : "numbers",
+           shape_text(*a));
     return a;
   };
   if (const NpyArray* dofs = find("dofs")) {
@@ -109,12 +119,14 @@ std::vector<GraspSpec> read_grasp_arrays(const fs::path& path, const ReadOptions
     const size_t d = dofs->shape[1];
     const auto labels = [&](const char* name) {
       const NpyArray* a = find(name);
-      if (a && (!a->is_text || a->texts.size() != d)) fail("{}: {}: expected {} texts, got {}", file, name, d, shape_text(*a));
+      if (a && (!a->is_text || a->texts.size() != d))
+        fail("{}: {}: expected {} texts, got {}", file, name, d, shape_text(*a));
       return a ? a->texts : std::vector<std::string>();
     };
     const auto names = labels("dof_names"), units = labels("dof_units");
     for (size_t i = 0; i < n; ++i) {
-      out[i].dofs.assign(dofs->numbers.begin() + std::ptrdiff_t(i * d), dofs->numbers.begin() + std::ptrdiff_t((i + 1) * d));
+      out[i].dofs.assign(dofs->numbers.begin() + std::ptrdiff_t(i * d),
+                         dofs->numbers.begin() + std::ptrdiff_t((i + 1) * d));
       for (const double x : out[i].dofs)
         if (!std::isfinite(x)) fail("{}: dofs[{}]: expected finite numbers, got {}", file, i, x);
       out[i].dof_names = names;
@@ -137,7 +149,9 @@ std::vector<GraspSpec> read_grasp_arrays(const fs::path& path, const ReadOptions
   if (const NpyArray* a = of_grasps("planners", true))
     for (size_t i = 0; i < n; ++i)
       if (!a->texts[i].empty()) out[i].labels["planner"] = a->texts[i];
-  static const std::vector<std::string> known = {"poses", "dofs", "dof_names", "dof_units", "epsilon", "energy", "seed", "collision_free", "hands", "objects", "planners"};
+  static const std::vector<std::string> known = {
+      "poses", "dofs",           "dof_names", "dof_units", "epsilon", "energy",
+      "seed",  "collision_free", "hands",     "objects",   "planners"};
   for (const auto& [name, array] : arrays)
     if (options.warn && std::find(known.begin(), known.end(), name) == known.end())
       options.warn(fmt::format("{}: the array {} is not used", file, in_quotes(name)));

@@ -21,9 +21,10 @@ static constexpr const char* pose_columns[] = {"x [m]", "y [m]", "z [m]", "qw", 
 
 static std::string text_cell(const std::string& text) {
   if (text.empty()) return "";
-  const bool plain = text.find_first_of("\",\r\n") == std::string::npos && trim(text).size() == text.size() &&
-                     !parse_number(text) && text.find_first_of("0123456789+-.") != 0 &&
-                     text != "true" && text != "false" && text != "nan" && text != "inf";
+  const bool plain = text.find_first_of("\",\r\n") == std::string::npos &&
+                     trim(text).size() == text.size() && !parse_number(text) &&
+                     text.find_first_of("0123456789+-.") != 0 && text != "true" &&
+                     text != "false" && text != "nan" && text != "inf";
   if (plain) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
@@ -36,8 +37,10 @@ static std::string note_cell(double x) {
 }
 
 static Row row_of(const GraspSpec& g) {
-  Row row = {{"hand", text_cell(g.hand_name)}, {"object", text_cell(g.object_name)},
-             {"hand_file", text_cell(g.hand_file)}, {"object_file", text_cell(g.object_file)}};
+  Row row = {{"hand", text_cell(g.hand_name)},
+             {"object", text_cell(g.object_name)},
+             {"hand_file", text_cell(g.hand_file)},
+             {"object_file", text_cell(g.object_file)}};
   if (g.X_OH) {
     const auto numbers = pose_numbers(*g.X_OH);
     for (size_t i = 0; i < 7; ++i) row[pose_columns[i]] = real_text(numbers[i]);
@@ -47,18 +50,24 @@ static Row row_of(const GraspSpec& g) {
     const std::string unit = i < g.dof_units.size() ? g.dof_units[i] : "rad or m";
     row[fmt::format("dof {} [{}]", names[i], unit)] = real_text(g.dofs[i]);
   }
-  for (const auto& [name, x] : g.measures) row[name == "epsilon" ? name : "measure " + name] = real_text(x);
+  for (const auto& [name, x] : g.measures)
+    row[name == "epsilon" ? name : "measure " + name] = real_text(x);
   for (const auto& [name, x] : g.info) {
-    if (name == "energy") row[name] = real_text(x);
-    else row[name == "seed" ? name : "info " + name] = note_cell(x);
+    if (name == "energy")
+      row[name] = real_text(x);
+    else
+      row[name == "seed" ? name : "info " + name] = note_cell(x);
   }
-  for (const auto& [name, text] : g.labels) row[name == "planner" ? name : "label " + name] = text_cell(text);
+  for (const auto& [name, text] : g.labels)
+    row[name == "planner" ? name : "label " + name] = text_cell(text);
   if (g.collision_free) row["collision_free"] = *g.collision_free ? "true" : "false";
   return row;
 }
 
-void write_grasp_table(const std::vector<GraspSpec>& grasps, const fs::path& path, const WriteOptions& options) {
-  std::vector<std::string> columns = {"hand", "object", "planner", "seed", "epsilon", "energy", "collision_free"};
+void write_grasp_table(const std::vector<GraspSpec>& grasps, const fs::path& path,
+                       const WriteOptions& options) {
+  std::vector<std::string> columns = {"hand",    "object", "planner",       "seed",
+                                      "epsilon", "energy", "collision_free"};
   columns.insert(columns.end(), std::begin(pose_columns), std::end(pose_columns));
   std::map<std::string, bool> known;
   for (const auto& name : columns) known[name] = true;
@@ -88,7 +97,8 @@ void write_grasp_table(const std::vector<GraspSpec>& grasps, const fs::path& pat
     }
     out += '\n';
   }
-  report_lost(grasps, {.dofs = true, .epsilon = true, .notes = true}, path.filename().string(), "csv", options);
+  report_lost(grasps, {.dofs = true, .epsilon = true, .notes = true}, path.filename().string(),
+              "csv", options);
   write_file(path, out);
 }
 
@@ -120,7 +130,8 @@ std::vector<Record> records_of(const std::string& file, const std::string& text)
         }
         ++at;
         if (at < text.size() && text[at] != ',' && text[at] != '\n')
-          fail("{}:{}: expected a comma or the line's end behind the quote, got '{}'", file, line, excerpt(text.substr(at, 1)));
+          fail("{}:{}: expected a comma or the line's end behind the quote, got '{}'", file, line,
+               excerpt(text.substr(at, 1)));
       } else {
         const size_t end = std::min(text.find_first_of(",\n", at), text.size());
         cell = text.substr(at, end - at);
@@ -146,7 +157,8 @@ Column column_of(const std::string& name) {
   Column out{.name = name};
   const size_t space = name.find(' ');
   const std::string first = name.substr(0, space);
-  if (space != std::string::npos && (first == "dof" || first == "measure" || first == "info" || first == "label")) {
+  if (space != std::string::npos &&
+      (first == "dof" || first == "measure" || first == "info" || first == "label")) {
     out.kind = first;
     out.key = name.substr(space + 1);
   }
@@ -166,26 +178,32 @@ std::vector<GraspSpec> read_grasp_table(const fs::path& path, const ReadOptions&
   if (records.empty()) fail("{}: expected names of columns, got an empty file", file);
   std::vector<Column> columns;
   for (const std::string& name : records[0].cells) columns.push_back(column_of(name));
-  const auto has = [&](const std::string& name) { return std::ranges::find(columns, name, &Column::name) != columns.end(); };
+  const auto has = [&](const std::string& name) {
+    return std::ranges::find(columns, name, &Column::name) != columns.end();
+  };
   for (const char* name : pose_columns)
     if (!has(name)) fail("{}:{}: expected a column '{}', got none", file, records[0].line, name);
-  static const std::vector<std::string> single = {"hand", "object", "hand_file", "object_file", "planner",
-                                                  "seed", "epsilon", "energy", "collision_free"};
+  static const std::vector<std::string> single = {"hand",        "object",  "hand_file",
+                                                  "object_file", "planner", "seed",
+                                                  "epsilon",     "energy",  "collision_free"};
   std::vector<std::string> unused;
   for (const Column& c : columns) {
     if (std::ranges::count(columns, c.name, &Column::name) > 1)
       fail("{}:{}: column {} stands there twice", file, records[0].line, in_quotes(c.name));
-    const bool known = !c.kind.empty() || std::ranges::count(single, c.name) || std::ranges::count(pose_columns, c.name);
+    const bool known = !c.kind.empty() || std::ranges::count(single, c.name) ||
+                       std::ranges::count(pose_columns, c.name);
     if (!known) unused.push_back(c.name);
   }
-  if (!unused.empty() && options.warn) options.warn(fmt::format("{}: columns {} are not used", file, name_list(unused)));
+  if (!unused.empty() && options.warn)
+    options.warn(fmt::format("{}: columns {} are not used", file, name_list(unused)));
 
   std::vector<GraspSpec> out;
   for (size_t r = 1; r < records.size(); ++r) {
     options.progress.check();
     const Record& record = records[r];
     if (record.cells.size() != columns.size())
-      fail("{}:{}: expected {} cells, got {}", file, record.line, columns.size(), record.cells.size());
+      fail("{}:{}: expected {} cells, got {}", file, record.line, columns.size(),
+           record.cells.size());
     GraspSpec& g = out.emplace_back();
     std::map<std::string, double> pose;
     for (size_t c = 0; c < columns.size(); ++c) {
@@ -194,22 +212,35 @@ std::vector<GraspSpec> read_grasp_table(const fs::path& path, const ReadOptions&
       if (cell.empty()) continue;
       const auto number = [&] {
         const auto x = parse_number(cell);
-        if (!x) fail("{}:{}: {}: expected a number, got {}", file, record.line, excerpt(column.name), in_quotes(cell));
+        if (!x)
+          fail("{}:{}: {}: expected a number, got {}", file, record.line, excerpt(column.name),
+               in_quotes(cell));
         return *x;
       };
-      if (column.name == "hand") g.hand_name = cell;
-      else if (column.name == "object") g.object_name = cell;
-      else if (column.name == "hand_file") g.hand_file = cell;
-      else if (column.name == "object_file") g.object_file = cell;
-      else if (column.name == "planner") g.labels["planner"] = cell;
-      else if (column.kind == "label") g.labels[column.key] = cell;
-      else if (column.name == "epsilon") g.measures["epsilon"] = number();
-      else if (column.kind == "measure") { if (cell != "inf" && cell != "nan" && cell != "-inf") g.measures[column.key] = number(); }
-      else if (column.name == "seed" || column.name == "energy") g.info[column.name] = number();
-      else if (column.kind == "info") g.info[column.key] = number();
+      if (column.name == "hand")
+        g.hand_name = cell;
+      else if (column.name == "object")
+        g.object_name = cell;
+      else if (column.name == "hand_file")
+        g.hand_file = cell;
+      else if (column.name == "object_file")
+        g.object_file = cell;
+      else if (column.name == "planner")
+        g.labels["planner"] = cell;
+      else if (column.kind == "label")
+        g.labels[column.key] = cell;
+      else if (column.name == "epsilon")
+        g.measures["epsilon"] = number();
+      else if (column.kind == "measure") {
+        if (cell != "inf" && cell != "nan" && cell != "-inf") g.measures[column.key] = number();
+      } else if (column.name == "seed" || column.name == "energy")
+        g.info[column.name] = number();
+      else if (column.kind == "info")
+        g.info[column.key] = number();
       else if (column.name == "collision_free") {
         if (cell != "true" && cell != "false")
-          fail("{}:{}: collision_free: expected true or false, got {}", file, record.line, in_quotes(cell));
+          fail("{}:{}: collision_free: expected true or false, got {}", file, record.line,
+               in_quotes(cell));
         g.collision_free = cell == "true";
       } else if (column.kind == "dof") {
         g.dofs.push_back(number());
@@ -222,11 +253,14 @@ std::vector<GraspSpec> read_grasp_table(const fs::path& path, const ReadOptions&
     if (pose.empty()) continue;
     const auto x = [&](int i) {
       const auto found = pose.find(pose_columns[i]);
-      if (found == pose.end()) fail("{}:{}: {}: expected a number, got nothing", file, record.line, pose_columns[i]);
+      if (found == pose.end())
+        fail("{}:{}: {}: expected a number, got nothing", file, record.line, pose_columns[i]);
       return found->second;
     };
     const auto q = made_unit({x(3), x(4), x(5), x(6)});
-    if (!q) fail("{}:{}: expected a quaternion of length 1, got ({} {} {} {})", file, record.line, x(3), x(4), x(5), x(6));
+    if (!q)
+      fail("{}:{}: expected a quaternion of length 1, got ({} {} {} {})", file, record.line, x(3),
+           x(4), x(5), x(6));
     g.X_OH = Pose{*q, {x(0), x(1), x(2)}};
   }
   return out;

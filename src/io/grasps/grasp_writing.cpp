@@ -27,11 +27,13 @@ std::vector<double> pose_numbers(const Pose& X) {
 
 std::vector<std::string> dof_names_of(const GraspSpec& grasp) {
   std::vector<std::string> names = grasp.dof_names;
-  for (size_t i = names.size(); i < grasp.dofs.size(); ++i) names.push_back(fmt::format("dof{}", i + 1));
+  for (size_t i = names.size(); i < grasp.dofs.size(); ++i)
+    names.push_back(fmt::format("dof{}", i + 1));
   return names;
 }
 
-double number_of(const std::map<std::string, double>& named, const std::string& name, double other) {
+double number_of(const std::map<std::string, double>& named, const std::string& name,
+                 double other) {
   const auto found = named.find(name);
   return found == named.end() ? other : found->second;
 }
@@ -47,14 +49,16 @@ void report_lost(const std::vector<GraspSpec>& grasps, const Holds& holds, const
   tell(false, "joint positions", [](const GraspSpec& g) { return !g.joints.empty(); });
   tell(false, "contacts", [](const GraspSpec& g) { return !g.points.empty(); });
   tell(false, "poses of pregrasps", [](const GraspSpec& g) { return g.pregrasp.has_value(); });
-  tell(holds.pregrasp_dofs, "DOFs of pregrasps", [](const GraspSpec& g) { return g.pregrasp.has_value(); });
+  tell(holds.pregrasp_dofs, "DOFs of pregrasps",
+       [](const GraspSpec& g) { return g.pregrasp.has_value(); });
   tell(holds.epsilon, "epsilon", [](const GraspSpec& g) { return g.measures.contains("epsilon"); });
-  tell(holds.notes, "other measures", [](const GraspSpec& g) {
-    return g.measures.size() > g.measures.count("epsilon");
-  });
-  tell(holds.notes, "notes and labels", [](const GraspSpec& g) { return !g.info.empty() || !g.labels.empty(); });
+  tell(holds.notes, "other measures",
+       [](const GraspSpec& g) { return g.measures.size() > g.measures.count("epsilon"); });
+  tell(holds.notes, "notes and labels",
+       [](const GraspSpec& g) { return !g.info.empty() || !g.labels.empty(); });
   if (!lost.empty() && options.warn)
-    options.warn(fmt::format("{}: the format {} does not hold {}, which are not written", file, format, name_list(lost)));
+    options.warn(fmt::format("{}: the format {} does not hold {}, which are not written", file,
+                             format, name_list(lost)));
 }
 
 void check_writable(const std::vector<GraspSpec>& grasps, const std::string& file, bool one_hand,

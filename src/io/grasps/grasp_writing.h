@@ -27,7 +27,8 @@ struct Holds {
   bool dofs = false, epsilon = false, pregrasp_dofs = false, notes = false;
 };
 /// Warns once of what the grasps have and the format does not hold:
-/// "g.yaml: the format isaac_grasp does not hold contacts and joint positions, which are not written"
+/// "g.yaml: the format isaac_grasp does not hold contacts and joint positions, which are not
+/// written"
 void report_lost(const std::vector<GraspSpec>& grasps, const Holds& holds, const std::string& file,
                  const std::string& format, const WriteOptions& options);
 

@@ -34,7 +34,8 @@ static std::vector<uint32_t> code_points(std::string_view text) {
     const size_t size = std::max<size_t>(utf8_size(text, i), 1);
     uint32_t code = static_cast<unsigned char>(text[i]);
     if (size > 1) code &= 0x7FU >> size;
-    for (size_t k = 1; k < size; ++k) code = (code << 6) | (static_cast<unsigned char>(text[i + k]) & 63);
+    for (size_t k = 1; k < size; ++k)
+      code = (code << 6) | (static_cast<unsigned char>(text[i + k]) & 63);
     out.push_back(code);
     i += size;
   }
@@ -77,7 +78,8 @@ static std::string npy_bytes(const NpyArray& array) {
   std::string shape;
   for (const size_t n : array.shape) shape += fmt::format("{}, ", n);
   if (array.shape.size() > 1) shape.resize(shape.size() - 2);
-  std::string head = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, trim(shape));
+  std::string head =
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, trim(shape));
   head.append((64 - (10 + head.size() + 1) % 64) % 64, ' ');
   head += '\n';
   std::string out(npy_mark);
@@ -113,7 +115,8 @@ std::string npz_bytes(const std::map<std::string, NpyArray>& arrays) {
   const auto start = static_cast<uint32_t>(out.size());
   out += directory;
   append_little_endian(out, end_mark);
-  for (const size_t x : {size_t{0}, size_t{0}, arrays.size(), arrays.size()}) append_little_endian(out, static_cast<uint16_t>(x));
+  for (const size_t x : {size_t{0}, size_t{0}, arrays.size(), arrays.size()})
+    append_little_endian(out, static_cast<uint16_t>(x));
   append_little_endian(out, static_cast<uint32_t>(directory.size()));
   append_little_endian(out, start);
   append_little_endian(out, uint16_t{0});
@@ -147,39 +150,50 @@ static std::string_view head_value(std::string_view head, std::string_view key) 
   const std::string_view rest = trim(head.substr(at + key.size()));
   const char open = rest.empty() ? '\0' : rest[0];
   const size_t end = open == '(' ? rest.find(')') : rest.find_first_of(",}");
-  return end == std::string_view::npos ? std::string_view() : rest.substr(0, open == '(' ? end + 1 : end);
+  return end == std::string_view::npos ? std::string_view()
+                                       : rest.substr(0, open == '(' ? end + 1 : end);
 }
 
 static NpyArray read_npy(const std::string& place, std::string_view bytes) {
-  if (bytes.size() < 12 || !bytes.starts_with(npy_mark)) fail("{}: expected an array of NumPy, got other bytes", place);
+  if (bytes.size() < 12 || !bytes.starts_with(npy_mark))
+    fail("{}: expected an array of NumPy, got other bytes", place);
   const int version = bytes[6];
   ByteReader lengths(bytes.substr(8));
   const size_t size = version == 1 ? lengths.next<uint16_t>() : lengths.next<uint32_t>();
   const size_t from = version == 1 ? 10 : 12;
-  if (bytes.size() < from + size) fail("{}: expected a head of {} bytes, got {}", place, size, bytes.size() - from);
+  if (bytes.size() < from + size)
+    fail("{}: expected a head of {} bytes, got {}", place, size, bytes.size() - from);
   const std::string_view head = bytes.substr(from, size);
   std::string_view type = head_value(head, "'descr':");
-  const std::string_view order = head_value(head, "'fortran_order':"), shape = head_value(head, "'shape':");
-  if (type.size() < 5 || type.front() != '\'' || shape.empty()) fail("{}: expected a head with type and shape, got {}", place, in_quotes(head));
+  const std::string_view order = head_value(head, "'fortran_order':"),
+                         shape = head_value(head, "'shape':");
+  if (type.size() < 5 || type.front() != '\'' || shape.empty())
+    fail("{}: expected a head with type and shape, got {}", place, in_quotes(head));
   type = trim(type.substr(1, type.size() - 2));
   if (order != "False") fail("{}: arrays in Fortran's order are not read", place);
   NpyArray out;
   size_t count = 1;
   for (const auto word : split_words(shape.substr(1, shape.size() - 2), ",")) {
     const auto n = parse_integer(word);
-    if (!n || *n < 0) fail("{}: expected a shape of whole numbers, got {}", place, in_quotes(shape));
+    if (!n || *n < 0)
+      fail("{}: expected a shape of whole numbers, got {}", place, in_quotes(shape));
     out.shape.push_back(static_cast<size_t>(*n));
-    if (*n > 0 && count > bytes.size() / static_cast<size_t>(*n)) fail("{}: the array ends before its shape {} does", place, excerpt(shape));
+    if (*n > 0 && count > bytes.size() / static_cast<size_t>(*n))
+      fail("{}: the array ends before its shape {} does", place, excerpt(shape));
     count *= static_cast<size_t>(*n);
   }
   const char kind = type.size() > 1 ? type[1] : '\0';
   const auto width = parse_integer(type.substr(std::min<size_t>(2, type.size())));
-  const bool number = (kind == 'f' && width && (*width == 4 || *width == 8)) || (kind == 'b' && width == 1) ||
-                      ((kind == 'i' || kind == 'u') && width && (*width == 1 || *width == 2 || *width == 4 || *width == 8));
-  if (!number && !(kind == 'U' && width && *width >= 0 && *width < 100000)) fail("{}: expected numbers or texts, got the type {}", place, in_quotes(type));
+  const bool number = (kind == 'f' && width && (*width == 4 || *width == 8)) ||
+                      (kind == 'b' && width == 1) ||
+                      ((kind == 'i' || kind == 'u') && width &&
+                       (*width == 1 || *width == 2 || *width == 4 || *width == 8));
+  if (!number && !(kind == 'U' && width && *width >= 0 && *width < 100000))
+    fail("{}: expected numbers or texts, got the type {}", place, in_quotes(type));
   ByteReader reader(bytes.substr(from + size), type[0] == '>');
   const size_t each = kind == 'U' ? 4 * static_cast<size_t>(*width) : static_cast<size_t>(*width);
-  if (each > 0 && reader.left() / each < count) fail("{}: the array ends before its shape {} does", place, excerpt(shape));
+  if (each > 0 && reader.left() / each < count)
+    fail("{}: the array ends before its shape {} does", place, excerpt(shape));
   out.is_text = kind == 'U';
   for (size_t i = 0; i < count; ++i) {
     if (!out.is_text) {
@@ -188,7 +202,8 @@ static NpyArray read_npy(const std::string& place, std::string_view bytes) {
     }
     std::string& text = out.texts.emplace_back();
     for (int k = 0; k < *width; ++k)
-      if (const auto code = reader.next<uint32_t>(); code > 0 && code < 0x110000) append_code_point(text, code);
+      if (const auto code = reader.next<uint32_t>(); code > 0 && code < 0x110000)
+        append_code_point(text, code);
   }
   return out;
 }
@@ -201,7 +216,8 @@ std::map<std::string, NpyArray> read_npz(const std::string& file, std::string_vi
       end = bytes.size() - back;
       break;
     }
-  if (end == std::string_view::npos) fail("{}: expected a zip archive of arrays, got other bytes", file);
+  if (end == std::string_view::npos)
+    fail("{}: expected a zip archive of arrays, got other bytes", file);
   ByteReader tail(bytes.substr(end + 10));
   const size_t count = tail.next<uint16_t>();
   tail.next<uint32_t>();
@@ -209,14 +225,16 @@ std::map<std::string, NpyArray> read_npz(const std::string& file, std::string_vi
   std::map<std::string, NpyArray> out;
   ByteReader entries(bytes.substr(std::min(start, bytes.size())));
   for (size_t i = 0; i < count; ++i) {
-    if (entries.left() < 46 || entries.next<uint32_t>() != entry_mark) fail("{}: the archive's directory is broken", file);
+    if (entries.left() < 46 || entries.next<uint32_t>() != entry_mark)
+      fail("{}: the archive's directory is broken", file);
     entries.skip(6);
     const auto method = entries.next<uint16_t>();
     entries.skip(4);
     const auto crc = entries.next<uint32_t>();
     const size_t packed = entries.next<uint32_t>();
     entries.skip(4);
-    const size_t name_size = entries.next<uint16_t>(), extra = entries.next<uint16_t>(), comment = entries.next<uint16_t>();
+    const size_t name_size = entries.next<uint16_t>(), extra = entries.next<uint16_t>(),
+                 comment = entries.next<uint16_t>();
     entries.skip(8);
     const size_t place = entries.next<uint32_t>();
     if (entries.left() < name_size) fail("{}: the archive's directory is broken", file);
@@ -224,12 +242,15 @@ std::map<std::string, NpyArray> read_npz(const std::string& file, std::string_vi
     entries.skip(name_size + extra + comment);
     if (name.ends_with(".npy")) name.resize(name.size() - 4);
     const std::string where = fmt::format("{}: {}", file, excerpt(name));
-    if (method != 0) fail("{}: compressed arrays are not read; np.savez writes them uncompressed", where);
+    if (method != 0)
+      fail("{}: compressed arrays are not read; np.savez writes them uncompressed", where);
     ByteReader local(bytes.substr(std::min(place, bytes.size())));
-    if (local.left() < 30 || local.next<uint32_t>() != local_mark) fail("{}: the archive's directory is broken", file);
+    if (local.left() < 30 || local.next<uint32_t>() != local_mark)
+      fail("{}: the archive's directory is broken", file);
     local.skip(22);
     const size_t skip = size_t{local.next<uint16_t>()} + local.next<uint16_t>();
-    if (local.left() < skip || local.left() - skip < packed) fail("{}: the archive ends within the array", where);
+    if (local.left() < skip || local.left() - skip < packed)
+      fail("{}: the archive ends within the array", where);
     const std::string_view body = bytes.substr(place + 30 + skip, packed);
     if (crc32(body) != crc) fail("{}: the array's checksum is wrong", where);
     out[name] = read_npy(where, body);

@@ -1,4 +1,5 @@
-// NumPy's arrays in a file: .npy arrays of numbers or texts in a zip archive without compression, as np.savez writes it.
+// NumPy's arrays in a file: .npy arrays of numbers or texts in a zip archive without compression,
+// as np.savez writes it.
 #pragma once
 #include <map>
 #include <string>

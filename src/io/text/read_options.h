@@ -14,7 +14,7 @@ namespace clench {
 
 struct ReadOptions {
   /// where relative names are looked up after the referring file's folder
-  std::filesystem::path root;
+  std::filesystem::path root = {};
   /// robots: files to read in place of those that theirs names; empty: none
   std::string eigengrasps = {}, virtual_contacts = {};
   /// told of what a file contains and we do not use

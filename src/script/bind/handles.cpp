@@ -30,12 +30,14 @@ void add_owned_bodies(lua_State* L, int index, std::span<const Id<Body>> bodies)
 }
 
 Id<Body> find_link(const RobotHandle& robot, const std::string& name, const std::string& subject) {
+  const std::string prefix = robot->name + "_";
   std::vector<std::string> names;
   for (int l = -1; l < static_cast<int>(robot->links.size()); ++l) {
     const auto id = robot->body_of(l);
     const std::string& full = robot.world->body(id).name;
-    if (full == name || full == robot->name + "_" + name) return id;
-    names.push_back(full);
+    if (full == name || full == prefix + name) return id;
+    const bool own = full.starts_with(prefix) && !name.starts_with(prefix);
+    names.push_back(own ? full.substr(prefix.size()) : full);
   }
   fail("{}: robot '{}' has no link '{}'{}", subject, robot->name, name, instead_of(name, names));
 }

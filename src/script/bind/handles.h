@@ -76,7 +76,7 @@ int push_vector(lua_State* L, const Vector& v) {
 }
 
 /// A link of the robot, or its base, by its name, whole or without the robot's.
-/// throws  Error "subject: robot 'dlr' has no link 'thum'; did you mean 'dlr_thumb'?"
+/// throws  Error "subject: robot 'dlr' has no link 'thum'; did you mean 'thumb'?"
 Id<Body> find_link(const RobotHandle& robot, const std::string& name, const std::string& subject);
 
 /// A list of bodies.

@@ -298,6 +298,19 @@ int map(lua_State* L) {
 
   lua_createtable(L, static_cast<int>(count), 0);
   const int results = lua_gettop(L);
+  const auto tell = [&](size_t i) {
+    lua_pushvalue(L, each);
+    lua_rawgeti(L, results, static_cast<lua_Integer>(i) + 1);
+    lua_pushinteger(L, static_cast<lua_Integer>(i) + 1);
+    return lua_pcall(L, 2, 0, 0) == LUA_OK;
+  };
+  // the error on top of the stack goes on
+  const auto raise = [&] {
+    lua_pushcfunction(L, lua_error);
+    lua_insert(L, -2);
+    protected_call(L, 1, 0);
+  };
+  bool interrupted = false;
   lua_Integer failed = 0;
   if (count > 0) {
     Crew crew(task, std::move(copies));
@@ -314,12 +327,16 @@ int map(lua_State* L) {
       push_outcome(L, outcome);
       lua_rawseti(L, results, static_cast<lua_Integer>(i) + 1);
       if (!told || !outcome) continue;
-      lua_pushvalue(L, each);
-      lua_rawgeti(L, results, static_cast<lua_Integer>(i) + 1);
-      lua_pushinteger(L, static_cast<lua_Integer>(i) + 1);
-      protected_call(L, 2, 0);
+      // Ctrl-C breaks off one of these calls; it is made again, and the rest of what is done is told before the error goes on
+      const bool asked = watching.progress().stop_asked();
+      if (tell(i)) continue;
+      if (!asked || interrupted) raise();
+      interrupted = true;
+      crew.end();
+      if (!tell(i)) raise();
     }
   }
+  if (interrupted) raise();
   lua_pushvalue(L, results);
   lua_pushinteger(L, failed);
   return 2;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace clench {
@@ -31,6 +32,18 @@ static int visit(dl_phdr_info* info, size_t, void* data) {
   return 0;
 }
 
+// also of a program whose file was replaced while it runs, as a build does
+static fs::path real_path(const std::string& file) {
+  constexpr std::string_view mark = " (deleted)";
+  std::error_code error;
+  const fs::path path = fs::canonical(file, error);
+  if (!error) return path;
+  std::string link = fs::read_symlink(file, error).string();
+  if (!link.ends_with(mark)) return {};
+  link.resize(link.size() - mark.size());
+  return link;
+}
+
 static bool is_home(const fs::path& folder) {
   std::error_code none;
   return fs::is_directory(folder / "models", none) && fs::is_directory(folder / "worlds", none);
@@ -40,9 +53,8 @@ fs::path home_folder() {
   if (const char* given = std::getenv("CLENCH_MODELS"); given && *given) return given;
   Search search{reinterpret_cast<uintptr_t>(&home_folder), ""};
   dl_iterate_phdr(visit, &search);
-  std::error_code error;
-  const fs::path file = fs::canonical(search.file, error);
-  if (error) return {};
+  const fs::path file = real_path(search.file);
+  if (file.empty()) return {};
   for (const char* way : {"../share/clench", "../../../share/clench", "../.."}) {
     const fs::path folder = (file.parent_path() / way).lexically_normal();
     if (is_home(folder)) return folder;

@@ -1,5 +1,6 @@
 #include "clench/script/bind/bind.h"
 
+#include "clench/base/text.h"
 #include "clench/io/convert.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/bind/world/world_files.h"
@@ -22,6 +23,9 @@ static int convert(lua_State* L) {
   options.done();
   const std::string ending = ending_of(to);
   const bool as_world = kind == FileKind::robot && (ending == ".lua" || ending == ".wld");
+  if (kind == FileKind::robot && !as_world && ending != ".urdf")
+    fail("{}: expected a robot to .urdf, or its world to .lua or .wld, got {}", to,
+         in_quotes(ending));
   if (kind == FileKind::world || as_world)  // built on the way, which tells what the new file does not hold
     save_world(L, *push_world_of(L, found, reading), to,
                {.root = reading.root, .confine = reading.confine});

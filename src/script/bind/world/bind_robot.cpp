@@ -125,8 +125,8 @@ static int place_approach(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const Pose* frame = to<Pose>(L, 2);
   if (frame && given(L, 3)) fail("{}: direction: a pose has its own, +z", subject(L));
-  const Pose X_WA =
-      frame ? *frame : approach_frame(check_vec3(L, 2, "target"), check_vec3(L, 3, "direction"));
+  const Eigen::Vector3d target = frame ? frame->position : check_vec3(L, 2, "target");
+  const Pose X_WA = frame ? *frame : approach_frame(target, check_vec3(L, 3, "direction"));
   const double standoff = given(L, 4) ? check_number(L, 4, "standoff") : 0;
   robot.world->set_pose(robot.id,
                         X_WA * Pose::translation({0, 0, -standoff}) * robot->X_BA.inverse());

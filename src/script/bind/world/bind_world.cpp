@@ -150,8 +150,11 @@ static int get_source(lua_State* L) { return push(L, world_of(L).source()); }
 
 static int text(lua_State* L) {
   const World& world = world_of(L);
-  return push(L, fmt::format("world of {} bodies, {} robots", world.bodies().size(),
-                             world.robots().size()));
+  const auto several = [](size_t n, const char* one, const char* many) {
+    return fmt::format("{} {}", n, n == 1 ? one : many);
+  };
+  return push(L, fmt::format("world of {}, {}", several(world.bodies().size(), "body", "bodies"),
+                             several(world.robots().size(), "robot", "robots")));
 }
 
 static int equal(lua_State* L) {

@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "clench/base/suggest.h"
+#include "clench/base/text.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/lua/guard.h"
@@ -33,6 +35,18 @@ static int set_collision(lua_State* L) {
 
 // --- friction ---
 
+// a slip makes a new material, too; numbered ones are meant
+static void tell_near_material(lua_State* L, const std::string& name) {
+  static const char told = 0;
+  const std::vector<std::string>& known = world_of(L).materials().names();
+  if (std::ranges::find(known, name) != known.end() ||
+      name.find_first_of("0123456789") != std::string::npos)
+    return;
+  const std::string near = did_you_mean(name, known);
+  if (!near.empty())
+    warn_once(L, &told, fmt::format("{}: {} is a new material{}", subject(L), in_quotes(name), near));
+}
+
 static int set_friction(lua_State* L) {
   const std::string a = check_string(L, 2, "material"), b = check_string(L, 3, "material");
   Table options(L, 4);
@@ -40,6 +54,7 @@ static int set_friction(lua_State* L) {
   const Friction friction{.statics = statics,
                           .kinetic = options.number("kinetic", std::max(0.0, statics - 0.1))};
   options.done();
+  for (const std::string& name : {a, b}) tell_near_material(L, name);
   world_of(L).set_friction(a, b, friction);
   return 0;
 }

@@ -1,0 +1,160 @@
+--- `clench plan`: grasps of a hand on an object, searched for, verified, listed and shown.
+local columns = require "clench.host.columns"
+local error_text = require "clench.host.error_text"
+local in_utf8 = require "clench.in_utf8"
+local plan_files = require "clench.host.plan_files"
+local reading = require "clench.host.reading"
+local report_rows = require "clench.plan.report_rows"
+
+local plan = {}
+local job = {found = {}}  -- what `search` leaves for `finish`
+
+-- names are hostile: a terminal obeys control characters
+local function printable(text) return (in_utf8(text):gsub("%c", function(c) return c == "\n" and c or "?" end)) end
+
+local function fail(text) error({usage = text}, 0) end
+
+-- "X,Y,Z" [m] or "X,Y,Z,ROLL,PITCH,YAW" [m and degrees]
+local function pose_of(option, text)
+  local numbers, count = {}, 0
+  for word in (text .. ","):gmatch "([^,]*)," do
+    count = count + 1
+    numbers[count] = word:match "^%s*[-+.%d][-+.%deE]*%s*$" and tonumber(word)
+  end
+  if count ~= #numbers or count ~= 3 and count ~= 6 then
+    fail(("%s: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '%s'"):format(option, text))
+  end
+  local pose = {xyz = {numbers[1], numbers[2], numbers[3]}}
+  if count == 6 then pose.rpy = {clench.rad(numbers[4]), clench.rad(numbers[5]), clench.rad(numbers[6])} end
+  return pose
+end
+
+-- words of the command line: name, value, name, value ...; some names come several times
+local function read_words(...)
+  local given = {obstacle = {}, ["obstacle-pose"] = {}}
+  local words = {...}
+  for i = 1, #words, 2 do
+    local name, value = words[i], words[i + 1]
+    if type(given[name]) == "table" then table.insert(given[name], value) else given[name] = value end
+  end
+  if #given["obstacle-pose"] > #given.obstacle then
+    fail(("--obstacle-pose is given %d times, and --obstacle %d times"):format(#given["obstacle-pose"], #given.obstacle))
+  end
+  return given
+end
+
+local function load_world(given, said)
+  local world = clench.world()
+  local function body(option, pose)
+    local options = reading("body", said)
+    options.pose = pose and pose_of(option, pose) or nil
+    return options
+  end
+  local of_robot = reading("robot", said)
+  of_robot.unit = nil  -- robots' files have units of their own
+  local hand = world:add_robot(given.hand, of_robot)
+  local options = body("--pose", given.pose)
+  options.mass = tonumber(given.mass)
+  local object = world:add_object(given.object, options)
+  for i, path in ipairs(given.obstacle) do
+    world:add_obstacle(path, body("--obstacle-pose", given["obstacle-pose"][i]))
+  end
+  if not object.mesh then fail(("%s: an object without a surface cannot be grasped"):format(given.object)) end
+  return world, hand, object
+end
+
+-- the search broke off: what was found so far, like grasps left out as the planner does it
+local function run_of_found()
+  local stopped = {hand = job.hand, object = job.object, world = job.world, threads = 1,
+                   elapsed = function() return clench.clock() - job.began end}
+  local found = require "clench.plan.crowd".sort(job.found)
+  local run = require "clench.plan.run"(stopped, found, {planner = "plan.sample"}, {count = job.count, distance = 0.1})
+  run.report.causes = {}  -- of nothing found there is one: it was interrupted
+  return run
+end
+
+local function search(root, folder, package, unit, strict, ...)
+  local given = read_words(...)
+  job.given = given
+  job.files = plan_files.open(given)
+  job.world, job.hand, job.object = load_world(given, {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""})
+  job.count = math.tointeger(tonumber(given.count)) or not given.seconds and 20 or nil
+  job.began = clench.clock()
+  job.run = clench.plan.sample {
+    hand = job.hand, object = job.object, count = job.count or 1000000, seconds = tonumber(given.seconds),
+    seed = math.tointeger(tonumber(given.seed)), threads = math.tointeger(tonumber(given.threads)) or clench.parallel.cores,
+    verify = given["no-verify"] == nil,
+    on_grasp = function(grasp)
+      job.found[#job.found + 1] = grasp
+      job.files:add(grasp)
+    end,
+  }
+end
+
+local function tell(problem)
+  io.stdout:flush()
+  io.stderr:write("clench plan: ", problem, "\n")
+end
+
+-- an error of ours without the place where it was raised, which is no line of the user's
+local function sentence(problem)
+  if type(problem) == "table" and problem.usage then return problem.usage, 2 end
+  return (error_text(problem):gsub("^stdlib/[%w_/]+%.lua:%d+: ", "")), 1
+end
+
+--- Loads and searches.
+---@param root string  this and the next four: what is said of reading, "" when nothing is
+---@return string  the exit code, or how it ended where there are files to write: "finish", "interrupted" by Ctrl-C, or "failed"
+function plan.search(...)
+  local ok, problem = pcall(search, ...)
+  if ok then return "finish" end
+  local text, code = sentence(problem)
+  if text:find "interrupted" or text == "stopped" then
+    return job.began and "interrupted" or "130"
+  end
+  tell(text)
+  return #job.found > 0 and "failed" or tostring(code)
+end
+
+local shown = 20  -- rows of the table that is printed
+
+local function print_table(rows)
+  local list = {{"#", "epsilon", "load", "re-closed", "contacts", "azimuth", "elevation"}}
+  for i = 1, math.min(#rows, shown) do
+    local row = rows[i]
+    list[#list + 1] = {tostring(row.number), ("%.4f"):format(row.epsilon), row.load and ("%.1f"):format(row.load) or "-",
+                       row.reclosed and ("%.4f"):format(row.reclosed) or "-", tostring(row.contacts),
+                       tostring(row.azimuth), tostring(row.elevation)}
+  end
+  columns(list, "")
+  if #rows > shown then print(("and %d more"):format(#rows - shown)) end
+  print "load: times the object's weight, in the worst direction; re-closed: least epsilon with the object displaced by 1 mm;"
+  print "azimuth, elevation: where the hand comes from [degrees]"
+end
+
+local function finish(how)
+  local run = job.run or run_of_found()
+  local grasps = run.grasps
+  job.files:save(grasps)
+  local title = ("%s grasps %s"):format(job.hand.name, job.object.name)
+  print(printable(title) .. (how == "finish" and "" or ": " .. how))
+  if #grasps > 0 then print_table(report_rows(job.hand, job.object, grasps)) end
+  local words = tostring(run.report)
+  if how ~= "finish" then words = words .. ("\n%s: these are the grasps until then"):format(how) end
+  print(printable(words))
+  local subtitle = ("%s, %s, seed %s"):format(job.given.hand, job.given.object, job.given.seed or "1")
+  job.files:show(job.hand, job.object, grasps, {title = title, subtitle = subtitle, report = words})
+  return #grasps
+end
+
+--- Writes the files, prints the table and what was done.
+---@param how "finish"|"interrupted"|"failed"
+---@return string  the exit code
+function plan.finish(how)
+  local ok, result = pcall(finish, how)
+  if not ok then tell((sentence(result))) end
+  if how == "interrupted" then return "130" end
+  return ok and how == "finish" and result > 0 and "0" or "1"
+end
+
+return plan

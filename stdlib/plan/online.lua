@@ -1,0 +1,110 @@
+local new_job = require "clench.plan.job"
+local closing = require "clench.plan.closing"
+local described = require "clench.described"
+
+local best_states = {size = 20, distance = 0.4}
+local near_object = {behind = 0.03, before = 0.2}  -- how far the search looks along the approach [m]
+local most = 10                                    -- solutions that are kept
+
+local Online = {}
+Online.__index = Online
+
+-- how far a grasp is from where the hand is now: 45 degrees count as much as 50 mm aside
+local function closeness(X_WH_now, X_WH_grasp)
+  local between = X_WH_now:inverse() * X_WH_grasp
+  local p = between.position
+  return math.max(between:angle() / (math.pi / 4), math.sqrt(p.x * p.x + p.y * p.y) / 0.05)
+end
+
+local function rank(self)
+  local X_WH, X_WO = self.job.given_hand.pose, self.job.given_object.pose
+  for _, s in ipairs(self.solutions) do s.closeness = closeness(X_WH, X_WO * s.grasp.pose) end
+  table.sort(self.solutions, function(a, b)
+    if a.closeness ~= b.closeness then return a.closeness < b.closeness end
+    return a.number < b.number
+  end)
+  while #self.solutions > most do table.remove(self.solutions) end
+end
+
+-- the planner's world is as the user's: hand and object may have been moved since
+local function follow(self)
+  local job = self.job
+  job.hand:set_posture(job.given_hand.pose, job.given_hand.dofs)
+  job.object.pose = job.given_object.pose
+end
+
+local function is_new(self, grasp)
+  for _, s in ipairs(self.solutions) do
+    local between = s.grasp.pose:inverse() * grasp.pose
+    if between.position:norm() < 0.01 and between:angle() < 0.1 then return false end
+  end
+  return true
+end
+
+--- Searches on, from where hand and object are now; what it finds is closed on and kept when in force closure.
+---@param steps? integer  500
+---@return grasp[]  those that are known, the nearest to the hand first
+function Online:search(steps)
+  local job = self.job
+  self.periods = self.periods + 1
+  follow(self)
+  local reach = job.hand.world:distance(job.hand, job.object)
+  local range = math.min(near_object.before, math.max(reach, 0.01)) + near_object.behind
+  local search = job:annealing {energy = self.energy, position = "approach", start = "hand", schedule = "online",
+                                seed = job.seed + self.periods, best = best_states, jumps = {dist = 0.33 * range},
+                                limits = {dist = {-near_object.behind, range - near_object.behind}}}
+  search:run(steps or 500)
+  for _, state in ipairs(search.best) do
+    self.tested = self.tested + 1
+    local grasp = closing.close(job.hand, job.object, state, {approach = 0.03 + range, grasp = job.grasp_options})
+    if grasp and grasp.epsilon > 0 and grasp.collision_free and is_new(self, grasp) then
+      self.found = self.found + 1
+      closing.note(grasp, "online", {energy = state.energy, number = self.found, seed = job.seed})
+      self.solutions[#self.solutions + 1] = {grasp = grasp, number = self.found}
+    end
+  end
+  return self:grasps()
+end
+
+--- The grasps that are known, the nearest to where the hand is now first.
+function Online:grasps()
+  rank(self)
+  local list = clench.grasps()
+  for _, s in ipairs(self.solutions) do list:add(s.grasp) end
+  return list
+end
+
+--- The DOFs of the nearest grasp before it closes, opened further the farther the hand still is: fully at 0.2 m.
+---@return number[]?
+function Online:preshape()
+  rank(self)
+  local nearest = self.solutions[1]
+  if not nearest then return nil end
+  local away = (self.job.given_hand.pose.position - (self.job.given_object.pose * nearest.grasp.pose).position):norm()
+  local part = math.min(1, away / near_object.before)
+  local dofs = {}
+  for i, closed in ipairs(nearest.grasp.dofs) do
+    dofs[i] = closed + part * (nearest.grasp.pregrasp.dofs[i] - closed)
+  end
+  return dofs
+end
+
+--- A search that goes on while hand and object move: each `planner:search()` looks around where they are now, and what was
+--- found is ranked by how near it is to the hand. Nothing of the user's world is moved.
+---@param options {hand: robot, object: body, energy?: string|energy, seed?: integer, grasp?: table, posture?: string, world?: world}  energy: "contact"
+---@return table planner  `search(steps)`, `grasps()`, `preshape()`, the DOFs to go on with, `tested`, `found`
+--- > planner = clench.plan.online {hand = hand, object = flask}
+--- > list = planner:search(200)
+--- > planner.tested > 0, #list == #planner:grasps()  --> true, true
+return function(options)
+  local job = new_job("plan.online", options, function(read, job)
+    job.energy = read:raw "energy" or "contact"
+    if type(job.energy) == "function" or described(job.energy) == "a energy" and not job.energy.any_thread then
+      read:fail("energy: expected one of the engine's, for the planner moves a copy of the world")
+    end
+  end)
+  for _, key in ipairs {"position", "start", "limits", "jumps"} do
+    if job.space[key] ~= nil then require "clench.raise"(("plan.online: %s: it is the planner's own here"):format(key)) end
+  end
+  return setmetatable({job = job, energy = job:energy_of(job.energy), solutions = {}, periods = 0, tested = 0, found = 0}, Online)
+end

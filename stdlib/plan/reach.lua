@@ -1,0 +1,36 @@
+--- For a hand on an arm: which grasps the arm reaches, from the pose before the hand comes to the object on.
+local reach = {}
+
+-- the arm's DOFs that bring the hand there, free of collision; nil: none were found
+local function reaches(arm, hand, X_WH)
+  local result = arm:ik(hand.base, X_WH, {collision_free = true})
+  return result.reached and result.dofs or nil
+end
+
+---@param job table  of clench.plan.job, with an arm
+---@param grasps grasp[]
+---@return grasp[] reached, integer others  each reached grasp with `info.arm_1` and so on, the arm's DOFs as it is held
+function reach.filter(job, grasps)
+  local world = job.given_world:clone()
+  local hand, object = world:robot(job.given_hand.name), world:body(job.given_object.name)
+  local arm = hand.parent
+  local reached, others = {}, 0
+  for _, grasp in ipairs(grasps) do
+    local before = grasp.pregrasp
+    hand:set_dofs(before and before.dofs or grasp.dofs)
+    local comes = not before or reaches(arm, hand, object.pose * before.pose)
+    hand:set_dofs(grasp.dofs)
+    local dofs = comes and reaches(arm, hand, object.pose * grasp.pose)
+    if dofs then
+      local info = grasp.info
+      for i, value in ipairs(dofs) do info["arm_" .. i] = value end
+      grasp.info = info
+      reached[#reached + 1] = grasp
+    else
+      others = others + 1
+    end
+  end
+  return reached, others
+end
+
+return reach

@@ -1,0 +1,15 @@
+--- The library three.js, which report pages carry with them, as Debian's package libjs-three installs it.
+local places = {"/usr/share/javascript/three/three.min.js", "/usr/share/javascript/three/build/three.min.js",
+                "/usr/share/nodejs/three/build/three.min.js"}
+
+---@param candidates? string[]  files to look for, in order
+---@return string? text, string? missing  a sentence where there is none
+return function(candidates)
+  for _, path in ipairs(candidates or places) do
+    local file = io.open(path, "rb")
+    local text = file and file:read "a"
+    if file then file:close() end
+    if text and text:find("THREE", 1, true) then return text end
+  end
+  return nil, "a report page needs three.js, which is not installed: apt-get install libjs-three"
+end

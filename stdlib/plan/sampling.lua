@@ -1,0 +1,26 @@
+--- What plan.sample and plan.random share: random starts, tried over threads.
+local new_job = require "clench.plan.job"
+local new_run = require "clench.plan.run"
+local crowd = require "clench.plan.crowd"
+local starts = require "clench.plan.starts"
+
+---@param name string  "sample"
+---@param options table
+---@param read_more? fun(read: table, own: table, job: table)  reads refine and verify
+return function(name, options, read_more)
+  local own = {planner = name, refine = 0, friction = 0.5, width = 0.2, kind = "both"}
+  local job = new_job("plan." .. name, options, function(read, job)
+    own.count = read:count("count", 100, 1, 1000000)
+    own.limit = read:count("candidates", 100000, 1, 1e9)
+    own.standoff = read:positive("standoff", 0.15)
+    own.distance = read:not_negative("distance", 0.1)
+    own.on_grasp = read:raw "on_grasp"
+    if own.on_grasp and type(own.on_grasp) ~= "function" then read:expected("on_grasp", "a function", own.on_grasp) end
+    if read_more then read_more(read, own, job) end
+  end)
+  own.approach = 2 * own.standoff
+  local told = {planner = "plan." .. name}
+  local found = crowd.try(job, told, starts.random(job, own), own)
+  job:finish()
+  return new_run(job, crowd.sort(found), told, {count = own.count, distance = own.distance})
+end

@@ -1,0 +1,33 @@
+local read_options = require "clench.options"
+local described = require "clench.described"
+
+local all = {"contact", "potential_quality", "guided_potential_quality", "autograsp_quality", "strict_autograsp"}
+
+--- How fast annealing is for a hand and an object on this machine, by energy: GraspIt!'s "Time Test".
+---@param options {hand: robot, object: body, energies?: string[], steps?: integer, seed?: integer}  steps: 1000 of each
+---@return {energy: string, steps: integer, seconds: number, steps_per_second: number, accepted: number, in_collision: number}[]  accepted: part of the steps; in_collision: neighbours per step that collided
+--- > rows = clench.study.planner_speed {hand = hand, object = flask, energies = {"contact"}, steps = 50}
+--- > rows[1].energy, rows[1].steps, rows[1].steps_per_second > 0  --> contact, 50, true
+--- > clench.study.planner_speed {hand = hand, object = flask, step = 5}  --> error: unknown key 'step'
+return function(options)
+  local read = read_options("study.planner_speed", options)
+  local hand, object, energies = read:raw "hand", read:raw "object", read:raw "energies" or all
+  if described(hand) ~= "a robot" then read:expected("hand", "a robot", hand) end
+  if described(object) ~= "a body" then read:expected("object", "a body", object) end
+  if type(energies) ~= "table" then read:expected("energies", "a list of names", energies) end
+  local steps = read:count("steps", 1000, 1, 1e9)
+  local seed = read:count("seed", 1, math.mininteger, math.maxinteger)
+  read:done()
+  local rows = {}
+  for i, name in ipairs(energies) do
+    local search = clench.annealing {hand = hand, object = object, world = hand.world:clone(), seed = seed,
+                                     energy = clench.energy[name] {hand = hand, object = object}}
+    local began = clench.clock()
+    local taken = search:run(steps)
+    local seconds = clench.clock() - began
+    local counts = search.counts
+    rows[i] = {energy = name, steps = taken, seconds = seconds, steps_per_second = taken / math.max(seconds, 1e-9),
+               accepted = counts.accepted / math.max(taken, 1), in_collision = counts.in_collision / math.max(taken, 1)}
+  end
+  return rows
+end

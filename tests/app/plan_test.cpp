@@ -1,0 +1,158 @@
+// `clench plan`: what it prints and writes, and how it ends.
+#include "command.h"
+
+using clench::test::Folder;
+using clench::test::has;
+using clench::test::run;
+namespace fs = std::filesystem;
+
+static const std::string barrett = "plan models/hands/barrett/barrett.cfg models/objects/flask.iv ";
+
+static std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// the values of `epsilon` in a list of grasps, as clench reads them
+static std::string epsilons(const std::string& path) {
+  return run("-q -e 'for _, g in ipairs(clench.grasps(\"" + path + "\")) do print(g.epsilon) end'").out;
+}
+
+// a cube as an OBJ file [m]
+static std::string cube_of(double side) {
+  std::string text;
+  for (int i = 0; i < 8; ++i)
+    text += fmt::format("v {} {} {}\n", side * ((i & 1) ^ (i >> 1 & 1)), side * (i >> 1 & 1), side * (i >> 2));
+  return text + "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\n"
+                "f 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
+}
+
+TEST_CASE("plan lists the best grasps, writes them best first, and says what was done") {
+  const Folder folder;
+  const std::string out = folder / "a.jsonl";
+  const std::string sheet = folder / "a.png";
+  const auto result = run(barrett + "--count 2 -o " + out + " --sheet " + sheet);
+  // the sheet needs OpenGL, and nothing else does
+  const bool drawn = fs::exists(sheet);
+  CHECK(result.code == (drawn ? 0 : 1));
+  CHECK(has(result.out, drawn ? "a.png: 2 pictures" : "OpenGL"));
+  CHECK((!drawn || text_of(sheet).starts_with("\x89PNG")));
+  CHECK(has(result.out, "#  epsilon  load  re-closed  contacts  azimuth  elevation\n1  0."));
+  CHECK(has(result.out, "no force closure: "));
+  CHECK(has(result.out, "plan.sample: 2 grasps"));
+  const std::string list = epsilons(out);
+  const double first = std::stod(list), second = std::stod(list.substr(list.find('\n')));
+  CHECK(first >= second);
+  CHECK(second > 0.01);
+  CHECK(std::count(list.begin(), list.end(), '\n') == 2);
+}
+
+TEST_CASE("what plan is given badly is told in one sentence, before the search") {
+  const Folder folder;
+  const auto said = [](const std::string& options, const std::string& sentence, int code = 2) {
+    const auto result = run(barrett + options);
+    CHECK(result.code == code);
+    CHECK(has(result.out, sentence));
+    CHECK(result.out.find("candidates") == std::string::npos);
+  };
+  said("--count 0", "--count: Value 0 not in range 1 to 1000000");
+  said("--seconds -1", "--seconds");
+  said("--seed x", "--seed: Failed parsing x as a INT");
+  said("--threads 0", "--threads: Value 0 not in range 1 to 1024");
+  said("--mass none", "--mass");
+  said("--pose 1,2", "--pose: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '1,2'");
+  said("--pose 1,2,nan", "--pose: expected X,Y,Z in metres");
+  said("--obstacle-pose 0,0,0", "--obstacle-pose is given 1 times, and --obstacle 0 times");
+  said("--format csv", "--format says how -o FILE is written, and there is no -o");
+  said("-o " + (folder / "a.json"), ".json may be several formats", 1);
+  said("-o " + (folder / "no/a.jsonl"), "no such folder", 1);
+  said("--sheet a.jpg", "--sheet: expected a file .png, got 'a.jpg'");
+  said("--report a.htm", "--report: expected a file .html, got 'a.htm'");
+  said("--sheet " + (folder / "no/a.png"), "--sheet: " + (folder / "no/a.png"));
+  said("--obstacle no.iv", "no such file: no.iv", 1);
+  said("--confine models/hands", "lies outside of ", 1);
+  CHECK(run("plan models/hands/barrett/barrett.cfg").code == 2);
+  CHECK(run("plan models/objects/flask.iv models/objects/flask.iv").code == 1);
+  const auto help = run("plan --help");
+  CHECK(help.code == 0);
+  CHECK(has(help.out, "Examples:\n  clench plan "));
+}
+
+TEST_CASE("an object without triangles cannot be planned for") {
+  const Folder folder;
+  const auto empty = folder.file("empty.obj", "v 0 0 0\n");
+  const auto result = run("plan models/hands/barrett/barrett.cfg " + empty);
+  CHECK(result.code == 1);
+  CHECK(has(result.out, "empty.obj"));
+}
+
+TEST_CASE("where nothing is found, plan ends with 1 and says why") {
+  const Folder folder;
+  const std::string out = folder / "a.jsonl";
+  const auto object = folder.file("cube.obj", cube_of(1));
+  const auto result = run("plan models/hands/parallel_jaw/parallel_jaw.cfg " + object +
+                          " --unit m --seconds 0.5 -o " + out);
+  CHECK(result.code == 1);
+  CHECK(has(result.out, "plan.sample: 0 grasps"));
+  CHECK(has(result.out, "\nwhy: the object is 1000 mm wide where it is narrowest, and the hand opens to"));
+  CHECK(epsilons(out).empty());
+}
+
+// starts a long search, waits for its first grasps, and sends a signal
+static std::string end_by(const std::string& signal, const std::string& out) {
+  const Folder folder;
+  const auto script = folder.file(
+      "end.sh", std::string(CLENCH_COMMAND) + " " + barrett + "--seconds 60 -o " + out +
+                    " & pid=$!\n"
+                    "while [ $(cat " + out + " 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.05; done\n"
+                    "kill -" + signal + " $pid\nwait $pid\necho code $?\n");
+  FILE* pipe = popen(("bash " + script + " 2>&1").c_str(), "r");
+  std::string text;
+  char buffer[4096];
+  while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
+  pclose(pipe);
+  return text;
+}
+
+TEST_CASE("Ctrl-C ends a search with the grasps so far and the code 130") {
+  const Folder folder;
+  const std::string out = folder / "a.jsonl";
+  const std::string text = end_by("INT", out);
+  CHECK(has(text, "barrett grasps flask: interrupted\n"));
+  CHECK(has(text, "interrupted: these are the grasps until then"));
+  CHECK(text.ends_with("code 130\n"));
+  const std::string list = epsilons(out);
+  CHECK(list.find("clench") == std::string::npos);
+  CHECK(std::stod(list) >= std::stod(list.substr(list.find('\n'))));
+}
+
+TEST_CASE("a search that is killed leaves its grasps in a list that can be read") {
+  const Folder folder;
+  const std::string out = folder / "a.jsonl";
+  CHECK(has(end_by("KILL", out), "code 137"));
+  const std::string list = epsilons(out);
+  CHECK(list.find("clench") == std::string::npos);
+  CHECK(std::count(list.begin(), list.end(), '\n') >= 2);
+}
+
+TEST_CASE("names that are HTML or no UTF-8 stay words in the page and in the list") {
+  const Folder folder;
+  const auto object = folder.file("<script>alert(1)<\x2fscript><img src=x>\xE9'.obj", cube_of(0.05));
+  const auto page = folder / "a.html", out = folder / "a.jsonl";
+  const std::string quoted = "\"" + object + "\"";
+  const auto result = run("plan models/hands/barrett/barrett.cfg " + quoted +
+                          " --unit m --count 1 --no-verify --report " + page + " -o " + out +
+                          " --pose 0,0,0.5,0,0,90 --obstacle models/obstacles/floor.iv --obstacle-pose -0.25,0,-1");
+  CHECK(result.code <= 1);
+  const std::string html = text_of(page);
+  // without three.js there is no page
+  if (result.out.find("three.js, which is not installed") != std::string::npos) return;
+  CHECK(has(html, "&lt;img src=x&gt;\\xE9&#39;"));
+  CHECK(html.find("<img src=x") == std::string::npos);
+  CHECK(html.find("alert(1)</") == std::string::npos);
+  CHECK(html.find('\xE9') == std::string::npos);
+  // both stand where they were put
+  CHECK(has(html, R"("kind":"obstacle","mesh")"));
+  CHECK(has(html, R"("pose":[-0.25,0,-1.0,1.0,0,0,0])"));
+  CHECK(has(html, R"("object_pose":[0,0,0.5,0.707107,0,0,0.707107])"));
+}

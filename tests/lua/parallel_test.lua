@@ -1,0 +1,101 @@
+-- Work in many threads: what is handed over, what is not, and that threads change nothing.
+local test, clench = require "test", require "clench"
+
+test("results stand in the order of their items, whatever the threads", function(t)
+  local items = {}
+  for i = 1, 40 do items[i] = i end
+  local function work(x) return {x * x, math.random(1000000)} end
+  local one, failed = clench.parallel.map(work, items, {threads = 1})
+  t.equal(failed, 0)
+  for i = 1, 40 do t.equal(one[i][1], i * i) end
+  for _, threads in ipairs {2, 7, 100} do
+    local again = clench.parallel.map(work, items, {threads = threads})
+    t.equal(clench.json.encode(again), clench.json.encode(one))
+  end
+  t.equal(#clench.parallel.map(work, {}), 0)
+end)
+
+test("values come over as they were", function(t)
+  local values = {true, 7, -0.1, "a\0b", {x = {y = 1}}, clench.vec3(1, 2, 3), clench.pose {xyz = {1, 2, 3}, rpy = {1, 0, 0}}}
+  local back = clench.parallel.map(function(x) return x end, values)
+  for i = 1, 4 do t.ok(back[i] == values[i] and math.type(back[i]) == math.type(values[i])) end
+  t.equal(back[5].x.y, 1)
+  t.ok(back[6] == values[6] and back[7] == values[7])
+end)
+
+test("worlds, robots, meshes, snapshots and grasps are handed over as copies", function(t)
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local hand, flask = world.robots[1], world.objects[1]
+  hand:autograsp()
+  local grasp = clench.grasp(hand, flask)
+  local before = world:hash()
+  local got = clench.parallel.map(function(item)
+    local same = item.hand.world:hash()
+    item.hand:open()
+    item.world:restore(item.moment)
+    local again = item.grasp:apply(item.world)
+    return {hash = same, epsilon = again:quality "epsilon", triangles = item.mesh.triangle_count, grasp = again,
+            one_world = item.hand.world == item.world and item.flask.world == item.world}
+  end, {{world = world, hand = hand, flask = flask, mesh = flask.mesh, moment = world:snapshot(), grasp = grasp}})[1]
+  t.equal(got.error, nil)
+  t.equal(got.hash, before)
+  t.equal(got.epsilon, grasp:quality "epsilon")
+  t.equal(got.triangles, flask.mesh.triangle_count)
+  t.ok(got.one_world)
+  t.equal(got.grasp.epsilon, grasp.epsilon)
+  t.equal(world:hash(), before)
+end)
+
+test("every item finds the shared worlds as they were given", function(t)
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local hand = world.robots[1]
+  local function work(_, shared)
+    local before = shared.hand.world:hash()
+    shared.hand:autograsp()
+    return before
+  end
+  for _, before in ipairs(clench.parallel.map(work, {1, 2, 3, 4}, {threads = 2, shared = {hand = hand}})) do
+    t.equal(before, world:hash())
+  end
+end)
+
+test("an error is a row, and the others are done", function(t)
+  local results, failed = clench.parallel.map(function(x)
+    if x == 2 then error "bad two" end
+    if x == 3 then error {} end
+    if x == 4 then return print end
+    return x
+  end, {1, 2, 3, 4, 5})
+  t.equal(failed, 3)
+  t.equal(results[1], 1)
+  t.ok(results[2].error:find "bad two")
+  t.ok(results[3].error:find "table")
+  t.ok(results[4].error:find "the result: a function cannot be handed over")
+  t.equal(results[5], 5)
+end)
+
+test("what cannot be handed over is refused in one sentence", function(t)
+  local outside = 1
+  t.fails(function() clench.parallel.map(function() return outside end, {1}) end, "it uses 'outside' of the lines around it")
+  t.fails(function() clench.parallel.map(print, {1}) end, "expected one written in Lua")
+  t.fails(function() clench.parallel.map(3, {1}) end, "a function or a module's name")
+  t.fails(function() clench.parallel.map("no_such_module", {1}) end, "no_such_module")
+  t.fails(function() clench.parallel.map("clench.stats", {1}) end, "expected one that returns a function")
+  local function id(x) return x end
+  t.fails(function() clench.parallel.map(id, {{close = print}}) end, "items[1].close: a function cannot be handed over")
+  t.fails(function() clench.parallel.map(id, 5) end, "items: expected a list")
+  t.fails(function() clench.parallel.map(id, {1}, {threads = 0}) end, "threads: expected 1 to 1024, got 0")
+  t.fails(function() clench.parallel.map(id, {1}, {thread = 2}) end, "unknown key 'thread'")
+  local cycle = {}
+  cycle.self = cycle
+  t.fails(function() clench.parallel.map(id, {cycle}) end, "more than 100 deep")
+end)
+
+test("each is called in order, and its error ends the rest", function(t)
+  local seen = {}
+  clench.parallel.map(function(x) return x end, {5, 6, 7}, {each = function(result, i) seen[i] = result end})
+  t.equal(table.concat(seen, " "), "5 6 7")
+  t.fails(function()
+    clench.parallel.map(function(x) return x end, {5, 6, 7}, {each = function() error "enough" end})
+  end, "enough")
+end)

@@ -1,0 +1,167 @@
+-- The page of `clench plan`: what it holds, that hostile names stay words, and that a browser draws it.
+local test = require "test"
+local base64 = require "clench.base64"
+local page = require "clench.plan.report_page"
+local report_rows = require "clench.plan.report_rows"
+local find_three = require "clench.plan.report_page_three"
+
+local three, missing = find_three()
+local hostile = "</script><img src=x onerror=\"document.documentElement.dataset.bad='yes'\"><!-- & \u{e9}"
+
+-- a flask that is grasped, and the same grasp with other numbers
+local function stage(count)
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local hand, flask = world.robots[1], world.objects[1]
+  local open = hand.dofs
+  hand:autograsp()
+  local grasps = {}
+  for i = 1, count do
+    local grasp = clench.grasp(hand, flask)
+    grasp.pregrasp = {pose = grasp.pose, dofs = open}
+    if i ~= 2 then grasp.info = {load_margin = 2 + i % 5 / 4, reclosed_epsilon = 0.01 * i} end
+    grasps[i] = grasp
+  end
+  return world, hand, flask, grasps
+end
+
+local function html_of(count, name)
+  local _, hand, flask, grasps = stage(count)
+  if name then flask.name = name end
+  return page(hand, flask, grasps, {title = name or "hand grasps flask", subtitle = name or "files", report = name or "words"})
+end
+
+test("base64 is that of RFC 4648", function(t)
+  for bytes, text in pairs {[""] = "", f = "Zg==", fo = "Zm8=", foo = "Zm9v", foob = "Zm9vYg==", fooba = "Zm9vYmE=",
+                            foobar = "Zm9vYmFy", ["\0\xff\x10"] = "AP8Q"} do
+    t.equal(base64(bytes), text)
+  end
+end)
+
+test("rows tell where the hand comes from, and leave the world as it was", function(t)
+  local world, hand, flask, grasps = stage(1)
+  local before = world:hash()
+  local visited = 0
+  local rows = report_rows(hand, flask, grasps, function() visited = visited + 1 end)
+  t.equal(visited, 1)
+  t.equal(world:hash(), before)
+  local row, d = rows[1], hand.approach.direction
+  t.equal(row.contacts, #grasps[1].points)
+  t.equal(row.load, 2.25)
+  t.close(math.sin(clench.rad(row.elevation)), -d.z, 0.01)
+  t.close(math.cos(clench.rad(row.elevation)) * math.cos(clench.rad(row.azimuth)), -d.x, 0.02)
+end)
+
+test("a machine without three.js is told which package has it", function(t)
+  local text, why = find_three {"/no/such/three.js"}
+  t.equal(text, nil)
+  t.equal(why, "a report page needs three.js, which is not installed: apt-get install libjs-three")
+  local _, hand, flask, grasps = stage(1)
+  t.fails(function() page(hand, flask, grasps, {title = "", subtitle = "", report = "", three = {}}) end, "apt-get install libjs-three")
+end)
+
+test("a page has a row for each grasp, each mesh once, and asks for nothing outside of it", function(t)
+  if not three then t.skip(missing) end
+  local html, notes = html_of(3)
+  t.equal(#notes, 0)
+  local _, rows = html:gsub("<tr data%-grasp=", "")
+  t.equal(rows, 3)
+  t.ok(html:find("<td data-value=\"\">&ndash;</td>", 1, true), "expected a dash where a grasp was not verified")
+  local data = clench.json.decode(html:match '<script type="application/json" id="data">(.-)</script>')
+  t.equal(#data.grasps, 3)
+  t.ok(#data.meshes < #data.parts + #data.still, "expected links that share their mesh")
+  for _, part in ipairs(data.parts) do t.ok(data.meshes[part.mesh + 1]) end
+  for _, grasp in ipairs(data.grasps) do
+    t.equal(#grasp.poses, #data.parts)
+    t.equal(#grasp.before, #data.parts)
+  end
+  t.ok(html:find("default-src 'none'", 1, true))
+  for source in html:gmatch '<[^<>]- src="([^"]*)' do t.equal(source:sub(1, 5), "data:") end
+  t.equal(html:find "<link" or html:find "<iframe", nil)
+end)
+
+test("a page without grasps says so, and one of many shows the first hundred", function(t)
+  if not three then t.skip(missing) end
+  t.ok(html_of(0):find("No grasp was found", 1, true))
+  local html, notes = html_of(101)
+  t.equal(notes[1], "the page shows the first 100 of 101 grasps")
+  local _, rows = html:gsub("<tr data%-grasp=", "")
+  t.equal(rows, 100)
+  t.ok(#html < 8e6)
+end)
+
+test("a mesh that makes the page large is told", function(t)
+  if not three then t.skip(missing) end
+  local world, hand = stage(0)
+  local points, triangles, n = {}, {}, 330
+  for i = 0, n do
+    for j = 0, n do
+      points[#points + 1] = {i / n, j / n, 0.01 * math.sin(i) * math.sin(j)}
+      local k = i * (n + 1) + j + 1
+      if i < n and j < n then
+        triangles[#triangles + 1] = {k, k + n + 1, k + 1}
+        triangles[#triangles + 1] = {k + 1, k + n + 1, k + n + 2}
+      end
+    end
+  end
+  local sheet = world:add_object({vertices = points, triangles = triangles}, {name = "sheet", mass = 1})
+  local html, notes = page(hand, sheet, {}, {title = "", subtitle = "", report = ""})
+  t.equal(notes[1], "the mesh of sheet has 217800 triangles: the page is large and may turn slowly")
+  t.ok(html:find('"wide":true', 1, true))
+end)
+
+-- what a browser makes of a page, as text; nil where there is none
+local function in_browser(html)
+  local found = io.popen "command -v chromium"
+  local chromium = found:read "l"
+  found:close()
+  if not chromium then return nil end
+  local folder = os.tmpname()
+  os.remove(folder)
+  clench.files.save_text(folder .. ".html", html)
+  local dom = io.popen(("timeout 60 chromium --headless --no-sandbox --disable-gpu-sandbox --use-gl=angle --use-angle=swiftshader "
+    .. "--enable-unsafe-swiftshader --user-data-dir=%s --virtual-time-budget=10000 --dump-dom file://%s.html 2>/dev/null"):format(folder, folder))
+  local text = dom:read "a"
+  dom:close()
+  os.execute(("rm -rf %s %s.html"):format(folder, folder))
+  return text
+end
+
+-- what a reader does: the load's column is clicked, the second grasp is chosen, and the mouse drags the view
+local reader = [==[<script>
+  const tell = document.documentElement.dataset, rows = () => [...document.querySelectorAll("tbody tr")].map(r => r.dataset.grasp).join();
+  document.querySelectorAll("th[data-column]")[2].click();
+  tell.down = rows();
+  document.querySelectorAll("th[data-column]")[2].click();
+  tell.up = rows();
+  document.querySelector("tr[data-grasp='2']").click();
+  tell.shown = document.querySelector("#view .shown").textContent;
+  const before = orbit.azimuth;
+  view.setPointerCapture = () => {};
+  for (const [name, x] of [["pointerdown", 100], ["pointermove", 150], ["pointerup", 150]])
+    view.dispatchEvent(new PointerEvent(name, {clientX: x, clientY: 100, bubbles: true}));
+  tell.turned = (before - orbit.azimuth).toFixed(3);
+</script>]==]
+
+test("in Chromium the table sorts, a click shows a grasp, and the mouse turns it", function(t)
+  if not three then t.skip(missing) end
+  local text = in_browser(html_of(3) .. reader)
+  if not text then t.skip "chromium is not installed" end
+  t.equal(text:match ' data%-down="([^"]*)"', "3,1,2")
+  t.equal(text:match ' data%-up="([^"]*)"', "2,1,3")
+  t.equal(text:match ' data%-shown="([^"]*)"', "Grasp 2")
+  t.equal(text:match ' data%-turned="([^"]*)"', "0.400")
+end)
+
+test("Chromium draws a grasp, and takes hostile names for words", function(t)
+  if not three then t.skip(missing) end
+  local text = in_browser(html_of(3, hostile))
+  if not text then t.skip "chromium is not installed" end
+  local covered = tonumber(text:match '<html[^>]- data%-drawn="(%d+)"')
+  t.ok(covered and covered > 20, "expected WebGL to have drawn, got " .. tostring(covered))
+  local _, rows = text:gsub("<tr data%-grasp=", "")
+  t.equal(rows, 3)
+  t.ok(text:find('<tr data%-grasp="1" aria%-selected="true"'))
+  t.ok(text:find("<canvas", 1, true))
+  t.equal(text:match '<html[^>]- data%-bad', nil)
+  t.equal(text:find("<img src=\"x\"", 1, true), nil)
+end)

@@ -1,0 +1,199 @@
+-- Planners: what they find is what it says, at any number of threads, and where nothing is found they say why.
+local test, clench = require "test", require "clench"
+
+local function barrett_mug()
+  local world = clench.load("worlds/barrett_mug.wld", {root = "."})
+  return world, world.robots[1], world.objects[1]
+end
+
+local function jaws_and(mesh)
+  local world = clench.world()
+  local hand = world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
+  return world, hand, world:add_object(mesh, {pose = {xyz = {0, 0, 1}}, name = "thing"})
+end
+
+-- every grasp, applied to a world that no planner has seen, measures what it says and collides with nothing
+local function check_grasps(t, run, make)
+  local world, hand, object = make()
+  for _, g in ipairs(run.grasps) do
+    local again = g:apply(world)
+    t.close(again:quality "epsilon", g.epsilon, 1e-9)
+    t.ok(not world:collides(hand))
+    t.ok(again.hand_name == hand.name and again.object_name == object.name)
+  end
+end
+
+test("sampled grasps are verified, and hold when measured anew", function(t)
+  local world, hand, mug = barrett_mug()
+  local before = world:hash()
+  local run = clench.plan.sample {hand = hand, object = mug, count = 6, seed = 2, refine = 3}
+  t.equal(world:hash(), before)
+  t.ok(#run.grasps >= 5)
+  check_grasps(t, run, barrett_mug)
+  local last = math.huge
+  for _, g in ipairs(run.grasps) do
+    t.ok(g.collision_free and g.epsilon >= 0.01 and g.epsilon <= last)
+    t.ok(g.info.load_margin >= 2 and g.info.reclosed_epsilon >= 0.01)
+    t.equal(g.labels.planner, "sample")
+    last = g.epsilon
+  end
+end)
+
+test("an object that stands on a floor is displaced into it, and verifying goes on", function(t)
+  local world = clench.world()
+  local hand = world:add_robot "models/hands/dlr/dlr.cfg"
+  local bottle = world:add_object "models/objects/bottle.iv"
+  world:add_obstacle "models/obstacles/floor.iv"
+  local run = clench.plan.sample {hand = hand, object = bottle, candidates = 128, refine = 0, threads = 2}
+  t.ok(#run.grasps > 5)
+  for why in pairs(run.report.rejected) do t.equal(why:find(".lua:", 1, true), nil) end
+end)
+
+test("refining makes grasps better on average", function(t)
+  local _, hand, mug = barrett_mug()
+  local function mean(refine)
+    local run = clench.plan.sample {hand = hand, object = mug, count = 12, candidates = 200, seed = 5, refine = refine, verify = false}
+    local sum = 0
+    for _, g in ipairs(run.grasps) do sum = sum + g.epsilon end
+    return sum / #run.grasps
+  end
+  t.ok(mean(8) > 1.2 * mean(0))
+end)
+
+test("threads change no byte of what any planner finds", function(t)
+  local planners = {
+    sample = {count = 3, refine = 2}, random = {count = 5}, guided = {steps = 6000, child_steps = 60, children = 2},
+  }
+  for name, options in pairs(planners) do
+    local bytes
+    for _, threads in ipairs {1, 3} do
+      local _, hand, mug = barrett_mug()
+      options.hand, options.object, options.threads, options.seed = hand, mug, threads, 4
+      local run = clench.plan[name](options)
+      bytes = bytes or clench.json.encode(run.grasps)
+      t.equal(clench.json.encode(run.grasps), bytes)
+      t.ok(#run.grasps > 0, name)
+    end
+  end
+end)
+
+test("candidates around a cylinder are those of the rules", function(t)
+  local starts = require "clench.plan.primitive_starts"
+  local can = {kind = "cylinder", pose = clench.pose {}, radius = 0.03, height = 0.1}
+  -- 2 + 2 at the ends, and 4 sides with the thumb across and along
+  t.equal(#starts({can}, 1, "corrected"), 12)
+  -- 4 + 4 at the ends; 3 planes of 8 steps
+  t.equal(#starts({can}, 2, "corrected"), 8 + 3 * 8 * 2)
+  for _, s in ipairs(starts({can}, 1, "corrected")) do
+    t.close(s.direction:norm(), 1, 1e-12)
+    t.close(s.direction:dot(s.thumb), 0, 1e-12)
+  end
+  -- too low to be gripped across; its sides are gripped along the axis alone
+  local coin = {kind = "cylinder", pose = clench.pose {}, radius = 0.03, height = 0.01}
+  t.equal(#starts({coin}, 1, "corrected"), 8)
+  -- radii are no diameters
+  local drum = {kind = "cylinder", pose = clench.pose {}, radius = 0.15, height = 0.1}
+  t.ok(#starts({drum}, 1, "graspit") > #starts({drum}, 1, "corrected"))
+end)
+
+test("hands begin half an edge and 80 mm from the middle of a box, a whole edge by the original's rule", function(t)
+  local starts = require "clench.plan.primitive_starts"
+  local box = {kind = "box", pose = clench.pose {xyz = {1, 0, 0}}, size = clench.vec3(0.06, 0.06, 0.06)}
+  for rule, far in pairs {corrected = 0.03 + 0.08, graspit = 0.06 + 0.08} do
+    local list = starts({box}, 1, rule)
+    t.equal(#list, 12)
+    for _, s in ipairs(list) do t.close((s.position - clench.vec3(1, 0, 0)):norm(), far, 1e-12) end
+  end
+end)
+
+test("the primitive planner finds a cylinder from its sides", function(t)
+  local _, hand, mug = barrett_mug()
+  local cup = {{kind = "cylinder", pose = clench.pose {rpy = {math.pi / 2, 0, 0}}, radius = 0.04, height = 0.09}}
+  local run = clench.plan.primitive {hand = hand, object = mug, primitives = cup, density = 1}
+  t.equal(run.report.candidates, 12)
+  t.ok(#run.grasps >= 3)
+  check_grasps(t, run, barrett_mug)
+end)
+
+test("jaws close on opposite points", function(t)
+  local function make() return jaws_and(clench.shapes.box {0.03, 0.04, 0.1}) end
+  local _, hand, bar = make()
+  local run = clench.plan.antipodal {hand = hand, object = bar, count = 10, seed = 1}
+  t.ok(#run.grasps >= 5)
+  check_grasps(t, run, make)
+end)
+
+test("a list of states is tried as it is", function(t)
+  local _, hand, mug = barrett_mug()
+  local found = clench.plan.random {hand = hand, object = mug, count = 4}.grasps
+  local run = clench.plan.list {hand = hand, object = mug, states = found, approach = 0.3}
+  t.ok(#run.grasps >= 1 and run.report.candidates == #found)
+end)
+
+test("an online planner follows the object", function(t)
+  local world, hand, mug = barrett_mug()
+  hand:place_approach(mug.pose.position, {0, 0, -1}, 0.15)
+  local before = world:hash()
+  local planner = clench.plan.online {hand = hand, object = mug, seed = 2}
+  for _ = 1, 3 do planner:search(400) end
+  t.equal(world:hash(), before)
+  t.ok(planner.tested > 0)
+  mug.pose = clench.pose {xyz = {0.05, 0, 0}} * mug.pose
+  local list = planner:search(200)
+  t.equal(#list, #planner:grasps())
+  for _, g in ipairs(list) do t.ok(g.epsilon > 0) end
+  t.fails(function() clench.plan.online {hand = hand, object = mug, energy = function() return 1 end} end, "one of the engine's")
+  t.fails(function() clench.plan.online {hand = hand, object = mug, limits = {}} end, "the planner's own here")
+end)
+
+test("why nothing was found is said by name", function(t)
+  local _, hand, mug = barrett_mug()
+  local far = clench.plan.guided {hand = hand, object = mug, steps = 500, limits = {Tx = {0.24, 0.25}, Ty = {0.24, 0.25}, Tz = {0.3, 0.35}}}
+  t.equal(#far.grasps, 0)
+  t.ok(tostring(far.report):find "does not reach it")
+  local _, jaws, block = jaws_and(clench.shapes.box {0.4, 0.4, 0.4})
+  local large = clench.plan.random {hand = jaws, object = block, candidates = 40}
+  t.equal(#large.grasps, 0)
+  t.ok(tostring(large.report):find "opens to some", tostring(large.report))
+end)
+
+test("wrong options are told", function(t)
+  local _, hand, mug = barrett_mug()
+  local function fails(name, options, ...)
+    options.hand, options.object = options.hand or hand, options.object or mug
+    local words = {...}
+    t.fails(function() clench.plan[name](options) end, table.unpack(words))
+  end
+  fails("anneal", {step = 3}, "step", "steps")
+  fails("sample", {hand = 3}, "hand must be a robot")
+  fails("sample", {object = hand}, "object must be a body")
+  fails("sample", {verify = 3}, "verify must be a boolean or a table")
+  fails("sample", {on_grasp = 3}, "on_grasp must be a function")
+  fails("sample", {standoff = -1}, "standoff must be a number > 0")
+  fails("random", {verify = true}, "unknown key 'verify'")
+  fails("primitive", {}, "primitives must be")
+  fails("primitive", {primitives = "nowhere.iv"}, "nowhere.iv")
+  fails("primitive", {primitives = {{}}}, "primitives[1]")
+  fails("antipodal", {friction = 0}, "friction must be a number > 0")
+  fails("list", {states = 3}, "states")
+  fails("guided", {child_energy = "strct"}, "strct")
+end)
+
+test("a hand on an arm keeps the grasps that the arm reaches", function(t)
+  local world = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
+  local arm, hand = world.robots[1], world.robots[2]
+  if not hand.parent then arm, hand = hand, arm end
+  local glass = world.objects[1]
+  local run = clench.plan.random {hand = hand, object = glass, count = 20, seed = 1}
+  t.ok(#run.grasps + run.report.out_of_reach + run.report.alike >= 20)
+  for _, g in ipairs(run.grasps) do
+    local dofs = {}
+    for i in ipairs(arm.dofs) do dofs[i] = g.info["arm_" .. i] end
+    arm.dofs = dofs
+    t.close((glass.pose * g.pose).position - hand.pose.position, {0, 0, 0}, 1e-5)
+  end
+  glass.pose = {xyz = {9, 9, 9}}
+  local far = clench.plan.random {hand = hand, object = glass, count = 5, seed = 1}
+  t.equal(#far.grasps, 0)
+  t.ok(tostring(far.report):find "the arm reaches none")
+end)
