@@ -16,7 +16,7 @@ function starts.opened(hand)
   return open, closes
 end
 
-local far_away = clench.pose {xyz = {0, 0, 50}}  -- from all that is not the hand
+local far_away = clench.pose {xyz = {0, 0, 9.5}}  -- from all that is not the hand
 
 -- closed by a part of the way; DOFs that closing does not move (a spread) anywhere, or nearer to where they are open when
 -- the hand would collide with itself
