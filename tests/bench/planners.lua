@@ -63,7 +63,7 @@ for _, planner in ipairs {"anneal", "loop", "guided", "random", "sample"} do
   print(("%-10s %8.1f %10d %10.3f"):format(planner, clench.clock() - began, good, best))
 end
 
-if csv then clench.csv.save(csv, rows, {columns = {"hand", "object", "candidates", "verified", "per_second", "best_epsilon"}}) end
+if csv then clench.csv.write(csv, rows, {columns = {"hand", "object", "candidates", "verified", "per_second", "best_epsilon"}}) end
 if check and mean < 1 then
   print "FAILED: fewer than 1 verified grasp a second"
   os.exit(1)

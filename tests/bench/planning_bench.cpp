@@ -36,10 +36,10 @@ struct Scene {
 // seconds of 40,000 steps, but for Barrett and flask, of which the wall time is known
 std::vector<Scene> scenes() {
   std::vector<Scene> out = {
-      {"human hand + flask, ours", ".", "models/hands/human/human20.cfg",
+      {"human hand + flask (ours)", ".", "models/hands/human/human20.cfg",
        "models/objects/flask.iv"},
-      {"Barrett + flask, ours", ".", "models/hands/barrett/barrett.cfg", "models/objects/flask.iv"},
-      {"Barrett + mug, ours", ".", "models/hands/barrett/barrett.cfg", "models/objects/mug.iv"}};
+      {"Barrett + flask (ours)", ".", "models/hands/barrett/barrett.cfg", "models/objects/flask.iv"},
+      {"Barrett + mug (ours)", ".", "models/hands/barrett/barrett.cfg", "models/objects/mug.iv"}};
   const auto shared = test::shared();
   if (shared.empty()) {
     fmt::print(
@@ -118,7 +118,7 @@ Figures measure(const Scene& scene, const Options& options, Report& report) {
   };
   std::vector<Peer> peers;
   for (const auto& [name, kind] :
-       {std::pair{"FCL + Embree", PeerKind::plain}, {"FCL + Embree, tuned", PeerKind::tuned}}) {
+       {std::pair{"FCL + Embree", PeerKind::plain}, {"FCL + Embree (tuned)", PeerKind::tuned}}) {
     Peer peer{name, kind, chain_of(world, who, seed), nullptr};
     peer.step = peer_step(*peer.chain.world, who, *peer.chain.space, seed, kind);
     if (peer.step) peers.push_back(std::move(peer));
