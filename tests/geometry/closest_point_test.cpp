@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include "clench/base/error.h"
-#include "clench/geometry/query/exact_pairs.h"
 #include "clench/geometry/query/queries.h"
 #include "clench/geometry/query/triangle.h"
 #include "support/meshes.h"
@@ -85,33 +84,4 @@ TEST_CASE("a point that is not finite is refused") {
   CHECK_THROWS_WITH_AS(closest_point(*shape, {0, std::nan(""), 0}),
                        "closest_point: point must be finite [m], got (0, nan, 0)", Error);
   CHECK(closest_point(*shape, {1e300, 0, 0}).triangle >= 0);
-}
-
-TEST_CASE("the points of four triangles nearest to a point are those of each alone, to the bit") {
-  Random random(11);
-  const auto vector = [&] {
-    return Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-  };
-  for (int i = 0; i < 20000; ++i) {
-    std::array<Corners, 4> corners;
-    NearTriangles four;
-    const double size = std::pow(10, random.uniform(-9, 3));
-    for (int lane = 0; lane < 4; ++lane) {
-      Corners& t = corners[lane];
-      for (Vector3d& corner : t) corner = size * vector();
-      // some without area, some points
-      if (i % 5 == 1) t[2] = 0.5 * (t[0] + t[1]);
-      if (i % 7 == 1) t[1] = t[0];
-      if (i % 35 == 1) t[2] = t[0];
-      for (int k = 0; k < 9; ++k) four.corners[k][lane] = t[k / 3][k % 3];
-    }
-    const Vector3d p = i % 3 == 0 ? corners[0][i % 2] : Vector3d(3 * size * vector());
-    NearPoints near;
-    nearest_points(p.data(), four, near);
-    for (int lane = 0; lane < 4; ++lane) {
-      const Closest alone = point_triangle(p, corners[lane]);
-      CHECK(std::sqrt(near.squared[lane]) == alone.distance);
-      CHECK(Vector3d(near.q[0][lane], near.q[1][lane], near.q[2][lane]) == alone.q);
-    }
-  }
 }

@@ -1,9 +1,6 @@
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "clench/base/error.h"
-#include "clench/geometry/query/exact_pairs.h"
 #include "clench/geometry/query/placement.h"
 #include "clench/geometry/query/queries.h"
 
@@ -18,10 +15,11 @@ ClosestPoint closest_point(const Shape& shape, const Vector3d& p, int seed) {
   ClosestPoint best;
   best.distance = std::numeric_limits<double>::infinity();
   // of equally near triangles the first, so that the way here does not show
-  const auto judge = [&](int triangle, double distance, const Vector3d& q) {
-    if (distance < best.distance || best.triangle < 0 ||
-        (distance == best.distance && triangle < best.triangle))
-      best = {distance, q, triangle};
+  const auto judge = [&](int triangle) {
+    const Closest c = point_triangle(p, mesh.corners(triangle));
+    if (c.distance < best.distance || best.triangle < 0 ||
+        (c.distance == best.distance && triangle < best.triangle))
+      best = {c.distance, c.q, triangle};
   };
   // no farther than what is known of the seed at a glance
   double reach = best.distance;
@@ -38,21 +36,7 @@ ClosestPoint closest_point(const Shape& shape, const Vector3d& p, int seed) {
   const auto judge_waiting = [&] {
     for (size_t i = 0; i < count; ++i)
       for (const int v : mesh.triangles[waiting[i]]) __builtin_prefetch(&mesh.vertices[v]);
-    for (size_t first = 0; first < count; first += 4) {
-      NearTriangles triangles;
-      NearPoints near;
-      // the last ones fill up the four
-      for (size_t lane = 0; lane < 4; ++lane) {
-        const auto corners = mesh.corners(waiting[std::min(first + lane, count - 1)]);
-        for (int k = 0; k < 9; ++k) triangles.corners[k][lane] = corners[k / 3][k % 3];
-      }
-      nearest_points(p.data(), triangles, near);
-      for (size_t i = first; i < std::min(first + 4, count); ++i) {
-        const size_t lane = i - first;
-        judge(waiting[i], std::sqrt(near.squared[lane]),
-              {near.q[0][lane], near.q[1][lane], near.q[2][lane]});
-      }
-    }
+    for (size_t i = 0; i < count; ++i) judge(waiting[i]);
     count = 0;
   };
   for_near_triangles(shape.tree(), from.data(), rounding_of(shape.bounds(), p), reach, true,

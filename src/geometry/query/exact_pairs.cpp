@@ -120,36 +120,4 @@ void nearest_of(const PairBundle& pairs, int count, NearestBundle& out) {
   for (int first = 0; first < count; first += F::count) nearest_from(pairs, first, out);
 }
 
-void nearest_points(const double p[3], const NearTriangles& triangles, NearPoints& out) {
-  const F zero = F::all(0);
-  const Vector at = {F::all(p[0]), F::all(p[1]), F::all(p[2])};
-  for (int first = 0; first < 4; first += F::count) {
-    Vector corner[3], edge[3];
-    const auto row = [&](int k) { return F::stored(triangles.corners[k] + first); };
-    for (int k = 0; k < 3; ++k) corner[k] = {row(3 * k), row(3 * k + 1), row(3 * k + 2)};
-    for (int k = 0; k < 3; ++k) edge[k] = corner[(k + 1) % 3] - corner[k];
-    NearestLanes best;
-    best.q = corner[0];
-    for (int k = 0; k < 3; ++k) {
-      const F length = dot(edge[k], edge[k]);
-      const F t = select(length > 0.0, unit_clamp(dot(edge[k], at - corner[k]) / length), zero);
-      const Vector q = corner[k] + edge[k].scaled(t), rest = at - q;
-      best.offer(dot(rest, rest), at, q);
-    }
-    const Vector u = edge[0], v = {-edge[2].x, -edge[2].y, -edge[2].z}, n = cross(u, edge[1]);
-    const Vector d = at - corner[0];
-    const F nn = dot(n, n), height = dot(d, n);
-    const F along_u = dot(cross(d, v), n) / nn, along_v = dot(cross(u, d), n) / nn;
-    const Vector foot = corner[0] + u.scaled(along_u) + v.scaled(along_v), rest = at - foot;
-    const auto outside = (along_u < 0.0) | (along_v < 0.0) | (along_u + along_v > 1.0);
-    const auto nearer = (nn > 0.0) & (height * height < best.squared * nn);
-    F squared = select(nearer, dot(rest, rest), F::all(outside_face));
-    squared = select(outside, F::all(outside_face), squared);
-    best.offer(squared, at, foot);
-    best.squared.store(out.squared + first);
-    best.q.x.store(out.q[0] + first), best.q.y.store(out.q[1] + first);
-    best.q.z.store(out.q[2] + first);
-  }
-}
-
 }  // namespace clench

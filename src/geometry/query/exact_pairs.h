@@ -26,16 +26,4 @@ inline constexpr int nearest_step = 4;
 /// of the first `count` pairs; the rest of `out` is of no meaning
 void nearest_of(const PairBundle& pairs, int count, NearestBundle& out);
 
-/// Triangles about a point: coordinate m of corner k of triangle i at [3 k + m][i]; all lanes hold numbers.
-struct alignas(32) NearTriangles {
-  double corners[9][4];
-};
-struct alignas(32) NearPoints {
-  double squared[4];  ///< distance
-  double q[3][4];     ///< on each triangle
-};
-
-/// The points nearest to p, by the arithmetic of point_triangle: the same bits.
-void nearest_points(const double p[3], const NearTriangles& triangles, NearPoints& out);
-
 }  // namespace clench
