@@ -21,14 +21,7 @@ ClosestPoint closest_point(const Shape& shape, const Vector3d& p, int seed) {
         (c.distance == best.distance && triangle < best.triangle))
       best = {c.distance, c.q, triangle};
   };
-  // no farther than what is known of the seed at a glance
-  double reach = best.distance;
-  if (shape.has_triangle(seed)) {
-    const auto [a, b, c] = mesh.corners(seed);
-    const double squared = std::min({(p - a).squaredNorm(), (p - b).squaredNorm(), (p - c).squaredNorm(),
-                                     (p - (a + b + c) / 3).squaredNorm()});
-    reach = std::sqrt(squared) * (1 + 1e-12);
-  }
+  if (shape.has_triangle(seed)) judge(seed);
   const Vector3d from = p - Vector3d::Map(shape.tree().centre());
   // some at a time, so that the memory of the next ones is on its way
   std::array<int, 16> waiting;
@@ -39,8 +32,9 @@ ClosestPoint closest_point(const Shape& shape, const Vector3d& p, int seed) {
     for (size_t i = 0; i < count; ++i) judge(waiting[i]);
     count = 0;
   };
-  for_near_triangles(shape.tree(), from.data(), rounding_of(shape.bounds(), p), reach, true,
+  for_near_triangles(shape.tree(), from.data(), rounding_of(shape.bounds(), p), best.distance, true,
                      [&](int triangle) {
+                       if (triangle == seed) return false;
                        __builtin_prefetch(&mesh.triangles[triangle]);
                        waiting[count++] = triangle;
                        if (count == waiting.size()) judge_waiting();
