@@ -15,13 +15,7 @@ bool colliding(const Shape& a, const Shape& b, const Pose& X_AB, PairCache* cach
   if (cache && a.has_triangle(cache->hit_a) && b.has_triangle(cache->hit_b) &&
       meet(cache->hit_a, cache->hit_b))
     return true;
-  // shapes that no direction parted of late are seldom tried
-  const bool try_apart = !cache || cache->unparted < 4 || cache->unparted % 8 == 0;
-  if (try_apart && placement.clearly_apart(0, cache)) {
-    if (cache) cache->unparted = 0;
-    return false;
-  }
-  if (cache) ++cache->unparted;
+  if (placement.clearly_apart(0, cache)) return false;
   const bool hit = for_meeting_pairs(placement.trees(), [&](int triangle_a, int triangle_b) {
     if (!meet(triangle_a, triangle_b)) return false;
     if (cache) cache->hit_a = triangle_a, cache->hit_b = triangle_b;

@@ -28,7 +28,6 @@ struct PairCache {
   int closest_a = -1, closest_b = -1;  ///< triangles of the last closest pair
   int hit_a = -1, hit_b = -1;          ///< triangles of the last intersection
   float hit_rate = 0;                  ///< how often it collided of late, of those times that it was asked
-  unsigned unparted = 0;               ///< so many times in a row no direction parted them
   /// along which b may lie beyond a, in the frame of a, unit; zero when unknown
   Eigen::Vector3d separation = Eigen::Vector3d::Zero();
   PairMeasure measured = {};

@@ -1,9 +1,7 @@
 #include "clench/planning/energy/contact_energy.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "clench/base/error.h"
 #include "clench/contact/cone.h"
@@ -49,23 +47,17 @@ double ContactEnergy::bounded_value(World& world, double bound) {
   const int count = sites_.size();
   // rounding must not cut off what lies on the bound
   const double enough = bound * count + 1e-9 * count;
-  terms_.resize(count), least_.resize(count), excess_.resize(count);
-  if (order_.empty()) order_.resize(count), std::iota(order_.begin(), order_.end(), 0);
-  if (++asked_ % 64 == 0)
-    std::ranges::sort(order_, [&](int i, int j) { return excess_[i] > excess_[j]; });
   // no term is less than the distance counts
-  double least = 0;
-  for (int i = 0; i < count; ++i)
-    least += least_[i] = bound < infinite ? energy_length * sites_.least_distance(world, i) : 0;
-  for (const int i : order_) {
-    if (least * (1 - 1e-12) > enough) return least / count;
-    terms_[i] = of(measure(world, i));
-    const double excess = terms_[i] - least_[i];
-    least += excess;
-    excess_[i] += 0.1 * (excess - excess_[i]);
-  }
+  min_rest_.assign(count + 1, 0);
+  if (bound < infinite)
+    for (int i = count - 1; i >= 0; --i)
+      min_rest_[i] = min_rest_[i + 1] + energy_length * sites_.min_distance(world, i);
   double sum = 0;
-  for (const double term : terms_) sum += term;
+  for (int i = 0; i < count; ++i) {
+    if (const double min_sum = (sum + min_rest_[i]) * (1 - 1e-12); min_sum > enough)
+      return min_sum / count;
+    sum += of(measure(world, i));
+  }
   return sum / count;
 }
 

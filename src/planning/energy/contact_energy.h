@@ -38,10 +38,7 @@ class ContactEnergy : public Energy {
  private:
   ContactSites sites_;
   Options options_;
-  /// What a state is measured with, and what its terms exceeded their least values by, of late.
-  std::vector<double> least_, terms_, excess_;
-  std::vector<int> order_;  ///< of the sites: those first that mostly exceed it by most
-  int asked_ = 0;
+  std::vector<double> min_rest_;  ///< the terms from each on come to no less
 };
 
 /// What the sites could hold if they touched: each counts by (cos(pi d / reach) + 1) where it faces the object and is within

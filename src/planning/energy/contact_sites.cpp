@@ -38,7 +38,7 @@ Vector3d ContactSites::position(const World& world, int i) const {
   return X_OW_ * (world.pose(sites_[i].body) * sites_[i].X_LC.position);
 }
 
-double ContactSites::least_distance(const World& world, int i) const {
+double ContactSites::min_distance(const World& world, int i) const {
   if (kind_ == SiteKind::live) return 0;
   const Bounds& bounds = world.body(who_.object).shape->bounds();
   const Vector3d p = position(world, i);

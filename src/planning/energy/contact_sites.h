@@ -46,7 +46,7 @@ class ContactSites {
   /// world  as it was attended to
   SiteDistance measure(World& world, int i);
   /// No more than measure() finds, and found sooner [m].
-  double least_distance(const World& world, int i) const;
+  double min_distance(const World& world, int i) const;
 
  private:
   SiteDistance measure_live(World& world, int i);
