@@ -26,7 +26,7 @@
 #include "clench/motion/drive.h"
 #include "clench/motion/eigengrasps.h"
 #include "clench/motion/move.h"
-#include "clench/render/picture.h"
+#include "clench/render/figure/picture.h"
 #include "clench/render/render.h"
 #include "clench/scene/scene.h"
 #include "clench/script/host/open.h"

@@ -1,9 +1,9 @@
 // One scene as a picture, by OpenGL 3.3 through EGL without display: the same bytes for the same
 // scene.
 #pragma once
-#include "clench/render/lettering.h"
-#include "clench/render/picture.h"
-#include "clench/render/render_options.h"
+#include "clench/render/figure/lettering.h"
+#include "clench/render/figure/picture.h"
+#include "clench/render/view/render_options.h"
 #include "clench/scene/scene.h"
 
 namespace clench {

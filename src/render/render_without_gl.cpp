@@ -1,6 +1,6 @@
 #include "clench/base/error.h"
-#include "clench/render/frame.h"
 #include "clench/render/renderer.h"
+#include "clench/render/view/frame.h"
 
 namespace clench {
 namespace {

@@ -6,14 +6,14 @@
 #include <optional>
 
 #include "clench/base/error.h"
-#include "clench/render/canvas.h"
-#include "clench/render/draft.h"
-#include "clench/render/framed.h"
-#include "clench/render/gl_context.h"
-#include "clench/render/label_layout.h"
-#include "clench/render/painter.h"
-#include "clench/render/pieces.h"
-#include "clench/render/tile.h"
+#include "clench/render/figure/canvas.h"
+#include "clench/render/gl/gl_context.h"
+#include "clench/render/mesh/pieces.h"
+#include "clench/render/paint/draft.h"
+#include "clench/render/paint/painter.h"
+#include "clench/render/paint/tile.h"
+#include "clench/render/view/framed.h"
+#include "clench/render/view/label_layout.h"
 
 namespace clench {
 

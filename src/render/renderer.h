@@ -2,9 +2,9 @@
 #pragma once
 #include <memory>
 
-#include "clench/render/lettering.h"
-#include "clench/render/picture.h"
-#include "clench/render/render_options.h"
+#include "clench/render/figure/lettering.h"
+#include "clench/render/figure/picture.h"
+#include "clench/render/view/render_options.h"
 #include "clench/scene/scene.h"
 
 namespace clench {

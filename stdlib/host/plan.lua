@@ -67,7 +67,7 @@ end
 local function run_of_found()
   local stopped = {hand = job.hand, object = job.object, world = job.world, threads = 1,
                    elapsed = function() return clench.clock() - job.began end}
-  local found = require "clench.plan.crowd".sort(job.found)
+  local found = require "clench.plan.batch".sort(job.found)
   local run = require "clench.plan.run"(stopped, found, {planner = "plan.sample"}, {count = job.count, distance = 0.1})
   run.report.causes = {}  -- of nothing found there is one: it was interrupted
   return run
@@ -119,16 +119,16 @@ end
 local shown = 20  -- rows of the table that is printed
 
 local function print_table(rows)
-  local list = {{"#", "epsilon", "load", "re-closed", "contacts", "azimuth", "elevation"}}
+  local list = {{"#", "epsilon", "load", "perturbed", "contacts", "azimuth", "elevation"}}
   for i = 1, math.min(#rows, shown) do
     local row = rows[i]
     list[#list + 1] = {tostring(row.number), ("%.4f"):format(row.epsilon), row.load and ("%.1f"):format(row.load) or "-",
-                       row.reclosed and ("%.4f"):format(row.reclosed) or "-", tostring(row.contacts),
+                       row.perturbed and ("%.4f"):format(row.perturbed) or "-", tostring(row.contacts),
                        tostring(row.azimuth), tostring(row.elevation)}
   end
   columns(list, "")
   if #rows > shown then print(("and %d more"):format(#rows - shown)) end
-  print "load: times the object's weight, in the worst direction; re-closed: least epsilon with the object displaced by 1 mm;"
+  print "load: times the object's weight, in the worst direction; perturbed: least epsilon with the object displaced by 1 mm;"
   print "azimuth, elevation: where the hand comes from [degrees]"
 end
 

@@ -1,6 +1,6 @@
 local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
-local crowd = require "clench.plan.crowd"
+local batch = require "clench.plan.batch"
 local starts = require "clench.plan.starts"
 local opposition = require "clench.plan.opposition"
 
@@ -29,7 +29,7 @@ return function(options)
   end
   local told = {planner = "plan.antipodal"}
   own.planner, own.kind = "antipodal", "antipodal"
-  local found = crowd.try(job, told, starts.random(job, own), own)
+  local found = batch.try(job, told, starts.random(job, own), own)
   job:finish()
-  return new_run(job, crowd.sort(found), told, {count = own.count, distance = own.distance})
+  return new_run(job, batch.sort(found), told, {count = own.count, distance = own.distance})
 end

@@ -36,7 +36,7 @@ local at_once = {count = 0, length = 0}
 
 ---@param hand robot
 ---@param object body
----@param state {pose: pose, dofs: number[], reach?: number, set_back?: number}  of the hand in the object; reach: how far it goes on where nothing touches; set_back: from the first touch [m]
+---@param state {pose: pose, dofs: number[], reach?: number, retreat?: number}  of the hand in the object; reach: how far it goes on where nothing touches; retreat: from the first touch [m]
 ---@param options {approach?: number, back?: {count: integer, length: number}, grasp?: table}  approach: at most so far, to the first touch [m]
 ---@return grasp? grasp, string? why  what was in the way
 function closing.close(hand, object, state, options)
@@ -46,8 +46,8 @@ function closing.close(hand, object, state, options)
   elseif options.approach then
     local move = hand:approach_object {reach = options.approach}
     if not move.touched then return nil, "the object is out of reach" end
-    if (state.set_back or 0) > 0 then
-      local back = math.min(state.set_back, move.fraction * options.approach)
+    if (state.retreat or 0) > 0 then
+      local back = math.min(state.retreat, move.fraction * options.approach)
       hand.pose = clench.pose {xyz = hand.approach.direction * -back} * hand.pose
     end
   end

@@ -86,7 +86,6 @@ return function(subject, given, own)
   end
   job.hand, job.object = job.world:robot(hand.name), job.world:body(object.name)
   job.given_hand, job.given_object = hand, object
-  job.hand_radius = 1
   job.began = clench.clock()
   return job
 end

@@ -4,7 +4,7 @@ local described = require "clench.described"
 
 local best_states = {size = 20, distance = 0.4}
 local near_object = {behind = 0.03, before = 0.2}  -- how far the search looks along the approach [m]
-local most = 10                                    -- solutions that are kept
+local max_solutions = 10                                    -- solutions that are kept
 
 local Online = {}
 Online.__index = Online
@@ -23,7 +23,7 @@ local function rank(self)
     if a.closeness ~= b.closeness then return a.closeness < b.closeness end
     return a.number < b.number
   end)
-  while #self.solutions > most do table.remove(self.solutions) end
+  while #self.solutions > max_solutions do table.remove(self.solutions) end
 end
 
 -- the planner's world is as the user's: hand and object may have been moved since

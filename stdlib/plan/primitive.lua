@@ -1,6 +1,6 @@
 local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
-local crowd = require "clench.plan.crowd"
+local batch = require "clench.plan.batch"
 local starts = require "clench.plan.starts"
 local opposition = require "clench.plan.opposition"
 local described = require "clench.described"
@@ -81,8 +81,8 @@ return function(options)
     return {pose = opposition.frame(at.position, at.direction, at.thumb) * X_FH, dofs = own.preshapes[at.preshape]}
   end
   local told = {planner = "plan.primitive"}
-  local found = crowd.try(job, told, next_state, {planner = "primitive", limit = #list, count = own.count, on_grasp = own.on_grasp,
+  local found = batch.try(job, told, next_state, {planner = "primitive", limit = #list, count = own.count, on_grasp = own.on_grasp,
                                                   approach = 1, back = {count = 20, length = 0.004}})
   job:finish()
-  return new_run(job, crowd.sort(found), told, {distance = 1e-9})
+  return new_run(job, batch.sort(found), told, {distance = 1e-9})
 end

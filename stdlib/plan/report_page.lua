@@ -32,7 +32,7 @@ local columns = {
   {"#", "", "number", "%d", "the largest epsilon first"},
   {"epsilon", "", "epsilon", "%.4f", "the least wrench that breaks the grasp, with contact forces that sum to 1, torques divided by the length rho"},
   {"load margin", "weights", "load", "%.1f", "load that the hand can hold within its motors' limits, in the worst of six directions"},
-  {"re-closed", "epsilon", "reclosed", "%.4f", "the least epsilon when the hand closes again on the object displaced by a little, in the worst of six directions"},
+  {"perturbed", "epsilon", "perturbed", "%.4f", "the least epsilon when the hand closes again on the object displaced by a little, in the worst of six directions"},
   {"contacts", "", "contacts", "%d", "points of the hand that touch the object"},
   {"azimuth", "degrees", "azimuth", "%d", "where the hand comes from, about the world's z, from +x towards +y"},
   {"elevation", "degrees", "elevation", "%d", "where the hand comes from: 90 is from above"},

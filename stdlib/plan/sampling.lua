@@ -1,7 +1,7 @@
 --- What plan.sample and plan.random share: random starts, tried over threads.
 local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
-local crowd = require "clench.plan.crowd"
+local batch = require "clench.plan.batch"
 local starts = require "clench.plan.starts"
 
 ---@param name string  "sample"
@@ -20,7 +20,7 @@ return function(name, options, read_more)
   end)
   own.approach = 2 * own.standoff
   local told = {planner = "plan." .. name}
-  local found = crowd.try(job, told, starts.random(job, own), own)
+  local found = batch.try(job, told, starts.random(job, own), own)
   job:finish()
-  return new_run(job, crowd.sort(found), told, {count = own.count, distance = own.distance})
+  return new_run(job, batch.sort(found), told, {count = own.count, distance = own.distance})
 end

@@ -77,7 +77,7 @@ local function before_surface(hand, object, random, standoff)
   local side = across(direction, random)
   if not side then return end
   return {pose = opposition.frame(at.point - direction * standoff, direction, side) * hand.X_FH,
-          dofs = random_posture(hand, random), set_back = math.max(0, random:uniform(-0.03, 0.03))}
+          dofs = random_posture(hand, random), retreat = math.max(0, random:uniform(-0.03, 0.03))}
 end
 
 -- Two points of the surface that face each other along a line inside both friction cones: their middle, and the line.
@@ -105,7 +105,7 @@ local function about_two_points(hand, world, object, random, options)
           dofs = random:uniform() < 0.5 and hand.open or random_posture(hand, random), reach = options.standoff + deeper}
 end
 
-local most_tries = 200  -- until two points face each other
+local max_tries = 200  -- until two points face each other
 
 --- Start number n of a seed, the same in any order.
 ---@param job table  of clench.plan.job
@@ -115,8 +115,8 @@ function starts.random(job, options)
   local hand, object, world = describe(job.hand), job.object, job.world
   return function(number)
     local paired = hand.has_thumb and (options.kind == "antipodal" or number % 2 == 0)
-    for try = 1, most_tries do
-      local random = clench.random(job.seed, number * most_tries + try)
+    for try = 1, max_tries do
+      local random = clench.random(job.seed, number * max_tries + try)
       local state
       if paired then
         state = about_two_points(hand, world, object, random, options)
@@ -125,7 +125,7 @@ function starts.random(job, options)
       end
       if state then return state end
       -- an object without such pairs is approached along its normals
-      if try == most_tries // 2 and options.kind ~= "antipodal" then paired = false end
+      if try == max_tries // 2 and options.kind ~= "antipodal" then paired = false end
     end
   end
 end

@@ -37,7 +37,7 @@ TEST_CASE("plan lists the best grasps, writes them best first, and says what was
   CHECK(result.code == (drawn ? 0 : 1));
   CHECK(has(result.out, drawn ? "a.png: 2 pictures" : "OpenGL"));
   CHECK((!drawn || text_of(sheet).starts_with("\x89PNG")));
-  CHECK(has(result.out, "#  epsilon  load  re-closed  contacts  azimuth  elevation\n1  0."));
+  CHECK(has(result.out, "#  epsilon  load  perturbed  contacts  azimuth  elevation\n1  0."));
   CHECK(has(result.out, "no force closure: "));
   CHECK(has(result.out, "plan.sample: 2 grasps"));
   const std::string list = epsilons(out);

@@ -8,9 +8,9 @@
 #include "clench/io/read.h"
 #include "clench/model/build.h"
 #include "clench/motion/drive.h"
-#include "clench/render/frame.h"
 #include "clench/render/render.h"
 #include "clench/render/renderer.h"
+#include "clench/render/view/frame.h"
 #include "peer_bare_gl.h"
 #include "report.h"
 
@@ -93,19 +93,9 @@ void measure(int count, const std::string& name, Quality quality, int rounds, Re
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool check = false, brief = false;
-  std::string csv;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--check")
-      check = true;
-    else if (word == "--brief")
-      brief = true;
-    else if (word == "--csv" && i + 1 < argc)
-      csv = argv[++i];
-    else
-      return fmt::print(stderr, "usage: bench_picture [--brief] [--csv FILE] [--check]\n"), 2;
-  }
+  const auto options = read_options(argc, argv, "bench_picture");
+  if (!options) return 2;
+  const auto [brief, check, csv] = *options;
   Report report;
   const int few = triangles(hands(1, false)), many = triangles(hands(9, false));
   const std::string small = fmt::format("{} triangles", few),

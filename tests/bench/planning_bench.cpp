@@ -20,11 +20,6 @@ using namespace clench::bench;
 
 namespace {
 
-struct Options {
-  bool brief = false, check = false;
-  std::string csv;
-};
-
 /// A hand, an object, and what the original made of them: annealing steps a second, by CPU time
 /// where that is known.
 struct Scene {
@@ -103,7 +98,7 @@ struct Figures {
   double ours = NAN, plain = NAN, tuned = NAN, evaluations = NAN;  ///< a second
 };
 
-Figures measure(const Scene& scene, const Options& options, Report& report) {
+Figures measure(const Scene& scene, const BenchOptions& options, Report& report) {
   HandAndObject who;
   const World world = built(scene, who);
   constexpr int seed = 5;
@@ -200,25 +195,16 @@ double memory_growth(const Scene& scene, int steps) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--brief")
-      options.brief = true;
-    else if (word == "--check")
-      options.check = true;
-    else if (word == "--csv" && i + 1 < argc)
-      options.csv = argv[++i];
-    else
-      return fmt::print(stderr, "usage: bench_planning [--brief] [--csv FILE] [--check]\n"), 2;
-  }
+  const auto read = read_options(argc, argv, "bench_planning");
+  if (!read) return 2;
+  const BenchOptions& options = *read;
   Report report;
   const auto all = scenes();
   std::vector<Aim> aims;
   fmt::print("{:26} {:>8} {:>13} {:>6} {:>8} {:>6} {:>9} {:>6} {:>11}\n",
              "steps a second, one thread", "ours", "FCL + Embree", "ratio", "tuned", "ratio",
              "original", "ratio", "energies/s");
-  double least_peer = infinite, least_original = infinite;
+  double min_peer = infinite, min_original = infinite;
   bool original = false;
   for (const Scene& scene : all) {
     const Figures f = measure(scene, options, report);
@@ -227,16 +213,16 @@ int main(int argc, char** argv) {
                scene.original, f.ours / scene.original, f.evaluations);
     // a missing figure stays missing
     const double ratio = f.ours / f.plain;
-    least_peer = std::isnan(ratio) ? NAN : std::min(least_peer, ratio);
+    min_peer = std::isnan(ratio) ? NAN : std::min(min_peer, ratio);
     if (!std::isnan(scene.original)) {
-      least_original = std::min(least_original, f.ours / scene.original);
+      min_original = std::min(min_original, f.ours / scene.original);
       original = true;
     }
   }
-  aims.push_back({"least of FCL + Embree / ours (aim 20)", least_peer, 8});
+  aims.push_back({"least of FCL + Embree / ours (aim 20)", min_peer, 8});
   // without the original's models there is nothing to hold its figures against
   if (original)
-    aims.push_back({"least of ours / the original's (aim 25)", least_original, 15});
+    aims.push_back({"least of ours / the original's (aim 25)", min_original, 15});
   else
     fmt::print("the original's steps a second are of its own models, which are not here\n");
   const double growth = memory_growth(all[2], options.brief ? 400 : 40'000);

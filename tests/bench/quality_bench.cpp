@@ -290,19 +290,9 @@ int measure_robustness(int count, Report& report) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool check = false, brief = false;
-  std::string csv;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--check")
-      check = true;
-    else if (word == "--brief")
-      brief = true;
-    else if (word == "--csv" && i + 1 < argc)
-      csv = argv[++i];
-    else
-      return fmt::print(stderr, "usage: bench_quality [--brief] [--csv FILE] [--check]\n"), 2;
-  }
+  const auto options = read_options(argc, argv, "bench_quality");
+  if (!options) return 2;
+  const auto [brief, check, csv] = *options;
   Report report;
   Fastest fastest;
   const int sets = brief ? 1 : 12;

@@ -8,6 +8,24 @@
 
 namespace clench::bench {
 
+std::optional<BenchOptions> read_options(int argc, char** argv, const char* program) {
+  BenchOptions out;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--check") {
+      out.check = true;
+    } else if (word == "--brief") {
+      out.brief = true;
+    } else if (word == "--csv" && i + 1 < argc) {
+      out.csv = argv[++i];
+    } else {
+      fmt::print(stderr, "usage: {} [--brief] [--csv FILE] [--check]\n", program);
+      return {};
+    }
+  }
+  return out;
+}
+
 static double middle_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<long>(values.size()) / 2;
   std::nth_element(values.begin(), middle, values.end());

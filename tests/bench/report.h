@@ -2,6 +2,7 @@
 #pragma once
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,15 @@ struct Row {
   std::string query, pair;
   std::map<std::string, double> medians;  ///< by library [us]
 };
+
+/// What the command of a bench asks for.
+struct BenchOptions {
+  bool brief = false;  ///< to see that all works
+  bool check = false;  ///< a missed aim is a failure
+  std::string csv;     ///< where the table goes; "": nowhere
+};
+/// empty, after a sentence of usage, when a word is none of them
+std::optional<BenchOptions> read_options(int argc, char** argv, const char* program);
 
 class Report {
  public:

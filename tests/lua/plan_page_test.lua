@@ -18,7 +18,7 @@ local function stage(count)
   for i = 1, count do
     local grasp = clench.grasp(hand, flask)
     grasp.pregrasp = {pose = grasp.pose, dofs = open}
-    if i ~= 2 then grasp.info = {load_margin = 2 + i % 5 / 4, reclosed_epsilon = 0.01 * i} end
+    if i ~= 2 then grasp.info = {load_margin = 2 + i % 5 / 4, perturbed_epsilon = 0.01 * i} end
     grasps[i] = grasp
   end
   return world, hand, flask, grasps

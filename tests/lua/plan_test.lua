@@ -33,7 +33,7 @@ test("sampled grasps are verified, and hold when measured anew", function(t)
   local last = math.huge
   for _, g in ipairs(run.grasps) do
     t.ok(g.collision_free and g.epsilon >= 0.01 and g.epsilon <= last)
-    t.ok(g.info.load_margin >= 2 and g.info.reclosed_epsilon >= 0.01)
+    t.ok(g.info.load_margin >= 2 and g.info.perturbed_epsilon >= 0.01)
     t.equal(g.labels.planner, "sample")
     last = g.epsilon
   end

@@ -26,7 +26,7 @@ struct Constant : Energy {
   int* asked;
   Constant(double value, double least, int* count) : x(value), low(least), asked(count) {}
   double bounded_value(World&, double) override { return ++*asked, x; }
-  double least() const override { return low; }
+  double lower_bound() const override { return low; }
   EnergyPtr clone() const override { return std::make_unique<Constant>(*this); }
 };
 
@@ -60,7 +60,7 @@ TEST_CASE("a sum stops where what is still to come cannot bring it below the bou
   asked = 0;
   CHECK(sum.value(world, 1) > 1);
   CHECK(asked == 1);
-  CHECK(sum.least() == 0);
+  CHECK(sum.lower_bound() == 0);
   CHECK_THROWS_WITH_AS(sum_of({{-1, 2}}, &asked), "energy: a weight must be >= 0, got -1", Error);
 }
 

@@ -1,4 +1,4 @@
-#include "clench/render/chart.h"
+#include "clench/render/figure/chart.h"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "clench/base/error.h"
-#include "clench/render/canvas.h"
+#include "clench/render/figure/canvas.h"
 
 using namespace clench;
 using Eigen::Vector2f;

@@ -1,4 +1,4 @@
-#include "clench/render/corner_normals.h"
+#include "clench/render/mesh/corner_normals.h"
 
 #include <numbers>
 

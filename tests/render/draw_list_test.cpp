@@ -1,9 +1,9 @@
-#include "clench/render/draw_list.h"
+#include "clench/render/mesh/draw_list.h"
 
 #include <limits>
 #include <numbers>
 
-#include "clench/render/pieces.h"
+#include "clench/render/mesh/pieces.h"
 #include "pictures.h"
 
 using namespace clench;

@@ -1,4 +1,4 @@
-#include "clench/render/frame.h"
+#include "clench/render/view/frame.h"
 
 #include <limits>
 

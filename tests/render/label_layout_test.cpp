@@ -1,4 +1,4 @@
-#include "clench/render/label_layout.h"
+#include "clench/render/view/label_layout.h"
 
 #include <doctest/doctest.h>
 

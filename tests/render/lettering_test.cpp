@@ -1,4 +1,4 @@
-#include "clench/render/lettering.h"
+#include "clench/render/figure/lettering.h"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <thread>
 
-#include "clench/render/chart.h"
+#include "clench/render/figure/chart.h"
 
 using namespace clench;
 using Eigen::Vector2f;

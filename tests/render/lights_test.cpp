@@ -1,4 +1,4 @@
-#include "clench/render/lights.h"
+#include "clench/render/view/lights.h"
 
 #include <cmath>
 

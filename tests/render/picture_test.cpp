@@ -1,4 +1,4 @@
-#include "clench/render/picture.h"
+#include "clench/render/figure/picture.h"
 
 #include <png.h>
 

@@ -1,4 +1,4 @@
-#include "clench/render/plot.h"
+#include "clench/render/figure/plot.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/random.h"
-#include "clench/render/sheet.h"
+#include "clench/render/figure/sheet.h"
 
 using namespace clench;
 using Eigen::Vector2f;

@@ -1,11 +1,11 @@
-#include "clench/render/refine.h"
+#include "clench/render/mesh/refine.h"
 
 #include <algorithm>
 #include <map>
 #include <tuple>
 
 #include "clench/base/random.h"
-#include "clench/render/draw_list.h"
+#include "clench/render/mesh/draw_list.h"
 #include "support/shapes.h"
 
 using namespace clench;

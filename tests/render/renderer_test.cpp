@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "clench/render/frame.h"
+#include "clench/render/view/frame.h"
 #include "pictures.h"
 
 using namespace clench;

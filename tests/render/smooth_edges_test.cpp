@@ -1,4 +1,4 @@
-#include "clench/render/smooth_edges.h"
+#include "clench/render/figure/smooth_edges.h"
 
 #include <doctest/doctest.h>
 

@@ -63,7 +63,7 @@ class CompliantEnergy : public Energy {
   CompliantEnergy(const HandAndObject& who, const Options& options)
       : who_(who), options_(options) {}
   double bounded_value(World& world, double bound) override;
-  double least() const override { return -200; }
+  double lower_bound() const override { return -200; }
   EnergyPtr clone() const override { return std::make_unique<CompliantEnergy>(*this); }
 
  private:

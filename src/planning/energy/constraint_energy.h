@@ -10,7 +10,7 @@ class ApproachCone : public Energy {
   /// axis  in world axes, of any length but 0;  max_angle  in [0, pi] [rad]
   ApproachCone(Id<Robot> hand, const Eigen::Vector3d& axis, double max_angle);
   double bounded_value(World& world, double bound) override;
-  double least() const override { return 0; }
+  double lower_bound() const override { return 0; }
   EnergyPtr clone() const override { return std::make_unique<ApproachCone>(*this); }
 
  private:
@@ -26,7 +26,7 @@ class KeepOutBox : public Energy {
   KeepOutBox(Id<Robot> hand, const Pose& X_WK, const Eigen::Vector3d& low,
              const Eigen::Vector3d& high);
   double bounded_value(World& world, double bound) override;
-  double least() const override { return 0; }
+  double lower_bound() const override { return 0; }
   EnergyPtr clone() const override { return std::make_unique<KeepOutBox>(*this); }
 
  private:
@@ -40,7 +40,7 @@ class ClearanceEnergy : public Energy {
  public:
   ClearanceEnergy(const HandAndObject& who, double distance);
   double bounded_value(World& world, double bound) override;
-  double least() const override { return 0; }
+  double lower_bound() const override { return 0; }
   EnergyPtr clone() const override { return std::make_unique<ClearanceEnergy>(*this); }
 
  private:
@@ -53,7 +53,7 @@ class ReachEnergy : public Energy {
  public:
   ReachEnergy(Id<Robot> hand, const Eigen::Vector3d& p_W, double radius);
   double bounded_value(World& world, double bound) override;
-  double least() const override { return 0; }
+  double lower_bound() const override { return 0; }
   EnergyPtr clone() const override { return std::make_unique<ReachEnergy>(*this); }
 
  private:
@@ -69,7 +69,7 @@ class PenetrationEnergy : public Energy {
   /// points  on each body of the hand, >= 1
   PenetrationEnergy(const World& world, Id<Robot> hand, int points = 64);
   double bounded_value(World& world, double bound) override;
-  double least() const override { return 0; }
+  double lower_bound() const override { return 0; }
   EnergyPtr clone() const override { return std::make_unique<PenetrationEnergy>(*this); }
 
  private:

@@ -71,7 +71,7 @@ PotentialQuality::PotentialQuality(const World& world, const HandAndObject& who,
   if (options.min_count < 1) fail("energy: min_count must be >= 1, got {}", options.min_count);
 }
 
-double PotentialQuality::least() const {
+double PotentialQuality::lower_bound() const {
   // no wrench space reaches farther in all directions than a contact that counts twice can push
   double mu = 0;
   for (int i = 0; i < sites_.size(); ++i) mu = std::max(mu, sites_.site(i).mu);

@@ -23,7 +23,7 @@ class ContactEnergy : public Energy {
   /// throws  Error as ContactSites, or for a weight that is not finite or below 0
   ContactEnergy(const World& world, const HandAndObject& who, const Options& options);
   double bounded_value(World& world, double bound) override;
-  double least() const override { return 0; }
+  double lower_bound() const override { return 0; }
   EnergyPtr clone() const override { return std::make_unique<ContactEnergy>(*this); }
 
   /// How a site lies, and the cosine that counts.
@@ -56,7 +56,7 @@ class PotentialQuality : public Energy {
   /// throws  Error as ContactSites, or when an option is out of range
   PotentialQuality(const World& world, const HandAndObject& who, const Options& options);
   double bounded_value(World& world, double bound) override;
-  double least() const override;
+  double lower_bound() const override;
   EnergyPtr clone() const override { return std::make_unique<PotentialQuality>(*this); }
 
  private:
@@ -70,7 +70,7 @@ class GuidedEnergy : public Energy {
   GuidedEnergy(EnergyPtr first, EnergyPtr second)
       : first_(std::move(first)), second_(std::move(second)) {}
   double bounded_value(World& world, double bound) override;
-  double least() const override { return std::min(first_->least(), second_->least()); }
+  double lower_bound() const override { return std::min(first_->lower_bound(), second_->lower_bound()); }
   EnergyPtr clone() const override {
     return std::make_unique<GuidedEnergy>(first_->clone(), second_->clone());
   }

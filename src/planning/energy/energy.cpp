@@ -17,11 +17,11 @@ double EnergySum::bounded_value(World& world, double bound) {
   // what the terms that are still to come have at least
   double rest = 0;
   for (const Term& term : terms_)
-    if (term.weight > 0) rest += term.weight * term.energy->least();
+    if (term.weight > 0) rest += term.weight * term.energy->lower_bound();
   double sum = 0;
   for (const Term& term : terms_) {
     if (term.weight == 0) continue;
-    const double least = term.energy->least();
+    const double least = term.energy->lower_bound();
     const bool known = std::isfinite(rest);
     if (known) rest -= term.weight * least;
     // rounding must not cut off what lies on the bound
@@ -33,10 +33,10 @@ double EnergySum::bounded_value(World& world, double bound) {
   return sum;
 }
 
-double EnergySum::least() const {
+double EnergySum::lower_bound() const {
   double sum = 0;
   for (const Term& term : terms_)
-    if (term.weight > 0) sum += term.weight * term.energy->least();
+    if (term.weight > 0) sum += term.weight * term.energy->lower_bound();
   return sum;
 }
 

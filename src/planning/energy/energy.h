@@ -28,7 +28,7 @@ class Energy {
   /// Exact where it is at most the bound; otherwise anything above it, found sooner. The world stands on return as it did.
   double value(World& world, double bound = infinite) { return bounded_value(world, bound); }
   /// No state has less; -infinite: not known.
-  virtual double least() const { return -infinite; }
+  virtual double lower_bound() const { return -infinite; }
   virtual std::unique_ptr<Energy> clone() const = 0;
   /// May any thread ask it? A script's function may be asked by the script's thread alone.
   virtual bool any_thread() const { return true; }
@@ -49,7 +49,7 @@ class EnergySum : public Energy {
   /// throws  Error for a weight that is not finite or below 0
   explicit EnergySum(std::vector<Term> terms);
   double bounded_value(World& world, double bound) override;
-  double least() const override;
+  double lower_bound() const override;
   EnergyPtr clone() const override;
   bool any_thread() const override;
 
@@ -63,7 +63,7 @@ class EnergyWithin : public Energy {
   /// throws  Error when low exceeds high, or one is not a number
   EnergyWithin(EnergyPtr energy, double low, double high);
   double bounded_value(World& world, double bound) override;
-  double least() const override { return std::max(low_, energy_->least()); }
+  double lower_bound() const override { return std::max(low_, energy_->lower_bound()); }
   EnergyPtr clone() const override;
   bool any_thread() const override { return energy_->any_thread(); }
 

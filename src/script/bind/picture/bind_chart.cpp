@@ -2,7 +2,7 @@
 
 #include <ranges>
 
-#include "clench/render/chart.h"
+#include "clench/render/figure/chart.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"

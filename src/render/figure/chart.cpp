@@ -1,0 +1,308 @@
+#include "clench/render/figure/chart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "clench/base/convert.h"
+#include "clench/base/error.h"
+#include "clench/math/round_step.h"
+#include "clench/render/figure/canvas.h"
+
+namespace clench {
+
+using Eigen::Vector2f;
+
+namespace {
+
+constexpr float letter_height = 9, title_height = 13, margin = 16, axis_room = 72;
+constexpr float panel_height = 170, panel_gap = 56;  // with the gap above, which holds the name
+constexpr float min_gap = 0.6f;                      // part of a panel that the gap may take
+constexpr float value_room = 15;      // between a column and the panel's name [pixels]
+constexpr float panel_name = 24;      // its baseline above the panel [pixels]
+constexpr float min_lines = 13;       // from line to line of an axis [pixels]
+constexpr float min_column = 2;       // height of what is not 0 [pixels]
+constexpr float turned_label = 150;   // length that an upright label may have [pixels]
+constexpr float turned_part = 0.25f;  // of the chart's height that it may have
+constexpr float level_label = 110;    // columns as wide keep their labels level [pixels]
+constexpr int min_size = 64, largest_size = 8192;
+constexpr size_t max_items = largest_size, max_values = 1'000'000;  // a series, and in all
+constexpr size_t max_letters = 10'000'000;                          // of all texts [bytes]
+
+const Canvas::Color ink(0.13f, 0.16f, 0.20f), quiet(0.86f, 0.87f, 0.89f);
+const Canvas::Color column_color(0.45f, 0.66f, 0.84f), best_color(0.09f, 0.40f, 0.67f);
+const Canvas::Color cross_color(0.80f, 0.25f, 0.15f);
+
+void check_chart(const Chart& chart, const ChartOptions& options) {
+  if (chart.series.empty()) fail("chart: expected at least one series, got none");
+  const size_t items = chart.series[0].values.size();
+  if (items == 0)
+    fail("chart: series '{}': expected at least one value, got none", chart.series[0].name);
+  for (const ChartSeries& series : chart.series)
+    if (series.values.size() != items)
+      fail("chart: series '{}': expected {} values, as the first has, got {}", series.name, items,
+           series.values.size());
+  if (items > max_items)
+    fail(ErrorKind::limit, "chart: expected at most {} values a series, got {}", max_items, items);
+  if (items * chart.series.size() > max_values)
+    fail(ErrorKind::limit, "chart: expected at most {} values in all, got {} series of {}",
+         max_values, chart.series.size(), items);
+  size_t letters = chart.title.size();
+  for (const std::string& label : chart.labels) letters += label.size();
+  for (const ChartSeries& series : chart.series) letters += series.name.size();
+  if (letters > max_letters)
+    fail(ErrorKind::limit, "chart: expected texts of at most {} bytes in all, got {}", max_letters,
+         letters);
+  if (!chart.labels.empty() && chart.labels.size() != items)
+    fail("chart: expected {} label{}, one per value, got {}", items, items == 1 ? "" : "s",
+         chart.labels.size());
+  if (options.width < min_size || options.width > largest_size)
+    fail("chart: expected a width of {} to {} pixels, got {}", min_size, largest_size,
+         options.width);
+  if (options.height != 0 && (options.height < min_size || options.height > largest_size))
+    fail("chart: expected a height of {} to {} pixels, got {}", min_size, largest_size,
+         options.height);
+}
+
+std::vector<std::string> labels_of(const Chart& chart) {
+  if (!chart.labels.empty()) return chart.labels;
+  std::vector<std::string> numbers;
+  for (size_t i = 1; i <= chart.series[0].values.size(); ++i) numbers.push_back(fmt::to_string(i));
+  return numbers;
+}
+
+// where the columns of all panels stand
+struct ChartColumns {
+  float left, width;  // of one column, with the space beside it
+  float centre(size_t i) const { return left + (static_cast<float>(i) + 0.5f) * width; }
+};
+
+struct ChartPanel {
+  float top, bottom, left, right;
+  float name;  // its baseline above the top
+};
+
+// a panel's scale
+struct ChartScale {
+  ChartAxis axis;
+  float top, bottom;
+  float height(double value) const {
+    // halves, so that the range of the largest numbers is one
+    const double part = (value / 2 - axis.low / 2) / (axis.high / 2 - axis.low / 2);
+    return bottom - static_cast<float>(part) * (bottom - top);
+  }
+};
+
+bool nothing_to_show(const std::vector<double>& values) {
+  return std::ranges::none_of(values, [](double v) { return std::isfinite(v) && v != 0; });
+}
+
+// the line of 0, and unless there is nothing but zeros, the others
+void draw_axis(Canvas& canvas, const ChartPanel& panel, const ChartScale& scale, bool zeros) {
+  const ChartAxis& axis = scale.axis;
+  // lines by their numbers from 0 on
+  const int first = floor_int(axis.low / axis.step + 0.5);
+  const int last = floor_int(axis.high / axis.step + 0.5);
+  const float apart = (scale.bottom - scale.top) / static_cast<float>(last - first);
+  const int every = floor_between(std::ceil(min_lines / apart), 1, last - first + 1);
+  for (int i = first; i <= last; ++i) {
+    const double value = i * axis.step;
+    // the axis of the largest numbers ends at the largest there is
+    if ((zeros && i != 0) || i % every != 0 || !std::isfinite(value)) continue;
+    const float y = scale.height(value);
+    canvas.rectangle({panel.left, y - 0.5f}, {panel.right, y + 0.5f}, quiet);
+    const std::string number = fmt::format("{:.4g}", value);
+    const float width = canvas.font().width(number, letter_height);
+    canvas.text({number, {panel.left - 8 - width, y + letter_height / 2}, letter_height}, ink);
+  }
+}
+
+// infinite when there is none
+double best_of(const ChartSeries& series) {
+  const double sign = series.higher_is_better ? 1 : -1;
+  double best = -std::numeric_limits<double>::infinity();
+  for (const double value : series.values)
+    if (std::isfinite(value)) best = std::max(best, sign * value);
+  return sign * best;
+}
+
+void draw_cross(Canvas& canvas, float x, float zero) {
+  canvas.line({x - 3, zero - 10}, {x + 3, zero - 4}, 1.5f, cross_color);
+  canvas.line({x - 3, zero - 4}, {x + 3, zero - 10}, 1.5f, cross_color);
+}
+
+// a value's end of its column; what is not 0 can be told from it
+float end_of(const ChartScale& scale, double value) {
+  const float zero = scale.height(0), y = scale.height(value);
+  if (value > 0) return std::min(y, zero - min_column);
+  if (value < 0) return std::max(y, zero + min_column);
+  return zero;
+}
+
+// above the columns, unless one is too wide
+void write_values(Canvas& canvas, const ChartScale& scale, const std::vector<double>& values,
+                  const ChartColumns& columns) {
+  const auto width = [&](const std::string& text) {
+    return canvas.font().width(text, letter_height);
+  };
+  std::vector<std::string> numbers;
+  for (const double value : values)
+    numbers.push_back(std::isfinite(value) ? fmt::format("{:.3g}", value) : "");
+  if (std::ranges::any_of(numbers, [&](const auto& n) { return width(n) > columns.width; })) return;
+  for (size_t i = 0; i < values.size(); ++i)
+    if (std::isfinite(values[i]))
+      canvas.bright_text({numbers[i],
+                          {columns.centre(i) - width(numbers[i]) / 2,
+                           std::min(end_of(scale, values[i]), scale.height(0)) - 4},
+                          letter_height},
+                         ink);
+}
+
+void draw_columns(Canvas& canvas, const ChartPanel& panel, const ChartSeries& series,
+                  const ChartColumns& columns) {
+  const ChartScale scale{chart_axis(series.values), panel.top, panel.bottom};
+  const float room = panel.right - panel.left;
+  const std::string name = canvas.font().shortened(series.name, letter_height, room);
+  canvas.text({name, {panel.left, panel.top - panel.name}, letter_height}, ink);
+  draw_axis(canvas, panel, scale, nothing_to_show(series.values));
+
+  const double best = best_of(series);
+  const float half = std::max(0.5f, 0.36f * columns.width), zero = scale.height(0);
+  for (size_t i = 0; i < series.values.size(); ++i) {
+    const float x = columns.centre(i);
+    const double value = series.values[i];
+    if (!std::isfinite(value)) {
+      draw_cross(canvas, x, zero);
+      continue;
+    }
+    const float y = end_of(scale, value);
+    canvas.rectangle({x - half, std::min(y, zero)}, {x + half, std::max(y, zero)},
+                     value == best ? best_color : column_color);
+  }
+  canvas.rectangle({panel.left, zero - 0.5f}, {panel.right, zero + 0.5f}, ink);
+  if (panel.name >= value_room) write_values(canvas, scale, series.values, columns);
+}
+
+// how the labels under the last panel stand: level where they fit, perhaps shortened, upright where not
+struct ChartLabels {
+  std::vector<std::string> texts;
+  bool upright = false;
+  float height = letter_height;  // of all
+};
+
+// how many letters all texts have in common, from their beginning, or from their end
+size_t common_letters(const std::vector<std::u32string>& texts, bool from_end) {
+  const auto letter = [&](const std::u32string& text, size_t i) {
+    return from_end ? text[text.size() - 1 - i] : text[i];
+  };
+  size_t count = texts[0].size();
+  for (const std::u32string& text : texts) {
+    size_t same = 0;
+    while (same < std::min(count, text.size()) && letter(text, same) == letter(texts[0], same))
+      ++same;
+    count = same;
+  }
+  return count;
+}
+
+// an ellipsis in place of what all begin with, and of what all end with: the rest tells them apart
+void drop_common(std::vector<std::string>& texts) {
+  if (std::ranges::adjacent_find(texts, std::not_equal_to()) == texts.end()) return;
+  std::vector<std::u32string> letters;
+  for (const std::string& text : texts) letters.push_back(letters_of(text));
+  for (const bool at_end : {false, true}) {
+    const size_t common = common_letters(letters, at_end);
+    if (common < 2) continue;
+    for (std::u32string& text : letters)
+      text.replace(at_end ? text.size() - common : 0, common, U"…");
+  }
+  std::ranges::transform(letters, texts.begin(), text_of);
+}
+
+ChartLabels fit_labels(const Chart& chart, const ChartColumns& columns, float longest,
+                       const Font& font) {
+  ChartLabels labels{labels_of(chart)};
+  const auto widest = [&] {
+    float most = 0;
+    for (const std::string& text : labels.texts)
+      most = std::max(most, font.width(text, letter_height));
+    return most;
+  };
+  labels.upright = widest() + 4 > columns.width && columns.width < level_label;
+  const float room = labels.upright ? longest : columns.width - 4;
+  if (widest() > room) drop_common(labels.texts);
+  for (std::string& text : labels.texts) text = font.shortened(text, letter_height, room);
+  if (labels.upright) labels.height = widest();
+  return labels;
+}
+
+// some are left out where even upright ones would overlap
+void draw_labels(Canvas& canvas, const ChartLabels& labels, float top,
+                 const ChartColumns& columns) {
+  const float least = labels.upright ? letter_height + 4 : 0;
+  const size_t every =
+      floor_between(std::ceil(least / columns.width), size_t{1}, labels.texts.size());
+  for (size_t i = 0; i < labels.texts.size(); i += every) {
+    const std::string& text = labels.texts[i];
+    const float width = canvas.font().width(text, letter_height), x = columns.centre(i);
+    if (labels.upright)
+      canvas.text({text, {x + letter_height / 2, top + width}, letter_height, -Vector2f::UnitY()},
+                  ink);
+    else
+      canvas.text({text, {x - width / 2, top + letter_height}, letter_height}, ink);
+  }
+}
+
+}  // namespace
+
+ChartAxis chart_axis(const std::vector<double>& values) {
+  double low = 0, high = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  // halves first, so that the range of the largest numbers is one
+  const double range = high / 2 - low / 2;
+  // beside numbers that small a step would be none
+  if (range < 1e-300) return {};
+  const double step = round_step(range / 2);
+  constexpr double largest = std::numeric_limits<double>::max();
+  return {std::max(std::floor(low / step) * step, -largest),
+          std::min(std::ceil(high / step) * step, largest), step};
+}
+
+Picture draw_chart(const Chart& chart, const ChartOptions& options, const Font& font) {
+  check_chart(chart, options);
+  const float left = margin + axis_room, right = static_cast<float>(options.width) - margin;
+  const auto items = static_cast<float>(chart.series[0].values.size());
+  const ChartColumns columns{left, (right - left) / items};
+  const float longest =
+      options.height > 0 ? std::min(turned_label, turned_part * static_cast<float>(options.height))
+                         : turned_label;
+  const ChartLabels labels = fit_labels(chart, columns, longest, font);
+  const float above = chart.title.empty() ? 0 : title_height + margin;
+  const float below = 8 + labels.height + margin;
+  const auto panels = static_cast<float>(chart.series.size());
+  const float needed = margin + above + panels * panel_height + below;
+  const int height =
+      options.height > 0 ? options.height : floor_between(needed, min_size, largest_size);
+
+  Picture picture = blank_picture(options.width, height);
+  Canvas canvas(picture, font);
+  const std::string title = font.shortened(chart.title, title_height, right - margin);
+  canvas.text({title, {margin, margin + title_height}, title_height}, ink);
+  const float room = (static_cast<float>(height) - margin - above - below) / panels;
+  // low panels leave less between them
+  const float gap = std::min(panel_gap, min_gap * room);
+  for (size_t i = 0; i < chart.series.size(); ++i) {
+    const float top = margin + above + static_cast<float>(i) * room + gap;
+    const float name = panel_name * gap / panel_gap;
+    draw_columns(canvas, {top, std::max(top + 1, top + room - gap), left, right, name},
+                 chart.series[i], columns);
+  }
+  draw_labels(canvas, labels, static_cast<float>(height) - below + 8, columns);
+  return picture;
+}
+
+}  // namespace clench

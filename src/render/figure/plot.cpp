@@ -1,0 +1,400 @@
+#include "clench/render/figure/plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clench/base/convert.h"
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/math/round_step.h"
+
+namespace clench {
+
+using Eigen::Vector2d;
+using Eigen::Vector2f;
+using Range = std::array<double, 2>;
+
+namespace {
+
+constexpr float text_height = 10, heading_height = 13, border = 14, gap = 8;  // [pixels]
+constexpr float line_width = 2, point_width = 6, frame_width = 1, sample_length = 24;
+constexpr double tick_room_x = 90, tick_room_y = 45;  // between two lines of an axis [pixels]
+constexpr double margin_of_data = 0.04;               // beside the outermost numbers
+constexpr int min_plot_size = 64, max_plot_size = 8192;
+constexpr size_t max_points = 200'000;
+constexpr double largest_number = 1e300;
+
+const Drawing::Color dark(0.13f, 0.16f, 0.20f), grid(0.88f, 0.89f, 0.91f);
+const Drawing::Color colors[] = {{0.000f, 0.447f, 0.698f}, {0.835f, 0.369f, 0.000f},
+                                 {0.000f, 0.620f, 0.451f}, {0.800f, 0.475f, 0.655f},
+                                 {0.902f, 0.624f, 0.000f}, {0.337f, 0.706f, 0.914f},
+                                 {0.350f, 0.350f, 0.350f}};
+
+bool shown(double value) { return std::abs(value) <= largest_number; }
+
+// may its ends be told apart, with room for lines between them?
+bool wide_enough(const Range& range) {
+  const double size = range[1] - range[0];
+  return size > 1e-12 * std::max(std::abs(range[0]), std::abs(range[1])) && size > 1e-300;
+}
+
+void check_series(const PlotSeries& series, size_t number) {
+  const std::string subject = series.name.empty()
+                                  ? fmt::format("plot: series {}", number)
+                                  : fmt::format("plot: series {}", in_quotes(series.name));
+  const size_t wanted = series.y.size() + (series.kind == PlotKind::bars ? 1 : 0);
+  if (series.y.empty()) fail("{}: expected at least one value, got none", subject);
+  if (series.x.size() != wanted)
+    fail("{}: expected {} {}, got {}", subject, wanted,
+         series.kind == PlotKind::bars ? "edges of bars" : "values of x, as there are of y",
+         series.x.size());
+  if (series.kind == PlotKind::bars)
+    for (size_t i = 0; i < series.x.size(); ++i)
+      if (!shown(series.x[i]) || (i > 0 && !(series.x[i] > series.x[i - 1])))
+        fail("{}: expected ascending edges, got {} as number {}", subject, series.x[i], i + 1);
+}
+
+bool any_bars(const Plot& plot) {
+  return std::ranges::any_of(plot.series,
+                             [](const PlotSeries& s) { return s.kind == PlotKind::bars; });
+}
+
+void check_plot(const Plot& plot) {
+  if (plot.series.empty()) fail("plot: expected at least one series, got none");
+  size_t points = 0;
+  for (size_t i = 0; i < plot.series.size(); ++i) {
+    check_series(plot.series[i], i + 1);
+    points += plot.series[i].y.size();
+  }
+  if (points > max_points)
+    fail(ErrorKind::limit, "plot: expected at most {} values in all, got {}", max_points, points);
+  for (const auto& [name, size] : {std::pair("width", plot.width), {"height", plot.height}})
+    if (size < min_plot_size || size > max_plot_size)
+      fail("plot: expected a {} of {} to {} pixels, got {}", name, min_plot_size, max_plot_size,
+           size);
+  for (const auto& [name, axis] : {std::pair("x", &plot.x), {"y", &plot.y}}) {
+    if (axis == &plot.y && axis->logarithmic && any_bars(plot))
+      fail("plot: y_scale: bars stand on 0, which a logarithmic axis has not");
+    for (size_t i = 0; axis == &plot.x && axis->logarithmic && i < plot.series.size(); ++i)
+      if (plot.series[i].kind == PlotKind::bars && !(plot.series[i].x[0] > 0))
+        fail("plot: x_scale: expected edges of bars > 0 on a logarithmic axis, got {}",
+             plot.series[i].x[0]);
+    if (!axis->range) continue;
+    const auto [low, high] = *axis->range;
+    if (!shown(low) || !shown(high) || !wide_enough({low, high}))
+      fail("plot: {}_range: expected a lower and a higher number, got {} and {}", name, low, high);
+    if (axis->logarithmic && !(low > 0))
+      fail("plot: {}_range: expected numbers > 0 on a logarithmic axis, got {} and {}", name, low,
+           high);
+  }
+}
+
+// grows to hold a value
+void hold(Range& range, double value) {
+  range = {std::min(range[0], value), std::max(range[1], value)};
+}
+
+// of what is drawn; lower end above the upper one: nothing is
+std::array<Range, 2> data_ranges(const Plot& plot) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Range xs = {infinity, -infinity}, ys = xs;
+  for (const PlotSeries& series : plot.series)
+    for (size_t i = 0; i < series.y.size(); ++i) {
+      if (!shown(series.y[i]) || !shown(series.x[i])) continue;
+      hold(xs, series.x[i]);
+      hold(ys, series.y[i]);
+      if (series.kind == PlotKind::bars) hold(xs, series.x[i + 1]), hold(ys, 0);
+    }
+  return {xs, ys};
+}
+
+// room beside the data; bars stand on the axis, and reach its ends
+Range with_margin(const Range& data, bool low_end, bool high_end) {
+  if (!wide_enough(data)) {
+    const double room = std::max(1.0, std::abs(data[0])) / 2;
+    return {data[0] - room, data[1] + room};
+  }
+  const double size = data[1] - data[0];
+  return {data[0] - (low_end ? margin_of_data * size : 0),
+          data[1] + (high_end ? margin_of_data * size : 0)};
+}
+
+/// An axis with its lines.
+struct Scale {
+  Range range;
+  double step = 1;
+  bool logarithmic = false;  // all numbers here are powers of ten
+  float from = 0, to = 0;  // pixels at the ends of the range
+
+  float at(double value) const {
+    const double part = (value - range[0]) / (range[1] - range[0]);
+    return static_cast<float>(from + part * (to - from));
+  }
+  // 1, 2 and 5 times powers of ten, where at least two of these lie in the range
+  std::vector<double> decades(std::vector<double> at) const {
+    std::vector<double> out;
+    const double first = std::floor(range[0]);
+    const int count = floor_between(range[1] - first, 0, 700);
+    for (int i = 0; i <= count; ++i)
+      for (const double digit : at) {
+        const double value = first + i + std::log10(digit);
+        if (value >= range[0] - 1e-9 && value <= range[1] + 1e-9) out.push_back(value);
+      }
+    return out;
+  }
+  std::vector<double> lines() const {
+    if (logarithmic && step <= 1) {
+      if (const auto some = decades({1, 2, 5}); some.size() >= 2 && some.size() <= 8) return some;
+      if (const auto some = decades({1}); some.size() >= 2) return some;
+    }
+    std::vector<double> out;
+    const double slack = 1e-9 * step, first = std::ceil((range[0] - slack) / step);
+    // by their number, for adding 1 changes nothing of a large one
+    const int count = floor_between((range[1] - range[0]) / step, 0, max_plot_size) + 1;
+    for (int i = 0; i <= count; ++i) {
+      const double value = (first + i) * step;
+      if (value <= range[1] + slack) out.push_back(value == 0 ? 0.0 : value);
+    }
+    return out;
+  }
+};
+
+std::string tick_text(const Scale& scale, double value) {
+  if (scale.logarithmic) return fmt::format("{:.4g}", std::pow(10.0, value));
+  // as many digits as tell a line from the next
+  const double largest = std::max(std::abs(scale.range[0]), std::abs(scale.range[1]));
+  const double digits = std::ceil(std::log10(largest / scale.step)) + 1;
+  return fmt::format("{:.{}g}", value, floor_between(digits, 3, 15));
+}
+
+Scale make_scale(const Range& range, double pixels, double room, bool logarithmic) {
+  const double count = std::max(1.0, pixels / room), step = round_step((range[1] - range[0]) / count);
+  // of powers of ten, whole ones
+  return {range, logarithmic && range[1] - range[0] > 2 ? std::max(1.0, std::ceil(step)) : step,
+          logarithmic};
+}
+
+// numbers of a logarithmic axis as powers of ten, which all else counts in; what is not > 0 has none
+void take_logarithms(const PlotAxis& axis, std::vector<double>& values) {
+  if (!axis.logarithmic) return;
+  for (double& value : values) value = value > 0 ? std::log10(value) : NAN;
+}
+
+Plot in_scale(const Plot& plot) {
+  Plot out = plot;
+  for (PlotSeries& series : out.series) {
+    take_logarithms(out.x, series.x);
+    take_logarithms(out.y, series.y);
+  }
+  for (PlotAxis* axis : {&out.x, &out.y})
+    if (axis->logarithmic && axis->range)
+      axis->range = {std::log10((*axis->range)[0]), std::log10((*axis->range)[1])};
+  return out;
+}
+
+/// The figure, as it grows.
+class Figure {
+ public:
+  Figure(const Plot& plot, const Font& font)
+      : plot_(plot), font_(font), out_{plot.width, plot.height} {}
+  Drawing draw();
+
+ private:
+  float width_of(const std::string& text) const { return font_.width(text, text_height); }
+  void text(const std::string& text, const Vector2f& at, float height = text_height,
+            bool upright = false) {
+    out_.items.push_back(Drawing::Text{text, at, height, dark, upright});
+  }
+  void line(std::vector<Vector2f> points, float width, const Drawing::Color& color) {
+    if (!points.empty()) out_.items.push_back(Drawing::Line{std::move(points), width, color});
+  }
+  float draw_heading();
+  void set_scales(float top);
+  void draw_axes();
+  void draw_series(const PlotSeries& series, const Drawing::Color& color);
+  void draw_bars(const PlotSeries& series, const Drawing::Color& color);
+  void draw_line(const PlotSeries& series, const Drawing::Color& color);
+  bool inside(double x, double y) const {
+    return x >= x_.range[0] && x <= x_.range[1] && y >= y_.range[0] && y <= y_.range[1];
+  }
+  Vector2f at(const Vector2d& p) const { return {x_.at(p.x()), y_.at(p.y())}; }
+
+  const Plot& plot_;
+  const Font& font_;
+  Drawing out_;
+  Scale x_, y_;
+};
+
+// title and legend;   returns  where they end
+float Figure::draw_heading() {
+  float top = border;
+  const float room = static_cast<float>(plot_.width) - 2 * border;
+  if (!plot_.title.empty()) {
+    top += heading_height;
+    text(font_.shortened(plot_.title, heading_height, room), {border, top}, heading_height);
+    top += gap;
+  }
+  float x = border;
+  bool any = false;
+  for (size_t i = 0; i < plot_.series.size(); ++i) {
+    const PlotSeries& series = plot_.series[i];
+    if (series.name.empty()) continue;
+    if (!any) top += text_height + gap / 2;
+    any = true;
+    const std::string name = font_.shortened(series.name, text_height, room - sample_length - gap);
+    const float needed = sample_length + gap + width_of(name);
+    if (x > border && x + needed > border + room) x = border, top += text_height + gap;
+    const Drawing::Color& color = colors[i % std::size(colors)];
+    const float middle = top - text_height / 2;
+    if (series.kind == PlotKind::line)
+      line({{x, middle}, {x + sample_length, middle}}, line_width, color);
+    else if (series.kind == PlotKind::points)
+      line({{x + sample_length / 2, middle}}, point_width, color);
+    else
+      out_.items.push_back(Drawing::Area{{x, top - text_height}, {x + sample_length, top}, color});
+    text(name, {x + sample_length + gap, top});
+    x += needed + 3 * gap;
+  }
+  return any ? top + gap : top;
+}
+
+// where the frame of the axes stands, and what they show
+void Figure::set_scales(float top) {
+  const auto [xs, ys] = data_ranges(plot_);
+  if (!(xs[0] <= xs[1]) && !(plot_.x.range && plot_.y.range))
+    fail("plot: expected at least one finite value, got none");
+  const bool bars = any_bars(plot_);
+  const Range x_range = plot_.x.range ? *plot_.x.range : with_margin(xs, !bars, !bars);
+  const Range y_range =
+      plot_.y.range ? *plot_.y.range : with_margin(ys, !bars || ys[0] < 0, !bars || ys[1] > 0);
+  const float bottom = static_cast<float>(plot_.height) - border - text_height - gap -
+                       (plot_.x.label.empty() ? 0 : text_height + gap);
+  y_ = make_scale(y_range, bottom - top, tick_room_y, plot_.y.logarithmic);
+  y_.from = std::max(bottom, top + 1), y_.to = top + text_height / 2;
+  float widest = 0;
+  for (const double value : y_.lines()) widest = std::max(widest, width_of(tick_text(y_, value)));
+  const float left = border + (plot_.y.label.empty() ? 0 : text_height + gap) + widest + gap;
+  const float right = static_cast<float>(plot_.width) - 2 * border;
+  x_ = make_scale(x_range, right - left, tick_room_x, plot_.x.logarithmic);
+  x_.from = left, x_.to = std::max(right, left + 1);
+}
+
+void Figure::draw_axes() {
+  const float low = y_.from, high = y_.to;
+  for (const double value : x_.lines()) {
+    const float x = x_.at(value);
+    line({{x, low}, {x, high}}, frame_width, grid);
+    const std::string number = tick_text(x_, value);
+    text(number, {x - width_of(number) / 2, low + gap + text_height});
+  }
+  for (const double value : y_.lines()) {
+    const float y = y_.at(value);
+    line({{x_.from, y}, {x_.to, y}}, frame_width, grid);
+    const std::string number = tick_text(y_, value);
+    text(number, {x_.from - gap - width_of(number), y + text_height / 2});
+  }
+  const float across = x_.to - x_.from, along = low - high;
+  const std::string x_label = font_.shortened(plot_.x.label, text_height, across);
+  if (!x_label.empty())
+    text(x_label,
+         {x_.from + (across - width_of(x_label)) / 2, static_cast<float>(plot_.height) - border});
+  const std::string y_label = font_.shortened(plot_.y.label, text_height, along);
+  if (!y_label.empty())
+    text(y_label, {border + text_height, low - (along - width_of(y_label)) / 2}, text_height, true);
+}
+
+void Figure::draw_bars(const PlotSeries& series, const Drawing::Color& color) {
+  const auto within = [](const Range& range, double v) {
+    return std::clamp(v, range[0], range[1]);
+  };
+  for (size_t i = 0; i < series.y.size(); ++i) {
+    if (!shown(series.y[i])) continue;
+    const double left = within(x_.range, series.x[i]), right = within(x_.range, series.x[i + 1]);
+    const double low = within(y_.range, std::min(0.0, series.y[i])),
+                 high = within(y_.range, std::max(0.0, series.y[i]));
+    if (!(left < right) || !(low < high)) continue;
+    const Vector2f from = at({left, high}), to = at({right, low});
+    // a thin gap between neighbours, where there is room
+    const float space = to.x() - from.x() > 4 ? 0.5f : 0;
+    out_.items.push_back(Drawing::Area{from + Vector2f(space, 0), to - Vector2f(space, 0), color});
+  }
+}
+
+// the part of a segment within the axes, by Liang and Barsky (1984); empty: none is
+std::optional<std::array<Vector2d, 2>> clipped(const Vector2d& a, const Vector2d& b,
+                                               const Range& xs, const Range& ys) {
+  double t0 = 0, t1 = 1;
+  const Vector2d d = b - a;
+  for (int k = 0; k < 2; ++k) {
+    const Range& range = k == 0 ? xs : ys;
+    for (const double sign : {-1.0, 1.0}) {
+      const double out = sign * d[k];
+      const double room = sign < 0 ? a[k] - range[0] : range[1] - a[k];
+      if (out == 0 && room < 0) return {};
+      if (out < 0) t0 = std::max(t0, room / out);
+      if (out > 0) t1 = std::min(t1, room / out);
+    }
+  }
+  if (t0 > t1) return {};
+  return std::array{Vector2d(a + t0 * d), Vector2d(a + t1 * d)};
+}
+
+void Figure::draw_line(const PlotSeries& series, const Drawing::Color& color) {
+  std::vector<Vector2f> points;
+  const auto finish = [&] {
+    line(std::move(points), line_width, color);
+    points.clear();
+  };
+  for (size_t i = 0; i < series.y.size(); ++i) {
+    const Vector2d p(series.x[i], series.y[i]);
+    const auto here = [&](size_t k) { return shown(series.x[k]) && shown(series.y[k]); };
+    if (!here(i)) {
+      finish();
+      continue;
+    }
+    const bool alone = (i == 0 || !here(i - 1)) && (i + 1 == series.y.size() || !here(i + 1));
+    if (alone && inside(p.x(), p.y())) line({at(p)}, point_width / 2, color);
+    if (i == 0 || !here(i - 1)) continue;
+    const auto part = clipped({series.x[i - 1], series.y[i - 1]}, p, x_.range, y_.range);
+    if (!part) {
+      finish();
+      continue;
+    }
+    if (points.empty() || points.back() != at((*part)[0])) {
+      finish();
+      points.push_back(at((*part)[0]));
+    }
+    points.push_back(at((*part)[1]));
+  }
+  finish();
+}
+
+void Figure::draw_series(const PlotSeries& series, const Drawing::Color& color) {
+  if (series.kind == PlotKind::bars) return draw_bars(series, color);
+  if (series.kind == PlotKind::line) return draw_line(series, color);
+  for (size_t i = 0; i < series.y.size(); ++i)
+    if (shown(series.x[i]) && shown(series.y[i]) && inside(series.x[i], series.y[i]))
+      line({at({series.x[i], series.y[i]})}, point_width, color);
+}
+
+Drawing Figure::draw() {
+  set_scales(draw_heading());
+  draw_axes();
+  for (size_t i = 0; i < plot_.series.size(); ++i)
+    draw_series(plot_.series[i], colors[i % std::size(colors)]);
+  line({{x_.from, y_.to}, {x_.from, y_.from}, {x_.to, y_.from}}, frame_width, dark);
+  return std::move(out_);
+}
+
+}  // namespace
+
+Drawing draw_plot(const Plot& plot, const Font& font) {
+  check_plot(plot);
+  const Plot scaled = in_scale(plot);
+  return Figure(scaled, font).draw();
+}
+
+}  // namespace clench

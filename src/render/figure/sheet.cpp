@@ -1,0 +1,75 @@
+#include "clench/render/figure/sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/base/convert.h"
+#include "clench/base/error.h"
+#include "clench/render/figure/canvas.h"
+
+namespace clench {
+
+static constexpr int max_side = 16384;                          // [pixels]
+static constexpr float caption_height = 10, caption_room = 22;  // [pixels]
+
+static void check_sheet(const std::vector<const Picture*>& pictures, const SheetOptions& options) {
+  if (pictures.empty()) fail("sheet: expected at least one picture, got none");
+  if (!options.captions.empty() && options.captions.size() != pictures.size())
+    fail("sheet: expected {} captions, one per picture, got {}", pictures.size(),
+         options.captions.size());
+  if (options.columns < 0 || options.columns > max_side)
+    fail("sheet: expected 1 to {} columns, got {}", max_side, options.columns);
+  if (options.gap < 0 || options.gap > 1000)
+    fail("sheet: expected a gap of 0 to 1000 pixels, got {}", options.gap);
+}
+
+static void copy(const Picture& from, Picture& to, int left, int top) {
+  for (int y = 0; y < from.height; ++y) {
+    const auto row = from.pixels.begin() + std::ptrdiff_t{3} * from.width * y;
+    std::copy(row, row + std::ptrdiff_t{3} * from.width,
+              to.pixels.begin() + 3 * (std::ptrdiff_t{to.width} * (top + y) + left));
+  }
+}
+
+Picture contact_sheet(const std::vector<const Picture*>& pictures, const SheetOptions& options,
+                      const Font& font) {
+  check_sheet(pictures, options);
+  const int count = static_cast<int>(pictures.size());
+  int cell_width = 0, cell_height = 0;
+  for (const Picture* picture : pictures) {
+    cell_width = std::max(cell_width, picture->width);
+    cell_height = std::max(cell_height, picture->height);
+  }
+  const int below = options.captions.empty() ? 0 : floor_int(caption_room);
+  const double shape = static_cast<double>(cell_height + below) / std::max(cell_width, 1);
+  const int columns = options.columns > 0
+                          ? std::min(options.columns, count)
+                          : floor_between(std::round(std::sqrt(count * shape)), 1, count);
+  const int rows = (count + columns - 1) / columns;
+  const double width = columns * (cell_width + double(options.gap)) + options.gap,
+               height = rows * (cell_height + below + double(options.gap)) + options.gap;
+  if (width > max_side || height > max_side)
+    fail(ErrorKind::limit, "sheet: expected at most {} pixels a side, got {} x {}", max_side, width,
+         height);
+
+  Picture sheet = blank_picture(floor_int(width), floor_int(height));
+  Canvas canvas(sheet, font);
+  for (int i = 0; i < count; ++i) {
+    const Picture& picture = *pictures[i];
+    const int left = options.gap + i % columns * (cell_width + options.gap);
+    const int top = options.gap + i / columns * (cell_height + below + options.gap);
+    copy(on_white(picture), sheet, left + (cell_width - picture.width) / 2,
+         top + (cell_height - picture.height) / 2);
+    if (options.captions.empty()) continue;
+    const auto room = static_cast<float>(cell_width);
+    const std::string caption = font.shortened(options.captions[i], caption_height, room);
+    const float x = static_cast<float>(left) + (room - font.width(caption, caption_height)) / 2;
+    const float y = static_cast<float>(top + cell_height) + 6 + caption_height;
+    canvas.text({caption, {x, y}, caption_height}, {0.13f, 0.16f, 0.20f});
+  }
+  return sheet;
+}
+
+}  // namespace clench

@@ -1,0 +1,32 @@
+#include "clench/render/gl/programs.h"
+
+#include "clench/base/error.h"
+#include "clench/render/gl/draft_shaders.h"
+#include "clench/render/gl/shaders.h"
+
+namespace clench {
+
+Programs::Programs() {
+  using namespace shaders;
+  const auto lights = [](int count) { return fmt::format("#define LIGHTS {}\n", count); };
+  const std::string head = lights(lamps_per_sample), light = light_part, shading = shade_part,
+                    backdrop = backdrop_part, curve = curve_part, draft_part = draft_light_part;
+  first = gl::make_program(head, surface_vertex, seen_fragment);
+  shade = gl::make_program(head, cover_vertex, light + shading + backdrop + shade_fragment);
+  mark = gl::make_program(head, surface_vertex, shading + mark_fragment);
+  through = gl::make_program(head, surface_vertex, shading + through_fragment);
+  outline = gl::make_program(head, cover_vertex, outline_fragment);
+  add = gl::make_program(head, cover_vertex, add_fragment);
+  develop = gl::make_program(head, cover_vertex, curve + develop_fragment);
+  shadow = gl::make_program(lights(1), shadow_vertex, depth_fragment);
+  gather = gl::make_program(lights(lights_at_once), cover_vertex, light + gather_fragment);
+  smooth = gl::make_program("", cover_vertex, smooth_fragment);
+  draft = gl::make_program("", draft_vertex, curve + draft_part + draft_fragment);
+  draft_floor =
+      gl::make_program("", draft_vertex, backdrop + curve + draft_part + draft_floor_fragment);
+  draft_behind = gl::make_program("", cover_vertex, backdrop + curve + draft_behind_fragment);
+  draft_shadow = gl::make_program("", draft_shadow_vertex, depth_fragment);
+  draft_outline = gl::make_program("", draft_vertex, draft_seen_fragment);
+}
+
+}  // namespace clench

@@ -1,0 +1,19 @@
+// The programs of the graphics card, compiled once for all pictures of a context.
+#pragma once
+#include "clench/render/gl/gl_objects.h"
+
+namespace clench {
+
+inline constexpr int lamps_per_sample = 4;  ///< that `shade` takes
+inline constexpr int lights_at_once = 12;   ///< that `gather` takes
+
+/// Lives inside the life of a GlContext.
+struct Programs {
+  /// throws Error with the driver's words
+  Programs();
+  gl::Object first, shade, mark, through, outline, add, develop;  ///< what is seen
+  gl::Object shadow, gather, smooth;                              ///< light
+  gl::Object draft, draft_floor, draft_behind, draft_outline, draft_shadow;
+};
+
+}  // namespace clench

@@ -1,0 +1,55 @@
+// A scene as triangle corners ready for the graphics card, in the scene's own units: moved to its
+// centre and divided by its radius, so that a millimetre and a kilometre make the same picture.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "clench/render/mesh/corner.h"
+#include "clench/scene/scene.h"
+
+namespace clench {
+
+/// A run of indices that belong together, and the same surface in fewer triangles, which throw its
+/// shadow.
+struct Batch {
+  int first = 0, count = 0;
+  int first_caster = 0, caster_count = 0;
+  float opacity = 1;
+  bool outward = false;  ///< only the sides that face outward can be seen, from outside
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of a ball that holds it [scene units]
+  double radius = 0;
+};
+
+/// Can the eye see only the sides that face outward? Not from within a body, or with its near plane in it.
+bool hides_inside(const Eigen::Vector3d& centre, double radius, const Eye& eye);
+
+struct DrawList {
+  std::vector<Corner> corners;
+  std::vector<uint32_t> indices;  ///< three a triangle
+  std::vector<Batch> solid;       ///< meshes that hide what is behind them
+  std::vector<Batch> clear;       ///< meshes that one sees through
+  Batch marks;                    ///< friction cones and arrows: seen through, no shadow
+  Batch floor;  ///< a wide level net, finer below the scene: floor_lines each way, row by row
+  std::optional<double> ground;  ///< its height [scene units]
+  std::vector<Batch> behind;     ///< meshes that are background: solid, throw no shadow
+  size_t body_corners = 0;       ///< corners of all but background and floor, which come after
+  size_t floor_corner = 0;       ///< the floor's first
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the scene's bounds, world [m]
+  double scale = 1;                                  ///< largest distance from it [m]
+
+  Eye to_scene(const Eye& world) const;
+  Eye to_world(const Eye& scene) const;
+};
+
+inline constexpr double floor_reach = 5;  ///< half width of the floor [scene units]
+inline constexpr int floor_lines = 113;
+
+/// throws  Error naming the mesh or cone and what is out of range: numbers not finite, opacity
+///         outside [0, 1], a wrong count of triangle colours, a cone's axis that is not unit, its
+///         half angle outside [0, pi/2)
+DrawList make_draw_list(const Scene& scene);
+
+/// Indices of `clear`, the triangles farthest from the eye first; scene units.
+std::vector<uint32_t> back_to_front(const DrawList& list, const Eye& eye);
+
+}  // namespace clench

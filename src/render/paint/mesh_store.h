@@ -1,0 +1,54 @@
+// Meshes on the graphics card, kept from picture to picture wherever their bodies move.
+#pragma once
+#include <list>
+
+#include "clench/render/gl/gl_objects.h"
+#include "clench/render/mesh/corner.h"
+#include "clench/scene/scene.h"
+
+namespace clench {
+
+/// Corners with smooth normals, about the mesh's centre and divided by its radius.
+struct StoredMesh {
+  gl::Object array, corners, indices;
+  int count = 0;  ///< of indices
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double scale = 1;
+  bool closed = false;   ///< a solid whose triangles all run counter-clockwise seen from outside
+  bool painted = false;  ///< triangles have colours of their own
+};
+
+/// Lives inside the life of a GlContext.
+class MeshStore {
+ public:
+  /// bytes that are kept after a picture
+  explicit MeshStore(size_t most) : most_(most) {}
+
+  /// Loads it unless it is there; good until `trim`.
+  const StoredMesh& at(const DrawMesh& mesh);
+  /// Lets go of those not asked for the longest until the rest is within the bound.
+  void trim();
+  size_t bytes() const { return bytes_; }
+
+ private:
+  struct Entry {
+    std::shared_ptr<const Shape> shape;
+    std::vector<Eigen::Vector3f> colors;
+    StoredMesh mesh;
+    size_t bytes = 0;
+  };
+  size_t most_, bytes_ = 0;
+  std::list<Entry> entries_;  // the last asked for first
+};
+
+/// Triangles as corners, each distinct one of a vertex once; triangles without area are left out. `colors`: one, or
+/// one per triangle.
+void share_corners(const std::vector<Eigen::Vector3d>& vertices,
+                   const std::vector<Triangle>& triangles,
+                   const std::vector<Eigen::Vector3f>& colors, std::vector<Corner>& corners,
+                   std::vector<uint32_t>& indices);
+
+/// Loads them; the array reads both.
+StoredMesh store_corners(const std::vector<Corner>& corners, const std::vector<uint32_t>& indices);
+
+}  // namespace clench

@@ -1,0 +1,289 @@
+#include "clench/render/paint/painter.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "clench/base/error.h"
+#include "clench/render/paint/outline.h"
+#include "clench/render/paint/tile.h"
+#include "clench/render/view/frame.h"
+#include "clench/render/view/lights.h"
+
+namespace clench {
+namespace {
+
+// what is drawn to, of a tile's size
+struct Canvas {
+  explicit Canvas(const Tile& tile);
+  // what is seen first, and the framebuffer of these
+  gl::Object places, facings, paints, depths, first;
+  gl::Object light, lit;         // one pass
+  gl::Object sum, added;         // all passes
+  gl::Object pixels, developed;  // as a screen shows it
+};
+
+Canvas::Canvas(const Tile& tile) {
+  using gl::Format;
+  const auto texture = [&](Format format) {
+    return gl::make_texture(format, tile.drawn_width(), tile.drawn_height());
+  };
+  places = texture(Format::rgba32f);
+  facings = texture(Format::rgba32f);
+  paints = texture(Format::rgba8);
+  depths = texture(Format::depth);
+  first = gl::make_framebuffer({places, facings, paints}, depths);
+  light = texture(Format::rgba32f);
+  lit = gl::make_framebuffer({light}, depths);
+  sum = texture(Format::rgba32f);
+  added = gl::make_framebuffer({sum}, 0);
+  pixels = texture(Format::rgba8);
+  developed = gl::make_framebuffer({pixels}, 0);
+}
+
+class Painter {
+ public:
+  Painter(const Programs& programs, PaperScene& scene, const Eye& eye,
+          const RenderOptions& options);
+  void paint(const Tile& tile, Picture& out);
+
+ private:
+  void draw(const Batch& batch) const;
+  void find_first(const Canvas& canvas, const Eigen::Matrix4f& clip);
+  void find_group(std::span<const Batch> group, const Canvas& solid, const Canvas& canvas,
+                  const Eigen::Matrix4f& clip, const Tile& tile);
+  void shade(const Canvas& canvas, const Tile& tile);
+  void lay_marks(const Eigen::Matrix4f& clip);
+  void lay_clear(const Eigen::Matrix4f& clip);
+  void add(const Canvas& canvas);
+
+  const Programs& programs_;
+  const DrawList& list_;
+  const LoadedList& loaded_;
+  const Eye& eye_;
+  Eigen::Vector3f shading_eye_;
+  RenderOptions options_;
+  Eigen::Matrix4d projection_;
+  int lamps_;  // per sample
+  std::vector<Light> lamp_;
+  std::vector<Eigen::Vector2d> shifts_;
+  float open_light_ = 0;
+  double done_ = 0;  // pixels
+
+  gl::Object sorted_;  // indices of what is seen through
+  int sorted_count_ = 0;
+  Cover cover_;
+  Shadows shadows_;
+};
+
+// maps of the lamp about as fine as the picture
+int map_size(const RenderOptions& options) {
+  int size = 256;
+  while (size < 1024 && 5 * size < 4 * std::max(options.width, options.height)) size *= 2;
+  return size;
+}
+
+Painter::Painter(const Programs& programs, PaperScene& scene, const Eye& eye,
+                 const RenderOptions& options)
+    : programs_(programs),
+      list_(scene.list()),
+      loaded_(scene.loaded()),
+      eye_(eye),
+      shading_eye_(shading_eye(eye)),
+      options_(options),
+      lamps_(scene.heavy() ? lamps_per_sample / 2 : lamps_per_sample),
+      shadows_(programs, map_size(options), lamps_per_sample) {
+  const double aspect = static_cast<double>(options.width) / options.height;
+  const Eigen::Vector2d depths = depth_range(eye);
+  projection_ = view_projection(eye, aspect, depths[0], depths[1]);
+  lamp_ = place_lamp(view_axes(eye), options.samples * lamps_);
+  shifts_ = place_samples(options.samples);
+
+  const std::vector<uint32_t> sorted = back_to_front(list_, eye);
+  sorted_count_ = static_cast<int>(sorted.size());
+  sorted_ = gl::make_buffer(sorted.data(), sorted.size() * sizeof(uint32_t));
+  scene.light_room(options);
+  if (!list_.clear.empty()) scene.light_lamp(view_axes(eye), options.progress);
+  open_light_ = scene.open_room() + light_on_floor(lamp_);
+}
+
+void Painter::draw(const Batch& batch) const {
+  glDrawElements(GL_TRIANGLES, batch.count, GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(batch.first * sizeof(uint32_t)));
+}
+
+// solid bodies and the floor, without the lamp
+void Painter::find_first(const Canvas& canvas, const Eigen::Matrix4f& clip) {
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas.first);
+  glDepthMask(GL_TRUE);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  gl::set(programs_.first, "to_clip", clip);
+  gl::set(programs_.first, "floor_sign", 1.0f);
+  glBindVertexArray(loaded_.array);
+  for (const Batch& batch : list_.solid) {
+    const bool one_side = batch.outward && hides_inside(batch.centre, batch.radius, eye_);
+    if (one_side) glEnable(GL_CULL_FACE), glCullFace(GL_BACK);
+    draw(batch);
+    glDisable(GL_CULL_FACE);
+  }
+  for (const Batch& batch : list_.behind) draw(batch);
+  // seen from below it would only be in the way
+  if (list_.ground && shading_eye_.z() > *list_.ground) {
+    gl::set(programs_.first, "floor_sign", -1.0f);
+    draw(list_.floor);
+  }
+}
+
+// what is seen of a group, where nothing solid hides it, for its lines
+void Painter::find_group(std::span<const Batch> group, const Canvas& solid, const Canvas& canvas,
+                         const Eigen::Matrix4f& clip, const Tile& tile) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, solid.first);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.first);
+  const int width = tile.drawn_width(), height = tile.drawn_height();
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas.first);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glClear(GL_COLOR_BUFFER_BIT);
+  gl::set(programs_.first, "to_clip", clip);
+  gl::set(programs_.first, "floor_sign", 1.0f);
+  glBindVertexArray(loaded_.array);
+  for (const Batch& batch : group) draw(batch);
+  glDepthMask(GL_FALSE);
+  glBindFramebuffer(GL_FRAMEBUFFER, solid.lit);
+}
+
+void Painter::shade(const Canvas& canvas, const Tile& tile) {
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas.lit);
+  glDisable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  shadows_.give(programs_.shade);
+  // a sample sees a few points of the lamp, which stand for all
+  gl::set(programs_.shade, "power", static_cast<float>(options_.samples));
+  gl::bind(programs_.shade, "places", 1, canvas.places);
+  gl::bind(programs_.shade, "facings", 2, canvas.facings);
+  gl::bind(programs_.shade, "paints", 3, canvas.paints);
+  gl::bind(programs_.shade, "depths", 4, canvas.depths);
+  gl::set(programs_.shade, "eye", shading_eye_);
+  gl::set(programs_.shade, "open_light", open_light_);
+  gl::set(programs_.shade, "reach", static_cast<float>(floor_reach));
+  gl::set(programs_.shade, "corner", Eigen::Vector2f(tile.x - tile.border, tile.y - tile.border));
+  gl::set(programs_.shade, "size", Eigen::Vector2f(options_.width, options_.height));
+  gl::set(programs_.shade, "bare", options_.backdrop == Backdrop::studio ? 0.0f : 1.0f);
+  cover_.draw(programs_.shade);
+}
+
+// the nearest side of each cone, over what lies behind it; hides what is seen through behind it
+void Painter::lay_marks(const Eigen::Matrix4f& clip) {
+  if (list_.marks.count == 0) return;
+  gl::set(programs_.mark, "to_clip", clip);
+  gl::set(programs_.mark, "eye", shading_eye_);
+  glBindVertexArray(loaded_.array);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw(list_.marks);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_FALSE);
+  glDepthFunc(GL_EQUAL);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  draw(list_.marks);
+  glDisable(GL_BLEND);
+  glDepthFunc(GL_LESS);
+}
+
+// what is seen through, the farthest first, over what lies behind it
+void Painter::lay_clear(const Eigen::Matrix4f& clip) {
+  if (sorted_count_ == 0) return;
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  gl::set(programs_.through, "to_clip", clip);
+  gl::set(programs_.through, "eye", shading_eye_);
+  gl::set(programs_.through, "to_lamp", lamp_.front().to_light);
+  glBindVertexArray(loaded_.array);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, sorted_);
+  glDrawElements(GL_TRIANGLES, sorted_count_, GL_UNSIGNED_INT, nullptr);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, loaded_.indices);
+  glDisable(GL_BLEND);
+}
+
+void Painter::add(const Canvas& canvas) {
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas.added);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  gl::bind(programs_.add, "light", 1, canvas.light);
+  gl::set(programs_.add, "weight", 1.0f / static_cast<float>(options_.samples));
+  cover_.draw(programs_.add);
+  glDisable(GL_BLEND);
+}
+
+void Painter::paint(const Tile& tile, Picture& out) {
+  const Canvas canvas(tile);
+  const Outline lines(programs_.outline, eye_, options_);
+  // bodies that are seen through and cones have lines of their own
+  const std::optional<Canvas> group =
+      options_.outline > 0 ? std::optional<Canvas>(tile) : std::nullopt;
+  const auto find = [&](std::span<const Batch> batches, const Eigen::Matrix4f& clip) {
+    if (group && !batches.empty() && batches.front().count > 0)
+      find_group(batches, canvas, *group, clip, tile);
+  };
+  const auto lay_lines = [&](std::span<const Batch> batches) {
+    if (!group || batches.empty() || batches.front().count == 0) return;
+    glDisable(GL_DEPTH_TEST);
+    lines.draw({group->places, group->facings, group->paints}, 0.7f, false);
+  };
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas.added);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  for (int s = 0; s < options_.samples; ++s) {
+    glFinish();  // or a stop would wait for all that was drawn before
+    options_.progress.tell((done_ + double(s) / options_.samples * tile.width * tile.height) /
+                               (double(out.width) * out.height),
+                           "drawing");
+    shadows_.cast(list_, loaded_, std::span(lamp_).subspan(static_cast<size_t>(s) * lamps_, lamps_));
+    glViewport(0, 0, tile.drawn_width(), tile.drawn_height());
+    const Eigen::Matrix4f clip =
+        (crop_to(tile, options_, shifts_[s]) * projection_).cast<float>();
+    find_first(canvas, clip);
+    shade(canvas, tile);
+    if (options_.outline > 0)
+      lines.draw({canvas.places, canvas.facings, canvas.paints}, 1, false);
+    // found before they hide themselves
+    const std::span marks(&list_.marks, 1);
+    find(marks, clip);
+    lay_marks(clip);
+    lay_lines(marks);
+    lay_clear(clip);
+    find(list_.clear, clip);
+    lay_lines(list_.clear);
+    add(canvas);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas.developed);
+  gl::bind(programs_.develop, "light", 1, canvas.sum);
+  cover_.draw(programs_.develop);
+  done_ += double(tile.width) * tile.height;
+  read_tile(tile, out);
+}
+
+}  // namespace
+
+Picture paint(const Programs& programs, PaperScene& scene, const Eye& eye,
+              const RenderOptions& options) {
+  Picture out = empty_picture(options);
+  Painter painter(programs, scene, eye, options);
+  for (const Tile& tile : tiles_of(options)) painter.paint(tile, out);
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+    fail(ErrorKind::internal, "picture: the OpenGL driver reports error {:#x}", error);
+  return out;
+}
+
+}  // namespace clench

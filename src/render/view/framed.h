@@ -1,0 +1,17 @@
+// The view that was last found to hold a scene.
+#pragma once
+#include <optional>
+
+#include "clench/render/view/frame.h"
+#include "clench/render/view/scene_key.h"
+
+namespace clench {
+
+struct FramedScene {
+  SceneKey key;
+  double aspect;
+  bool ortho;
+  Eye eye;
+};
+
+}  // namespace clench

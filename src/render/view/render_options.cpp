@@ -1,0 +1,30 @@
+#include "clench/render/view/render_options.h"
+
+#include <cstdint>
+#include <utility>
+
+#include "clench/base/error.h"
+
+namespace clench {
+
+// some minutes without graphics hardware
+static constexpr int64_t max_drawn = int64_t{1} << 30;
+
+void check(const RenderOptions& options) {
+  for (const auto& [name, value] :
+       {std::pair("width", options.width), std::pair("height", options.height)})
+    if (value < 16 || value > 8192)
+      fail("picture: {} must be between 16 and 8192 pixels, got {}", name, value);
+  if (options.samples < 1 || options.samples > 256)
+    fail("picture: samples must be between 1 and 256, got {}", options.samples);
+  const int64_t drawn = int64_t{options.width} * options.height * options.samples;
+  if (drawn > max_drawn)
+    fail(ErrorKind::limit, "picture: expected at most {} pixels times samples, got {}", max_drawn,
+         drawn);
+  if (!(options.outline >= 0 && options.outline <= 32))
+    fail("picture: outline must be between 0 and 32 pixels, got {}", options.outline);
+  if (!(options.letters >= 0 && options.letters <= 200))
+    fail("picture: letters must be between 0 and 200 pixels, got {}", options.letters);
+}
+
+}  // namespace clench
