@@ -1,12 +1,18 @@
 #include "clench/io/text/yaml.h"
 
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
 #include <algorithm>
+#include <istream>
+#include <streambuf>
 
 #include "clench/base/text.h"
 
 namespace clench {
 
-static constexpr int max_depth = 16;
+static constexpr size_t max_depth = 16;
 
 const YamlNode* YamlNode::find(std::string_view key) const {
   const auto found = std::find(keys.begin(), keys.end(), key);
@@ -18,250 +24,106 @@ std::string YamlNode::described() const {
   return kind == Kind::map ? "a map" : in_quotes(text);
 }
 
-static void append_utf8(std::string& out, unsigned code) {
-  if (code < 0x80) {
-    out += char(code);
-  } else if (code < 0x800) {
-    out += {char(0xC0 | (code >> 6)), char(0x80 | (code & 63))};
-  } else if (code < 0x10000) {
-    out += {char(0xE0 | (code >> 12)), char(0x80 | ((code >> 6) & 63)), char(0x80 | (code & 63))};
-  } else {
-    out += {char(0xF0 | (code >> 18)), char(0x80 | ((code >> 12) & 63)),
-            char(0x80 | ((code >> 6) & 63)), char(0x80 | (code & 63))};
-  }
-}
-
 namespace {
 
-class YamlParser {
- public:
-  YamlParser(const std::string& file, std::string_view text) : file_(file), text_(text) {}
+using Kind = YamlNode::Kind;
 
-  YamlNode document() {
-    skip();
-    if (text_.substr(at_, 3) == "---" && column() == 0) at_ += 3;
-    skip();
-    if (at_ == text_.size()) fail("{}: expected a map or a list, got an empty file", file_);
-    YamlNode out = block(0);
-    skip();
-    if (at_ < text_.size()) refuse("the end of the file");
-    return out;
+// what the parser meets, as a tree
+class TreeBuilder : public YAML::EventHandler {
+ public:
+  explicit TreeBuilder(const std::string& file) : file_(file) {}
+  YamlNode root;
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& at, YAML::anchor_t) override { take({.line = at.line + 1}); }
+  void OnAlias(const YAML::Mark& at, YAML::anchor_t) override { refuse_anchor(at); }
+  void OnScalar(const YAML::Mark& at, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& text) override {
+    if (anchor) refuse_anchor(at);
+    take({.text = text, .quoted = tag == "!", .line = at.line + 1});
   }
+  void OnSequenceStart(const YAML::Mark& at, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(at, anchor, Kind::list);
+  }
+  void OnMapStart(const YAML::Mark& at, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(at, anchor, Kind::map);
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapEnd() override { close(); }
 
  private:
-  template <class... Args>
-  [[noreturn]] void fail_here(fmt::format_string<Args...> format, Args&&... args) const {
-    fail("{}:{}: {}", file_, line_, fmt::format(format, std::forward<Args>(args)...));
-  }
-  [[noreturn]] void refuse(const std::string& expected) const {
-    const std::string_view rest = text_.substr(at_, text_.find('\n', at_) - at_);
-    fail_here("expected {}, got {}", expected, at_ == text_.size() ? "the end of the file" : in_quotes(rest));
-  }
+  struct Open {
+    YamlNode node;
+    bool has_key = false;
+  };
 
-  char peek(size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
-  int column() const { return int(at_ - start_); }
-  bool ends_word(size_t ahead) const {
-    const char c = peek(ahead);
-    return at_ + ahead >= text_.size() || c == ' ' || c == '\n' || c == '\t';
+  [[noreturn]] void refuse_anchor(const YAML::Mark& at) const {
+    fail("{}:{}: anchors are not read", file_, at.line + 1);
   }
-  // blanks, comments and ends of lines
-  void skip() {
-    while (at_ < text_.size()) {
-      if (peek() == '\n') {
-        ++at_;
-        ++line_;
-        start_ = at_;
-      } else if (peek() == ' ' || peek() == '\t') {
-        ++at_;
-      } else if (peek() == '#') {
-        at_ = std::min(text_.find('\n', at_), text_.size());
-      } else {
-        break;
-      }
+  void open(const YAML::Mark& at, YAML::anchor_t anchor, Kind kind) {
+    if (anchor) refuse_anchor(at);
+    if (open_.size() == max_depth)
+      fail("{}:{}: expected lists and maps at most {} deep, got more", file_, at.line + 1, max_depth);
+    open_.push_back({{.kind = kind, .line = at.line + 1}});
+  }
+  void close() {
+    YamlNode done = std::move(open_.back().node);
+    open_.pop_back();
+    take(std::move(done));
+  }
+  void take(YamlNode value) {
+    if (open_.empty()) {
+      root = std::move(value);
+      return;
     }
-  }
-  void skip_blanks() {
-    while (peek() == ' ' || peek() == '\t') ++at_;
-    if (peek() == '#') at_ = std::min(text_.find('\n', at_), text_.size());
-  }
-  void enter(int depth) const {
-    if (depth > max_depth) fail_here("expected lists and maps at most {} deep, got more", max_depth);
-  }
-
-  YamlNode quoted() {
-    YamlNode out{.quoted = true, .line = line_};
-    const char mark = text_[at_++];
-    while (true) {
-      if (at_ >= text_.size() || peek() == '\n') fail_here("expected the closing quote of {}", in_quotes(out.text));
-      const char c = text_[at_++];
-      if (c == mark && mark == '\'' && peek() == '\'') {
-        out.text += text_[at_++];
-      } else if (c == mark) {
-        return out;
-      } else if (c == '\\' && mark == '"') {
-        escape(out.text);
-      } else {
-        out.text += c;
-      }
+    auto& [node, has_key] = open_.back();
+    if (node.kind == Kind::list || has_key) {
+      node.items.push_back(std::move(value));
+      has_key = false;
+      return;
     }
-  }
-  unsigned hex(int digits) {
-    unsigned code = 0;
-    for (int i = 0; i < digits; ++i) {
-      const char c = char(std::tolower(static_cast<unsigned char>(peek())));
-      if (!std::isxdigit(static_cast<unsigned char>(c))) refuse(fmt::format("{} hexadecimal digits", digits));
-      code = code * 16 + unsigned(c <= '9' ? c - '0' : c - 'a' + 10);
-      ++at_;
-    }
-    return code;
-  }
-  void escape(std::string& out) {
-    static constexpr std::string_view marks = "nrtbf0\"\\/", values{"\n\r\t\b\f\0\"\\/", 9};
-    const char c = peek();
-    if (c == 'u') {
-      ++at_;
-      unsigned code = hex(4);
-      if (code >= 0xD800 && code < 0xDC00 && peek() == '\\' && peek(1) == 'u') {
-        at_ += 2;
-        code = 0x10000 + ((code - 0xD800) << 10) + ((hex(4) - 0xDC00) & 0x3FF);
-      }
-      return append_utf8(out, code);
-    }
-    const size_t which = c == '\0' ? std::string_view::npos : marks.find(c);
-    if (which == std::string_view::npos) refuse("an escape such as \\n or \\u00e9");
-    out += values[which];
-    ++at_;
-  }
-
-  // up to what ends it: ": ", " #", the end of the line; in brackets , ] } as well
-  YamlNode plain(bool in_brackets) {
-    if (std::string_view("&*!|>%@`").find(peek()) != std::string_view::npos && at_ < text_.size())
-      refuse("a plain value, for anchors, tags and text over several lines are not read");
-    YamlNode out{.line = line_};
-    const size_t from = at_;
-    while (at_ < text_.size() && peek() != '\n') {
-      if (peek() == ':' && (ends_word(1) || (in_brackets && std::string_view(",]}").find(peek(1)) != std::string_view::npos))) break;
-      if (peek() == '#' && at_ > from && (text_[at_ - 1] == ' ' || text_[at_ - 1] == '\t')) break;
-      if (in_brackets && std::string_view(",[]{}").find(peek()) != std::string_view::npos) break;
-      ++at_;
-    }
-    out.text = trim(text_.substr(from, at_ - from));
-    return out;
-  }
-  YamlNode scalar(bool in_brackets) {
-    return peek() == '"' || peek() == '\'' ? quoted() : plain(in_brackets);
-  }
-
-  void add(YamlNode& map, YamlNode key, YamlNode value) {
+    if (value.kind != Kind::scalar)
+      fail("{}:{}: expected a key, got {}", file_, value.line, value.described());
     // long maps are lists of grasps: names are compared only where they are few
-    if (map.keys.size() < 1000 && map.find(key.text))
-      fail("{}:{}: key {} stands there twice", file_, key.line, in_quotes(key.text));
-    map.keys.push_back(std::move(key.text));
-    map.items.push_back(std::move(value));
-  }
-
-  YamlNode flow(int depth) {
-    enter(depth);
-    if (peek() != '[' && peek() != '{') return scalar(true);
-    const bool is_map = peek() == '{';
-    const char end = is_map ? '}' : ']';
-    YamlNode out{.kind = is_map ? YamlNode::Kind::map : YamlNode::Kind::list, .line = line_};
-    ++at_;
-    while (true) {
-      skip();
-      if (peek() == end) break;
-      if (at_ == text_.size()) refuse(fmt::format("'{}'", end));
-      if (is_map) {
-        YamlNode key = scalar(true);
-        skip();
-        if (peek() != ':') refuse("':' behind a key");
-        ++at_;
-        skip();
-        add(out, std::move(key), flow(depth + 1));
-      } else {
-        const size_t before = at_;
-        out.items.push_back(flow(depth + 1));
-        if (at_ == before) refuse("a value");
-      }
-      skip();
-      if (peek() == ',') {
-        ++at_;
-      } else if (peek() != end) {
-        refuse(fmt::format("',' or '{}'", end));
-      }
-    }
-    ++at_;
-    return out;
-  }
-
-  bool is_item() const { return peek() == '-' && ends_word(1); }
-
-  // what begins here, at the column of its lines
-  YamlNode block(int depth) {
-    enter(depth);
-    const int indent = column();
-    if (is_item()) return block_list(indent, depth);
-    if (peek() == '[' || peek() == '{') return flow(depth);
-    YamlNode first = scalar(false);
-    skip_blanks();
-    if (peek() != ':') return first;
-    return block_map(std::move(first), indent, depth);
-  }
-  YamlNode block_list(int indent, int depth) {
-    YamlNode out{.kind = YamlNode::Kind::list, .line = line_};
-    while (at_ < text_.size() && column() == indent && is_item()) {
-      ++at_;
-      out.items.push_back(value(indent, depth, false));
-      skip();
-    }
-    check_indent(indent);
-    return out;
-  }
-  YamlNode block_map(YamlNode key, int indent, int depth) {
-    YamlNode out{.kind = YamlNode::Kind::map, .line = key.line};
-    while (true) {
-      skip_blanks();
-      if (peek() != ':') refuse("':' behind a key");
-      ++at_;
-      add(out, std::move(key), value(indent, depth, true));
-      skip();
-      if (at_ == text_.size() || column() != indent || is_item()) break;
-      key = scalar(false);
-    }
-    check_indent(indent);
-    return out;
-  }
-  void check_indent(int indent) const {
-    if (at_ < text_.size() && column() > indent) refuse("a line that begins where those before it do");
-  }
-  // behind "-" or "key:": on the same line, or deeper on the next ones; a list may stand below its key
-  YamlNode value(int indent, int depth, bool behind_key) {
-    const int line = line_;
-    skip_blanks();
-    if (at_ < text_.size() && peek() != '\n') {
-      YamlNode out = !behind_key ? block(depth + 1)
-                     : peek() == '[' || peek() == '{' ? flow(depth + 1)
-                                                      : scalar(false);
-      skip_blanks();
-      if (behind_key && at_ < text_.size() && peek() != '\n') refuse("the end of the line");
-      return out;
-    }
-    skip();
-    const bool deeper = column() > indent || (behind_key && column() == indent && is_item());
-    if (at_ == text_.size() || !deeper) return YamlNode{.line = line};
-    return block(depth + 1);
+    if (node.keys.size() < 1000 && node.find(value.text))
+      fail("{}:{}: key {} stands there twice", file_, value.line, in_quotes(value.text));
+    node.keys.push_back(std::move(value.text));
+    has_key = true;
   }
 
   const std::string& file_;
-  std::string_view text_;
-  size_t at_ = 0, start_ = 0;  // start of the line
-  int line_ = 1;
+  std::vector<Open> open_;
+};
+
+// a text as a stream, not copied
+class TextBuffer : public std::streambuf {
+ public:
+  explicit TextBuffer(std::string_view text) {
+    char* begin = const_cast<char*>(text.data());
+    setg(begin, begin, begin + text.size());
+  }
 };
 
 }  // namespace
 
 YamlNode parse_yaml(const std::string& file, std::string_view text) {
-  return YamlParser(file, text).document();
+  TextBuffer buffer(text);
+  std::istream stream(&buffer);
+  TreeBuilder builder(file);
+  try {
+    YAML::Parser parser(stream);
+    if (!parser.HandleNextDocument(builder) || builder.root.line == 0)
+      fail("{}: expected a map or a list, got an empty file", file);
+    YamlNode out = std::move(builder.root);
+    if (parser.HandleNextDocument(builder))
+      fail("{}:{}: expected the end of the file, got another document", file, builder.root.line);
+    return out;
+  } catch (const YAML::Exception& error) {
+    fail("{}:{}: {}", file, error.mark.line + 1, error.msg);
+  }
 }
 
 std::string yaml_quoted(std::string_view text) {

@@ -1,5 +1,4 @@
-// YAML as programs write it, and JSON, which is a part of it: maps, lists and scalars in blocks or brackets.
-// Anchors, tags, several documents and text over several lines are refused.
+// YAML, and JSON, which is a part of it, as a tree that knows its lines. Anchors and several documents are refused.
 #pragma once
 #include <string>
 #include <string_view>
@@ -28,7 +27,7 @@ struct YamlNode {
 };
 
 /// file  the name shown in errors
-/// throws Error  "g.yaml:3: expected ',' or ']', got 'x'"
+/// throws Error  "g.yaml:3: end of sequence flow not found", in the words of yaml-cpp
 YamlNode parse_yaml(const std::string& file, std::string_view text);
 
 /// A text in double quotes, as YAML and JSON read it.
