@@ -40,6 +40,8 @@ Interruptible::Interruptible(State& state, int deadly) {
   target = &state;
 }
 
+bool Interruptible::pressed() const { return presses > 0; }
+
 Interruptible::~Interruptible() {
   target = nullptr;
   presses = 0;

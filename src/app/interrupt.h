@@ -19,6 +19,8 @@ class Interruptible {
   ~Interruptible();
   Interruptible(const Interruptible&) = delete;
   Interruptible& operator=(const Interruptible&) = delete;
+  /// Was it pressed while this has lived?
+  bool pressed() const;
 };
 
 }  // namespace clench

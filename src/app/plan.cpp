@@ -56,7 +56,7 @@ int plan_grasps(const PlanOptions& options) {
   catch_interrupts();
   std::string done = call(state, "search", words_of(options));
   // what an interrupted search has found is written in a run that Ctrl-C has not touched
-  if (done == "finish" || done == "interrupted" || done == "failed") done = call(state, "finish", {done});
+  if (done == "finish" || done == "interrupted") done = call(state, "finish", {done});
   return std::atoi(done.c_str());
 }
 

@@ -7,7 +7,7 @@ local reading = require "clench.host.reading"
 local report_rows = require "clench.plan.report_rows"
 
 local plan = {}
-local job = {found = {}}  -- what `search` leaves for `finish`
+local job = {}  -- what `search` leaves for `finish`
 
 -- names are hostile: a terminal obeys control characters
 local function printable(text) return (in_utf8(text):gsub("%c", function(c) return c == "\n" and c or "?" end)) end
@@ -63,31 +63,17 @@ local function load_world(given, said)
   return world, hand, object
 end
 
--- the search broke off: what was found so far, like grasps left out as the planner does it
-local function run_of_found()
-  local stopped = {hand = job.hand, object = job.object, world = job.world, threads = 1,
-                   elapsed = function() return clench.clock() - job.began end}
-  local found = require "clench.plan.batch".sort(job.found)
-  local run = require "clench.plan.run"(stopped, found, {planner = "plan.sample"}, {count = job.count, distance = 0.1})
-  run.report.causes = {}  -- of nothing found there is one: it was interrupted
-  return run
-end
-
 local function search(root, folder, package, unit, strict, ...)
   local given = read_words(...)
   job.given = given
   job.files = plan_files.open(given)
   job.world, job.hand, job.object = load_world(given, {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""})
   job.count = math.tointeger(tonumber(given.count)) or not given.seconds and 20 or nil
-  job.began = clench.clock()
   job.run = clench.plan.sample {
     hand = job.hand, object = job.object, count = job.count or 1000000, seconds = tonumber(given.seconds),
     seed = math.tointeger(tonumber(given.seed)), threads = math.tointeger(tonumber(given.threads)) or clench.parallel.cores,
     verify = given["no-verify"] == nil,
-    on_grasp = function(grasp)
-      job.found[#job.found + 1] = grasp
-      job.files:add(grasp)
-    end,
+    on_grasp = function(grasp) job.files:add(grasp) end,
   }
 end
 
@@ -104,16 +90,14 @@ end
 
 --- Loads and searches.
 ---@param root string  this and the next four: what is said of reading, "" when nothing is
----@return string  the exit code, or how it ended where there are files to write: "finish", "interrupted" by Ctrl-C, or "failed"
+---@return string  the exit code, or how it ended: "finish", or "interrupted" by Ctrl-C
 function plan.search(...)
   local ok, problem = pcall(search, ...)
-  if ok then return "finish" end
+  if ok then return job.run.report.stopped and "interrupted" or "finish" end
+  if type(problem) == "table" and problem.kind == "stopped" then return "130" end
   local text, code = sentence(problem)
-  if text:find "interrupted" or text == "stopped" then
-    return job.began and "interrupted" or "130"
-  end
   tell(text)
-  return #job.found > 0 and "failed" or tostring(code)
+  return tostring(code)
 end
 
 local shown = 20  -- rows of the table that is printed
@@ -133,14 +117,13 @@ local function print_table(rows)
 end
 
 local function finish(how)
-  local run = job.run or run_of_found()
+  local run = job.run
   local grasps = run.grasps
   job.files:save(grasps)
   local title = ("%s grasps %s"):format(job.hand.name, job.object.name)
   print(printable(title) .. (how == "finish" and "" or ": " .. how))
   if #grasps > 0 then print_table(report_rows(job.hand, job.object, grasps)) end
   local words = tostring(run.report)
-  if how ~= "finish" then words = words .. ("\n%s: these are the grasps until then"):format(how) end
   print(printable(words))
   local subtitle = ("%s, %s, seed %s"):format(job.given.hand, job.given.object, job.given.seed or "1")
   job.files:show(job.hand, job.object, grasps, {title = title, subtitle = subtitle, report = words})
@@ -148,7 +131,7 @@ local function finish(how)
 end
 
 --- Writes the files, prints the table and what was done.
----@param how "finish"|"interrupted"|"failed"
+---@param how "finish"|"interrupted"
 ---@return string  the exit code
 function plan.finish(how)
   local ok, result = pcall(finish, how)

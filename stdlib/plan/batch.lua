@@ -15,13 +15,12 @@ function batch.try(job, told, next_state, options)
   local shared = {hand = job.hand, object = job.object, approach = options.approach, back = options.back,
                   grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, seed = job.seed,
                   over = job.seconds and job.began + job.seconds}
-  local found, number, over = {}, 0, false
+  local found, number = {}, 0
   local bar <close> = clench.progress(options.limit, job.subject)
 
   local function take(result)
     if result.error then
       told.rejected[result.error] = (told.rejected[result.error] or 0) + 1
-      over = over or result.error:find "^stopped" ~= nil
       return
     end
     for why, count in pairs(result.rejected) do told.rejected[why] = (told.rejected[why] or 0) + count end
@@ -38,23 +37,25 @@ function batch.try(job, told, next_state, options)
     bar:step(chunk, ("%d grasps"):format(#found))
   end
 
-  while not over and not job:is_over() and (not options.count or #found < options.count) do
-    local items = {}
-    for i = 1, chunks do
-      local states = {}
-      while #states < chunk and number < options.limit do
-        local state = next_state(number + 1)
-        if not state then break end
-        number = number + 1
-        state.number = number
-        states[#states + 1] = state
+  job:interruptible(function()
+    while not job:is_over() and (not options.count or #found < options.count) do
+      local items = {}
+      for i = 1, chunks do
+        local states = {}
+        while #states < chunk and number < options.limit do
+          local state = next_state(number + 1)
+          if not state then break end
+          number = number + 1
+          state.number = number
+          states[#states + 1] = state
+        end
+        if #states == 0 then break end
+        items[i] = states
       end
-      if #states == 0 then break end
-      items[i] = states
+      if #items == 0 then break end
+      clench.parallel.map("clench.plan.batch_worker", items, {threads = job.threads, shared = shared, each = take})
     end
-    if #items == 0 then break end
-    clench.parallel.map("clench.plan.batch_worker", items, {threads = job.threads, shared = shared, each = take})
-  end
+  end)
   told.candidates = number
   return found
 end

@@ -4,22 +4,23 @@ local chain = {}
 
 local piece = 1000  -- steps between two looks at the clock
 
---- Runs a chain.   on_piece(chain)  after each piece; true ends it
+--- Runs a chain.
 ---@return table told  for plan.report
-function chain.run(job, search, steps, on_piece, told)
+function chain.run(job, search, steps, told)
   told = told or {steps = 0, accepted = 0, in_collision = 0, avoided = 0, stuck = 0, trace = {}}
   local bar <close> = clench.progress(steps, job.subject)
   local done, before = 0, search.counts
-  while done < steps and not job:is_over() do
-    local asked = math.min(piece, steps - done)
-    local taken = search:run(asked)
-    done = done + taken
-    bar:step(taken)
-    local best = search.best[1]
-    if best then told.trace[#told.trace + 1] = {told.steps + done, best.energy} end
-    if on_piece and on_piece(search) then break end
-    if taken < asked then break end
-  end
+  job:interruptible(function()
+    while done < steps and not job:is_over() do
+      local asked = math.min(piece, steps - done)
+      local taken = search:run(asked)
+      done = done + taken
+      bar:step(taken)
+      local best = search.best[1]
+      if best then told.trace[#told.trace + 1] = {told.steps + done, best.energy} end
+      if taken < asked then break end
+    end
+  end)
   local counts = search.counts
   for _, name in ipairs {"steps", "accepted", "in_collision", "avoided", "stuck"} do
     told[name] = told[name] + counts[name] - before[name]

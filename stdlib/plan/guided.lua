@@ -80,23 +80,25 @@ return function(options)
 
   local bar <close> = clench.progress(job.steps, job.subject)
   local done = 0
-  while (done < job.steps or #waiting > 0) and not job:is_over() and #found < count do
-    while #running < children and #waiting > 0 do
-      running[#running + 1] = begin_child(table.remove(waiting, 1))
+  job:interruptible(function()
+    while (done < job.steps or #waiting > 0) and not job:is_over() and #found < count do
+      while #running < children and #waiting > 0 do
+        running[#running + 1] = begin_child(table.remove(waiting, 1))
+      end
+      local asked = math.min(piece, job.steps - done)
+      local searches, steps = {parent}, {asked}
+      for i, child in ipairs(running) do searches[i + 1], steps[i + 1] = child.search, steps_of_child end
+      local taken = clench.run_annealings(searches, steps, job.threads)
+      for _, child in ipairs(running) do merge(child) end
+      running = {}
+      done = done + taken[1]
+      bar:step(taken[1], ("%d grasps"):format(#found))
+      told.best = math.min(told.best, parent.best[1] and parent.best[1].energy or parent.energy)
+      told.trace[#told.trace + 1] = {done, told.best}
+      if #waiting < max_seeds then waiting[#waiting + 1] = take_seed(parent, told) end
+      if taken[1] < asked then break end
     end
-    local asked = math.min(piece, job.steps - done)
-    local searches, steps = {parent}, {asked}
-    for i, child in ipairs(running) do searches[i + 1], steps[i + 1] = child.search, steps_of_child end
-    local taken = clench.run_annealings(searches, steps, job.threads)
-    for _, child in ipairs(running) do merge(child) end
-    running = {}
-    done = done + taken[1]
-    bar:step(taken[1], ("%d grasps"):format(#found))
-    told.best = math.min(told.best, parent.best[1] and parent.best[1].energy or parent.energy)
-    told.trace[#told.trace + 1] = {done, told.best}
-    if #waiting < max_seeds then waiting[#waiting + 1] = take_seed(parent, told) end
-    if taken[1] < asked then break end
-  end
+  end)
   local counts = parent.counts
   for _, name in ipairs {"steps", "accepted", "in_collision", "avoided", "stuck"} do told[name] = counts[name] end
   table.sort(found, function(a, b) return a.epsilon > b.epsilon end)

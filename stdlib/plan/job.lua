@@ -33,8 +33,20 @@ function Job:annealing(options)
   return clench.annealing(all)
 end
 
---- has the time of the options run out?
-function Job:is_over() return self.seconds ~= nil and clench.clock() - self.began >= self.seconds end
+--- has the time of the options run out, or was Ctrl-C pressed?
+function Job:is_over() return self.stopped or self.seconds ~= nil and clench.clock() - self.began >= self.seconds end
+
+--- Calls what searches. Ctrl-C ends it, and the planner goes on with what was found; any other error puts the hand back.
+function Job:interruptible(search)
+  local ok, problem = pcall(search)
+  if ok then return end
+  if type(problem) == "table" and problem.kind == "stopped" then
+    self.stopped = true
+    return
+  end
+  self:finish()
+  error(problem, 0)
+end
 
 function Job:elapsed() return clench.clock() - self.began end
 

@@ -32,18 +32,20 @@ return function(options)
   local energy = job.energy and job:energy_of(job.energy)
   local told = {planner = "plan.list", candidates = 0, rejected = {}}
   local found = {}
-  for i, item in ipairs(states) do
-    if job:is_over() then break end
-    local state = state_of(item, i)
-    told.candidates = told.candidates + 1
-    local value = energy and closing.place(job.hand, job.object, state) and energy()
-    local grasp, why = closing.close(job.hand, job.object, state, {approach = approach > 0 and approach or nil, grasp = job.grasp_options})
-    if grasp then
-      found[#found + 1] = closing.note(grasp, "list", {energy = value or nil, number = i})
-    else
-      told.rejected[why] = (told.rejected[why] or 0) + 1
+  job:interruptible(function()
+    for i, item in ipairs(states) do
+      if job:is_over() then break end
+      local state = state_of(item, i)
+      told.candidates = told.candidates + 1
+      local value = energy and closing.place(job.hand, job.object, state) and energy()
+      local grasp, why = closing.close(job.hand, job.object, state, {approach = approach > 0 and approach or nil, grasp = job.grasp_options})
+      if grasp then
+        found[#found + 1] = closing.note(grasp, "list", {energy = value or nil, number = i})
+      else
+        told.rejected[why] = (told.rejected[why] or 0) + 1
+      end
     end
-  end
+  end)
   table.sort(found, function(a, b)
     if a.epsilon ~= b.epsilon then return a.epsilon > b.epsilon end
     return a.info.number < b.info.number

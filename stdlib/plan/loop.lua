@@ -22,20 +22,22 @@ return function(options)
                                 best = {distance = 0.1, max_energy = max_energy}}
   local told, found, done = nil, {}, 0
   local loops = 0
-  while done < job.steps and not job:is_over() and #found < count do
-    local before = done
-    told = chain.run(job, search, math.min(loop_steps, job.steps - done), nil, told)
-    done, loops = told.steps, loops + 1
-    chain.energies(told, search)
-    for _, state in ipairs(search.best) do
-      local grasp = closing.close(job.hand, job.object, state, {grasp = job.grasp_options})
-      if grasp then found[#found + 1] = closing.note(grasp, "loop", {energy = state.energy, step = state.step, seed = job.seed, loop = loops}) end
-      search:avoid(state)
+  job:interruptible(function()
+    while done < job.steps and not job:is_over() and #found < count do
+      local before = done
+      told = chain.run(job, search, math.min(loop_steps, job.steps - done), told)
+      done, loops = told.steps, loops + 1
+      chain.energies(told, search)
+      for _, state in ipairs(search.best) do
+        local grasp = closing.close(job.hand, job.object, state, {grasp = job.grasp_options})
+        if grasp then found[#found + 1] = closing.note(grasp, "loop", {energy = state.energy, step = state.step, seed = job.seed, loop = loops}) end
+        search:avoid(state)
+      end
+      search:clear()
+      search:reset()
+      if done == before then break end  -- no legal neighbour
     end
-    search:clear()
-    search:reset()
-    if done == before then break end  -- no legal neighbour
-  end
+  end)
   told = told or {steps = 0, accepted = 0, in_collision = 0, avoided = 0, stuck = 0}
   told.planner, told.loops, told.threshold = "plan.loop", loops, max_energy
   table.sort(found, function(a, b) return a.info.energy < b.info.energy end)

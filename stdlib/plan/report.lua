@@ -46,6 +46,7 @@ function Report:__tostring()
   if self.out_of_reach > 0 then add(lines, "%d more are out of the arm's reach", self.out_of_reach) end
   if self.alike > 0 then add(lines, "%d more were like one of these", self.alike) end
   if self.one_thread then add(lines, "an energy of the script ran on one thread") end
+  if self.stopped then lines[#lines + 1] = "interrupted: these are the grasps until then" end
   for _, cause in ipairs(self.causes) do lines[#lines + 1] = "why: " .. cause end
   return table.concat(lines, "\n")
 end
@@ -133,7 +134,7 @@ return function(job, told)
   told.causes = {}
   told.one_thread = job.in_place and job.threads > 1 or nil
   if told.steps then told.steps_per_second = told.steps / math.max(told.seconds, 1e-9) end
-  if told.grasps == 0 then
+  if told.grasps == 0 and not told.stopped then
     for _, cause in ipairs {arm_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_large(job) or false,
                             search_causes(told) or false, rejected_most(told) or false} do
       if cause then told.causes[#told.causes + 1] = cause end

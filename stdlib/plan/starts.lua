@@ -16,23 +16,6 @@ function starts.opened(hand)
   return open, closes
 end
 
-local far_away = clench.pose {xyz = {0, 0, 9.5}}  -- from all that is not the hand
-
--- closed by a part of the way; DOFs that closing does not move (a spread) anywhere, or nearer to where they are open when
--- the hand would collide with itself
-local function random_posture(hand, random)
-  local closed, values = random:uniform(0, 0.35), {}
-  for i in ipairs(hand.open) do values[i] = random:uniform() end
-  for spread = 1, 0, -0.25 do
-    local dofs = hand.posture(closed * spread, spread, values)
-    hand.robot:set_posture(far_away * hand.robot.pose, dofs)
-    local free = not hand.robot.world:collides(hand.robot)
-    hand.robot.world:restore(hand.before)
-    if free then return dofs end
-  end
-  return hand.open
-end
-
 -- the DOFs closed by a part of the way, and spread by a part of the way to `values` of the range
 local function posture(hand, closed, spread, values)
   local dofs = {}
@@ -50,6 +33,23 @@ local function posture(hand, closed, spread, values)
   return dofs
 end
 
+local far_away = clench.pose {xyz = {0, 0, 9.5}}  -- from all that is not the hand
+
+-- closed by a part of the way; DOFs that closing does not move (a spread) anywhere, or nearer to where they are open when
+-- the hand would collide with itself
+local function random_posture(hand, random)
+  local closed, values = random:uniform(0, 0.35), {}
+  for i in ipairs(hand.open) do values[i] = random:uniform() end
+  for spread = 1, 0, -0.25 do
+    local dofs = posture(hand, closed * spread, spread, values)
+    hand.robot:set_posture(far_away * hand.robot.pose, dofs)
+    local free = not hand.robot.world:collides(hand.robot)
+    hand.robot.world:restore(hand.before)
+    if free then return dofs end
+  end
+  return hand.open
+end
+
 -- what the starts of a hand have in common
 local function describe(hand)
   local open, closes = starts.opened(hand)
@@ -57,10 +57,8 @@ local function describe(hand)
   local z = hand.approach.direction
   local across = thumb or z:cross(math.abs(z.z) < 0.9 and clench.vec3(0, 0, 1) or clench.vec3(1, 0, 0))
   local middle = opposition.middle(hand, open, closes)
-  local out = {robot = hand, before = hand.world:snapshot(), open = open, closes = closes, limits = hand.dof_limits,
-               has_thumb = thumb ~= nil, X_FH = opposition.base_in_frame(hand, middle, across)}
-  out.posture = function(...) return posture(out, ...) end
-  return out
+  return {robot = hand, before = hand.world:snapshot(), open = open, closes = closes, limits = hand.dof_limits,
+          has_thumb = thumb ~= nil, X_FH = opposition.base_in_frame(hand, middle, across)}
 end
 
 local function across(direction, random)

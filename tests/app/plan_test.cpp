@@ -98,11 +98,11 @@ TEST_CASE("where nothing is found, plan ends with 1 and says why") {
   CHECK(epsilons(out).empty());
 }
 
-// starts a long search, waits for its first grasps, and sends a signal
-static std::string end_by(const std::string& signal, const std::string& out) {
+// starts a command, waits until a file has three lines, and sends a signal
+static std::string end_by(const std::string& signal, const std::string& command, const std::string& out) {
   const Folder folder;
   const auto script = folder.file(
-      "end.sh", std::string(CLENCH_COMMAND) + " " + barrett + "--seconds 60 -o " + out +
+      "end.sh", std::string(CLENCH_COMMAND) + " " + command +
                     " & pid=$!\n"
                     "while [ $(cat " + out + " 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.05; done\n"
                     "kill -" + signal + " $pid\nwait $pid\necho code $?\n");
@@ -117,7 +117,7 @@ static std::string end_by(const std::string& signal, const std::string& out) {
 TEST_CASE("Ctrl-C ends a search with the grasps so far and the code 130") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
-  const std::string text = end_by("INT", out);
+  const std::string text = end_by("INT", barrett + "--seconds 60 -o " + out, out);
   CHECK(has(text, "barrett grasps flask: interrupted\n"));
   CHECK(has(text, "interrupted: these are the grasps until then"));
   CHECK(text.ends_with("code 130\n"));
@@ -126,10 +126,47 @@ TEST_CASE("Ctrl-C ends a search with the grasps so far and the code 130") {
   CHECK(std::stod(list) >= std::stod(list.substr(list.find('\n'))));
 }
 
+TEST_CASE("Ctrl-C in the middle of any planner: the script gets the grasps so far, and ends with the code 130") {
+  const Folder folder;
+  for (const std::string planner : {"anneal", "loop", "guided", "list", "primitive", "random", "sample", "antipodal"}) {
+    const std::string out = folder / planner;
+    // an energy that is asked, or a grasp that is found, says that it is under way
+    const auto script = folder.file(planner + ".lua", "local planner, out = '" + planner + "', '" + out + R"('
+local world = clench.load("worlds/barrett_mug.wld", {root = "."})
+local hand, mug = world.robots[1], world.objects[1]
+local lines, contact = io.open(out, "w"), clench.energy.contact {hand = hand, object = mug}
+local function under_way() lines:write "\n" lines:flush() return 0 end
+local o = {hand = hand, object = mug, on_grasp = under_way, count = 1000000}
+if planner == "anneal" or planner == "loop" or planner == "guided" or planner == "list" then
+  o.on_grasp, o.count = nil, nil
+  o.energy = function() under_way() return contact() end
+end
+if planner == "primitive" then
+  o.density, o.primitives = 100, {{kind = "cylinder", pose = clench.pose {}, radius = 0.04, height = 0.3}}
+elseif planner == "list" then
+  o.states = {}
+  for i = 1, 100000 do o.states[i] = {pose = mug.pose:inverse() * hand.pose, dofs = hand.dofs} end
+elseif o.energy then
+  o.steps = 1000000000
+else
+  o.candidates = 1000000000
+end
+local run = clench.plan[planner](o)
+print(planner .. " gave " .. #run.grasps, run.report.stopped)
+while true do end
+)");
+    const std::string text = end_by("INT", "-q run " + script, out);
+    CAPTURE(text);
+    CHECK(has(text, planner + " gave "));
+    CHECK(has(text, "\ttrue\n"));
+    CHECK(text.ends_with("code 130\n"));
+  }
+}
+
 TEST_CASE("a search that is killed leaves its grasps in a list that can be read") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
-  CHECK(has(end_by("KILL", out), "code 137"));
+  CHECK(has(end_by("KILL", barrett + "--seconds 60 -o " + out, out), "code 137"));
   const std::string list = epsilons(out);
   CHECK(list.find("clench") == std::string::npos);
   CHECK(std::count(list.begin(), list.end(), '\n') >= 2);
