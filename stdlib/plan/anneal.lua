@@ -25,13 +25,14 @@ return function(options)
   local found = {}
   job:interruptible(function()
     for _, state in ipairs(search.best) do
+      if not job:has_patience() then break end
       local grasp = closing.close(job.hand, job.object, state, {grasp = job.grasp_options})
       if grasp then
         found[#found + 1] = closing.note(grasp, "anneal", {energy = state.energy, step = state.step, seed = job.seed})
       end
     end
   end)
-  if #found == 0 then chain.nearest(job, search, told) end
+  if #found == 0 and not job.stopped then chain.nearest(job, search, told) end
   job:finish()
   return new_run(job, found, told, {})
 end

@@ -102,7 +102,7 @@ return function(options)
   local counts = parent.counts
   for _, name in ipairs {"steps", "accepted", "in_collision", "avoided", "stuck"} do told[name] = counts[name] end
   table.sort(found, function(a, b) return a.epsilon > b.epsilon end)
-  if #found == 0 then chain.nearest(job, parent, told) end
+  if #found == 0 and not job.stopped then chain.nearest(job, parent, told) end
   job:finish()
   return new_run(job, found, told, {count = count, distance = 0.1})
 end

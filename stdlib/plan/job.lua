@@ -36,12 +36,17 @@ end
 --- has the time of the options run out, or was Ctrl-C pressed?
 function Job:is_over() return self.stopped or self.seconds ~= nil and clench.clock() - self.began >= self.seconds end
 
+local patience = 0.25  -- half of what a script has after Ctrl-C [s]
+
+--- After Ctrl-C, is there time to look at what was found?
+function Job:has_patience() return not self.stopped or clench.clock() - self.stopped_at < patience end
+
 --- Calls what searches. Ctrl-C ends it, and the planner goes on with what was found; any other error puts the hand back.
 function Job:interruptible(search)
   local ok, problem = pcall(search)
   if ok then return end
   if type(problem) == "table" and problem.kind == "stopped" then
-    self.stopped = true
+    self.stopped, self.stopped_at = true, clench.clock()
     return
   end
   self:finish()

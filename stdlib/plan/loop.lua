@@ -41,7 +41,7 @@ return function(options)
   told = told or {steps = 0, accepted = 0, in_collision = 0, avoided = 0, stuck = 0}
   told.planner, told.loops, told.threshold = "plan.loop", loops, max_energy
   table.sort(found, function(a, b) return a.info.energy < b.info.energy end)
-  if #found == 0 then chain.nearest(job, search, told) end
+  if #found == 0 and not job.stopped then chain.nearest(job, search, told) end
   job:finish()
   return new_run(job, found, told, {count = count})
 end

@@ -16,6 +16,7 @@ function reach.filter(job, grasps)
   local arm = hand.parent
   local reached, others = {}, 0
   for _, grasp in ipairs(grasps) do
+    if not job:has_patience() then break end
     local before = grasp.pregrasp
     hand:set_dofs(before and before.dofs or grasp.dofs)
     local comes = not before or reaches(arm, hand, object.pose * before.pose)

@@ -44,8 +44,6 @@ void find_scale(std::span<const Piece> pieces, DrawList& list) {
 
 Batch append(Piece& piece, DrawList& list) {
   for (auto& p : piece.p_W) p = (p - list.centre) / list.scale;
-  Bounds bounds;
-  for (const auto& p : piece.p_W) bounds.add(p);
   const auto normals = corner_normals(piece.p_W, piece.triangles, crease);
   std::vector<Corner> corners;
   for (size_t i = 0; i < piece.triangles.size(); ++i) {
@@ -55,11 +53,7 @@ Batch append(Piece& piece, DrawList& list) {
       corners.push_back({piece.p_W[piece.triangles[i][k]].cast<float>(), normals[i][k], color});
   }
   const auto fine = piece.mark ? corners : split_long_edges(corners, longest_edge, max_triangles);
-  Batch batch{.opacity = piece.opacity, .outward = piece.outward};
-  if (!bounds.empty()) {
-    batch.centre = 0.5 * (bounds.low + bounds.high);
-    batch.radius = 0.5 * bounds.size().norm();
-  }
+  Batch batch{.opacity = piece.opacity};
   batch.first_caster = static_cast<int>(list.indices.size());
   if (piece.mark || piece.background) corners.clear();
   batch.caster_count = static_cast<int>(corners.size());
@@ -93,11 +87,6 @@ void append_floor(DrawList& list) {
 }
 
 }  // namespace
-
-bool hides_inside(const Eigen::Vector3d& centre, double radius, const Eye& eye) {
-  // the near plane lies at less than half the way to the scene
-  return eye.ortho_height > 0 || (centre - eye.eye).norm() > 1.5 * radius + 0.03;
-}
 
 Eye DrawList::to_scene(const Eye& world) const {
   Eye out = world;

@@ -15,13 +15,7 @@ struct Batch {
   int first = 0, count = 0;
   int first_caster = 0, caster_count = 0;
   float opacity = 1;
-  bool outward = false;  ///< only the sides that face outward can be seen, from outside
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of a ball that holds it [scene units]
-  double radius = 0;
 };
-
-/// Can the eye see only the sides that face outward? Not from within a body, or with its near plane in it.
-bool hides_inside(const Eigen::Vector3d& centre, double radius, const Eye& eye);
 
 struct DrawList {
   std::vector<Corner> corners;

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "clench/base/error.h"
-#include "clench/render/mesh/outward.h"
 
 namespace clench {
 namespace {
@@ -68,7 +67,6 @@ Piece mesh_piece(const DrawMesh& m, size_t number) {
               .opacity = m.opacity,
               .background = m.background};
   if (piece.colors.empty()) piece.colors = {m.color};
-  piece.outward = faces_outward(*m.shape);
   piece.p_W.reserve(m.shape->mesh().vertices.size());
   for (const auto& p : m.shape->mesh().vertices) {
     piece.p_W.push_back(m.X_WM * p);

@@ -13,7 +13,6 @@ struct Piece {
   std::vector<Eigen::Vector3f> colors = {};  ///< one, or one per triangle
   float opacity = 1;
   bool mark = false;        ///< drawn as it is, whatever the light
-  bool outward = false;     ///< only the sides that face outward can be seen
   bool background = false;  ///< throws no shadow, counts for no frame
 };
 

@@ -112,6 +112,12 @@ Draft::Draft(const Programs& programs, MeshStore& store, const Scene& scene, con
   cast();
 }
 
+// Can the eye see only the sides that face outward? Not from within a body, or with its near plane in it, which lies at less
+// than half the way to the scene.
+static bool hides_inside(const Eigen::Vector3d& centre, double radius, const Eye& eye) {
+  return eye.ortho_height > 0 || (centre - eye.eye).norm() > 1.5 * radius + 0.03;
+}
+
 void Draft::load(MeshStore& store, const Scene& scene) {
   for (const DrawMesh& mesh : scene.meshes) {
     if (!mesh.shape || mesh.opacity == 0) continue;

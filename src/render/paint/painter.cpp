@@ -126,12 +126,7 @@ void Painter::find_first(const Canvas& canvas, const Eigen::Matrix4f& clip) {
   gl::set(programs_.first, "to_clip", clip);
   gl::set(programs_.first, "floor_sign", 1.0f);
   glBindVertexArray(loaded_.array);
-  for (const Batch& batch : list_.solid) {
-    const bool one_side = batch.outward && hides_inside(batch.centre, batch.radius, eye_);
-    if (one_side) glEnable(GL_CULL_FACE), glCullFace(GL_BACK);
-    draw(batch);
-    glDisable(GL_CULL_FACE);
-  }
+  for (const Batch& batch : list_.solid) draw(batch);
   for (const Batch& batch : list_.behind) draw(batch);
   // seen from below it would only be in the way
   if (list_.ground && shading_eye_.z() > *list_.ground) {
