@@ -62,7 +62,10 @@ FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::Vector
   for (const auto& block : problem.blocks) {
     const double d = block_admittance(problem, block);
     const double fault = block_fault(block, d, &r[block.row], &u[block.row]);
-    if (!valid(block) || !std::isfinite(fault) || !std::isfinite(d)) {
+    // 0, or no number
+    double none = 0 * d;
+    for (int k = 0; k < block.size(); ++k) none += 0 * (r[block.row + k] + u[block.row + k]);
+    if (!valid(block) || !std::isfinite(fault + none)) {
       worst.largest = worst.excess = std::numeric_limits<double>::infinity();
       return worst;
     }

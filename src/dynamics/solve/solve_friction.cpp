@@ -64,17 +64,17 @@ double FrictionSolver::descend(double rho, VectorXd& r, FrictionSolution& soluti
   return reached;
 }
 
-bool FrictionSolver::solve_by_pyramids(double by, int edges_per_contact, VectorXd& r, FrictionSolution& solution) {
+bool FrictionSolver::solve_by_pyramids(int edges_per_contact, VectorXd& r, FrictionSolution& solution) {
   std::vector<Eigen::MatrixXd> edges;
   for (const auto& block : scaled_.blocks) edges.push_back(friction_edges(block.tangents, edges_per_contact));
   for (int round = 0; round < 8; ++round) {
-    const PyramidSolution pyramid = solve_pyramid(scaled_, std::max(by, 1e-7), VectorXd::Zero(scaled_.rows()), edges);
+    const PyramidSolution pyramid = solve_pyramid(scaled_, 1e-7, VectorXd::Zero(scaled_.rows()), edges);
     solution.iterations += pyramid.iterations;
     if (!pyramid.found) return false;
     r = pyramid.r;
     for (const double rho : {1.0, 0.2, 5.0}) {
       r_ = r;
-      if (newton(by, rho, 20, r_, solution)) {
+      if (newton(damping, rho, 20, r_, solution)) {
         r = r_;
         return true;
       }
@@ -96,7 +96,10 @@ bool FrictionSolver::solve_by_pyramids(double by, int edges_per_contact, VectorX
 bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, VectorXd& r, FrictionSolution& solution) {
   // sets u_ and keeps the best
   bool enough = false;
-  const auto measure = [&](const VectorXd& at) {
+  const auto measure = [&](VectorXd& at) {
+    // bounds hold to the bit
+    for (const auto& block : scaled_.blocks)
+      at[block.row] = block.is_contact() ? std::max(at[block.row], 0.0) : std::clamp(at[block.row], block.low, block.high);
     u_ = scaled_.q;
     u_.noalias() += scaled_.S * at;
     impulses_ = at.cwiseProduct(scaled_.units);
@@ -157,7 +160,7 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
     if (pyramid.found && pyramid.residual < solution.residual) {
       r = pyramid.r;
       solution.residual = pyramid.residual, solution.r = r.cwiseProduct(scaled_.units);
-      solution.solved = solution.residual <= tolerance;
+      solution.solved = solution.residual <= 100 * tolerance;
     } else {
       solution.fell_back = true;
       by = std::min(10 * by, 1.0);
@@ -208,12 +211,15 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
     nearest.u = problem.W * nearest.r + problem.q;
     return nearest;
   }
-  for (int way = 0; way < 3 && !solution.solved; ++way) {
+  // from other sides, at last from the best that was found
+  for (int way = 0; way < 5 && !solution.solved; ++way) {
     double level = 1e-3;
     if (way == 1) {
-      if (solve_by_pyramids(damping, options.edges, r, solution)) level = damping;
+      if (solve_by_pyramids(options.edges, r, solution)) level = damping;
+    } else if (way == 4) {
+      r = solution.r.cwiseQuotient(scaled_.units);
     } else {
-      level = descend(way == 0 ? 0.2 : 5, r, solution);
+      level = descend(way == 0 ? 0.2 : way == 2 ? 5 : 0.05, r, solution);
     }
     solution.solved = refine(problem, tolerance, level, 100, r, solution);
   }

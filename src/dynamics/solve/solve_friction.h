@@ -14,7 +14,8 @@ enum class FrictionCone {
 struct FrictionOptions {
   FrictionCone cone = FrictionCone::cone;
   int edges = 8;             ///< of a pyramid, >= 4; with torsion 3 edges - 4 (see friction_edges)
-  /// Faults up to so much of the largest velocity in q, and of at least 1e-3, are none. Rounding of W r is allowed for beside it.
+  /// Faults up to so much of the largest velocity in q, and of at least 1e-3, are none. Rounding of W r is
+  /// allowed for beside it; of a pyramid, which pivots are lost on, 100 times as much.
   double tolerance = 1e-12;
 };
 
@@ -34,7 +35,7 @@ class FrictionSolver {
   bool newton(double by, double rho, int max_iterations, Eigen::VectorXd& r, FrictionSolution& solution);
   double descend(double rho, Eigen::VectorXd& r, FrictionSolution& solution);
   double solve_damped(Eigen::VectorXd& r, FrictionSolution& solution);
-  bool solve_by_pyramids(double by, int edges_per_contact, Eigen::VectorXd& r, FrictionSolution& solution);
+  bool solve_by_pyramids(int edges_per_contact, Eigen::VectorXd& r, FrictionSolution& solution);
   bool refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, Eigen::VectorXd& r, FrictionSolution& solution);
 
   ScaledFriction scaled_;
