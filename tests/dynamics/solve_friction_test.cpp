@@ -27,7 +27,7 @@ TEST_CASE("a body of 2 kg on the ground opens, sticks or slides against its velo
   CHECK((impulses(one_contact(W, Vector3d(-1, 0.3, -0.3), 0.5)) - Vector3d(2, -0.6, 0.6)).norm() < 1e-15);
   CHECK((impulses(one_contact(W, Vector3d(-1, 3, 4), 0.5)) - Vector3d(2, -0.6, -0.8)).norm() < 1e-15);
   CHECK((impulses(one_contact(W, Vector3d(-1, 3, 4), 0)) - Vector3d(2, 0, 0)).norm() < 1e-15);
-  CHECK((impulses(one_contact(W.topLeftCorner(1, 1), VectorXd::Constant(1, -1), 0)) - VectorXd::Constant(1, 2)).norm() < 1e-15);
+  CHECK(impulses(one_contact(W.topLeftCorner(1, 1), VectorXd::Constant(1, -1), 0))[0] == 2);
 }
 
 TEST_CASE("torsion shares the cone with sliding") {
@@ -181,18 +181,19 @@ TEST_CASE("a feather between boulders") {
   MatrixXd W(2, 2);
   W << 1e3, -1e3, -1e3, 1e3 + 1e-5;
   const Eigen::Vector2d q(-0.01, 0);
-  const FrictionSolution solution = solve_friction({.W = W, .q = q, .blocks = {{.row = 0, .tangents = 0}, {.row = 1, .tangents = 0}}}, {});
+  const std::vector<FrictionProblem::Block> blocks = {{.row = 0, .tangents = 0}, {.row = 1, .tangents = 0}};
+  const FrictionSolution solution = solve_friction({.W = W, .q = q, .blocks = blocks}, {});
   CHECK(solution.solved);
   CHECK(solution.r[0] == doctest::Approx(0.01 * (1e5 + 1e-3)));
   CHECK(solution.r[1] == doctest::Approx(0.01 * 1e5));
 }
 
 TEST_CASE("a pyramid's friction is on a polygon, and least square to its edges") {
-  const FrictionProblem problem = one_contact(MatrixXd::Identity(3, 3) / 2, Vector3d(-1, 3, 0.1), 0.5);
-  const FrictionSolution along = solve_friction(problem, {}, {.cone = FrictionCone::pyramid, .edges = 4});
+  const MatrixXd W = MatrixXd::Identity(3, 3) / 2;
+  const FrictionSolution along = solve_friction(one_contact(W, Vector3d(-1, 3, 0.1), 0.5), {}, {.cone = FrictionCone::pyramid, .edges = 4});
   CHECK(along.solved);
   CHECK((along.r - Vector3d(2, -1, 0)).norm() < 1e-10);
   const FrictionSolution sticks =
-      solve_friction(one_contact(problem.W, Vector3d(-1, 0.3, -0.2), 0.5), {}, {.cone = FrictionCone::pyramid});
+      solve_friction(one_contact(W, Vector3d(-1, 0.3, -0.2), 0.5), {}, {.cone = FrictionCone::pyramid});
   CHECK((sticks.r - Vector3d(2, -0.6, 0.4)).norm() < 1e-10);
 }

@@ -50,7 +50,8 @@ double block_admittance(const FrictionProblem& problem, const FrictionProblem::B
   return problem.W.diagonal().segment(block.row, block.size()).mean();
 }
 
-FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u, double tolerance) {
+FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u,
+                             double tolerance) {
   // |W_ij| <= sqrt(W_ii W_jj): what the sums of u are sums of
   double size = 0;
   for (const auto& block : problem.blocks) {

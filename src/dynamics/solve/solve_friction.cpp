@@ -93,7 +93,8 @@ bool FrictionSolver::solve_by_pyramids(int edges_per_contact, VectorXd& r, Frict
   return false;
 }
 
-bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, VectorXd& r, FrictionSolution& solution) {
+bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, VectorXd& r,
+                            FrictionSolution& solution) {
   // sets u_ and keeps the best
   bool enough = false;
   const auto measure = [&](VectorXd& at) {
@@ -159,7 +160,8 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
     solution.iterations += pyramid.iterations;
     if (pyramid.found && pyramid.residual < solution.residual) {
       r = pyramid.r;
-      solution.residual = pyramid.residual, solution.r = r.cwiseProduct(scaled_.units);
+      solution.residual = pyramid.residual;
+      solution.r = r.cwiseProduct(scaled_.units);
       solution.solved = solution.residual <= 100 * tolerance;
     } else {
       solution.fell_back = true;
@@ -171,7 +173,8 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
   return solution;
 }
 
-FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const VectorXd& warm_start, const FrictionOptions& options) {
+FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const VectorXd& warm_start,
+                                       const FrictionOptions& options) {
   FrictionSolution solution;
   const int n = static_cast<int>(problem.q.size());
   const double tolerance = options.tolerance * std::max(1e-3, n > 0 ? problem.q.lpNorm<Eigen::Infinity>() : 0);
@@ -227,7 +230,8 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
   return solution;
 }
 
-FrictionSolution solve_friction(const FrictionProblem& problem, const VectorXd& warm_start, const FrictionOptions& options) {
+FrictionSolution solve_friction(const FrictionProblem& problem, const VectorXd& warm_start,
+                                const FrictionOptions& options) {
   FrictionSolver solver;
   return solver.solve(problem, warm_start, options);
 }
