@@ -30,6 +30,15 @@ double FrictionSolver::solve_damped(VectorXd& r, FrictionSolution& solution) {
   gauss_seidel_.set(scaled_, damping);
   gauss_seidel_.sweep(scaled_, 3, r);
   solution.iterations += 3;
+  // redundant contacts that slide are found by steps
+  r_ = r;
+  if (newton(1e-3, 1, 12, r_, solution)) {
+    r = r_;
+    if (newton(1e-5, 1, 8, r_, solution) && newton(damping, 1, 8, r_, solution)) {
+      r.swap(r_);
+      return damping;
+    }
+  }
   if (newton(damping, 1, 12, r, solution)) return damping;
   return descend(1, r, solution);
 }
