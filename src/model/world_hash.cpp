@@ -32,6 +32,23 @@ static void add(Hasher& h, const std::vector<VirtualContactSpec>& contacts) {
   }
 }
 
+// but for manifolds and warm starts
+static void add(Hasher& h, const DynamicState& state) {
+  h.add(state.time);
+  for (const Twist& twist : state.twists) add(h, twist.linear), add(h, twist.angular);
+  for (const double v : state.dof_velocities) h.add(v);
+  for (const double v : state.joint_velocities) h.add(v);
+  for (const Load& load : state.loads) add(h, load.force), add(h, load.torque);
+  for (const DofControl& c : state.controls) {
+    h.add(static_cast<uint64_t>(c.mode));
+    for (const double x : {c.target, c.velocity, c.effort}) h.add(x);
+    h.add(static_cast<uint64_t>(c.way.has_value()));
+    if (!c.way) continue;
+    for (const double x : {c.way->from, c.way->to, c.way->from_velocity, c.way->to_velocity, c.way->begin, c.way->duration})
+      h.add(x);
+  }
+}
+
 uint64_t World::hash() const {
   Hasher h;
   const auto flag = [&](bool on) { h.add(static_cast<uint64_t>(on)); };
@@ -92,6 +109,8 @@ uint64_t World::hash() const {
     }
   }
   flag(settings_->collision_on);
+  flag(state_.dynamics != nullptr);
+  if (state_.dynamics) add(h, *state_.dynamics);
   return h.value();
 }
 
