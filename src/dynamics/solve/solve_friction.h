@@ -1,0 +1,48 @@
+// Solves contacts with Coulomb's friction, joint limits and motors together.
+#pragma once
+#include "clench/dynamics/solve/friction_newton.h"
+#include "clench/dynamics/solve/friction_problem.h"
+#include "clench/dynamics/solve/gauss_seidel.h"
+
+namespace clench {
+
+enum class FrictionCone {
+  cone,    ///< |r_t| <= mu r_n
+  pyramid  ///< a polygon of `edges` corners on that circle
+};
+
+struct FrictionOptions {
+  FrictionCone cone = FrictionCone::cone;
+  int edges = 8;             ///< of a pyramid, even, >= 4; with torsion they lie on the sphere
+  /// Faults up to so much of the largest velocity in q, and of at least 1e-3, are none. Rounding of W r is allowed for beside it.
+  double tolerance = 1e-12;
+  int max_rounds = 8;        ///< of Gauss-Seidel and Newton in turn, before the fallback
+};
+
+/// Solves one problem after another; memory is kept between them, nothing else: the same problem and the same warm start
+/// give the same bits.
+///
+/// Of many solutions, as at the four corners of a box, it is the one of least sum of W_ii r_i^2 among those of the same
+/// states, wherever it starts from. A warm start that already solves the problem is returned as it is.
+/// Where demands contradict each other (two opposite limits), it is one of least violation.
+class FrictionSolver {
+ public:
+  /// warm_start  impulses of the last step, or none (any other size)
+  FrictionSolution solve(const FrictionProblem& problem, const Eigen::VectorXd& warm_start, const FrictionOptions& options = {});
+
+ private:
+  bool newton(double by, int max_iterations, Eigen::VectorXd& r, FrictionSolution& solution);
+  bool solve_damped(int max_rounds, double damping, Eigen::VectorXd& r, FrictionSolution& solution);
+  bool refine(const FrictionProblem& problem, double tolerance, Eigen::VectorXd& r, FrictionSolution& solution);
+  double fault(const FrictionProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u) const;
+
+  ScaledFriction scaled_;
+  FrictionNewton newton_;
+  GaussSeidel gauss_seidel_;
+  Eigen::VectorXd u_, r_;
+};
+
+FrictionSolution solve_friction(const FrictionProblem& problem, const Eigen::VectorXd& warm_start,
+                                const FrictionOptions& options = {});
+
+}  // namespace clench
