@@ -10,7 +10,10 @@
 namespace clench {
 
 enum class DynamicsEngine { clench, ode };
-enum class FrictionCone { round, pyramid };
+enum class FrictionCone {
+  cone,    ///< |r_t| <= mu r_n
+  pyramid  ///< a polygon of some corners on that circle
+};
 
 /// Gains of a DOF's motor.
 struct Gains {
@@ -28,7 +31,7 @@ struct RobotDynamics {
 struct DynamicSettings {
   double step = 1e-3;  ///< > 0 [s]
   DynamicsEngine engine = DynamicsEngine::clench;
-  FrictionCone cone = FrictionCone::round;
+  FrictionCone cone = FrictionCone::cone;
   int cone_edges = 8;  ///< of a pyramid
   std::map<Id<Robot>, RobotDynamics> robots;  ///< those that differ from the default
   std::map<Id<Body>, Eigen::Vector3d> surface_velocities;  ///< of conveyor belts, in their bodies' frames [m/s]
