@@ -41,6 +41,7 @@ static bool is_compliant(const Robot& robot, const Coordinate& c) {
 void find_joint_forces(const World& world, const Articulation& tree, double h, const DynamicState& state,
                        JointForces& out) {
   out.efforts.setZero(tree.size());
+  out.velocity_part.setZero(tree.size());
   out.added.setZero(tree.size());
   for (const TreeJoint& part : tree.joints) {
     const Robot& robot = world.robot(part.robot);
@@ -53,8 +54,10 @@ void find_joint_forces(const World& world, const Articulation& tree, double h, c
       rest = joint.ratio * (world.dofs(part.robot)[joint.dof] + h * state.dof_velocities[dof]);
     }
     out.efforts[part.coordinate] -= r * stiffness * (q - rest);
-    out.added[part.coordinate] += r * r * (joint.armature + h * (joint.viscous + h * stiffness));
+    out.velocity_part[part.coordinate] += r * r * h * (joint.viscous + h * stiffness);
+    out.added[part.coordinate] += r * r * joint.armature;
   }
+  out.added += out.velocity_part;
 }
 
 void pull_tendons(const World& world, Id<Robot> id, double h, DynamicState& state) {

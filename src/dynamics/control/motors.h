@@ -22,6 +22,8 @@ struct CoordinateRow {
 struct JointForces {
   Eigen::VectorXd efforts;  ///< [N m or N]
   Eigen::VectorXd added;    ///< to the diagonal of the mass matrix
+  /// the part of it that acts on velocities, not on their change: damping h d and springs h^2 k
+  Eigen::VectorXd velocity_part;
 };
 
 /// h  length of the step [s]

@@ -170,7 +170,7 @@ It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_dis
     {"gravity", guarded<get_gravity>, R"(
 Acceleration of everything that is free to fall, in the world frame: what weighs on joints and objects.
 @type vec3  [m/s^2]
-> world.gravity  --> (0, 0, -9.80665)
+> world.gravity  --> (0, 0, -9.81)
 > world.gravity = {0, 0, -1.62}
 > world.gravity.z  --> -1.62
 > world.gravity = {0, 0, 1e9}  --> error: gravity: expected a number from -1e+06 to 1e+06 [m/s^2])",
