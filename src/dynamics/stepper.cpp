@@ -13,6 +13,7 @@ Stepper::Stepper(World& world) : world_(world) { refresh(); }
 
 // The system follows from the model, the settings, and which joints follow their DOFs.
 void Stepper::refresh() {
+  world_.edit_dynamics();
   std::vector<unsigned char> follows;
   for (const auto id : world_.robots()) {
     const Robot& robot = world_.robot(id);
