@@ -3,13 +3,9 @@
 #include "clench/dynamics/solve/friction_newton.h"
 #include "clench/dynamics/solve/friction_problem.h"
 #include "clench/dynamics/solve/gauss_seidel.h"
+#include "clench/model/dynamic_settings.h"
 
 namespace clench {
-
-enum class FrictionCone {
-  cone,    ///< |r_t| <= mu r_n
-  pyramid  ///< a polygon of `edges` corners on that circle, solved from scratch by Lemke's method
-};
 
 struct FrictionOptions {
   FrictionCone cone = FrictionCone::cone;

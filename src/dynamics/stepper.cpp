@@ -1,0 +1,163 @@
+#include "clench/dynamics/stepper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/dynamics/contact/ball_contact.h"
+#include "clench/model/advance.h"
+#include "clench/model/near_bodies.h"
+
+namespace clench {
+
+Stepper::Stepper(World& world) : world_(world) { refresh(); }
+
+// The system follows from the model, the settings, and which joints follow their DOFs.
+void Stepper::refresh() {
+  world_.edit_dynamics();
+  std::vector<unsigned char> follows;
+  for (const auto id : world_.robots()) {
+    const Robot& robot = world_.robot(id);
+    for (size_t j = 0; j < robot.joints.size(); ++j) {
+      // joints on springs are never where their tendon is
+      if (robot.dofs[robot.joints[j].dof].kind == DofKind::compliant) world_.set_follows_dof(id, static_cast<int>(j), false);
+      follows.push_back(world_.follows_dof(id, static_cast<int>(j)));
+    }
+  }
+  if (stamp_ == world_.model().stamp && settings_stamp_ == world_.settings().stamp && follows == follows_) return;
+  stamp_ = world_.model().stamp;
+  settings_stamp_ = world_.settings().stamp;
+  follows_ = std::move(follows);
+  system_ = find_system(world_);
+  trees_.resize(system_.trees.size());
+  forces_.resize(system_.trees.size());
+  tree_rows_.resize(system_.trees.size());
+}
+
+namespace {
+
+// How far apart a pair was when it was last measured, and how far it has moved since.
+bool may_have_met(const World& world, const Manifold& m) {
+  // distances are exact but for rounding
+  constexpr double certain = 0.999;
+  return displacement(m.X_AB, relative_pose(world, m.a, m.b), *world.body(m.b).shape) >= certain * m.clear;
+}
+
+}  // namespace
+
+double Stepper::largest_travel(double dt) const {
+  const DynamicState& state = *world_.dynamics();
+  double travel = 0;
+  for (const auto id : world_.bodies()) {
+    const Twist& twist = state.twists[id.index];
+    const Body& body = world_.body(id);
+    if (!body.shape || twist.is_zero()) continue;
+    const double radius = body.shape->radius() + (body.shape->centre() - body.com).norm();
+    travel = std::max(travel, dt * (twist.linear.norm() + twist.angular.norm() * radius));
+  }
+  return travel;
+}
+
+// Conservative advancement, as in advance, of pairs whose distance is a ball's.
+double Stepper::advance_balls(const std::vector<std::pair<int, double>>& pairs, double end, Mover& mover) {
+  constexpr double aim = 0.2, there = 0.3;
+  const double threshold = world_.contact_threshold();
+  double stop = end;
+  for (const auto& [i, speed] : pairs) {
+    const Manifold& m = world_.dynamics()->manifolds[i];
+    double s = 0, before = std::numeric_limits<double>::infinity();
+    for (int steps = 0; s < stop && steps < 1000; ++steps) {
+      mover.place(s);
+      const double gap = ball_distance(world_, m, speed * (stop - s) + 2 * threshold);
+      // one that rolls or leaves goes on
+      if (gap <= there * threshold && gap < before && steps > 0) break;
+      before = gap;
+      s = std::min(stop, s + std::max(gap - aim * threshold, 0.05 * threshold) / speed);
+    }
+    stop = std::min(stop, s);
+  }
+  mover.place(stop);
+  return stop;
+}
+
+double Stepper::move(double dt) {
+  refresh();
+  find_manifolds(world_, system_, largest_travel(dt));
+  DynamicState& state = world_.edit_dynamics();
+  std::vector<Pose> before;
+  for (const Manifold& m : state.manifolds) before.push_back(relative_pose(world_, m.a, m.b));
+  Mover mover(world_, system_);
+  mover.place(dt);
+
+  // What moves farther than so many thresholds in a step is followed all the way; others are looked at where they arrive.
+  constexpr double short_way = 10;
+  std::vector<int> suspects;
+  std::vector<PairBound> watches;
+  std::vector<std::pair<int, double>> balls;  // manifolds, and bounds of their speeds
+  std::vector<std::pair<int, Manifold>> measured;
+  for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i) {
+    const Manifold& m = state.manifolds[i];
+    if (!may_have_met(world_, m)) continue;
+    suspects.push_back(i);
+    if (m.clear == 0) continue;  // they overlap: nothing to stop
+    const double way = displacement(before[i], relative_pose(world_, m.a, m.b), *world_.body(m.b).shape);
+    if (way <= short_way * world_.contact_threshold()) {
+      Manifold there = m;
+      measure(world_, there);
+      if (there.clear > 0) {
+        measured.emplace_back(i, std::move(there));
+        continue;
+      }
+    }
+    // the bound holds on the whole way, which is longer than the chord of a turn
+    if (has_ball(world_, m))
+      balls.push_back({i, 1.1 * way / dt});
+    else
+      watches.push_back({.a = m.a, .b = m.b, .speed = 1.1 * way / dt});
+  }
+  double passed = dt;
+  if (!balls.empty()) passed = advance_balls(balls, dt, mover);
+  if (!watches.empty()) {
+    int queries = 0;
+    const Advance advance = clench::advance(world_, watches, passed, [&](double s) { mover.place(s); }, queries, 1000);
+    passed = advance.s;
+  }
+  if (!balls.empty() || !watches.empty()) {
+    // a pair that starts with next to no gap still gets on
+    constexpr double least = 1e-3;
+    passed = std::clamp(passed, least * dt, dt);
+    if (passed < dt) ++state.report.impacts;
+  }
+  mover.finish(passed);
+  if (passed < dt)
+    for (const int i : suspects) measure(world_, state.manifolds[i]);
+  else {
+    for (auto& [i, there] : measured) state.manifolds[i] = std::move(there);
+    for (const auto& [i, speed] : balls) measure(world_, state.manifolds[i]);
+    for (const PairBound& watch : watches)
+      for (const int i : suspects)
+        if (state.manifolds[i].a == watch.a && state.manifolds[i].b == watch.b) measure(world_, state.manifolds[i]);
+  }
+  for (Manifold& m : state.manifolds) m.X_AB_left = relative_pose(world_, m.a, m.b);
+  state.time += passed;
+  return passed;
+}
+
+void Stepper::run(double duration) {
+  const double end = world_.time() + duration;
+  const double step = world_.dynamic_settings().step;
+  constexpr double rounding = 1e-9;  // of a step: what is less is no time
+  while (end - world_.time() > rounding * step) {
+    world_.context().progress().check();
+    // Steps end at multiples of the step, after an impact as well: the same ones however a time is divided.
+    const double now = world_.time(), next = (std::floor(now / step + rounding) + 1) * step;
+    double left = std::min(next, end) - now;
+    if (std::abs(left - step) < rounding * step) left = step;
+    const double h = move(left);
+    double& time = world_.edit_dynamics().time;
+    if (std::abs(next - time) < rounding * step) time = next;
+    if (std::abs(end - time) < rounding * step) time = end;
+    solve(h);
+  }
+}
+
+}  // namespace clench
