@@ -118,8 +118,7 @@ const Eigen::VectorXd& TreeDynamics::find_bias(const Eigen::VectorXd& v, const V
   velocity_[0] = tree_->floating ? Vector6d(v.segment<6>(tree_->first)) : root_twist;
   acceleration_[0].setZero();
   // the root's centre of mass does not accelerate: seen from a point that stands, its surroundings do
-  if (tree_->floating)
-    acceleration_[0].head<3>() = -velocity_[0].tail<3>().cross(velocity_[0].head<3>());
+  acceleration_[0].head<3>() = -velocity_[0].tail<3>().cross(velocity_[0].head<3>());
   for (size_t i = 0; i < joints.size(); ++i) {
     const Vector6d moved = (joints[i].ratio * v[tree_->first + joints[i].coordinate]) * S_[i];
     velocity_[i + 1] = velocity_[joints[i].parent + 1] + moved;
