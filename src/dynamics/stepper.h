@@ -62,6 +62,7 @@ class Stepper {
   void apply_impulses();
   void solve_by_ode(double h);
   void keep(double h);
+  void disengage(double h);
 
   World& world_;
   System system_;
@@ -73,7 +74,7 @@ class Stepper {
   std::vector<CoordinateRow> coordinate_rows_;
   std::vector<Touch> touches_;
   std::vector<Block> blocks_;
-  Eigen::VectorXd v_, q_, r_, u_, compliance_;
+  Eigen::VectorXd v_, v_before_, q_, r_, u_, compliance_;
   std::vector<double> warm_;
   int row_count_ = 0;
   FrictionSolver solver_;

@@ -144,6 +144,14 @@ void OdeScene::find_motion(const Articulation& tree, int number) {
     node.turning += before.w.cross(along);
     carry(node.com - joint.origin, node, node.v, node.acceleration);
   }
+  if (tree.floating) return;
+  // what hangs on a base that is jerked moves on as it did
+  const Twist& last = world_.dynamics()->told[tree.root.index];
+  const Eigen::Vector3d dw = twist.angular - last.angular, dv = twist.linear - last.linear + dw.cross(arm);
+  for (size_t i = 1; i < out.nodes.size(); ++i) {
+    out.nodes[i].w -= dw;
+    out.nodes[i].v -= dv + dw.cross(out.nodes[i].com - root.com);
+  }
 }
 
 void OdeScene::add_forces(const Articulation& tree, int number) {
