@@ -47,7 +47,10 @@ OdeScene::OdeScene(const World& world, const OdeProblem& problem, double h, doub
       node.w = twist.angular;
       make_body(node);
     }
-  for (size_t t = 0; t < trees_.size(); ++t) add_forces(problem.system.trees[t], static_cast<int>(t));
+  for (size_t t = 0; t < trees_.size(); ++t) {
+    add_forces(problem.system.trees[t], static_cast<int>(t));
+    jerk(problem.system.trees[t], static_cast<int>(t));
+  }
 }
 
 void OdeScene::make_body(OdeNode& node) {
@@ -144,13 +147,18 @@ void OdeScene::find_motion(const Articulation& tree, int number) {
     node.turning += before.w.cross(along);
     carry(node.com - joint.origin, node, node.v, node.acceleration);
   }
+}
+
+// what hangs on a base that is jerked moves on as it did
+void OdeScene::jerk(const Articulation& tree, int number) {
   if (tree.floating) return;
-  // what hangs on a base that is jerked moves on as it did
-  const Twist& last = world_.dynamics()->told[tree.root.index];
-  const Eigen::Vector3d dw = twist.angular - last.angular, dv = twist.linear - last.linear + dw.cross(arm);
+  OdeTree& out = trees_[number];
+  const Twist twist = world_.twist(tree.root), last = world_.dynamics()->told[tree.root.index];
+  const Eigen::Vector3d dv = twist.linear - last.linear, dw = twist.angular - last.angular;
+  const Eigen::Vector3d about = world_.pose(tree.root) * world_.body(tree.root).com;
   for (size_t i = 1; i < out.nodes.size(); ++i) {
     out.nodes[i].w -= dw;
-    out.nodes[i].v -= dv + dw.cross(out.nodes[i].com - root.com);
+    out.nodes[i].v -= dv + dw.cross(out.nodes[i].com - about);
   }
 }
 
