@@ -31,7 +31,7 @@ EngineKind bullet_engine();
 /// Our engine on more than a scene: its contacts.
 struct GripForces {
   double tangential = 0;  ///< on the watched part, against its weight [N]
-  double jitter = 0;      ///< largest change of any contact's force from step to step [N]
+  double jitter = 0;      ///< largest change of a pad's force from step to step, as a part of it
 };
 GripForces our_grip(const DynamicScene& scene, double h, double seconds);
 

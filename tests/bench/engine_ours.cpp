@@ -98,16 +98,19 @@ GripForces our_grip(const DynamicScene& scene, double h, double seconds) {
   std::vector<Eigen::Vector3d> before;
   for (double t = 0; t < seconds; t += h) {
     engine.step(1);
+    // by pad
     std::vector<Eigen::Vector3d> forces;
-    double up = 0;
-    for (const Manifold& m : engine.world().dynamics()->manifolds)
-      for (const ManifoldPoint& p : m.points) {
-        forces.push_back(engine.world().pose(m.a).rotation * p.force);
-        up += (m.b == engine.id(scene.watched) ? 1 : m.a == engine.id(scene.watched) ? -1 : 0) * forces.back().z();
-      }
-    out.tangential = up;
+    out.tangential = 0;
+    for (const Manifold& m : engine.world().dynamics()->manifolds) {
+      if (m.points.empty()) continue;
+      Eigen::Vector3d force = Eigen::Vector3d::Zero();
+      for (const ManifoldPoint& p : m.points) force += engine.world().pose(m.a).rotation * p.force;
+      if (m.a == engine.id(scene.watched)) force = -force;
+      out.tangential += force.z();
+      forces.push_back(force);
+    }
     if (before.size() == forces.size())
-      for (size_t i = 0; i < forces.size(); ++i) out.jitter = std::max(out.jitter, (forces[i] - before[i]).norm());
+      for (size_t i = 0; i < forces.size(); ++i) out.jitter = std::max(out.jitter, (forces[i] - before[i]).norm() / forces[i].norm());
     before = std::move(forces);
   }
   return out;
