@@ -57,14 +57,8 @@ void Stepper::find_free_velocities(double h) {
     Eigen::VectorXd efforts = -dynamics.find_bias(v_, root_twist(static_cast<int>(t)), world_.gravity());
     find_joint_forces(world_, tree, h, state, forces_[t]);
     efforts += forces_[t].efforts;
-    for (size_t i = 0; i < tree.coordinates.size(); ++i) {
-      const Coordinate& c = tree.coordinates[i];
-      const Robot& robot = world_.robot(c.robot);
-      const DofControl& control = state.controls[c.dof_index];
-      if (c.joint >= 0) continue;
-      const double most = robot.dofs[c.dof].max_effort;
-      efforts[tree.root_size() + static_cast<int>(i)] += most > 0 ? std::clamp(control.effort, -most, most) : control.effort;
-    }
+    for (size_t i = 0; i < tree.coordinates.size(); ++i)
+      efforts[tree.root_size() + static_cast<int>(i)] += told_effort(world_, tree.coordinates[i], state);
     for (size_t b = 0; b < tree.bodies.size(); ++b) {
       const Load& load = state.loads[tree.bodies[b].body.index];
       if (load.force.isZero(0) && load.torque.isZero(0)) continue;
@@ -170,6 +164,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
   const Eigen::Vector3d force = X_WA.rotation * p.force;
   for (int k = 0; k < size; ++k) warm_.push_back(h * (k < 3 ? touch.frame.col(k).dot(force) : p.torsion / p.torsion_radius));
   row_count_ += size;
+  touch.target = target;
   touches_.push_back(touch);
   blocks_.push_back(block);
 }
@@ -400,8 +395,12 @@ void Stepper::solve(double h) {
   find_rows(h);
   r_.setZero(row_count_);
   u_ = q_;
-  for (const auto& island : find_islands()) solve_island(island);
-  apply_impulses();
+  if (world_.dynamic_settings().engine == DynamicsEngine::ode) {
+    solve_by_ode(h);
+  } else {
+    for (const auto& island : find_islands()) solve_island(island);
+    apply_impulses();
+  }
   keep(h);
 }
 
