@@ -11,6 +11,9 @@ namespace clench {
 
 // Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s].
 static constexpr double sliding_speed = 1e-6;
+// Faults of a solution are at most this part of the largest velocity that gravity and motors give in a step, some cm/s; of
+// bodies that are slower than rest_speed, a larger part: they may creep by 0.1 nm/s before forces are found anew.
+static constexpr double tolerance = 1e-10, rest_tolerance = 1e-8, rest_speed = 1e-7;
 // Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so [m/s].
 static constexpr double pushed_part = 0.2, pushed_at_most = 0.1;
 // Below this speed of approach nothing bounces [m/s].
@@ -250,6 +253,11 @@ void Stepper::solve_island(const std::vector<int>& blocks) {
     count += law.size();
     problem_.blocks.push_back(law);
   }
+  // what rests keeps the forces that it has as long as they hold it
+  bool at_rest = true;
+  for (const int i : blocks)
+    for (const int t : blocks_[i].tree)
+      at_rest = at_rest && (t < 0 || v_before_.segment(system_.trees[t].first, system_.trees[t].size()).cwiseAbs().maxCoeff() < rest_speed);
   problem_.W.setZero(count, count);
   problem_.q.resize(count);
   Eigen::VectorXd warm(count);
@@ -271,7 +279,8 @@ void Stepper::solve_island(const std::vector<int>& blocks) {
       }
   }
   const DynamicSettings& settings = world_.dynamic_settings();
-  const FrictionSolution solution = solver_.solve(problem_, warm, {.cone = settings.cone, .edges = settings.cone_edges});
+  const FrictionSolution solution = solver_.solve(
+      problem_, warm, {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = at_rest ? rest_tolerance : tolerance});
   for (int row = 0; row < row_count_; ++row) {
     if (local[row] < 0) continue;
     r_[row] = solution.r[local[row]];
