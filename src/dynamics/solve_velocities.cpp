@@ -14,9 +14,6 @@ static constexpr double sliding_speed = 1e-6;
 // Faults of a solution are at most this part of the largest velocity that gravity and motors give in a step, some cm/s; of
 // bodies that are slower than rest_speed, a larger part: they may creep by 0.1 nm/s before forces are found anew.
 static constexpr double tolerance = 1e-10, rest_tolerance = 1e-8, rest_speed = 1e-7;
-// What is slower after a step than such an acceleration makes it in one, as a part of gravity's, or of 1 m/s^2, stands. What undid
-// a fault of rounding would else be a fault itself in the next step, and what rests would never keep its forces.
-static constexpr double still = 1e-8;
 // Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so [m/s].
 static constexpr double pushed_part = 0.2, pushed_at_most = 0.1;
 // Below this speed of approach nothing bounces [m/s].
@@ -296,17 +293,14 @@ void Stepper::solve_island(const std::vector<int>& blocks) {
   report.residual = std::max(report.residual, solution.residual);
 }
 
-void Stepper::apply_impulses(double h) {
-  const double slow = still * h * std::max(1.0, world_.gravity().norm());
+void Stepper::apply_impulses() {
   for (size_t t = 0; t < trees_.size(); ++t) {
     const TreeRows& rows = tree_rows_[t];
     if (rows.rows.empty()) continue;
     Eigen::VectorXd change = Eigen::VectorXd::Zero(system_.trees[t].size());
     for (size_t i = 0; i < rows.rows.size(); ++i) change += r_[rows.rows[i]] * rows.Y.col(static_cast<Eigen::Index>(i));
     trees_[t].other_half_solve(change);
-    auto v = v_.segment(system_.trees[t].first, system_.trees[t].size());
-    v += change;
-    if (v.lpNorm<Eigen::Infinity>() < slow) v.setZero();
+    v_.segment(system_.trees[t].first, system_.trees[t].size()) += change;
   }
 }
 
@@ -414,7 +408,7 @@ void Stepper::solve(double h) {
     solve_by_ode(h);
   } else {
     for (const auto& island : find_islands()) solve_island(island);
-    apply_impulses(h);
+    apply_impulses();
   }
   keep(h);
 }

@@ -61,7 +61,7 @@ class Stepper {
   void find_rows(double h);
   std::vector<std::vector<int>> find_islands() const;
   void solve_island(const std::vector<int>& blocks);
-  void apply_impulses(double h);
+  void apply_impulses();
   void solve_by_ode(double h);
   void keep(double h);
   void disengage(double h);
