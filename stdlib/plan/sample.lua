@@ -24,6 +24,7 @@ end
 --- > clench.plan.sample {hand = hand, object = flask, verify = {lfit = 0}}  --> error: unknown key 'lfit'
 return function(options)
   return sampling("sample", options, function(read, own, job)
+    own.near_found = true
     own.refine = read:count("refine", 10, 0, 10000)
     own.verify = read_verify(read, job.grasp_options)
   end)
