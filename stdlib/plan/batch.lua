@@ -33,8 +33,7 @@ end
 function batch.try(job, told, next_state, options)
   told.candidates, told.rejected = 0, {}
   local shared = {hand = job.hand, object = job.object, approach = options.approach, back = options.back,
-                  grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, seed = job.seed,
-                  over = job.seconds and job.began + job.seconds}
+                  grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, seed = job.seed}
   local found, founders, number = {}, {}, 0
   local tally = {near = {tried = 0, found = 0}, elsewhere = {tried = 0, found = 0}}
   if options.near_found then next_state = starts_near_found(job, next_state, founders, tally) end
@@ -63,7 +62,7 @@ function batch.try(job, told, next_state, options)
   end
 
   job:interruptible(function()
-    while not job:is_over() and (not options.count or #found < options.count) do
+    while job:goes_on() and (not options.count or #found < options.count) do
       local items = {}
       for i = 1, chunks do
         local states = {}
@@ -80,6 +79,7 @@ function batch.try(job, told, next_state, options)
         items[i] = states
       end
       if #items == 0 then break end
+      shared.over = job.seconds and job.began + job.seconds
       clench.parallel.map("clench.plan.batch_worker", items, {threads = job.threads, shared = shared, each = take})
     end
   end)

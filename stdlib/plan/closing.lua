@@ -13,6 +13,7 @@ local function measure(hand, object, options)
   local grasp = clench.grasp(hand, object, options)
   if #grasp.points == 0 then return nil end
   grasp:quality "epsilon"
+  grasp.collision_free = not hand.world:collides(hand)
   return grasp
 end
 
@@ -25,6 +26,41 @@ local function close_behind(hand, object, dofs, steps, options)
       hand:set_posture(clench.pose {xyz = back * (i * steps.length)} * touched, dofs)
       if hand.world:collides(hand) then break end
     end
+    local next_grasp = measure(hand, object, options)
+    if next_grasp and (not grasp or next_grasp.epsilon > grasp.epsilon) then grasp = next_grasp end
+    if grasp and grasp.epsilon > 0 then break end
+  end
+  return grasp
+end
+
+-- does one DOF close two fingers? then it stops where the first of them touches
+local function is_coupled(hand)
+  local info, chain_of = hand.dof_info, {}
+  for number, chain in ipairs(hand.chains) do
+    for _, joint in ipairs(chain.joints) do
+      local other = chain_of[joint.dof]
+      if other and other ~= number and info[joint.dof].default_velocity ~= 0 then return true end
+      chain_of[joint.dof] = number
+    end
+  end
+  return false
+end
+
+local max_way, max_centrings = 0.05, 4  -- how far a hand gives way [m], and how often
+
+-- Where one side alone touches, the hand gives way by half of what is left on the other side, and closes again.
+local function centre(hand, object, grasp, options)
+  for _ = 1, max_centrings do
+    local push = clench.vec3(0, 0, 0)
+    for _, contact in ipairs(hand.world:contacts(hand, object)) do push = push + contact.normal end
+    if push:norm() < 0.5 then break end
+    push = push / push:norm()
+    local X_WO = object.pose
+    local move = object:move_to(clench.pose {xyz = push * max_way} * X_WO)
+    object.pose = X_WO
+    if not move.touched then break end
+    hand.pose = clench.pose {xyz = push * (-move.fraction * max_way / 2)} * hand.pose
+    if hand.world:collides(hand) then break end
     local next_grasp = measure(hand, object, options)
     if next_grasp and (not grasp or next_grasp.epsilon > grasp.epsilon) then grasp = next_grasp end
     if grasp and grasp.epsilon > 0 then break end
@@ -53,8 +89,8 @@ function closing.close(hand, object, state, options)
   end
   local grasp = close_behind(hand, object, state.dofs, options.back or at_once, options.grasp)
   if not grasp then return nil, "nothing touched" end
+  if grasp.epsilon <= 0 and is_coupled(hand) then grasp = centre(hand, object, grasp, options.grasp) end
   grasp.pregrasp = {pose = state.pose, dofs = state.dofs}
-  grasp.collision_free = not hand.world:collides(hand)
   return grasp
 end
 

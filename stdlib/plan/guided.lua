@@ -81,7 +81,7 @@ return function(options)
   local bar <close> = clench.progress(job.steps, job.subject)
   local done = 0
   job:interruptible(function()
-    while (done < job.steps or #waiting > 0) and not job:is_over() and #found < count do
+    while (done < job.steps or #waiting > 0) and job:goes_on() and #found < count do
       while #running < children and #waiting > 0 do
         running[#running + 1] = begin_child(table.remove(waiting, 1))
       end

@@ -3,6 +3,7 @@
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
+local running = require "clench.plan.running"
 local Job = {}
 Job.__index = Job
 
@@ -33,8 +34,25 @@ function Job:annealing(options)
   return clench.annealing(all)
 end
 
---- has the time of the options run out, or was Ctrl-C pressed?
-function Job:is_over() return self.stopped or self.seconds ~= nil and clench.clock() - self.began >= self.seconds end
+-- Waits while the search is paused. What an energy of the script moves is meanwhile as the script left it.
+function Job:rest()
+  local paused_at, here = clench.clock(), self.before and self.world:snapshot()
+  if here then self.given_world:restore(self.before) end
+  coroutine.yield()
+  if here then
+    self.before = self.given_world:snapshot()
+    self.world:restore(here)
+  end
+  self.began = self.began + clench.clock() - paused_at
+end
+
+--- Between two pieces of work: false when the time of the options has run out, Ctrl-C was pressed or the search is cancelled.
+function Job:goes_on()
+  local search = self.search
+  if search and search.pause_at and clench.clock() >= search.pause_at and not search.cancelled then self:rest() end
+  if search and search.cancelled then self.cancelled = true end
+  return not (self.stopped or self.cancelled or self.seconds ~= nil and clench.clock() - self.began >= self.seconds)
+end
 
 local patience = 0.25  -- half of what a script has after Ctrl-C [s]
 
@@ -103,6 +121,7 @@ return function(subject, given, own)
   end
   job.hand, job.object = job.world:robot(hand.name), job.world:body(object.name)
   job.given_hand, job.given_object = hand, object
+  job.search = running[coroutine.running()]
   job.began = clench.clock()
   return job
 end

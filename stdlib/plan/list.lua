@@ -34,7 +34,7 @@ return function(options)
   local found = {}
   job:interruptible(function()
     for i, item in ipairs(states) do
-      if job:is_over() then break end
+      if not job:goes_on() then break end
       local state = state_of(item, i)
       told.candidates = told.candidates + 1
       local value = energy and closing.place(job.hand, job.object, state) and energy()

@@ -23,7 +23,7 @@ return function(options)
   local told, found, done = nil, {}, 0
   local loops = 0
   job:interruptible(function()
-    while done < job.steps and not job:is_over() and #found < count do
+    while done < job.steps and job:goes_on() and #found < count do
       local before = done
       told = chain.run(job, search, math.min(loop_steps, job.steps - done), told)
       done, loops = told.steps, loops + 1

@@ -54,6 +54,6 @@ return function(job, found, told, options)
     end
   end
   told.grasps, told.alike, told.found = #kept, alike, #found
-  told.seconds, told.stopped = job:elapsed(), job.stopped
+  told.seconds, told.stopped = job:elapsed(), job.stopped or job.cancelled
   return setmetatable({grasps = grasps, report = report(job, told)}, Run)
 end
