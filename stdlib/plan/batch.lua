@@ -33,7 +33,7 @@ end
 function batch.try(job, told, next_state, options)
   told.candidates, told.rejected = 0, {}
   local shared = {hand = job.hand, object = job.object, approach = options.approach, back = options.back,
-                  grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, seed = job.seed}
+                  grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, touch = job.touch, seed = job.seed}
   local found, founders, number = {}, {}, 0
   local tally = {near = {tried = 0, found = 0}, elsewhere = {tried = 0, found = 0}}
   if options.near_found then next_state = starts_near_found(job, next_state, founders, tally) end

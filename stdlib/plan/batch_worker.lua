@@ -1,6 +1,7 @@
 --- What a thread does with a few starts: from each the hand closes; what is in force closure is made better and verified,
 --- as asked. For clench.parallel.map.
 local closing = require "clench.plan.closing"
+local touch = require "clench.plan.touch"
 local neighbour = require "clench.plan.neighbour"
 local verification = require "clench.plan.verification"
 
@@ -11,7 +12,7 @@ local function improve(hand, object, state, grasp, random, shared)
   for _ = 1, shared.refine do
     local try = neighbour(kept, centre, random, size, hand, object)
     local better = closing.close(hand, object, try, shared)
-    if better and better.collision_free and better.epsilon > grasp.epsilon then
+    if better and better.collision_free and better.epsilon > grasp.epsilon and not touch.fault(shared.touch, better) then
       grasp, kept, size = better, try, math.min(1, size * 1.5)
     else
       size = size * 0.8
@@ -21,7 +22,7 @@ local function improve(hand, object, state, grasp, random, shared)
 end
 
 ---@param states {pose: pose, dofs: number[], retreat?: number, number: integer}[]
----@param shared {hand: robot, object: body, approach?: number, back?: table, grasp?: table, refine: integer, verify?: table, seed: integer, over?: number}  over: when there is no time left, of clench.clock
+---@param shared {hand: robot, object: body, approach?: number, back?: table, grasp?: table, refine: integer, verify?: table, touch?: table, seed: integer, over?: number}  over: when there is no time left, of clench.clock
 ---@return {grasps: table[], rejected: table<string, integer>}  grasps: {grasp, number, numbers, start}
 return function(states, shared)
   local hand, object = shared.hand, shared.object
@@ -36,6 +37,8 @@ return function(states, shared)
         reject(why)
       elseif grasp.epsilon <= 0 then
         reject "no force closure"
+      elseif touch.fault(shared.touch, grasp) then
+        reject(touch.fault(shared.touch, grasp))
       else
         local numbers, number = nil, state.number
         if shared.refine > 0 then

@@ -3,7 +3,9 @@
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
+local closing = require "clench.plan.closing"
 local running = require "clench.plan.running"
+local touch = require "clench.plan.touch"
 local Job = {}
 Job.__index = Job
 
@@ -71,6 +73,16 @@ function Job:interruptible(search)
   error(problem, 0)
 end
 
+--- The hand closes from a state; why it gave no grasp is counted in what the report tells.
+---@param approach? number  as of closing.close [m]
+function Job:close(hand, object, state, told, approach)
+  local grasp, why = closing.close(hand, object, state, {approach = approach, grasp = self.grasp_options})
+  why = why or touch.fault(self.touch, grasp)
+  if not why then return grasp end
+  told.rejected = told.rejected or {}
+  told.rejected[why] = (told.rejected[why] or 0) + 1
+end
+
 function Job:elapsed() return clench.clock() - self.began end
 
 --- the hand as it was given is put back, where the planner moved it
@@ -107,6 +119,7 @@ return function(subject, given, own)
   if job.seconds ~= nil then job.seconds = read:positive "seconds" end
   job.grasp_options = read:raw "grasp" or {}
   if type(job.grasp_options) ~= "table" then read:expected("grasp", "a table of options of clench.grasp", job.grasp_options) end
+  job.touch = touch.read(read, hand)
   for _, key in ipairs(space_keys) do job.space[key] = read:raw(key) end
   if own then own(read, job) end
   read:done()

@@ -29,7 +29,7 @@ return function(options)
       done, loops = told.steps, loops + 1
       chain.energies(told, search)
       for _, state in ipairs(search.best) do
-        local grasp = closing.close(job.hand, job.object, state, {grasp = job.grasp_options})
+        local grasp = job:close(job.hand, job.object, state, told)
         if grasp then found[#found + 1] = closing.note(grasp, "loop", {energy = state.energy, step = state.step, seed = job.seed, loop = loops}) end
         search:avoid(state)
       end

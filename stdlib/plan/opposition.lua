@@ -13,8 +13,8 @@ local function mean(points)
   return sum / #points
 end
 
--- Chains that close: neither a palm nor a wrist nor a frame that marks a place is a finger. Where nothing closes, all are.
-local function fingers_of(hand)
+--- Chains that close: neither a palm nor a wrist nor a frame that marks a place is a finger. Where nothing closes, all are.
+function opposition.fingers(hand)
   local info, fingers = hand.dof_info, {}
   for _, chain in ipairs(hand.chains) do
     local is_finger = false
@@ -26,7 +26,7 @@ end
 
 local function tips_of(hand)
   local tips = {}
-  for _, chain in ipairs(fingers_of(hand)) do
+  for _, chain in ipairs(opposition.fingers(hand)) do
     local last = chain.links[#chain.links]
     if last then
       local bounds = last.bounds_in_world  -- nil of a frame without a surface, as URDF marks a tip

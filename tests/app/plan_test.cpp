@@ -48,6 +48,15 @@ TEST_CASE("plan lists the best grasps, writes them best first, and says what was
   CHECK(std::count(list.begin(), list.end(), '\n') == 2);
 }
 
+TEST_CASE("plan asks for fingertip grasps") {
+  const Folder folder;
+  const std::string out = folder / "a.jsonl";
+  const auto result = run(barrett + "--count 3 --contacts fingertip -o " + out);
+  CHECK(result.code == 0);
+  CHECK(has(result.out, "touched with other links than it may: "));
+  CHECK(text_of(out).find("barrett_base\"") == std::string::npos);
+}
+
 TEST_CASE("what plan is given badly is told in one sentence, before the search") {
   const Folder folder;
   const auto said = [](const std::string& options, const std::string& sentence, int code = 2) {
@@ -59,6 +68,7 @@ TEST_CASE("what plan is given badly is told in one sentence, before the search")
   said("--count 0", "--count: Value 0 not in range 1 to 1000000");
   said("--seconds -1", "--seconds");
   said("--seed x", "--seed: Failed parsing x as a INT");
+  said("--contacts finger", "--contacts: finger not in {");
   said("--threads 0", "--threads: Value 0 not in range 1 to 1024");
   said("--mass none", "--mass");
   said("--pose 1,2", "--pose: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '1,2'");
