@@ -43,7 +43,7 @@ local kinds = {
 local function link_name(read, hand, place, name)
   if type(name) ~= "string" then read:expected(place, "the name of a link", name) end
   local ok, link = pcall(hand.link, hand, name)
-  if not ok then read:fail("%s: %s", place, (tostring(link):gsub("^hand:link: ", ""))) end
+  if not ok then read:fail("%s: %s", place, (tostring(link):gsub("^.-hand:link: ", ""))) end
   return link.name
 end
 
