@@ -1002,6 +1002,19 @@ function clench.files.pregrasps(path, options) end
 ---@param text string
 function clench.files.save_text(path, text) end
 
+---Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of what is in them.
+---@param name string # for errors
+---@param text string
+---@param separator? string # "," by default, ";" or a tab
+---@return table[] records # lists of cells, each with its `line`, and `quoted`: of which cells stood in quotes
+function clench.files.csv_records(name, text, separator) end
+
+---A text as a cell of comma-separated values: in quotes where it would be read otherwise, or as a number, true or false.
+---@param text string
+---@param separator? string # "," by default, ";" or a tab
+---@return string
+function clench.files.csv_text(text, separator) end
+
 ---Writes pre-grasps as a planner's list.
 ---@param path string
 ---@param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[]
