@@ -1112,7 +1112,7 @@ function clench.energy.penetration(options) end
 ---@field cores integer # Threads that this machine runs at once.
 clench.parallel = {}
 
----Calls a function for each item of a list, in many threads, each with a state of Lua and worlds of its own. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew.
+---Calls a function for each item of a list, in many threads, each with a state of Lua and worlds of its own. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew. All states together may have as much memory as the one that calls.
 ---@param task function|string # (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
 ---@param items table # a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
 ---@param options? {threads?: integer, shared?: any, each?: function} # threads: all cores by default; shared: what every state is given once; each(result, number): called here in the order of the items, as soon as they are done

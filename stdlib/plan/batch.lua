@@ -3,7 +3,7 @@ local closing = require "clench.plan.closing"
 local neighbour = require "clench.plan.neighbour"
 local batch = {}
 
-local chunk, chunks = 4, 16  -- states that one call tries; calls of a round
+local chunk, chunks = 2, 32  -- states that one call tries, so few that what is found is soon told; calls of a round
 
 -- Once there are grasps, each second pair of starts begins near those, as long as that succeeds no less often than elsewhere; otherwise
 -- each eighth.

@@ -137,6 +137,30 @@ TEST_CASE("Ctrl-C ends a search with the grasps so far and the code 130") {
   CHECK(std::stod(list) >= std::stod(list.substr(list.find('\n'))));
 }
 
+TEST_CASE("killing a search loses none of the grasps that its file has, and at most the last second's") {
+  const Folder folder;
+  const std::string out = folder / "a.jsonl";
+  // the file's age when the program dies, and its lines: no grasp that was found may wait in a buffer for long
+  const auto script = folder.file(
+      "kill.sh", std::string(CLENCH_COMMAND) + " " + barrett + "--no-verify --seconds 60 --threads 1 -o " + out +
+                     " & pid=$!\n"
+                     "while [ $(cat " + out + " 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.05; done\n"
+                     "lines=$(wc -l < " + out + ")\nsleep 1\nkill -9 $pid\nwait $pid 2>/dev/null\n"
+                     "echo code $? more $(( $(wc -l < " + out + ") - lines ))\n");
+  FILE* pipe = popen(("bash " + script + " 2>&1").c_str(), "r");
+  std::string text;
+  char buffer[4096];
+  while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
+  pclose(pipe);
+  CHECK(has(text, "code 137 more "));
+  // within that second more were written, each whole
+  CHECK(std::stoi(text.substr(text.rfind("more ") + 5)) > 0);
+  const std::string list = epsilons(out), file = text_of(out);
+  CHECK(list.find("clench") == std::string::npos);
+  CHECK(file.ends_with("}\n"));
+  CHECK(std::count(list.begin(), list.end(), '\n') == std::count(file.begin(), file.end(), '\n') - 1);
+}
+
 TEST_CASE("Ctrl-C in the middle of any planner: the script gets the grasps so far, and ends with the code 130") {
   const Folder folder;
   const std::vector<std::string> planners = {"anneal",    "sample", "guided", "loop",
