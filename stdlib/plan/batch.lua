@@ -1,5 +1,6 @@
 --- What the planners that try many starts share: starts in rounds, over threads, until there are grasps enough.
 local closing = require "clench.plan.closing"
+local distinct = require "clench.plan.distinct"
 local neighbour = require "clench.plan.neighbour"
 local batch = {}
 
@@ -28,15 +29,17 @@ end
 ---@param job table  of clench.plan.job
 ---@param told table  of clench.plan.report
 ---@param next_state fun(number: integer): table?  nil: no more
----@param options {planner: string, limit: integer, count?: integer, near_found?: boolean, approach?: number, back?: table, refine?: integer, verify?: table, on_grasp?: fun(grasp: grasp)}
----@return grasp[]
+---@param options {planner: string, limit: integer, count?: integer, distance?: number, near_found?: boolean, approach?: number, back?: table, refine?: integer, verify?: table, on_grasp?: fun(grasp: grasp)}
+---@return grasp[]  more than `count`: rounds are tried to their end, and what is alike does not count
 function batch.try(job, told, next_state, options)
   told.candidates, told.rejected = 0, {}
   local shared = {hand = job.hand, object = job.object, approach = options.approach, back = options.back,
                   grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, touch = job.touch, seed = job.seed}
-  local found, founders, number = {}, {}, 0
+  local found, founders, number, unlike = {}, {}, 0, 0
+  local is_new = distinct(job.hand, job.object, options.distance or 0)
   local tally = {near = {tried = 0, found = 0}, elsewhere = {tried = 0, found = 0}}
   if options.near_found then next_state = starts_near_found(job, next_state, founders, tally) end
+  local function tally_of(state) return state.is_near and tally.near or tally.elsewhere end
   local bar <close> = clench.progress(options.limit, job.subject)
 
   local function take(result)
@@ -53,8 +56,8 @@ function batch.try(job, told, next_state, options)
         new.taken = true
         found[#found + 1] = closing.note(new.grasp, options.planner, numbers)
         founders[#founders + 1] = new
-        local place = new.start.is_near and tally.near or tally.elsewhere
-        place.found = place.found + 1
+        if is_new(new.grasp) then unlike = unlike + 1 end
+        tally_of(new.start).found = tally_of(new.start).found + 1
         if options.on_grasp then options.on_grasp(new.grasp) end
       end
     end
@@ -62,7 +65,7 @@ function batch.try(job, told, next_state, options)
   end
 
   job:interruptible(function()
-    while job:goes_on() and (not options.count or #found < options.count) do
+    while job:goes_on() and (not options.count or unlike < options.count) do
       local items = {}
       for i = 1, chunks do
         local states = {}
@@ -71,8 +74,7 @@ function batch.try(job, told, next_state, options)
           if not state then break end
           number = number + 1
           state.number = number
-          local place = state.is_near and tally.near or tally.elsewhere
-          place.tried = place.tried + 1
+          tally_of(state).tried = tally_of(state).tried + 1
           states[#states + 1] = state
         end
         if #states == 0 then break end

@@ -1,5 +1,5 @@
 --- Where a hand may begin: before a point of the object's surface, looking at it, or about two points that face each other;
---- more or less opened.
+--- more or less opened. See plan.neighbour for starts near those that succeeded.
 local opposition = require "clench.plan.opposition"
 local starts = {}
 
@@ -99,8 +99,7 @@ local function describe(hand)
   local across = thumb or z:cross(math.abs(z.z) < 0.9 and clench.vec3(0, 0, 1) or clench.vec3(1, 0, 0))
   local middle = hand.approach.point
   if thumb then
-    local _
-    _, self.aperture = opposition.middle(hand, open, finger)
+    self.aperture = select(2, opposition.middle(hand, open, finger))
     middle = opposition.middle(hand, posture(self, 0.5, 0), finger)
   end
   self.X_FH = opposition.base_in_frame(hand, middle, across)
