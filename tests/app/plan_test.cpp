@@ -109,20 +109,24 @@ TEST_CASE("where nothing is found, plan ends with 1 and says why") {
   CHECK(epsilons(out).empty());
 }
 
-// starts a command, waits until a file has three lines, and sends a signal
-static std::string end_by(const std::string& signal, const std::string& command, const std::string& out) {
+// what a script of the shell prints
+static std::string output_of(const std::string& script) {
   const Folder folder;
-  const auto script = folder.file(
-      "end.sh", std::string(CLENCH_COMMAND) + " " + command +
-                    " & pid=$!\n"
-                    "while [ $(cat " + out + " 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.05; done\n"
-                    "kill -" + signal + " $pid\nwait $pid\necho code $?\n");
-  FILE* pipe = popen(("bash " + script + " 2>&1").c_str(), "r");
+  FILE* pipe = popen(("bash " + folder.file("script.sh", script) + " 2>&1").c_str(), "r");
   std::string text;
   char buffer[4096];
   while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
   pclose(pipe);
   return text;
+}
+
+// starts a command, waits until a file has three lines, and sends a signal
+static std::string end_by(const std::string& signal, const std::string& command, const std::string& out,
+                          const std::string& before = "") {
+  return output_of(std::string(CLENCH_COMMAND) + " " + command +
+                   " & pid=$!\n"
+                   "while [ $(cat " + out + " 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.05; done\n" + before +
+                   "\nkill -" + signal + " $pid\nwait $pid 2>/dev/null\necho code $?\n");
 }
 
 TEST_CASE("Ctrl-C ends a search with the grasps so far and the code 130") {
@@ -140,19 +144,9 @@ TEST_CASE("Ctrl-C ends a search with the grasps so far and the code 130") {
 TEST_CASE("killing a search loses none of the grasps that its file has, and at most the last second's") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
-  // the file's age when the program dies, and its lines: no grasp that was found may wait in a buffer for long
-  const auto script = folder.file(
-      "kill.sh", std::string(CLENCH_COMMAND) + " " + barrett + "--no-verify --seconds 60 --threads 1 -o " + out +
-                     " & pid=$!\n"
-                     "while [ $(cat " + out + " 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.05; done\n"
-                     "lines=$(wc -l < " + out + ")\nsleep 1\nkill -9 $pid\nwait $pid 2>/dev/null\n"
-                     "echo code $? more $(( $(wc -l < " + out + ") - lines ))\n");
-  FILE* pipe = popen(("bash " + script + " 2>&1").c_str(), "r");
-  std::string text;
-  char buffer[4096];
-  while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
-  pclose(pipe);
-  CHECK(has(text, "code 137 more "));
+  const std::string text = end_by("KILL", barrett + "--no-verify --seconds 60 --threads 1 -o " + out, out,
+                                  "lines=$(wc -l < " + out + ")\nsleep 1\necho more $(( $(wc -l < " + out + ") - lines ))");
+  CHECK(has(text, "code 137"));
   // within that second more were written, each whole
   CHECK(std::stoi(text.substr(text.rfind("more ") + 5)) > 0);
   const std::string list = epsilons(out), file = text_of(out);
