@@ -186,4 +186,4 @@ function csv.read(path, options)
   return rows
 end
 
-return csv
+return require "clench.sealed"("clench.csv", csv)

@@ -3,6 +3,7 @@
 #include "clench/base/suggest.h"
 #include "clench/model/build.h"
 #include "clench/script/bind/bind.h"
+#include "clench/script/bind/named_list.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/bind/world/world_files.h"
@@ -78,14 +79,10 @@ static int remove(lua_State* L) {
 
 // --- finding ---
 
-template <class Handle, class Ids>
-static int push_handles(lua_State* L, const WorldPtr& world, const Ids& ids) {
-  return push_list_of(L, ids, [&](auto id) { push(L, Handle{world, id}); });
-}
-
 static int get_bodies(lua_State* L) {
   const auto& handle = self<WorldHandle>(L);
-  return push_bodies(L, handle.world, handle.world->bodies());
+  push_bodies(L, handle.world, handle.world->bodies());
+  return set_finder(L, "world:body", body_class);
 }
 
 static int push_kind(lua_State* L, BodyKind kind) {
@@ -93,7 +90,8 @@ static int push_kind(lua_State* L, BodyKind kind) {
   std::vector<Id<Body>> ids;
   for (const auto id : handle.world->bodies())
     if (handle.world->body(id).kind == kind) ids.push_back(id);
-  return push_bodies(L, handle.world, ids);
+  push_bodies(L, handle.world, ids);
+  return set_finder(L, "world:body", body_class);
 }
 
 static int get_objects(lua_State* L) { return push_kind(L, BodyKind::object); }
@@ -101,7 +99,8 @@ static int get_obstacles(lua_State* L) { return push_kind(L, BodyKind::obstacle)
 
 static int get_robots(lua_State* L) {
   const auto& handle = self<WorldHandle>(L);
-  return push_handles<RobotHandle>(L, handle.world, handle.world->robots());
+  push_list_of(L, handle.world->robots(), [&](auto id) { push(L, RobotHandle{handle.world, id}); });
+  return set_finder(L, "world:robot", robot_class);
 }
 
 static int body(lua_State* L) {
