@@ -615,9 +615,11 @@ function picture:pixel(x, y) end
 ---@return integer alpha
 function picture:alpha(x, y) end
 
----Numbers as a figure, made by `clench.plot`.
+---Numbers as a figure, made by `clench.plot` or `clench.chart`. Two with the same contents are equal.
 ---@class plot
 ---@field picture picture # It as pixels, on white.
+---@field width integer # Its width [pixels].
+---@field height integer # Its height [pixels].
 local plot = {}
 
 ---Writes a file: .svg, whose lines and letters a program for papers can change, or .png.
@@ -876,16 +878,16 @@ function clench.render(world, options) end
 
 ---Draws numbers as columns, one panel per series, each to its own scale, all over the same items, with its value where there is room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
 ---@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
----@return picture
+---@return plot # to be saved as PNG or SVG
 function clench.chart(options) end
 
----Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no graphics hardware.
----@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer} # kind: "line" (default), "points" or "bars"; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
+---Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them; with `categories`, numbers over names, as bars beside one another. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no graphics hardware.
+---@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], categories?: string[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer} # kind: "line", "points" or "bars", by default a line, of categories bars; categories: of each, every series has one y and no x; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
 ---@return plot
 function clench.plot(options) end
 
 ---Several pictures in one, in rows, each with its caption under it.
----@param options {pictures: picture[], captions?: string[], columns?: integer, gap?: integer} # columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
+---@param options {pictures: (picture|plot)[], captions?: string[], columns?: integer, gap?: integer} # columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
 ---@return picture
 function clench.sheet(options) end
 
