@@ -225,6 +225,7 @@ function mesh:save(path) end
 ---@field eigengrasps eigengrasps # Its eigengrasps, as they are at any time: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
 ---@field amplitudes number[] # Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
 ---@field virtual_contacts virtual_contact[] # Where it would like to touch: those of its file, those it was given, or, when there are none of either, those that find_virtual_contacts finds, anew each time. Set to a list of virtual contacts, contacts, or tables as of add_virtual_contact; to {} for none, to nil for those that are found.
+---@field has_own_virtual_contacts boolean # Do its virtual contacts come from a file or a script? Otherwise they are found from its geometry.
 ---@field glove {slopes: number[][], intercepts: number[]}? # Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that DOF = intercept + slopes * raw. nil when there is none. [rad per count, rad]
 ---@field tracker {number: integer, pose: pose}? # Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
 ---@field tendons {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[] # Tendons of its file, as they are there: they do not act yet. Points are in the frame of their link. [N/m, m]

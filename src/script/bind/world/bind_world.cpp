@@ -32,13 +32,16 @@ static int add_body(lua_State* L, BodyKind kind) {
   Table options(L, 3);
   const ReadOptions reading = read_options(L, options);
   const BodySpec spec = check_body_spec(L, 2, options, reading);
+  const std::string file = std::filesystem::path(spec.file).filename().string();
+  const std::string place = file.empty() ? subject(L) + ": mesh" : file;
+  Listeners told = reading.listeners();
+  // a script knows what it leaves open
+  if (file.empty()) told.note = {};
   if (kind == BodyKind::object) {
-    const std::string file = std::filesystem::path(spec.file).filename().string();
-    check_plausible_object(spec, file.empty() ? subject(L) + ": mesh" : file, reading.listeners());
-    Listeners told = reading.listeners();
-    // a script knows what it leaves open
-    if (file.empty()) told.note = {};
-    tell_assumed(std::array{&spec}, file.empty() ? subject(L) + ": mesh" : file, told);
+    check_plausible_object(spec, place, reading.listeners());
+    tell_assumed(std::array{&spec}, place, told);
+  } else {
+    tell_assumed({}, place, told, std::array{&spec});
   }
   const Pose pose = options.pose("pose", Pose{});
   const bool named = options.has("name");
