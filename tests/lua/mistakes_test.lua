@@ -27,6 +27,20 @@ test("degrees and millimetres in a pose are told once, with the script's line", 
   t.ok(said[2]:find("world:add_object: pose: it is 300 m away: metres? clench.mm(300) is 0.3", 1, true), said[2])
 end)
 
+test("a standoff in millimetres is told, and so is what a pose may be given by", function(t)
+  local hand = clench.load("worlds/barrett_mug.wld").robots[1]
+  t.fails(function() clench.pose {x = {1, 0, 0}} end,
+          "unknown key 'x', expected one of axis, angle, x_axis, y_axis, z_axis, rpy, quat, matrix, xyz")
+  t.fails(function() hand:link "fingr" end, "no link 'fingr', expected one of")
+  local said = clench.parallel.map(function()
+    local clench, said = require "clench", nil
+    clench.log.sink(function(_, text) said = text end)
+    clench.load("worlds/barrett_mug.wld").robots[1]:place_approach({0, 0, 0}, {0, 0, -1}, 50)
+    return said
+  end, {1})  -- in a state of its own, for it is told once in each
+  t.ok(said[1]:find("hand:place_approach: standoff: it is 50 m away: metres? clench.mm(50) is 0.05", 1, true), said[1])
+end)
+
 test("a slip in the name of a material is told once, and a new material is none", function(t)
   local said = warnings(function()
     local world = clench.world {}
