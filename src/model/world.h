@@ -93,6 +93,7 @@ class World {
   void set_inertia(Id<Body> body, const Eigen::Matrix3d& inertia);  ///< about com [kg m^2]
   void set_elastic_modulus(Id<Body> body, std::optional<double> modulus);
   void set_soft_layer(Id<Body> body, double height);    ///< > 0 [m]
+  void set_restitution(Id<Body> body, double ratio);    ///< in [0, 1]
   void set_poisson_ratio(Id<Body> body, double ratio);  ///< in [0, 0.5)
   void set_appearance(Id<Body> body, const Appearance& appearance);
 
@@ -110,6 +111,29 @@ class World {
   void set_gravity(const Eigen::Vector3d& gravity);
   const std::string& source() const { return model_->source; }
   void set_source(const std::string& source) { edit_model().source = source; }
+
+  // --- dynamics ---
+  // Whatever places things, the verbs above, brings what it places to rest.
+  const DynamicSettings& dynamic_settings() const { return settings_->dynamics; }
+  /// throws Error when a number is refused
+  void set_dynamic_settings(DynamicSettings settings);
+  /// null: all is at rest, and no time has passed
+  const DynamicState* dynamics() const { return state_.dynamics.get(); }
+  /// Its arrays have a place for everything that is there; DOFs that are new to it hold where they are.
+  DynamicState& edit_dynamics();
+  double time() const { return state_.dynamics ? state_.dynamics->time : 0; }
+  Twist twist(Id<Body> id) const;
+  /// Of an object, an obstacle that moves as it is told from then on, or a robot's base.
+  /// throws  Error for a link or what is not finite
+  void set_twist(Id<Body> id, const Twist& twist);
+  Eigen::VectorXd dof_velocities(Id<Robot> id) const;
+  /// throws  Error on a wrong count or a number that is not finite
+  void set_dof_velocities(Id<Robot> id, const Eigen::VectorXd& velocities);
+  /// What a step does: velocities, and everything else, stay. Nothing is checked but that it is a place.
+  void drift(Id<Body> body, const Pose& X_WB);
+  /// joints  all, those that do not follow their DOF among them
+  void drift(Id<Robot> robot, const Pose& X_WB, std::span<const double> dofs, std::span<const double> joints);
+  void set_follows_dof(Id<Robot> robot, int joint, bool follows);
 
   // --- what may collide ---
   void set_collision(bool on);                          ///< the whole world
@@ -159,6 +183,9 @@ class World {
   void erase(Id<Body> id);
   /// throws Error when another robot carries it
   void check_free(Id<Robot> robot) const;
+  void come_to_rest(Id<Body> body);
+  /// with all that it carries; its motors hold it where it is
+  void come_to_rest(Id<Robot> robot);
   void check_dof_count(Id<Robot> robot, const Eigen::VectorXd& q) const;
   /// A pose of a robot's base, and of all that moves with it: where they are to be.
   void find_places(Id<Robot> robot, const Pose& X_WB);

@@ -32,6 +32,23 @@ static void add(Hasher& h, const std::vector<VirtualContactSpec>& contacts) {
   }
 }
 
+// but for manifolds and warm starts
+static void add(Hasher& h, const DynamicState& state) {
+  h.add(state.time);
+  for (const Twist& twist : state.twists) add(h, twist.linear), add(h, twist.angular);
+  for (const double v : state.dof_velocities) h.add(v);
+  for (const double v : state.joint_velocities) h.add(v);
+  for (const Load& load : state.loads) add(h, load.force), add(h, load.torque);
+  for (const DofControl& c : state.controls) {
+    h.add(static_cast<uint64_t>(c.mode));
+    for (const double x : {c.target, c.velocity, c.effort}) h.add(x);
+    h.add(static_cast<uint64_t>(c.way.has_value()));
+    if (!c.way) continue;
+    for (const double x : {c.way->from, c.way->to, c.way->from_velocity, c.way->to_velocity, c.way->begin, c.way->duration})
+      h.add(x);
+  }
+}
+
 uint64_t World::hash() const {
   Hasher h;
   const auto flag = [&](bool on) { h.add(static_cast<uint64_t>(on)); };
@@ -47,6 +64,7 @@ uint64_t World::hash() const {
     h.add(b.elastic_modulus.value_or(0));
     h.add(b.soft_layer);
     h.add(b.poisson_ratio);
+    h.add(b.restitution);
     flag(settings_->switched_off.contains(id));
     h.add(b.shape ? b.shape->hash() : 0);
   }
@@ -74,7 +92,7 @@ uint64_t World::hash() const {
   for (int i = 0; i < count; ++i)
     for (int j = 0; j <= i; ++j) {
       const Friction f = settings_->materials.friction(i, j);
-      h.add(f.statics), h.add(f.kinetic);
+      h.add(f.statics), h.add(f.kinetic), h.add(f.restitution.value_or(-1));
     }
   for (const auto& [a, b] : settings_->pairs_off) h.add(body(a).name), h.add(body(b).name);
   h.add(settings_->contact_threshold);
@@ -92,6 +110,8 @@ uint64_t World::hash() const {
     }
   }
   flag(settings_->collision_on);
+  flag(state_.dynamics != nullptr);
+  if (state_.dynamics) add(h, *state_.dynamics);
   return h.value();
 }
 

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "clench/contact/materials.h"
+#include "clench/model/dynamic_settings.h"
+#include "clench/model/dynamic_state.h"
 #include "clench/model/robot.h"
 
 namespace clench {
@@ -52,6 +54,7 @@ struct WorldSettings {
   std::optional<Camera> camera;
   Eigen::Vector3d gravity{0, 0, -standard_gravity};  ///< in the world frame [m/s^2]
   std::vector<Keyframe> keyframes;                   ///< of different names
+  DynamicSettings dynamics;
   uint64_t stamp = 0;  ///< as the model's
 
   /// as far as the settings go
@@ -69,6 +72,8 @@ struct WorldState {
   std::vector<double> joints;  ///< q, from Robot::first_joint on [rad or m]
   std::vector<unsigned char>
       follows_dof;  ///< of each joint: is it engaged, and stands where its DOF has it?
+  /// null until something moves: then all is at rest, and no time has passed. Copied by who changes it while it is shared.
+  std::shared_ptr<DynamicState> dynamics;
 
   /// so that a copy of the other one allocates nothing
   void make_room_for(const WorldState& other);

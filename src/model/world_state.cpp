@@ -15,6 +15,7 @@ void World::set_pose(Id<Body> id, const Pose& X_WB) {
          excerpt(robot(body(id).robot).name));
   check_place(X_WB, the_body(body(id).name));
   state_.X_WB[id.index] = X_WB;
+  come_to_rest(id);
 }
 
 void World::check_free(Id<Robot> id) const {
@@ -27,6 +28,7 @@ void World::set_pose(Id<Robot> id, const Pose& X_WB) {
   check_free(id);
   check_place(X_WB, fmt::format("robot '{}'", excerpt(robot(id).name)));
   place(id, X_WB);
+  come_to_rest(id);
 }
 
 void World::find_places(Id<Robot> id, const Pose& X_WB) {
@@ -140,6 +142,7 @@ void World::set_joints(Id<Robot> id, const Pose& X_WB, const Eigen::VectorXd& q,
     std::ranges::copy(scratch_.follows_dof, follows);
     throw;
   }
+  come_to_rest(id);
 }
 
 }  // namespace clench

@@ -46,6 +46,10 @@ inline constexpr Quantity friction_rule{"friction", "", 0, 1e6};
 // above the rounding of a metre; beyond a centimetre whole fingers would be one contact
 inline constexpr Quantity contact_threshold_rule{"contact threshold", "m", 1e-9, 0.01};
 inline constexpr Quantity gravity_rule{"gravity", "m/s^2", -1e6, 1e6};
+inline constexpr Quantity time_step_rule{"time step", "s", 1e-7, 1};
+inline constexpr Quantity duration_rule{"time", "s", 0, 1e6};
+inline constexpr Quantity velocity_rule{"velocity", "m/s or rad/s", -1e6, 1e6};
+inline constexpr Quantity load_rule{"load", "N or N m", -1e15, 1e15};
 inline constexpr Quantity share_rule{"share", "", 0, 1};  ///< colours, transparency
 /// of joints and DOFs; files write 1e16 and the like for none
 inline constexpr Quantity limit_rule{"limit", "rad or m", -largest_number, largest_number};

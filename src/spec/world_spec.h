@@ -89,7 +89,7 @@ struct KeyframeOf {
 };
 using KeyframeSpec = KeyframeOf<int, int>;  ///< indices into bodies and robots
 
-inline constexpr double standard_gravity = 9.80665;  ///< [m/s^2]
+inline constexpr double standard_gravity = 9.81;  ///< as simulators have it [m/s^2]
 
 struct WorldSpec {
   std::string source;

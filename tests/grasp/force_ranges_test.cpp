@@ -301,7 +301,7 @@ TEST_CASE("motors hold links of any mass and press with the rest") {
   demand.link_weights = true;
   each_power([&](double mass, bool) {
     if (mass > 1e12) return;
-    const double weight = 9.80665 * mass;
+    const double weight = 9.81 * mass;
     const auto ask = [&](double max_effort, EquilibriumStatus expected) {
       const Jaws j = upright_jaws(mass, max_effort);
       const Equilibrium e =
@@ -334,7 +334,7 @@ TEST_CASE("an object of any mass is pressed as its weight wants, and as robust a
           test::contact_at(0.1 * side * Vector3d::Unit(k), -side * Vector3d::Unit(k), 0.5));
   each_power([&](double mass, bool) {
     if (mass > 1e12) return;
-    const double weight = 9.80665 * mass;
+    const double weight = 9.81 * mass;
     Held pinched = held(test::pinch(0.5)), firm = held(faces);
     pinched.world.set_mass(pinched.grasp.object, mass);
     MeasuredGrasp measured(pinched.world, pinched.grasp);

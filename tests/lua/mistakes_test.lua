@@ -57,7 +57,7 @@ test("unknown keys name the nearest, and all when they are few", function(t)
   local world = clench.load "worlds/dlr_flask.wld"
   local hand = world.robots[1]
   t.fails(function() hand:autograsp {sped = 1} end,
-          "unknown key 'sped', expected one of speed, stop_at_contact, dofs, stages; did you mean 'speed'?")
+          "unknown key 'sped', expected one of speed, stop_at_contact, dofs, stages, dynamic; did you mean 'speed'?")
   t.fails(function() hand:approach_object {far = 1} end, "unknown key 'far', expected one of reach")
   t.fails(function() world:body "flsk" end, "did you mean 'flask'?")
   t.fails(function() world:robot "barrett" end, "no robot 'barrett' in this world, expected one of dlr")

@@ -1,6 +1,7 @@
 #include "clench/script/bind/library.h"
 
 #include "clench/script/bind/bind.h"
+#include "clench/script/bind/dynamics/dynamics.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/bind/planning/planning.h"
 
@@ -37,6 +38,8 @@ std::span<const Class* const> all_classes() {
       &grasps_class,      &energy_class,
       &annealing_class,
       &world_settings_class, &world_queries_class,
+      &world_dynamics_class, &motion_class,
+      &robot_dynamics_class,
   };
   return classes;
 }

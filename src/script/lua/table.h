@@ -46,6 +46,7 @@ class Table {
   /// returns  its type
   int push(const char* key);
 
+  lua_State* state() const { return L_; }
   What what(const char* key) const { return {L_, subject_, key}; }
   const std::string& subject() const { return subject_; }
 

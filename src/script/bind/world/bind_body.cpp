@@ -1,4 +1,5 @@
 #include "clench/script/bind/bind.h"
+#include "clench/script/bind/dynamics/dynamics.h"
 
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
@@ -140,6 +141,6 @@ const Class body_class{.name = "body",
                        .fields = fields,
                        .methods = methods,
                        .operators = operators,
-                       .parent = &entity_class};
+                       .parent = &motion_class};
 
 }  // namespace clench

@@ -1,4 +1,5 @@
 #include "clench/base/convert.h"
+#include "clench/dynamics/control/closing.h"
 #include "clench/model/dof.h"
 #include "clench/motion/drive.h"
 #include "clench/script/bind/bind.h"
@@ -143,7 +144,14 @@ static int autograsp(lua_State* L) {
   const double speed = options.number("speed", 1);
   const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
   const auto stages = read_stages(options, robot);
+  const bool dynamic = options.boolean("dynamic", false);
   options.done();
+  if (dynamic) {
+    if (!stages.empty() || driving.stop_at_contact)
+      fail("{}: dynamic closes all DOFs by their motors; it takes no dofs, stages or stop_at_contact", options.subject());
+    close_by_motors(*robot.world, robot.id, speed);
+    return 0;
+  }
   return push_drive(L, robot.world,
                     clench::autograsp(*robot.world, robot.id, speed, driving, stages));
 }
@@ -220,8 +228,8 @@ Drives all DOFs in proportion towards values, until contact stops them.
 Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway
 fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts
 and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed
-opens.
-@param options? {speed?: number, stop_at_contact?: boolean, dofs?: (integer|string)[], stages?: (integer|string)[][]}  dofs: only these, by number or name; stages: lists of them, one after the other
+opens. With `dynamic` nothing moves yet: its motors are told to close, and do so while the world runs; then nothing is returned.
+@param options? {speed?: number, stop_at_contact?: boolean, dofs?: (integer|string)[], stages?: (integer|string)[][], dynamic?: boolean}  dofs: only these, by number or name; stages: lists of them, one after the other
 @return table result  `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
 > hand:autograsp().moved  --> false
 > hand:open()

@@ -1,4 +1,5 @@
 #include "clench/script/bind/bind.h"
+#include "clench/script/bind/dynamics/dynamics.h"
 
 #include <cmath>
 #include <filesystem>
@@ -429,6 +430,6 @@ const Class hand_class{.name = "hand",
                            "glove, a position sensor.",
                        .fields = fields,
                        .methods = methods,
-                       .parent = &entity_class};
+                       .parent = &robot_dynamics_class};
 
 }  // namespace clench

@@ -3,8 +3,9 @@
 #include "clench/base/suggest.h"
 #include "clench/model/build.h"
 #include "clench/script/bind/bind.h"
-#include "clench/script/bind/named_list.h"
+#include "clench/script/bind/dynamics/dynamics.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/bind/named_list.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/bind/world/world_files.h"
 #include "clench/script/lua/guard.h"
@@ -23,6 +24,7 @@ static int new_world(lua_State* L) {
   Table options(L, 1);
   const auto world = std::make_shared<World>();
   world->set_contact_threshold(options.number("contact_threshold", world->contact_threshold()));
+  world->set_dynamic_settings(read_dynamic_settings(options));
   options.done();
   return push_world(L, world);
 }

@@ -2,6 +2,7 @@
 
 #include "clench/model/raycast.h"
 #include "clench/script/bind/bind.h"
+#include "clench/script/bind/dynamics/dynamics.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -115,6 +116,6 @@ const Class world_queries_class{.name = "world_queries",
                                        "they touch, what a ray meets.",
                                 .fields = {},
                                 .methods = methods,
-                                .parent = &world_settings_class};
+                                .parent = &world_dynamics_class};
 
 }  // namespace clench

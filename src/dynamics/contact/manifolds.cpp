@@ -1,0 +1,181 @@
+#include "clench/dynamics/contact/manifolds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/contact/contact_set.h"
+#include "clench/model/near_bodies.h"
+
+namespace clench {
+
+double displacement(const Pose& X_AB, const Pose& other, const Shape& b) {
+  if (X_AB == other) return 0;
+  const Eigen::Vector3d moved = other * b.centre() - X_AB * b.centre();
+  // the chord of the turn: 2 sin(angle / 2)
+  const double turned = 2 * (X_AB.rotation.conjugate() * other.rotation).vec().norm();
+  return moved.norm() + turned * b.radius();
+}
+
+double gap_of(const ManifoldPoint& point, const Pose& X_AB) {
+  return point.normal.dot(X_AB * point.p_b - point.p_a);
+}
+
+void update_gaps(const World& world, Manifold& manifold) {
+  const Pose X_AB = relative_pose(world, manifold.a, manifold.b);
+  for (ManifoldPoint& point : manifold.points) point.gap = gap_of(point, X_AB);
+}
+
+void update_torsion(ManifoldPoint& point) {
+  constexpr double noticed = 0.05;
+  if (!point.patch) return;
+  const double force = std::max(0.0, point.force.dot(point.normal));
+  if (force == 0 || std::abs(force - point.torsion_force) <= noticed * point.torsion_force) return;
+  point.torsion_radius = torsion_radius(*point.patch, force);
+  point.torsion_force = force;
+}
+
+bool follows(const World& world, const Manifold& m) {
+  return displacement(m.X_AB, relative_pose(world, m.a, m.b), *world.body(m.b).shape) <=
+         follows_within * world.contact_threshold();
+}
+
+// the one on the same features, else the nearest that no other has taken, within the radius in which contacts are one
+static void inherit(std::vector<ManifoldPoint>& points, const std::vector<ManifoldPoint>& before) {
+  constexpr double same = 1e-3;
+  std::vector<bool> taken(before.size());
+  std::vector<bool> found(points.size());
+  const auto take = [&](size_t i, size_t k) {
+    taken[k] = found[i] = true;
+    points[i].force = before[k].force;
+    points[i].torsion = before[k].torsion;
+    points[i].slides = before[k].slides;
+    points[i].torsion_radius = before[k].torsion_radius;
+    points[i].torsion_force = before[k].torsion_force;
+  };
+  for (size_t i = 0; i < points.size(); ++i)
+    for (size_t k = 0; k < before.size() && !found[i]; ++k)
+      if (!taken[k] && points[i].feature_a == before[k].feature_a && points[i].feature_b == before[k].feature_b)
+        take(i, k);
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (found[i]) continue;
+    size_t best = before.size();
+    double nearest = same;
+    for (size_t k = 0; k < before.size(); ++k) {
+      const double d = (points[i].p_b - before[k].p_b).norm();
+      if (!taken[k] && d < nearest) best = k, nearest = d;
+    }
+    if (best < before.size()) take(i, best);
+  }
+}
+
+static Elasticity elasticity(const Body& body) {
+  return {.modulus = body.elastic_modulus, .layer = body.soft_layer, .poisson = body.poisson_ratio};
+}
+
+// points whose bodies are soft there transmit torsion
+static void find_patches(const World& world, const Manifold& m, std::vector<ManifoldPoint>& points) {
+  const Body &a = world.body(m.a), &b = world.body(m.b);
+  if (!a.elastic_modulus && !b.elastic_modulus) return;
+  if (world.materials().friction(a.material, b.material).statics == 0) return;
+  std::vector<Touch> touches;
+  for (const ManifoldPoint& p : points)
+    touches.push_back({.p_a = p.p_a, .p_b = m.X_AB * p.p_b, .normal_b = p.normal, .gap = p.gap});
+  const auto sites = soft_sites(a.shape, b.shape, m.X_AB, elasticity(a), elasticity(b), touches);
+  for (size_t i = 0; i < points.size(); ++i) {
+    size_t first = 0;
+    while (sites[first] != sites[i]) ++first;
+    points[i].patch = first < i ? points[first].patch : std::make_shared<const SoftPatch>(soft_patch(*sites[i]));
+  }
+}
+
+void measure(World& world, Manifold& m) {
+  const auto [first, second] = ordered(m.a, m.b);
+  const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
+  const double threshold = world.contact_threshold();
+  m.X_AB = relative_pose(world, m.a, m.b);
+  std::vector<ManifoldPoint> points;
+  const double limit = manifold_reach + threshold;
+  m.clear = 0;
+  const double spheres = sphere_gap(world, m.a, m.b);
+  if (spheres > limit) {
+    m.clear = spheres;
+  } else {
+    const Distance d = distance(a, b, m.X_AB, limit, &world.context().pair(first, second));
+    m.clear = std::min(d.distance, limit);
+    if (d.distance == 0) return update_gaps(world, m);
+    if (d.distance > 0 && d.distance <= threshold)
+      for (const Touch& touch : contact_set(a, b, m.X_AB, {.threshold = threshold}))
+        points.push_back({.p_a = touch.p_a,
+                          .p_b = m.X_AB.inverse() * touch.p_b,
+                          .normal = touch.normal_b,
+                          .feature_a = touch.feature_a,
+                          .feature_b = touch.feature_b,
+                          .gap = touch.gap});
+  }
+  if (!points.empty()) find_patches(world, m, points);
+  if (!points.empty() && !m.points.empty()) inherit(points, m.points);
+  m.points = std::move(points);
+}
+
+static bool moves(const World& world, const System& system, Id<Body> id) {
+  return system.place(id).tree >= 0 || !world.twist(id).is_zero();
+}
+
+// two bodies on one joint of a tree, or both on what stands, never come nearer to each other
+static bool rigid(const World& world, const System& system, Id<Body> a, Id<Body> b) {
+  const auto p = system.place(a), q = system.place(b);
+  if (p.tree < 0 && q.tree < 0) return !moves(world, system, a) && !moves(world, system, b);
+  if (p.tree != q.tree) return false;
+  const Articulation& tree = system.trees[p.tree];
+  return tree.bodies[p.body].joint == tree.bodies[q.body].joint;
+}
+
+static bool swept_is_old(const World& world, const DynamicState& state, double travel) {
+  if (state.swept_model != world.model().stamp || state.swept_settings != world.settings().stamp) return true;
+  for (const auto id : world.bodies()) {
+    const Body& body = world.body(id);
+    if (body.shape && displacement(state.swept[id.index], world.pose(id), *body.shape) + travel > state.swept_reach / 2)
+      return true;
+  }
+  return false;
+}
+
+void find_manifolds(World& world, const System& system, double travel) {
+  DynamicState& state = world.edit_dynamics();
+  if (swept_is_old(world, state, travel)) {
+    state.swept_reach = std::max(manifold_reach, 8 * travel);
+    std::vector<Manifold> before = std::move(state.manifolds);
+    state.manifolds.clear();
+    QueryContext& context = world.context();
+    context.attend(world.lineage(), world.model());
+    const auto less = [](const Manifold& m, const BodyPair& p) { return std::pair(m.a, m.b) < p; };
+    std::ranges::sort(before, {}, [](const Manifold& m) { return std::pair(m.a, m.b); });
+    for (const BodyPair& near : near_bodies(world, state.swept_reach + world.contact_threshold(), context)) {
+      const BodyPair pair = ordered(near.first, near.second);
+      if (rigid(world, system, pair.first, pair.second)) continue;
+      const auto found = std::lower_bound(before.begin(), before.end(), pair, less);
+      if (found != before.end() && found->a == pair.first && found->b == pair.second) {
+        state.manifolds.push_back(std::move(*found));
+      } else {
+        state.manifolds.push_back({.a = pair.first, .b = pair.second, .X_AB = {}, .X_AB_left = {}, .points = {}});
+        Manifold& made = state.manifolds.back();
+        measure(world, made);
+        made.X_AB_left = made.X_AB;
+      }
+    }
+    state.swept.assign(world.model().bodies.size(), {});
+    for (const auto id : world.bodies()) state.swept[id.index] = world.pose(id);
+    state.swept_model = world.model().stamp;
+    state.swept_settings = world.settings().stamp;
+  }
+  for (Manifold& m : state.manifolds) {
+    const Pose X_AB = relative_pose(world, m.a, m.b);
+    if (X_AB == m.X_AB_left) continue;
+    // placed elsewhere: what was there is no warm start
+    m.points.clear();
+    measure(world, m);
+    m.X_AB_left = X_AB;
+  }
+}
+
+}  // namespace clench

@@ -1,0 +1,175 @@
+#include "clench/dynamics/control/motors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clench {
+
+static constexpr double no_bound = std::numeric_limits<double>::infinity();
+static constexpr double natural_frequency = 60;  // of motors without gains [rad/s]
+// a limit is a row when it is as near as this many steps at the present speed, or as this
+static constexpr double steps_ahead = 8, always_near = 0.05;
+
+static double bound_of(double effort) { return effort > 0 ? effort : no_bound; }
+
+Gains gains_of(const World& world, Id<Robot> id, int dof, double inertia) {
+  const RobotDynamics& settings = world.dynamic_settings().robot(id);
+  if (dof < static_cast<int>(settings.gains.size()) && settings.gains[dof]) return *settings.gains[dof];
+  const DofSpec& spec = world.robot(id).dofs[dof];
+  if (spec.kp > 0 || spec.kd > 0) return {spec.kp, spec.kd};
+  return {inertia * natural_frequency * natural_frequency, 2 * inertia * natural_frequency};
+}
+
+double tendon_stiffness(const World& world, Id<Robot> id, int joint) {
+  const Robot& robot = world.robot(id);
+  const int dof = robot.joints[joint].dof;
+  double sum = 0;
+  bool sprung = true;
+  for (const Joint& other : robot.joints)
+    if (other.dof == dof) sprung = sprung && other.spring > 0, sum += other.ratio * other.ratio;
+  if (sprung) return robot.joints[joint].spring;
+  // all alike, together as stiff as the motor
+  const double kp = robot.dofs[dof].kp;
+  return (kp > 0 ? kp : 1) / std::max(sum, 1e-12);
+}
+
+static bool is_compliant(const Robot& robot, const Coordinate& c) {
+  return robot.dofs[c.dof].kind == DofKind::compliant;
+}
+
+void find_joint_forces(const World& world, const Articulation& tree, double h, const DynamicState& state,
+                       JointForces& out) {
+  out.efforts.setZero(tree.size());
+  out.velocity_part.setZero(tree.size());
+  out.added.setZero(tree.size());
+  for (const TreeJoint& part : tree.joints) {
+    const Robot& robot = world.robot(part.robot);
+    const Joint& joint = robot.joints[part.joint];
+    const double q = world.joints(part.robot)[part.joint], r = part.ratio;
+    double stiffness = joint.spring, rest = joint.rest;
+    if (robot.dofs[joint.dof].kind == DofKind::compliant) {
+      const size_t dof = robot.first_dof + static_cast<size_t>(joint.dof);
+      stiffness = tendon_stiffness(world, part.robot, part.joint);
+      rest = joint.ratio * (world.dofs(part.robot)[joint.dof] + h * state.dof_velocities[dof]);
+    }
+    out.efforts[part.coordinate] -= r * stiffness * (q - rest);
+    out.velocity_part[part.coordinate] += r * r * h * (joint.viscous + h * stiffness);
+    out.added[part.coordinate] += r * r * joint.armature;
+  }
+  out.added += out.velocity_part;
+}
+
+void pull_tendons(const World& world, Id<Robot> id, double h, DynamicState& state) {
+  const Robot& robot = world.robot(id);
+  for (size_t d = 0; d < robot.dofs.size(); ++d) {
+    const DofSpec& dof = robot.dofs[d];
+    if (dof.kind != DofKind::compliant) continue;
+    const size_t index = robot.first_dof + d;
+    const DofControl& control = state.controls[index];
+    const double x = world.dofs(id)[static_cast<int>(d)];
+    double force = 0, stiffness = 0;
+    for (size_t j = 0; j < robot.joints.size(); ++j) {
+      const Joint& joint = robot.joints[j];
+      if (joint.dof != static_cast<int>(d)) continue;
+      const double k = tendon_stiffness(world, id, static_cast<int>(j));
+      force += joint.ratio * k * (joint.ratio * x - world.joints(id)[static_cast<int>(j)]);
+      stiffness += joint.ratio * joint.ratio * k;
+    }
+    const bool told = control.mode == ControlMode::effort || !world.dynamic_settings().robot(id).has_controller;
+    double speed;
+    if (told)  // until the springs give what it is told
+      speed = (control.effort - force) / (stiffness * h);
+    else if (control.mode == ControlMode::velocity)
+      speed = control.velocity;
+    else
+      speed = ((control.way ? control.way->value(state.time + h) : control.target) - x) / h;
+    const double fastest = dof.max_velocity > 0 ? dof.max_velocity : std::max(std::abs(dof.default_velocity), 1.0);
+    speed = std::clamp(speed, -fastest, fastest);
+    if (const double most = dof.max_effort; most > 0)
+      speed = std::clamp(speed, std::min(0.0, (-most - force) / (stiffness * h)), std::max(0.0, (most - force) / (stiffness * h)));
+    speed = std::clamp(speed, (robot.limits[d][0] - x) / h, (robot.limits[d][1] - x) / h);
+    state.dof_velocities[index] = speed;
+    state.dof_efforts[index] = force;
+  }
+}
+
+namespace {
+
+class RowMaker {
+ public:
+  RowMaker(const World& world, const Articulation& tree, int number, const Eigen::MatrixXd& M, double h,
+           const DynamicState& state, std::vector<CoordinateRow>& out)
+      : world_(world), tree_(tree), number_(number), M_(M), h_(h), state_(state), out_(out) {}
+
+  void add(int i) {
+    const Coordinate& c = tree_.coordinates[i];
+    const Robot& robot = world_.robot(c.robot);
+    const int column = tree_.root_size() + i;
+    const bool alone = c.joint >= 0;
+    const double q = alone ? world_.joints(c.robot)[c.joint] : world_.dofs(c.robot)[c.dof];
+    const double v = alone ? state_.joint_velocities[c.joint_index] : state_.dof_velocities[c.dof_index];
+    if (!alone) add_motor(c, robot, column, q);
+    if (alone && !is_compliant(robot, c)) add_clutch(c, robot, column);
+    const std::array<double, 2> range =
+        alone ? std::array{robot.joints[c.joint].min, robot.joints[c.joint].max} : robot.limits[c.dof];
+    const int index = static_cast<int>(alone ? c.joint_index : c.dof_index);
+    const double near = steps_ahead * std::abs(v) * world_.dynamic_settings().step + always_near;
+    const double step = world_.dynamic_settings().step;
+    if (q - range[0] < near) push(RowKind::low_limit, index, column, (range[0] - q) / step, 0, no_bound);
+    if (range[1] - q < near) push(RowKind::high_limit, index, column, (range[1] - q) / step, -no_bound, 0);
+    double coulomb = 0;
+    for (const TreeJoint& joint : tree_.joints)
+      if (joint.coordinate == column)
+        coulomb += std::abs(joint.ratio) * world_.robot(joint.robot).joints[joint.joint].coulomb;
+    if (coulomb > 0) push(RowKind::dry_friction, index, column, 0, -coulomb * h_, coulomb * h_);
+  }
+
+ private:
+  void push(RowKind kind, int index, int column, double target, double low, double high, double compliance = 0) {
+    out_.push_back({kind, index, number_, column, target, low, high, compliance});
+  }
+
+  void add_motor(const Coordinate& c, const Robot& robot, int column, double q) {
+    const DofControl& control = state_.controls[c.dof_index];
+    if (control.mode == ControlMode::effort || !world_.dynamic_settings().robot(c.robot).has_controller) return;
+    Gains gains = gains_of(world_, c.robot, c.dof, M_(column, column));
+    double target = q, velocity = control.velocity;
+    if (control.mode == ControlMode::velocity) {
+      gains.kp = 0;
+      if (gains.kd <= 0) gains.kd = 2 * natural_frequency * M_(column, column);
+    } else {
+      target = control.way ? control.way->value(state_.time + h_) : control.target;
+      if (control.way) velocity = control.way->velocity(state_.time + h_);
+    }
+    const double most = bound_of(robot.dofs[c.dof].max_effort);
+    const double gain = h_ * (gains.kd + h_ * gains.kp);
+    if (!(gain > 0)) return;
+    push(RowKind::motor, static_cast<int>(c.dof_index), column,
+         h_ * (gains.kp * (target - q) + gains.kd * velocity) / gain, -most * h_, most * h_, 1 / gain);
+  }
+
+  // a joint that has left its breakaway DOF is held by its clutch
+  void add_clutch(const Coordinate& c, const Robot& robot, int column) {
+    const double most = bound_of(robot.dofs[c.dof].breakaway_torque) * h_;
+    push(RowKind::clutch, static_cast<int>(c.joint_index), column, 0, -most, most);
+  }
+
+  const World& world_;
+  const Articulation& tree_;
+  int number_;
+  const Eigen::MatrixXd& M_;
+  double h_;
+  const DynamicState& state_;
+  std::vector<CoordinateRow>& out_;
+};
+
+}  // namespace
+
+void add_coordinate_rows(const World& world, const Articulation& tree, int number, const Eigen::MatrixXd& mass_matrix,
+                         double h, const DynamicState& state, std::vector<CoordinateRow>& out) {
+  RowMaker maker(world, tree, number, mass_matrix, h, state, out);
+  for (int i = 0; i < static_cast<int>(tree.coordinates.size()); ++i) maker.add(i);
+}
+
+}  // namespace clench

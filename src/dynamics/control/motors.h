@@ -1,0 +1,47 @@
+// What motors, springs and friction do to the coordinates of a tree.
+#pragma once
+#include "clench/dynamics/tree/tree_dynamics.h"
+
+namespace clench {
+
+enum class RowKind { motor, low_limit, high_limit, dry_friction, clutch, weld };
+
+/// Of one coordinate: low <= impulse <= high holds its velocity at a target, which it may leave in the sense of the bound that
+/// is reached; with a compliance, velocity - target + compliance * impulse is 0 between them.
+struct CoordinateRow {
+  RowKind kind = RowKind::motor;
+  int index = 0;       ///< of the DOF or joint in the state's arrays
+  int tree = 0, coordinate = 0;
+  double target = 0;   ///< [rad/s or m/s]
+  double low = 0, high = 0;  ///< [N m s or N s]
+  double compliance = 0;
+};
+
+/// Forces on the coordinates of a tree, and what is added to its mass matrix so that springs and dampers act as they are when
+/// the step ends.
+struct JointForces {
+  Eigen::VectorXd efforts;  ///< [N m or N]
+  Eigen::VectorXd added;    ///< to the diagonal of the mass matrix
+  /// the part of it that acts on velocities, not on their change: damping h d and springs h^2 k
+  Eigen::VectorXd velocity_part;
+};
+
+/// h  length of the step [s]
+void find_joint_forces(const World& world, const Articulation& tree, double h, const DynamicState& state, JointForces& out);
+
+/// Motors, limits, dry friction and clutches.
+/// mass_matrix  of the tree: gains that no file gives follow from it
+void add_coordinate_rows(const World& world, const Articulation& tree, int number, const Eigen::MatrixXd& mass_matrix, double h,
+                         const DynamicState& state, std::vector<CoordinateRow>& out);
+
+/// Gains of a DOF's motor: those set for it, else its file's; else a motor of critical damping that swings back at
+/// 60 rad/s.   inertia  that the DOF feels [kg m^2 or kg]
+Gains gains_of(const World& world, Id<Robot> robot, int dof, double inertia);
+
+/// Tendons of compliant DOFs: how fast each goes to its target, as far as its effort allows. Their joints follow by springs.
+void pull_tendons(const World& world, Id<Robot> robot, double h, DynamicState& state);
+
+/// Stiffness between the tendon of a compliant DOF and a joint [N m/rad or N/m].
+double tendon_stiffness(const World& world, Id<Robot> robot, int joint);
+
+}  // namespace clench

@@ -1,0 +1,48 @@
+#include "clench/dynamics/measure.h"
+
+namespace clench {
+
+template <class Visit>
+static void each_moving(const World& world, Visit visit) {
+  for (const auto id : world.bodies()) {
+    const Body& body = world.body(id);
+    if (body.kind == BodyKind::obstacle) continue;
+    const Eigen::Matrix3d R = world.pose(id).matrix();
+    const Eigen::Matrix3d inertia = R * (body.mass * body.inertia_per_mass) * R.transpose();
+    visit(body, world.pose(id) * body.com, inertia, world.twist(id));
+  }
+}
+
+Momentum momentum(const World& world) {
+  Momentum out;
+  each_moving(world, [&](const Body& body, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia, const Twist& v) {
+    const Eigen::Vector3d linear = body.mass * v.linear;
+    out.linear += linear;
+    out.angular += inertia * v.angular + com.cross(linear);
+  });
+  return out;
+}
+
+Energy mechanical_energy(const World& world) {
+  Energy out;
+  each_moving(world, [&](const Body& body, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia, const Twist& v) {
+    out.kinetic += 0.5 * (body.mass * v.linear.squaredNorm() + v.angular.dot(inertia * v.angular));
+    out.potential -= body.mass * world.gravity().dot(com);
+  });
+  for (const auto id : world.robots()) {
+    const Robot& robot = world.robot(id);
+    for (size_t j = 0; j < robot.joints.size(); ++j) {
+      const Joint& joint = robot.joints[j];
+      const double q = world.joints(id)[static_cast<int>(j)];
+      if (robot.dofs[joint.dof].kind != DofKind::compliant)
+        out.potential += 0.5 * joint.spring * (q - joint.rest) * (q - joint.rest);
+      if (const DynamicState* state = world.dynamics(); state && robot.first_joint + j < state->joint_velocities.size()) {
+        const double v = state->joint_velocities[robot.first_joint + j];
+        out.kinetic += 0.5 * joint.armature * v * v;
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace clench

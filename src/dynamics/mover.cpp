@@ -1,0 +1,111 @@
+#include "clench/dynamics/mover.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clench {
+
+// turned by a rotation vector, in world axes
+static Eigen::Quaterniond turned_by(const Eigen::Quaterniond& q, const Eigen::Vector3d& turn) {
+  const double angle = turn.norm();
+  // half the sine over the angle; its series where the angle is small
+  const double s = angle > 1e-4 ? std::sin(angle / 2) / angle : 0.5 - angle * angle / 48;
+  const Eigen::Quaterniond step(std::cos(angle / 2), s * turn.x(), s * turn.y(), s * turn.z());
+  return (step * q).normalized();
+}
+
+static Pose moved_rigidly(const Pose& X_WB, const Eigen::Vector3d& com, const Twist& twist, double s) {
+  if (twist.is_zero()) return X_WB;
+  const Eigen::Vector3d c = X_WB * com + s * twist.linear;
+  const Eigen::Quaterniond turned = twist.angular.isZero(0) ? X_WB.rotation : turned_by(X_WB.rotation, s * twist.angular);
+  return {turned, c - turned * com};
+}
+
+Mover::Mover(World& world, const System& system) : world_(world) {
+  const DynamicState& state = world.edit_dynamics();
+  for (const auto id : world.bodies()) {
+    const BodyKind kind = world.body(id).kind;
+    if (kind == BodyKind::object || (kind == BodyKind::obstacle && !state.twists[id.index].is_zero()))
+      parts_.push_back({id, world.pose(id), state.twists[id.index], kind == BodyKind::object});
+  }
+  for (const Articulation& tree : system.trees)
+    for (const auto id : tree.robots) {
+      const Robot& robot = world.robot(id);
+      const auto dofs = world.dofs(id), joints = world.joints(id);
+      const auto from = [](const std::vector<double>& all, size_t first, size_t count) {
+        return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(first),
+                                   all.begin() + static_cast<std::ptrdiff_t>(first + count));
+      };
+      machines_.push_back({id, world.pose(robot.base), state.twists[robot.base.index], {dofs.begin(), dofs.end()},
+                           {joints.begin(), joints.end()},
+                           from(state.dof_velocities, robot.first_dof, robot.dofs.size()),
+                           from(state.joint_velocities, robot.first_joint, robot.joints.size())});
+    }
+}
+
+// the axis of rotation wanders while the angular momentum stays: Runge and Kutta's fourth order on the rotation
+Pose Mover::moved(const Part& part, double s, Twist& after) const {
+  const Body& body = world_.body(part.body);
+  after = part.twist;
+  const Eigen::Vector3d& w = part.twist.angular;
+  if (w.squaredNorm() * s < 1e-12) return moved_rigidly(part.X_WB, body.com, part.twist, s);
+  const Eigen::Matrix3d I = body.inertia_per_mass, inverse = I.inverse();
+  const auto in_world = [](const Eigen::Quaterniond& q, const Eigen::Matrix3d& A, const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(q * (A * (q.conjugate() * x)));
+  };
+  const Eigen::Vector3d momentum = in_world(part.X_WB.rotation, I, w);
+  const auto rate = [&](const Eigen::Quaterniond& q) { return in_world(q, inverse, momentum); };
+  // dq/dt = 1/2 w q
+  const auto slope = [&](const Eigen::Vector4d& x) {
+    const Eigen::Quaterniond q = Eigen::Quaterniond(x).normalized();
+    const Eigen::Vector3d v = 0.5 * rate(q);
+    return Eigen::Vector4d((Eigen::Quaterniond(0, v.x(), v.y(), v.z()) * q).coeffs());
+  };
+  const Eigen::Vector4d x = part.X_WB.rotation.coeffs();
+  const Eigen::Vector4d k1 = slope(x), k2 = slope(x + s / 2 * k1), k3 = slope(x + s / 2 * k2), k4 = slope(x + s * k3);
+  const Eigen::Quaterniond turned = Eigen::Quaterniond(x + s / 6 * (k1 + 2 * k2 + 2 * k3 + k4)).normalized();
+  after.angular = rate(turned);
+  const Eigen::Vector3d c = part.X_WB * body.com + s * part.twist.linear;
+  return {turned, c - turned * body.com};
+}
+
+void Mover::place(double s) { place(s, false); }
+void Mover::finish(double s) { place(s, true); }
+
+void Mover::place(double s, bool finish) {
+  for (const Part& part : parts_) {
+    Twist after = part.twist;
+    const Pose X_WB = part.free ? moved(part, s, after) : moved_rigidly(part.X_WB, world_.body(part.body).com, part.twist, s);
+    world_.drift(part.body, X_WB);
+    if (finish && part.free) world_.edit_dynamics().twists[part.body.index] = after;
+  }
+  for (const Machine& machine : machines_) {
+    const Robot& robot = world_.robot(machine.robot);
+    std::vector<double> dofs = machine.dofs, joints = machine.joints;
+    for (size_t i = 0; i < dofs.size(); ++i)
+      dofs[i] = std::clamp(dofs[i] + s * machine.dof_velocities[i], std::min(dofs[i], robot.limits[i][0]),
+                           std::max(dofs[i], robot.limits[i][1]));
+    for (size_t j = 0; j < joints.size(); ++j) {
+      const Joint& joint = robot.joints[j];
+      const double followed = joint.ratio * dofs[joint.dof];
+      if (world_.follows_dof(machine.robot, static_cast<int>(j))) {
+        joints[j] = followed;
+        continue;
+      }
+      joints[j] += s * machine.joint_velocities[j];
+      const DofSpec& dof = robot.dofs[joint.dof];
+      if (dof.kind != DofKind::breakaway) continue;
+      // opening, the DOF picks up what it left behind where it meets it
+      const double closing = (dof.default_velocity < 0 ? -1.0 : 1.0) * (joint.ratio < 0 ? -1 : 1);
+      if (closing * (followed - joints[j]) > 0) continue;
+      joints[j] = followed;
+      if (finish) world_.set_follows_dof(machine.robot, static_cast<int>(j), true);
+    }
+    // a robot that is carried stands where its carrier has put it
+    const Pose X_WB = robot.mounting ? world_.pose(robot.base)
+                                     : moved_rigidly(machine.X_WB, world_.body(robot.base).com, machine.twist, s);
+    world_.drift(machine.robot, X_WB, dofs, joints);
+  }
+}
+
+}  // namespace clench

@@ -1,0 +1,60 @@
+// Newton's method for contacts with friction: which open, stick, slide, and what follows.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "clench/dynamics/solve/dense_system.h"
+#include "clench/dynamics/solve/scaled_friction.h"
+
+namespace clench {
+
+/// Solves a scaled problem with `damping * weights` added to the diagonal of S, so that redundant contacts share their
+/// load in one way. Given which blocks are open, sticking or sliding (and where to), at a bound or between, all impulses
+/// follow from one linear system of the rows that are free; they say what each block is next.
+///
+/// source  Alart & Curnier (1991), A mixed formulation for frictional contact problems prone to Newton like solution
+///         methods
+class FrictionNewton {
+ public:
+  struct End {
+    bool converged = false;
+    int iterations = 0;
+  };
+  /// r  from there on; the result, or where there is none the least fault met
+  End solve(const ScaledFriction& problem, const Eigen::VectorXd& q, double damping, double rho, int max_iterations, Eigen::VectorXd& r);
+  /// One step towards a solution of the problem without damping, which only keeps what S leaves open as it is.
+  /// u        S r + q
+  /// returns  false: the matrix is singular
+  bool refine(const ScaledFriction& problem, double damping, const Eigen::VectorXd& u, Eigen::VectorXd& r);
+
+ private:
+  enum class State : char { fixed, low, high, free, sticks, slides };
+  /// A free direction of impulses and its equation: of a row, u = 0; along the normal of a sliding contact, whose friction
+  /// follows, the same; across the sliding, factor t.u + diagonal t.r = 0.
+  struct Direction {
+    int row = 0;
+    int tangents = 0;  // 0: the row alone
+    bool across = false;
+    double factor = 1, diagonal = 0, t[3] = {};
+  };
+  /// Half the square of the natural map; sets states.
+  double classify(const ScaledFriction& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u);
+  /// What is decided of r by the states alone, and the directions that are not.
+  void decide(const ScaledFriction& problem, Eigen::VectorXd& r);
+  bool factor(const ScaledFriction& problem, double damping);
+  /// next  the solution of the linear system of the states at r
+  /// keep  the last matrix serves again if the states are the same
+  bool step(const ScaledFriction& problem, double damping, const Eigen::VectorXd& r, const Eigen::VectorXd& u,
+            bool keep, Eigen::VectorXd& next);
+  bool slides() const;
+
+  std::vector<State> states_, factored_;
+  std::vector<double> slide_;  // four per block: of what the friction changes as the normal does not, and where to
+  std::vector<Direction> directions_;
+  Eigen::VectorXd u_, next_, u_next_, best_, decided_, right_, shift_;
+  Eigen::MatrixXd columns_;
+  DenseSystem system_;
+  double factored_damping_ = -1, rho_ = 1;
+};
+
+}  // namespace clench

@@ -1,0 +1,33 @@
+#include "clench/dynamics/solve/scaled_friction.h"
+
+#include <cmath>
+
+#include "clench/dynamics/solve/friction_residual.h"
+
+namespace clench {
+
+void ScaledFriction::set(const FrictionProblem& problem) {
+  const int n = static_cast<int>(problem.q.size());
+  const double largest = n > 0 ? problem.W.diagonal().maxCoeff() : 0;
+  units.resize(n), weights.resize(n);
+  blocks.resize(problem.blocks.size());
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    Block& block = blocks[i];
+    static_cast<FrictionProblem::Block&>(block) = problem.blocks[i];
+    const double d = block_admittance(problem, block);
+    block.moves = d > 1e-30 * largest && d > 1e-200;
+    int exponent = 0;
+    if (block.moves) std::frexp(d, &exponent);
+    // d is in [1/2, 1) 2^exponent
+    const double unit = std::ldexp(1.0, -(exponent >> 1));
+    block.d = block.moves ? d * unit * unit : 1;
+    block.low /= unit, block.high /= unit;
+    units.segment(block.row, block.size()).setConstant(unit);
+    weights.segment(block.row, block.size()).setConstant(block.d);
+  }
+  S.resize(n, n);
+  for (int j = 0; j < n; ++j) S.col(j) = problem.W.col(j).cwiseProduct(units) * units[j];
+  q = problem.q.cwiseProduct(units);
+}
+
+}  // namespace clench

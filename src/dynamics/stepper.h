@@ -1,0 +1,82 @@
+// The step: bodies move with the velocities that they have, then contacts are found, then velocities are solved for.
+// source  Stewart & Trinkle (1996), An implicit time-stepping scheme for rigid body dynamics with inelastic collisions and
+//         Coulomb friction; de Saxce & Feng (1998) for the cone; Anitescu & Hart (2004) for gaps in the right-hand side
+#pragma once
+#include <array>
+
+#include "clench/dynamics/contact/manifolds.h"
+#include "clench/dynamics/control/motors.h"
+#include "clench/dynamics/solve/solve_friction.h"
+#include "clench/dynamics/tree/tree_dynamics.h"
+
+namespace clench {
+
+/// Steps a world. It holds nothing but room: a new one goes on where another left off, to the bit.
+class Stepper {
+ public:
+  explicit Stepper(World& world);
+
+  /// Moves everything by its velocity until dt has passed [s] or two bodies that approach each other touch.
+  /// returns  the time that has passed, in (0, dt] [s]
+  double move(double dt);
+  /// Velocities that forces, contacts, limits and motors leave after a time of h [s] in which they act.
+  void solve(double h);
+  /// Steps until exactly `duration` has passed [s].
+  void run(double duration);
+
+  const System& system() const { return system_; }
+
+ private:
+  struct Touch {  // a point of a manifold
+    int manifold, point;
+    Eigen::Matrix3d frame;  // columns: normal, tangents; world
+    Eigen::Vector3d p_W;
+    Id<Body> a, b;
+  };
+  /// A contact or a row of a coordinate, and where its rows stand.
+  struct Block {
+    FrictionProblem::Block law;
+    int touch = -1, row = -1;             // one of both
+    std::array<int, 2> tree = {-1, -1};   // that it acts on
+    std::array<int, 2> column = {0, 0};   // its first, in the tree's J
+    int island = -1;
+  };
+  struct TreeRows {
+    Eigen::MatrixXd Y;      // L^-1 J^T: coordinates x rows
+    std::vector<int> rows;  // of all, by column
+  };
+
+  void refresh();
+  double largest_travel(double dt) const;
+  Vector6d root_twist(int tree) const;
+  Eigen::Vector3d told_velocity(Id<Body> body, const Eigen::Vector3d& p_W) const;
+  void find_free_velocities(double h);
+  void update_manifolds();
+  void add_contact(int manifold, int point, double h);
+  void add_row(int row);
+  int add_columns(int tree, int count);
+  void find_rows(double h);
+  std::vector<std::vector<int>> find_islands() const;
+  void solve_island(const std::vector<int>& blocks);
+  void apply_impulses();
+  void keep(double h);
+  void disengage(double h);
+
+  World& world_;
+  System system_;
+  uint64_t stamp_ = 0, settings_stamp_ = 0;
+  std::vector<unsigned char> follows_;
+  std::vector<TreeDynamics> trees_;
+  std::vector<JointForces> forces_;
+  std::vector<TreeRows> tree_rows_;
+  std::vector<CoordinateRow> coordinate_rows_;
+  std::vector<Touch> touches_;
+  std::vector<Block> blocks_;
+  Eigen::VectorXd v_, v_before_, q_, r_, u_, compliance_;
+  std::vector<double> warm_;
+  int row_count_ = 0;
+  FrictionSolver solver_;
+  FrictionProblem problem_;
+};
+
+}  // namespace clench

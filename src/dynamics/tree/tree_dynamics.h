@@ -1,0 +1,86 @@
+// Masses and forces of an articulated system as its coordinates feel them.
+// source  Featherstone (2008), Rigid Body Dynamics Algorithms: recursive Newton-Euler (5.3), composite rigid bodies (6.2). All
+//         spatial vectors are (linear, angular) in world axes about one point, so nothing is transformed on the way
+#pragma once
+#include <vector>
+
+#include "clench/dynamics/tree/articulation.h"
+#include "clench/math/pose.h"
+
+namespace clench {
+
+/// Of a rigid body or several, about a point, in world axes.
+struct SpatialInertia {
+  double mass = 0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();    ///< mass times the centre of mass from the point [kg m]
+  Eigen::Matrix3d turning = Eigen::Matrix3d::Zero();   ///< about the point [kg m^2]
+
+  static SpatialInertia of(const Body& body, const Pose& X_WB, const Eigen::Vector3d& about);
+  void add(const SpatialInertia& other) {
+    mass += other.mass;
+    moment += other.moment;
+    turning += other.turning;
+  }
+  /// momentum of a motion
+  Vector6d operator*(const Vector6d& motion) const;
+};
+
+/// One tree as it stands; kept from step to step so that nothing is allocated.
+class TreeDynamics {
+ public:
+  /// Where joints and masses are, and the mass matrix.
+  void place(const World& world, const Articulation& tree);
+  /// Forces that velocities cause, on each coordinate: M dv/dt = efforts - bias.
+  /// root_twist  of a root that is moved as told, at the point about() [m/s, rad/s]
+  /// gravity     [m/s^2]; a robot that compensates its weight does not feel it
+  /// returns     bias, one per coordinate [N or N m]
+  const Eigen::VectorXd& find_bias(const Eigen::VectorXd& v, const Vector6d& root_twist, const Eigen::Vector3d& gravity);
+  /// What must act on each joint, beside what acts on bodies, so that velocities change as they do. Recursive Newton and Euler.
+  /// change  of the coordinates' velocities [m/s^2, rad/s^2]
+  /// loads   on the bodies, (force, torque about about()), by the tree's bodies; or none
+  /// returns one per joint of the tree, for its own unit [N m or N]
+  const std::vector<double>& inverse_dynamics(const Eigen::VectorXd& v, const Eigen::VectorXd& change, const Vector6d& root_twist,
+                                              const Eigen::Vector3d& gravity, const std::vector<Vector6d>& loads);
+  /// Impulses on the coordinates that take the momentum of a root's change of velocity: a base that is jerked.
+  Eigen::VectorXd jerk(const Vector6d& change_of_root) const;
+  /// Adds to the diagonal what acts like mass (armature; damping h d and springs h^2 k, taken at the step's end), and factors.
+  void factor(const Eigen::VectorXd& added_to_diagonal);
+
+  const Eigen::MatrixXd& mass_matrix() const { return M_; }
+  const Eigen::Vector3d& about() const { return about_; }
+  /// Y = L^-1 B with M = L L^T, in place.   B  coordinates x any
+  void half_solve(Eigen::Ref<Eigen::MatrixXd> B) const;
+  /// x = L^-T x, in place
+  void other_half_solve(Eigen::Ref<Eigen::VectorXd> x) const;
+
+  /// How coordinates move a point of a body: adds sign * direction . velocity to a column, and that of turning about it.
+  void add_linear(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction, double sign,
+                  Eigen::Ref<Eigen::VectorXd> column) const;
+  void add_angular(int body, const Eigen::Vector3d& direction, double sign, Eigen::Ref<Eigen::VectorXd> column) const;
+  /// Spatial velocity of a body at about().
+  Vector6d motion(int body, const Eigen::Ref<const Eigen::VectorXd>& v, const Vector6d& root_twist) const;
+  /// Of its centre of mass.
+  Twist twist(int body, const Eigen::Ref<const Eigen::VectorXd>& v, const Vector6d& root_twist) const;
+  const Eigen::Vector3d& com(int body) const { return com_[body]; }
+  /// Axis of a joint as it moves points: (velocity at about(), turning).
+  const Vector6d& axis(int joint) const { return S_[joint]; }
+
+ private:
+  void place_joints(const World& world);
+  void find_mass_matrix();
+  void find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* change, const Vector6d& root_twist, const Eigen::Vector3d& gravity);
+
+  const Articulation* tree_ = nullptr;
+  Eigen::Vector3d about_ = Eigen::Vector3d::Zero();
+  std::vector<Vector6d> S_;                 // by joint, for its own unit speed
+  std::vector<Eigen::Vector3d> com_;        // by body
+  std::vector<SpatialInertia> own_, all_;   // by joint + 1, the root first: of what it carries directly, and with all beyond
+  std::vector<Vector6d> velocity_, acceleration_, force_;
+  std::vector<double> joint_efforts_;
+  std::vector<bool> weightless_;
+  Eigen::MatrixXd M_, L_;
+  Eigen::VectorXd bias_;
+  RobotFrames frames_;
+};
+
+}  // namespace clench

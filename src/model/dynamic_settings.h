@@ -1,0 +1,46 @@
+// What holds for the dynamics of a world.
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clench/model/body.h"
+
+namespace clench {
+
+enum class DynamicsEngine { clench, ode };
+enum class FrictionCone {
+  cone,    ///< |r_t| <= mu r_n
+  pyramid  ///< a polygon of some corners on that circle
+};
+
+/// Gains of a DOF's motor.
+struct Gains {
+  double kp = 0;  ///< [N m/rad or N/m]
+  double kd = 0;  ///< [N m s/rad or N s/m]
+};
+
+struct RobotDynamics {
+  bool floating = false;             ///< does its base move freely? else it stands, or moves as its velocity says
+  bool gravity_compensation = true;  ///< do its motors carry its own weight?
+  std::vector<std::optional<Gains>> gains;  ///< in place of those of its file; empty: none
+  bool has_controller = true;        ///< false: motors give what `efforts` say, and nothing holds them
+};
+
+struct DynamicSettings {
+  double step = 1e-3;  ///< > 0 [s]
+  DynamicsEngine engine = DynamicsEngine::clench;
+  FrictionCone cone = FrictionCone::cone;
+  int cone_edges = 8;  ///< of a pyramid
+  std::map<Id<Robot>, RobotDynamics> robots;  ///< those that differ from the default
+  std::map<Id<Body>, Eigen::Vector3d> surface_velocities;  ///< of conveyor belts, in their bodies' frames [m/s]
+  std::vector<std::pair<Id<Body>, Id<Body>>> welds;
+
+  RobotDynamics robot(Id<Robot> id) const {
+    const auto found = robots.find(id);
+    return found == robots.end() ? RobotDynamics{} : found->second;
+  }
+};
+
+}  // namespace clench

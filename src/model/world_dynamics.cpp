@@ -1,0 +1,105 @@
+// How the things of a world move.
+#include "clench/base/error.h"
+#include "clench/base/text.h"
+#include "clench/model/world.h"
+
+namespace clench {
+
+void World::set_dynamic_settings(DynamicSettings settings) {
+  check(time_step_rule, settings.step, "world");
+  edit_settings().dynamics = std::move(settings);
+}
+
+DynamicState& World::edit_dynamics() {
+  auto& shared = state_.dynamics;
+  if (!shared)
+    shared = std::make_shared<DynamicState>();
+  else if (shared.use_count() > 1)
+    shared = std::make_shared<DynamicState>(*shared);
+  // who was the last of others to let go of it may have done so in another thread
+  std::atomic_thread_fence(std::memory_order_acquire);
+  DynamicState& state = *shared;
+  state.twists.resize(state_.X_WB.size());
+  state.told.resize(state_.X_WB.size());
+  state.loads.resize(state_.X_WB.size());
+  state.dof_velocities.resize(state_.dofs.size());
+  state.dof_efforts.resize(state_.dofs.size());
+  state.joint_velocities.resize(state_.joints.size());
+  for (size_t i = state.controls.size(); i < state_.dofs.size(); ++i)
+    state.controls.push_back({.target = state_.dofs[i], .way = {}});
+  return state;
+}
+
+Twist World::twist(Id<Body> id) const {
+  body(id);
+  const DynamicState* state = state_.dynamics.get();
+  return state && id.index < state->twists.size() ? state->twists[id.index] : Twist{};
+}
+
+void World::set_twist(Id<Body> id, const Twist& twist) {
+  const Body& b = body(id);
+  if (b.kind == BodyKind::link || b.kind == BodyKind::mount)
+    fail("body '{}' is a part of robot '{}': set the velocities of its DOFs", excerpt(b.name),
+         excerpt(robot(b.robot).name));
+  if (b.robot) check_free(b.robot);
+  check(velocity_rule.called("linear velocity"), twist.linear, the_body(b.name));
+  check(velocity_rule.called("angular velocity"), twist.angular, the_body(b.name));
+  edit_dynamics().twists[id.index] = twist;
+}
+
+Eigen::VectorXd World::dof_velocities(Id<Robot> id) const {
+  const Robot& r = robot(id);
+  const auto count = static_cast<Eigen::Index>(r.dofs.size());
+  const DynamicState* state = state_.dynamics.get();
+  if (!state || state->dof_velocities.size() < r.first_dof + r.dofs.size()) return Eigen::VectorXd::Zero(count);
+  return Eigen::Map<const Eigen::VectorXd>(state->dof_velocities.data() + r.first_dof, count);
+}
+
+void World::set_dof_velocities(Id<Robot> id, const Eigen::VectorXd& velocities) {
+  check_dof_count(id, velocities);
+  const Robot& r = robot(id);
+  const std::string subject = fmt::format("robot '{}'", excerpt(r.name));
+  for (const double v : velocities) check(velocity_rule.called("velocity of a DOF"), v, subject);
+  DynamicState& state = edit_dynamics();
+  for (int i = 0; i < velocities.size(); ++i) state.dof_velocities[r.first_dof + i] = velocities[i];
+  for (size_t j = 0; j < r.joints.size(); ++j)
+    if (follows_dof(id, static_cast<int>(j)))
+      state.joint_velocities[r.first_joint + j] = r.joints[j].ratio * velocities[r.joints[j].dof];
+}
+
+void World::drift(Id<Body> id, const Pose& X_WB) {
+  if (!is_place(X_WB)) check_place(X_WB, the_body(body(id).name));
+  state_.X_WB[id.index] = X_WB;
+}
+
+void World::drift(Id<Robot> id, const Pose& X_WB, std::span<const double> dofs, std::span<const double> joints) {
+  const Robot& r = robot(id);
+  std::ranges::copy(dofs, state_.dofs.begin() + static_cast<std::ptrdiff_t>(r.first_dof));
+  std::ranges::copy(joints, state_.joints.begin() + static_cast<std::ptrdiff_t>(r.first_joint));
+  place(id, X_WB);
+}
+
+void World::set_follows_dof(Id<Robot> id, int joint, bool follows) {
+  state_.follows_dof[robot(id).first_joint + static_cast<size_t>(joint)] = follows;
+}
+
+void World::come_to_rest(Id<Body> id) {
+  if (!state_.dynamics) return;
+  edit_dynamics().twists[id.index] = {};
+}
+
+void World::come_to_rest(Id<Robot> id) {
+  if (!state_.dynamics) return;
+  DynamicState& state = edit_dynamics();
+  const Robot& r = robot(id);
+  for (const auto part : bodies_of(id)) state.twists[part.index] = state.told[part.index] = {};
+  for (size_t i = r.first_dof; i < r.first_dof + r.dofs.size(); ++i) {
+    state.dof_velocities[i] = 0;
+    state.controls[i] = {.mode = state.controls[i].mode, .target = state_.dofs[i], .way = {}};
+  }
+  for (size_t i = r.first_joint; i < r.first_joint + r.joints.size(); ++i) state.joint_velocities[i] = 0;
+  for (const auto other : robots())
+    if (robot(other).mounting && robot(other).mounting->parent == id) come_to_rest(other);
+}
+
+}  // namespace clench

@@ -1,0 +1,82 @@
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/dynamics/dynamics.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+static int get_velocity(lua_State* L) {
+  const auto body = self_body(L);
+  const Twist twist = body.world->twist(body.id);
+  push_list(L, 0, 2);
+  set_field(L, "linear", twist.linear);
+  set_field(L, "angular", twist.angular);
+  return 1;
+}
+
+static int set_velocity(lua_State* L) {
+  const auto body = self_body(L);
+  Table table(L, 2);
+  const Eigen::Vector3d linear = table.vec3("linear", Eigen::Vector3d::Zero());
+  const Eigen::Vector3d angular = table.vec3("angular", Eigen::Vector3d::Zero());
+  table.done();
+  body.world->set_twist(body.id, {linear, angular});
+  return 0;
+}
+
+static int apply_force(lua_State* L) {
+  const auto body = self_body(L);
+  if (body->kind == BodyKind::obstacle) fail("{}: an obstacle moves as it is told, whatever pushes it", subject(L));
+  const Eigen::Vector3d force = check_vec3(L, 2, "force");
+  const Eigen::Vector3d com = body.world->pose(body.id) * body->com;
+  const Eigen::Vector3d point = given(L, 3) ? check_vec3(L, 3, "point") : com;
+  check(load_rule.called("force"), force, subject(L));
+  check(coordinate_rule.called("point"), point, subject(L));
+  Load& load = body.world->edit_dynamics().loads[body.id.index];
+  load.force += force;
+  load.torque += (point - com).cross(force);
+  return 0;
+}
+
+static int apply_torque(lua_State* L) {
+  const auto body = self_body(L);
+  if (body->kind == BodyKind::obstacle) fail("{}: an obstacle moves as it is told, whatever turns it", subject(L));
+  const Eigen::Vector3d torque = check_vec3(L, 2, "torque");
+  check(load_rule.called("torque"), torque, subject(L));
+  body.world->edit_dynamics().loads[body.id.index].torque += torque;
+  return 0;
+}
+
+static const Entry fields[] = {
+    {"velocity", guarded<get_velocity>, R"(
+Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are
+told, whatever they push. Setting a pose brings a body to rest.
+@type {linear: vec3, angular: vec3}  [m/s], [rad/s]
+> flask.velocity = {linear = {0, 0, 1}}
+> flask.velocity.linear  --> (0, 0, 1)
+> flask.velocity = {linear = {0, 0, 1 / 0}}  --> error: velocity)",
+     guarded<set_velocity>},
+};
+
+static const Entry methods[] = {
+    {"apply_force", guarded<apply_force>, R"(
+Pushes it in the next step, and in that one alone; pushes add up.
+@param force vec3  in world axes [N]
+@param point? vec3  where, in the world; its centre of mass by default [m]
+> flask:apply_force({0, 0, 1})
+> flask:apply_force({0, 0, 0 / 0})  --> error: force)"},
+    {"apply_torque", guarded<apply_torque>, R"(
+Turns it in the next step, and in that one alone.
+@param torque vec3  in world axes [N m]
+> flask:apply_torque({0, 0, 0.1}))"},
+};
+
+const Class motion_class{.name = "motion",
+                         .variable = "body",
+                         .doc = "How bodies and robots move: velocity, and what pushes them.",
+                         .fields = fields,
+                         .methods = methods,
+                         .parent = &entity_class};
+
+}  // namespace clench

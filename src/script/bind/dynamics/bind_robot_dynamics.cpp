@@ -1,0 +1,192 @@
+#include "clench/base/suggest.h"
+#include "clench/base/text.h"
+#include "clench/dynamics/control/closing.h"
+#include "clench/dynamics/control/motors.h"
+#include "clench/model/dof.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/dynamics/dynamics.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+static int get_dof_velocities(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push_vector(L, robot.world->dof_velocities(robot.id));
+}
+
+static int set_dof_velocities(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const auto values = check_numbers(L, 2, "", static_cast<int>(robot->dofs.size()));
+  robot.world->set_dof_velocities(robot.id, Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+  return 0;
+}
+
+template <class Edit>
+static void edit_robot(const RobotHandle& robot, Edit edit) {
+  DynamicSettings settings = robot.world->dynamic_settings();
+  edit(settings.robots[robot.id]);
+  robot.world->set_dynamic_settings(std::move(settings));
+}
+
+static constexpr const char* mode_names[] = {"position", "velocity", "effort"};
+
+static int get_controller(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  if (!robot.world->dynamic_settings().robot(robot.id).has_controller) return push(L, "none");
+  const DynamicState* state = robot.world->dynamics();
+  if (robot->dofs.empty() || !state || state->controls.size() <= robot->first_dof) return push(L, "position");
+  return push(L, mode_names[static_cast<int>(state->controls[robot->first_dof].mode)]);
+}
+
+static int set_controller(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const std::string name = check_string(L, 2);
+  int mode = -1;
+  for (int i = 0; i < 3; ++i)
+    if (name == mode_names[i]) mode = i;
+  if (mode < 0 && name != "none")
+    fail("{}: expected \"position\", \"velocity\", \"effort\" or \"none\", got {}", subject(L), in_quotes(name));
+  edit_robot(robot, [&](RobotDynamics& settings) { settings.has_controller = name != "none"; });
+  DynamicState& state = robot.world->edit_dynamics();
+  const auto q = robot.world->dofs(robot.id);
+  for (int i = 0; i < q.size(); ++i) {
+    DofControl& control = state.controls[robot->first_dof + static_cast<size_t>(i)];
+    control = {.mode = mode < 0 ? ControlMode::effort : static_cast<ControlMode>(mode), .target = q[i], .way = {}};
+  }
+  return 0;
+}
+
+static int set_forces(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const auto forces = check_numbers(L, 2, "forces", static_cast<int>(robot->dofs.size()));
+  for (const double force : forces) check(load_rule.called("force"), force, subject(L));
+  DynamicState& state = robot.world->edit_dynamics();
+  for (size_t i = 0; i < forces.size(); ++i) state.controls[robot->first_dof + i].effort = forces[i];
+  return 0;
+}
+
+static int get_efforts(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  std::vector<double> efforts(robot->dofs.size());
+  if (const DynamicState* state = robot.world->dynamics(); state && state->dof_efforts.size() >= robot->first_dof + efforts.size())
+    std::copy_n(state->dof_efforts.begin() + static_cast<std::ptrdiff_t>(robot->first_dof), efforts.size(), efforts.begin());
+  return push_numbers(L, efforts);
+}
+
+static int set_targets(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const Eigen::VectorXd targets = check_dofs(L, 2, robot);
+  Table options(L, 3);
+  const bool smooth = options.has("velocity");
+  const double velocity = smooth ? options.positive("velocity", 1) : 0;
+  options.done();
+  for (int i = 0; i < targets.size(); ++i) {
+    const double target = within_limits(*robot, i, targets[i], "robot");
+    if (smooth && target != robot.world->dofs(robot.id)[i]) {
+      send_dof(*robot.world, robot.id, i, target, velocity);
+      continue;
+    }
+    DofControl& control = robot.world->edit_dynamics().controls[robot->first_dof + static_cast<size_t>(i)];
+    control = {.mode = ControlMode::position, .target = target, .way = {}};
+  }
+  return 0;
+}
+
+static int set_target_velocities(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const auto values = check_numbers(L, 2, "velocities", static_cast<int>(robot->dofs.size()));
+  for (const double v : values) check(velocity_rule.called("velocity"), v, subject(L));
+  DynamicState& state = robot.world->edit_dynamics();
+  for (size_t i = 0; i < values.size(); ++i)
+    state.controls[robot->first_dof + i] = {.mode = ControlMode::velocity, .velocity = values[i], .way = {}};
+  return 0;
+}
+
+static int get_gravity_compensation(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push(L, robot.world->dynamic_settings().robot(robot.id).gravity_compensation);
+}
+
+static int set_gravity_compensation(lua_State* L) {
+  const bool on = check_boolean(L, 2);
+  edit_robot(self<RobotHandle>(L), [&](RobotDynamics& settings) { settings.gravity_compensation = on; });
+  return 0;
+}
+
+static int get_floating(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push(L, robot.world->dynamic_settings().robot(robot.id).floating);
+}
+
+static int set_floating(lua_State* L) {
+  const bool on = check_boolean(L, 2);
+  edit_robot(self<RobotHandle>(L), [&](RobotDynamics& settings) { settings.floating = on; });
+  return 0;
+}
+
+static int has_closed_now(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push(L, has_closed(*robot.world, robot.id));
+}
+
+static const Entry fields[] = {
+    {"dof_velocities", guarded<get_dof_velocities>, R"(
+Of its degrees of freedom; a list of its own.
+@type number[]  [rad/s or m/s]
+> hand.dof_velocities[1]  --> 0)",
+     guarded<set_dof_velocities>},
+    {"dof_efforts", guarded<get_efforts>, R"(
+What its motors gave in the last step.
+@type number[]  [N m or N]
+> hand.dof_efforts[1]  --> 0)"},
+    {"controller", guarded<get_controller>, R"(
+What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities
+that are asked for; "effort" and "none", they give the forces that set_forces says, and nothing else.
+@type string
+> hand.controller  --> position
+> hand.controller = "none"
+> hand.controller = "pid"  --> error: "none")",
+     guarded<set_controller>},
+    {"gravity_compensation", guarded<get_gravity_compensation>, R"(
+Do its motors carry the weight of its own links? As controllers of real arms do. A floating robot has all its weight.
+@type boolean
+> hand.gravity_compensation  --> true)",
+     guarded<set_gravity_compensation>},
+    {"floating", guarded<get_floating>, R"(
+Is its base free to move? Else it stands, or moves as its velocity says.
+@type boolean
+> hand.floating  --> false)",
+     guarded<set_floating>},
+};
+
+static const Entry methods[] = {
+    {"set_forces", guarded<set_forces>, R"(
+What each motor gives from now on: beside what its controller does, or alone with the controller "none".
+@param forces number[]  one per DOF [N m or N]
+> hand:set_forces {1}  --> error: expected 12)"},
+    {"set_targets", guarded<set_targets>, R"(
+Where its motors are to bring it: at once, or on a smooth way (a polynomial of the fifth degree in time).
+@param dofs number[]|table<string, number>  [rad or m]
+@param options? {velocity?: number}  the largest on the way [rad/s or m/s]
+> hand:set_targets({dof2 = 0.3}, {velocity = 1})
+> hand:set_targets({dof2 = 100})  --> error: must lie in)"},
+    {"set_target_velocities", guarded<set_target_velocities>, R"(
+The velocities that its motors are to keep.
+@param velocities number[]  [rad/s or m/s]
+> hand:set_target_velocities {1}  --> error: expected 12)"},
+    {"has_closed", guarded<has_closed_now>, R"(
+Has every finger come to its limit, or does its last link touch something?
+@return boolean
+> hand:has_closed()  --> false)"},
+};
+
+const Class robot_dynamics_class{.name = "robot_dynamics",
+                                 .variable = "hand",
+                                 .doc = "How a robot's motors move it.",
+                                 .fields = fields,
+                                 .methods = methods,
+                                 .parent = &motion_class};
+
+}  // namespace clench

@@ -1,0 +1,203 @@
+#include "clench/dynamics/measure.h"
+#include "clench/dynamics/stepper.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/dynamics/dynamics.h"
+#include "clench/script/lua/getter.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+static World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
+
+static double check_time(lua_State* L, int i, const char* name, double least) {
+  const double time = check_number(L, i, name);
+  if (!(time >= least && time <= duration_rule.max))
+    fail("{}: {}: expected a time from {} to {} s, got {}", subject(L), name, least, duration_rule.max, time);
+  return time;
+}
+
+// --- time ---
+
+static int run(lua_State* L) {
+  const double duration = check_time(L, 2, "seconds", 0);
+  Stepper(world_of(L)).run(duration);
+  return 0;
+}
+
+static int move_bodies(lua_State* L) {
+  const double dt = check_time(L, 2, "dt", time_step_rule.min);
+  return push(L, Stepper(world_of(L)).move(dt));
+}
+
+static int solve_velocities(lua_State* L) {
+  const double h = check_time(L, 2, "h", 1e-12);
+  Stepper(world_of(L)).solve(h);
+  return 0;
+}
+
+static int get_time(lua_State* L) { return push(L, world_of(L).time()); }
+
+static int get_time_step(lua_State* L) { return push(L, world_of(L).dynamic_settings().step); }
+
+static int set_time_step(lua_State* L) {
+  DynamicSettings settings = world_of(L).dynamic_settings();
+  settings.step = check_number(L, 2);
+  world_of(L).set_dynamic_settings(std::move(settings));
+  return 0;
+}
+
+static int get_report(lua_State* L) {
+  const DynamicState* state = world_of(L).dynamics();
+  const StepReport report = state ? state->report : StepReport{};
+  push_list(L, 0, 9);
+  set_field(L, "steps", static_cast<int>(report.steps));
+  set_field(L, "impacts", static_cast<int>(report.impacts));
+  set_field(L, "iterations", static_cast<int>(report.iterations));
+  set_field(L, "fallbacks", static_cast<int>(report.fallbacks));
+  set_field(L, "failures", static_cast<int>(report.failures));
+  set_field(L, "overlaps", static_cast<int>(report.overlaps));
+  set_field(L, "residual", report.residual);
+  set_field(L, "largest_residual", report.largest_residual);
+  set_field(L, "contacts", report.contacts);
+  return 1;
+}
+
+static int get_momentum(lua_State* L) {
+  const Momentum m = momentum(world_of(L));
+  push_list(L, 0, 2);
+  set_field(L, "linear", m.linear);
+  set_field(L, "angular", m.angular);
+  return 1;
+}
+
+static int get_energy(lua_State* L) {
+  const Energy e = mechanical_energy(world_of(L));
+  push_list(L, 0, 2);
+  set_field(L, "kinetic", e.kinetic);
+  set_field(L, "potential", e.potential);
+  return 1;
+}
+
+// what bodies do to links, as a table by link
+static int average_contacts(lua_State* L) {
+  const World& world = world_of(L);
+  const auto bodies = check_bodies(L, 2, "links", self<WorldHandle>(L).world);
+  const DynamicState* state = world.dynamics();
+  struct Sum {
+    Id<Body> body;
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), point = Eigen::Vector3d::Zero();
+    double pressure = 0;
+    int count = 0;
+  };
+  std::vector<Sum> sums;
+  for (const auto id : bodies) {
+    Sum sum{.body = id};
+    if (state)
+      for (const Manifold& m : state->manifolds) {
+        if (m.a != id && m.b != id) continue;
+        const Pose& X_WA = world.pose(m.a);
+        for (const ManifoldPoint& p : m.points) {
+          const Eigen::Vector3d force = X_WA.rotation * p.force;
+          const double pressure = p.force.dot(p.normal);
+          if (pressure <= 0) continue;
+          sum.force += m.b == id ? force : Eigen::Vector3d(-force);
+          sum.point += pressure * (X_WA * p.p_a);
+          sum.pressure += pressure;
+          ++sum.count;
+        }
+      }
+    if (sum.count > 0) sums.push_back(sum);
+  }
+  return push_list_of(L, sums, [&](const Sum& sum) {
+    push_list(L, 0, 4);
+    set_field(L, "link", BodyHandle{self<WorldHandle>(L).world, sum.body});
+    set_field(L, "force", sum.force);
+    set_field(L, "point", Eigen::Vector3d(sum.point / sum.pressure));
+    set_field(L, "count", sum.count);
+  });
+}
+
+DynamicSettings read_dynamic_settings(Table& options) {
+  DynamicSettings settings;
+  if (options.push("dynamics") == LUA_TNIL) {
+    lua_pop(options.state(), 1);
+    return settings;
+  }
+  lua_State* L = options.state();
+  Table table(L, lua_gettop(L), options.what("dynamics").text());
+  settings.step = table.number("time_step", settings.step);
+  if (table.choice("engine", {"clench", "ode"}, "clench") == "ode") settings.engine = DynamicsEngine::ode;
+  if (table.choice("cone", {"round", "pyramid"}, "round") == "pyramid") settings.cone = FrictionCone::pyramid;
+  settings.cone_edges = table.integer("edges", settings.cone_edges);
+  if (settings.cone_edges < 4 || settings.cone_edges > 64 || settings.cone_edges % 2 != 0)
+    fail("{}: edges: expected an even number from 4 to 64, got {}", table.subject(), settings.cone_edges);
+  table.done();
+  lua_pop(L, 1);
+  return settings;
+}
+
+static const Entry fields[] = {
+    {"time", guarded<get_time>, R"(
+How long it has run.
+@type number  [s]
+> world.time  --> 0)"},
+    {"time_step", guarded<get_time_step>, R"(
+Length of the steps of `run`; from 1e-7 to 1.
+@type number  [s]
+> world.time_step  --> 0.001
+> world.time_step = 0  --> error: time step)",
+     guarded<set_time_step>},
+    {"report", guarded<get_report>, R"(
+What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took
+(`iterations`; `fallbacks`, steps that needed its slow methods; `failures`, steps that it did not solve to the tolerance),
+pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have
+as velocities [m/s].
+@type {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, largest_residual: number}
+> world.report.failures  --> 0)"},
+};
+
+static const Entry methods[] = {
+    {"run", guarded<run>, R"(
+Simulates: everything that is free moves by gravity, contacts and the motors of robots. Each step first moves bodies with the
+velocities that they have, then finds contacts, then solves for new velocities. Afterwards exactly so much time has passed.
+@param seconds number  [s]
+> world:run(0.01)
+> world.time  --> 0.01
+> world:run(-1)  --> error: expected a time from 0)"},
+    {"move_bodies", guarded<move_bodies>, R"(
+The first half of a step: moves everything with the velocity that it has, until the time has passed or two bodies that
+approach each other touch.
+@param dt number  [s]
+@return number passed  in (0, dt] [s]
+> world:move_bodies(0.001)  --> 0.001)"},
+    {"solve_velocities", guarded<solve_velocities>, R"(
+The second half of a step: the velocities that contacts, forces, motors and limits leave after the time in which they act.
+@param h number  what move_bodies gave [s]
+> world:solve_velocities(world:move_bodies(0.001))
+> world.report.steps  --> 1)"},
+    {"momentum", guarded<get_momentum>, R"(
+Of all objects and robots; the angular one about the origin of the world.
+@return {linear: vec3, angular: vec3}  [kg m/s], [kg m^2/s]
+> world:momentum().linear  --> (0, 0, 0))"},
+    {"energy", guarded<get_energy>, R"(
+Of all objects and robots: of motion, and of height above the origin of the world and springs.
+@return {kinetic: number, potential: number}  [J]
+> world:energy().kinetic  --> 0)"},
+    {"average_contacts", guarded<average_contacts>, R"(
+What presses on each of some bodies, after the last step: the sum of the forces and their centre. Bodies on which nothing
+presses are left out.
+@param links body|body[]
+@return {link: body, force: vec3, point: vec3, count: integer}[]  [N], [m]
+> #world:average_contacts(hand.links)  --> 0)"},
+};
+
+const Class world_dynamics_class{.name = "world_dynamics",
+                                 .variable = "world",
+                                 .doc = "How a world moves: time, steps, momentum, and what presses on what.",
+                                 .fields = fields,
+                                 .methods = methods,
+                                 .parent = &world_settings_class};
+
+}  // namespace clench
