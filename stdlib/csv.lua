@@ -138,4 +138,4 @@ function csv.read(path, options)
   return rows
 end
 
-return csv
+return require "clench.sealed"("clench.csv", csv)

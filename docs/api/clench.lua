@@ -226,6 +226,7 @@ function mesh:save(path) end
 ---@field eigengrasps eigengrasps # Its eigengrasps, as they are at any time: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
 ---@field amplitudes number[] # Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
 ---@field virtual_contacts virtual_contact[] # Where it would like to touch: those of its file, those it was given, or, when there are none of either, those that find_virtual_contacts finds, anew each time. Set to a list of virtual contacts, contacts, or tables as of add_virtual_contact; to {} for none, to nil for those that are found.
+---@field has_own_virtual_contacts boolean # Do its virtual contacts come from a file or a script? Otherwise they are found from its geometry.
 ---@field glove {slopes: number[][], intercepts: number[]}? # Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that DOF = intercept + slopes * raw. nil when there is none. [rad per count, rad]
 ---@field tracker {number: integer, pose: pose}? # Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
 ---@field tendons {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[] # Tendons of its file, as they are there: they do not act yet. Points are in the frame of their link. [N/m, m]
@@ -618,9 +619,11 @@ function picture:pixel(x, y) end
 ---@return integer alpha
 function picture:alpha(x, y) end
 
----Numbers as a figure, made by `clench.plot`.
+---Numbers as a figure, made by `clench.plot` or `clench.chart`. Two with the same contents are equal.
 ---@class plot
 ---@field picture picture # It as pixels, on white.
+---@field width integer # Its width [pixels].
+---@field height integer # Its height [pixels].
 local plot = {}
 
 ---Writes a file: .svg, whose lines and letters a program for papers can change, or .png.
@@ -952,16 +955,16 @@ function clench.render(world, options) end
 
 ---Draws numbers as columns, one panel per series, each to its own scale, all over the same items, with its value where there is room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
 ---@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
----@return picture
+---@return plot # to be saved as PNG or SVG
 function clench.chart(options) end
 
----Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no graphics hardware.
----@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer} # kind: "line" (default), "points" or "bars"; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
+---Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them; with `categories`, numbers over names, as bars beside one another. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no graphics hardware.
+---@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], categories?: string[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer} # kind: "line", "points" or "bars", by default a line, of categories bars; categories: of each, every series has one y and no x; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
 ---@return plot
 function clench.plot(options) end
 
 ---Several pictures in one, in rows, each with its caption under it.
----@param options {pictures: picture[], captions?: string[], columns?: integer, gap?: integer} # columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
+---@param options {pictures: (picture|plot)[], captions?: string[], columns?: integer, gap?: integer} # columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
 ---@return picture
 function clench.sheet(options) end
 
