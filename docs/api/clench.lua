@@ -159,6 +159,7 @@ local snapshot = {}
 ---@field inertia number[][] # Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the sum of the others: no body has such an inertia. [kg m^2]
 ---@field mesh mesh? # Its surface; nil when it has none.
 ---@field mesh_report table? # How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m], `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped` (was it inside out?). Nil when it has no mesh, or none from a file.
+---@field restitution number # How it bounces: speed after a blow by that before, from 0 to 1. Of two bodies the larger counts, unless set_friction says what holds for their materials.
 ---@field elastic_modulus number? # Young's modulus; nil when it is rigid. [Pa]
 ---@field soft_layer number # Height of the soft layer of an elastic body. [m]
 ---@field poisson_ratio number # Poisson's ratio of an elastic body, below 0.5: its layer gives way by modulus / (1 - ratio^2).
@@ -168,7 +169,7 @@ local snapshot = {}
 local entity = {}
 
 ---A rigid body in a world: an object, an obstacle, or a part of a robot.
----@class body: entity
+---@class body: motion
 ---@field name string # Unique in its world.
 ---@field pose pose # Where it is, in the world frame. Setting it moves it at once, whatever is in the way; see move_to. The parts of a robot move with the robot.
 ---@field kind string # "object", "obstacle", "base", "link" or "mount".
@@ -221,10 +222,11 @@ function mesh:sample(random, count) end
 function mesh:save(path) end
 
 ---What every robot has for grasping: eigengrasps, virtual contacts, a glove, a position sensor.
----@class hand: entity
+---@class hand: robot_dynamics
 ---@field eigengrasps eigengrasps # Its eigengrasps, as they are at any time: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
 ---@field amplitudes number[] # Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
 ---@field virtual_contacts virtual_contact[] # Where it would like to touch: those of its file, those it was given, or, when there are none of either, those that find_virtual_contacts finds, anew each time. Set to a list of virtual contacts, contacts, or tables as of add_virtual_contact; to {} for none, to nil for those that are found.
+---@field has_own_virtual_contacts boolean # Do its virtual contacts come from a file or a script? Otherwise they are found from its geometry.
 ---@field glove {slopes: number[][], intercepts: number[]}? # Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that DOF = intercept + slopes * raw. nil when there is none. [rad per count, rad]
 ---@field tracker {number: integer, pose: pose}? # Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
 ---@field tendons {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[] # Tendons of its file, as they are there: they do not act yet. Points are in the frame of their link. [N/m, m]
@@ -310,8 +312,8 @@ function dofs:set_posture(pose, values) end
 ---@return table result # as of autograsp
 function dofs:move_dofs(values, options) end
 
----Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed opens.
----@param options? {speed?: number, stop_at_contact?: boolean, dofs?: (integer|string)[], stages?: (integer|string)[][]} # dofs: only these, by number or name; stages: lists of them, one after the other
+---Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed opens. With `dynamic` nothing moves yet: its motors are told to close, and do so while the world runs; then nothing is returned.
+---@param options? {speed?: number, stop_at_contact?: boolean, dofs?: (integer|string)[], stages?: (integer|string)[][], dynamic?: boolean} # dofs: only these, by number or name; stages: lists of them, one after the other
 ---@return table result # `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
 function dofs:autograsp(options) end
 
@@ -417,6 +419,8 @@ local virtual_contact = {}
 ---@field feature {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer} # The feature of the body's mesh that the contact lies on: a vertex, an edge between two, or a triangle, counted from 1. It stays the same while the contact moves along it, so that contacts can be matched from step to step.
 ---@field other_feature {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer} # The same of the mesh of `other`.
 ---@field gap number # Distance of the two surfaces there, at most the world's contact threshold. [m]
+---@field force vec3 # What pressed on body there in the last step of the world, in world axes; 0 in a world that has not run. [N]
+---@field torsion number # Of a soft contact, the torque about the normal on body in the last step of the world. [N m]
 ---@field mu number # Static Coulomb coefficient of the two materials.
 ---@field mu_kinetic number # Kinetic Coulomb coefficient of the two materials.
 ---@field kind string # "point" (with friction), "soft" (with friction, of bodies one of which at least is elastic) or "frictionless".
@@ -615,9 +619,11 @@ function picture:pixel(x, y) end
 ---@return integer alpha
 function picture:alpha(x, y) end
 
----Numbers as a figure, made by `clench.plot`.
+---Numbers as a figure, made by `clench.plot` or `clench.chart`. Two with the same contents are equal.
 ---@class plot
 ---@field picture picture # It as pixels, on white.
+---@field width integer # Its width [pixels].
+---@field height integer # Its height [pixels].
 local plot = {}
 
 ---Writes a file: .svg, whose lines and letters a program for papers can change, or .png.
@@ -711,7 +717,7 @@ function world_settings:set_collision(on, a, b) end
 ---Sets the Coulomb coefficients of a pair of materials; new names become materials.
 ---@param a string
 ---@param b string
----@param friction {static: number, kinetic?: number} # kinetic: static - 0.1 unless given
+---@param friction {static: number, kinetic?: number, restitution?: number} # kinetic: static - 0.1 unless given; restitution: speed after a blow by that before, 0 to 1, in place of what the bodies say
 function world_settings:set_friction(a, b, friction) end
 
 ---The coefficients of a pair of materials.
@@ -731,7 +737,7 @@ function world_settings:add_keyframe(name, states) end
 function world_settings:set_keyframe(name) end
 
 ---What every world answers: what collides, how far things are apart, where they touch, what a ray meets.
----@class world_queries: world_settings
+---@class world_queries: world_dynamics
 local world_queries = {}
 
 ---What a ray meets first: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil when it meets nothing.
@@ -765,6 +771,79 @@ function world_queries:distance(a, b) end
 ---@param b? body|robot
 ---@return contact[] # on b; without arguments on the object of each pair
 function world_queries:contacts(a, b) end
+
+---How a world moves: time, steps, momentum, and what presses on what.
+---@class world_dynamics: world_settings
+---@field time number # How long it has run. [s]
+---@field time_step number # Length of the steps of `run`; from 1e-7 to 1. [s]
+---@field report {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, largest_residual: number} # What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took (`iterations`; `fallbacks`, steps that needed its slow methods; `failures`, steps that it did not solve to the tolerance), pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have as velocities [m/s].
+local world_dynamics = {}
+
+---Simulates: everything that is free moves by gravity, contacts and the motors of robots. Each step first moves bodies with the velocities that they have, then finds contacts, then solves for new velocities. Afterwards exactly so much time has passed.
+---@param seconds number # [s]
+function world_dynamics:run(seconds) end
+
+---The first half of a step: moves everything with the velocity that it has, until the time has passed or two bodies that approach each other touch.
+---@param dt number # [s]
+---@return number passed # in (0, dt] [s]
+function world_dynamics:move_bodies(dt) end
+
+---The second half of a step: the velocities that contacts, forces, motors and limits leave after the time in which they act.
+---@param h number # what move_bodies gave [s]
+function world_dynamics:solve_velocities(h) end
+
+---Of all objects and robots; the angular one about the origin of the world.
+---@return {linear: vec3, angular: vec3} # [kg m/s], [kg m^2/s]
+function world_dynamics:momentum() end
+
+---Of all objects and robots: of motion, and of height above the origin of the world and springs.
+---@return {kinetic: number, potential: number} # [J]
+function world_dynamics:energy() end
+
+---What presses on each of some bodies, after the last step: the sum of the forces and their centre. Bodies on which nothing presses are left out.
+---@param links body|body[]
+---@return {link: body, force: vec3, point: vec3, count: integer}[] # [N], [m]
+function world_dynamics:average_contacts(links) end
+
+---How bodies and robots move: velocity, and what pushes them.
+---@class motion: entity
+---@field velocity {linear: vec3, angular: vec3} # Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. Setting a pose brings a body to rest. [m/s], [rad/s]
+local motion = {}
+
+---Pushes it in the next step, and in that one alone; pushes add up.
+---@param force vec3 # in world axes [N]
+---@param point? vec3 # where, in the world; its centre of mass by default [m]
+function motion:apply_force(force, point) end
+
+---Turns it in the next step, and in that one alone.
+---@param torque vec3 # in world axes [N m]
+function motion:apply_torque(torque) end
+
+---How a robot's motors move it.
+---@class robot_dynamics: motion
+---@field dof_velocities number[] # Of its degrees of freedom; a list of its own. [rad/s or m/s]
+---@field dof_efforts number[] # What its motors gave in the last step. [N m or N]
+---@field controller string # What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities that are asked for; "effort" and "none", they give the forces that set_forces says, and nothing else.
+---@field gravity_compensation boolean # Do its motors carry the weight of its own links? As controllers of real arms do. A floating robot has all its weight.
+---@field floating boolean # Is its base free to move? Else it stands, or moves as its velocity says.
+local robot_dynamics = {}
+
+---What each motor gives from now on: beside what its controller does, or alone with the controller "none".
+---@param forces number[] # one per DOF [N m or N]
+function robot_dynamics:set_forces(forces) end
+
+---Where its motors are to bring it: at once, or on a smooth way (a polynomial of the fifth degree in time).
+---@param dofs number[]|table<string, number> # [rad or m]
+---@param options? {velocity?: number} # the largest on the way [rad/s or m/s]
+function robot_dynamics:set_targets(dofs, options) end
+
+---The velocities that its motors are to keep.
+---@param velocities number[] # [rad/s or m/s]
+function robot_dynamics:set_target_velocities(velocities) end
+
+---Has every finger come to its limit, or does its last link touch something?
+---@return boolean
+function robot_dynamics:has_closed() end
 
 ---Closes robot hands on objects and judges the grasps. Lengths are metres, angles radians, masses kilograms, forces newtons; poses and vectors are in the world frame unless a text says otherwise.
 ---@class clench
@@ -876,16 +955,16 @@ function clench.render(world, options) end
 
 ---Draws numbers as columns, one panel per series, each to its own scale, all over the same items, with its value where there is room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
 ---@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
----@return picture
+---@return plot # to be saved as PNG or SVG
 function clench.chart(options) end
 
----Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no graphics hardware.
----@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer} # kind: "line" (default), "points" or "bars"; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
+---Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them; with `categories`, numbers over names, as bars beside one another. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no graphics hardware.
+---@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], categories?: string[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer} # kind: "line", "points" or "bars", by default a line, of categories bars; categories: of each, every series has one y and no x; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
 ---@return plot
 function clench.plot(options) end
 
 ---Several pictures in one, in rows, each with its caption under it.
----@param options {pictures: picture[], captions?: string[], columns?: integer, gap?: integer} # columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
+---@param options {pictures: (picture|plot)[], captions?: string[], columns?: integer, gap?: integer} # columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
 ---@return picture
 function clench.sheet(options) end
 
@@ -1002,6 +1081,19 @@ function clench.files.pregrasps(path, options) end
 ---@param text string
 function clench.files.save_text(path, text) end
 
+---Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of what is in them.
+---@param name string # for errors
+---@param text string
+---@param separator? string # "," by default, ";" or a tab
+---@return table[] records # lists of cells, each with its `line`, and `quoted`: of which cells stood in quotes
+function clench.files.csv_records(name, text, separator) end
+
+---A text as a cell of comma-separated values: in quotes where it would be read otherwise, or as a number, true or false.
+---@param text string
+---@param separator? string # "," by default, ";" or a tab
+---@return string
+function clench.files.csv_text(text, separator) end
+
 ---Writes pre-grasps as a planner's list.
 ---@param path string
 ---@param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[]
@@ -1099,7 +1191,7 @@ function clench.energy.penetration(options) end
 ---@field cores integer # Threads that this machine runs at once.
 clench.parallel = {}
 
----Calls a function for each item of a list, in many threads, each with a state of Lua and worlds of its own. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew.
+---Calls a function for each item of a list, in many threads, each with a state of Lua and worlds of its own. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew. All states together may have as much memory as the one that calls.
 ---@param task function|string # (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
 ---@param items table # a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
 ---@param options? {threads?: integer, shared?: any, each?: function} # threads: all cores by default; shared: what every state is given once; each(result, number): called here in the order of the items, as soon as they are done
