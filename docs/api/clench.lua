@@ -168,7 +168,7 @@ local snapshot = {}
 local entity = {}
 
 ---A rigid body in a world: an object, an obstacle, or a part of a robot.
----@class body: entity
+---@class body: motion
 ---@field name string # Unique in its world.
 ---@field pose pose # Where it is, in the world frame. Setting it moves it at once, whatever is in the way; see move_to. The parts of a robot move with the robot.
 ---@field kind string # "object", "obstacle", "base", "link" or "mount".
@@ -221,7 +221,7 @@ function mesh:sample(random, count) end
 function mesh:save(path) end
 
 ---What every robot has for grasping: eigengrasps, virtual contacts, a glove, a position sensor.
----@class hand: entity
+---@class hand: robot_dynamics
 ---@field eigengrasps eigengrasps # Its eigengrasps, as they are at any time: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
 ---@field amplitudes number[] # Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
 ---@field virtual_contacts virtual_contact[] # Where it would like to touch: those of its file, those it was given, or, when there are none of either, those that find_virtual_contacts finds, anew each time. Set to a list of virtual contacts, contacts, or tables as of add_virtual_contact; to {} for none, to nil for those that are found.
@@ -310,8 +310,8 @@ function dofs:set_posture(pose, values) end
 ---@return table result # as of autograsp
 function dofs:move_dofs(values, options) end
 
----Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed opens.
----@param options? {speed?: number, stop_at_contact?: boolean, dofs?: (integer|string)[], stages?: (integer|string)[][]} # dofs: only these, by number or name; stages: lists of them, one after the other
+---Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed opens. With `dynamic` nothing moves yet: its motors are told to close, and do so while the world runs; then nothing is returned.
+---@param options? {speed?: number, stop_at_contact?: boolean, dofs?: (integer|string)[], stages?: (integer|string)[][], dynamic?: boolean} # dofs: only these, by number or name; stages: lists of them, one after the other
 ---@return table result # `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
 function dofs:autograsp(options) end
 
@@ -731,7 +731,7 @@ function world_settings:add_keyframe(name, states) end
 function world_settings:set_keyframe(name) end
 
 ---What every world answers: what collides, how far things are apart, where they touch, what a ray meets.
----@class world_queries: world_settings
+---@class world_queries: world_dynamics
 local world_queries = {}
 
 ---What a ray meets first: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil when it meets nothing.
@@ -765,6 +765,79 @@ function world_queries:distance(a, b) end
 ---@param b? body|robot
 ---@return contact[] # on b; without arguments on the object of each pair
 function world_queries:contacts(a, b) end
+
+---How a world moves: time, steps, momentum, and what presses on what.
+---@class world_dynamics: world_settings
+---@field time number # How long it has run. [s]
+---@field time_step number # Length of the steps of `run`; from 1e-7 to 1. [s]
+---@field report {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, largest_residual: number} # What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took (`iterations`; `fallbacks`, steps that needed its slow methods; `failures`, steps that it did not solve to the tolerance), pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have as velocities [m/s].
+local world_dynamics = {}
+
+---Simulates: everything that is free moves by gravity, contacts and the motors of robots. Each step first moves bodies with the velocities that they have, then finds contacts, then solves for new velocities. Afterwards exactly so much time has passed.
+---@param seconds number # [s]
+function world_dynamics:run(seconds) end
+
+---The first half of a step: moves everything with the velocity that it has, until the time has passed or two bodies that approach each other touch.
+---@param dt number # [s]
+---@return number passed # in (0, dt] [s]
+function world_dynamics:move_bodies(dt) end
+
+---The second half of a step: the velocities that contacts, forces, motors and limits leave after the time in which they act.
+---@param h number # what move_bodies gave [s]
+function world_dynamics:solve_velocities(h) end
+
+---Of all objects and robots; the angular one about the origin of the world.
+---@return {linear: vec3, angular: vec3} # [kg m/s], [kg m^2/s]
+function world_dynamics:momentum() end
+
+---Of all objects and robots: of motion, and of height above the origin of the world and springs.
+---@return {kinetic: number, potential: number} # [J]
+function world_dynamics:energy() end
+
+---What presses on each of some bodies, after the last step: the sum of the forces and their centre. Bodies on which nothing presses are left out.
+---@param links body|body[]
+---@return {link: body, force: vec3, point: vec3, count: integer}[] # [N], [m]
+function world_dynamics:average_contacts(links) end
+
+---How bodies and robots move: velocity, and what pushes them.
+---@class motion: entity
+---@field velocity {linear: vec3, angular: vec3} # Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. Setting a pose brings a body to rest. [m/s], [rad/s]
+local motion = {}
+
+---Pushes it in the next step, and in that one alone; pushes add up.
+---@param force vec3 # in world axes [N]
+---@param point? vec3 # where, in the world; its centre of mass by default [m]
+function motion:apply_force(force, point) end
+
+---Turns it in the next step, and in that one alone.
+---@param torque vec3 # in world axes [N m]
+function motion:apply_torque(torque) end
+
+---How a robot's motors move it.
+---@class robot_dynamics: motion
+---@field dof_velocities number[] # Of its degrees of freedom; a list of its own. [rad/s or m/s]
+---@field dof_efforts number[] # What its motors gave in the last step. [N m or N]
+---@field controller string # What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities that are asked for; "effort" and "none", they give the forces that set_forces says, and nothing else.
+---@field gravity_compensation boolean # Do its motors carry the weight of its own links? As controllers of real arms do. A floating robot has all its weight.
+---@field floating boolean # Is its base free to move? Else it stands, or moves as its velocity says.
+local robot_dynamics = {}
+
+---What each motor gives from now on: beside what its controller does, or alone with the controller "none".
+---@param forces number[] # one per DOF [N m or N]
+function robot_dynamics:set_forces(forces) end
+
+---Where its motors are to bring it: at once, or on a smooth way (a polynomial of the fifth degree in time).
+---@param dofs number[]|table<string, number> # [rad or m]
+---@param options? {velocity?: number} # the largest on the way [rad/s or m/s]
+function robot_dynamics:set_targets(dofs, options) end
+
+---The velocities that its motors are to keep.
+---@param velocities number[] # [rad/s or m/s]
+function robot_dynamics:set_target_velocities(velocities) end
+
+---Has every finger come to its limit, or does its last link touch something?
+---@return boolean
+function robot_dynamics:has_closed() end
 
 ---Closes robot hands on objects and judges the grasps. Lengths are metres, angles radians, masses kilograms, forces newtons; poses and vectors are in the world frame unless a text says otherwise.
 ---@class clench
