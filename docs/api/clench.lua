@@ -1142,6 +1142,11 @@ function clench.energy.strict_autograsp(options) end
 ---@return energy
 function clench.energy.compliant(options) end
 
+---What the closed hand holds in simulation: minus the sum over six directions of the part of the time that the object was held in study.shake, down to -6; where the closed hand is not in force closure, or loses the object before, 1 + contact, which leads there. It runs on one thread, and takes some tenths of a second where the hand holds something.
+---@param options {hand: robot, object: body, shake?: table, contacts?: string} # shake: options of study.shake; 0.5 s along each direction, 0.3 s of grip and of rest by default; contacts: "preset" or "live"
+---@return energy
+function clench.energy.dynamic(options) end
+
 ---How much the hand's approach direction leans from an axis beyond an angle [rad]: grasps from above, or from one side.
 ---@param options {hand: robot, axis: vec3, angle?: number} # axis: in the world; angle: 0 [rad]
 ---@return energy

@@ -15,6 +15,8 @@ function batch.try(job, told, next_state, options)
   local shared = {hand = job.hand, object = job.object, approach = options.approach, back = options.back,
                   grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, seed = job.seed,
                   over = job.seconds and job.began + job.seconds}
+  local shakes = options.verify and options.verify.shake
+  if shakes then told.shaken, told.survived = 0, 0 end
   local found, number = {}, 0
   local bar <close> = clench.progress(options.limit, job.subject)
 
@@ -23,13 +25,20 @@ function batch.try(job, told, next_state, options)
       told.rejected[result.error] = (told.rejected[result.error] or 0) + 1
       return
     end
-    for why, count in pairs(result.rejected) do told.rejected[why] = (told.rejected[why] or 0) + count end
+    for why, count in pairs(result.rejected) do
+      told.rejected[why] = (told.rejected[why] or 0) + count
+      if why == "lost when shaken" then told.shaken = told.shaken + count end
+    end
     for _, new in ipairs(result.grasps) do
       local numbers = new.numbers or {}
       numbers.number, numbers.seed = new.number, job.seed
       -- a call that Ctrl-C has broken off is made again
       if not new.taken then
         new.taken = true
+        if shakes then
+          told.shaken = told.shaken + 1
+          if numbers.survived == 1 then told.survived = told.survived + 1 end
+        end
         found[#found + 1] = closing.note(new.grasp, options.planner, numbers)
         if options.on_grasp then options.on_grasp(new.grasp) end
       end
