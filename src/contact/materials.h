@@ -1,5 +1,6 @@
 // What bodies are made of, and the friction of each pair of materials.
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,8 @@ namespace clench {
 struct Friction {
   double statics = 0;  ///< while sticking
   double kinetic = 0;  ///< while sliding
+  /// speed after a blow by that before, in [0, 1]; absent: the larger of the two bodies'
+  std::optional<double> restitution = {};
 };
 
 /// Symmetric table of friction coefficients; users add materials and change pairs.

@@ -85,10 +85,22 @@ void Mover::place(double s, bool finish) {
     for (size_t i = 0; i < dofs.size(); ++i)
       dofs[i] = std::clamp(dofs[i] + s * machine.dof_velocities[i], std::min(dofs[i], robot.limits[i][0]),
                            std::max(dofs[i], robot.limits[i][1]));
-    for (size_t j = 0; j < joints.size(); ++j)
-      joints[j] = world_.follows_dof(machine.robot, static_cast<int>(j))
-                      ? robot.joints[j].ratio * dofs[robot.joints[j].dof]
-                      : joints[j] + s * machine.joint_velocities[j];
+    for (size_t j = 0; j < joints.size(); ++j) {
+      const Joint& joint = robot.joints[j];
+      const double followed = joint.ratio * dofs[joint.dof];
+      if (world_.follows_dof(machine.robot, static_cast<int>(j))) {
+        joints[j] = followed;
+        continue;
+      }
+      joints[j] += s * machine.joint_velocities[j];
+      const DofSpec& dof = robot.dofs[joint.dof];
+      if (dof.kind != DofKind::breakaway) continue;
+      // opening, the DOF picks up what it left behind where it meets it
+      const double closing = (dof.default_velocity < 0 ? -1.0 : 1.0) * (joint.ratio < 0 ? -1 : 1);
+      if (closing * (followed - joints[j]) > 0) continue;
+      joints[j] = followed;
+      if (finish) world_.set_follows_dof(machine.robot, static_cast<int>(j), true);
+    }
     // a robot that is carried stands where its carrier has put it
     const Pose X_WB = robot.mounting ? world_.pose(robot.base)
                                      : moved_rigidly(machine.X_WB, world_.body(robot.base).com, machine.twist, s);

@@ -47,6 +47,7 @@ Eigen::Vector3d Stepper::told_velocity(Id<Body> id, const Eigen::Vector3d& p_W) 
 void Stepper::find_free_velocities(double h) {
   const DynamicState& state = *world_.dynamics();
   gather_velocities(system_, state, v_);
+  v_before_ = v_;
   for (size_t t = 0; t < trees_.size(); ++t) {
     const Articulation& tree = system_.trees[t];
     TreeDynamics& dynamics = trees_[t];
@@ -76,6 +77,11 @@ void Stepper::find_free_velocities(double h) {
     auto v = v_.segment(tree.first, n);
     dynamics.factor(forces_[t].added);
     Eigen::VectorXd rhs = h * efforts - forces_[t].velocity_part.cwiseProduct(v);
+    if (!tree.floating) {
+      Vector6d told;
+      told << state.told[tree.root.index].linear, state.told[tree.root.index].angular;
+      rhs += dynamics.jerk(root_twist(static_cast<int>(t)) - told);
+    }
     dynamics.half_solve(rhs);
     dynamics.other_half_solve(rhs);
     v += rhs;
@@ -90,6 +96,7 @@ void Stepper::update_manifolds() {
       measure(world_, m);
     else
       update_gaps(world_, m);
+    for (ManifoldPoint& point : m.points) update_torsion(point);
   }
 }
 
@@ -142,11 +149,17 @@ void Stepper::add_contact(int manifold, int point, double h) {
   // the gap may close as far as bodies rest, in the step to come
   const double step = world_.dynamic_settings().step, beyond = p.gap - rest_gap * world_.contact_threshold();
   double target = beyond > 0 ? -beyond / step : std::min(-pushed_part * beyond / step, pushed_at_most);
+  const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
   for (int k = 0; k < size; ++k) {
-    double q = k < 3 ? touch.frame.col(k).dot(told) : 0;
+    double q = k < 3 ? touch.frame.col(k).dot(told) : 0, before = q;
     for (int side = 0; side < 2; ++side)
-      if (const int t = block.tree[side]; t >= 0)
-        q += tree_rows_[t].Y.col(block.column[side] + k).dot(v_.segment(system_.trees[t].first, system_.trees[t].size()));
+      if (const int t = block.tree[side]; t >= 0) {
+        const auto column = tree_rows_[t].Y.col(block.column[side] + k);
+        q += column.dot(v_.segment(system_.trees[t].first, system_.trees[t].size()));
+        before += column.dot(v_before_.segment(system_.trees[t].first, system_.trees[t].size()));
+      }
+    // Newton's law of impact, where the free motion would press
+    if (k == 0 && q < target && before < -bounces_above) target = std::max(target, -restitution * before);
     if (k == 0) q -= target;
     q_.conservativeResize(row_count_ + k + 1);
     q_[row_count_ + k] = q;
@@ -292,6 +305,7 @@ void Stepper::keep(double h) {
   for (size_t t = 0; t < trees_.size(); ++t) {
     const Articulation& tree = system_.trees[t];
     const Vector6d root = root_twist(static_cast<int>(t));
+    if (!tree.floating) state.told[tree.root.index] = world_.twist(tree.root);
     if (tree.joints.empty() || tree.size() == 0) continue;
     for (size_t b = 0; b < tree.bodies.size(); ++b)
       if (tree.bodies[b].body != tree.root)
@@ -320,10 +334,59 @@ void Stepper::keep(double h) {
     for (int k = 1; k < block.law.size(); ++k) speed += u_[row + k] * u_[row + k];
     p.slides = r_[row] > 0 && speed > sliding_speed * sliding_speed;
   }
+  disengage(h);
   for (Load& load : state.loads) load = {};
   state.report.contacts = static_cast<int>(touches_.size());
   state.report.largest_residual = std::max(state.report.largest_residual, state.report.residual);
   ++state.report.steps;
+}
+
+// A joint of a breakaway DOF leaves it when more is asked of it, in the sense in which the DOF closes, than its clutch gives;
+// the last one that follows stays.
+void Stepper::disengage(double h) {
+  DynamicState& state = world_.edit_dynamics();
+  for (size_t t = 0; t < trees_.size(); ++t) {
+    const Articulation& tree = system_.trees[t];
+    const auto may_leave = [&](const TreeJoint& joint) {
+      const Robot& robot = world_.robot(joint.robot);
+      const DofSpec& dof = robot.dofs[robot.joints[joint.joint].dof];
+      return dof.kind == DofKind::breakaway && dof.breakaway_torque > 0 && world_.follows_dof(joint.robot, joint.joint);
+    };
+    if (std::ranges::none_of(tree.joints, may_leave)) continue;
+    std::vector<Vector6d> loads(tree.bodies.size(), Vector6d::Zero());
+    const auto add = [&](Id<Body> id, const Eigen::Vector3d& p_W, const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
+      const System::Place place = system_.place(id);
+      if (place.tree != static_cast<int>(t)) return;
+      loads[place.body].head<3>() += force;
+      loads[place.body].tail<3>() += torque + (p_W - trees_[t].about()).cross(force);
+    };
+    for (const Touch& touch : touches_) {
+      const Manifold& m = state.manifolds[touch.manifold];
+      const ManifoldPoint& p = m.points[touch.point];
+      const Eigen::Vector3d force = world_.pose(m.a).rotation * p.force, torque = p.torsion * touch.frame.col(0);
+      add(m.a, touch.p_W, -force, -torque);
+      add(m.b, touch.p_W, force, torque);
+    }
+    for (size_t b = 0; b < tree.bodies.size(); ++b) {
+      const Load& load = state.loads[tree.bodies[b].body.index];
+      add(tree.bodies[b].body, trees_[t].com(static_cast<int>(b)), load.force, load.torque);
+    }
+    const auto& efforts = trees_[t].inverse_dynamics(v_before_, (v_ - v_before_) / h, root_twist(static_cast<int>(t)),
+                                                     world_.gravity(), loads);
+    for (size_t i = 0; i < tree.joints.size(); ++i) {
+      const TreeJoint& joint = tree.joints[i];
+      if (!may_leave(joint)) continue;
+      const Robot& robot = world_.robot(joint.robot);
+      const Joint& spec = robot.joints[joint.joint];
+      const DofSpec& dof = robot.dofs[spec.dof];
+      const double closing = dof.default_velocity < 0 ? -1 : 1;
+      if (closing * (spec.ratio < 0 ? -efforts[i] : efforts[i]) <= dof.breakaway_torque) continue;
+      int following = 0;
+      for (size_t j = 0; j < robot.joints.size(); ++j)
+        following += robot.joints[j].dof == spec.dof && world_.follows_dof(joint.robot, static_cast<int>(j));
+      if (following > 1) world_.set_follows_dof(joint.robot, joint.joint, false);
+    }
+  }
 }
 
 void Stepper::solve(double h) {

@@ -60,6 +60,7 @@ class Stepper {
   void solve_island(const std::vector<int>& blocks);
   void apply_impulses();
   void keep(double h);
+  void disengage(double h);
 
   World& world_;
   System system_;
@@ -71,7 +72,7 @@ class Stepper {
   std::vector<CoordinateRow> coordinate_rows_;
   std::vector<Touch> touches_;
   std::vector<Block> blocks_;
-  Eigen::VectorXd v_, q_, r_, u_, compliance_;
+  Eigen::VectorXd v_, v_before_, q_, r_, u_, compliance_;
   std::vector<double> warm_;
   int row_count_ = 0;
   FrictionSolver solver_;

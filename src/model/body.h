@@ -28,6 +28,7 @@ struct Body {
   std::optional<double> elastic_modulus;  ///< [Pa]
   double soft_layer = 0.003;              ///< of an elastic body: height of its soft layer [m]
   double poisson_ratio = 0;               ///< likewise
+  double restitution = 0;                 ///< speed after a blow by that before, in [0, 1]
   std::optional<int> tracker;
 
   // place in a robot, when it belongs to one

@@ -1,12 +1,14 @@
 // How a world moves: velocities, what motors are to do, and what a step of dynamics leaves for the next one.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "clench/contact/feature.h"
 #include "clench/contact/materials.h"
+#include "clench/contact/soft_patch.h"
 #include "clench/model/body.h"
 
 namespace clench {
@@ -54,10 +56,11 @@ struct ManifoldPoint {
   Eigen::Vector3d normal;         ///< unit, from a into b, in the frame of a
   Feature feature_a, feature_b;
   double gap = 0;                 ///< when the last step ended [m]
-  double torsion_radius = 0;      ///< of a soft contact [m]
+  std::shared_ptr<const SoftPatch> patch;  ///< of a soft contact, else null
+  double torsion_radius = 0;      ///< of a soft contact, under the force torsion_force [m]
+  double torsion_force = 0;       ///< [N]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on b, of the last step, in the frame of a [N]
   double torsion = 0;             ///< about the normal, on b [N m]
-  double approach = 0;            ///< speed at which it was met, for restitution [m/s]
   bool slides = false;            ///< did it, after the last step? then its friction is kinetic
 };
 
@@ -96,6 +99,7 @@ struct RowImpulse {
 struct DynamicState {
   double time = 0;                           ///< [s]
   std::vector<Twist> twists;                 ///< by the index of the body's id; of links too, as of the last step
+  std::vector<Twist> told;                   ///< likewise: of bases that move as told, in the last step
   std::vector<double> dof_velocities;        ///< [rad/s or m/s]
   std::vector<double> joint_velocities;      ///< likewise
   std::vector<DofControl> controls;          ///< one per DOF

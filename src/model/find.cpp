@@ -96,6 +96,25 @@ static Elasticity elasticity(const Body& body) {
   return {.modulus = body.elastic_modulus, .layer = body.soft_layer, .poisson = body.poisson_ratio};
 }
 
+// of the last step's manifold, the point on the same features, or else the nearest
+static const ManifoldPoint* same_point(const Manifold& manifold, const Touch& touch) {
+  constexpr double near = 1e-3;
+  const ManifoldPoint* best = nullptr;
+  double nearest = near;
+  for (const ManifoldPoint& p : manifold.points) {
+    if (p.feature_a == touch.feature_a && p.feature_b == touch.feature_b) return &p;
+    if (const double d = (p.p_a - touch.p_a).norm(); d < nearest) best = &p, nearest = d;
+  }
+  return best;
+}
+
+static const Manifold* manifold_of(const World& world, Id<Body> a, Id<Body> b) {
+  if (!world.dynamics()) return nullptr;
+  for (const Manifold& m : world.dynamics()->manifolds)
+    if (m.a == a && m.b == b) return &m;
+  return nullptr;
+}
+
 static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
                          std::vector<Contact>& out) {
   const auto [first, second] = ordered(other, body);
@@ -113,6 +132,7 @@ static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
   std::vector<SoftSitePtr> sites(touches.size());
   if (soft) sites = soft_sites(a.shape, b.shape, X_AB, elasticity(a), elasticity(b), touches);
   const bool on_b = body == second;
+  const Manifold* manifold = manifold_of(world, first, second);
   for (size_t i = 0; i < touches.size(); ++i) {
     const Touch& touch = touches[i];
     const Eigen::Vector3d n_W = X_WA.rotation * touch.normal_b;
@@ -128,6 +148,11 @@ static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
                    .site = sites[i],
                    .X_WA = X_WA,
                    .body_is_b = on_b});
+    const ManifoldPoint* point = manifold ? same_point(*manifold, touch) : nullptr;
+    if (!point) continue;
+    const Eigen::Vector3d force = X_WA.rotation * point->force;
+    out.back().force_W = on_b ? force : Eigen::Vector3d(-force);
+    out.back().torsion = point->torsion;
   }
 }
 

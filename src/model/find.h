@@ -49,6 +49,9 @@ struct Contact {
   SoftSitePtr site = nullptr;
   Pose X_WA = {};
   bool body_is_b = false;
+  /// on body, of the last step of dynamics [N], and torque about the normal [N m]; 0 without one
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
+  double torsion = 0;
 };
 
 /// Contacts of all pairs that may collide; `body` is the later group's.

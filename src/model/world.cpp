@@ -389,6 +389,11 @@ void World::set_poisson_ratio(Id<Body> id, double ratio) {
   edit(id).poisson_ratio = ratio;
 }
 
+void World::set_restitution(Id<Body> id, double ratio) {
+  check(share_rule.called("restitution"), ratio, the_body(body(id).name));
+  edit(id).restitution = ratio;
+}
+
 void World::set_appearance(Id<Body> id, const Appearance& appearance) {
   check_appearance(appearance, the_body(body(id).name));
   edit(id).appearance = appearance;

@@ -93,6 +93,7 @@ class World {
   void set_inertia(Id<Body> body, const Eigen::Matrix3d& inertia);  ///< about com [kg m^2]
   void set_elastic_modulus(Id<Body> body, std::optional<double> modulus);
   void set_soft_layer(Id<Body> body, double height);    ///< > 0 [m]
+  void set_restitution(Id<Body> body, double ratio);    ///< in [0, 1]
   void set_poisson_ratio(Id<Body> body, double ratio);  ///< in [0, 0.5)
   void set_appearance(Id<Body> body, const Appearance& appearance);
 

@@ -64,6 +64,7 @@ uint64_t World::hash() const {
     h.add(b.elastic_modulus.value_or(0));
     h.add(b.soft_layer);
     h.add(b.poisson_ratio);
+    h.add(b.restitution);
     flag(settings_->switched_off.contains(id));
     h.add(b.shape ? b.shape->hash() : 0);
   }
@@ -91,7 +92,7 @@ uint64_t World::hash() const {
   for (int i = 0; i < count; ++i)
     for (int j = 0; j <= i; ++j) {
       const Friction f = settings_->materials.friction(i, j);
-      h.add(f.statics), h.add(f.kinetic);
+      h.add(f.statics), h.add(f.kinetic), h.add(f.restitution.value_or(-1));
     }
   for (const auto& [a, b] : settings_->pairs_off) h.add(body(a).name), h.add(body(b).name);
   h.add(settings_->contact_threshold);

@@ -25,6 +25,15 @@ void update_gaps(const World& world, Manifold& manifold) {
   for (ManifoldPoint& point : manifold.points) point.gap = gap_of(point, X_AB);
 }
 
+void update_torsion(ManifoldPoint& point) {
+  constexpr double noticed = 0.05;
+  if (!point.patch) return;
+  const double force = std::max(0.0, point.force.dot(point.normal));
+  if (force == 0 || std::abs(force - point.torsion_force) <= noticed * point.torsion_force) return;
+  point.torsion_radius = torsion_radius(*point.patch, force);
+  point.torsion_force = force;
+}
+
 bool follows(const World& world, const Manifold& m) {
   return displacement(m.X_AB, relative_pose(world, m.a, m.b), *world.body(m.b).shape) <=
          follows_within * world.contact_threshold();
@@ -41,6 +50,7 @@ static void inherit(std::vector<ManifoldPoint>& points, const std::vector<Manifo
     points[i].torsion = before[k].torsion;
     points[i].slides = before[k].slides;
     points[i].torsion_radius = before[k].torsion_radius;
+    points[i].torsion_force = before[k].torsion_force;
   };
   for (size_t i = 0; i < points.size(); ++i)
     for (size_t k = 0; k < before.size() && !found[i]; ++k)
@@ -55,6 +65,26 @@ static void inherit(std::vector<ManifoldPoint>& points, const std::vector<Manifo
       if (!taken[k] && d < nearest) best = k, nearest = d;
     }
     if (best < before.size()) take(i, best);
+  }
+}
+
+static Elasticity elasticity(const Body& body) {
+  return {.modulus = body.elastic_modulus, .layer = body.soft_layer, .poisson = body.poisson_ratio};
+}
+
+// points whose bodies are soft there transmit torsion
+static void find_patches(const World& world, const Manifold& m, std::vector<ManifoldPoint>& points) {
+  const Body &a = world.body(m.a), &b = world.body(m.b);
+  if (!a.elastic_modulus && !b.elastic_modulus) return;
+  if (world.materials().friction(a.material, b.material).statics == 0) return;
+  std::vector<Touch> touches;
+  for (const ManifoldPoint& p : points)
+    touches.push_back({.p_a = p.p_a, .p_b = m.X_AB * p.p_b, .normal_b = p.normal, .gap = p.gap});
+  const auto sites = soft_sites(a.shape, b.shape, m.X_AB, elasticity(a), elasticity(b), touches);
+  for (size_t i = 0; i < points.size(); ++i) {
+    size_t first = 0;
+    while (sites[first] != sites[i]) ++first;
+    points[i].patch = first < i ? points[first].patch : std::make_shared<const SoftPatch>(soft_patch(*sites[i]));
   }
 }
 
@@ -82,6 +112,7 @@ void measure(World& world, Manifold& m) {
                           .feature_b = touch.feature_b,
                           .gap = touch.gap});
   }
+  if (!points.empty()) find_patches(world, m, points);
   if (!points.empty() && !m.points.empty()) inherit(points, m.points);
   m.points = std::move(points);
 }

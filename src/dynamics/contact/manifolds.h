@@ -29,6 +29,9 @@ void update_gaps(const World& world, Manifold& manifold);
 /// Do they follow their bodies still?
 bool follows(const World& world, const Manifold& manifold);
 
+/// The radius by which a soft point resists torsion under its last force; found anew when that has changed by a twentieth.
+void update_torsion(ManifoldPoint& point);
+
 /// Of a point that follows its bodies, where these stand at X_AB [m]; negative where they overlap.
 double gap_of(const ManifoldPoint& point, const Pose& X_AB);
 

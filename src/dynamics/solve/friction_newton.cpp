@@ -14,7 +14,7 @@ double FrictionNewton::classify(const ScaledFriction& problem, const VectorXd& r
   for (size_t i = 0; i < problem.blocks.size(); ++i) {
     const auto& block = problem.blocks[i];
     const int row = block.row;
-    const double normal = r[row] - u[row] / block.d;
+    const double normal = r[row] - rho_ * u[row] / block.d;
     if (!block.moves) {
       states_[i] = State::fixed;
     } else if (!block.is_contact()) {
@@ -29,14 +29,14 @@ double FrictionNewton::classify(const ScaledFriction& problem, const VectorXd& r
       double* t = &slide_[4 * i + 1];
       double length = 0;
       for (int k = 0; k < block.tangents; ++k) {
-        t[k] = r[row + 1 + k] - u[row + 1 + k] / block.d;
+        t[k] = r[row + 1 + k] - rho_ * u[row + 1 + k] / block.d;
         length += t[k] * t[k];
       }
       length = std::sqrt(length);
       const double friction = block.mu * normal;
       if (length <= friction && block.mu > 0) {
         states_[i] = State::sticks;
-        for (int k = 1; k <= block.tangents; ++k) square += u[row + k] * u[row + k] / (block.d * block.d);
+        for (int k = 1; k <= block.tangents; ++k) square += rho_ * rho_ * u[row + k] * u[row + k] / (block.d * block.d);
         continue;
       }
       states_[i] = State::slides;
@@ -78,7 +78,7 @@ void FrictionNewton::decide(const ScaledFriction& problem, VectorXd& r) {
       for (int k = 0; k < tangents; ++k) normal.t[k] = block.mu * t[k], along += t[k] * r[row + 1 + k];
       for (int k = 0; k < tangents; ++k) r[row + 1 + k] += (block.mu * r[row] - along) * t[k];
       directions_.push_back(normal);
-      Direction across{.row = row, .tangents = tangents, .across = true, .factor = beta, .diagonal = (1 - beta) * block.d};
+      Direction across{.row = row, .tangents = tangents, .across = true, .factor = beta, .diagonal = (1 - beta) * block.d / rho_};
       if (tangents == 2) {
         across.t[0] = -t[1], across.t[1] = t[0];
         directions_.push_back(across);
@@ -135,7 +135,7 @@ bool FrictionNewton::factor(const ScaledFriction& problem, double damping) {
 }
 
 bool FrictionNewton::step(const ScaledFriction& problem, double damping, const VectorXd& r, const VectorXd& u,
-                          VectorXd& next) {
+                          bool keep, VectorXd& next) {
   next = r;
   decide(problem, next);
   shift_ = u;
@@ -156,7 +156,7 @@ bool FrictionNewton::step(const ScaledFriction& problem, double damping, const V
         sum += of.t[c] * (of.factor * shift_[of.row + 1 + c] + of.diagonal * next[of.row + 1 + c]);
     right_[k] = -sum;
   }
-  if (!factor(problem, damping)) return false;
+  if (!(keep && factored_damping_ == damping && factored_ == states_) && !factor(problem, damping)) return false;
   system_.solve(right_);
   for (int k = 0; k < n; ++k) {
     const Direction& by = directions_[k];
@@ -171,10 +171,12 @@ bool FrictionNewton::slides() const {
   return std::find(states_.begin(), states_.end(), State::slides) != states_.end();
 }
 
-FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, double damping, int max_iterations, VectorXd& r) {
+FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, const VectorXd& q, double damping, double rho, int max_iterations,
+                                          VectorXd& r) {
+  rho_ = rho;
   End end;
   const auto velocities = [&](const VectorXd& at, VectorXd& u) {
-    u = problem.q + damping * problem.weights.cwiseProduct(at);
+    u = q + damping * problem.weights.cwiseProduct(at);
     u.noalias() += problem.S * at;
   };
   velocities(r, u_);
@@ -183,14 +185,14 @@ FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, double 
   int climbs = 0;
   while (end.iterations < max_iterations) {
     ++end.iterations;
-    if (!step(problem, damping, r, u_, next_)) break;
+    if (!step(problem, damping, r, u_, false, next_)) break;
     const std::vector<State> before = states_;
     double length = (next_ - r).lpNorm<Eigen::Infinity>();
     const double size = next_.lpNorm<Eigen::Infinity>();
     velocities(next_, u_next_);
     double next_merit = classify(problem, next_, u_next_);
     const bool linear = states_ == before && !slides();
-    if (std::isfinite(next_merit) && (linear || (length <= 1e-5 * size && std::sqrt(next_merit) <= 1e-12 * (size + problem.q.lpNorm<Eigen::Infinity>())))) {
+    if (std::isfinite(next_merit) && (linear || (length <= 1e-5 * size && std::sqrt(next_merit) <= 1e-12 * (size + q.lpNorm<Eigen::Infinity>())))) {
       r.swap(next_);
       end.converged = true;
       return end;
@@ -201,7 +203,7 @@ FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, double 
       right_ = next_;
       VectorXd tried = next_;
       double least = next_merit, least_fraction = 1;
-      for (int i = 0; i < 6; ++i) {
+      for (int i = 0; i < 3; ++i) {
         fraction /= 2;
         tried = r + fraction * (right_ - r);
         velocities(tried, u_next_);
@@ -232,8 +234,9 @@ FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, double 
 }
 
 bool FrictionNewton::refine(const ScaledFriction& problem, double damping, const VectorXd& u, VectorXd& r) {
+  rho_ = 1;
   classify(problem, r, u);
-  if (!step(problem, damping, r, u, next_)) return false;
+  if (!step(problem, damping, r, u, true, next_)) return false;
   r.swap(next_);
   return true;
 }

@@ -21,7 +21,7 @@ class FrictionNewton {
     int iterations = 0;
   };
   /// r  from there on; the result, or where there is none the least fault met
-  End solve(const ScaledFriction& problem, double damping, int max_iterations, Eigen::VectorXd& r);
+  End solve(const ScaledFriction& problem, const Eigen::VectorXd& q, double damping, double rho, int max_iterations, Eigen::VectorXd& r);
   /// One step towards a solution of the problem without damping, which only keeps what S leaves open as it is.
   /// u        S r + q
   /// returns  false: the matrix is singular
@@ -43,8 +43,9 @@ class FrictionNewton {
   void decide(const ScaledFriction& problem, Eigen::VectorXd& r);
   bool factor(const ScaledFriction& problem, double damping);
   /// next  the solution of the linear system of the states at r
+  /// keep  the last matrix serves again if the states are the same
   bool step(const ScaledFriction& problem, double damping, const Eigen::VectorXd& r, const Eigen::VectorXd& u,
-            Eigen::VectorXd& next);
+            bool keep, Eigen::VectorXd& next);
   bool slides() const;
 
   std::vector<State> states_, factored_;
@@ -53,7 +54,7 @@ class FrictionNewton {
   Eigen::VectorXd u_, next_, u_next_, best_, decided_, right_, shift_;
   Eigen::MatrixXd columns_;
   DenseSystem system_;
-  double factored_damping_ = -1;
+  double factored_damping_ = -1, rho_ = 1;
 };
 
 }  // namespace clench

@@ -50,16 +50,31 @@ double block_admittance(const FrictionProblem& problem, const FrictionProblem::B
   return problem.W.diagonal().segment(block.row, block.size()).mean();
 }
 
-double friction_residual(const FrictionProblem& problem, const Eigen::VectorXd& r) {
-  const Eigen::VectorXd u = problem.W * r + problem.q;
-  double largest = 0;
+FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u, double tolerance) {
+  // |W_ij| <= sqrt(W_ii W_jj): what the sums of u are sums of
+  double size = 0;
+  for (const auto& block : problem.blocks) {
+    double sum = 0;
+    for (int k = 0; k < block.size(); ++k) sum += std::abs(r[block.row + k]);
+    if (sum > 0) size += std::sqrt(std::max(0.0, block_admittance(problem, block))) * sum;
+  }
+  FrictionFault worst;
   for (const auto& block : problem.blocks) {
     const double d = block_admittance(problem, block);
     const double fault = block_fault(block, d, &r[block.row], &u[block.row]);
-    if (!valid(block) || !std::isfinite(fault)) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, fault);
+    if (!valid(block) || !std::isfinite(fault) || !std::isfinite(d)) {
+      worst.largest = worst.excess = std::numeric_limits<double>::infinity();
+      return worst;
+    }
+    const double rounding = std::min(4e-16 * size * std::sqrt(std::max(0.0, d)), 1e6 * tolerance);
+    worst.largest = std::max(worst.largest, fault);
+    worst.excess = std::max(worst.excess, fault / (tolerance + rounding));
   }
-  return largest;
+  return worst;
+}
+
+double friction_residual(const FrictionProblem& problem, const Eigen::VectorXd& r) {
+  return friction_fault(problem, r, problem.W * r + problem.q, 1).largest;
 }
 
 }  // namespace clench

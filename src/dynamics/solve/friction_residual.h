@@ -19,6 +19,14 @@ double block_fault(const FrictionProblem::Block& block, double d, const double* 
 /// d of block_fault
 double block_admittance(const FrictionProblem& problem, const FrictionProblem::Block& block);
 
+/// How true impulses are.
+struct FrictionFault {
+  double largest = 0;  ///< fault of any block; infinite where a number is not finite or a block is no block
+  double excess = 0;   ///< of any block, fault by what is allowed: the tolerance, and the rounding of W r beside it
+};
+/// u  W r + q
+FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u, double tolerance);
+
 /// The largest fault of any block [m/s, rad/s]; infinite where a number of the problem or of r is not finite (but
 /// bounds), a coefficient of friction is negative, or 0 is not within the bounds of a row.
 double friction_residual(const FrictionProblem& problem, const Eigen::VectorXd& r);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/dynamics/solve/friction_feasibility.h"
+#include "clench/dynamics/solve/friction_pyramid.h"
 #include "clench/dynamics/solve/friction_residual.h"
 
 namespace clench {
@@ -17,73 +19,127 @@ constexpr double damping = 1e-8;
 
 }  // namespace
 
-// what one block misses, in velocities of the problem
-double FrictionSolver::fault(const FrictionProblem& problem, const VectorXd& r, const VectorXd& u) const {
-  double largest = 0;
-  for (const auto& block : problem.blocks) {
-    const double value = block_fault(block, block_admittance(problem, block), &r[block.row], &u[block.row]);
-    if (!(value <= largest)) largest = std::isnan(value) ? infinity : value;
-  }
-  return largest;
-}
-
-bool FrictionSolver::newton(double by, int max_iterations, VectorXd& r, FrictionSolution& solution) {
-  const auto end = newton_.solve(scaled_, by, max_iterations, r);
+bool FrictionSolver::newton(double by, double rho, int max_iterations, VectorXd& r, FrictionSolution& solution) {
+  const auto end = newton_.solve(scaled_, scaled_.q, by, rho, max_iterations, r);
   solution.iterations += end.iterations;
   return end.converged;
 }
 
-bool FrictionSolver::solve_damped(int max_rounds, double by, VectorXd& r, FrictionSolution& solution) {
-  if (!r.isZero(0) && newton(by, 8, r, solution)) return true;
-  gauss_seidel_.set(scaled_, by);
+double FrictionSolver::solve_damped(VectorXd& r, FrictionSolution& solution) {
+  if (!r.isZero(0) && newton(damping, 1, 8, r, solution)) return damping;
+  gauss_seidel_.set(scaled_, damping);
   gauss_seidel_.sweep(scaled_, 3, r);
   solution.iterations += 3;
-  if (newton(by, 12, r, solution)) return true;
-  // from strong damping, where blocks hardly feel each other, down to none to speak of
-  double level = 1, shrink = 0.1;
+  if (newton(damping, 1, 12, r, solution)) return damping;
+  return descend(1, r, solution);
+}
+
+double FrictionSolver::descend(double rho, VectorXd& r, FrictionSolution& solution) {
+  double reached = 4, shrink = 0.25;
   r.setZero();
-  r_ = r;
-  for (int round = 0; round < max_rounds; ++round) {
-    gauss_seidel_.set(scaled_, level);
-    for (int sweeps = 3; sweeps < 20; sweeps *= 2) {
-      gauss_seidel_.sweep(scaled_, sweeps, r_);
-      solution.iterations += sweeps;
-      if (newton(level, 20, r_, solution)) {
-        sweeps = 0;
-        break;
+  for (int round = 0; round < 40 && reached > damping && shrink < 0.99; ++round) {
+    const double level = std::max(reached * shrink, damping);
+    r_ = r;
+    bool found = newton(level, rho, 10, r_, solution);
+    if (!found) {
+      gauss_seidel_.set(scaled_, level);
+      int sweeps = 3;
+      for (const double other : {0.2, 5.0, 1.0, 0.04, 25.0}) {
+        r_ = r;
+        gauss_seidel_.sweep(scaled_, sweeps, r_);
+        solution.iterations += sweeps;
+        sweeps += 2;
+        found = newton(level, rho * other, 15, r_, solution);
+        if (found) break;
       }
     }
-    // (probe)
-    VectorXd check = r_;
-    const bool ok = newton(level, 20, check, solution);
-    if (ok) {
-      r = check;
-      if (level <= by) return true;
+    if (found) {
+      r.swap(r_);
+      reached = level;
+      shrink = std::max(shrink * shrink, 1e-3);
+    } else {
+      shrink = std::sqrt(shrink);
     }
-    r_ = r;
-    (void)shrink;
-    level = std::max(level * shrink, by);
+  }
+  return reached;
+}
+
+bool FrictionSolver::solve_by_pyramids(double by, int edges_per_contact, VectorXd& r, FrictionSolution& solution) {
+  std::vector<Eigen::MatrixXd> edges;
+  for (const auto& block : scaled_.blocks) edges.push_back(friction_edges(block.tangents, edges_per_contact));
+  for (int round = 0; round < 8; ++round) {
+    const PyramidSolution pyramid = solve_pyramid(scaled_, std::max(by, 1e-7), edges);
+    solution.iterations += pyramid.iterations;
+    if (!pyramid.found) return false;
+    r = pyramid.r;
+    for (const double rho : {1.0, 0.2, 5.0}) {
+      r_ = r;
+      if (newton(by, rho, 20, r_, solution)) {
+        r = r_;
+        return true;
+      }
+    }
+    // an edge where each contact slides to
+    u_ = scaled_.S * r + scaled_.q;
+    for (size_t i = 0; i < edges.size(); ++i) {
+      const auto& block = scaled_.blocks[i];
+      if (block.tangents < 2) continue;
+      const VectorXd slip = u_.segment(block.row + 1, block.tangents);
+      if (!(slip.norm() > 1e-9)) continue;
+      edges[i].conservativeResize(Eigen::NoChange, edges[i].cols() + 1);
+      edges[i].col(edges[i].cols() - 1) = -slip.normalized();
+    }
   }
   return false;
 }
 
-bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, VectorXd& r, FrictionSolution& solution) {
-  double by = damping, last = infinity;
-  for (int i = 0; i < 40; ++i) {
-    u_ = scaled_.S * r + scaled_.q;
-    const VectorXd impulses = r.cwiseProduct(scaled_.units);
-    const double residual = fault(problem, impulses, u_.cwiseQuotient(scaled_.units));
-    if (residual < solution.residual) solution.residual = residual, solution.r = impulses;
-    // u = W r + q is known to the rounding of its sums only
-    const VectorXd size = scaled_.weights.cwiseSqrt();
-    const double rounding = 4e-16 * size.dot(r.cwiseAbs()) * size.cwiseQuotient(scaled_.units).maxCoeff();
-    if (residual <= tolerance + std::min(rounding, 1e-6 * tolerance / 1e-12)) return true;
-    if (residual > 0.3 * last) by = std::max(by / 100, 1e-15);
-    last = residual;
+bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, VectorXd& r, FrictionSolution& solution) {
+  // sets u_ and keeps the best
+  bool enough = false;
+  const auto measure = [&](const VectorXd& at) {
+    u_ = scaled_.q;
+    u_.noalias() += scaled_.S * at;
+    impulses_ = at.cwiseProduct(scaled_.units);
+    velocities_ = u_.cwiseQuotient(scaled_.units);
+    const FrictionFault fault = friction_fault(problem, impulses_, velocities_, tolerance);
+    enough = fault.excess <= 1;
+    if (enough || fault.largest < solution.residual) solution.residual = fault.largest, solution.r = impulses_;
+    return fault.largest;
+  };
+  double residual = measure(r);
+  for (int i = 0; i < max_iterations; ++i) {
+    if (enough) return true;
+    r_ = r;
     ++solution.iterations;
-    if (!newton_.refine(scaled_, by, u_, r)) return false;
+    if (newton_.refine(scaled_, by, u_, r_)) {
+      const double next = measure(r_);
+      if (enough || next < 0.5 * residual) {
+        r.swap(r_);
+        residual = next;
+        continue;
+      }
+    }
+    // the damping pulls to where it is, no more to 0
+    const VectorXd q = scaled_.q - by * scaled_.weights.cwiseProduct(r);
+    bool found = false;
+    for (const double rho : {1.0, 0.2, 5.0}) {
+      r_ = r;
+      const auto end = newton_.solve(scaled_, q, by, rho, 15, r_);
+      solution.iterations += end.iterations;
+      found = end.converged;
+      if (found) break;
+    }
+    if (found) {
+      const double next = measure(r_);
+      if (next > 0.3 * residual) by = std::max(by / 4, 1e-14);
+      r.swap(r_);
+      residual = next;
+    } else {
+      by = std::min(by * 8, 1.0);
+      measure(r);
+    }
   }
-  return false;
+  return enough;
 }
 
 FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const VectorXd& warm_start, const FrictionOptions& options) {
@@ -91,16 +147,46 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
   const int n = static_cast<int>(problem.q.size());
   const double tolerance = options.tolerance * std::max(1e-3, n > 0 ? problem.q.lpNorm<Eigen::Infinity>() : 0);
   solution.r = warm_start.size() == n && warm_start.allFinite() ? warm_start : VectorXd::Zero(n);
-  solution.residual = friction_residual(problem, solution.r);
-  if (solution.residual <= tolerance || !(solution.residual < infinity)) {
-    solution.solved = solution.residual <= tolerance;
-    solution.u = problem.W * solution.r + problem.q;
+  solution.u = problem.q;
+  solution.u.noalias() += problem.W * solution.r;
+  const FrictionFault fault = friction_fault(problem, solution.r, solution.u, tolerance);
+  solution.residual = fault.largest;
+  solution.solved = fault.excess <= 1;
+  if (solution.solved) return solution;
+  if (!(problem.q.allFinite() && problem.W.allFinite() && std::isfinite(fault.largest))) {
+    solution.residual = infinity;
+    solution.r.setZero(), solution.u.setZero();
     return solution;
   }
   scaled_.set(problem);
   VectorXd r = solution.r.cwiseQuotient(scaled_.units);
-  solve_damped(40, damping, r, solution);
-  solution.solved = refine(problem, tolerance, r, solution);
+  const double reached = solve_damped(r, solution);
+  // what the damping adds to velocities
+  pull_ = reached * scaled_.weights.cwiseProduct(r);
+  solution.solved = refine(problem, tolerance, reached, 40, r, solution);
+  solution.fell_back = reached > damping || !solution.solved;
+  if (!solution.solved && may_contradict(scaled_)) {
+    // what is asked for, less what cannot be had of it
+    scaled_.q += pull_;
+    r.setZero();
+    FrictionSolution nearest{.residual = infinity};
+    solve_damped(r, nearest);
+    nearest.r = r.cwiseProduct(scaled_.units);
+    nearest.iterations += solution.iterations;
+    nearest.fell_back = true;
+    nearest.residual = friction_residual(problem, nearest.r);
+    nearest.u = problem.W * nearest.r + problem.q;
+    return nearest;
+  }
+  for (int way = 0; way < 3 && !solution.solved; ++way) {
+    double level = 1e-3;
+    if (way == 1) {
+      if (solve_by_pyramids(damping, options.edges, r, solution)) level = damping;
+    } else {
+      level = descend(way == 0 ? 0.2 : 5, r, solution);
+    }
+    solution.solved = refine(problem, tolerance, level, 100, r, solution);
+  }
   solution.u = problem.W * solution.r + problem.q;
   return solution;
 }

@@ -27,15 +27,16 @@ class FrictionSolver {
   FrictionSolution solve(const FrictionProblem& problem, const Eigen::VectorXd& warm_start, const FrictionOptions& options = {});
 
  private:
-  bool newton(double by, int max_iterations, Eigen::VectorXd& r, FrictionSolution& solution);
-  bool solve_damped(int max_rounds, double damping, Eigen::VectorXd& r, FrictionSolution& solution);
-  bool refine(const FrictionProblem& problem, double tolerance, Eigen::VectorXd& r, FrictionSolution& solution);
-  double fault(const FrictionProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u) const;
+  bool newton(double by, double rho, int max_iterations, Eigen::VectorXd& r, FrictionSolution& solution);
+  double descend(double rho, Eigen::VectorXd& r, FrictionSolution& solution);
+  double solve_damped(Eigen::VectorXd& r, FrictionSolution& solution);
+  bool solve_by_pyramids(double by, int edges_per_contact, Eigen::VectorXd& r, FrictionSolution& solution);
+  bool refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, Eigen::VectorXd& r, FrictionSolution& solution);
 
   ScaledFriction scaled_;
   FrictionNewton newton_;
   GaussSeidel gauss_seidel_;
-  Eigen::VectorXd u_, r_;
+  Eigen::VectorXd u_, r_, pull_, impulses_, velocities_;
 };
 
 FrictionSolution solve_friction(const FrictionProblem& problem, const Eigen::VectorXd& warm_start,

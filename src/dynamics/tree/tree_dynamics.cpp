@@ -103,27 +103,26 @@ void TreeDynamics::find_mass_matrix() {
   for (int k = 0; k < 6; ++k) M_.block<6, 1>(0, k) = all_[0] * (unit.setZero(), unit[k] = 1, unit);
 }
 
-const Eigen::VectorXd& TreeDynamics::find_bias(const Eigen::VectorXd& v, const Vector6d& root_twist,
-                                               const Eigen::Vector3d& gravity) {
+// by joint + 1: what must act on what the joint carries directly
+void TreeDynamics::find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* change, const Vector6d& root_twist,
+                               const Eigen::Vector3d& gravity) {
   const auto& joints = tree_->joints;
-  bias_.setZero(tree_->size());
-  if (tree_->is_free_body()) {
-    // its turning keeps its momentum on the way: see move
-    bias_.head<3>() = -own_[0].mass * gravity;
-    return bias_;
-  }
   velocity_.resize(joints.size() + 1);
   acceleration_.resize(joints.size() + 1);
   force_.resize(joints.size() + 1);
   velocity_[0] = tree_->floating ? Vector6d(v.segment<6>(tree_->first)) : root_twist;
   acceleration_[0].setZero();
-  // the root's centre of mass does not accelerate: seen from a point that stands, its surroundings do
-  if (tree_->floating)
-    acceleration_[0].head<3>() = -velocity_[0].tail<3>().cross(velocity_[0].head<3>());
+  // of the root's centre of mass; seen from a point that stands, its surroundings accelerate against it
+  if (tree_->floating) {
+    if (change) acceleration_[0] = change->segment<6>(tree_->first);
+    acceleration_[0].head<3>() -= velocity_[0].tail<3>().cross(velocity_[0].head<3>());
+  }
   for (size_t i = 0; i < joints.size(); ++i) {
-    const Vector6d moved = (joints[i].ratio * v[tree_->first + joints[i].coordinate]) * S_[i];
+    const int c = tree_->first + joints[i].coordinate;
+    const Vector6d moved = (joints[i].ratio * v[c]) * S_[i];
     velocity_[i + 1] = velocity_[joints[i].parent + 1] + moved;
     acceleration_[i + 1] = acceleration_[joints[i].parent + 1] + cross_motion(velocity_[i + 1], moved);
+    if (change) acceleration_[i + 1] += (joints[i].ratio * (*change)[c]) * S_[i];
   }
   for (size_t i = 0; i <= joints.size(); ++i) {
     force_[i] = own_[i] * acceleration_[i] + cross_force(velocity_[i], own_[i] * velocity_[i]);
@@ -131,12 +130,46 @@ const Eigen::VectorXd& TreeDynamics::find_bias(const Eigen::VectorXd& v, const V
     force_[i].head<3>() -= own_[i].mass * gravity;
     force_[i].tail<3>() -= own_[i].moment.cross(gravity);
   }
+}
+
+const Eigen::VectorXd& TreeDynamics::find_bias(const Eigen::VectorXd& v, const Vector6d& root_twist,
+                                               const Eigen::Vector3d& gravity) {
+  const auto& joints = tree_->joints;
+  bias_.setZero(tree_->size());
+  if (tree_->is_free_body()) {
+    // its turning keeps its momentum on the way: see Mover
+    bias_.head<3>() = -own_[0].mass * gravity;
+    return bias_;
+  }
+  find_forces(v, nullptr, root_twist, gravity);
   for (size_t i = joints.size(); i-- > 0;) {
     bias_[joints[i].coordinate] += joints[i].ratio * S_[i].dot(force_[i + 1]);
     force_[joints[i].parent + 1] += force_[i + 1];
   }
   if (tree_->floating) bias_.head<6>() = force_[0];
   return bias_;
+}
+
+const std::vector<double>& TreeDynamics::inverse_dynamics(const Eigen::VectorXd& v, const Eigen::VectorXd& change,
+                                                          const Vector6d& root_twist, const Eigen::Vector3d& gravity,
+                                                          const std::vector<Vector6d>& loads) {
+  const auto& joints = tree_->joints;
+  joint_efforts_.assign(joints.size(), 0);
+  if (tree_->is_free_body()) return joint_efforts_;
+  find_forces(v, &change, root_twist, gravity);
+  for (size_t b = 0; b < loads.size(); ++b) force_[tree_->bodies[b].joint + 1] -= loads[b];
+  for (size_t i = joints.size(); i-- > 0;) {
+    joint_efforts_[i] = S_[i].dot(force_[i + 1]);
+    force_[joints[i].parent + 1] += force_[i + 1];
+  }
+  return joint_efforts_;
+}
+
+Eigen::VectorXd TreeDynamics::jerk(const Vector6d& change) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(tree_->size());
+  for (size_t i = 0; i < tree_->joints.size(); ++i)
+    out[tree_->joints[i].coordinate] -= tree_->joints[i].ratio * S_[i].dot(all_[i + 1] * change);
+  return out;
 }
 
 void TreeDynamics::factor(const Eigen::VectorXd& added) {

@@ -35,6 +35,14 @@ class TreeDynamics {
   /// gravity     [m/s^2]; a robot that compensates its weight does not feel it
   /// returns     bias, one per coordinate [N or N m]
   const Eigen::VectorXd& find_bias(const Eigen::VectorXd& v, const Vector6d& root_twist, const Eigen::Vector3d& gravity);
+  /// What must act on each joint, beside what acts on bodies, so that velocities change as they do. Recursive Newton and Euler.
+  /// change  of the coordinates' velocities [m/s^2, rad/s^2]
+  /// loads   on the bodies, (force, torque about about()), by the tree's bodies; or none
+  /// returns one per joint of the tree, for its own unit [N m or N]
+  const std::vector<double>& inverse_dynamics(const Eigen::VectorXd& v, const Eigen::VectorXd& change, const Vector6d& root_twist,
+                                              const Eigen::Vector3d& gravity, const std::vector<Vector6d>& loads);
+  /// Impulses on the coordinates that take the momentum of a root's change of velocity: a base that is jerked.
+  Eigen::VectorXd jerk(const Vector6d& change_of_root) const;
   /// Adds to the diagonal what acts like mass (armature; damping h d and springs h^2 k, taken at the step's end), and factors.
   void factor(const Eigen::VectorXd& added_to_diagonal);
 
@@ -60,6 +68,7 @@ class TreeDynamics {
  private:
   void place_joints(const World& world);
   void find_mass_matrix();
+  void find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* change, const Vector6d& root_twist, const Eigen::Vector3d& gravity);
 
   const Articulation* tree_ = nullptr;
   Eigen::Vector3d about_ = Eigen::Vector3d::Zero();
@@ -67,6 +76,7 @@ class TreeDynamics {
   std::vector<Eigen::Vector3d> com_;        // by body
   std::vector<SpatialInertia> own_, all_;   // by joint + 1, the root first: of what it carries directly, and with all beyond
   std::vector<Vector6d> velocity_, acceleration_, force_;
+  std::vector<double> joint_efforts_;
   std::vector<bool> weightless_;
   Eigen::MatrixXd M_, L_;
   Eigen::VectorXd bias_;

@@ -66,7 +66,17 @@ std::vector<Id<Body>> check_bodies(lua_State* L, int i, const char* name, const 
     check_world(L, world, robot->world, (*robot)->name);
     return world->bodies_of(robot->id);
   }
-  fail_expected({L, {}, name}, "a body or a robot", i);
+  if (lua_istable(L, i) && lua_rawlen(L, i) > 0) {
+    std::vector<Id<Body>> out;
+    for (lua_Integer k = 1; k <= static_cast<lua_Integer>(lua_rawlen(L, i)); ++k) {
+      lua_rawgeti(L, i, k);
+      if (lua_istable(L, -1)) fail_expected({L, {}, name}, "bodies and robots in the list", lua_gettop(L));
+      for (const auto id : check_bodies(L, lua_gettop(L), name, world)) out.push_back(id);
+      lua_pop(L, 1);
+    }
+    return out;
+  }
+  fail_expected({L, {}, name}, "a body, a robot, or a list of them", i);
 }
 
 BodyHandle self_body(lua_State* L) {

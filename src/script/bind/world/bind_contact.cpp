@@ -169,6 +169,14 @@ The same of the mesh of `other`.
 Distance of the two surfaces there, at most the world's contact threshold.
 @type number  [m]
 > world:contacts(hand, flask)[1].gap <= world.contact_threshold  --> true)"},
+    {"force", getter<[](const ContactHandle& x) { return x.contact.force_W; }>, R"(
+What pressed on body there in the last step of the world, in world axes; 0 in a world that has not run.
+@type vec3  [N]
+> world:contacts(hand, flask)[1].force  --> (0, 0, 0))"},
+    {"torsion", getter<[](const ContactHandle& x) { return x.contact.torsion; }>, R"(
+Of a soft contact, the torque about the normal on body in the last step of the world.
+@type number  [N m]
+> world:contacts(hand, flask)[1].torsion  --> 0)"},
     {"mu", getter<[](const ContactHandle& x) { return x.contact.friction.statics; }>, R"(
 Static Coulomb coefficient of the two materials.
 @type number

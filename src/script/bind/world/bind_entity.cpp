@@ -76,6 +76,14 @@ static int get_mesh_report(lua_State* L) {
   return 1;
 }
 
+static int get_restitution(lua_State* L) { return push(L, self_body(L)->restitution); }
+
+static int set_restitution(lua_State* L) {
+  const auto body = self_body(L);
+  body.world->set_restitution(body.id, check_number(L, 2));
+  return 0;
+}
+
 static int get_elastic_modulus(lua_State* L) {
   const auto body = self_body(L);
   if (body->elastic_modulus) return push(L, *body->elastic_modulus);
@@ -187,6 +195,13 @@ How the triangles of its file were read and repaired: lines of text, and the sam
 > flask.mesh_report.unit  --> 0.001
 > flask.mesh_report.unit_source  --> format
 > flask.mesh_report.flipped  --> false)"},
+    {"restitution", guarded<get_restitution>, R"(
+How it bounces: speed after a blow by that before, from 0 to 1. Of two bodies the larger counts, unless set_friction says
+what holds for their materials.
+@type number
+> flask.restitution  --> 0
+> flask.restitution = 2  --> error: restitution)",
+     guarded<set_restitution>},
     {"elastic_modulus", guarded<get_elastic_modulus>, R"(
 Young's modulus; nil when it is rigid.
 @type number?  [Pa]

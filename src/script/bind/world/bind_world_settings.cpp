@@ -51,8 +51,11 @@ static int set_friction(lua_State* L) {
   const std::string a = check_string(L, 2, "material"), b = check_string(L, 3, "material");
   Table options(L, 4);
   const double statics = options.number("static");
-  const Friction friction{.statics = statics,
-                          .kinetic = options.number("kinetic", std::max(0.0, statics - 0.1))};
+  Friction friction{.statics = statics, .kinetic = options.number("kinetic", std::max(0.0, statics - 0.1))};
+  if (options.has("restitution")) {
+    friction.restitution = options.number("restitution");
+    check(share_rule.called("restitution"), *friction.restitution, subject(L));
+  }
   options.done();
   for (const std::string& name : {a, b}) tell_near_material(L, name);
   world_of(L).set_friction(a, b, friction);
@@ -193,7 +196,7 @@ Switches collision on or off: for the whole world, for one entity against everyt
 Sets the Coulomb coefficients of a pair of materials; new names become materials.
 @param a string
 @param b string
-@param friction {static: number, kinetic?: number}  kinetic: static - 0.1 unless given
+@param friction {static: number, kinetic?: number, restitution?: number}  kinetic: static - 0.1 unless given; restitution: speed after a blow by that before, 0 to 1, in place of what the bodies say
 > world:set_friction("cork", "wood", {static = 0.7})
 > world:friction("wood", "cork")  --> 0.7, 0.6)"},
     {"friction", guarded<friction>, R"(

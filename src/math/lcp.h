@@ -1,0 +1,27 @@
+// Linear complementarity problems, solved by pivots.
+#pragma once
+#include <Eigen/Core>
+
+namespace clench {
+
+enum class LcpStatus {
+  solved,
+  ray,             ///< the pivots end at infinity: no solution found, and none exists where M is copositive-plus
+  iteration_limit  ///< or a basis that rounding made singular
+};
+
+struct LcpSolution {
+  LcpStatus status = LcpStatus::iteration_limit;
+  Eigen::VectorXd z;  ///< 0 unless solved
+  int iterations = 0;
+};
+
+/// z >= 0 with w = M z + q >= 0 and z.w = 0, by Lemke's method with a covering vector of ones. Ties are broken
+/// lexicographically, so that pivots never cycle, and the same way every time. Dense: up to a few hundred rows, of
+/// numbers of about one.
+///
+/// max_iterations  0: 50 per row, and 200
+/// source          Cottle, Pang & Stone (1992), The linear complementarity problem, 4.4 and 4.9
+LcpSolution solve_lcp(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, int max_iterations = 0);
+
+}  // namespace clench
