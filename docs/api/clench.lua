@@ -159,6 +159,7 @@ local snapshot = {}
 ---@field inertia number[][] # Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the sum of the others: no body has such an inertia. [kg m^2]
 ---@field mesh mesh? # Its surface; nil when it has none.
 ---@field mesh_report table? # How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m], `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped` (was it inside out?). Nil when it has no mesh, or none from a file.
+---@field restitution number # How it bounces: speed after a blow by that before, from 0 to 1. Of two bodies the larger counts, unless set_friction says what holds for their materials.
 ---@field elastic_modulus number? # Young's modulus; nil when it is rigid. [Pa]
 ---@field soft_layer number # Height of the soft layer of an elastic body. [m]
 ---@field poisson_ratio number # Poisson's ratio of an elastic body, below 0.5: its layer gives way by modulus / (1 - ratio^2).
@@ -417,6 +418,8 @@ local virtual_contact = {}
 ---@field feature {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer} # The feature of the body's mesh that the contact lies on: a vertex, an edge between two, or a triangle, counted from 1. It stays the same while the contact moves along it, so that contacts can be matched from step to step.
 ---@field other_feature {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer} # The same of the mesh of `other`.
 ---@field gap number # Distance of the two surfaces there, at most the world's contact threshold. [m]
+---@field force vec3 # What pressed on body there in the last step of the world, in world axes; 0 in a world that has not run. [N]
+---@field torsion number # Of a soft contact, the torque about the normal on body in the last step of the world. [N m]
 ---@field mu number # Static Coulomb coefficient of the two materials.
 ---@field mu_kinetic number # Kinetic Coulomb coefficient of the two materials.
 ---@field kind string # "point" (with friction), "soft" (with friction, of bodies one of which at least is elastic) or "frictionless".
@@ -711,7 +714,7 @@ function world_settings:set_collision(on, a, b) end
 ---Sets the Coulomb coefficients of a pair of materials; new names become materials.
 ---@param a string
 ---@param b string
----@param friction {static: number, kinetic?: number} # kinetic: static - 0.1 unless given
+---@param friction {static: number, kinetic?: number, restitution?: number} # kinetic: static - 0.1 unless given; restitution: speed after a blow by that before, 0 to 1, in place of what the bodies say
 function world_settings:set_friction(a, b, friction) end
 
 ---The coefficients of a pair of materials.
@@ -767,7 +770,7 @@ function world_queries:distance(a, b) end
 function world_queries:contacts(a, b) end
 
 ---How a world moves: time, steps, momentum, and what presses on what.
----@class world_dynamics: world_settings
+---@class world_dynamics: world_control
 ---@field time number # How long it has run. [s]
 ---@field time_step number # Length of the steps of `run`; from 1e-7 to 1. [s]
 ---@field report {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, largest_residual: number} # What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took (`iterations`; `fallbacks`, steps that needed its slow methods; `failures`, steps that it did not solve to the tolerance), pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have as velocities [m/s].
@@ -799,6 +802,27 @@ function world_dynamics:energy() end
 ---@return {link: body, force: vec3, point: vec3, count: integer}[] # [N], [m]
 function world_dynamics:average_contacts(links) end
 
+---Scripts that take part while a world runs.
+---@class world_control: world_settings
+local world_control = {}
+
+---Has a function called while the world runs, before each step, or so often: fn(world, dt), with the length of the step that comes, or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world, not to its clones or snapshots.
+---@param fn function
+---@param options? {rate?: number} # calls in a second of the world's time: at the first step at or after each multiple of 1 / rate [Hz]
+---@return table handle # `remove()` ends it
+function world_control:on_step(fn, options) end
+
+---Has a function run beside the world, as a coroutine: fn(task). It goes on when `task.wait(seconds)` is over, when `task.wait_until(condition, timeout)` finds the function `condition` true, which gives true, or the time over, which gives false, and before the next step after `task.wait_step()`. Tasks go on before steps, after the functions of on_step, in the order in which they were spawned; an error in one ends the run.
+---@param fn function
+---@return table handle # `remove()` ends it; `status`: "waiting", "done", "failed" or "removed"
+function world_control:spawn(fn) end
+
+---Has a function called after each step in which something happens: "contact", two bodies touch that did not before, fn {kind, time, a, b, point, force}, with the middle of the contact [m] and the force on b [N]; "contact_lost", {kind, time, a, b}; "limit", a DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its number and "low" or "high".
+---@param event string
+---@param fn function
+---@return table handle # `remove()` ends it
+function world_control:on(event, fn) end
+
 ---How bodies and robots move: velocity, and what pushes them.
 ---@class motion: entity
 ---@field velocity {linear: vec3, angular: vec3} # Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. Setting a pose brings a body to rest. [m/s], [rad/s]
@@ -813,8 +837,25 @@ function motion:apply_force(force, point) end
 ---@param torque vec3 # in world axes [N m]
 function motion:apply_torque(torque) end
 
+---Masses and forces as a robot's DOFs feel them.
+---@class joint_dynamics: motion
+local joint_dynamics = {}
+
+---Inertia of its DOFs where it stands: half of v M v is the energy with which velocities v of the DOFs move it and all that it carries, its base held. Armature of the joints is in it.
+---@return number[][] rows # one row and one column per DOF [kg m^2, kg m or kg]
+function joint_dynamics:mass_matrix() end
+
+---Forces on its DOFs that velocities cause (Coriolis, centrifugal), and weight, unless its motors compensate that: what motors have to give so that no DOF accelerates, joints without springs and friction.
+---@return number[] forces # one per DOF [N m or N]
+function joint_dynamics:bias_forces() end
+
+---Forces that its motors have to give for these accelerations of the DOFs, where nothing touches it: mass matrix, bias forces, springs and viscous friction of the joints; not their dry friction.
+---@param accelerations number[] # one per DOF [rad/s^2 or m/s^2]
+---@return number[] forces # one per DOF, as set_forces takes them [N m or N]
+function joint_dynamics:inverse_dynamics(accelerations) end
+
 ---How a robot's motors move it.
----@class robot_dynamics: motion
+---@class robot_dynamics: joint_dynamics
 ---@field dof_velocities number[] # Of its degrees of freedom; a list of its own. [rad/s or m/s]
 ---@field dof_efforts number[] # What its motors gave in the last step. [N m or N]
 ---@field controller string # What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities that are asked for; "effort" and "none", they give the forces that set_forces says, and nothing else.

@@ -38,8 +38,9 @@ std::span<const Class* const> all_classes() {
       &grasps_class,      &energy_class,
       &annealing_class,
       &world_settings_class, &world_queries_class,
-      &world_dynamics_class, &motion_class,
-      &robot_dynamics_class,
+      &world_dynamics_class, &world_control_class,
+      &motion_class,
+      &joint_dynamics_class, &robot_dynamics_class,
   };
   return classes;
 }
