@@ -9,8 +9,8 @@
 
 namespace clench {
 
-// Beyond this a contact that slides is one that slides, and not one that sticks with rounding [m/s].
-static constexpr double sliding_speed = 1e-7;
+// Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s].
+static constexpr double sliding_speed = 1e-6;
 // Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so [m/s].
 static constexpr double pushed_part = 0.2, pushed_at_most = 0.1;
 // Below this speed of approach nothing bounces [m/s].
@@ -124,8 +124,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
   Block block;
   block.touch = static_cast<int>(touches_.size());
   block.law.row = row_count_;
-  block.law.mu = p.slides ? friction.kinetic : friction.statics;
-  block.law.tangents = block.law.mu > 0 ? (p.torsion_radius > 0 ? 3 : 2) : 0;
+  block.law.tangents = friction.statics > 0 ? (p.torsion_radius > 0 ? 3 : 2) : 0;
   const int size = block.law.size();
 
   const std::array<Id<Body>, 2> bodies = {m.a, m.b};
@@ -150,6 +149,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
   const double step = world_.dynamic_settings().step, beyond = p.gap - rest_gap * world_.contact_threshold();
   double target = beyond > 0 ? -beyond / step : std::min(-pushed_part * beyond / step, pushed_at_most);
   const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
+  double slip = 0;
   for (int k = 0; k < size; ++k) {
     double q = k < 3 ? touch.frame.col(k).dot(told) : 0, before = q;
     for (int side = 0; side < 2; ++side)
@@ -161,9 +161,11 @@ void Stepper::add_contact(int manifold, int point, double h) {
     // Newton's law of impact, where the free motion would press
     if (k == 0 && q < target && before < -bounces_above) target = std::max(target, -restitution * before);
     if (k == 0) q -= target;
+    if (k > 0) slip += before * before;
     q_.conservativeResize(row_count_ + k + 1);
     q_[row_count_ + k] = q;
   }
+  block.law.mu = slip > sliding_speed * sliding_speed ? friction.kinetic : friction.statics;
   // warm start
   const Eigen::Vector3d force = X_WA.rotation * p.force;
   for (int k = 0; k < size; ++k) warm_.push_back(h * (k < 3 ? touch.frame.col(k).dot(force) : p.torsion / p.torsion_radius));
@@ -330,9 +332,6 @@ void Stepper::keep(double h) {
     const Eigen::Vector3d impulse = touch.frame.leftCols(linear) * Eigen::Map<const Eigen::VectorXd>(r_.data() + row, linear);
     p.force = world_.pose(m.a).rotation.conjugate() * Eigen::Vector3d(impulse / h);
     if (block.law.tangents == 3) p.torsion = r_[row + 3] * p.torsion_radius / h;
-    double speed = 0;
-    for (int k = 1; k < block.law.size(); ++k) speed += u_[row + k] * u_[row + k];
-    p.slides = r_[row] > 0 && speed > sliding_speed * sliding_speed;
   }
   disengage(h);
   for (Load& load : state.loads) load = {};

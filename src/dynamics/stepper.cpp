@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clench/dynamics/mover.h"
+#include "clench/dynamics/contact/ball_contact.h"
 #include "clench/model/advance.h"
 #include "clench/model/near_bodies.h"
 
@@ -57,6 +57,28 @@ double Stepper::largest_travel(double dt) const {
   return travel;
 }
 
+// Conservative advancement, as in advance, of pairs whose distance is a ball's.
+double Stepper::advance_balls(const std::vector<std::pair<int, double>>& pairs, double end, Mover& mover) {
+  constexpr double aim = 0.2, there = 0.3;
+  const double threshold = world_.contact_threshold();
+  double stop = end;
+  for (const auto& [i, speed] : pairs) {
+    const Manifold& m = world_.dynamics()->manifolds[i];
+    double s = 0, before = std::numeric_limits<double>::infinity();
+    for (int steps = 0; s < stop && steps < 1000; ++steps) {
+      mover.place(s);
+      const double gap = ball_distance(world_, m, speed * (stop - s) + 2 * threshold);
+      // one that rolls or leaves goes on
+      if (gap <= there * threshold && gap < before && steps > 0) break;
+      before = gap;
+      s = std::min(stop, s + std::max(gap - aim * threshold, 0.05 * threshold) / speed);
+    }
+    stop = std::min(stop, s);
+  }
+  mover.place(stop);
+  return stop;
+}
+
 double Stepper::move(double dt) {
   refresh();
   find_manifolds(world_, system_, largest_travel(dt));
@@ -70,6 +92,7 @@ double Stepper::move(double dt) {
   constexpr double short_way = 10;
   std::vector<int> suspects;
   std::vector<PairBound> watches;
+  std::vector<std::pair<int, double>> balls;  // manifolds, and bounds of their speeds
   std::vector<std::pair<int, Manifold>> measured;
   for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i) {
     const Manifold& m = state.manifolds[i];
@@ -86,15 +109,22 @@ double Stepper::move(double dt) {
       }
     }
     // the bound holds on the whole way, which is longer than the chord of a turn
-    watches.push_back({.a = m.a, .b = m.b, .speed = 1.1 * way / dt});
+    if (has_ball(world_, m))
+      balls.push_back({i, 1.1 * way / dt});
+    else
+      watches.push_back({.a = m.a, .b = m.b, .speed = 1.1 * way / dt});
   }
   double passed = dt;
+  if (!balls.empty()) passed = advance_balls(balls, dt, mover);
   if (!watches.empty()) {
     int queries = 0;
-    const Advance advance = clench::advance(world_, watches, dt, [&](double s) { mover.place(s); }, queries, 1000);
+    const Advance advance = clench::advance(world_, watches, passed, [&](double s) { mover.place(s); }, queries, 1000);
+    passed = advance.s;
+  }
+  if (!balls.empty() || !watches.empty()) {
     // a pair that starts with next to no gap still gets on
     constexpr double least = 1e-3;
-    passed = std::clamp(advance.s, least * dt, dt);
+    passed = std::clamp(passed, least * dt, dt);
     if (passed < dt) ++state.report.impacts;
   }
   mover.finish(passed);
@@ -102,6 +132,7 @@ double Stepper::move(double dt) {
     for (const int i : suspects) measure(world_, state.manifolds[i]);
   else {
     for (auto& [i, there] : measured) state.manifolds[i] = std::move(there);
+    for (const auto& [i, speed] : balls) measure(world_, state.manifolds[i]);
     for (const PairBound& watch : watches)
       for (const int i : suspects)
         if (state.manifolds[i].a == watch.a && state.manifolds[i].b == watch.b) measure(world_, state.manifolds[i]);
@@ -114,12 +145,17 @@ double Stepper::move(double dt) {
 void Stepper::run(double duration) {
   const double end = world_.time() + duration;
   const double step = world_.dynamic_settings().step;
-  while (world_.time() < end) {
+  constexpr double rounding = 1e-9;  // of a step: what is less is no time
+  while (end - world_.time() > rounding * step) {
     world_.context().progress().check();
-    const double left = end - world_.time();
-    // a rest that is rounding belongs to the step before
-    const double h = move(left < step * (1 + 1e-9) ? left : step);
-    if (left - h <= step * 1e-9) world_.edit_dynamics().time = end;
+    // Steps end at multiples of the step, after an impact as well: the same ones however a time is divided.
+    const double now = world_.time(), next = (std::floor(now / step + rounding) + 1) * step;
+    double left = std::min(next, end) - now;
+    if (std::abs(left - step) < rounding * step) left = step;
+    const double h = move(left);
+    double& time = world_.edit_dynamics().time;
+    if (std::abs(next - time) < rounding * step) time = next;
+    if (std::abs(end - time) < rounding * step) time = end;
     solve(h);
   }
 }

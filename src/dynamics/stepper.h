@@ -6,6 +6,7 @@
 
 #include "clench/dynamics/contact/manifolds.h"
 #include "clench/dynamics/control/motors.h"
+#include "clench/dynamics/mover.h"
 #include "clench/dynamics/solve/solve_friction.h"
 #include "clench/dynamics/tree/tree_dynamics.h"
 
@@ -48,6 +49,7 @@ class Stepper {
 
   void refresh();
   double largest_travel(double dt) const;
+  double advance_balls(const std::vector<std::pair<int, double>>& pairs, double end, Mover& mover);
   Vector6d root_twist(int tree) const;
   Eigen::Vector3d told_velocity(Id<Body> body, const Eigen::Vector3d& p_W) const;
   void find_free_velocities(double h);

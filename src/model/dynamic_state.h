@@ -52,16 +52,15 @@ struct DofControl {
 
 /// A point of a manifold: where two bodies touch, in their frames, so that it follows them while they hardly move.
 struct ManifoldPoint {
-  Eigen::Vector3d p_a, p_b;       ///< on both surfaces, each in its body's frame [m]
-  Eigen::Vector3d normal;         ///< unit, from a into b, in the frame of a
-  Feature feature_a, feature_b;
+  Eigen::Vector3d p_a = {}, p_b = {};  ///< on both surfaces, each in its body's frame [m]
+  Eigen::Vector3d normal = {};         ///< unit, from a into b, in the frame of a
+  Feature feature_a = {}, feature_b = {};
   double gap = 0;                 ///< when the last step ended [m]
-  std::shared_ptr<const SoftPatch> patch;  ///< of a soft contact, else null
+  std::shared_ptr<const SoftPatch> patch = nullptr;  ///< of a soft contact, else null
   double torsion_radius = 0;      ///< of a soft contact, under the force torsion_force [m]
   double torsion_force = 0;       ///< [N]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on b, of the last step, in the frame of a [N]
   double torsion = 0;             ///< about the normal, on b [N m]
-  bool slides = false;            ///< did it, after the last step? then its friction is kinetic
 };
 
 /// What is known of a pair of bodies between steps.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/contact/contact_set.h"
+#include "clench/dynamics/contact/ball_contact.h"
 #include "clench/model/near_bodies.h"
 
 namespace clench {
@@ -48,7 +49,6 @@ static void inherit(std::vector<ManifoldPoint>& points, const std::vector<Manifo
     taken[k] = found[i] = true;
     points[i].force = before[k].force;
     points[i].torsion = before[k].torsion;
-    points[i].slides = before[k].slides;
     points[i].torsion_radius = before[k].torsion_radius;
     points[i].torsion_force = before[k].torsion_force;
   };
@@ -99,6 +99,9 @@ void measure(World& world, Manifold& m) {
   const double spheres = sphere_gap(world, m.a, m.b);
   if (spheres > limit) {
     m.clear = spheres;
+  } else if (has_ball(world, m)) {
+    m.clear = std::max(0.0, ball_distance(world, m, limit));
+    if (m.clear <= threshold) points = ball_points(world, m, threshold);
   } else {
     const Distance d = distance(a, b, m.X_AB, limit, &world.context().pair(first, second));
     m.clear = std::min(d.distance, limit);

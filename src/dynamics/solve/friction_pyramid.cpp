@@ -97,10 +97,12 @@ Complementarity put_together(const ScaledFriction& problem, const std::vector<Ma
 
 }  // namespace
 
-PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, const std::vector<MatrixXd>& edges) {
+PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, const VectorXd& centre,
+                              const std::vector<MatrixXd>& edges) {
   Complementarity c = put_together(problem, edges);
   MatrixXd S = problem.S;
   S.diagonal() += damping * problem.weights;
+  const VectorXd pulled = problem.q - damping * problem.weights.cwiseProduct(centre);
   // rows without bounds are equations: r there follows from the others, as u is 0
   std::vector<int> free;
   for (const auto& block : problem.blocks)
@@ -109,7 +111,7 @@ PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, con
   if (count > 0) {
     MatrixXd part(count, count), right(count, c.rows.cols() + 1);
     const MatrixXd by_unknowns = S * c.rows;
-    const VectorXd by_start = S * c.start + problem.q;
+    const VectorXd by_start = S * c.start + pulled;
     for (int i = 0; i < count; ++i) {
       for (int j = 0; j < count; ++j) part(i, j) = S(free[i], free[j]);
       right.row(i) << by_unknowns.row(free[i]), by_start[free[i]];
@@ -121,7 +123,7 @@ PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, con
     }
   }
   const MatrixXd M = c.rows.transpose() * S * c.rows + c.coupling;
-  const VectorXd q = c.rows.transpose() * (S * c.start + problem.q) + c.offset;
+  const VectorXd q = c.rows.transpose() * (S * c.start + pulled) + c.offset;
   const LcpSolution lcp = solve_lcp(M, q);
   PyramidSolution solution{.found = lcp.status == LcpStatus::solved, .r = c.start + c.rows * lcp.z, .iterations = lcp.iterations};
   // measured without the damping

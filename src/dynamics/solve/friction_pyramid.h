@@ -21,9 +21,10 @@ struct PyramidSolution {
 /// Per contact r_t is a sum of edges times beta >= 0, sum of beta <= mu r_n, and friction acts along those edges that the
 /// contact slides against most: D^T u_t + lambda >= 0 is complementary to beta, mu r_n - sum of beta to lambda.
 ///
-/// damping  its multiple of weights is added to the diagonal of S
+/// damping  its multiple of weights is added to the diagonal of S, and pulls r to the centre
 /// edges    directions per contact; of all blocks, of others empty
 /// source   Stewart & Trinkle (1996), An implicit time-stepping scheme for rigid body dynamics
-PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, const std::vector<Eigen::MatrixXd>& edges);
+PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, const Eigen::VectorXd& centre,
+                              const std::vector<Eigen::MatrixXd>& edges);
 
 }  // namespace clench

@@ -68,7 +68,7 @@ bool FrictionSolver::solve_by_pyramids(double by, int edges_per_contact, VectorX
   std::vector<Eigen::MatrixXd> edges;
   for (const auto& block : scaled_.blocks) edges.push_back(friction_edges(block.tangents, edges_per_contact));
   for (int round = 0; round < 8; ++round) {
-    const PyramidSolution pyramid = solve_pyramid(scaled_, std::max(by, 1e-7), edges);
+    const PyramidSolution pyramid = solve_pyramid(scaled_, std::max(by, 1e-7), VectorXd::Zero(scaled_.rows()), edges);
     solution.iterations += pyramid.iterations;
     if (!pyramid.found) return false;
     r = pyramid.r;
@@ -142,6 +142,32 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
   return enough;
 }
 
+FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem, double tolerance, int edges_per_contact) {
+  FrictionSolution solution;
+  solution.residual = infinity;
+  scaled_.set(problem);
+  std::vector<Eigen::MatrixXd> edges;
+  for (const auto& block : scaled_.blocks) edges.push_back(friction_edges(block.tangents, edges_per_contact));
+  VectorXd r = VectorXd::Zero(scaled_.rows());
+  // pivots lose what is far below 1
+  double by = 1e-6;
+  for (int round = 0; round < 20 && !solution.solved; ++round) {
+    const PyramidSolution pyramid = solve_pyramid(scaled_, by, r, edges);
+    solution.iterations += pyramid.iterations;
+    if (pyramid.found && pyramid.residual < solution.residual) {
+      r = pyramid.r;
+      solution.residual = pyramid.residual, solution.r = r.cwiseProduct(scaled_.units);
+      solution.solved = solution.residual <= tolerance;
+    } else {
+      solution.fell_back = true;
+      by = std::min(10 * by, 1.0);
+    }
+  }
+  if (solution.r.size() == 0) solution.r = VectorXd::Zero(scaled_.rows());
+  solution.u = problem.W * solution.r + problem.q;
+  return solution;
+}
+
 FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const VectorXd& warm_start, const FrictionOptions& options) {
   FrictionSolution solution;
   const int n = static_cast<int>(problem.q.size());
@@ -152,12 +178,15 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
   const FrictionFault fault = friction_fault(problem, solution.r, solution.u, tolerance);
   solution.residual = fault.largest;
   solution.solved = fault.excess <= 1;
-  if (solution.solved) return solution;
-  if (!(problem.q.allFinite() && problem.W.allFinite() && std::isfinite(fault.largest))) {
+  const bool finite = problem.q.allFinite() && problem.W.allFinite() && std::isfinite(fault.largest);
+  if (solution.solved && finite && options.cone == FrictionCone::cone) return solution;
+  if (!finite) {
+    solution.solved = false;
     solution.residual = infinity;
     solution.r.setZero(), solution.u.setZero();
     return solution;
   }
+  if (options.cone == FrictionCone::pyramid) return solve_as_pyramid(problem, tolerance, options.edges);
   scaled_.set(problem);
   VectorXd r = solution.r.cwiseQuotient(scaled_.units);
   const double reached = solve_damped(r, solution);
@@ -169,7 +198,8 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
     // what is asked for, less what cannot be had of it
     scaled_.q += pull_;
     r.setZero();
-    FrictionSolution nearest{.residual = infinity};
+    FrictionSolution nearest;
+    nearest.residual = infinity;
     solve_damped(r, nearest);
     nearest.r = r.cwiseProduct(scaled_.units);
     nearest.iterations += solution.iterations;

@@ -9,10 +9,9 @@ namespace clench {
 
 struct FrictionOptions {
   FrictionCone cone = FrictionCone::cone;
-  int edges = 8;             ///< of a pyramid, even, >= 4; with torsion they lie on the sphere
+  int edges = 8;             ///< of a pyramid, >= 4; with torsion 3 edges - 4 (see friction_edges)
   /// Faults up to so much of the largest velocity in q, and of at least 1e-3, are none. Rounding of W r is allowed for beside it.
   double tolerance = 1e-12;
-  int max_rounds = 8;        ///< of Gauss-Seidel and Newton in turn, before the fallback
 };
 
 /// Solves one problem after another; memory is kept between them, nothing else: the same problem and the same warm start
@@ -27,6 +26,7 @@ class FrictionSolver {
   FrictionSolution solve(const FrictionProblem& problem, const Eigen::VectorXd& warm_start, const FrictionOptions& options = {});
 
  private:
+  FrictionSolution solve_as_pyramid(const FrictionProblem& problem, double tolerance, int edges_per_contact);
   bool newton(double by, double rho, int max_iterations, Eigen::VectorXd& r, FrictionSolution& solution);
   double descend(double rho, Eigen::VectorXd& r, FrictionSolution& solution);
   double solve_damped(Eigen::VectorXd& r, FrictionSolution& solution);

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "clench/base/progress.h"
+#include "clench/geometry/mesh/ball.h"
 #include "clench/geometry/mesh/mass.h"
 #include "clench/geometry/mesh/mesh.h"
 #include "clench/math/pose.h"
@@ -37,6 +38,8 @@ class Shape {
   /// centre and radius [m] of a sphere that holds the mesh
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }
+  /// that it is a tessellation of
+  const std::optional<Ball>& ball() const { return ball_; }
   /// one triangle of each connected part (vertices at one place connect), in index order
   const std::vector<int>& parts() const { return parts_; }
   /// of each part, its vertices farthest along -x, x, -y, y, -z and z; empty where parts are many
@@ -62,6 +65,7 @@ class Shape {
   Bounds bounds_;
   Eigen::Vector3d centre_;
   double radius_ = 0;
+  std::optional<Ball> ball_;
   std::vector<int> parts_;
   uint64_t hash_ = 0;
   std::vector<Extremes> part_extremes_;
