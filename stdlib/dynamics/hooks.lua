@@ -78,4 +78,22 @@ function hooks.spawn(set, fn)
   return handle
 end
 
+--- stdlib/dynamics/log.lua and recording.lua
+function hooks.log(set, options, _, world) return require "clench.dynamics.log"(hooks, set, options, world) end
+function hooks.record(set, options, _, world) return require "clench.dynamics.recording"(hooks, set, options or {}, world) end
+
+function hooks.push(set, _, _, world)
+  set.stack = set.stack or {}
+  table.insert(set.stack, world:snapshot())
+  return #set.stack
+end
+
+function hooks.pop(set, _, _, world)
+  local stack = set.stack or {}
+  local last = table.remove(stack)
+  if not last then raise "world:pop: the stack is empty: nothing was pushed, or all was popped" end
+  world:restore(last)
+  return #stack
+end
+
 return hooks

@@ -1,17 +1,11 @@
 --- A page of HTML that shows grasps: a table that sorts, pictures, and each grasp in 3-D. It holds all that it needs.
 local base64 = require "clench.base64"
-local in_utf8 = require "clench.in_utf8"
 local of_grasps = require "clench.plan.report_page_data"
-local find_three = require "clench.plan.report_page_three"
+local find_three = require "clench.page.three"
+local text = require "clench.page.text"
 
 local largest = 100  -- grasps of a page
-
-local escapes = {["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;", ["'"] = "&#39;"}
-local function escaped(text) return (in_utf8(text):gsub("[&<>\"']", escapes):gsub("[%c]", function(c) return c == "\n" and c or " " end)) end
-
--- what a text is within <script>: nothing in it ends the element or begins a comment
-local function json(value) return (clench.json.encode(in_utf8(value)):gsub("[<>&]", function(c) return ("\\u%04x"):format(c:byte()) end)) end
-local function code(text) return (text:gsub("</([sS][cC][rR][iI][pP][tT])", "<\\/%1"):gsub("<!%-%-", "<\\!--")) end
+local escaped, json, code = text.escaped, text.json, text.code
 
 local function picture_of(world)
   local picture = clench.render(world, {size = {192, 144}, quality = "draft", background = "white"})
@@ -47,7 +41,7 @@ local function head_of(title, subtitle)
 <title>%s</title>
 <style>%s</style></head>
 <body><header><h1>%s</h1><p>%s</p></header>
-]==]):format(escaped(title), require "clench.plan.report_page_style", escaped(title), escaped(subtitle))
+]==]):format(escaped(title), require "clench.page.style", escaped(title), escaped(subtitle))
 end
 
 local view = [==[
@@ -118,7 +112,7 @@ return function(hand, object, grasps, words)
   end
   local parts = {head_of(words.title, words.subtitle), view, table_of(rows, pictures, shown_columns), words_of(words.report, notes, shown_columns),
                  '<script type="application/json" id="data">', json(data), "</script>\n<script>", code(three),
-                 "</script>\n<script>", code(require "clench.plan.report_page_view"),
+                 "</script>\n<script>", code(require "clench.page.scene"), code(require "clench.plan.report_page_view"),
                  code(require "clench.plan.report_page_table"), "</script>\n</body></html>\n"}
   return table.concat(parts), notes
 end

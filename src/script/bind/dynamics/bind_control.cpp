@@ -17,7 +17,7 @@ static int call_packed(lua_State* L) {
   return 1;
 }
 
-// the arguments of a method, with the world's hooks in place of the world
+// the arguments of a method, with the world's hooks in place of the world, and the world behind them
 static int add_hook(lua_State* L, const char* name) {
   const auto& world = self<WorldHandle>(L).world;
   lua_settop(L, 3);
@@ -26,13 +26,18 @@ static int add_hook(lua_State* L, const char* name) {
   push_hooks(L, world, true);
   lua_pushvalue(L, 2);
   lua_pushvalue(L, 3);
-  protected_call(L, 4, 1);
+  lua_pushvalue(L, 1);
+  protected_call(L, 5, 1);
   return 1;
 }
 
 static int on_step(lua_State* L) { return add_hook(L, "on_step"); }
 static int spawn(lua_State* L) { return add_hook(L, "spawn"); }
 static int on(lua_State* L) { return add_hook(L, "on"); }
+static int log_quantities(lua_State* L) { return add_hook(L, "log"); }
+static int record(lua_State* L) { return add_hook(L, "record"); }
+static int push_state(lua_State* L) { return add_hook(L, "push"); }
+static int pop_state(lua_State* L) { return add_hook(L, "pop"); }
 
 static const Entry methods[] = {
     {"on_step", guarded<on_step>, R"(
@@ -70,6 +75,37 @@ DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its
 > world:run(0.01)
 > #touched > 0  --> true
 > world:on("contcat", print)  --> error: world:on: event must be 'contact' or 'contact_lost' or 'limit', got 'contcat')"},
+    {"log", guarded<log_quantities>, R"(
+Notes quantities while the world runs, from its first step on, at a rate of its time. In `quantities` stand, in order: bodies, of
+which place and velocity are noted; robots, their DOFs, velocities and efforts; "energy", "momentum", "contacts", "failures"; and by their names
+functions(world) that give a number, true or false, a vector, or a list of numbers that stays as long. Time is noted first.
+@param options {rate?: number, quantities: table}  rate: 100 [Hz]
+@return log log  `rows`, a list of {time, ...}; `columns`, their names; `save(path)`, as .csv or .npz; `remove()` ends it
+> log = world:log {rate = 50, quantities = {flask, "energy", height = function() return flask.pose.position.z end}}
+> world:run(0.1)
+> #log.rows, log.columns[1], log.columns[2]  --> 6, time, flask.position.x
+> log:save "build/flask.csv"
+> world:log {quantities = {"enrgy"}}  --> error: did you mean 'energy'?)"},
+    {"record", guarded<record>, R"(
+Records how the world runs, for films: its state at a rate of its time.
+@param options? {rate?: number}  30 [Hz]
+@return recording recording  `times`; `save(path, options)`, see the guide; `remove()` ends it
+> film = world:record {rate = 20}
+> world:run(0.1)
+> #film.times  --> 3
+> film:save "film.avi"  --> error: expected a name that ends in .html, .gif, .mp4 or .png, got 'film.avi')"},
+    {"push", guarded<push_state>, R"(
+Puts the state of the world on a stack of its own.
+@return integer depth  how many lie there now
+> world:push()  --> 1)"},
+    {"pop", guarded<pop_state>, R"(
+Goes back to the state that was pushed last, and takes it from the stack.
+@return integer depth  how many are left
+> before = world:hash()
+> world:push()
+> world:run(0.05)
+> world:pop(), world:hash() == before  --> 0, true
+> world:pop()  --> error: world:pop: the stack is empty: nothing was pushed, or all was popped)"},
 };
 
 const Class world_control_class{.name = "world_control",
