@@ -823,6 +823,24 @@ function world_control:spawn(fn) end
 ---@return table handle # `remove()` ends it
 function world_control:on(event, fn) end
 
+---Notes quantities while the world runs, from its first step on, at a rate of its time. In `quantities` stand, in order: bodies, of which place and velocity are noted; robots, their DOFs, velocities and efforts; "energy", "momentum", "contacts", "failures"; and by their names functions(world) that give a number, true or false, a vector, or a list of numbers that stays as long. Time is noted first.
+---@param options {rate?: number, quantities: table} # rate: 100 [Hz]
+---@return log log # `rows`, a list of {time, ...}; `columns`, their names; `save(path)`, as .csv or .npz; `remove()` ends it
+function world_control:log(options) end
+
+---Records how the world runs, for films: its state at a rate of its time.
+---@param options? {rate?: number} # 30 [Hz]
+---@return recording recording # `times`; `save(path, options)`, see the guide; `remove()` ends it
+function world_control:record(options) end
+
+---Puts the state of the world on a stack of its own.
+---@return integer depth # how many lie there now
+function world_control:push() end
+
+---Goes back to the state that was pushed last, and takes it from the stack.
+---@return integer depth # how many are left
+function world_control:pop() end
+
 ---How bodies and robots move: velocity, and what pushes them.
 ---@class motion: entity
 ---@field velocity {linear: vec3, angular: vec3} # Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. Setting a pose brings a body to rest. [m/s], [rad/s]
@@ -1143,6 +1161,22 @@ function clench.files.glove_calibration(path, options) end
 ---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {distance?: number, sensors?: integer[], dof_of_sensor?: integer[], joints?: number[], pose: pose}[]
 function clench.files.glove_poses(path, options) end
+
+---Writes lists of numbers, or of rows of numbers, as NumPy's arrays: `numpy.load` gives them by their names.
+---@param path string # .npz
+---@param arrays table<string, number[]|number[][]>
+function clench.files.save_arrays(path, arrays) end
+
+---The arrays of such a file: lists of numbers or texts, or of rows, all indices but the first in one.
+---@param path string # .npz
+---@return table<string, number[]|number[][]|string[]>
+function clench.files.arrays(path) end
+
+---Writes pictures of one size as an animated GIF of up to 256 colours that plays again and again.
+---@param path string
+---@param pictures picture[]
+---@param options? {rate?: number, delays?: number[]} # rate: pictures a second, 10 by default [Hz]; delays: of each picture [0.01 s]
+function clench.files.save_gif(path, pictures, options) end
 
 ---What searches make small. Each function makes an energy of a hand and an object: called, `e()`, it gives its number for how they stand now. Energies are added and weighted, `a + 0.3 * b`, functions of a script among them. Distances count in millimetres, so that the numbers are those of GraspIt!.
 ---@class clench.energy

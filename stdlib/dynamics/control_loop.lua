@@ -122,7 +122,7 @@ end
 ---@param world world
 ---@param seconds number
 ---@param stepping userdata
----@param step fun(stepping, last: number): number?  a step that ends at `last` at the latest
+---@param step fun(stepping, last: number): boolean  a step that ends at `last` at the latest; false: there is no time left
 ---@param events fun(stepping, own): table[]
 return function(hooks, world, seconds, stepping, step, events)
   if hooks.runs then raise "world:run: the world runs already: what is called in a run cannot run it" end
@@ -134,7 +134,7 @@ return function(hooks, world, seconds, stepping, step, events)
   local function time() return world.time end
   local last = world.time + seconds
   call_all(hooks.observers, time, world)
-  while world.time < last do
+  while last - world.time > tiny * world.time_step do
     local before = world.time
     call_controllers(world, hooks.controllers)
     call_tasks(world, hooks.tasks)

@@ -88,19 +88,10 @@ bool push_hooks(lua_State* L, const WorldPtr& world, bool make) {
   return make;
 }
 
-// (stepping, end) -> length of the step that was made, nil when the time is over
+// (stepping, end) -> was a step made?
 static int step(lua_State* L) {
   const SteppingPtr stepping = check_object<SteppingPtr>(L, 1);
-  const double end = check_number(L, 2);
-  World& world = *stepping->world;
-  const double left = end - world.time(), length = world.dynamic_settings().step;
-  if (!(left > 0)) return 0;
-  world.context().progress().check();
-  // as Stepper::run
-  const double h = stepping->stepper.move(left < length * (1 + 1e-9) ? left : length);
-  if (left - h <= length * 1e-9) world.edit_dynamics().time = end;
-  stepping->stepper.solve(h);
-  return push(L, h);
+  return push(L, stepping->stepper.step(check_number(L, 2)));
 }
 
 static int begin_event(lua_State* L, const char* kind, const World& world) {
