@@ -11,6 +11,9 @@ namespace clench {
 
 // Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s].
 static constexpr double sliding_speed = 1e-6;
+// Faults of a solution are at most this part of the largest velocity that gravity and motors give in a step, some cm/s; of
+// bodies that are slower than rest_speed, a larger part: they may creep by 0.1 nm/s before forces are found anew.
+static constexpr double tolerance = 1e-10, rest_tolerance = 1e-8, rest_speed = 1e-7;
 // Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so [m/s].
 static constexpr double pushed_part = 0.2, pushed_at_most = 0.1;
 // Below this speed of approach nothing bounces [m/s].
@@ -57,14 +60,8 @@ void Stepper::find_free_velocities(double h) {
     Eigen::VectorXd efforts = -dynamics.find_bias(v_, root_twist(static_cast<int>(t)), world_.gravity());
     find_joint_forces(world_, tree, h, state, forces_[t]);
     efforts += forces_[t].efforts;
-    for (size_t i = 0; i < tree.coordinates.size(); ++i) {
-      const Coordinate& c = tree.coordinates[i];
-      const Robot& robot = world_.robot(c.robot);
-      const DofControl& control = state.controls[c.dof_index];
-      if (c.joint >= 0) continue;
-      const double most = robot.dofs[c.dof].max_effort;
-      efforts[tree.root_size() + static_cast<int>(i)] += most > 0 ? std::clamp(control.effort, -most, most) : control.effort;
-    }
+    for (size_t i = 0; i < tree.coordinates.size(); ++i)
+      efforts[tree.root_size() + static_cast<int>(i)] += told_effort(world_, tree.coordinates[i], state);
     for (size_t b = 0; b < tree.bodies.size(); ++b) {
       const Load& load = state.loads[tree.bodies[b].body.index];
       if (load.force.isZero(0) && load.torque.isZero(0)) continue;
@@ -170,6 +167,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
   const Eigen::Vector3d force = X_WA.rotation * p.force;
   for (int k = 0; k < size; ++k) warm_.push_back(h * (k < 3 ? touch.frame.col(k).dot(force) : p.torsion / p.torsion_radius));
   row_count_ += size;
+  touch.target = target;
   touches_.push_back(touch);
   blocks_.push_back(block);
 }
@@ -255,6 +253,11 @@ void Stepper::solve_island(const std::vector<int>& blocks) {
     count += law.size();
     problem_.blocks.push_back(law);
   }
+  // what rests keeps the forces that it has as long as they hold it
+  bool at_rest = true;
+  for (const int i : blocks)
+    for (const int t : blocks_[i].tree)
+      at_rest = at_rest && (t < 0 || v_before_.segment(system_.trees[t].first, system_.trees[t].size()).cwiseAbs().maxCoeff() < rest_speed);
   problem_.W.setZero(count, count);
   problem_.q.resize(count);
   Eigen::VectorXd warm(count);
@@ -276,7 +279,8 @@ void Stepper::solve_island(const std::vector<int>& blocks) {
       }
   }
   const DynamicSettings& settings = world_.dynamic_settings();
-  const FrictionSolution solution = solver_.solve(problem_, warm, {.cone = settings.cone, .edges = settings.cone_edges});
+  const FrictionSolution solution = solver_.solve(
+      problem_, warm, {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = at_rest ? rest_tolerance : tolerance});
   for (int row = 0; row < row_count_; ++row) {
     if (local[row] < 0) continue;
     r_[row] = solution.r[local[row]];
@@ -400,8 +404,12 @@ void Stepper::solve(double h) {
   find_rows(h);
   r_.setZero(row_count_);
   u_ = q_;
-  for (const auto& island : find_islands()) solve_island(island);
-  apply_impulses();
+  if (world_.dynamic_settings().engine == DynamicsEngine::ode) {
+    solve_by_ode(h);
+  } else {
+    for (const auto& island : find_islands()) solve_island(island);
+    apply_impulses();
+  }
   keep(h);
 }
 

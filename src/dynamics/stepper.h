@@ -35,6 +35,7 @@ class Stepper {
     Eigen::Matrix3d frame;  // columns: normal, tangents; world
     Eigen::Vector3d p_W;
     Id<Body> a, b;
+    double target = 0;      // least velocity along the normal
   };
   /// A contact or a row of a coordinate, and where its rows stand.
   struct Block {
@@ -63,6 +64,7 @@ class Stepper {
   std::vector<std::vector<int>> find_islands() const;
   void solve_island(const std::vector<int>& blocks);
   void apply_impulses();
+  void solve_by_ode(double h);
   void keep(double h);
   void disengage(double h);
 

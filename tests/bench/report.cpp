@@ -109,7 +109,8 @@ bool Report::judge(const std::vector<Aim>& aims) const {
   bool good = checked_ > 0 && disagreed_ == 0;
   for (const Aim& aim : aims) {
     if (aim.measured())
-      fmt::print("{:48} {:8.2f}   must be {} {}{}\n", aim.what, aim.value,
+      fmt::print("{:48} {:>8}   must be {} {}{}\n", aim.what,
+                 std::abs(aim.value) < 0.01 ? fmt::format("{:.2g}", aim.value) : fmt::format("{:.2f}", aim.value),
                  aim.at_most ? "<=" : ">=", aim.must, aim.met() ? "" : "   MISSED");
     else
       fmt::print("{:48} NOT MEASURED: is the other library here?\n", aim.what);

@@ -1,5 +1,6 @@
 #include "clench/dynamics/control/closing.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "clench/base/error.h"
@@ -25,11 +26,19 @@ void close_by_motors(World& world, Id<Robot> id, double speed) {
   const Robot& robot = world.robot(id);
   if (!std::isfinite(speed) || speed == 0)
     fail("closing '{}' by its motors: expected a speed that is not 0, got {}", excerpt(robot.name), speed);
+  // default velocities tell how fast DOFs are beside each other; some files count in millimetres a second
+  constexpr double longest = 3;  // [s]
+  std::vector<double> ends(robot.dofs.size()), rates(robot.dofs.size());
+  double slowest = 0;
   for (size_t d = 0; d < robot.dofs.size(); ++d) {
-    const double rate = speed * robot.dofs[d].default_velocity;
-    if (rate == 0) continue;
-    send_dof(world, id, static_cast<int>(d), robot.limits[d][rate > 0 ? 1 : 0], std::abs(rate));
+    rates[d] = speed * robot.dofs[d].default_velocity;
+    if (rates[d] == 0) continue;
+    ends[d] = robot.limits[d][rates[d] > 0 ? 1 : 0];
+    slowest = std::max(slowest, std::abs(ends[d] - world.dofs(id)[static_cast<int>(d)]) / std::abs(rates[d]));
   }
+  const double faster = std::max(1.0, slowest / (longest / std::abs(speed)));
+  for (size_t d = 0; d < robot.dofs.size(); ++d)
+    if (rates[d] != 0) send_dof(world, id, static_cast<int>(d), ends[d], faster * std::abs(rates[d]));
 }
 
 // the original's test: each chain's last link touches something, or its last joint is within 0.03 of its limit

@@ -4,8 +4,8 @@
 
 namespace clench {
 
-/// Each DOF is sent to its limit in the sense of its default velocity, on a smooth way at that velocity times `speed`; negative:
-/// it opens. What its motor cannot push away stops it; then it presses. DOFs without a default velocity hold.
+/// Each DOF is sent to its limit in the sense of its default velocity, on a smooth way at that velocity times `speed`, all of
+/// them faster where the longest way would take more than 3 s / speed; negative: it opens. What its motor cannot push away stops it; then it presses. DOFs without a default velocity hold.
 /// throws  Error for a speed that is 0 or not finite
 void close_by_motors(World& world, Id<Robot> robot, double speed);
 

@@ -60,6 +60,12 @@ void find_joint_forces(const World& world, const Articulation& tree, double h, c
   out.added += out.velocity_part;
 }
 
+double told_effort(const World& world, const Coordinate& c, const DynamicState& state) {
+  if (c.joint >= 0) return 0;
+  const double most = bound_of(world.robot(c.robot).dofs[c.dof].max_effort);
+  return std::clamp(state.controls[c.dof_index].effort, -most, most);
+}
+
 void pull_tendons(const World& world, Id<Robot> id, double h, DynamicState& state) {
   const Robot& robot = world.robot(id);
   for (size_t d = 0; d < robot.dofs.size(); ++d) {

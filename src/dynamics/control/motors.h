@@ -38,6 +38,9 @@ void add_coordinate_rows(const World& world, const Articulation& tree, int numbe
 /// 60 rad/s.   inertia  that the DOF feels [kg m^2 or kg]
 Gains gains_of(const World& world, Id<Robot> robot, int dof, double inertia);
 
+/// What a motor is told to give beside what its mode does, within its largest effort; 0 for a joint that no motor turns.
+double told_effort(const World& world, const Coordinate& coordinate, const DynamicState& state);
+
 /// Tendons of compliant DOFs: how fast each goes to its target, as far as its effort allows. Their joints follow by springs.
 void pull_tendons(const World& world, Id<Robot> robot, double h, DynamicState& state);
 

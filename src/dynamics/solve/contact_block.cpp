@@ -73,7 +73,7 @@ void ContactBlock::solve(const double* q, double* r) const {
   const double normal = -q[0] / W_nn_;
   r[0] = normal;
   if (tangents_ == 0 || mu_ == 0) return;
-  double c[3], y[3];
+  double c[3] = {}, y[3] = {};
   for (int k = 0; k < tangents_; ++k) {
     c[k] = 0;
     for (int i = 0; i < tangents_; ++i) c[k] -= V_[tangents_ * k + i] * (q[1 + i] + W_tn_[i] * normal);

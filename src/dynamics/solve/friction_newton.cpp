@@ -78,7 +78,8 @@ void FrictionNewton::decide(const ScaledFriction& problem, VectorXd& r) {
       for (int k = 0; k < tangents; ++k) normal.t[k] = block.mu * t[k], along += t[k] * r[row + 1 + k];
       for (int k = 0; k < tangents; ++k) r[row + 1 + k] += (block.mu * r[row] - along) * t[k];
       directions_.push_back(normal);
-      Direction across{.row = row, .tangents = tangents, .across = true, .factor = beta, .diagonal = (1 - beta) * block.d / rho_};
+      Direction across{.row = row, .tangents = tangents, .across = true, .factor = beta};
+      across.diagonal = (1 - beta) * block.d / rho_;
       if (tangents == 2) {
         across.t[0] = -t[1], across.t[1] = t[0];
         directions_.push_back(across);
@@ -156,7 +157,8 @@ bool FrictionNewton::step(const ScaledFriction& problem, double damping, const V
         sum += of.t[c] * (of.factor * shift_[of.row + 1 + c] + of.diagonal * next[of.row + 1 + c]);
     right_[k] = -sum;
   }
-  if (!(keep && factored_damping_ == damping && factored_ == states_) && !factor(problem, damping)) return false;
+  const bool kept = keep && factored_damping_ == damping && factored_ == states_;
+  if (!kept && !factor(problem, damping)) return false;
   system_.solve(right_);
   for (int k = 0; k < n; ++k) {
     const Direction& by = directions_[k];
@@ -192,7 +194,10 @@ FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, const V
     velocities(next_, u_next_);
     double next_merit = classify(problem, next_, u_next_);
     const bool linear = states_ == before && !slides();
-    if (std::isfinite(next_merit) && (linear || (length <= 1e-5 * size && std::sqrt(next_merit) <= 1e-12 * (size + q.lpNorm<Eigen::Infinity>())))) {
+    // with sliding, the step to come is about the square of this one
+    const double size_of_all = size + q.lpNorm<Eigen::Infinity>();
+    const bool near = length <= 1e-5 * size && std::sqrt(next_merit) <= 1e-12 * size_of_all;
+    if (std::isfinite(next_merit) && (linear || near)) {
       r.swap(next_);
       end.converged = true;
       return end;

@@ -20,8 +20,11 @@ class FrictionNewton {
     bool converged = false;
     int iterations = 0;
   };
-  /// r  from there on; the result, or where there is none the least fault met
-  End solve(const ScaledFriction& problem, const Eigen::VectorXd& q, double damping, double rho, int max_iterations, Eigen::VectorXd& r);
+  /// q    instead of the problem's
+  /// rho  the natural map's weight of velocities, by which states are told; one of them may lead where another does not
+  /// r    from there on; the result, or where there is none the least fault met
+  End solve(const ScaledFriction& problem, const Eigen::VectorXd& q, double damping, double rho, int max_iterations,
+            Eigen::VectorXd& r);
   /// One step towards a solution of the problem without damping, which only keeps what S leaves open as it is.
   /// u        S r + q
   /// returns  false: the matrix is singular

@@ -38,7 +38,7 @@ MatrixXd friction_edges(int tangents, int edges, double turned) {
 
 namespace {
 
-/// r = start + rows * x + equations' share, w = M x + q with more unknowns for two-sided rows and for lambda.
+/// r = start + rows x; w = M x + q, with unknowns for lambda and for the upper bounds of rows as well.
 struct Complementarity {
   MatrixXd rows;      // r by x
   VectorXd start;
@@ -125,7 +125,10 @@ PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, con
   const MatrixXd M = c.rows.transpose() * S * c.rows + c.coupling;
   const VectorXd q = c.rows.transpose() * (S * c.start + pulled) + c.offset;
   const LcpSolution lcp = solve_lcp(M, q);
-  PyramidSolution solution{.found = lcp.status == LcpStatus::solved, .r = c.start + c.rows * lcp.z, .iterations = lcp.iterations};
+  PyramidSolution solution;
+  solution.found = lcp.status == LcpStatus::solved;
+  solution.r = c.start + c.rows * lcp.z;
+  solution.iterations = lcp.iterations;
   // measured without the damping
   const VectorXd w = c.rows.transpose() * (problem.S * solution.r + problem.q) + c.coupling * lcp.z + c.offset;
   for (int i = 0; i < w.size(); ++i)

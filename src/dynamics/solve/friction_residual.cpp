@@ -50,7 +50,8 @@ double block_admittance(const FrictionProblem& problem, const FrictionProblem::B
   return problem.W.diagonal().segment(block.row, block.size()).mean();
 }
 
-FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u, double tolerance) {
+FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u,
+                             double tolerance) {
   // |W_ij| <= sqrt(W_ii W_jj): what the sums of u are sums of
   double size = 0;
   for (const auto& block : problem.blocks) {
@@ -62,7 +63,10 @@ FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::Vector
   for (const auto& block : problem.blocks) {
     const double d = block_admittance(problem, block);
     const double fault = block_fault(block, d, &r[block.row], &u[block.row]);
-    if (!valid(block) || !std::isfinite(fault) || !std::isfinite(d)) {
+    // 0, or no number
+    double none = 0 * d;
+    for (int k = 0; k < block.size(); ++k) none += 0 * (r[block.row + k] + u[block.row + k]);
+    if (!valid(block) || !std::isfinite(fault + none)) {
       worst.largest = worst.excess = std::numeric_limits<double>::infinity();
       return worst;
     }

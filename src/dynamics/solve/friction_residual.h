@@ -25,7 +25,8 @@ struct FrictionFault {
   double excess = 0;   ///< of any block, fault by what is allowed: the tolerance, and the rounding of W r beside it
 };
 /// u  W r + q
-FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u, double tolerance);
+FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u,
+                             double tolerance);
 
 /// The largest fault of any block [m/s, rad/s]; infinite where a number of the problem or of r is not finite (but
 /// bounds), a coefficient of friction is negative, or 0 is not within the bounds of a row.

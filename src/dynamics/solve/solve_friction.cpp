@@ -30,6 +30,15 @@ double FrictionSolver::solve_damped(VectorXd& r, FrictionSolution& solution) {
   gauss_seidel_.set(scaled_, damping);
   gauss_seidel_.sweep(scaled_, 3, r);
   solution.iterations += 3;
+  // redundant contacts that slide are found by steps
+  r_ = r;
+  if (newton(1e-3, 1, 12, r_, solution)) {
+    r = r_;
+    if (newton(1e-5, 1, 8, r_, solution) && newton(damping, 1, 8, r_, solution)) {
+      r.swap(r_);
+      return damping;
+    }
+  }
   if (newton(damping, 1, 12, r, solution)) return damping;
   return descend(1, r, solution);
 }
@@ -64,17 +73,17 @@ double FrictionSolver::descend(double rho, VectorXd& r, FrictionSolution& soluti
   return reached;
 }
 
-bool FrictionSolver::solve_by_pyramids(double by, int edges_per_contact, VectorXd& r, FrictionSolution& solution) {
+bool FrictionSolver::solve_by_pyramids(int edges_per_contact, VectorXd& r, FrictionSolution& solution) {
   std::vector<Eigen::MatrixXd> edges;
   for (const auto& block : scaled_.blocks) edges.push_back(friction_edges(block.tangents, edges_per_contact));
   for (int round = 0; round < 8; ++round) {
-    const PyramidSolution pyramid = solve_pyramid(scaled_, std::max(by, 1e-7), VectorXd::Zero(scaled_.rows()), edges);
+    const PyramidSolution pyramid = solve_pyramid(scaled_, 1e-7, VectorXd::Zero(scaled_.rows()), edges);
     solution.iterations += pyramid.iterations;
     if (!pyramid.found) return false;
     r = pyramid.r;
     for (const double rho : {1.0, 0.2, 5.0}) {
       r_ = r;
-      if (newton(by, rho, 20, r_, solution)) {
+      if (newton(damping, rho, 20, r_, solution)) {
         r = r_;
         return true;
       }
@@ -93,10 +102,14 @@ bool FrictionSolver::solve_by_pyramids(double by, int edges_per_contact, VectorX
   return false;
 }
 
-bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, VectorXd& r, FrictionSolution& solution) {
+bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, VectorXd& r,
+                            FrictionSolution& solution) {
   // sets u_ and keeps the best
   bool enough = false;
-  const auto measure = [&](const VectorXd& at) {
+  const auto measure = [&](VectorXd& at) {
+    // bounds hold to the bit
+    for (const auto& block : scaled_.blocks)
+      at[block.row] = block.is_contact() ? std::max(at[block.row], 0.0) : std::clamp(at[block.row], block.low, block.high);
     u_ = scaled_.q;
     u_.noalias() += scaled_.S * at;
     impulses_ = at.cwiseProduct(scaled_.units);
@@ -156,8 +169,9 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
     solution.iterations += pyramid.iterations;
     if (pyramid.found && pyramid.residual < solution.residual) {
       r = pyramid.r;
-      solution.residual = pyramid.residual, solution.r = r.cwiseProduct(scaled_.units);
-      solution.solved = solution.residual <= tolerance;
+      solution.residual = pyramid.residual;
+      solution.r = r.cwiseProduct(scaled_.units);
+      solution.solved = solution.residual <= 100 * tolerance;
     } else {
       solution.fell_back = true;
       by = std::min(10 * by, 1.0);
@@ -168,7 +182,8 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
   return solution;
 }
 
-FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const VectorXd& warm_start, const FrictionOptions& options) {
+FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const VectorXd& warm_start,
+                                       const FrictionOptions& options) {
   FrictionSolution solution;
   const int n = static_cast<int>(problem.q.size());
   const double tolerance = options.tolerance * std::max(1e-3, n > 0 ? problem.q.lpNorm<Eigen::Infinity>() : 0);
@@ -208,12 +223,15 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
     nearest.u = problem.W * nearest.r + problem.q;
     return nearest;
   }
-  for (int way = 0; way < 3 && !solution.solved; ++way) {
+  // from other sides, at last from the best that was found
+  for (int way = 0; way < 5 && !solution.solved; ++way) {
     double level = 1e-3;
     if (way == 1) {
-      if (solve_by_pyramids(damping, options.edges, r, solution)) level = damping;
+      if (solve_by_pyramids(options.edges, r, solution)) level = damping;
+    } else if (way == 4) {
+      r = solution.r.cwiseQuotient(scaled_.units);
     } else {
-      level = descend(way == 0 ? 0.2 : 5, r, solution);
+      level = descend(way == 0 ? 0.2 : way == 2 ? 5 : 0.05, r, solution);
     }
     solution.solved = refine(problem, tolerance, level, 100, r, solution);
   }
@@ -221,7 +239,8 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
   return solution;
 }
 
-FrictionSolution solve_friction(const FrictionProblem& problem, const VectorXd& warm_start, const FrictionOptions& options) {
+FrictionSolution solve_friction(const FrictionProblem& problem, const VectorXd& warm_start,
+                                const FrictionOptions& options) {
   FrictionSolver solver;
   return solver.solve(problem, warm_start, options);
 }

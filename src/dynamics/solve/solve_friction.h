@@ -9,29 +9,40 @@ namespace clench {
 
 struct FrictionOptions {
   FrictionCone cone = FrictionCone::cone;
-  int edges = 8;             ///< of a pyramid, >= 4; with torsion 3 edges - 4 (see friction_edges)
-  /// Faults up to so much of the largest velocity in q, and of at least 1e-3, are none. Rounding of W r is allowed for beside it.
+  int edges = 8;  ///< of a pyramid, >= 4; with torsion 3 edges - 4 (see friction_edges)
+  /// Faults up to so much of the largest velocity in q, and of at least 1e-3, are none. Rounding of W r is allowed for
+  /// beside it, up to 1e6 times as much where masses differ by that; of a pyramid, as pivots lose digits, 100 times.
   double tolerance = 1e-12;
 };
 
 /// Solves one problem after another; memory is kept between them, nothing else: the same problem and the same warm start
 /// give the same bits.
 ///
-/// Of many solutions, as at the four corners of a box, it is the one of least sum of W_ii r_i^2 among those of the same
-/// states, wherever it starts from. A warm start that already solves the problem is returned as it is.
-/// Where demands contradict each other (two opposite limits), it is one of least violation.
+/// Of many solutions, as at the four corners of a box, it is the one of least sum of W_ii r_i^2 of its states (open,
+/// sticking, sliding), wherever it starts from. A warm start that already solves the problem is returned as it is, for the
+/// price of W r. Demands that contradict each other (two opposite limits that both ask for more) get as much as can be had,
+/// with least squares of what is missing and without great impulses; then the solution is not `solved`.
+///
+/// The ways, the next where one does not end: Newton's method from the warm start, with a damping that is 1e-8 of W's
+/// diagonal and is then taken away again; after sweeps of Gauss and Seidel's; down from strong damping, step by step; and
+/// damping that pulls to the last iterate instead of 0 (proximal points, Rockafellar 1976), also from a pyramid's solution.
 class FrictionSolver {
  public:
-  /// warm_start  impulses of the last step, or none (any other size)
-  FrictionSolution solve(const FrictionProblem& problem, const Eigen::VectorXd& warm_start, const FrictionOptions& options = {});
+  /// problem      of a number that is not finite or a block that is none: r = u = 0, residual infinite
+  /// warm_start   impulses of the last step, or none (any other size)
+  FrictionSolution solve(const FrictionProblem& problem, const Eigen::VectorXd& warm_start,
+                         const FrictionOptions& options = {});
 
  private:
   FrictionSolution solve_as_pyramid(const FrictionProblem& problem, double tolerance, int edges_per_contact);
   bool newton(double by, double rho, int max_iterations, Eigen::VectorXd& r, FrictionSolution& solution);
-  double descend(double rho, Eigen::VectorXd& r, FrictionSolution& solution);
+  /// r of a problem with damping; returns how strong that still is.
   double solve_damped(Eigen::VectorXd& r, FrictionSolution& solution);
-  bool solve_by_pyramids(double by, int edges_per_contact, Eigen::VectorXd& r, FrictionSolution& solution);
-  bool refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, Eigen::VectorXd& r, FrictionSolution& solution);
+  double descend(double rho, Eigen::VectorXd& r, FrictionSolution& solution);
+  bool solve_by_pyramids(int edges_per_contact, Eigen::VectorXd& r, FrictionSolution& solution);
+  /// Takes the damping away; keeps the best r in the solution.
+  bool refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, Eigen::VectorXd& r,
+              FrictionSolution& solution);
 
   ScaledFriction scaled_;
   FrictionNewton newton_;

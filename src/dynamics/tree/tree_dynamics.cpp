@@ -113,10 +113,8 @@ void TreeDynamics::find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* 
   velocity_[0] = tree_->floating ? Vector6d(v.segment<6>(tree_->first)) : root_twist;
   acceleration_[0].setZero();
   // of the root's centre of mass; seen from a point that stands, its surroundings accelerate against it
-  if (tree_->floating) {
-    if (change) acceleration_[0] = change->segment<6>(tree_->first);
-    acceleration_[0].head<3>() -= velocity_[0].tail<3>().cross(velocity_[0].head<3>());
-  }
+  if (tree_->floating && change) acceleration_[0] = change->segment<6>(tree_->first);
+  acceleration_[0].head<3>() -= velocity_[0].tail<3>().cross(velocity_[0].head<3>());
   for (size_t i = 0; i < joints.size(); ++i) {
     const int c = tree_->first + joints[i].coordinate;
     const Vector6d moved = (joints[i].ratio * v[c]) * S_[i];

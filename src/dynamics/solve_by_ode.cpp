@@ -1,0 +1,60 @@
+// Stepper::solve_by_ode: the same contacts, motors and limits, with velocities that ODE finds.
+#include <algorithm>
+
+#include "clench/dynamics/ode/ode_step.h"
+#include "clench/dynamics/stepper.h"
+
+namespace clench {
+
+void Stepper::solve_by_ode(double h) {
+  const DynamicSettings& settings = world_.dynamic_settings();
+  const auto belt = [&](Id<Body> id) {
+    const auto found = settings.surface_velocities.find(id);
+    return found == settings.surface_velocities.end() ? Eigen::Vector3d(0, 0, 0)
+                                                      : Eigen::Vector3d(world_.pose(id).rotation * found->second);
+  };
+  std::vector<OdeContact> contacts;
+  for (const Block& block : blocks_) {
+    if (block.row >= 0) continue;
+    const Touch& touch = touches_[block.touch];
+    const ManifoldPoint& p = world_.dynamics()->manifolds[touch.manifold].points[touch.point];
+    OdeContact contact{.a = touch.a, .b = touch.b, .p_W = touch.p_W, .frame = touch.frame, .mu = block.law.mu};
+    if (block.law.tangents == 3) contact.spin_radius = block.law.mu * p.torsion_radius;
+    contact.target = touch.target;
+    contact.surface_velocity = belt(touch.b) - belt(touch.a);
+    const int linear = std::min(block.law.size(), 3);
+    contact.free_velocity.head(linear) = q_.segment(block.law.row, linear);
+    contacts.push_back(contact);
+  }
+  Eigen::VectorXd before;
+  gather_velocities(system_, *world_.dynamics(), before);
+  const OdeSolution solution = step_ode(
+      world_, {.system = system_, .v = before, .forces = forces_, .rows = coordinate_rows_, .contacts = contacts}, h);
+  v_ = solution.v;
+  size_t next = 0;
+  for (const Block& block : blocks_) {
+    const int row = block.law.row;
+    if (block.row >= 0) {
+      const CoordinateRow& c = coordinate_rows_[block.row];
+      r_[row] = solution.row_impulses[block.row];
+      u_[row] = v_[system_.trees[c.tree].first + c.coordinate] - c.target;
+      continue;
+    }
+    const ManifoldPoint& p = world_.dynamics()->manifolds[touches_[block.touch].manifold].points[touches_[block.touch].point];
+    const int linear = std::min(block.law.size(), 3);
+    r_.segment(row, linear) = solution.impulses[next].head(linear);
+    u_.segment(row, linear) = solution.velocities[next].head(linear);
+    if (block.law.tangents == 3) {
+      r_[row + 3] = solution.spins[next] / p.torsion_radius;
+      u_[row + 3] = 0;
+    }
+    ++next;
+  }
+  StepReport& report = world_.edit_dynamics().report;
+  report.iterations += solution.solves;
+  report.fallbacks += solution.softened;
+  report.failures += !solution.solved;
+  report.residual = std::max(report.residual, solution.residual);
+}
+
+}  // namespace clench

@@ -1,0 +1,10 @@
+# Our dynamics beside ODE and Bullet; ODE is part of a build, Bullet takes part where it is installed.
+add_executable(bench_dynamics bench/dynamics_bench.cpp bench/dynamic_scene.cpp bench/engine_ours.cpp bench/engine_ode.cpp bench/report.cpp)
+target_include_directories(bench_dynamics PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+target_link_libraries(bench_dynamics PRIVATE clench_dynamics clench_io PkgConfig::ODE)
+if(BULLET_FOUND)
+  target_sources(bench_dynamics PRIVATE bench/engine_bullet.cpp)
+  target_compile_definitions(bench_dynamics PRIVATE CLENCH_BENCH_BULLET)
+  target_link_libraries(bench_dynamics PRIVATE PkgConfig::BULLET)
+endif()
+add_test(NAME "bench: dynamics" COMMAND bench_dynamics --brief WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
