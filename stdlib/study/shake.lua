@@ -6,7 +6,7 @@ local verdict = require "clench.study.motion.verdict"
 
 --- The six-direction force test. In a copy of the world that holds nothing but the hand, what carries it and the object, the
 --- hand first presses without gravity, `grip_seconds` long, and all comes to rest, `settle` long. Then a force pushes the object's centre of mass along each axis of the
---- world in turn, each time from that state. The object is held while it is displaced from there, as the hand's base sees it, by
+--- world in turn, each time from that state. Motors hold with the gains of their files; those without swing back at 60 rad/s with the object's mass on their lever. The object is held while it is displaced from there, as the hand's base sees it, by
 --- less than max_distance and max_angle.
 --- The hand presses with "forces": motors hold its posture, and add the torques of contact forces in equilibrium, `grip_force` the
 --- sum of their normals; compliant DOFs pull as hard as they can. With "close", and where no such forces exist, its motors close it as autograsp {dynamic = true} does.

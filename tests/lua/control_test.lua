@@ -280,3 +280,26 @@ test("gravity is in the bias forces of a robot whose motors do not carry it", fu
   -- some 8 cm of finger, 0.2 kg in all
   t.ok(sum > 0.1 and sum < 0.3)
 end)
+
+test("stiffer motors give way less", function(t)
+  local function deflection(gains)
+    local world = clench.world()
+    local hand = world:add_robot "models/hands/barrett/barrett.cfg"
+    hand.gains = gains
+    hand:set_dofs {0, 1, 1, 1}
+    for _ = 1, 500 do
+      hand.links[3]:apply_force {0, 0, -1}
+      hand.links[3]:apply_force {1, 0, 0}
+      world:run(0.001)
+    end
+    return math.abs(hand.dofs[2] - 1)
+  end
+  local function all(kp) return {{kp = kp, kd = 0.1}, {kp = kp, kd = 0.1}, {kp = kp, kd = 0.1}, {kp = kp, kd = 0.1}} end
+  local soft, stiff = deflection(all(2)), deflection(all(20))
+  t.ok(soft > 5 * stiff and stiff > 0, ("%g and %g"):format(soft, stiff))
+  local hand = clench.world():add_robot "models/hands/barrett/barrett.cfg"
+  t.fails(function() hand.gains = {{kp = 1}, false, false, false} end, "hand.gains[1]: kd: expected a number, got nothing")
+  t.fails(function() hand.gains = {{kp = -1, kd = 0}, false, false, false} end, "expected a number from 0 to 1e+12")
+  t.fails(function() hand.gains = {{kp = 1, kd = 0, ki = 1}, false, false, false} end, "unknown key 'ki'")
+  t.fails(function() hand.gains = 5 end, "expected a list of gains, got 5")
+end)

@@ -39,6 +39,29 @@ local function hold_robots(world)
   end
 end
 
+local swing = 60  -- at which motors without gains of their own swing back [rad/s]
+
+-- Motors whose file gives no gains are as stiff as it takes to hold the object, too, at the lever that they have to it.
+local function set_gains(hand, object)
+  local M, gains, changes = hand:mass_matrix(), hand.gains, false
+  local com = object.pose * object.com
+  local levers = {}
+  for i = 1, #gains do levers[i] = 0 end
+  for _, link in ipairs(hand.links) do
+    local J = hand:jacobian(link, link.pose:inverse() * com)
+    for i = 1, #gains do levers[i] = math.max(levers[i], math.sqrt(J[1][i] ^ 2 + J[2][i] ^ 2 + J[3][i] ^ 2)) end
+  end
+  for i, info in ipairs(hand.dof_info) do
+    if info.kp > 0 or info.kd > 0 then
+      gains[i] = false
+    else
+      local inertia = M[i][i] + object.mass * levers[i] ^ 2
+      gains[i], changes = {kp = inertia * swing ^ 2, kd = 2 * inertia * swing}, true
+    end
+  end
+  if changes then hand.gains = gains end
+end
+
 -- Torques of the motors that press by forces in equilibrium; nil where there are none.
 local function grip_torques(hand, object, total)
   local grasp = clench.grasp(hand, object)
@@ -123,6 +146,7 @@ return function(job)
   object.mass = job.mass
   hold_robots(world)
   object.velocity = {}
+  set_gains(hand, object)
   world.gravity = {0, 0, 0}
   local trial = setmetatable({world = world, hand = hand, object = object, root = root_of(hand), com = object.com,
                               max_distance = job.max_distance, max_angle = job.max_angle}, Trial)

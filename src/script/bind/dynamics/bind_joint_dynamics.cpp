@@ -1,8 +1,10 @@
 #include "clench/dynamics/control/joint_dynamics.h"
+#include "clench/dynamics/control/motors.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
 
 namespace clench {
 
@@ -20,6 +22,62 @@ static int inverse_dynamics(lua_State* L) {
   const Eigen::Map<const Eigen::VectorXd> accelerations(given.data(), static_cast<Eigen::Index>(given.size()));
   return push_vector(L, Eigen::VectorXd(d.mass_matrix * accelerations + d.bias + d.passive));
 }
+
+static int get_gains(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const Eigen::VectorXd inertia = of_robot(robot).mass_matrix.diagonal();
+  int dof = 0;
+  return push_list_of(L, robot->dofs, [&](const DofSpec&) {
+    const Gains gains = gains_of(*robot.world, robot.id, dof, inertia[dof]);
+    ++dof;
+    push_list(L, 0, 2);
+    set_field(L, "kp", gains.kp);
+    set_field(L, "kd", gains.kd);
+  });
+}
+
+static int set_gains(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  std::vector<std::optional<Gains>> gains;
+  if (given(L, 2)) {
+    const int count = static_cast<int>(robot->dofs.size());
+    if (!lua_istable(L, 2)) fail_expected({L, {}, ""}, "a list of gains", 2);
+    if (lua_rawlen(L, 2) != static_cast<size_t>(count))
+      fail("{}: expected {}, one per DOF, got {}", subject(L), count, lua_rawlen(L, 2));
+    for (int i = 1; i <= count; ++i) {
+      lua_rawgeti(L, 2, i);
+      auto& gain = gains.emplace_back();
+      if (lua_toboolean(L, -1)) {
+        Table table(L, lua_gettop(L), fmt::format("{}[{}]", subject(L), i));
+        gain = Gains{.kp = table.number("kp"), .kd = table.number("kd")};
+        table.done();
+        for (const double x : {gain->kp, gain->kd})
+          check(Quantity{"gain", "N m/rad, N m s/rad, N/m or N s/m", 0, 1e12}, x, table.subject());
+      }
+      lua_pop(L, 1);
+    }
+  }
+  DynamicSettings settings = robot.world->dynamic_settings();
+  settings.robots[robot.id].gains = std::move(gains);
+  robot.world->set_dynamic_settings(std::move(settings));
+  return 0;
+}
+
+static const Entry fields[] = {
+    {"gains", guarded<get_gains>, R"(
+How stiff its motors hold it, one per DOF: those that were set; else those of its file; else such that a DOF swings back at 60
+rad/s with critical damping, as it stands. Set a list of them, with false for those of the file; nil: all of the file.
+@type {kp: number, kd: number}[]  [N m/rad or N/m], [N m s/rad or N s/m]
+> hand.gains[1].kp  --> 1.0
+> gains = hand.gains
+> gains[1] = {kp = 20, kd = 0.5}
+> hand.gains = gains
+> hand.gains[1].kp  --> 20.0
+> hand.gains = nil
+> hand.gains[1].kp  --> 1.0
+> hand.gains = {{kp = 1}}  --> error: expected 12, one per DOF, got 1)",
+     guarded<set_gains>},
+};
 
 static const Entry methods[] = {
     {"mass_matrix", guarded<mass_matrix>, R"(
@@ -48,7 +106,7 @@ springs and viscous friction of the joints; not their dry friction.
 const Class joint_dynamics_class{.name = "joint_dynamics",
                                  .variable = "hand",
                                  .doc = "Masses and forces as a robot's DOFs feel them.",
-                                 .fields = {},
+                                 .fields = fields,
                                  .methods = methods,
                                  .parent = &motion_class};
 
