@@ -857,6 +857,7 @@ function motion:apply_torque(torque) end
 
 ---Masses and forces as a robot's DOFs feel them.
 ---@class joint_dynamics: motion
+---@field gains {kp: number, kd: number}[] # How stiff its motors hold it, one per DOF: those that were set; else those of its file; else such that a DOF swings back at 60 rad/s with critical damping, as it stands. Set a list of them, with false for those of the file; nil: all of the file. [N m/rad or N/m], [N m s/rad or N s/m]
 local joint_dynamics = {}
 
 ---Inertia of its DOFs where it stands: half of v M v is the energy with which velocities v of the DOFs move it and all that it carries, its base held. Armature of the joints is in it.

@@ -298,7 +298,7 @@ test("stiffer motors give way less", function(t)
   local soft, stiff = deflection(all(2)), deflection(all(20))
   t.ok(soft > 5 * stiff and stiff > 0, ("%g and %g"):format(soft, stiff))
   local hand = clench.world():add_robot "models/hands/barrett/barrett.cfg"
-  t.fails(function() hand.gains = {{kp = 1}, false, false, false} end, "hand.gains[1]: kd: expected a number, got nothing")
+  t.fails(function() hand.gains = {{kp = 1}, false, false, false} end, "hand.gains[1]: kd: expected a number, got nil")
   t.fails(function() hand.gains = {{kp = -1, kd = 0}, false, false, false} end, "expected a number from 0 to 1e+12")
   t.fails(function() hand.gains = {{kp = 1, kd = 0, ki = 1}, false, false, false} end, "unknown key 'ki'")
   t.fails(function() hand.gains = 5 end, "expected a list of gains, got 5")
