@@ -10,7 +10,7 @@ local run = clench.plan.sample {hand = hand, object = mug, count = 4, candidates
 
 -- which measure would have told who survives?
 local study = clench.study.predictors(run.grasps, {hand = hand, object = mug, measures = {"epsilon", "load_margin"},
-                                                   shake = {seconds = 0.5, settle = 0.5}})
+                                                   shake = {force = 2, grip_force = 5, seconds = 0.5, settle = 0.5}})
 print(study)
 
 local best

@@ -45,7 +45,7 @@ function frame() {
   showAt(now);
   const sphere = box.getBoundingSphere(new THREE.Sphere());
   orbit.target.copy(sphere.center);
-  orbit.distance = Math.max(1e-3, sphere.radius) / Math.sin(camera.fov * Math.PI / 360);
+  orbit.distance = 0.85 * Math.max(1e-3, sphere.radius) / Math.sin(camera.fov * Math.PI / 360);
   orbit.azimuth = -0.9;
   orbit.elevation = 0.45;
   grid.position.set(sphere.center.x, sphere.center.y, box.min.z - 0.002);

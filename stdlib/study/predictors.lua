@@ -30,7 +30,8 @@ end
 function Predictors:plot(options)
   local series = {}
   for i, row in ipairs(self.rows) do
-    series[i] = {name = ("%s %.2f"):format(row.measure, row.auc), x = row.curve.false_positives, y = row.curve.true_positives}
+    local name = row.auc == row.auc and ("%s %.2f"):format(row.measure, row.auc) or row.measure
+    series[i] = {name = name, x = row.curve.false_positives, y = row.curve.true_positives}
   end
   return clench.plot(add_options({series = series, title = "Which measures predict survival?", x_label = "share of the lost grasps",
                                   y_label = "share of the survivors", x_range = {0, 1}, y_range = {0, 1}}, options, "plot"))

@@ -159,3 +159,18 @@ test("what is wrong with a study is said in a sentence", function(t)
   no_study({grasp}, {hand = hand, object = flask, shake = {sceonds = 1}}, "unknown key 'sceonds'")
   t.ok(world)
 end)
+
+test("a hand on an arm is tried with its arm, and without other robots", function(t)
+  local world = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
+  local arm, hand, glass = world.robots[1], world.robots[2], world.objects[1]
+  t.ok(hand.parent == arm)
+  -- another hand on another arm, made before its arm
+  local other_hand = world:add_robot("models/hands/parallel_jaw/parallel_jaw.cfg", {name = "other"})
+  local before = world:hash()
+  hand:autograsp()
+  local closed = world:hash()
+  local v = clench.study.lift {hand = hand, object = glass, mass = 0.05, settle = 0.1, hold = 0.1, surroundings = false}
+  t.equal(#v.rows >= 1, true)
+  t.equal(world:hash(), closed)
+  t.ok(before ~= closed and other_hand.world == world)
+end)

@@ -19,10 +19,11 @@ end
 
 -- hand, object, and what carries the hand
 local function remove_surroundings(world, hand, object)
-  local root = root_of(hand)
+  local root, others = root_of(hand), {}
   for _, robot in ipairs(world.robots) do
-    if root_of(robot) ~= root and not robot.parent then world:remove(robot) end
+    if root_of(robot) ~= root then others[#others + 1] = robot end
   end
+  for _, robot in ipairs(others) do world:remove(robot) end
   for _, list in ipairs {world.objects, world.obstacles} do
     for _, body in ipairs(list) do
       if body ~= object then world:remove(body) end
