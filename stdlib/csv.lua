@@ -16,13 +16,6 @@ local function plain_value(word)
   return word
 end
 
-local function quoted(text, separator)
-  if plain_value(text) ~= text or text:find("[\"\r\n" .. separator .. "]") or text:find "^%s" or text:find "%s$" then
-    return '"' .. text:gsub('"', '""') .. '"'
-  end
-  return text
-end
-
 local function field(value, separator, place)
   if value == nil then return "" end
   if math.type(value) == "integer" then return ("%d"):format(value) end
@@ -34,7 +27,7 @@ local function field(value, separator, place)
     return short:find "[%.en]" and short or short .. ".0"
   end
   if type(value) == "boolean" then return tostring(value) end
-  if type(value) == "string" then return quoted(value, separator) end
+  if type(value) == "string" then return clench.files.csv_text(value, separator) end
   raise(("csv.write: %s: expected a number, a text, true or false, got %s"):format(place, described(value)))
 end
 
@@ -95,56 +88,13 @@ function csv.write(path, rows, options)
   columns = columns or all_columns(rows)
   if #columns == 0 then raise("csv.write: expected rows with columns, or `columns`, got neither") end
   local lines, cells = {}, {}
-  for c, name in ipairs(columns) do cells[c] = quoted(name, separator) end
+  for c, name in ipairs(columns) do cells[c] = clench.files.csv_text(name, separator) end
   lines[1] = table.concat(cells, separator)
   for i, row in ipairs(rows) do
     for c, name in ipairs(columns) do cells[c] = field(row[name], separator, ("rows[%d].%s"):format(i, name)) end
     lines[i + 1] = table.concat(cells, separator)
   end
   clench.files.save_text(path, table.concat(lines, "\n") .. "\n")
-end
-
--- cells of a text from `at` on, as values: a list for each line, with its number of cells and of the line
-local function records(text, separator, fail)
-  local at, line, out = 1, 1, {}
-  local plain, unquoted = "^[^\"\r\n" .. separator .. "]*", "^[^\r\n" .. separator .. "]*"
-  while at <= #text do
-    local record, count, start = {}, 0, line
-    repeat
-      local value
-      if text:sub(at, at) == '"' then
-        local parts, from = {}, at + 1
-        while true do
-          local stop = text:find('"', from, true)
-          if not stop then fail(start, "a quote that is not closed") end
-          parts[#parts + 1] = text:sub(from, stop - 1)
-          at = stop + 1
-          if text:sub(at, at) ~= '"' then break end
-          parts[#parts + 1], from = '"', at + 1
-        end
-        value = table.concat(parts)
-        line = line + select(2, value:gsub("\n", ""))
-        if not text:find("^[\r\n" .. separator .. "]", at) and at <= #text then
-          fail(line, "expected a separator or the line's end behind the quote, got '%s'", text:sub(at, at))
-        end
-      else
-        local word = text:match(plain, at)
-        if text:sub(at + #word, at + #word) == '"' then
-          fail(line, "a quote within '%s', which does not begin with one", (text:match(unquoted, at)))
-        end
-        at, value = at + #word, plain_value(word)
-      end
-      count = count + 1
-      record[count] = value
-      local more = text:sub(at, at) == separator
-      if more then at = at + 1 end
-    until not more
-    record.n, record.line = count, start
-    out[#out + 1] = record
-    if text:sub(at, at) == "\r" then at = at + 1 end
-    if text:sub(at, at) == "\n" then at, line = at + 1, line + 1 end
-  end
-  return out
 end
 
 --- Reads such a file, or anyone's: numbers, true and false as such, what stands in quotes as text, empty cells as nil.
@@ -162,28 +112,30 @@ function csv.read(path, options)
   local text, fault = file:read "a"
   file:close()
   if not text then raise(("csv.read: %s: %s"):format(path, fault)) end
-  text = text:gsub("^\xEF\xBB\xBF", "")
   local name = path:match "[^/]+$" or path
   local function fail(line, format, ...) raise(("csv.read: %s:%d: " .. format):format(name, line, ...)) end
-  local all = records(text, separator, fail)
+  local ok, all = pcall(clench.files.csv_records, name, text, separator)
+  if not ok then raise("csv.read: " .. tostring(all):gsub("^stdlib/[%w_/]+%.lua:%d+: ", "")) end
   local header = table.remove(all, 1)
   if not header then fail(1, "expected names of columns, got an empty file") end
   local rows, known = {columns = {}}, {}
-  for c = 1, header.n do
-    local column = header[c] == nil and "" or tostring(header[c])
+  for c, column in ipairs(header) do
     if known[column] then fail(1, "column '%s' stands there twice", column) end
     known[column], rows.columns[c] = true, column
   end
   for _, record in ipairs(all) do
     -- an empty line is none
-    if not (record.n == 1 and record[1] == nil and header.n > 1) then
-      if record.n ~= header.n then fail(record.line, "expected %d cells, got %d", header.n, record.n) end
+    local is_empty = #record == 1 and record[1] == "" and not record.quoted[1]
+    if not (is_empty and #header > 1) then
+      if #record ~= #header then fail(record.line, "expected %d cells, got %d", #header, #record) end
       local row = {}
-      for c, column in ipairs(rows.columns) do row[column] = record[c] end
+      for c, column in ipairs(rows.columns) do
+        if record.quoted[c] then row[column] = record[c] else row[column] = plain_value(record[c]) end
+      end
       rows[#rows + 1] = row
     end
   end
   return rows
 end
 
-return csv
+return require "clench.sealed"("clench.csv", csv)

@@ -4,6 +4,7 @@
 ---@param names string[]  in order
 ---@param home? table  in which file a name lies, unless in one of its own
 local name_list = require "clench.name_list"
+local sealed = require "clench.sealed"
 local raise = require "clench.raise"
 local suggest = require "clench.suggest"
 
@@ -11,25 +12,25 @@ return function(subject, names, home)
   local known = {}
   for _, name in ipairs(names) do known[name] = true end
 
-  local function load(module, name)
+  local loaded = setmetatable({}, {__index = function(loaded, name)
     if not known[name] then
       raise(("%s: there is no '%s', only %s%s"):format(subject, tostring(name), name_list(names), suggest(name, names)))
     end
     local file = home and home[name]
     local unit = require("clench." .. subject .. "." .. (file or name))
     local value = file and unit[name] or unit
-    rawset(module, name, value)
+    rawset(loaded, name, value)
     return value
-  end
+  end})
 
   --- all names in order, loaded or not, so that tables and consoles can list them
-  local function list(module)
+  local function list()
     local i = 0
     return function()
       i = i + 1
-      if names[i] then return names[i], module[names[i]] end
+      if names[i] then return names[i], loaded[names[i]] end
     end
   end
 
-  return setmetatable({}, {__index = load, __pairs = list, __name = "clench." .. subject})
+  return sealed("clench." .. subject, loaded, list)
 end

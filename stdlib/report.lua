@@ -5,6 +5,8 @@ local report = {}
 
 local function numbers(v) return {v.x, v.y, v.z} end
 
+local function file_name(path) return path:match "[^/]*$" end
+
 local function names(list)
   local out = {}
   for i, item in ipairs(list) do out[i] = item.name end
@@ -103,6 +105,22 @@ local function of_robot(robot)
           eigengrasps = #robot.eigengrasps, virtual_contacts = #robot.virtual_contacts, kept = of_kept(robot)}
 end
 
+-- tells of sets for grasping that no file gives; of a robot that never closes, none
+local function tell_generated(robot, subject)
+  local closes = false
+  for _, info in ipairs(robot.dof_info) do closes = closes or info.default_velocity ~= 0 end
+  if not closes then return end
+  if not robot.eigengrasps.is_custom then
+    local counts = #robot.dofs == 1 and "its DOF counts" or ("each of its %d DOFs counts"):format(#robot.dofs)
+    clench.log.info(("%s: no eigengrasps are given; %s as one"):format(subject, counts))
+  end
+  if not robot.has_own_virtual_contacts then
+    local count = #robot.virtual_contacts
+    clench.log.info(("%s: no virtual contacts are given; %s found on the sides of its links and palm that close"):format(subject,
+      count == 0 and "none is" or count == 1 and "1 is" or count .. " are"))
+  end
+end
+
 -- body by body, since a crowded world has millions of pairs
 local max_overlaps = 100
 local function overlaps_of(world)
@@ -120,7 +138,8 @@ local function overlaps_of(world)
   return overlaps
 end
 
-local function of_world(world)
+local function of_world(world, path)
+  for _, robot in ipairs(world.robots) do tell_generated(robot, ("%s: '%s'"):format(file_name(path), robot.name)) end
   local objects, obstacles, robots, keyframes = {}, {}, {}, {}
   for i, body in ipairs(world.objects) do objects[i] = of_body(body) end
   for i, body in ipairs(world.obstacles) do obstacles[i] = of_body(body) end
@@ -146,7 +165,7 @@ end
 local function of_scene(path, options)
   local world = clench.load(path, reading("robot", options))  -- its meshes, too, may lie elsewhere
   if #world.robots == 1 and #world.objects == 0 and #world.obstacles == 0 then return nil end
-  local parsed = of_world(world)
+  local parsed = of_world(world, path)
   parsed.is_scene = true
   return parsed
 end
@@ -157,8 +176,12 @@ local readers = {
     body.primitives = of_primitives(path, options)
     return body
   end,
-  robot = function(path, options) return of_robot(clench.world():add_robot(path, options)) end,
-  world = function(path, options) return of_world(clench.load(path, options)) end,
+  robot = function(path, options)
+    local robot = clench.world():add_robot(path, options)
+    tell_generated(robot, file_name(path))
+    return of_robot(robot)
+  end,
+  world = function(path, options) return of_world(clench.load(path, options), path) end,
   eigengrasps = function(path, options)
     local set = clench.files.eigengrasps(path, options)
     return {dofs = #set.origin, count = #set.vectors}

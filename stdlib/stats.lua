@@ -153,4 +153,4 @@ function stats.interval(successes, trials)
   return {low = math.max(0, centre - half), high = math.min(1, centre + half)}
 end
 
-return stats
+return require "clench.sealed"("clench.stats", stats)

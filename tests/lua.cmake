@@ -29,8 +29,14 @@ endforeach()
 
 file(GLOB app_sources CONFIGURE_DEPENDS app/*_test.cpp)
 clench_test_program(test_app ${app_sources})
-set_source_files_properties(${app_sources} PROPERTIES COMPILE_DEFINITIONS CLENCH_COMMAND="$<TARGET_FILE:clench_app>")
-add_dependencies(test_app clench_app)
+# grasps' epsilon by a program that shares no code with the engine
+pkg_check_modules(QHULL_R REQUIRED IMPORTED_TARGET qhull_r)
+add_executable(recompute_epsilon app/recompute_epsilon.cpp bench/peer_qhull.cpp)
+target_include_directories(recompute_epsilon PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+target_link_libraries(recompute_epsilon PRIVATE Eigen3::Eigen nlohmann_json::nlohmann_json PkgConfig::QHULL_R)
+set_source_files_properties(${app_sources} PROPERTIES COMPILE_DEFINITIONS
+  "CLENCH_COMMAND=\"$<TARGET_FILE:clench_app>\";RECOMPUTE_EPSILON=\"$<TARGET_FILE:recompute_epsilon>\"")
+add_dependencies(test_app clench_app recompute_epsilon)
 if(CLENCH_SANITIZE)
   lua_test(test_app test_app)
 else()

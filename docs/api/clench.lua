@@ -226,6 +226,7 @@ function mesh:save(path) end
 ---@field eigengrasps eigengrasps # Its eigengrasps, as they are at any time: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
 ---@field amplitudes number[] # Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
 ---@field virtual_contacts virtual_contact[] # Where it would like to touch: those of its file, those it was given, or, when there are none of either, those that find_virtual_contacts finds, anew each time. Set to a list of virtual contacts, contacts, or tables as of add_virtual_contact; to {} for none, to nil for those that are found.
+---@field has_own_virtual_contacts boolean # Do its virtual contacts come from a file or a script? Otherwise they are found from its geometry.
 ---@field glove {slopes: number[][], intercepts: number[]}? # Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that DOF = intercept + slopes * raw. nil when there is none. [rad per count, rad]
 ---@field tracker {number: integer, pose: pose}? # Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
 ---@field tendons {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[] # Tendons of its file, as they are there: they do not act yet. Points are in the frame of their link. [N/m, m]
@@ -618,9 +619,11 @@ function picture:pixel(x, y) end
 ---@return integer alpha
 function picture:alpha(x, y) end
 
----Numbers as a figure, made by `clench.plot`.
+---Numbers as a figure, made by `clench.plot` or `clench.chart`. Two with the same contents are equal.
 ---@class plot
 ---@field picture picture # It as pixels, on white.
+---@field width integer # Its width [pixels].
+---@field height integer # Its height [pixels].
 local plot = {}
 
 ---Writes a file: .svg, whose lines and letters a program for papers can change, or .png.
@@ -1009,16 +1012,16 @@ function clench.render(world, options) end
 
 ---Draws numbers as columns, one panel per series, each to its own scale, all over the same items, with its value where there is room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
 ---@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
----@return picture
+---@return plot # to be saved as PNG or SVG
 function clench.chart(options) end
 
----Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no graphics hardware.
----@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer} # kind: "line" (default), "points" or "bars"; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
+---Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them; with `categories`, numbers over names, as bars beside one another. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no graphics hardware.
+---@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], categories?: string[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer} # kind: "line", "points" or "bars", by default a line, of categories bars; categories: of each, every series has one y and no x; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
 ---@return plot
 function clench.plot(options) end
 
 ---Several pictures in one, in rows, each with its caption under it.
----@param options {pictures: picture[], captions?: string[], columns?: integer, gap?: integer} # columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
+---@param options {pictures: (picture|plot)[], captions?: string[], columns?: integer, gap?: integer} # columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
 ---@return picture
 function clench.sheet(options) end
 
@@ -1134,6 +1137,19 @@ function clench.files.pregrasps(path, options) end
 ---@param path string
 ---@param text string
 function clench.files.save_text(path, text) end
+
+---Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of what is in them.
+---@param name string # for errors
+---@param text string
+---@param separator? string # "," by default, ";" or a tab
+---@return table[] records # lists of cells, each with its `line`, and `quoted`: of which cells stood in quotes
+function clench.files.csv_records(name, text, separator) end
+
+---A text as a cell of comma-separated values: in quotes where it would be read otherwise, or as a number, true or false.
+---@param text string
+---@param separator? string # "," by default, ";" or a tab
+---@return string
+function clench.files.csv_text(text, separator) end
 
 ---Writes pre-grasps as a planner's list.
 ---@param path string
@@ -1253,7 +1269,7 @@ function clench.energy.penetration(options) end
 ---@field cores integer # Threads that this machine runs at once.
 clench.parallel = {}
 
----Calls a function for each item of a list, in many threads, each with a state of Lua and worlds of its own. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew.
+---Calls a function for each item of a list, in many threads, each with a state of Lua and worlds of its own. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew. All states together may have as much memory as the one that calls.
 ---@param task function|string # (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
 ---@param items table # a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
 ---@param options? {threads?: integer, shared?: any, each?: function} # threads: all cores by default; shared: what every state is given once; each(result, number): called here in the order of the items, as soon as they are done

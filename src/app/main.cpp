@@ -88,6 +88,10 @@ static void add_plan(CLI::App& verb, PlanOptions& plan) {
   verb.add_option("--threads", plan.threads, "default: all cores; the grasps are the same")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
+  verb.add_option("--contacts", plan.contacts,
+                  "fingertip: with the last links alone; power: with the palm, too; default: any")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"fingertip", "power", "any"}));
   verb.add_option("-o", plan.out, "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
       ->type_name("FILE");
   verb.add_option("--format", plan.format, "of -o, where the ending does not say: graspgen ...")

@@ -32,6 +32,7 @@ static Words words_of(const PlanOptions& options) {
   add("threads", options.threads);
   add("verify", options.shaken ? "yes" : "");
   add("keep-lost", options.keep_lost ? "yes" : "");
+  add("contacts", options.contacts);
   add("no-verify", options.unverified ? "yes" : "");
   add("o", options.out);
   add("format", options.format);

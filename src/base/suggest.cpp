@@ -48,7 +48,7 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string>& 
 }
 
 std::string instead_of(std::string_view name, const std::vector<std::string>& known) {
-  constexpr size_t few = 8;
+  constexpr size_t few = 10;
   const std::string all = known.empty() || known.size() > few
                               ? ""
                               : fmt::format(", expected one of {}", name_list(known));

@@ -11,9 +11,13 @@ namespace clench {
 
 // Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s].
 static constexpr double sliding_speed = 1e-6;
-// Faults of a solution are at most this part of the largest velocity that gravity and motors give in a step, some cm/s; of
-// bodies that are slower than rest_speed, a larger part: they may creep by 0.1 nm/s before forces are found anew.
-static constexpr double tolerance = 1e-10, rest_tolerance = 1e-8, rest_speed = 1e-7;
+// Faults of a solution [m/s].
+static constexpr double tolerance = 1e-12;
+// What touches, is slower than this and would gain no more than that in a step under the forces that it had rests: it stops, and
+// its forces stay. In a step of 1 ms that is a millionth of gravity [m/s, rad/s].
+static constexpr double rest_speed = 1e-7, rest_tolerance = 1e-8;
+// A gap this near to that at which bodies rest, as a part of the contact threshold, is that one.
+static constexpr double rest_band = 1e-3;
 // Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so [m/s].
 static constexpr double pushed_part = 0.2, pushed_at_most = 0.1;
 // Below this speed of approach nothing bounces [m/s].
@@ -144,7 +148,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
   }
   // the gap may close as far as bodies rest, in the step to come
   const double step = world_.dynamic_settings().step, beyond = p.gap - rest_gap * world_.contact_threshold();
-  double target = beyond > 0 ? -beyond / step : std::min(-pushed_part * beyond / step, pushed_at_most);
+  double target = std::abs(beyond) <= rest_band * world_.contact_threshold() ? 0 : beyond > 0 ? -beyond / step : std::min(-pushed_part * beyond / step, pushed_at_most);
   const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
   double slip = 0;
   for (int k = 0; k < size; ++k) {
@@ -280,12 +284,16 @@ void Stepper::solve_island(const std::vector<int>& blocks) {
   }
   const DynamicSettings& settings = world_.dynamic_settings();
   const FrictionSolution solution = solver_.solve(
-      problem_, warm, {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = at_rest ? rest_tolerance : tolerance});
+      problem_, warm, {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = 1, .speed = at_rest ? rest_tolerance : tolerance});
   for (int row = 0; row < row_count_; ++row) {
     if (local[row] < 0) continue;
     r_[row] = solution.r[local[row]];
     u_[row] = solution.u[local[row]];
   }
+  if (at_rest && solution.iterations == 0)
+    for (const int i : blocks)
+      for (const int t : blocks_[i].tree)
+        if (t >= 0) resting_[t] = true;
   StepReport& report = world_.edit_dynamics().report;
   report.iterations += solution.iterations;
   report.fallbacks += solution.fell_back;
@@ -300,7 +308,9 @@ void Stepper::apply_impulses() {
     Eigen::VectorXd change = Eigen::VectorXd::Zero(system_.trees[t].size());
     for (size_t i = 0; i < rows.rows.size(); ++i) change += r_[rows.rows[i]] * rows.Y.col(static_cast<Eigen::Index>(i));
     trees_[t].other_half_solve(change);
-    v_.segment(system_.trees[t].first, system_.trees[t].size()) += change;
+    auto v = v_.segment(system_.trees[t].first, system_.trees[t].size());
+    v += change;
+    if (resting_[t] && v.cwiseAbs().maxCoeff() < rest_speed) v.setZero();
   }
 }
 
@@ -407,7 +417,8 @@ void Stepper::solve(double h) {
   if (world_.dynamic_settings().engine == DynamicsEngine::ode) {
     solve_by_ode(h);
   } else {
-    for (const auto& island : find_islands()) solve_island(island);
+    resting_.assign(trees_.size(), false);
+  for (const auto& island : find_islands()) solve_island(island);
     apply_impulses();
   }
   keep(h);

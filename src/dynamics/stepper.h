@@ -80,6 +80,7 @@ class Stepper {
   std::vector<Block> blocks_;
   Eigen::VectorXd v_, v_before_, q_, r_, u_, compliance_;
   std::vector<double> warm_;
+  std::vector<bool> resting_;
   int row_count_ = 0;
   FrictionSolver solver_;
   FrictionProblem problem_;

@@ -89,11 +89,14 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
     Library library(options, all_formats);
     const auto found = find_file(path.string(), "", options);
     WorldSpec world = world_of(found, library);
-    std::set<std::string> told;  // of what stands there more than once, one
-    std::vector<const BodySpec*> objects;
+    std::set<std::pair<std::string, const Shape*>> told;  // of what stands there more than once, one
+    std::vector<const BodySpec*> objects, obstacles;
     for (const PlacedBody& placed : world.bodies) {
       const std::string& file = placed.body.file.empty() ? placed.body.name : placed.body.file;
-      if (placed.role == Role::object && told.insert(file).second) {
+      if (!told.emplace(file, placed.body.shape.get()).second) continue;
+      if (placed.role == Role::obstacle) {
+        obstacles.push_back(&placed.body);
+      } else {
         objects.push_back(&placed.body);
         check_plausible_object(
             placed.body,
@@ -101,7 +104,7 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
             options.listeners());
       }
     }
-    tell_assumed(objects, found.filename().string(), options.listeners());
+    tell_assumed(objects, found.filename().string(), options.listeners(), obstacles);
     world.source = path.generic_string();
     return world;
   });

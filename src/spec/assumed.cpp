@@ -1,30 +1,37 @@
 #include "clench/spec/assumed.h"
 
+#include <algorithm>
+
 #include "clench/base/error.h"
 #include "clench/spec/plausibility.h"
 
 namespace clench {
 
 void tell_assumed(std::span<const BodySpec* const> bodies, const std::string& place,
-                  const Listeners& listeners) {
+                  const Listeners& listeners, std::span<const BodySpec* const> obstacles) {
   std::vector<std::string> neither, weightless, of_nothing, balls, uniform;
-  for (const BodySpec* body : bodies) {
-    if (!body->shape) continue;
+  const auto look = [&](const BodySpec* body) {
+    if (!body->shape) return;
     if (!body->mass_given && !body->material_given)
       neither.push_back(body->name);
     else if (!body->mass_given)
       weightless.push_back(body->name);
     else if (!body->material_given)
       of_nothing.push_back(body->name);
+  };
+  for (const BodySpec* body : bodies) {
+    look(body);
+    if (!body->shape) continue;
     if (inertia_is_of_ball(*body))
       balls.push_back(body->name);
     else if (!body->inertia_per_mass && !body->inertia_told)
       uniform.push_back(body->name);
   }
+  std::ranges::for_each(obstacles, look);
   const BodySpec assumed;
   // which of several
   const auto those = [&](const std::vector<std::string>& names) {
-    return bodies.size() > 1 ? ": " + some_names(names) : "";
+    return bodies.size() + obstacles.size() > 1 ? ": " + some_names(names) : "";
   };
   const auto note = [&](const std::vector<std::string>& names, const std::string& what) {
     if (!names.empty() && listeners.note)

@@ -52,6 +52,15 @@ static bool inertia_is_larger(const BodySpec& body) {
   return body.inertia_per_mass->diagonal().maxCoeff() > 4 * r * r;
 }
 
+/// Is it ten times denser than any metal, or lighter than air, by the volume of its surface? Motors that lie elsewhere, and
+/// surfaces that are thinner than the thing, explain less.   returns  its density; else 0 [kg/m^3]
+static double strange_density(const BodySpec& body) {
+  constexpr double heaviest = 250'000, lightest = 1;  // osmium has 22,600, air 1.2
+  if (!body.mass_given || !body.shape || !body.shape->has_volume()) return 0;
+  const double density = body.mass / body.shape->solid().volume;
+  return density > heaviest || density < lightest ? density : 0;
+}
+
 void check_plausible_object(const BodySpec& body, const std::string& place,
                             const Listeners& listeners) {
   if (!body.shape) return;
@@ -60,6 +69,9 @@ void check_plausible_object(const BodySpec& body, const std::string& place,
     suspect(listeners, place + ": none of its triangles has an area");
   else if (length < min_size || length > max_size)
     suspect(listeners, fmt::format("{}: it is {:.4g} m large: is its unit right?", place, length));
+  else if (const double density = strange_density(body); density > 0)
+    suspect(listeners, fmt::format("{}: its mass of {:.4g} kg makes {:.3g} kg/m^3: is its unit right?",
+                                   place, body.mass, density));
   if (com_is_elsewhere(body))
     suspect(listeners, place + ": its centre of mass is far from its surface: is its unit right?");
   if (inertia_is_larger(body))
@@ -77,11 +89,14 @@ std::string some_names(const std::vector<std::string>& names) {
 }
 
 void check_plausible(const RobotSpec& robot, const std::string& file, const Listeners& listeners) {
-  std::vector<std::string> small, large, heavy, turning, off, broad, outside;
+  std::vector<std::string> small, large, heavy, dense, turning, off, broad, outside;
   const auto look = [&](const BodySpec& body) {
     if (body.shape && length_of(body) < min_size) small.push_back(body.name);
     if (body.shape && length_of(body) > max_size) large.push_back(body.name);
-    if (body.mass > max_mass) heavy.push_back(body.name);
+    if (body.mass > max_mass)
+      heavy.push_back(body.name);
+    else if (strange_density(body) > 0)
+      dense.push_back(body.name);
     if (com_is_elsewhere(body)) off.push_back(body.name);
     if (inertia_is_larger(body)) broad.push_back(body.name);
   };
@@ -108,6 +123,8 @@ void check_plausible(const RobotSpec& robot, const std::string& file, const List
   tell_of(large, "parts larger than 3 m",
           "is the unit of their geometry right, or a scale of 0.001 missing?");
   tell_of(heavy, "parts heavier than a tonne", "is the unit of their mass or geometry right?");
+  tell_of(dense, "parts ten times denser than any metal, or lighter than air",
+          "is the unit of their mass right?");
   tell_of(off, "parts whose centre of mass is far from their surface", "is its unit right?");
   tell_of(broad, "parts with the inertia of a much larger body",
           "is its unit right, and its mass?");

@@ -78,6 +78,7 @@ local function search(root, folder, package, unit, strict, ...)
   job.run = clench.plan.sample {
     hand = job.hand, object = job.object, count = job.count or 1000000, seconds = tonumber(given.seconds),
     seed = math.tointeger(tonumber(given.seed)), threads = math.tointeger(tonumber(given.threads)) or clench.parallel.cores,
+    contacts = given.contacts,
     verify = given["no-verify"] == nil and {shake = given.verify ~= nil, keep_lost = given["keep-lost"] ~= nil},
     on_grasp = function(grasp) job.files:add(grasp) end,
   }

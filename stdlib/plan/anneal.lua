@@ -26,7 +26,7 @@ return function(options)
   job:interruptible(function()
     for _, state in ipairs(search.best) do
       if not job:has_patience() then break end
-      local grasp = closing.close(job.hand, job.object, state, {grasp = job.grasp_options})
+      local grasp = job:close(job.hand, job.object, state, told)
       if grasp then
         found[#found + 1] = closing.note(grasp, "anneal", {energy = state.energy, step = state.step, seed = job.seed})
       end

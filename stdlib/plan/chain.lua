@@ -11,7 +11,7 @@ function chain.run(job, search, steps, told)
   local bar <close> = clench.progress(steps, job.subject)
   local done, before = 0, search.counts
   job:interruptible(function()
-    while done < steps and not job:is_over() do
+    while done < steps and job:goes_on() do
       local asked = math.min(piece, steps - done)
       local taken = search:run(asked)
       done = done + taken

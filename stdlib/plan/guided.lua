@@ -70,7 +70,7 @@ return function(options)
     local hand, object = child.world:robot(job.hand.name), child.world:body(job.object.name)
     for _, state in ipairs(child.search.best) do
       if state.energy < 0 then
-        local grasp = closing.close(hand, object, state, {approach = 0.03, grasp = job.grasp_options})
+        local grasp = job:close(hand, object, state, told, 0.03)
         if grasp and grasp.epsilon > 0 then
           found[#found + 1] = closing.note(grasp, "guided", {energy = state.energy, step = state.step, seed = job.seed, child = child.number})
         end
@@ -81,7 +81,7 @@ return function(options)
   local bar <close> = clench.progress(job.steps, job.subject)
   local done = 0
   job:interruptible(function()
-    while (done < job.steps or #waiting > 0) and not job:is_over() and #found < count do
+    while (done < job.steps or #waiting > 0) and job:goes_on() and #found < count do
       while #running < children and #waiting > 0 do
         running[#running + 1] = begin_child(table.remove(waiting, 1))
       end

@@ -3,6 +3,9 @@
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
+local closing = require "clench.plan.closing"
+local running = require "clench.plan.running"
+local touch = require "clench.plan.touch"
 local Job = {}
 Job.__index = Job
 
@@ -33,8 +36,25 @@ function Job:annealing(options)
   return clench.annealing(all)
 end
 
---- has the time of the options run out, or was Ctrl-C pressed?
-function Job:is_over() return self.stopped or self.seconds ~= nil and clench.clock() - self.began >= self.seconds end
+-- Waits while the search is paused. What an energy of the script moves is meanwhile as the script left it.
+function Job:rest()
+  local paused_at, here = clench.clock(), self.before and self.world:snapshot()
+  if here then self.given_world:restore(self.before) end
+  coroutine.yield()
+  if here then
+    self.before = self.given_world:snapshot()
+    self.world:restore(here)
+  end
+  self.began = self.began + clench.clock() - paused_at
+end
+
+--- Between two pieces of work: false when the time of the options has run out, Ctrl-C was pressed or the search is cancelled.
+function Job:goes_on()
+  local search = self.search
+  if search and search.pause_at and clench.clock() >= search.pause_at and not search.cancelled then self:rest() end
+  if search and search.cancelled then self.cancelled = true end
+  return not (self.stopped or self.cancelled or self.seconds ~= nil and clench.clock() - self.began >= self.seconds)
+end
 
 local patience = 0.25  -- half of what a script has after Ctrl-C [s]
 
@@ -51,6 +71,16 @@ function Job:interruptible(search)
   end
   self:finish()
   error(problem, 0)
+end
+
+--- The hand closes from a state; why it gave no grasp is counted in what the report tells.
+---@param approach? number  as of closing.close [m]
+function Job:close(hand, object, state, told, approach)
+  local grasp, why = closing.close(hand, object, state, {approach = approach, grasp = self.grasp_options})
+  why = why or touch.fault(self.touch, grasp)
+  if not why then return grasp end
+  told.rejected = told.rejected or {}
+  told.rejected[why] = (told.rejected[why] or 0) + 1
 end
 
 function Job:elapsed() return clench.clock() - self.began end
@@ -89,6 +119,7 @@ return function(subject, given, own)
   if job.seconds ~= nil then job.seconds = read:positive "seconds" end
   job.grasp_options = read:raw "grasp" or {}
   if type(job.grasp_options) ~= "table" then read:expected("grasp", "a table of options of clench.grasp", job.grasp_options) end
+  job.touch = touch.read(read, hand)
   for _, key in ipairs(space_keys) do job.space[key] = read:raw(key) end
   if own then own(read, job) end
   read:done()
@@ -103,6 +134,7 @@ return function(subject, given, own)
   end
   job.hand, job.object = job.world:robot(hand.name), job.world:body(object.name)
   job.given_hand, job.given_object = hand, object
+  job.search = running[coroutine.running()]
   job.began = clench.clock()
   return job
 end

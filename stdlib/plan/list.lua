@@ -34,16 +34,12 @@ return function(options)
   local found = {}
   job:interruptible(function()
     for i, item in ipairs(states) do
-      if job:is_over() then break end
+      if not job:goes_on() then break end
       local state = state_of(item, i)
       told.candidates = told.candidates + 1
       local value = energy and closing.place(job.hand, job.object, state) and energy()
-      local grasp, why = closing.close(job.hand, job.object, state, {approach = approach > 0 and approach or nil, grasp = job.grasp_options})
-      if grasp then
-        found[#found + 1] = closing.note(grasp, "list", {energy = value or nil, number = i})
-      else
-        told.rejected[why] = (told.rejected[why] or 0) + 1
-      end
+      local grasp = job:close(job.hand, job.object, state, told, approach > 0 and approach or nil)
+      if grasp then found[#found + 1] = closing.note(grasp, "list", {energy = value or nil, number = i}) end
     end
   end)
   table.sort(found, function(a, b)

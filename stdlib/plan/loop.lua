@@ -23,13 +23,13 @@ return function(options)
   local told, found, done = nil, {}, 0
   local loops = 0
   job:interruptible(function()
-    while done < job.steps and not job:is_over() and #found < count do
+    while done < job.steps and job:goes_on() and #found < count do
       local before = done
       told = chain.run(job, search, math.min(loop_steps, job.steps - done), told)
       done, loops = told.steps, loops + 1
       chain.energies(told, search)
       for _, state in ipairs(search.best) do
-        local grasp = closing.close(job.hand, job.object, state, {grasp = job.grasp_options})
+        local grasp = job:close(job.hand, job.object, state, told)
         if grasp then found[#found + 1] = closing.note(grasp, "loop", {energy = state.energy, step = state.step, seed = job.seed, loop = loops}) end
         search:avoid(state)
       end

@@ -56,7 +56,7 @@ function Online:search(steps)
   search:run(steps or 500)
   for _, state in ipairs(search.best) do
     self.tested = self.tested + 1
-    local grasp = closing.close(job.hand, job.object, state, {approach = 0.03 + range, grasp = job.grasp_options})
+    local grasp = job:close(job.hand, job.object, state, self, 0.03 + range)
     if grasp and grasp.epsilon > 0 and grasp.collision_free and is_new(self, grasp) then
       self.found = self.found + 1
       closing.note(grasp, "online", {energy = state.energy, number = self.found, seed = job.seed})

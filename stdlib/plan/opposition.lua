@@ -13,9 +13,20 @@ local function mean(points)
   return sum / #points
 end
 
+--- Chains that close: neither a palm nor a wrist nor a frame that marks a place is a finger. Where nothing closes, all are.
+function opposition.fingers(hand)
+  local info, fingers = hand.dof_info, {}
+  for _, chain in ipairs(hand.chains) do
+    local is_finger = false
+    for _, joint in ipairs(chain.joints) do is_finger = is_finger or info[joint.dof].default_velocity ~= 0 end
+    if is_finger then fingers[#fingers + 1] = chain end
+  end
+  return #fingers > 0 and fingers or hand.chains
+end
+
 local function tips_of(hand)
   local tips = {}
-  for _, chain in ipairs(hand.chains) do
+  for _, chain in ipairs(opposition.fingers(hand)) do
     local last = chain.links[#chain.links]
     if last then
       local bounds = last.bounds_in_world  -- nil of a frame without a surface, as URDF marks a tip
@@ -33,8 +44,8 @@ local function all_but(points, number)
   return others
 end
 
---- The direction to the chain whose tip stands farthest from the others' mean, across the approach, in the world.
----@return vec3? direction, integer? chain  nil: no two chains stand apart
+--- The direction to the finger whose tip stands farthest from the others' mean, across the approach, in the world.
+---@return vec3? direction, integer? finger  which of the tips; nil: no two fingers stand apart
 function opposition.thumb(hand)
   local z = hand.approach.direction
   local tips = tips_of(hand)
@@ -51,23 +62,16 @@ function opposition.thumb(hand)
   return thumb, number
 end
 
---- The middle between the thumb's tip and the others' when the hand is half closed, in the world; without a thumb the
---- approach point.
-function opposition.middle(hand, open, closes)
+--- The middle between the thumb's tip and the others' with these DOFs, in the world, and how far they stand apart [m].
+---@param finger integer  the thumb, as of opposition.thumb
+function opposition.middle(hand, dofs, finger)
   local world = hand.world
   local here <close> = world:snapshot()
-  local limits, half = hand.dof_limits, {}
-  for i, value in ipairs(open) do
-    local low, high = limits[i][1], limits[i][2]
-    local far = math.abs(value - low) > math.abs(value - high) and low or high
-    half[i] = closes[i] and high - low < math.huge and (value + far) / 2 or value
-  end
-  hand:set_dofs(half)
+  hand:set_dofs(dofs)
   local tips = tips_of(hand)
-  local _, number = opposition.thumb(hand)
-  local middle = number and (tips[number] + mean(all_but(tips, number))) * 0.5 or hand.approach.point
+  local others = mean(all_but(tips, finger))
   world:restore(here)
-  return middle
+  return (tips[finger] + others) * 0.5, (tips[finger] - others):norm()
 end
 
 --- The pose of the hand's base where a frame of approach and thumb at a point of it is the unit frame.

@@ -1,4 +1,5 @@
 --- What a planner did: counts by reason, best energy over its steps, and, where nothing was found, why.
+local touch = require "clench.plan.touch"
 local Report = {__name = "report"}
 
 --- the best energy over the steps, as a figure
@@ -28,8 +29,8 @@ local function tell_steps(lines, r)
 end
 
 local function tell_candidates(lines, r)
-  if not r.candidates then return end
-  add(lines, "%d candidates in %.3g s", r.candidates, r.seconds)
+  if r.candidates then add(lines, "%d candidates in %.3g s", r.candidates, r.seconds) end
+  if not r.rejected then return end
   local reasons = {}
   for reason in pairs(r.rejected) do reasons[#reasons + 1] = reason end
   table.sort(reasons)
@@ -94,12 +95,20 @@ local function too_large(job)
 end
 
 local function rejected_most(told)
-  if not told.rejected then return end
+  if not told.candidates then return end
   local most, why = 0, nil
   for reason, count in pairs(told.rejected) do
     if count > most or count == most and why and reason < why then most, why = count, reason end
   end
   if why then return ("most candidates were rejected: %s (%d of %d)"):format(why, most, told.candidates) end
+end
+
+-- were there grasps, but with other links than those that were asked for?
+local function touch_causes(told)
+  for _, why in ipairs {touch.forbidden, touch.missing} do
+    local count = told.rejected and told.rejected[why]
+    if count then return ("%d grasps were rejected: %s; allow more in touch or contacts"):format(count, why) end
+  end
 end
 
 local function arm_causes(told)
@@ -136,7 +145,7 @@ return function(job, told)
   told.one_thread = job.in_place and job.threads > 1 or nil
   if told.steps then told.steps_per_second = told.steps / math.max(told.seconds, 1e-9) end
   if told.grasps == 0 and not told.stopped then
-    for _, cause in ipairs {arm_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_large(job) or false,
+    for _, cause in ipairs {arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_large(job) or false,
                             search_causes(told) or false, rejected_most(told) or false} do
       if cause then told.causes[#told.causes + 1] = cause end
     end

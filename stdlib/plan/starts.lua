@@ -1,9 +1,47 @@
 --- Where a hand may begin: before a point of the object's surface, looking at it, or about two points that face each other;
---- more or less opened.
+--- more or less opened. See plan.neighbour for starts near those that succeeded.
 local opposition = require "clench.plan.opposition"
 local starts = {}
 
---- Which DOFs closing moves, and how the hand is when it is open.
+local far_away = clench.pose {xyz = {0, 0, 9.5}}  -- from all that is not the hand
+
+-- Pairs of the hand's own parts that collide with these DOFs.
+local function self_collisions(hand, dofs)
+  hand:set_posture(far_away * hand.pose, dofs)
+  return #hand.world:colliding(hand)
+end
+
+-- Hands whose DOFs open further than there is room for them (a thumb into the palm): the DOF whose smallest motion frees most
+-- moves back, then the next one.
+local function freed(hand, dofs)
+  local world = hand.world
+  local here <close> = world:snapshot()
+  local count = self_collisions(hand, dofs)
+  local limits = hand.dof_limits
+  for _ = 1, #dofs do
+    if count == 0 then break end
+    local best
+    for part = 0.1, 0.6, 0.1 do
+      for i, value in ipairs(dofs) do
+        local low, high = limits[i][1], limits[i][2]
+        if high - low < math.huge then
+          local far = math.abs(value - low) > math.abs(value - high) and low or high
+          dofs[i] = value + part * (far - value)
+          local left = self_collisions(hand, dofs)
+          if left < count then count, best = left, {i, dofs[i]} end
+          dofs[i] = value
+        end
+      end
+      if best then break end
+    end
+    if not best then break end
+    dofs[best[1]] = best[2]
+  end
+  world:restore(here)
+  return dofs
+end
+
+--- Which DOFs closing moves, and how the hand is when it is open, free of collision with itself where that can be.
 function starts.opened(hand)
   local world = hand.world
   local here <close> = world:snapshot()
@@ -13,7 +51,7 @@ function starts.opened(hand)
   world:restore(here)
   local closes = {}
   for i, info in ipairs(hand.dof_info) do closes[i] = info.default_velocity ~= 0 end
-  return open, closes
+  return freed(hand, open), closes
 end
 
 -- the DOFs closed by a part of the way, and spread by a part of the way to `values` of the range
@@ -27,13 +65,11 @@ local function posture(hand, closed, spread, values)
       local far = math.abs(value - low) > math.abs(value - high) and low or high
       dofs[i] = value + closed * (far - value)
     else
-      dofs[i] = value + spread * (low + values[i] * (high - low) - value)
+      dofs[i] = spread == 0 and value or value + spread * (low + values[i] * (high - low) - value)
     end
   end
   return dofs
 end
-
-local far_away = clench.pose {xyz = {0, 0, 9.5}}  -- from all that is not the hand
 
 -- closed by a part of the way; DOFs that closing does not move (a spread) anywhere, or nearer to where they are open when
 -- the hand would collide with itself
@@ -50,15 +86,24 @@ local function random_posture(hand, random)
   return hand.open
 end
 
--- what the starts of a hand have in common
+-- What the starts of a hand have in common. The thumb is told from the open hand; between it and the fingers of the half closed one
+-- lies what the hand will hold.
 local function describe(hand)
+  local before = hand.world:snapshot()
   local open, closes = starts.opened(hand)
-  local thumb = opposition.thumb(hand)
+  hand:set_dofs(open)
+  local thumb, finger = opposition.thumb(hand)
+  hand.world:restore(before)
+  local self = {robot = hand, before = before, open = open, closes = closes, limits = hand.dof_limits, has_thumb = thumb ~= nil}
   local z = hand.approach.direction
   local across = thumb or z:cross(math.abs(z.z) < 0.9 and clench.vec3(0, 0, 1) or clench.vec3(1, 0, 0))
-  local middle = opposition.middle(hand, open, closes)
-  return {robot = hand, before = hand.world:snapshot(), open = open, closes = closes, limits = hand.dof_limits,
-          has_thumb = thumb ~= nil, X_FH = opposition.base_in_frame(hand, middle, across)}
+  local middle = hand.approach.point
+  if thumb then
+    self.aperture = select(2, opposition.middle(hand, open, finger))
+    middle = opposition.middle(hand, posture(self, 0.5, 0), finger)
+  end
+  self.X_FH = opposition.base_in_frame(hand, middle, across)
+  return self
 end
 
 local function across(direction, random)
@@ -94,7 +139,8 @@ end
 
 --- The thumb on one of two points that face each other and the fingers on the other, from any side across that line.
 local function about_two_points(hand, world, object, random, options)
-  local middle, line = facing_points(world, object, object.mesh:sample(random, 1)[1], options.friction, options.width)
+  local width = math.min(options.width, hand.aperture)
+  local middle, line = facing_points(world, object, object.mesh:sample(random, 1)[1], options.friction, width)
   local direction = middle and across(line, random)
   if not direction then return end
   local deeper = random:uniform(-0.01, 0.02)

@@ -60,7 +60,7 @@ end
 ---@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: the number of the best grasp, that with the largest value, or with the least of measures like gravity_effort
 --- > c = clench.study.compare({grasp, grasp}, {labels = {"one", "two"}})
 --- > c.values.epsilon[2] == grasp:quality "epsilon", c.best.epsilon  --> true, 1
---- > c:chart {width = 300, height = 200}  --> picture of 300 x 200 pixels
+--- > c:chart {width = 300, height = 200}  --> plot of 300 x 200 pixels
 return function(grasps, options)
   check_grasps(grasps)
   local read = read_options("study.compare", options or {})

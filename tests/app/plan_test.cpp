@@ -48,6 +48,15 @@ TEST_CASE("plan lists the best grasps, writes them best first, and says what was
   CHECK(std::count(list.begin(), list.end(), '\n') == 2);
 }
 
+TEST_CASE("plan asks for fingertip grasps") {
+  const Folder folder;
+  const std::string out = folder / "a.jsonl";
+  const auto result = run(barrett + "--count 3 --contacts fingertip -o " + out);
+  CHECK(result.code == 0);
+  CHECK(has(result.out, "touched with other links than it may: "));
+  CHECK(text_of(out).find("barrett_base\"") == std::string::npos);
+}
+
 TEST_CASE("what plan is given badly is told in one sentence, before the search") {
   const Folder folder;
   const auto said = [](const std::string& options, const std::string& sentence, int code = 2) {
@@ -59,6 +68,7 @@ TEST_CASE("what plan is given badly is told in one sentence, before the search")
   said("--count 0", "--count: Value 0 not in range 1 to 1000000");
   said("--seconds -1", "--seconds");
   said("--seed x", "--seed: Failed parsing x as a INT");
+  said("--contacts finger", "--contacts: finger not in {");
   said("--threads 0", "--threads: Value 0 not in range 1 to 1024");
   said("--mass none", "--mass");
   said("--pose 1,2", "--pose: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '1,2'");
@@ -99,20 +109,24 @@ TEST_CASE("where nothing is found, plan ends with 1 and says why") {
   CHECK(epsilons(out).empty());
 }
 
-// starts a command, waits until a file has three lines, and sends a signal
-static std::string end_by(const std::string& signal, const std::string& command, const std::string& out) {
+// what a script of the shell prints
+static std::string output_of(const std::string& script) {
   const Folder folder;
-  const auto script = folder.file(
-      "end.sh", std::string(CLENCH_COMMAND) + " " + command +
-                    " & pid=$!\n"
-                    "while [ $(cat " + out + " 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.05; done\n"
-                    "kill -" + signal + " $pid\nwait $pid\necho code $?\n");
-  FILE* pipe = popen(("bash " + script + " 2>&1").c_str(), "r");
+  FILE* pipe = popen(("bash " + folder.file("script.sh", script) + " 2>&1").c_str(), "r");
   std::string text;
   char buffer[4096];
   while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
   pclose(pipe);
   return text;
+}
+
+// starts a command, waits until a file has three lines, and sends a signal
+static std::string end_by(const std::string& signal, const std::string& command, const std::string& out,
+                          const std::string& before = "") {
+  return output_of(std::string(CLENCH_COMMAND) + " " + command +
+                   " & pid=$!\n"
+                   "while [ $(cat " + out + " 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.05; done\n" + before +
+                   "\nkill -" + signal + " $pid\nwait $pid 2>/dev/null\necho code $?\n");
 }
 
 TEST_CASE("Ctrl-C ends a search with the grasps so far and the code 130") {
@@ -125,6 +139,20 @@ TEST_CASE("Ctrl-C ends a search with the grasps so far and the code 130") {
   const std::string list = epsilons(out);
   CHECK(list.find("clench") == std::string::npos);
   CHECK(std::stod(list) >= std::stod(list.substr(list.find('\n'))));
+}
+
+TEST_CASE("killing a search loses none of the grasps that its file has, and at most the last second's") {
+  const Folder folder;
+  const std::string out = folder / "a.jsonl";
+  const std::string text = end_by("KILL", barrett + "--no-verify --seconds 60 --threads 1 -o " + out, out,
+                                  "lines=$(wc -l < " + out + ")\nsleep 1\necho more $(( $(wc -l < " + out + ") - lines ))");
+  CHECK(has(text, "code 137"));
+  // within that second more were written, each whole
+  CHECK(std::stoi(text.substr(text.rfind("more ") + 5)) > 0);
+  const std::string list = epsilons(out), file = text_of(out);
+  CHECK(list.find("clench") == std::string::npos);
+  CHECK(file.ends_with("}\n"));
+  CHECK(std::count(list.begin(), list.end(), '\n') == std::count(file.begin(), file.end(), '\n') - 1);
 }
 
 TEST_CASE("Ctrl-C in the middle of any planner: the script gets the grasps so far, and ends with the code 130") {

@@ -32,9 +32,9 @@ for _, model in ipairs(clench.catalog().hands) do
   for _, name in ipairs(objects) do
     local object_path = ("models/objects/%s.iv"):format(name)
     local world, hand, object = load(model, object_path)
-    local began = clench.clock()
+    local began = os.clock()
     local run = clench.plan.sample {hand = hand, object = object, seconds = seconds, count = 100000, seed = 1, refine = 4, threads = 1}
-    local took = clench.clock() - began
+    local took = os.clock() - began  -- of the processor: others may use the machine as well
     local best = run.grasps[1] and run.grasps[1].epsilon or 0
     local rate = #run.grasps / took
     count, sum = count + 1, sum + rate

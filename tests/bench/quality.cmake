@@ -1,5 +1,4 @@
 # Wrench spaces beside qhull.
-pkg_check_modules(QHULL_R REQUIRED IMPORTED_TARGET qhull_r)
 add_executable(bench_quality bench/quality_bench.cpp bench/peer_qhull.cpp bench/report.cpp)
 target_include_directories(bench_quality PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(bench_quality PRIVATE clench_grasp clench_motion clench_io nlohmann_json::nlohmann_json

@@ -165,6 +165,10 @@ known.arguments = {
   ["clench.chart"] = source_of {
     "{series = {{name = 'a', values = {1, 2, false}}, {name = 'b', values = {-1, 1e-3, 4}, higher_is_better = false}}, labels = {'x', 'y', 'z'}, title = 't', width = 200, height = 150}",
     "{series = {{name = 'a', values = {0}}}}"},
+  ["clench.plot"] = source_of {
+    "{series = {{name = 'a', y = {1, false, 3}}, {kind = 'points', x = {1, 2}, y = {3, -1}}}, title = 't', width = 200, height = 150}",
+    "{categories = {'a', 'b', 'c'}, series = {{name = 'n', y = {1, false, -3}}, {y = {1, 1e300, 3}}, {kind = 'line', y = {0, 1, 2}}}}",
+    "{series = {{edges = {0, 1, 2}, counts = {1, 2}}}, x_range = {-1, 3}}"},
 }
 
 --- how an object of a class is made from others, when there is none

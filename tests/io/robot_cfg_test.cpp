@@ -23,7 +23,7 @@ struct Cfg {
 
   RobotSpec read(const ReadOptions& options = {}) const {
     const TemporaryFolder folder;
-    folder.write("iv/box.iv", "#Inventor V2.1 ascii\n#mass 20\nCube { }\n");
+    folder.write("iv/box.iv", "#Inventor V2.1 ascii\n#mass 20\nCube { width 20 height 20 depth 20 }\n");
     folder.write("eigen/a.egr", "DIMENSIONS 1\nEG\n1\n1\n");
     return read_robot(
         folder.write("hand.cfg", "#class\n" + class_line + "box.iv\n" + dofs + "1\n" + joints +

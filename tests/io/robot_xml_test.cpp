@@ -15,7 +15,7 @@ static constexpr double degree = std::numbers::pi / 180;
 static RobotSpec read_xml_robot(const std::string& inside, const ReadOptions& options = {},
                                 const std::string& head = "type=\"Barrett\" DBName=\"Thing\"") {
   const TemporaryFolder folder;
-  folder.write("iv/box.iv", "#Inventor V2.1 ascii\nCube { }\n");
+  folder.write("iv/box.iv", "#Inventor V2.1 ascii\nCube { width 20 height 20 depth 20 }\n");
   folder.write("iv/part.xml", "<root><mass>20</mass><geometryFile>box.iv</geometryFile></root>");
   return read_robot(folder.write("hand.xml", "<robot " + head + ">\n<palm>part.xml</palm>\n" +
                                                  inside + "</robot>\n"),

@@ -73,7 +73,7 @@ const std::string surface =
 /// All that an .xml robot may hold.
 fs::path full_robot(const TemporaryFolder& folder) {
   folder.write("iv/palm.xml",
-               "<root><material>rubber</material><youngs>1.5e6</youngs><mass>77.7</mass>"
+               "<root><material>rubber</material><youngs>1.5e6</youngs><mass>7.77</mass>"
                "<cog>1.1 2 3</cog><inertia_matrix>30 1 0 1 20.2 0 0 0 25</inertia_matrix>"
                "<useFlockOfBirds>2</useFlockOfBirds>"
                "<geometryFile type=\"off\">palm.off</geometryFile></root>");

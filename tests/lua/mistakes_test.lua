@@ -27,6 +27,20 @@ test("degrees and millimetres in a pose are told once, with the script's line", 
   t.ok(said[2]:find("world:add_object: pose: it is 300 m away: metres? clench.mm(300) is 0.3", 1, true), said[2])
 end)
 
+test("a standoff in millimetres is told, and so is what a pose may be given by", function(t)
+  local hand = clench.load("worlds/barrett_mug.wld").robots[1]
+  t.fails(function() clench.pose {x = {1, 0, 0}} end,
+          "unknown key 'x', expected one of axis, angle, x_axis, y_axis, z_axis, rpy, quat, matrix, xyz")
+  t.fails(function() hand:link "fingr" end, "no link 'fingr', expected one of")
+  local said = clench.parallel.map(function()
+    local clench, said = require "clench", nil
+    clench.log.sink(function(_, text) said = text end)
+    clench.load("worlds/barrett_mug.wld").robots[1]:place_approach({0, 0, 0}, {0, 0, -1}, 50)
+    return said
+  end, {1})  -- in a state of its own, for it is told once in each
+  t.ok(said[1]:find("hand:place_approach: standoff: it is 50 m away: metres? clench.mm(50) is 0.05", 1, true), said[1])
+end)
+
 test("a slip in the name of a material is told once, and a new material is none", function(t)
   local said = warnings(function()
     local world = clench.world {}
@@ -43,7 +57,7 @@ test("unknown keys name the nearest, and all when they are few", function(t)
   local world = clench.load "worlds/dlr_flask.wld"
   local hand = world.robots[1]
   t.fails(function() hand:autograsp {sped = 1} end,
-          "unknown key 'sped', expected one of speed, stop_at_contact, dofs, stages; did you mean 'speed'?")
+          "unknown key 'sped', expected one of speed, stop_at_contact, dofs, stages, dynamic; did you mean 'speed'?")
   t.fails(function() hand:approach_object {far = 1} end, "unknown key 'far', expected one of reach")
   t.fails(function() world:body "flsk" end, "did you mean 'flask'?")
   t.fails(function() world:robot "barrett" end, "no robot 'barrett' in this world, expected one of dlr")
@@ -58,4 +72,47 @@ test("unknown keys name the nearest, and all when they are few", function(t)
   t.ok(not message:find("stdlib", 1, true), message)
   t.fails(function() return hand:link "chain3_lnik2" end, "no link 'chain3_lnik2'; did you mean 'chain3_link2'?")
   t.fails(function() return hand:link "dlr_chain3_lnik2" end, "; did you mean 'dlr_chain3_link2'?")
+end)
+
+test("an assignment to a name of a library is an error that says how the name is used", function(t)
+  local function fails(key, library, message) t.fails(function() library[key] = "error" end, message) end
+  fails("level", clench.log, "clench.log.level cannot be set: it is a function; call clench.log.level(name)")
+  fails("version", clench, "clench.version cannot be set: it is read only")
+  fails("log", clench, "clench.log cannot be set: it is read only")
+  fails("plan", clench, "clench.plan cannot be set: it is read only")
+  fails("levle", clench.log, "clench.log has no 'levle' to set; did you mean 'level'?; a script keeps its values in variables of its own")
+  fails("mine", clench, "clench has no 'mine' to set; a script keeps its values in variables of its own")
+  fails(1, clench.json, "clench.json: expected a name to set, got a number")
+  fails("box", clench.shapes, "clench.shapes.box cannot be set: it is a function; call it")
+  fails("boxx", clench.shapes, "clench.shapes has no 'boxx' to set; did you mean 'box'?")
+  fails("mean", clench.stats, "clench.stats.mean cannot be set: it is a function; call it")
+  t.fails(function() return clench.stats.maen end, "clench.stats has no 'maen'; did you mean 'mean'?")
+  t.equal(clench.log.level(), "info")
+  -- libraries list themselves as before
+  local names = {}
+  for name, value in pairs(clench.log) do names[name] = type(value) end
+  t.equal(names, {debug = "function", info = "function", warning = "function", error = "function", level = "function", sink = "function"})
+  local seen = false
+  for name in pairs(clench) do seen = seen or name == "load" end
+  t.ok(seen)
+end)
+
+test("a list of bodies or robots that is asked for a name says how one is found", function(t)
+  local world = clench.load("worlds/dlr_flask.wld")
+  local hand = world.robots[1]
+  local function fails(list, key, message) t.fails(function() return list[key] end, message) end
+  fails(world.robots, "hand", "world.robots has no 'hand': it is a list; did you mean world:robot(\"hand\")?")
+  fails(world.objects, "flask", "world.objects has no 'flask': it is a list; did you mean world:body(\"flask\")?")
+  fails(world.obstacles, "name", "world.obstacles has no 'name': it is a list; did you mean world.obstacles[1].name?")
+  fails(world.bodies, "count", "world.bodies has no 'count': it is a list; did you mean #world.bodies?")
+  fails(world.robots, "autograsp", "world.robots has no 'autograsp': it is a list; did you mean world.robots[1]:autograsp?")
+  fails(hand.links, "thumb", "hand.links has no 'thumb': it is a list; did you mean hand:link(\"thumb\")?")
+  t.equal(#world.robots, 1)
+  t.equal(world.robots[2], nil)
+  t.equal(world.robots[0], nil)
+  local count = 0
+  for _ in ipairs(world.bodies) do count = count + 1 end
+  for _ in pairs(world.bodies) do count = count + 1 end
+  t.equal(count, 2 * #world.bodies)
+  t.ok(tostring(world.robots):find "^{robot", tostring(world.robots))
 end)

@@ -99,3 +99,14 @@ test("each is called in order, and its error ends the rest", function(t)
     clench.parallel.map(function(x) return x end, {5, 6, 7}, {each = function() error "enough" end})
   end, "enough")
 end)
+
+test("states share the memory that the caller may have", function(t)
+  local file = io.open "/proc/meminfo"
+  local total = file and file:read "a":match "MemTotal:%s+(%d+) kB"
+  if file then file:close() end
+  if not total then t.skip "the machine does not say how much memory it has" end
+  local half = tonumber(total) * 1024 // 2  -- less than the three quarters that one may have, more than each of two
+  local results, failed = clench.parallel.map(function(size) return #(io.tmpfile():read(size) or "") end, {half, half}, {threads = 2})
+  t.equal(failed, 2)
+  for _, result in ipairs(results) do t.ok(result.error:find("not enough memory", 1, true), result.error) end
+end)

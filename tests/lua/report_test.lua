@@ -129,6 +129,71 @@ IndexedFaceSet { coordIndex [0 1 2 -1 0 3 1 -1 0 2 3 -1 1 3 2 -1] }]])
   t.ok(#r.suspicious == 1 and r.suspicious[1]:find "youngs")
 end)
 
+-- all sentences of a kind
+local function told(r, kind) return table.concat(r[kind], "\n") end
+
+local function write(extension, text)
+  local path = os.tmpname() .. extension
+  local file = assert(io.open(path, "w"))
+  file:write(text)
+  file:close()
+  return path
+end
+
+local function has(t, text, part) t.ok(text:find(part, 1, true), text) end
+
+test("sets for grasping that no file gives are told of", function(t)
+  local finger = [[<link name="%s"><inertial><mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-5" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><origin xyz="0 0 0.05"/><geometry><box size="0.02 0.02 0.1"/></geometry></collision></link>]]
+  local joint = [[<joint name="%s" type="revolute"><parent link="palm"/><child link="%s"/><origin xyz="%g 0 0.06"/><axis xyz="0 %d 0"/>
+<limit lower="-0.2" upper="1.5" effort="1" velocity="1"/></joint>]]
+  local path = write(".urdf", ([[<robot name="hand"><link name="palm"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>]]
+    .. finger .. finger .. joint .. joint .. "</robot>"):format("left", "right", "j1", "left", -0.05, 1, "j2", "right", 0.05, -1))
+  local r = report.of(path)
+  has(t, told(r, "inferred"), ".urdf: no eigengrasps are given; each of its 2 DOFs counts as one")
+  has(t, told(r, "inferred"), (".urdf: no virtual contacts are given; %d are found"):format(r.parsed.virtual_contacts))
+  t.equal(r.parsed.virtual_contacts, 3)
+  local hand = clench.world():add_robot(path)
+  t.equal(hand.has_own_virtual_contacts, false)
+  hand.virtual_contacts = {}
+  t.equal(hand.has_own_virtual_contacts, true)
+  os.remove(path)
+  -- what files give is no guess
+  t.ok(not told(report.of "models/hands/barrett/barrett.cfg", "inferred"):find "are given", "barrett")
+end)
+
+test("masses of obstacles are MuJoCo's, or told", function(t)
+  local r = report_of(".xml", [[<mujoco><worldbody><geom name="table" type="box" size="0.2 0.2 0.2"/>
+<body name="wall"><geom type="box" size="0.1 0.1 0.1" mass="7"/></body>
+<body name="cube" pos="0 0 1"><freejoint/><geom type="box" size="0.02 0.02 0.02" mass="4000"/></body></worldbody></mujoco>]])
+  t.close(r.parsed.obstacles[1].mass, 64, 1e-9)
+  t.close(r.parsed.obstacles[2].mass, 7, 0)
+  has(t, told(r, "suspicious"), "'cube': its mass of 4000 kg makes 6.25e+07 kg/m^3: is its unit right?")
+  local box = write(".off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
+  local world = report_of(".xml", "<world><obstacle><filename>" .. box .. "</filename></obstacle></world>")
+  has(t, told(world, "inferred"), "no mass and no material is given; 0.3 kg of wood is assumed")
+  t.ok(not told(world, "inferred"):find "inertia", told(world, "inferred"))
+  os.remove(box)
+end)
+
+test("five files whose values are exchanged or contradict one another", function(t)
+  local body = [[<link name="%s"><inertial><origin xyz="0 0 %g"/><mass value="%g"/><inertia ixx="%g" iyy="%g" izz="%g" ixy="0" ixz="0" iyz="0"/>
+</inertial><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>]]
+  local function urdf(link, low, high)
+    return report_of(".urdf", '<robot name="a">' .. body:format("b", 0, 1, 1e-3, 1e-3, 1e-3) .. body:format("f", table.unpack(link)) ..
+      ([[<joint name="j" type="revolute"><parent link="b"/><child link="f"/><origin xyz="0 0 0.2"/><axis xyz="0 1 0"/>
+<limit lower="%g" upper="%g" effort="1" velocity="1"/></joint></robot>]]):format(low, high))
+  end
+  local good = {0, 0.5, 1e-3, 1e-3, 1e-3}
+  t.equal(told(urdf(good, -0.2, 1.5), "suspicious"), "")
+  has(t, told(urdf(good, 1.5, -0.2), "repaired"), "joint 'j': lower 1.5 exceeds upper -0.2; they are exchanged")
+  has(t, told(urdf(good, 0, 90), "suspicious"), "joints that turn more than four times: 'j'")
+  has(t, told(urdf({50, 0.5, 1e-3, 1e-3, 1e-3}, 0, 1), "suspicious"), "centre of mass is far from their surface: 'a_f'")
+  has(t, told(urdf({0, 0.5, 5, 5, 5}, 0, 1), "suspicious"), "parts with the inertia of a much larger body: 'a_f'")
+  has(t, told(urdf({0, 500, 1, 1, 1}, 0, 1), "suspicious"), "parts ten times denser than any metal, or lighter than air: 'a_f'")
+  has(t, told(urdf({0, 0.5, 1e-3, 1e-3, 5e-3}, 0, 1), "repaired"), "one moment exceeds the sum of the others")
+end)
+
 test("primitives of an object are counted", function(t)
   local r = report_of(".iv", "#Inventor V2.1 ascii\nSeparator { Cube { } Translation { translation 9 0 0 } Cube { } Sphere { } }")
   t.equal(r.parsed.primitives, {box = 2, sphere = 1})

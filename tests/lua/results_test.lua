@@ -153,6 +153,32 @@ test("figures of numbers are drawn and saved, and sheets hold them", function(t)
   t.fails(function() clench.plot {series = {{y = {1}, kind = "bar"}}} end, "did you mean 'bars'?")
   t.fails(function() clench.plot {series = {{edges = {0, 1}}}} end, "counts")
   t.fails(function() clench.plot {series = {{y = {1}}}, x_range = {1}} end, "x_range: expected 2 numbers, got 1")
-  t.fails(function() clench.sheet {pictures = {line}} end, "pictures[1]: expected a picture, got a plot")
+  t.equal(clench.sheet {pictures = {line, line.picture}}, clench.sheet {pictures = {line.picture, line}})
+  t.fails(function() clench.sheet {pictures = {1}} end, "pictures[1]: expected a picture, got 1")
   t.fails(function() clench.sheet {pictures = {line.picture}, columns = 0} end, "columns: expected at least 1, got 0")
+end)
+
+test("bars over names, and charts, are saved as PNG and as SVG", function(t)
+  local bars = clench.plot {categories = {"Barrett", "Shadow"}, series = {{name = "random", y = {12, 7}}, {name = "antipodal", y = {30, false}}},
+                            title = "Grasps found", y_label = "grasps", width = 300, height = 200}
+  local chart = clench.chart {series = {{name = "epsilon", values = {0.1, 0.3}}}, labels = {"Barrett", "Shadow"}, width = 300, height = 200}
+  for _, figure in ipairs {bars, chart} do
+    local path = os.tmpname()
+    figure:save(path .. ".svg")
+    figure:save(path .. ".png")
+    local svg = assert(io.open(path .. ".svg")):read "a"
+    t.ok(svg:find ">Barrett</text>" and svg:find ">Shadow</text>", svg)
+    t.ok(assert(io.open(path .. ".png", "rb")):read "a":find "^\x89PNG")
+    t.equal(figure.picture.width, 300)
+    t.equal(figure.width, 300)
+    t.equal(figure.height, 200)
+    for _, ending in ipairs {"", ".svg", ".png"} do os.remove(path .. ending) end
+  end
+  t.ok(bars ~= chart)
+  t.fails(function() clench.plot {categories = {"a", "b"}, series = {{y = {1}}}} end, "series 1: expected 2 values, one per category, got 1")
+  t.fails(function() clench.plot {categories = {"a"}, series = {{x = {1}, y = {1}}}} end, "series 1: expected no x, for categories stand along that axis")
+  t.fails(function() clench.plot {categories = {"a"}, series = {{y = {1}}}, x_range = {0, 1}} end, "x_range: categories have none")
+  t.fails(function() clench.plot {categories = {"a"}, series = {{y = {1}}}, x_scale = "log"} end, "x_scale: categories have none")
+  t.fails(function() clench.plot {categories = {}, series = {{y = {1}}}} end, "categories: expected at least one, got none")
+  t.fails(function() clench.plot {categories = {1}, series = {{y = {1}}}} end, "categories[1]: expected a string, got 1")
 end)

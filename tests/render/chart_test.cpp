@@ -13,6 +13,10 @@ using Eigen::Vector2f;
 
 namespace {
 
+Picture painted(const Chart& chart, const ChartOptions& options = {}) {
+  return paint(draw_chart(chart, options), Font());
+}
+
 const Canvas::Color black(0, 0, 0);
 
 int ink_of(const Picture& picture) {
@@ -90,20 +94,20 @@ TEST_CASE("a chart is as high as its panels need, and the same bytes every time"
   const Chart chart{.title = "two grasps",
                     .labels = {"one", "two"},
                     .series = {{"epsilon", {0.1, 0.2}}, {"volume", {NAN, -3}}}};
-  const Picture picture = draw_chart(chart);
+  const Picture picture = painted(chart);
   CHECK(picture.width == 960);
   CHECK(picture.height > 300);
-  CHECK(picture.pixels == draw_chart(chart).pixels);
+  CHECK(picture.pixels == painted(chart).pixels);
   Chart third = chart;
   third.series.push_back({"rank", {6, 6}});
-  CHECK(draw_chart(third).height > picture.height);
-  CHECK(draw_chart(chart, {.width = 64, .height = 64}).pixels.size() == 3 * 64 * 64);
+  CHECK(painted(third).height > picture.height);
+  CHECK(painted(chart, {.width = 64, .height = 64}).pixels.size() == 3 * 64 * 64);
 }
 
 TEST_CASE("the higher column has more ink, the best is the darkest") {
   const auto ink = [](std::vector<double> values) {
     return ink_of(
-        draw_chart({.series = {{"x", std::move(values)}}}, {.width = 400, .height = 200}));
+        painted({.series = {{"x", std::move(values)}}}, {.width = 400, .height = 200}));
   };
   CHECK(ink({1, 1}) > ink({1, 0.5}));
   CHECK(ink({1, 0.5}) > ink({1, 0}));
@@ -111,22 +115,22 @@ TEST_CASE("the higher column has more ink, the best is the darkest") {
 
 TEST_CASE("nothing, next to nothing and a panel of zeros look different") {
   const auto drawn = [](std::vector<double> values) {
-    return draw_chart({.series = {{"x", std::move(values)}}}, {.width = 400, .height = 200}).pixels;
+    return painted({.series = {{"x", std::move(values)}}}, {.width = 400, .height = 200}).pixels;
   };
   CHECK(drawn({1, 0}) != drawn({1, 1e-9}));
   CHECK(drawn({1, 1e-9}) != drawn({1, -1e-9}));
   CHECK(drawn({0, 0}) != drawn({1, 1}));
   // only the line of zero: less ink than with the lines of other values
-  CHECK(ink_of(draw_chart({.series = {{"x", {0, 0}}}}, {.width = 400, .height = 200})) <
-        ink_of(draw_chart({.series = {{"x", {1e-300, 0}}}}, {.width = 400, .height = 200})));
+  CHECK(ink_of(painted({.series = {{"x", {0, 0}}}}, {.width = 400, .height = 200})) <
+        ink_of(painted({.series = {{"x", {1e-300, 0}}}}, {.width = 400, .height = 200})));
 }
 
 TEST_CASE("the least column is the darkest where least is best") {
   Chart chart{.series = {{"effort", {3, 1}}}};
-  const Picture largest = draw_chart(chart, {.width = 400, .height = 200});
+  const Picture largest = painted(chart, {.width = 400, .height = 200});
   chart.series[0].higher_is_better = false;
   // the darker column is the smaller one now
-  CHECK(ink_of(draw_chart(chart, {.width = 400, .height = 200})) < ink_of(largest));
+  CHECK(ink_of(painted(chart, {.width = 400, .height = 200})) < ink_of(largest));
 }
 
 TEST_CASE("a long label costs a chart no more height than a short one in wide columns") {
@@ -134,7 +138,7 @@ TEST_CASE("a long label costs a chart no more height than a short one in wide co
     Chart chart{.labels = std::vector<std::string>(items, "a"),
                 .series = {{"x", std::vector<double>(items, 1)}}};
     chart.labels[0] = std::move(label);
-    return draw_chart(chart).height;
+    return painted(chart).height;
   };
   CHECK(height(std::string(300, 'y'), 4) == height("a", 4));
   // upright ones of narrow columns are as long as 16 letters at most
@@ -149,7 +153,7 @@ TEST_CASE("labels that only their middles tell apart stay apart when they are to
                 .series = {{"x", std::vector<double>(items, 1)}}};
     chart.labels[0] = front + first + back;
     chart.labels[1] = front + second + back;
-    return draw_chart(chart).pixels;
+    return painted(chart).pixels;
   };
   for (const size_t items : {3, 40}) {
     CHECK(drawn("1", "2", items) != drawn("2", "1", items));
@@ -157,16 +161,16 @@ TEST_CASE("labels that only their middles tell apart stay apart when they are to
   }
   // all alike, one alone, and one that is the beginning of another
   CHECK(drawn("3", "3", 3).size() == drawn("1", "2", 3).size());
-  CHECK(draw_chart({.labels = {front + back}, .series = {{"x", {1}}}}, {.width = 200}).width ==
+  CHECK(painted({.labels = {front + back}, .series = {{"x", {1}}}}, {.width = 200}).width ==
         200);
-  CHECK(draw_chart({.labels = {front, front + front}, .series = {{"x", {1, 2}}}}).width == 960);
+  CHECK(painted({.labels = {front, front + front}, .series = {{"x", {1, 2}}}}).width == 960);
 }
 
 TEST_CASE("low panels draw within themselves") {
   // what lies below the last of three panels is as empty as the margin
   const Chart chart{.labels = {" ", " "}, .series = {{"x", {1, -1}}, {"y", {1, 2}}, {"z", {3, 4}}}};
   for (const int height : {80, 120, 200}) {
-    const Picture picture = draw_chart(chart, {.width = 300, .height = height});
+    const Picture picture = painted(chart, {.width = 300, .height = height});
     int below = 0;
     for (int y = height - 16; y < height; ++y)
       for (int x = 0; x < 300; ++x)
@@ -203,7 +207,7 @@ TEST_CASE("numbers of any size make a chart") {
                              {1e-300, -1e-300}})
     for (const int size : {64, 300}) {
       const Picture picture =
-          draw_chart({.series = {{"x", values}}}, {.width = size, .height = size});
+          painted({.series = {{"x", values}}}, {.width = size, .height = size});
       CHECK(ink_of(picture) > 0);
     }
   const ChartAxis axis = chart_axis({largest, -largest});

@@ -180,17 +180,17 @@ TEST_CASE("without its font there are no letters, and a sentence names the file"
     CHECK_FALSE(covers);
   }
   const Chart chart{.title = "a title", .series = {{"epsilon", {0.1, 0.2}}}};
-  const Picture bare = draw_chart(chart, {}, Font(nowhere));
+  const Picture bare = paint(draw_chart(chart, {}, Font(nowhere)), Font(nowhere));
   CHECK(bare.width == 960);
-  CHECK(bare.pixels != draw_chart(chart).pixels);
+  CHECK(bare.pixels != paint(draw_chart(chart), Font()).pixels);
 }
 
 TEST_CASE("threads that draw at the same time draw the same") {
   const Chart chart{.title = "Größe", .labels = {"µ", "力"}, .series = {{"ε", {0.1, 0.2}}}};
-  const Picture expected = draw_chart(chart);
+  const Picture expected = paint(draw_chart(chart), Font());
   std::vector<Picture> drawn(4);
   std::vector<std::jthread> threads;
-  for (Picture& picture : drawn) threads.emplace_back([&] { picture = draw_chart(chart); });
+  for (Picture& picture : drawn) threads.emplace_back([&] { picture = paint(draw_chart(chart), Font()); });
   threads.clear();
   for (const Picture& picture : drawn) CHECK(picture.pixels == expected.pixels);
 }

@@ -42,7 +42,7 @@ TEST_CASE("a state without the standard libraries still opens") {
 
 TEST_CASE("two states know nothing of one another") {
   Script a, b;
-  a.run("clench.pose = 1  clench.log.level 'quiet'");
+  a.run("rawset(clench, 'pose', 1)  clench.log.level 'quiet'");
   CHECK(b.text("clench.pose{}.position") == "(0, 0, 0)");
   CHECK(b.text("clench.log.level()") == "info");
 }

@@ -17,13 +17,14 @@ BodySpec named(const std::string& name, Mesh mesh) {
 struct Told {
   std::vector<std::string> notes, suspected;
 
-  explicit Told(const std::vector<BodySpec>& bodies) {
-    std::vector<const BodySpec*> list;
+  explicit Told(const std::vector<BodySpec>& bodies, const std::vector<BodySpec>& obstacles = {}) {
+    std::vector<const BodySpec*> list, standing;
     for (const BodySpec& body : bodies) list.push_back(&body);
+    for (const BodySpec& body : obstacles) standing.push_back(&body);
     Listeners listeners;
     listeners.note = [&](const std::string& s) { notes.push_back(s); };
     listeners.suspect = [&](const std::string& s) { suspected.push_back(s); };
-    tell_assumed(list, "w.wld", listeners);
+    tell_assumed(list, "w.wld", listeners, standing);
   }
 };
 
@@ -63,4 +64,17 @@ TEST_CASE("an inertia is that of a ball only with a warning") {
                   "ball around it: 'sheet'"});
   sheet.inertia_per_mass = Eigen::Matrix3d::Identity();
   CHECK(Told({closed, sheet}).suspected.empty());
+}
+
+TEST_CASE("of obstacles masses and materials are told, and no inertia") {
+  Mesh open = test::box(1, 1, 1);
+  open.triangles.pop_back();
+  BodySpec full = named("full", test::box(1, 1, 1)), wall = named("wall", open);
+  full.mass_given = full.material_given = full.inertia_told = true;
+  const Told told({full}, {wall, full});
+  CHECK(told.notes == Sentences{"w.wld: no mass and no material is given; 0.3 kg of wood is "
+                                "assumed: 'wall'"});
+  CHECK(told.suspected.empty());
+  CHECK(Told({}, {wall}).notes ==
+        Sentences{"w.wld: no mass and no material is given; 0.3 kg of wood is assumed"});
 }

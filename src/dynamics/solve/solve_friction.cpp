@@ -186,7 +186,8 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
                                        const FrictionOptions& options) {
   FrictionSolution solution;
   const int n = static_cast<int>(problem.q.size());
-  const double tolerance = options.tolerance * std::max(1e-3, n > 0 ? problem.q.lpNorm<Eigen::Infinity>() : 0);
+  const double largest = std::max(1e-3, n > 0 ? problem.q.lpNorm<Eigen::Infinity>() : 0);
+  const double tolerance = options.tolerance * options.speed.value_or(largest);
   solution.r = warm_start.size() == n && warm_start.allFinite() ? warm_start : VectorXd::Zero(n);
   solution.u = problem.q;
   solution.u.noalias() += problem.W * solution.r;

@@ -1,5 +1,7 @@
 // Solves contacts with Coulomb's friction, joint limits and motors together.
 #pragma once
+#include <optional>
+
 #include "clench/dynamics/solve/friction_newton.h"
 #include "clench/dynamics/solve/friction_problem.h"
 #include "clench/dynamics/solve/gauss_seidel.h"
@@ -13,6 +15,7 @@ struct FrictionOptions {
   /// Faults up to so much of the largest velocity in q, and of at least 1e-3, are none. Rounding of W r is allowed for
   /// beside it, up to 1e6 times as much where masses differ by that; of a pyramid, as pivots lose digits, 100 times.
   double tolerance = 1e-12;
+  std::optional<double> speed = {};  ///< in place of the largest velocity in q, which may be of a far limit [m/s]
 };
 
 /// Solves one problem after another; memory is kept between them, nothing else: the same problem and the same warm start

@@ -7,7 +7,7 @@
 #include "clench/base/file.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
-#include "clench/io/text/number_reader.h"
+#include "clench/io/text/csv.h"
 
 namespace clench {
 
@@ -19,17 +19,7 @@ static constexpr const char* pose_columns[] = {"x [m]", "y [m]", "z [m]", "qw", 
 
 // --- writing ---
 
-static std::string text_cell(const std::string& text) {
-  if (text.empty()) return "";
-  const bool plain = text.find_first_of("\",\r\n") == std::string::npos &&
-                     trim(text).size() == text.size() && !parse_number(text) &&
-                     text.find_first_of("0123456789+-.") != 0 && text != "true" &&
-                     text != "false" && text != "nan" && text != "inf";
-  if (plain) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
-}
+static std::string text_cell(const std::string& text) { return text.empty() ? "" : csv_cell(text); }
 
 // a seed and other counts are integers
 static std::string note_cell(double x) {
@@ -106,48 +96,6 @@ void write_grasp_table(const std::vector<GraspSpec>& grasps, const fs::path& pat
 
 namespace {
 
-struct Record {
-  int line = 0;
-  std::vector<std::string> cells = {};
-};
-
-std::vector<Record> records_of(const std::string& file, const std::string& text) {
-  std::vector<Record> out;
-  int line = 1;
-  for (size_t at = 0; at < text.size();) {
-    Record record{.line = line};
-    while (true) {
-      std::string cell;
-      if (at < text.size() && text[at] == '"') {
-        for (++at;; ++at) {
-          if (at >= text.size()) fail("{}:{}: a quote that is not closed", file, record.line);
-          if (text[at] == '"') {
-            if (at + 1 >= text.size() || text[at + 1] != '"') break;
-            ++at;
-          }
-          line += text[at] == '\n';
-          cell += text[at];
-        }
-        ++at;
-        if (at < text.size() && text[at] != ',' && text[at] != '\n')
-          fail("{}:{}: expected a comma or the line's end behind the quote, got '{}'", file, line,
-               excerpt(text.substr(at, 1)));
-      } else {
-        const size_t end = std::min(text.find_first_of(",\n", at), text.size());
-        cell = text.substr(at, end - at);
-        at = end;
-      }
-      record.cells.push_back(std::move(cell));
-      if (at >= text.size() || text[at] == '\n') break;
-      ++at;
-    }
-    ++at;
-    ++line;
-    if (record.cells.size() > 1 || !record.cells[0].empty()) out.push_back(std::move(record));
-  }
-  return out;
-}
-
 // a grasp's own names, whatever their column is called: "dof thumb [rad]" is "thumb", in rad
 struct Column {
   std::string name = {}, kind = {}, key = {}, unit = {};
@@ -174,10 +122,11 @@ Column column_of(const std::string& name) {
 
 std::vector<GraspSpec> read_grasp_table(const fs::path& path, const ReadOptions& options) {
   const std::string file = path.filename().string();
-  const auto records = records_of(file, read_text(path));
+  auto records = read_csv(file, read_text(path));
+  std::erase_if(records, &CsvRecord::is_empty);
   if (records.empty()) fail("{}: expected names of columns, got an empty file", file);
   std::vector<Column> columns;
-  for (const std::string& name : records[0].cells) columns.push_back(column_of(name));
+  for (const CsvCell& name : records[0].cells) columns.push_back(column_of(name.text));
   const auto has = [&](const std::string& name) {
     return std::ranges::find(columns, name, &Column::name) != columns.end();
   };
@@ -200,7 +149,7 @@ std::vector<GraspSpec> read_grasp_table(const fs::path& path, const ReadOptions&
   std::vector<GraspSpec> out;
   for (size_t r = 1; r < records.size(); ++r) {
     options.progress.check();
-    const Record& record = records[r];
+    const CsvRecord& record = records[r];
     if (record.cells.size() != columns.size())
       fail("{}:{}: expected {} cells, got {}", file, record.line, columns.size(),
            record.cells.size());
@@ -208,7 +157,7 @@ std::vector<GraspSpec> read_grasp_table(const fs::path& path, const ReadOptions&
     std::map<std::string, double> pose;
     for (size_t c = 0; c < columns.size(); ++c) {
       const Column& column = columns[c];
-      const std::string& cell = record.cells[c];
+      const std::string& cell = record.cells[c].text;
       if (cell.empty()) continue;
       const auto number = [&] {
         const auto x = parse_number(cell);

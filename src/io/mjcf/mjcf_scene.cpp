@@ -122,7 +122,7 @@ int SceneReader::add_thing(const std::string& name, Role role, const Pose& X_WB,
   if (weighed) link.body = *weighed;
   link.body.name = name;
   link.body.source = model_.document().path().generic_string();
-  pieces.has_inertial = weighed || role == Role::obstacle;  // nobody lifts an obstacle
+  pieces.has_inertial = weighed;
   things_.links.push_back(link);
   thing_pieces_.push_back(std::move(pieces));
   PlacedBody placed;
@@ -155,8 +155,10 @@ void SceneReader::add_geom(const WorldGeom& from) {
   // the inverse is rounded
   for (auto* list : {&pieces.collision, &pieces.visual})
     for (GeometryPiece& piece : *list) piece.X_LG = Pose{};
+  BodySpec weighed;
+  weighed.mass = geom->mass;
   add_thing(name.empty() ? "world_geom" : name, Role::obstacle, X, std::move(pieces), {*geom},
-            nullptr);
+            mass_rule.allows(geom->mass) ? &weighed : nullptr);
 }
 
 std::vector<Pose> tree_poses(const TreeModel& tree) {
@@ -239,7 +241,8 @@ void SceneReader::add_obstacles(const TopBody& body, SceneBody& scene) {
     if (pieces.collision.empty() && pieces.visual.empty()) continue;
     const std::string& name = tree.model.links[i].body.name;
     const int number = add_thing(name, Role::obstacle, scene.X_WB * X[i], std::move(pieces),
-                                 tree.geoms[i], nullptr);
+                                 tree.geoms[i],
+                                 tree.pieces[i].has_inertial ? &tree.model.links[i].body : nullptr);
     scene.bodies.push_back({number, X[i]});
     by_name_[name] = {WorldEntry::Kind::body, number, -1};
   }

@@ -110,6 +110,8 @@ class TextBuffer : public std::streambuf {
 }  // namespace
 
 YamlNode parse_yaml(const std::string& file, std::string_view text) {
+  // yaml-cpp takes a quote that is open where lines end for one that is closed, unless the text ends there
+  text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
   TextBuffer buffer(text);
   std::istream stream(&buffer);
   TreeBuilder builder(file);
@@ -122,7 +124,9 @@ YamlNode parse_yaml(const std::string& file, std::string_view text) {
       fail("{}:{}: expected the end of the file, got another document", file, builder.root.line);
     return out;
   } catch (const YAML::Exception& error) {
-    fail("{}:{}: {}", file, error.mark.line + 1, error.msg);
+    const bool open_quote = error.msg == YAML::ErrorMsg::EOF_IN_SCALAR;
+    fail("{}:{}: {}", file, error.mark.line + 1,
+         open_quote ? "a quote that is not closed" : error.msg);
   }
 }
 

@@ -27,6 +27,7 @@ struct YamlNode {
 };
 
 /// file  the name shown in errors
+/// text  white space at its end does not count
 /// throws Error  "g.yaml:3: end of sequence flow not found", in the words of yaml-cpp
 YamlNode parse_yaml(const std::string& file, std::string_view text);
 

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "clench/base/convert.h"
 #include "clench/base/error.h"
 #include "clench/math/round_step.h"
-#include "clench/render/figure/canvas.h"
+#include "clench/render/figure/pen.h"
 
 namespace clench {
 
@@ -27,14 +26,13 @@ constexpr float min_lines = 13;       // from line to line of an axis [pixels]
 constexpr float min_column = 2;       // height of what is not 0 [pixels]
 constexpr float turned_label = 150;   // length that an upright label may have [pixels]
 constexpr float turned_part = 0.25f;  // of the chart's height that it may have
-constexpr float level_label = 110;    // columns as wide keep their labels level [pixels]
 constexpr int min_size = 64, largest_size = 8192;
 constexpr size_t max_items = largest_size, max_values = 1'000'000;  // a series, and in all
 constexpr size_t max_letters = 10'000'000;                          // of all texts [bytes]
 
-const Canvas::Color ink(0.13f, 0.16f, 0.20f), quiet(0.86f, 0.87f, 0.89f);
-const Canvas::Color column_color(0.45f, 0.66f, 0.84f), best_color(0.09f, 0.40f, 0.67f);
-const Canvas::Color cross_color(0.80f, 0.25f, 0.15f);
+const Drawing::Color ink(0.13f, 0.16f, 0.20f), quiet(0.86f, 0.87f, 0.89f);
+const Drawing::Color column_color(0.45f, 0.66f, 0.84f), best_color(0.09f, 0.40f, 0.67f);
+const Drawing::Color cross_color(0.80f, 0.25f, 0.15f);
 
 void check_chart(const Chart& chart, const ChartOptions& options) {
   if (chart.series.empty()) fail("chart: expected at least one series, got none");
@@ -101,7 +99,7 @@ bool nothing_to_show(const std::vector<double>& values) {
 }
 
 // the line of 0, and unless there is nothing but zeros, the others
-void draw_axis(Canvas& canvas, const ChartPanel& panel, const ChartScale& scale, bool zeros) {
+void draw_axis(Pen& pen, const ChartPanel& panel, const ChartScale& scale, bool zeros) {
   const ChartAxis& axis = scale.axis;
   // lines by their numbers from 0 on
   const int first = floor_int(axis.low / axis.step + 0.5);
@@ -113,10 +111,10 @@ void draw_axis(Canvas& canvas, const ChartPanel& panel, const ChartScale& scale,
     // the axis of the largest numbers ends at the largest there is
     if ((zeros && i != 0) || i % every != 0 || !std::isfinite(value)) continue;
     const float y = scale.height(value);
-    canvas.rectangle({panel.left, y - 0.5f}, {panel.right, y + 0.5f}, quiet);
+    pen.rectangle({panel.left, y - 0.5f}, {panel.right, y + 0.5f}, quiet);
     const std::string number = fmt::format("{:.4g}", value);
-    const float width = canvas.font().width(number, letter_height);
-    canvas.text({number, {panel.left - 8 - width, y + letter_height / 2}, letter_height}, ink);
+    const float width = pen.font.width(number, letter_height);
+    pen.text(number, {panel.left - 8 - width, y + letter_height / 2}, letter_height, ink);
   }
 }
 
@@ -129,9 +127,9 @@ double best_of(const ChartSeries& series) {
   return sign * best;
 }
 
-void draw_cross(Canvas& canvas, float x, float zero) {
-  canvas.line({x - 3, zero - 10}, {x + 3, zero - 4}, 1.5f, cross_color);
-  canvas.line({x - 3, zero - 4}, {x + 3, zero - 10}, 1.5f, cross_color);
+void draw_cross(Pen& pen, float x, float zero) {
+  pen.line({{x - 3, zero - 10}, {x + 3, zero - 4}}, 1.5f, cross_color);
+  pen.line({{x - 3, zero - 4}, {x + 3, zero - 10}}, 1.5f, cross_color);
 }
 
 // a value's end of its column; what is not 0 can be told from it
@@ -143,10 +141,10 @@ float end_of(const ChartScale& scale, double value) {
 }
 
 // above the columns, unless one is too wide
-void write_values(Canvas& canvas, const ChartScale& scale, const std::vector<double>& values,
+void write_values(Pen& pen, const ChartScale& scale, const std::vector<double>& values,
                   const ChartColumns& columns) {
   const auto width = [&](const std::string& text) {
-    return canvas.font().width(text, letter_height);
+    return pen.font.width(text, letter_height);
   };
   std::vector<std::string> numbers;
   for (const double value : values)
@@ -154,20 +152,19 @@ void write_values(Canvas& canvas, const ChartScale& scale, const std::vector<dou
   if (std::ranges::any_of(numbers, [&](const auto& n) { return width(n) > columns.width; })) return;
   for (size_t i = 0; i < values.size(); ++i)
     if (std::isfinite(values[i]))
-      canvas.bright_text({numbers[i],
-                          {columns.centre(i) - width(numbers[i]) / 2,
-                           std::min(end_of(scale, values[i]), scale.height(0)) - 4},
-                          letter_height},
-                         ink);
+      pen.bright_text(numbers[i],
+                      {columns.centre(i) - width(numbers[i]) / 2,
+                       std::min(end_of(scale, values[i]), scale.height(0)) - 4},
+                      letter_height, ink);
 }
 
-void draw_columns(Canvas& canvas, const ChartPanel& panel, const ChartSeries& series,
+void draw_columns(Pen& pen, const ChartPanel& panel, const ChartSeries& series,
                   const ChartColumns& columns) {
   const ChartScale scale{chart_axis(series.values), panel.top, panel.bottom};
   const float room = panel.right - panel.left;
-  const std::string name = canvas.font().shortened(series.name, letter_height, room);
-  canvas.text({name, {panel.left, panel.top - panel.name}, letter_height}, ink);
-  draw_axis(canvas, panel, scale, nothing_to_show(series.values));
+  const std::string name = pen.font.shortened(series.name, letter_height, room);
+  pen.text(name, {panel.left, panel.top - panel.name}, letter_height, ink);
+  draw_axis(pen, panel, scale, nothing_to_show(series.values));
 
   const double best = best_of(series);
   const float half = std::max(0.5f, 0.36f * columns.width), zero = scale.height(0);
@@ -175,85 +172,15 @@ void draw_columns(Canvas& canvas, const ChartPanel& panel, const ChartSeries& se
     const float x = columns.centre(i);
     const double value = series.values[i];
     if (!std::isfinite(value)) {
-      draw_cross(canvas, x, zero);
+      draw_cross(pen, x, zero);
       continue;
     }
     const float y = end_of(scale, value);
-    canvas.rectangle({x - half, std::min(y, zero)}, {x + half, std::max(y, zero)},
+    pen.rectangle({x - half, std::min(y, zero)}, {x + half, std::max(y, zero)},
                      value == best ? best_color : column_color);
   }
-  canvas.rectangle({panel.left, zero - 0.5f}, {panel.right, zero + 0.5f}, ink);
-  if (panel.name >= value_room) write_values(canvas, scale, series.values, columns);
-}
-
-// how the labels under the last panel stand: level where they fit, perhaps shortened, upright where not
-struct ChartLabels {
-  std::vector<std::string> texts;
-  bool upright = false;
-  float height = letter_height;  // of all
-};
-
-// how many letters all texts have in common, from their beginning, or from their end
-size_t common_letters(const std::vector<std::u32string>& texts, bool from_end) {
-  const auto letter = [&](const std::u32string& text, size_t i) {
-    return from_end ? text[text.size() - 1 - i] : text[i];
-  };
-  size_t count = texts[0].size();
-  for (const std::u32string& text : texts) {
-    size_t same = 0;
-    while (same < std::min(count, text.size()) && letter(text, same) == letter(texts[0], same))
-      ++same;
-    count = same;
-  }
-  return count;
-}
-
-// an ellipsis in place of what all begin with, and of what all end with: the rest tells them apart
-void drop_common(std::vector<std::string>& texts) {
-  if (std::ranges::adjacent_find(texts, std::not_equal_to()) == texts.end()) return;
-  std::vector<std::u32string> letters;
-  for (const std::string& text : texts) letters.push_back(letters_of(text));
-  for (const bool at_end : {false, true}) {
-    const size_t common = common_letters(letters, at_end);
-    if (common < 2) continue;
-    for (std::u32string& text : letters)
-      text.replace(at_end ? text.size() - common : 0, common, U"…");
-  }
-  std::ranges::transform(letters, texts.begin(), text_of);
-}
-
-ChartLabels fit_labels(const Chart& chart, const ChartColumns& columns, float longest,
-                       const Font& font) {
-  ChartLabels labels{labels_of(chart)};
-  const auto widest = [&] {
-    float most = 0;
-    for (const std::string& text : labels.texts)
-      most = std::max(most, font.width(text, letter_height));
-    return most;
-  };
-  labels.upright = widest() + 4 > columns.width && columns.width < level_label;
-  const float room = labels.upright ? longest : columns.width - 4;
-  if (widest() > room) drop_common(labels.texts);
-  for (std::string& text : labels.texts) text = font.shortened(text, letter_height, room);
-  if (labels.upright) labels.height = widest();
-  return labels;
-}
-
-// some are left out where even upright ones would overlap
-void draw_labels(Canvas& canvas, const ChartLabels& labels, float top,
-                 const ChartColumns& columns) {
-  const float least = labels.upright ? letter_height + 4 : 0;
-  const size_t every =
-      floor_between(std::ceil(least / columns.width), size_t{1}, labels.texts.size());
-  for (size_t i = 0; i < labels.texts.size(); i += every) {
-    const std::string& text = labels.texts[i];
-    const float width = canvas.font().width(text, letter_height), x = columns.centre(i);
-    if (labels.upright)
-      canvas.text({text, {x + letter_height / 2, top + width}, letter_height, -Vector2f::UnitY()},
-                  ink);
-    else
-      canvas.text({text, {x - width / 2, top + letter_height}, letter_height}, ink);
-  }
+  pen.rectangle({panel.left, zero - 0.5f}, {panel.right, zero + 0.5f}, ink);
+  if (panel.name >= value_room) write_values(pen, scale, series.values, columns);
 }
 
 }  // namespace
@@ -272,7 +199,7 @@ ChartAxis chart_axis(const std::vector<double>& values) {
           std::min(std::ceil(high / step) * step, largest), step};
 }
 
-Picture draw_chart(const Chart& chart, const ChartOptions& options, const Font& font) {
+Drawing draw_chart(const Chart& chart, const ChartOptions& options, const Font& font) {
   check_chart(chart, options);
   const float left = margin + axis_room, right = static_cast<float>(options.width) - margin;
   const auto items = static_cast<float>(chart.series[0].values.size());
@@ -280,29 +207,30 @@ Picture draw_chart(const Chart& chart, const ChartOptions& options, const Font& 
   const float longest =
       options.height > 0 ? std::min(turned_label, turned_part * static_cast<float>(options.height))
                          : turned_label;
-  const ChartLabels labels = fit_labels(chart, columns, longest, font);
+  const AxisLabels labels(labels_of(chart), columns.width, longest, letter_height, font);
   const float above = chart.title.empty() ? 0 : title_height + margin;
-  const float below = 8 + labels.height + margin;
+  const float below = 8 + labels.room() + margin;
   const auto panels = static_cast<float>(chart.series.size());
   const float needed = margin + above + panels * panel_height + below;
   const int height =
       options.height > 0 ? options.height : floor_between(needed, min_size, largest_size);
 
-  Picture picture = blank_picture(options.width, height);
-  Canvas canvas(picture, font);
+  Drawing drawing{options.width, height};
+  Pen pen{drawing, font};
   const std::string title = font.shortened(chart.title, title_height, right - margin);
-  canvas.text({title, {margin, margin + title_height}, title_height}, ink);
+  pen.text(title, {margin, margin + title_height}, title_height, ink);
   const float room = (static_cast<float>(height) - margin - above - below) / panels;
   // low panels leave less between them
   const float gap = std::min(panel_gap, min_gap * room);
   for (size_t i = 0; i < chart.series.size(); ++i) {
     const float top = margin + above + static_cast<float>(i) * room + gap;
     const float name = panel_name * gap / panel_gap;
-    draw_columns(canvas, {top, std::max(top + 1, top + room - gap), left, right, name},
+    draw_columns(pen, {top, std::max(top + 1, top + room - gap), left, right, name},
                  chart.series[i], columns);
   }
-  draw_labels(canvas, labels, static_cast<float>(height) - below + 8, columns);
-  return picture;
+  labels.draw(pen, static_cast<float>(height) - below + 8,
+              [&](size_t i) { return columns.centre(i); }, ink);
+  return drawing;
 }
 
 }  // namespace clench

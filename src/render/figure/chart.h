@@ -1,10 +1,9 @@
-// Columns of numbers as a picture: one panel per series, one column per item, all over one axis.
+// Columns of numbers as a figure: one panel per series, one column per item, all over one axis.
 #pragma once
 #include <string>
 #include <vector>
 
-#include "clench/render/figure/lettering.h"
-#include "clench/render/figure/picture.h"
+#include "clench/render/figure/drawing.h"
 
 namespace clench {
 
@@ -29,7 +28,7 @@ struct ChartOptions {
 /// ones lose their middle. It needs no graphics hardware.
 /// throws  Error without series or items, with more than anybody can see, where counts differ, and on a
 ///         size out of range
-Picture draw_chart(const Chart& chart, const ChartOptions& options = {}, const Font& font = Font());
+Drawing draw_chart(const Chart& chart, const ChartOptions& options = {}, const Font& font = Font());
 
 /// Ends of an axis that holds all finite values and 0, and the step of its lines: 1, 2 or 5 times a
 /// power of ten.

@@ -11,6 +11,7 @@ namespace clench {
 namespace {
 
 constexpr float capital_height = 0.729f;  // of DejaVu Sans, in its font size
+constexpr float rim_width = 3;            // half of it outside a letter's outline [pixels]
 
 struct ItemPainter {
   Canvas& canvas;
@@ -27,7 +28,7 @@ struct ItemPainter {
   void operator()(const Drawing::Text& text) const {
     TextLine line{text.text, text.at, text.height};
     if (text.upright) line.along = -Eigen::Vector2f::UnitY();
-    canvas.text(line, text.color);
+    text.rim ? canvas.bright_text(line, text.color) : canvas.text(line, text.color);
   }
 };
 
@@ -83,10 +84,15 @@ struct SvgWriter {
         text.upright
             ? fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"", text.at.x(), text.at.y())
             : "";
+    const std::string rim =
+        text.rim ? fmt::format(" stroke=\"#ffffff\" stroke-width=\"{}\" stroke-linejoin=\"round\" "
+                               "paint-order=\"stroke\"",
+                               rim_width)
+                 : "";
     out += fmt::format(
         "<text x=\"{:.2f}\" y=\"{:.2f}\" font-family=\"DejaVu Sans, sans-serif\" "
-        "font-size=\"{:.2f}\" fill=\"{}\"{}>{}</text>\n",
-        text.at.x(), text.at.y(), text.height / capital_height, hex(text.color), turned,
+        "font-size=\"{:.2f}\" fill=\"{}\"{}{}>{}</text>\n",
+        text.at.x(), text.at.y(), text.height / capital_height, hex(text.color), rim, turned,
         escaped(text.text));
   }
 };

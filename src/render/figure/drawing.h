@@ -29,6 +29,7 @@ struct Drawing {
     float height;        ///< of capital letters
     Color color;
     bool upright = false;  ///< it runs upwards
+    bool rim = false;      ///< a white one, to be read on anything
   };
   using Item = std::variant<Line, Area, Text>;
 

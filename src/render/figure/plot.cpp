@@ -6,16 +6,16 @@
 #include <cmath>
 #include <limits>
 
-#include "clench/base/convert.h"
 #include "clench/base/error.h"
 #include "clench/base/text.h"
-#include "clench/math/round_step.h"
+#include "clench/render/figure/axis_labels.h"
+#include "clench/render/figure/pen.h"
+#include "clench/render/figure/plot_scale.h"
 
 namespace clench {
 
 using Eigen::Vector2d;
 using Eigen::Vector2f;
-using Range = std::array<double, 2>;
 
 namespace {
 
@@ -23,6 +23,8 @@ constexpr float text_height = 10, heading_height = 13, border = 14, gap = 8;  //
 constexpr float line_width = 2, point_width = 6, frame_width = 1, sample_length = 24;
 constexpr double tick_room_x = 90, tick_room_y = 45;  // between two lines of an axis [pixels]
 constexpr double margin_of_data = 0.04;               // beside the outermost numbers
+constexpr double group_width = 0.8;   // of a category's bars together, of the distance to the next
+constexpr float longest_label = 0.3f;  // of an upright category, of the figure's height
 constexpr int min_plot_size = 64, max_plot_size = 8192;
 constexpr size_t max_points = 200'000;
 constexpr double largest_number = 1e300;
@@ -41,10 +43,27 @@ bool wide_enough(const Range& range) {
   return size > 1e-12 * std::max(std::abs(range[0]), std::abs(range[1])) && size > 1e-300;
 }
 
+std::string name_of(const PlotSeries& series, size_t number) {
+  return series.name.empty() ? fmt::format("plot: series {}", number)
+                             : fmt::format("plot: series {}", in_quotes(series.name));
+}
+
+// one value per category, and no numbers along that axis
+void check_categories(const Plot& plot) {
+  for (size_t i = 0; i < plot.series.size(); ++i) {
+    const PlotSeries& series = plot.series[i];
+    const std::string subject = name_of(series, i + 1);
+    if (!series.x.empty()) fail("{}: expected no x, for categories stand along that axis", subject);
+    if (series.y.size() != plot.categories.size())
+      fail("{}: expected {} values, one per category, got {}", subject, plot.categories.size(),
+           series.y.size());
+  }
+  if (plot.x.range) fail("plot: x_range: categories have none");
+  if (plot.x.logarithmic) fail("plot: x_scale: categories have none");
+}
+
 void check_series(const PlotSeries& series, size_t number) {
-  const std::string subject = series.name.empty()
-                                  ? fmt::format("plot: series {}", number)
-                                  : fmt::format("plot: series {}", in_quotes(series.name));
+  const std::string subject = name_of(series, number);
   const size_t wanted = series.y.size() + (series.kind == PlotKind::bars ? 1 : 0);
   if (series.y.empty()) fail("{}: expected at least one value, got none", subject);
   if (series.x.size() != wanted)
@@ -64,9 +83,10 @@ bool any_bars(const Plot& plot) {
 
 void check_plot(const Plot& plot) {
   if (plot.series.empty()) fail("plot: expected at least one series, got none");
+  if (!plot.categories.empty()) check_categories(plot);
   size_t points = 0;
   for (size_t i = 0; i < plot.series.size(); ++i) {
-    check_series(plot.series[i], i + 1);
+    if (plot.categories.empty()) check_series(plot.series[i], i + 1);
     points += plot.series[i].y.size();
   }
   if (points > max_points)
@@ -92,6 +112,29 @@ void check_plot(const Plot& plot) {
   }
 }
 
+// of a bar of a category
+double bar_width(const Plot& plot) {
+  return group_width / static_cast<double>(std::ranges::count(plot.series, PlotKind::bars, &PlotSeries::kind));
+}
+
+// categories stand at 1, 2, 3 ..., and bars of several series beside one another around them
+void place_categories(Plot& plot) {
+  double before = 0;
+  for (PlotSeries& series : plot.series) {
+    const bool bar = series.kind == PlotKind::bars;
+    for (size_t i = 1; i <= plot.categories.size(); ++i) {
+      const double left = static_cast<double>(i) - group_width / 2;
+      series.x.push_back(bar ? left + before * bar_width(plot) : static_cast<double>(i));
+    }
+    before += bar;
+  }
+  plot.x.range = {0.5, static_cast<double>(plot.categories.size()) + 0.5};
+}
+
+double right_edge(const Plot& plot, const PlotSeries& bars, size_t i) {
+  return plot.categories.empty() ? bars.x[i + 1] : bars.x[i] + bar_width(plot);
+}
+
 // grows to hold a value
 void hold(Range& range, double value) {
   range = {std::min(range[0], value), std::max(range[1], value)};
@@ -106,7 +149,7 @@ std::array<Range, 2> data_ranges(const Plot& plot) {
       if (!shown(series.y[i]) || !shown(series.x[i])) continue;
       hold(xs, series.x[i]);
       hold(ys, series.y[i]);
-      if (series.kind == PlotKind::bars) hold(xs, series.x[i + 1]), hold(ys, 0);
+      if (series.kind == PlotKind::bars) hold(xs, right_edge(plot, series, i)), hold(ys, 0);
     }
   return {xs, ys};
 }
@@ -122,61 +165,6 @@ Range with_margin(const Range& data, bool low_end, bool high_end) {
           data[1] + (high_end ? margin_of_data * size : 0)};
 }
 
-/// An axis with its lines.
-struct Scale {
-  Range range;
-  double step = 1;
-  bool logarithmic = false;  // all numbers here are powers of ten
-  float from = 0, to = 0;  // pixels at the ends of the range
-
-  float at(double value) const {
-    const double part = (value - range[0]) / (range[1] - range[0]);
-    return static_cast<float>(from + part * (to - from));
-  }
-  // 1, 2 and 5 times powers of ten, where at least two of these lie in the range
-  std::vector<double> decades(std::vector<double> at) const {
-    std::vector<double> out;
-    const double first = std::floor(range[0]);
-    const int count = floor_between(range[1] - first, 0, 700);
-    for (int i = 0; i <= count; ++i)
-      for (const double digit : at) {
-        const double value = first + i + std::log10(digit);
-        if (value >= range[0] - 1e-9 && value <= range[1] + 1e-9) out.push_back(value);
-      }
-    return out;
-  }
-  std::vector<double> lines() const {
-    if (logarithmic && step <= 1) {
-      if (const auto some = decades({1, 2, 5}); some.size() >= 2 && some.size() <= 8) return some;
-      if (const auto some = decades({1}); some.size() >= 2) return some;
-    }
-    std::vector<double> out;
-    const double slack = 1e-9 * step, first = std::ceil((range[0] - slack) / step);
-    // by their number, for adding 1 changes nothing of a large one
-    const int count = floor_between((range[1] - range[0]) / step, 0, max_plot_size) + 1;
-    for (int i = 0; i <= count; ++i) {
-      const double value = (first + i) * step;
-      if (value <= range[1] + slack) out.push_back(value == 0 ? 0.0 : value);
-    }
-    return out;
-  }
-};
-
-std::string tick_text(const Scale& scale, double value) {
-  if (scale.logarithmic) return fmt::format("{:.4g}", std::pow(10.0, value));
-  // as many digits as tell a line from the next
-  const double largest = std::max(std::abs(scale.range[0]), std::abs(scale.range[1]));
-  const double digits = std::ceil(std::log10(largest / scale.step)) + 1;
-  return fmt::format("{:.{}g}", value, floor_between(digits, 3, 15));
-}
-
-Scale make_scale(const Range& range, double pixels, double room, bool logarithmic) {
-  const double count = std::max(1.0, pixels / room), step = round_step((range[1] - range[0]) / count);
-  // of powers of ten, whole ones
-  return {range, logarithmic && range[1] - range[0] > 2 ? std::max(1.0, std::ceil(step)) : step,
-          logarithmic};
-}
-
 // numbers of a logarithmic axis as powers of ten, which all else counts in; what is not > 0 has none
 void take_logarithms(const PlotAxis& axis, std::vector<double>& values) {
   if (!axis.logarithmic) return;
@@ -185,6 +173,7 @@ void take_logarithms(const PlotAxis& axis, std::vector<double>& values) {
 
 Plot in_scale(const Plot& plot) {
   Plot out = plot;
+  if (!out.categories.empty()) place_categories(out);
   for (PlotSeries& series : out.series) {
     take_logarithms(out.x, series.x);
     take_logarithms(out.y, series.y);
@@ -206,10 +195,10 @@ class Figure {
   float width_of(const std::string& text) const { return font_.width(text, text_height); }
   void text(const std::string& text, const Vector2f& at, float height = text_height,
             bool upright = false) {
-    out_.items.push_back(Drawing::Text{text, at, height, dark, upright});
+    pen_.text(text, at, height, dark, upright);
   }
   void line(std::vector<Vector2f> points, float width, const Drawing::Color& color) {
-    if (!points.empty()) out_.items.push_back(Drawing::Line{std::move(points), width, color});
+    pen_.line(std::move(points), width, color);
   }
   float draw_heading();
   void set_scales(float top);
@@ -225,7 +214,9 @@ class Figure {
   const Plot& plot_;
   const Font& font_;
   Drawing out_;
-  Scale x_, y_;
+  Pen pen_{out_, font_};
+  PlotScale x_, y_;
+  std::optional<AxisLabels> labels_;  // of categories
 };
 
 // title and legend;   returns  where they end
@@ -254,7 +245,7 @@ float Figure::draw_heading() {
     else if (series.kind == PlotKind::points)
       line({{x + sample_length / 2, middle}}, point_width, color);
     else
-      out_.items.push_back(Drawing::Area{{x, top - text_height}, {x + sample_length, top}, color});
+      pen_.rectangle({x, top - text_height}, {x + sample_length, top}, color);
     text(name, {x + sample_length + gap, top});
     x += needed + 3 * gap;
   }
@@ -270,30 +261,41 @@ void Figure::set_scales(float top) {
   const Range x_range = plot_.x.range ? *plot_.x.range : with_margin(xs, !bars, !bars);
   const Range y_range =
       plot_.y.range ? *plot_.y.range : with_margin(ys, !bars || ys[0] < 0, !bars || ys[1] > 0);
-  const float bottom = static_cast<float>(plot_.height) - border - text_height - gap -
-                       (plot_.x.label.empty() ? 0 : text_height + gap);
-  y_ = make_scale(y_range, bottom - top, tick_room_y, plot_.y.logarithmic);
-  y_.from = std::max(bottom, top + 1), y_.to = top + text_height / 2;
+  const float height = static_cast<float>(plot_.height);
+  const float end = height - border - (plot_.x.label.empty() ? 0 : text_height + gap);
+  const auto set_y = [&](float labels) {
+    const float bottom = end - labels - gap;
+    y_ = make_scale(y_range, bottom - top, tick_room_y, plot_.y.logarithmic);
+    y_.from = std::max(bottom, top + 1), y_.to = top + text_height / 2;
+  };
+  set_y(text_height);
   float widest = 0;
-  for (const double value : y_.lines()) widest = std::max(widest, width_of(tick_text(y_, value)));
+  for (const double value : y_.lines()) widest = std::max(widest, width_of(y_.text(value)));
   const float left = border + (plot_.y.label.empty() ? 0 : text_height + gap) + widest + gap;
   const float right = static_cast<float>(plot_.width) - 2 * border;
   x_ = make_scale(x_range, right - left, tick_room_x, plot_.x.logarithmic);
   x_.from = left, x_.to = std::max(right, left + 1);
+  if (plot_.categories.empty()) return;
+  // upright names leave less height, in which there are no more lines than before
+  labels_.emplace(plot_.categories, x_.at(2) - x_.at(1), longest_label * height, text_height, font_);
+  set_y(labels_->room());
 }
 
 void Figure::draw_axes() {
   const float low = y_.from, high = y_.to;
-  for (const double value : x_.lines()) {
+  if (labels_)
+    labels_->draw(pen_, low + gap,
+                  [&](size_t i) { return x_.at(static_cast<double>(i + 1)); }, dark);
+  for (const double value : labels_ ? std::vector<double>{} : x_.lines()) {
     const float x = x_.at(value);
     line({{x, low}, {x, high}}, frame_width, grid);
-    const std::string number = tick_text(x_, value);
+    const std::string number = x_.text(value);
     text(number, {x - width_of(number) / 2, low + gap + text_height});
   }
   for (const double value : y_.lines()) {
     const float y = y_.at(value);
     line({{x_.from, y}, {x_.to, y}}, frame_width, grid);
-    const std::string number = tick_text(y_, value);
+    const std::string number = y_.text(value);
     text(number, {x_.from - gap - width_of(number), y + text_height / 2});
   }
   const float across = x_.to - x_.from, along = low - high;
@@ -312,14 +314,14 @@ void Figure::draw_bars(const PlotSeries& series, const Drawing::Color& color) {
   };
   for (size_t i = 0; i < series.y.size(); ++i) {
     if (!shown(series.y[i])) continue;
-    const double left = within(x_.range, series.x[i]), right = within(x_.range, series.x[i + 1]);
+    const double left = within(x_.range, series.x[i]), right = within(x_.range, right_edge(plot_, series, i));
     const double low = within(y_.range, std::min(0.0, series.y[i])),
                  high = within(y_.range, std::max(0.0, series.y[i]));
     if (!(left < right) || !(low < high)) continue;
     const Vector2f from = at({left, high}), to = at({right, low});
     // a thin gap between neighbours, where there is room
     const float space = to.x() - from.x() > 4 ? 0.5f : 0;
-    out_.items.push_back(Drawing::Area{from + Vector2f(space, 0), to - Vector2f(space, 0), color});
+    pen_.rectangle(from + Vector2f(space, 0), to - Vector2f(space, 0), color);
   }
 }
 
@@ -386,6 +388,9 @@ Drawing Figure::draw() {
   for (size_t i = 0; i < plot_.series.size(); ++i)
     draw_series(plot_.series[i], colors[i % std::size(colors)]);
   line({{x_.from, y_.to}, {x_.from, y_.from}, {x_.to, y_.from}}, frame_width, dark);
+  // what bars stand on, where some hang from it
+  if (any_bars(plot_) && y_.range[0] < 0 && y_.range[1] > 0)
+    line({{x_.from, y_.at(0)}, {x_.to, y_.at(0)}}, frame_width, dark);
   return std::move(out_);
 }
 

@@ -1,4 +1,4 @@
-// Numbers over numbers as a figure: lines, points and histograms over axes with their own scales.
+// Numbers over numbers or over names as a figure: lines, points, histograms and bars over axes with their own scales.
 #pragma once
 #include <array>
 #include <optional>
@@ -15,7 +15,7 @@ struct PlotSeries {
   std::string name = {};  ///< in the legend; empty: it has no place there
   PlotKind kind = PlotKind::line;
   /// what is not finite is left out, and a line has a gap there; of bars, x are their edges, ascending, one more than y
-  std::vector<double> x, y;
+  std::vector<double> x = {}, y = {};
 };
 
 struct PlotAxis {
@@ -28,12 +28,16 @@ struct PlotAxis {
 struct Plot {
   std::string title = {};
   PlotAxis x, y;
+  /// Names along x, in place of its numbers: each series has one value of y per category and no x, and bars of several
+  /// series stand beside one another.
+  std::vector<std::string> categories = {};
   std::vector<PlotSeries> series = {};
   int width = 720, height = 480;  ///< pixels, 64..8192
 };
 
 /// Axes have lines at multiples of 1, 2 or 5 times a power of ten, logarithmic ones at powers of
 /// ten and, where these are few, at 2 and 5 times them; that of y holds 0 where there are bars.
+/// Names of categories that do not fit are upright or lose their middle.
 /// Colours are those of Okabe and Ito (2008), which colour-blind people tell apart. It needs no
 /// graphics hardware.
 /// throws  Error without series, where counts differ, with no finite number, with more than anybody can see, and on a

@@ -92,6 +92,10 @@ inline void log_warning(lua_State* L, const std::string& message) {
 /// key  a static thing whose address stands for it
 void warn_once(lua_State* L, const void* key, const std::string& message);
 
+/// Warns once where a distance is beyond 10 m, for which millimetres are a likely cause.
+/// subject  what lies there
+void suspect_millimetres(lua_State* L, const std::string& subject, double distance);
+
 LogLevel log_level(lua_State* L);
 void set_log_level(lua_State* L, LogLevel level);
 

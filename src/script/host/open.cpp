@@ -5,6 +5,7 @@
 #include "clench/script/bind/library.h"
 #include "clench/script/lua/chunks.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/library_table.h"
 #include "clench/script/lua/lookup.h"
 #include "clench/script/lua/packed.h"
 
@@ -23,7 +24,7 @@ static int load_member(lua_State* L) {
 int clench_open(lua_State* L) {
   using namespace clench;
   luaL_checkversion(L);
-  lua_newtable(L);
+  push_root(L, "clench");
   const int module = lua_gettop(L);
   for (const Library* library : all_libraries()) open_library(L, module, *library);
   for (const Class* kind : all_classes()) {

@@ -41,6 +41,8 @@ struct Task {
 // --- in a worker's state: slot 1 of its stack is the function, slot 2 what is shared ---
 
 struct Worker {
+  explicit Worker(size_t memory) : state(memory) {}
+
   State state;
   Parcel shared;
   std::vector<std::pair<WorldPtr, std::shared_ptr<const Snapshot>>> moments;  // of the shared worlds
@@ -155,9 +157,11 @@ void do_item(Worker& worker, const Task& task, size_t i, Outcome& outcome) {
 
 class Crew {
  public:
-  Crew(const Task& task, std::vector<Parcel> shared) : task_(task), outcomes_(task.items.size()) {
+  /// memory  that all workers together may have [bytes]
+  Crew(const Task& task, std::vector<Parcel> shared, size_t memory)
+      : task_(task), outcomes_(task.items.size()) {
     for (Parcel& parcel : shared) {
-      workers_.push_back(std::make_unique<Worker>());
+      workers_.push_back(std::make_unique<Worker>(memory / shared.size()));
       workers_.back()->shared = std::move(parcel);
     }
     for (auto& worker : workers_) threads_.emplace_back([this, w = worker.get()] { run(*w); });
@@ -313,7 +317,7 @@ int map(lua_State* L) {
   bool interrupted = false;
   lua_Integer failed = 0;
   if (count > 0) {
-    Crew crew(task, std::move(copies));
+    Crew crew(task, std::move(copies), State::memory_of(L));
     const Watching watching(L);
     for (size_t i = 0; i < count; ++i) {
       const Outcome* outcome = nullptr;
@@ -349,7 +353,7 @@ int get_cores(lua_State* L) {
 
 const Entry functions[] = {
     {"map", guarded<map>, R"(
-Calls a function for each item of a list, in many threads, each with a state of Lua and worlds of its own. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew.
+Calls a function for each item of a list, in many threads, each with a state of Lua and worlds of its own. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew. All states together may have as much memory as the one that calls.
 @param task function|string  (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
 @param items table  a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
 @param options? {threads?: integer, shared?: any, each?: function}  threads: all cores by default; shared: what every state is given once; each(result, number): called here in the order of the items, as soon as they are done

@@ -77,11 +77,20 @@ static int open_all(lua_State* L) {
   return 0;
 }
 
-State::State() {
-  // three quarters of the machine: a script that asks for more gets an error, not the machine's
-  // last page
+// a script that asks for more gets an error, not the machine's last page
+static size_t most_of_the_machine() {
   const auto pages = static_cast<size_t>(sysconf(_SC_PHYS_PAGES));
-  memory_.limit = pages / 4 * 3 * static_cast<size_t>(sysconf(_SC_PAGESIZE));
+  return pages / 4 * 3 * static_cast<size_t>(sysconf(_SC_PAGESIZE));
+}
+
+size_t State::memory_of(lua_State* L) {
+  void* state = nullptr;
+  return lua_getallocf(L, &state) == &State::allocate ? static_cast<State*>(state)->memory_.limit
+                                                      : most_of_the_machine();
+}
+
+State::State(size_t memory) {
+  memory_.limit = memory > 0 ? memory : most_of_the_machine();
   L_ = lua_newstate(allocate, this);
   if (!L_) fail(ErrorKind::limit, "clench: no memory for Lua");
   running_ = L_;

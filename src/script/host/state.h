@@ -22,8 +22,9 @@ class State {
   };
   enum class Line { done, incomplete, failed };
 
-  /// throws Error when there is no memory
-  State();
+  /// memory  that its scripts may have [bytes]; 0: three quarters of the machine's
+  /// throws  Error when there is no memory
+  explicit State(size_t memory = 0);
   ~State();
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -52,6 +53,8 @@ class State {
   /// Messages below errors are not shown from now on.
   void set_quiet();
   lua_State* lua() { return L_; }
+  /// What scripts of this Lua may have, be it a State's or a host's [bytes].
+  static size_t memory_of(lua_State* L);
 
   /// Makes the running chunk fail with "interrupted", coroutines too. What catches that error has half a second to end;
   /// then, or when called again, nothing can catch it. May be called from a signal handler.

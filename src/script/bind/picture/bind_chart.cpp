@@ -71,7 +71,8 @@ static int draw(lua_State* L) {
   const Font font;
   warn_without_letters(L, font);
   warn_of_boxes(L, chart, font);
-  return push_object(L, draw_chart(chart, drawing, font));
+  return push_object(
+      L, PlotHandle{std::make_shared<const Drawing>(draw_chart(chart, drawing, font))});
 }
 
 static const Entry functions[] = {
@@ -81,8 +82,8 @@ there is room; the best of a panel, the largest unless higher_is_better is false
 that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts
 that are too long lose their middle. It needs no graphics hardware.
 @param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer}  labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
-@return picture
-> clench.chart{series = {{name = "epsilon", values = {0.1, 0.3, 0.2}}}, height = 200}  --> picture of 960 x 200 pixels
+@return plot  to be saved as PNG or SVG
+> clench.chart{series = {{name = "epsilon", values = {0.1, 0.3, 0.2}}}, height = 200}  --> plot of 960 x 200 pixels
 > clench.chart{series = {}}  --> error: expected at least one series)"},
 };
 

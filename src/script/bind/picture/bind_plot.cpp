@@ -1,3 +1,5 @@
+#include <list>
+
 #include "clench/base/file.h"
 #include "clench/base/text.h"
 #include "clench/render/figure/plot.h"
@@ -29,7 +31,25 @@ static std::vector<double> read_gappy(lua_State* L, Table& series, const char* k
   return out;
 }
 
-static PlotSeries read_plot_series(lua_State* L, int index, const What& what) {
+// a list of texts; empty: absent
+static std::vector<std::string> read_texts(lua_State* L, Table& options, const char* key) {
+  std::vector<std::string> out;
+  if (options.push(key) != LUA_TNIL) {
+    const What what = options.what(key);
+    const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list of texts");
+    if (count == 0) fail("{}: expected at least one, got none", what.text());
+    for (int i = 1; i <= count; ++i) {
+      lua_rawgeti(L, list, i);
+      out.push_back(read_string(L, -1, what.item(i)));
+      lua_pop(L, 1);
+    }
+  }
+  lua_pop(L, 1);
+  return out;
+}
+
+// categories: are there names along x?
+static PlotSeries read_plot_series(lua_State* L, int index, const What& what, bool categories) {
   if (!lua_istable(L, index)) fail_expected(what, "{x = ..., y = ...}", index);
   Table one(L, index, what.text());
   PlotSeries series;
@@ -41,14 +61,14 @@ static PlotSeries read_plot_series(lua_State* L, int index, const What& what) {
     series.y = one.numbers("counts");
     one.number("below", 0), one.number("above", 0);
   } else {
-    const std::string kind = one.choice("kind", {"line", "points", "bars"}, "line");
+    const std::string kind = one.choice("kind", {"line", "points", "bars"}, categories ? "bars" : "line");
     series.kind = kind == "line"     ? PlotKind::line
                   : kind == "points" ? PlotKind::points
                                      : PlotKind::bars;
     series.y = read_gappy(L, one, "y");
     if (one.has("x"))
       series.x = read_gappy(L, one, "x");
-    else
+    else if (!categories)
       for (size_t i = 1; i <= series.y.size(); ++i) series.x.push_back(static_cast<double>(i));
   }
   one.done();
@@ -72,12 +92,13 @@ static int make_plot(lua_State* L) {
   plot.y = read_axis(options, "y_label", "y_range", "y_scale");
   plot.width = options.integer("width", plot.width);
   plot.height = options.integer("height", plot.height);
+  plot.categories = read_texts(L, options, "categories");
   const What what = options.what("series");
   options.push("series");
   const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list of series");
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, list, i);
-    plot.series.push_back(read_plot_series(L, lua_gettop(L), what.item(i)));
+    plot.series.push_back(read_plot_series(L, lua_gettop(L), what.item(i), !plot.categories.empty()));
     lua_pop(L, 1);
   }
   lua_pop(L, 1);
@@ -103,6 +124,14 @@ static int save(lua_State* L) {
   return 0;
 }
 
+static int get_width(lua_State* L) { return push(L, self<PlotHandle>(L).drawing->width); }
+static int get_height(lua_State* L) { return push(L, self<PlotHandle>(L).drawing->height); }
+
+static int equal(lua_State* L) {
+  const auto *a = to<PlotHandle>(L, 1), *b = to<PlotHandle>(L, 2);
+  return push(L, a && b && svg_text(*a->drawing) == svg_text(*b->drawing));
+}
+
 static int text(lua_State* L) {
   const Drawing& drawing = *self<PlotHandle>(L).drawing;
   return push(L, fmt::format("plot of {} x {} pixels", drawing.width, drawing.height));
@@ -110,28 +139,25 @@ static int text(lua_State* L) {
 
 static int make_sheet(lua_State* L) {
   Table options(L, 1);
+  const Font font;
   SheetOptions arranging;
   std::vector<const Picture*> pictures;
+  std::list<Picture> painted;  // of plots
   const What what = options.what("pictures");
   options.push("pictures");
   const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list of pictures");
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, list, i);
-    const auto* picture = to<Picture>(L, -1);
-    if (!picture) fail_object(what.item(i), class_of<Picture>(), lua_gettop(L));
-    pictures.push_back(picture);  // the list keeps it alive
+    if (const auto* plot = to<PlotHandle>(L, -1)) {
+      pictures.push_back(&painted.emplace_back(paint(*plot->drawing, font)));
+    } else {
+      const auto* picture = to<Picture>(L, -1);
+      if (!picture) fail_object(what.item(i), class_of<Picture>(), lua_gettop(L));
+      pictures.push_back(picture);  // the list keeps it alive
+    }
     lua_pop(L, 1);
   }
-  if (options.push("captions") != LUA_TNIL) {
-    const What captions = options.what("captions");
-    const int texts = lua_gettop(L), size = read_list_size(L, texts, captions, "a list of texts");
-    for (int i = 1; i <= size; ++i) {
-      lua_rawgeti(L, texts, i);
-      arranging.captions.push_back(read_string(L, -1, captions.item(i)));
-      lua_pop(L, 1);
-    }
-  }
-  lua_pop(L, 1);
+  arranging.captions = read_texts(L, options, "captions");
   if (options.has("columns")) {
     arranging.columns = options.integer("columns");
     if (arranging.columns < 1)
@@ -139,7 +165,6 @@ static int make_sheet(lua_State* L) {
   }
   arranging.gap = options.integer("gap", arranging.gap);
   options.done();
-  const Font font;
   if (!arranging.captions.empty()) warn_without_letters(L, font);
   Picture out = contact_sheet(pictures, arranging, font);
   lua_pop(L, 1);
@@ -148,20 +173,21 @@ static int make_sheet(lua_State* L) {
 
 static const Entry functions[] = {
     {"plot", guarded<make_plot>, R"(
-Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them. `false` and what is
-not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no
+Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them; with `categories`, numbers
+over names, as bars beside one another. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no
 graphics hardware.
-@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer}  kind: "line" (default), "points" or "bars"; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
+@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], categories?: string[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer}  kind: "line", "points" or "bars", by default a line, of categories bars; categories: of each, every series has one y and no x; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
 @return plot
 > p = clench.plot{series = {{name = "epsilon", x = {0, 1, 2}, y = {0.1, 0.3, 0.2}}}, x_label = "angle [rad]"}
 > p  --> plot of 720 x 480 pixels
 > clench.plot{series = {clench.stats.histogram{1, 2, 2, 3}}}.picture  --> picture of 720 x 480 pixels
 > clench.plot{series = {{x = {1, 10, 100}, y = {1, 4, 9}}}, x_scale = "log"}  --> plot of 720 x 480 pixels
+> clench.plot{categories = {"Barrett", "Shadow"}, series = {{name = "random", y = {12, 7}}, {name = "antipodal", y = {30, 21}}}, y_label = "grasps"}  --> plot of 720 x 480 pixels
 > clench.plot{series = {{y = {1, 2}}}, y_scale = "log", y_range = {0, 1}}  --> error: y_range: expected numbers > 0 on a logarithmic axis, got 0 and 1
 > clench.plot{series = {{x = {1, 2}, y = {1}}}}  --> error: series 1: expected 1 values of x, as there are of y, got 2)"},
     {"sheet", guarded<make_sheet>, R"(
 Several pictures in one, in rows, each with its caption under it.
-@param options {pictures: picture[], captions?: string[], columns?: integer, gap?: integer}  columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
+@param options {pictures: (picture|plot)[], captions?: string[], columns?: integer, gap?: integer}  columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
 @return picture
 > small = clench.render(world, {size = {64, 48}})
 > clench.sheet{pictures = {small, small, small}, captions = {"a", "b", "c"}, columns = 3, gap = 4}  --> picture of 208 x 78 pixels
@@ -173,6 +199,14 @@ static const Entry fields[] = {
 It as pixels, on white.
 @type picture
 > clench.plot{series = {{y = {1, 2}}}, width = 100, height = 80}.picture.width  --> 100)"},
+    {"width", guarded<get_width>, R"(
+Its width [pixels].
+@type integer
+> clench.plot{series = {{y = {1, 2}}}}.width  --> 720)"},
+    {"height", guarded<get_height>, R"(
+Its height [pixels].
+@type integer
+> clench.plot{series = {{y = {1, 2}}}}.height  --> 480)"},
 };
 
 static const Entry methods[] = {
@@ -183,13 +217,13 @@ Writes a file: .svg, whose lines and letters a program for papers can change, or
 > clench.plot{series = {{y = {1, 2}}}}:save "line.pdf"  --> error: expected a name that ends in .svg or .png, got 'line.pdf')"},
 };
 
-static const Entry operators[] = {{"__tostring", guarded<text>, ""}};
+static const Entry operators[] = {{"__tostring", guarded<text>, ""}, {"__eq", guarded<equal>, ""}};
 
 const Library plot_library{.name = "clench", .doc = "", .functions = functions};
 
 const Class plot_class{.name = "plot",
                        .variable = "plot",
-                       .doc = "Numbers as a figure, made by `clench.plot`.",
+                       .doc = "Numbers as a figure, made by `clench.plot` or `clench.chart`. Two with the same contents are equal.",
                        .fields = fields,
                        .methods = methods,
                        .operators = operators};

@@ -2,12 +2,14 @@
 
 #include "clench/base/convert.h"
 #include "clench/base/file.h"
+#include "clench/base/text.h"
 #include "clench/contact/friction_edges.h"
 #include "clench/io/graspit/eigengrasps.h"
 #include "clench/io/graspit/glove_files.h"
 #include "clench/io/graspit/grasp_lists.h"
 #include "clench/io/graspit/inventor_primitives.h"
 #include "clench/io/graspit/virtual_contacts.h"
+#include "clench/io/text/csv.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -32,6 +34,34 @@ static int save_text(lua_State* L) {
   if (lua_type(L, 2) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a text", 2);
   write_file(path, string_at(L, 2));
   return 0;
+}
+
+// --- comma-separated values, for clench.csv ---
+
+static char check_separator(lua_State* L, int i) {
+  const std::string separator = given(L, i) ? check_string(L, i, "separator") : ",";
+  if (separator != "," && separator != ";" && separator != "\t")
+    fail("{}: separator must be ',', ';' or a tab, got {}", subject(L), in_quotes(separator));
+  return separator[0];
+}
+
+static int csv_records(lua_State* L) {
+  const std::string file = check_string(L, 1, "name");
+  if (lua_type(L, 2) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a text", 2);
+  const auto records = read_csv(file, string_at(L, 2), check_separator(L, 3));
+  return push_list_of(L, records, [L](const CsvRecord& record) {
+    push_list_of(L, record.cells, [L](const CsvCell& cell) { push(L, std::string_view(cell.text)); });
+    set_field(L, "line", record.line);
+    push_list(L);
+    for (size_t c = 0; c < record.cells.size(); ++c)
+      if (record.cells[c].quoted) push(L, true), lua_rawseti(L, -2, static_cast<int>(c) + 1);
+    lua_setfield(L, -2, "quoted");
+  });
+}
+
+static int csv_text(lua_State* L) {
+  if (lua_type(L, 1) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a text", 1);
+  return push(L, std::string_view(csv_cell(string_at(L, 1), check_separator(L, 2))));
 }
 
 static int eigengrasps(lua_State* L) {
@@ -274,6 +304,21 @@ Writes a text as a file, whole or not at all: what stood there stays when it can
 @param text string
 > clench.files.save_text("build/note.txt", "held")
 > clench.files.save_text("no/such/folder/a.txt", "")  --> error: no such folder: no/such/folder)"},
+    {"csv_records", guarded<csv_records>, R"(
+Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of what is in them.
+@param name string  for errors
+@param text string
+@param separator? string  "," by default, ";" or a tab
+@return table[] records  lists of cells, each with its `line`, and `quoted`: of which cells stood in quotes
+> records = clench.files.csv_records("a.csv", 'a,"7"\n1,2')
+> #records, records[1][2], records[1].quoted[2], records[2].line  --> 2, 7, true, 2
+> clench.files.csv_records("a.csv", '"a')  --> error: a.csv:1: a quote that is not closed)"},
+    {"csv_text", guarded<csv_text>, R"(
+A text as a cell of comma-separated values: in quotes where it would be read otherwise, or as a number, true or false.
+@param text string
+@param separator? string  "," by default, ";" or a tab
+@return string
+> clench.files.csv_text "mug", clench.files.csv_text "7", clench.files.csv_text "a,b"  --> mug, "7", "a,b")"},
     {"save_pregrasps", guarded<save_pregrasps>, R"(
 Writes pre-grasps as a planner's list.
 @param path string

@@ -44,13 +44,13 @@ static void suspect_degrees(lua_State* L, const Table& t, const char* key, doubl
                           key, angle, angle, angle * std::numbers::pi / 180));
 }
 
-static void suspect_millimetres(lua_State* L, const Table& t, const Vector3d& p) {
+void suspect_millimetres(lua_State* L, const std::string& subject, double distance) {
   static const char told = 0;
-  const double far = p.cwiseAbs().maxCoeff();
+  const double far = std::abs(distance);
   if (far > max_distance)
     warn_once(L, &told,
-              fmt::format("{}: it is {:.6g} m away: metres? clench.mm({:.6g}) is {:.4g}",
-                          t.subject(), far, far, far / 1000));
+              fmt::format("{}: it is {:.6g} m away: metres? clench.mm({:.6g}) is {:.4g}", subject,
+                          far, far, far / 1000));
 }
 
 static Quaterniond rpy_of(lua_State* L, Table& t) {
@@ -135,7 +135,7 @@ Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
   pose.position = t.vec3("xyz", pose.position);
   t.done();
   check_place(pose, t.subject());
-  suspect_millimetres(L, t, pose.position);
+  suspect_millimetres(L, t.subject(), pose.position.cwiseAbs().maxCoeff());
   return pose;
 }
 

@@ -7,6 +7,7 @@
 #include "clench/base/convert.h"
 #include "clench/io/graspit/virtual_contacts.h"
 #include "clench/motion/virtual_contacts.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -337,6 +338,14 @@ add_virtual_contact; to {} for none, to nil for those that are found.
 > hand.virtual_contacts = {}
 > #hand.virtual_contacts  --> 0)",
      guarded<set_virtual_contacts>},
+    {"has_own_virtual_contacts", getter<[](const RobotHandle& robot) {
+       return robot->virtual_contacts != nullptr;
+     }>, R"(
+Do its virtual contacts come from a file or a script? Otherwise they are found from its geometry.
+@type boolean
+> hand.has_own_virtual_contacts  --> true
+> hand.virtual_contacts = nil
+> hand.has_own_virtual_contacts  --> false)"},
     {"glove", guarded<get_glove>, R"(
 Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that
 DOF = intercept + slopes * raw. nil when there is none.

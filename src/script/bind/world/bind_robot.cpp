@@ -2,6 +2,7 @@
 
 #include "clench/base/suggest.h"
 #include "clench/script/bind/bind.h"
+#include "clench/script/bind/named_list.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
@@ -18,7 +19,8 @@ static int set_pose(lua_State* L) {
 
 static int get_bodies(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  return push_bodies(L, robot.world, robot.world->bodies_of(robot.id));
+  push_bodies(L, robot.world, robot.world->bodies_of(robot.id));
+  return set_finder(L, "world:body", body_class);
 }
 
 static std::vector<Id<Body>> links_of(const Robot& robot) {
@@ -29,7 +31,8 @@ static std::vector<Id<Body>> links_of(const Robot& robot) {
 
 static int get_links(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  return push_bodies(L, robot.world, links_of(*robot));
+  push_bodies(L, robot.world, links_of(*robot));
+  return set_finder(L, "hand:link", body_class);
 }
 
 static void push_joint(lua_State* L, const RobotHandle& robot, int joint) {
@@ -128,6 +131,8 @@ static int place_approach(lua_State* L) {
   const Eigen::Vector3d target = frame ? frame->position : check_vec3(L, 2, "target");
   const Pose X_WA = frame ? *frame : approach_frame(target, check_vec3(L, 3, "direction"));
   const double standoff = given(L, 4) ? check_number(L, 4, "standoff") : 0;
+  suspect_millimetres(L, subject(L) + ": standoff", standoff);
+  if (!frame) suspect_millimetres(L, subject(L) + ": target", target.cwiseAbs().maxCoeff());
   robot.world->set_pose(robot.id,
                         X_WA * Pose::translation({0, 0, -standoff}) * robot->X_BA.inverse());
   return 0;

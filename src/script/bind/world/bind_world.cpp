@@ -5,6 +5,7 @@
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/bind/named_list.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/bind/world/world_files.h"
 #include "clench/script/lua/guard.h"
@@ -33,13 +34,16 @@ static int add_body(lua_State* L, BodyKind kind) {
   Table options(L, 3);
   const ReadOptions reading = read_options(L, options);
   const BodySpec spec = check_body_spec(L, 2, options, reading);
+  const std::string file = std::filesystem::path(spec.file).filename().string();
+  const std::string place = file.empty() ? subject(L) + ": mesh" : file;
+  Listeners told = reading.listeners();
+  // a script knows what it leaves open
+  if (file.empty()) told.note = {};
   if (kind == BodyKind::object) {
-    const std::string file = std::filesystem::path(spec.file).filename().string();
-    check_plausible_object(spec, file.empty() ? subject(L) + ": mesh" : file, reading.listeners());
-    Listeners told = reading.listeners();
-    // a script knows what it leaves open
-    if (file.empty()) told.note = {};
-    tell_assumed(std::array{&spec}, file.empty() ? subject(L) + ": mesh" : file, told);
+    check_plausible_object(spec, place, reading.listeners());
+    tell_assumed(std::array{&spec}, place, told);
+  } else {
+    tell_assumed({}, place, told, std::array{&spec});
   }
   const Pose pose = options.pose("pose", Pose{});
   const bool named = options.has("name");
@@ -80,14 +84,10 @@ static int remove(lua_State* L) {
 
 // --- finding ---
 
-template <class Handle, class Ids>
-static int push_handles(lua_State* L, const WorldPtr& world, const Ids& ids) {
-  return push_list_of(L, ids, [&](auto id) { push(L, Handle{world, id}); });
-}
-
 static int get_bodies(lua_State* L) {
   const auto& handle = self<WorldHandle>(L);
-  return push_bodies(L, handle.world, handle.world->bodies());
+  push_bodies(L, handle.world, handle.world->bodies());
+  return set_finder(L, "world:body", body_class);
 }
 
 static int push_kind(lua_State* L, BodyKind kind) {
@@ -95,7 +95,8 @@ static int push_kind(lua_State* L, BodyKind kind) {
   std::vector<Id<Body>> ids;
   for (const auto id : handle.world->bodies())
     if (handle.world->body(id).kind == kind) ids.push_back(id);
-  return push_bodies(L, handle.world, ids);
+  push_bodies(L, handle.world, ids);
+  return set_finder(L, "world:body", body_class);
 }
 
 static int get_objects(lua_State* L) { return push_kind(L, BodyKind::object); }
@@ -103,7 +104,8 @@ static int get_obstacles(lua_State* L) { return push_kind(L, BodyKind::obstacle)
 
 static int get_robots(lua_State* L) {
   const auto& handle = self<WorldHandle>(L);
-  return push_handles<RobotHandle>(L, handle.world, handle.world->robots());
+  push_list_of(L, handle.world->robots(), [&](auto id) { push(L, RobotHandle{handle.world, id}); });
+  return set_finder(L, "world:robot", robot_class);
 }
 
 static int body(lua_State* L) {

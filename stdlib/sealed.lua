@@ -1,0 +1,40 @@
+-- stdlib/sealed.lua
+--- A module as scripts have it: its names are read, one that is not there is an error, and none can be set.
+---@param name string  "clench.csv"
+---@param contents table  what it reads from; with a metatable of its own where names are loaded when first used
+---@param list? function  what pairs of it gives; without: the contents
+---@return table
+local raise = require "clench.raise"
+local suggest = require "clench.suggest"
+
+return function(name, contents, list)
+  local seal = {__name = name, __index = contents}
+
+  function seal.__pairs() return next, contents end
+  if list then seal.__pairs = list end
+
+  function seal:__newindex(key)
+    local known = {}
+    for other in pairs(self) do known[#known + 1] = other end
+    table.sort(known)
+    local found = type(key) == "string" and rawget(contents, key)
+    for _, other in ipairs(known) do found = found or other == key end
+    if found then
+      local how = type(self[key]) == "function" and "it is a function; call it" or "it is read only"
+      raise(("%s.%s cannot be set: %s"):format(name, key, how))
+    end
+    local near = type(key) == "string" and suggest(key, known) or ""
+    raise(("%s has no '%s' to set%s; a script keeps its values in variables of its own"):format(name, tostring(key), near))
+  end
+
+  if not getmetatable(contents) then
+    setmetatable(contents, {__index = function(_, key)
+      if type(key) ~= "string" then return nil end
+      local known = {}
+      for other in next, contents do known[#known + 1] = other end
+      table.sort(known)
+      raise(("%s has no '%s'%s"):format(name, key, suggest(key, known)))
+    end})
+  end
+  return setmetatable({}, seal)
+end
