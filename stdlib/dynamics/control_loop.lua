@@ -134,7 +134,8 @@ return function(hooks, world, seconds, stepping, step, events)
   local function time() return world.time end
   local last = world.time + seconds
   call_all(hooks.observers, time, world)
-  while last - world.time > tiny * world.time_step do
+  -- as Stepper::step: less is no time
+  while last - world.time > 1e-6 * world.time_step do
     local before = world.time
     call_controllers(world, hooks.controllers)
     call_tasks(world, hooks.tasks)

@@ -34,15 +34,14 @@ end
 function batch.try(job, told, next_state, options)
   told.candidates, told.rejected = 0, {}
   local shared = {hand = job.hand, object = job.object, approach = options.approach, back = options.back,
-                  grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, touch = job.touch, seed = job.seed,
-                  over = job.seconds and job.began + job.seconds}
+                  grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, touch = job.touch, seed = job.seed}
+  local shakes = options.verify and options.verify.shake
+  if shakes then told.shaken, told.survived = 0, 0 end
   local found, founders, number, unlike = {}, {}, 0, 0
   local is_new = distinct(job.hand, job.object, options.distance or 0)
   local tally = {near = {tried = 0, found = 0}, elsewhere = {tried = 0, found = 0}}
   if options.near_found then next_state = starts_near_found(job, next_state, founders, tally) end
   local function tally_of(state) return state.is_near and tally.near or tally.elsewhere end
-  local shakes = options.verify and options.verify.shake
-  if shakes then told.shaken, told.survived = 0, 0 end
   local bar <close> = clench.progress(options.limit, job.subject)
 
   local function take(result)

@@ -163,8 +163,8 @@ local function file_bytes(path)
 end
 
 test("an animated GIF has the pixels of its pictures, nearly", function(t)
-  local pictures = {clench.chart {series = {{name = "a", values = {1, 2, 3}}}, width = 200, height = 150},
-                    clench.chart {series = {{name = "b", values = {3, 2, 1}}}, width = 200, height = 150}}
+  local pictures = {clench.chart {series = {{name = "a", values = {1, 2, 3}}}, width = 200, height = 150}.picture,
+                    clench.chart {series = {{name = "b", values = {3, 2, 1}}}, width = 200, height = 150}.picture}
   clench.files.save_gif("build/test.gif", pictures, {rate = 30})
   local frames, colors, delays = read_gif(file_bytes "build/test.gif")
   t.equal(#frames, 2)
@@ -182,7 +182,7 @@ test("an animated GIF has the pixels of its pictures, nearly", function(t)
     end
     t.ok(worst < 16, ("off by %d"):format(worst))
   end
-  t.fails(function() clench.files.save_gif("build/test.gif", {pictures[1], clench.chart {series = {{name = "a", values = {1}}}, width = 300}}) end,
+  t.fails(function() clench.files.save_gif("build/test.gif", {pictures[1], clench.chart {series = {{name = "a", values = {1}}}, width = 300}.picture}) end,
           "picture 2: expected 200 x 150 pixels as the first, got 300 x")
   t.fails(function() clench.files.save_gif("build/test.gif", {3}) end, "pictures[1]: expected a picture, got 3")
 end)
