@@ -22,6 +22,8 @@ class Stepper {
   double move(double dt);
   /// Velocities that forces, contacts, limits and motors leave after a time of h [s] in which they act.
   void solve(double h);
+  /// One step of a run that ends at a time [s].   returns  false when it is over, and no step was made
+  bool step(double end);
   /// Steps until exactly `duration` has passed [s].
   void run(double duration);
 
