@@ -62,6 +62,8 @@ class Stepper {
   int add_columns(int tree, int count);
   void find_rows(double h);
   std::vector<std::vector<int>> find_islands() const;
+  bool holds(const std::vector<int>& local, const Eigen::VectorXd& warm, FrictionSolution& solution);
+  void assemble(const std::vector<int>& local, int count);
   void solve_island(const std::vector<int>& blocks);
   void apply_impulses();
   void solve_by_ode(double h);
