@@ -26,7 +26,12 @@ bool FrictionSolver::newton(double by, double rho, int max_iterations, VectorXd&
 }
 
 double FrictionSolver::solve_damped(VectorXd& r, FrictionSolution& solution) {
-  if (!r.isZero(0) && newton(damping, 1, 8, r, solution)) return damping;
+  if (!r.isZero(0)) {
+    const auto end = newton_.follow(scaled_, scaled_.q, damping, 30, r);
+    solution.iterations += end.iterations;
+    if (end.converged) return damping;
+    if (newton(damping, 1, 8, r, solution)) return damping;
+  }
   gauss_seidel_.set(scaled_, damping);
   gauss_seidel_.sweep(scaled_, 3, r);
   solution.iterations += 3;
