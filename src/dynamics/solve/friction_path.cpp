@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 namespace {
 
 // a path that goes back for longer than this seldom returns
-constexpr int max_back = 3;
+constexpr int max_back = 6;
 constexpr double never = std::numeric_limits<double>::infinity();
 
 // the first alpha >= 0 at which |t + alpha dt| - mu (n + alpha dn) changes to the sign given
