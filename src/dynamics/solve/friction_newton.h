@@ -25,6 +25,14 @@ class FrictionNewton {
   /// r    from there on; the result, or where there is none the least fault met
   End solve(const ScaledFriction& problem, const Eigen::VectorXd& q, double damping, double rho, int max_iterations,
             Eigen::VectorXd& r);
+  /// From impulses whose states are nearly the right ones, such as those of the step before: they solve a problem of other
+  /// q, and while q goes over into the one given, states change one after another where the path meets their bounds. No
+  /// state is guessed, so that redundant contacts at the boundary of their cones do not lead astray.
+  ///
+  /// r       from there on; the result only where it converged
+  /// source  Robinson (1992), Normal maps induced by linear transformations, for r and u as one unknown, P(z) and d (P(z) - z);
+  ///         Dirkse & Ferris (1995), The PATH solver, for the path from piece to piece
+  End follow(const ScaledFriction& problem, const Eigen::VectorXd& q, double damping, int max_iterations, Eigen::VectorXd& r);
   /// One step towards a solution of the problem without damping, which only keeps what S leaves open as it is.
   /// u        S r + q
   /// returns  false: the matrix is singular
@@ -50,11 +58,16 @@ class FrictionNewton {
   bool step(const ScaledFriction& problem, double damping, const Eigen::VectorXd& r, const Eigen::VectorXd& u,
             bool keep, Eigen::VectorXd& next);
   bool slides() const;
+  /// follow: states and z = r - u / d of impulses r, where they do not solve the problem so that they do.
+  void begin_path(const ScaledFriction& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u);
+  void find_slides(const ScaledFriction& problem);
+  /// Where a block leaves its state along z + alpha by, at most `most`, and into which.
+  double leaves(const ScaledFriction::Block& block, State state, const double* z, const double* by, double most, State& next) const;
 
   std::vector<State> states_, factored_;
   std::vector<double> slide_;  // four per block: of what the friction changes as the normal does not, and where to
   std::vector<Direction> directions_;
-  Eigen::VectorXd u_, next_, u_next_, best_, decided_, right_, shift_;
+  Eigen::VectorXd u_, next_, u_next_, best_, decided_, right_, shift_, z_, change_;
   Eigen::MatrixXd columns_;
   DenseSystem system_;
   double factored_damping_ = -1, rho_ = 1;

@@ -25,16 +25,22 @@ bool FrictionSolver::newton(double by, double rho, int max_iterations, VectorXd&
   return end.converged;
 }
 
+bool FrictionSolver::follow(double by, int max_iterations, VectorXd& r, FrictionSolution& solution) {
+  const auto end = newton_.follow(scaled_, scaled_.q, by, max_iterations, r);
+  solution.iterations += end.iterations;
+  return end.converged;
+}
+
 double FrictionSolver::solve_damped(VectorXd& r, FrictionSolution& solution) {
-  if (!r.isZero(0) && newton(damping, 1, 8, r, solution)) return damping;
+  if (!r.isZero(0) && follow(damping, 30, r, solution)) return damping;
   gauss_seidel_.set(scaled_, damping);
   gauss_seidel_.sweep(scaled_, 3, r);
   solution.iterations += 3;
-  // redundant contacts that slide are found by steps
+  // redundant contacts are found by steps
   r_ = r;
   if (newton(1e-3, 1, 12, r_, solution)) {
     r = r_;
-    if (newton(1e-5, 1, 8, r_, solution) && newton(damping, 1, 8, r_, solution)) {
+    if (follow(1e-5, 20, r_, solution) && follow(damping, 20, r_, solution)) {
       r.swap(r_);
       return damping;
     }
@@ -49,7 +55,7 @@ double FrictionSolver::descend(double rho, VectorXd& r, FrictionSolution& soluti
   for (int round = 0; round < 40 && reached > damping && shrink < 0.99; ++round) {
     const double level = std::max(reached * shrink, damping);
     r_ = r;
-    bool found = newton(level, rho, 10, r_, solution);
+    bool found = follow(level, 20, r_, solution);
     if (!found) {
       gauss_seidel_.set(scaled_, level);
       int sweeps = 3;

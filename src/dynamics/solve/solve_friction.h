@@ -26,9 +26,10 @@ struct FrictionOptions {
 /// price of W r. Demands that contradict each other (two opposite limits that both ask for more) get as much as can be had,
 /// with least squares of what is missing and without great impulses; then the solution is not `solved`.
 ///
-/// The ways, the next where one does not end: Newton's method from the warm start, with a damping that is 1e-8 of W's
-/// diagonal and is then taken away again; after sweeps of Gauss and Seidel's; down from strong damping, step by step; and
-/// damping that pulls to the last iterate instead of 0 (proximal points, Rockafellar 1976), also from a pyramid's solution.
+/// The ways, the next where one does not end: from the warm start along a path of states, with a damping that is 1e-8 of
+/// W's diagonal and is then taken away again; Newton's method after sweeps of Gauss and Seidel's; down from strong damping,
+/// step by step; and damping that pulls to the last iterate instead of 0 (proximal points, Rockafellar 1976), also from a
+/// pyramid's solution.
 class FrictionSolver {
  public:
   /// problem      of a number that is not finite or a block that is none: r = u = 0, residual infinite
@@ -39,6 +40,7 @@ class FrictionSolver {
  private:
   FrictionSolution solve_as_pyramid(const FrictionProblem& problem, double tolerance, int edges_per_contact);
   bool newton(double by, double rho, int max_iterations, Eigen::VectorXd& r, FrictionSolution& solution);
+  bool follow(double by, int max_iterations, Eigen::VectorXd& r, FrictionSolution& solution);
   /// r of a problem with damping; returns how strong that still is.
   double solve_damped(Eigen::VectorXd& r, FrictionSolution& solution);
   double descend(double rho, Eigen::VectorXd& r, FrictionSolution& solution);
