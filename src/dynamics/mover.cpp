@@ -97,7 +97,7 @@ void Mover::place(double s, bool finish) {
       if (dof.kind != DofKind::breakaway) continue;
       // opening, the DOF picks up what it left behind where it meets it
       const double closing = (dof.default_velocity < 0 ? -1.0 : 1.0) * (joint.ratio < 0 ? -1 : 1);
-      if (closing * (followed - joints[j]) > 0) continue;
+      if (closing * machine.dof_velocities[joint.dof] >= 0 || closing * (followed - joints[j]) > 0) continue;
       joints[j] = followed;
       if (finish) world_.set_follows_dof(machine.robot, static_cast<int>(j), true);
     }

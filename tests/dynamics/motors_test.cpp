@@ -126,7 +126,8 @@ TEST_CASE("velocity control keeps a velocity, viscous friction fades it, dry fri
   // and holds against less
   stops.control().effort = 0.19;
   run(stops.world, 0.1);
-  CHECK(std::abs(stops.v()) < 1e-12);
+  // what a step may leave of a fault
+  CHECK(std::abs(stops.v()) < 1e-11);
   stops.control().effort = 0.21;
   run(stops.world, 0.1);
   CHECK(stops.v() == doctest::Approx(0.01 * 0.1 / stops.inertia).epsilon(1e-6));
@@ -147,7 +148,7 @@ TEST_CASE("a joint's spring swings it at the root of stiffness over inertia, arm
   CHECK(std::abs(arm.v()) < 0.01);
 }
 
-TEST_CASE("gravity compensation holds an arm out; without it, its motor sags by its weight over its stiffness") {
+TEST_CASE("gravity compensation holds an arm out, and without it its motor sags by its weight over its stiffness") {
   for (const bool compensated : {true, false}) {
     World world;
     RobotSpec spec = pendulum(1);
@@ -211,6 +212,7 @@ TEST_CASE("the joints of a compliant DOF share their tendon's force by their spr
   for (LinkSpec& link : spec.links) link.joints[0].spring = 0.5, link.joints[0].viscous = 0.002;
   for (DofSpec& dof : spec.dofs) dof.max_effort = 0.2;
   const auto id = world.add_robot(spec, {});
+  world.set_collision(false);  // the fingers would meet
   close_by_motors(world, id, 1);
   run(world, 1);
   // in free air they stand where the tendon has them
