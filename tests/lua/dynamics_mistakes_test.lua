@@ -139,3 +139,48 @@ test("steps of 1e-7: each is done, and what rests stays", function(t)
   t.close(world.time, 0.12, 1e-12)
   t.close(body.pose.position.z, z, 1e-6)
 end)
+
+-- two links beside each other on a base, each turned by a position servo
+local function tongs(world, kp)
+  local name = os.tmpname()
+  local path = name .. ".xml"
+  local file = assert(io.open(path, "w"))
+  local link = [[<body name="%s" pos="%g 0 0.1"><joint name="%s_joint" axis="0 1 0" range="-1 1" limited="true"/>
+    <geom type="box" size="0.01 0.02 0.05" pos="0 0 0.06" mass="0.1"/></body>]]
+  file:write([[<mujoco model="tongs"><compiler angle="radian"/><worldbody><body name="base"><geom type="box" size="0.05 0.05 0.05" mass="1"/>]],
+             link:format("left", -0.03, "left"), link:format("right", 0.03, "right"), "</body></worldbody><actuator>")
+  for _, side in ipairs {"left", "right"} do
+    file:write(([[<position name="%s" joint="%s_joint" kp="%g" ctrlrange="-1 1"/>]]):format(side, side, kp))
+  end
+  file:write("</actuator></mujoco>")
+  file:close()
+  local robot = world:add_robot(path)
+  os.remove(path)
+  os.remove(name)
+  return robot
+end
+
+test("gains of 1e12 and of 1e-12 move joints or leave them, and give numbers", function(t)
+  for _, kp in ipairs {1e12, 1, 1e-12} do
+    local world = clench.world {}
+    local robot = tongs(world, kp)
+    robot:set_targets {-0.5, 0.5}
+    world:run(0.3)
+    all_finite(t, world)
+    t.equal(world.report.failures, 0)
+    if kp == 1e12 then t.close(robot.dofs[1], -0.5, 1e-3) end
+  end
+end)
+
+test("a robot that stands in itself is reported, and comes apart or stays", function(t)
+  local world = clench.world {}
+  local robot = tongs(world, 10)
+  robot.dofs = {0.9, -0.9}
+  robot:set_targets {0.9, -0.9}
+  world:run(0.1)
+  t.ok(world.report.overlaps > 0)
+  all_finite(t, world)
+  robot:set_targets {-0.9, 0.9}
+  world:run(0.5)
+  all_finite(t, world)
+end)
