@@ -105,7 +105,7 @@ function world:robot(name) end
 
 ---Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options give overrides the file.
 ---@param body string|table # file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
----@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, color?: number[], transparency?: number, root?: string, confine?: string, strict?: boolean, unit?: string, mesh_scale?: number} # density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
+---@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, restitution?: number, color?: number[], transparency?: number, root?: string, confine?: string, strict?: boolean, unit?: string, mesh_scale?: number} # density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
 ---@return body
 function world:add_object(body, options) end
 
@@ -773,7 +773,7 @@ function world_queries:distance(a, b) end
 function world_queries:contacts(a, b) end
 
 ---How a world moves: time, steps, momentum, and what presses on what.
----@class world_dynamics: world_settings
+---@class world_dynamics: world_control
 ---@field time number # How long it has run. [s]
 ---@field time_step number # Length of the steps of `run`; from 1e-7 to 1. [s]
 ---@field report {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, largest_residual: number} # What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took (`iterations`; `fallbacks`, steps that needed its slow methods; `failures`, steps that it did not solve to the tolerance), pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have as velocities [m/s].
@@ -805,6 +805,45 @@ function world_dynamics:energy() end
 ---@return {link: body, force: vec3, point: vec3, count: integer}[] # [N], [m]
 function world_dynamics:average_contacts(links) end
 
+---Scripts that take part while a world runs.
+---@class world_control: world_settings
+local world_control = {}
+
+---Has a function called while the world runs, before each step, or so often: fn(world, dt), with the length of the step that comes, or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world, not to its clones or snapshots.
+---@param fn function
+---@param options? {rate?: number} # calls in a second of the world's time: at the first step at or after each multiple of 1 / rate [Hz]
+---@return table handle # `remove()` ends it
+function world_control:on_step(fn, options) end
+
+---Has a function run beside the world, as a coroutine: fn(task). It goes on when `task.wait(seconds)` is over, when `task.wait_until(condition, timeout)` finds the function `condition` true, which gives true, or the time over, which gives false, and before the next step after `task.wait_step()`. Tasks go on before steps, after the functions of on_step, in the order in which they were spawned; an error in one ends the run.
+---@param fn function
+---@return table handle # `remove()` ends it; `status`: "waiting", "done", "failed" or "removed"
+function world_control:spawn(fn) end
+
+---Has a function called after each step in which something happens: "contact", two bodies touch that did not before, fn {kind, time, a, b, point, force}, with the middle of the contact [m] and the force on b [N]; "contact_lost", {kind, time, a, b}; "limit", a DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its number and "low" or "high".
+---@param event string
+---@param fn function
+---@return table handle # `remove()` ends it
+function world_control:on(event, fn) end
+
+---Notes quantities while the world runs, from its first step on, at a rate of its time. In `quantities` stand, in order: bodies, of which place and velocity are noted; robots, their DOFs, velocities and efforts; "energy", "momentum", "contacts", "failures"; and by their names functions(world) that give a number, true or false, a vector, or a list of numbers that stays as long. Time is noted first.
+---@param options {rate?: number, quantities: table} # rate: 100 [Hz]
+---@return log log # `rows`, a list of {time, ...}; `columns`, their names; `save(path)`, as .csv or .npz; `remove()` ends it
+function world_control:log(options) end
+
+---Records how the world runs, for films: its state at a rate of its time.
+---@param options? {rate?: number} # 30 [Hz]
+---@return recording recording # `times`; `save(path, options)`, see the guide; `remove()` ends it
+function world_control:record(options) end
+
+---Puts the state of the world on a stack of its own.
+---@return integer depth # how many lie there now
+function world_control:push() end
+
+---Goes back to the state that was pushed last, and takes it from the stack.
+---@return integer depth # how many are left
+function world_control:pop() end
+
 ---How bodies and robots move: velocity, and what pushes them.
 ---@class motion: entity
 ---@field velocity {linear: vec3, angular: vec3} # Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. Setting a pose brings a body to rest. [m/s], [rad/s]
@@ -819,8 +858,26 @@ function motion:apply_force(force, point) end
 ---@param torque vec3 # in world axes [N m]
 function motion:apply_torque(torque) end
 
+---Masses and forces as a robot's DOFs feel them.
+---@class joint_dynamics: motion
+---@field gains {kp: number, kd: number}[] # How stiff its motors hold it, one per DOF: those that were set; else those of its file; else such that a DOF swings back at 60 rad/s with critical damping, as it stands. Set a list of them, with false for those of the file; nil: all of the file. [N m/rad or N/m], [N m s/rad or N s/m]
+local joint_dynamics = {}
+
+---Inertia of its DOFs where it stands: half of v M v is the energy with which velocities v of the DOFs move it and all that it carries, its base held. Armature of the joints is in it.
+---@return number[][] rows # one row and one column per DOF [kg m^2, kg m or kg]
+function joint_dynamics:mass_matrix() end
+
+---Forces on its DOFs that velocities cause (Coriolis, centrifugal), and weight, unless its motors compensate that: what motors have to give so that no DOF accelerates, joints without springs and friction.
+---@return number[] forces # one per DOF [N m or N]
+function joint_dynamics:bias_forces() end
+
+---Forces that its motors have to give for these accelerations of the DOFs, where nothing touches it: mass matrix, bias forces, springs and viscous friction of the joints; not their dry friction.
+---@param accelerations number[] # one per DOF [rad/s^2 or m/s^2]
+---@return number[] forces # one per DOF, as set_forces takes them [N m or N]
+function joint_dynamics:inverse_dynamics(accelerations) end
+
 ---How a robot's motors move it.
----@class robot_dynamics: motion
+---@class robot_dynamics: joint_dynamics
 ---@field dof_velocities number[] # Of its degrees of freedom; a list of its own. [rad/s or m/s]
 ---@field dof_efforts number[] # What its motors gave in the last step. [N m or N]
 ---@field controller string # What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities that are asked for; "effort" and "none", they give the forces that set_forces says, and nothing else.
@@ -1122,6 +1179,22 @@ function clench.files.glove_calibration(path, options) end
 ---@return {distance?: number, sensors?: integer[], dof_of_sensor?: integer[], joints?: number[], pose: pose}[]
 function clench.files.glove_poses(path, options) end
 
+---Writes lists of numbers, or of rows of numbers, as NumPy's arrays: `numpy.load` gives them by their names.
+---@param path string # .npz
+---@param arrays table<string, number[]|number[][]>
+function clench.files.save_arrays(path, arrays) end
+
+---The arrays of such a file: lists of numbers or texts, or of rows, all indices but the first in one.
+---@param path string # .npz
+---@return table<string, number[]|number[][]|string[]>
+function clench.files.arrays(path) end
+
+---Writes pictures of one size as an animated GIF of up to 256 colours that plays again and again.
+---@param path string
+---@param pictures picture[]
+---@param options? {rate?: number, delays?: number[]} # rate: pictures a second, 10 by default [Hz]; delays: of each picture [0.01 s]
+function clench.files.save_gif(path, pictures, options) end
+
 ---What searches make small. Each function makes an energy of a hand and an object: called, `e()`, it gives its number for how they stand now. Energies are added and weighted, `a + 0.3 * b`, functions of a script among them. Distances count in millimetres, so that the numbers are those of GraspIt!.
 ---@class clench.energy
 clench.energy = {}
@@ -1160,6 +1233,11 @@ function clench.energy.strict_autograsp(options) end
 ---@param options {hand: robot, object: body, approach?: number, min_epsilon?: number} # 0.2 [m], 0.05
 ---@return energy
 function clench.energy.compliant(options) end
+
+---What the closed hand holds in simulation: minus the sum over six directions of the part of the time that the object was held in study.shake, down to -6; where the closed hand is not in force closure, or loses the object before, 1 + contact, which leads there. It runs on one thread, and takes some tenths of a second where the hand holds something.
+---@param options {hand: robot, object: body, shake?: table, contacts?: string} # shake: options of study.shake; 0.5 s along each direction, 0.3 s of grip and of rest by default; contacts: "preset" or "live"
+---@return energy
+function clench.energy.dynamic(options) end
 
 ---How much the hand's approach direction leans from an axis beyond an angle [rad]: grasps from above, or from one side.
 ---@param options {hand: robot, axis: vec3, angle?: number} # axis: in the world; angle: 0 [rad]

@@ -99,6 +99,8 @@ static void add_plan(CLI::App& verb, PlanOptions& plan) {
   verb.add_option("--report", plan.report, "a page with a table, pictures and each grasp in 3-D")
       ->type_name("FILE.html");
   verb.add_option("--sheet", plan.sheet, "pictures of the best grasps, in one")->type_name("FILE.png");
+  verb.add_flag("--verify", plan.shaken, "shake each grasp in simulation, too, by the object's weight along six directions");
+  verb.add_flag("--keep-lost", plan.keep_lost, "with --verify: keep grasps that are lost, and mark them");
   verb.add_flag("--no-verify", plan.unverified, "keep all in force closure, loads and errors unseen");
 }
 

@@ -30,6 +30,8 @@ static Words words_of(const PlanOptions& options) {
   add("seconds", options.seconds);
   add("seed", options.seed);
   add("threads", options.threads);
+  add("verify", options.shaken ? "yes" : "");
+  add("keep-lost", options.keep_lost ? "yes" : "");
   add("contacts", options.contacts);
   add("no-verify", options.unverified ? "yes" : "");
   add("o", options.out);

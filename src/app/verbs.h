@@ -56,6 +56,7 @@ struct PlanOptions {
   std::string pose, mass;                              ///< of the object
   std::string count, seconds, seed, threads;
   std::string out, format, report, sheet;  ///< what is written
+  bool shaken = false, keep_lost = false;  ///< is each grasp shaken in simulation, and kept when it is lost?
   std::string contacts;                    ///< which links may or must touch
   bool unverified = false;  ///< is force closure enough?
   bool quiet = false;

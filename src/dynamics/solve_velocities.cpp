@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "clench/contact/cone.h"
+#include "clench/dynamics/solve/friction_residual.h"
 #include "clench/dynamics/stepper.h"
 #include "clench/model/near_bodies.h"
 
@@ -246,6 +247,54 @@ std::vector<std::vector<int>> Stepper::find_islands() const {
   return islands;
 }
 
+// Do the forces of the last step hold what rests? Answered by the velocities that they leave, without the matrix of the problem.
+bool Stepper::holds(const std::vector<int>& local, const Eigen::VectorXd& warm, FrictionSolution& solution) {
+  const Eigen::Index count = warm.size();
+  // of the matrix its diagonal is enough
+  if (problem_.W.rows() != count) problem_.W.resize(count, count);
+  solution.u = problem_.q;
+  for (int row = 0; row < row_count_; ++row) {
+    if (local[row] < 0) continue;
+    problem_.W(local[row], local[row]) = compliance_[row];
+    solution.u[local[row]] += compliance_[row] * warm[local[row]];
+  }
+  Eigen::VectorXd change;
+  for (const TreeRows& rows : tree_rows_) {
+    if (rows.rows.empty() || local[rows.rows[0]] < 0) continue;
+    change.setZero(rows.Y.rows());
+    for (size_t i = 0; i < rows.rows.size(); ++i) {
+      const auto column = rows.Y.col(static_cast<Eigen::Index>(i));
+      const int k = local[rows.rows[i]];
+      change += warm[k] * column;
+      problem_.W(k, k) += column.squaredNorm();
+    }
+    for (size_t i = 0; i < rows.rows.size(); ++i)
+      solution.u[local[rows.rows[i]]] += rows.Y.col(static_cast<Eigen::Index>(i)).dot(change);
+  }
+  const FrictionFault fault = friction_fault(problem_, warm, solution.u, rest_tolerance);
+  solution.r = warm;
+  solution.residual = fault.largest;
+  solution.solved = fault.excess <= 1;
+  return solution.solved;
+}
+
+void Stepper::assemble(const std::vector<int>& local, int count) {
+  problem_.W.setZero(count, count);
+  for (int row = 0; row < row_count_; ++row)
+    if (local[row] >= 0) problem_.W(local[row], local[row]) = compliance_[row];
+  for (const TreeRows& rows : tree_rows_) {
+    const int columns = static_cast<int>(rows.rows.size());
+    if (columns == 0 || local[rows.rows[0]] < 0) continue;
+    for (int i = 0; i < columns; ++i)
+      for (int j = 0; j <= i; ++j) {
+        const double w = rows.Y.col(i).dot(rows.Y.col(j));
+        const int a = local[rows.rows[i]], b = local[rows.rows[j]];
+        problem_.W(a, b) += w;
+        if (i != j) problem_.W(b, a) += w;
+      }
+  }
+}
+
 void Stepper::solve_island(const std::vector<int>& blocks) {
   std::vector<int> local(row_count_, -1);
   problem_.blocks.clear();
@@ -262,29 +311,21 @@ void Stepper::solve_island(const std::vector<int>& blocks) {
   for (const int i : blocks)
     for (const int t : blocks_[i].tree)
       at_rest = at_rest && (t < 0 || v_before_.segment(system_.trees[t].first, system_.trees[t].size()).cwiseAbs().maxCoeff() < rest_speed);
-  problem_.W.setZero(count, count);
   problem_.q.resize(count);
   Eigen::VectorXd warm(count);
   for (int row = 0; row < row_count_; ++row) {
     if (local[row] < 0) continue;
     problem_.q[local[row]] = q_[row];
-    problem_.W(local[row], local[row]) = compliance_[row];
     warm[local[row]] = warm_[row];
   }
-  for (const TreeRows& rows : tree_rows_) {
-    const int columns = static_cast<int>(rows.rows.size());
-    if (columns == 0 || local[rows.rows[0]] < 0) continue;
-    for (int i = 0; i < columns; ++i)
-      for (int j = 0; j <= i; ++j) {
-        const double w = rows.Y.col(i).dot(rows.Y.col(j));
-        const int a = local[rows.rows[i]], b = local[rows.rows[j]];
-        problem_.W(a, b) += w;
-        if (i != j) problem_.W(b, a) += w;
-      }
-  }
   const DynamicSettings& settings = world_.dynamic_settings();
-  const FrictionSolution solution = solver_.solve(
-      problem_, warm, {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = 1, .speed = at_rest ? rest_tolerance : tolerance});
+  FrictionSolution solution;
+  const bool held = at_rest && settings.cone == FrictionCone::cone && holds(local, warm, solution);
+  if (!held) {
+    assemble(local, count);
+    solution = solver_.solve(
+        problem_, warm, {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = 1, .speed = at_rest ? rest_tolerance : tolerance});
+  }
   for (int row = 0; row < row_count_; ++row) {
     if (local[row] < 0) continue;
     r_[row] = solution.r[local[row]];

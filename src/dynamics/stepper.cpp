@@ -144,22 +144,27 @@ double Stepper::move(double dt) {
   return passed;
 }
 
-void Stepper::run(double duration) {
-  const double end = world_.time() + duration;
+bool Stepper::step(double end) {
   const double step = world_.dynamic_settings().step;
   // of a step: what is less is no time. Ends that are sums of many steps are off by rounding.
   constexpr double rounding = 1e-6;
-  while (end - world_.time() > rounding * step) {
-    world_.context().progress().check();
-    // Steps end at multiples of the step, after an impact as well: the same ones however a time is divided.
-    const double now = world_.time(), next = (std::floor(now / step + rounding) + 1) * step;
-    double left = std::min(next, end) - now;
-    if (std::abs(left - step) < rounding * step) left = step;
-    const double h = move(left);
-    double& time = world_.edit_dynamics().time;
-    if (std::abs(next - time) < rounding * step) time = next;
-    if (std::abs(end - time) < rounding * step) time = end;
-    solve(h);
+  if (!(end - world_.time() > rounding * step)) return false;
+  world_.context().progress().check();
+  // Steps end at multiples of the step, after an impact as well: the same ones however a time is divided.
+  const double now = world_.time(), next = (std::floor(now / step + rounding) + 1) * step;
+  double left = std::min(next, end) - now;
+  if (std::abs(left - step) < rounding * step) left = step;
+  const double h = move(left);
+  double& time = world_.edit_dynamics().time;
+  if (std::abs(next - time) < rounding * step) time = next;
+  if (std::abs(end - time) < rounding * step) time = end;
+  solve(h);
+  return true;
+}
+
+void Stepper::run(double duration) {
+  const double end = world_.time() + duration;
+  while (step(end)) {
   }
 }
 

@@ -22,6 +22,8 @@ class Stepper {
   double move(double dt);
   /// Velocities that forces, contacts, limits and motors leave after a time of h [s] in which they act.
   void solve(double h);
+  /// One step of a run that ends at a time [s].   returns  false when it is over, and no step was made
+  bool step(double end);
   /// Steps until exactly `duration` has passed [s].
   void run(double duration);
 
@@ -60,6 +62,8 @@ class Stepper {
   int add_columns(int tree, int count);
   void find_rows(double h);
   std::vector<std::vector<int>> find_islands() const;
+  bool holds(const std::vector<int>& local, const Eigen::VectorXd& warm, FrictionSolution& solution);
+  void assemble(const std::vector<int>& local, int count);
   void solve_island(const std::vector<int>& blocks);
   void apply_impulses();
   void solve_by_ode(double h);

@@ -81,6 +81,7 @@ void ClenchText::add_link(const UrdfLink& link) {
   if (body.elastic_modulus) out += attribute("elastic_modulus", *body.elastic_modulus);
   out += unless(plain.soft_layer, "soft_layer", body.soft_layer);
   out += unless(plain.poisson_ratio, "poisson_ratio", body.poisson_ratio);
+  out += unless(plain.restitution, "restitution", body.restitution);
   if (body.tracker) out += fmt::format(" tracker=\"{}\"", *body.tracker);
   if (!out.empty()) line("<link" + attribute("name", link.name) + out + "/>");
 }

@@ -94,6 +94,7 @@ Pairs changes(const BodySpec& now, const BodySpec& was, bool together) {
   if (now.soft_layer != was.soft_layer) out.emplace_back("soft_layer", number(now.soft_layer));
   if (now.poisson_ratio != was.poisson_ratio)
     out.emplace_back("poisson_ratio", number(now.poisson_ratio));
+  if (now.restitution != was.restitution) out.emplace_back("restitution", number(now.restitution));
   const Appearance &look = now.appearance, &old = was.appearance;
   if (look.color != old.color || (look.triangle_colors.empty() && !old.triangle_colors.empty()))
     out.emplace_back("color", list(look.color));
@@ -163,10 +164,11 @@ void LuaWriter::begin() {
   line(world_.contact_threshold ? "local world = clench.world {contact_threshold = " +
                                       number(*world_.contact_threshold) + "}"
                                 : "local world = clench.world()");
+  if (world_.time_step) line("world.time_step = " + number(*world_.time_step));
   if (world_.gravity) line("world.gravity = " + list(*world_.gravity));
   for (const FrictionSpec& f : world_.friction)
-    line(fmt::format("world:set_friction({}, {}, {{static = {}, kinetic = {}}})", as_lua(f.a),
-                     as_lua(f.b), number(f.statics), number(f.kinetic)));
+    line(fmt::format("world:set_friction({}, {}, {{static = {}, kinetic = {}{}}})", as_lua(f.a), as_lua(f.b), number(f.statics),
+                     number(f.kinetic), f.restitution ? ", restitution = " + number(*f.restitution) : ""));
   if (!world_.robots.empty()) line("local robots = {}");
 }
 

@@ -19,6 +19,7 @@ Body make_body(const BodySpec& spec, BodyKind kind) {
   body.elastic_modulus = spec.elastic_modulus;
   body.soft_layer = spec.soft_layer;
   body.poisson_ratio = spec.poisson_ratio;
+  body.restitution = spec.restitution;
   body.tracker = spec.tracker;
   return body;
 }

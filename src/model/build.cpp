@@ -205,7 +205,7 @@ void Builder::set_larger_friction(const std::string& material) {
 World Builder::build() {
   if (spec_.contact_threshold) world_.set_contact_threshold(*spec_.contact_threshold);
   for (const FrictionSpec& f : spec_.friction)
-    world_.set_friction(f.a, f.b, {f.statics, f.kinetic});
+    world_.set_friction(f.a, f.b, {f.statics, f.kinetic, f.restitution});
   for (const std::string& name : spec_.larger_friction) set_larger_friction(name);
   for (const WorldEntry& entry : spec_.order) {
     if (entry.kind == WorldEntry::Kind::body) {
@@ -224,6 +224,11 @@ World Builder::build() {
   if (spec_.collision) switch_collision();
   for (const auto& [a, b] : spec_.never_meet) world_.set_collision(false, part(a), part(b));
   if (spec_.gravity) world_.set_gravity(*spec_.gravity);
+  if (spec_.time_step) {
+    DynamicSettings settings = world_.dynamic_settings();
+    settings.step = *spec_.time_step;
+    world_.set_dynamic_settings(std::move(settings));
+  }
   for (const KeyframeSpec& keyframe : spec_.keyframes) add_keyframe(keyframe);
   world_.set_camera(spec_.camera);
   world_.set_source(spec_.source);

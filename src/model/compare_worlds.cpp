@@ -92,6 +92,7 @@ void Comparer::bodies(Id<Body> a_id, Id<Body> b_id) {
     add("the elastic modulus of '{}'", a.name);
   if (!same(a.soft_layer, b.soft_layer)) add("the soft layer of '{}'", a.name);
   if (!same(a.poisson_ratio, b.poisson_ratio)) add("Poisson's ratio of '{}'", a.name);
+  if (!same(a.restitution, b.restitution)) add("the restitution of '{}'", a.name);
   if (a.tracker != b.tracker) add("the position sensor of '{}'", a.name);
   if (!same_look(a.appearance, b.appearance)) add("the colour of '{}'", a.name);
   if (!same_shape(a.shape, b.shape)) add("the surface of '{}'", a.name);

@@ -45,6 +45,7 @@ BodySpec Describer::body(Id<Body> id) const {
   out.elastic_modulus = b.elastic_modulus;
   out.soft_layer = b.soft_layer;
   out.poisson_ratio = b.poisson_ratio;
+  out.restitution = b.restitution;
   out.tracker = b.tracker;
   return out;
 }
@@ -136,7 +137,7 @@ void Describer::add_friction() {
   const int known = static_cast<int>(standard.names().size());
   const auto add = [&](int a, int b) {
     const Friction f = table.friction(a, b);
-    out_.friction.push_back({table.name(a), table.name(b), f.statics, f.kinetic});
+    out_.friction.push_back({table.name(a), table.name(b), f.statics, f.kinetic, f.restitution});
   };
   // new names first, each with itself, so that they keep their order
   for (int i = known; i < count; ++i) add(i, i);
@@ -145,7 +146,7 @@ void Describer::add_friction() {
       const Friction f = table.friction(i, j);
       const Friction usual = i < known ? standard.friction(i, j) : Friction{};
       if (i >= known && i == j) continue;
-      if (f.statics != usual.statics || f.kinetic != usual.kinetic) add(i, j);
+      if (f.statics != usual.statics || f.kinetic != usual.kinetic || f.restitution != usual.restitution) add(i, j);
     }
 }
 
@@ -182,6 +183,7 @@ WorldSpec Describer::describe() {
   out_.gravity = world_.gravity();
   add_keyframes();
   add_friction();
+  if (const double step = world_.dynamic_settings().step; step != DynamicSettings{}.step) out_.time_step = step;
   add_collision();
   return std::move(out_);
 }

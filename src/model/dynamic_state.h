@@ -63,6 +63,16 @@ struct ManifoldPoint {
   double torsion = 0;             ///< about the normal, on b [N m]
 };
 
+/// Corners of one body on a flat face of the other one, and how far they may go before they are looked for anew.
+struct FlatContact {
+  bool face_of_a = true;    ///< else the face is b's, and the corners are a's
+  Eigen::Vector3d normal = {};  ///< of the face, outwards, in its body's frame
+  double offset = 0;        ///< normal . p of its points [m]
+  Pose X_FV = {};           ///< the body of the corners in that of the face, when this was found
+  double threshold = 0;     ///< at which bodies touch, then [m]
+  double along = 0, off = 0;  ///< from there, along the face and across it [m]
+};
+
 /// What is known of a pair of bodies between steps.
 struct Manifold {
   Id<Body> a, b;         ///< the earlier one is a
@@ -70,6 +80,7 @@ struct Manifold {
   Pose X_AB_left;        ///< when the last step ended: elsewhere, somebody has moved them, and it is measured anew
   double clear = 0;      ///< they were at least this far apart when it was measured [m]; 0: they overlapped
   std::vector<ManifoldPoint> points;  ///< none beyond the contact threshold
+  std::optional<FlatContact> flat = {};
 };
 
 /// What steps came to.

@@ -390,7 +390,7 @@ void World::set_poisson_ratio(Id<Body> id, double ratio) {
 }
 
 void World::set_restitution(Id<Body> id, double ratio) {
-  check(share_rule.called("restitution"), ratio, the_body(body(id).name));
+  check(restitution_rule, ratio, the_body(body(id).name));
   edit(id).restitution = ratio;
 }
 

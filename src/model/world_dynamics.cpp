@@ -65,6 +65,22 @@ void World::set_dof_velocities(Id<Robot> id, const Eigen::VectorXd& velocities) 
   for (size_t j = 0; j < r.joints.size(); ++j)
     if (follows_dof(id, static_cast<int>(j)))
       state.joint_velocities[r.first_joint + j] = r.joints[j].ratio * velocities[r.joints[j].dof];
+  // what its links do then; a step finds them anew
+  const RobotFrames all = frames(id);
+  const Twist base = state.twists[r.base.index];
+  const Eigen::Vector3d p_base = pose(r.base) * body(r.base).com;
+  for (size_t l = 0; l < r.links.size(); ++l) {
+    const Id<Body> part = r.links[l].body;
+    const Eigen::Vector3d com = pose(part) * body(part).com;
+    Twist twist{base.linear + base.angular.cross(com - p_base), base.angular};
+    for (size_t j = 0; j < r.joints.size(); ++j) {
+      if (!joint_moves_link(r, static_cast<int>(j), static_cast<int>(l))) continue;
+      const double v = state.joint_velocities[r.first_joint + j];
+      twist.linear += v * all.velocity(r, static_cast<int>(j), com);
+      if (r.joints[j].kind == JointKind::revolute) twist.angular += v * all.axis(r, static_cast<int>(j));
+    }
+    state.twists[part.index] = twist;
+  }
 }
 
 void World::drift(Id<Body> id, const Pose& X_WB) {

@@ -20,6 +20,7 @@ void check_body(const BodySpec& spec, std::string_view what) {
   if (spec.elastic_modulus) check(elastic_modulus_rule, *spec.elastic_modulus, subject);
   check(soft_layer_rule, spec.soft_layer, subject);
   check(poisson_ratio_rule, spec.poisson_ratio, subject);
+  check(restitution_rule, spec.restitution, subject);
 }
 
 void check_appearance(const Appearance& appearance, std::string_view subject) {

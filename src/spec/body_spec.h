@@ -38,6 +38,7 @@ struct BodySpec {
   std::optional<double> elastic_modulus;            ///< Young's modulus [Pa]; absent: rigid
   double soft_layer = 0.003;   ///< of an elastic body: height of its soft layer, > 0 [m]
   double poisson_ratio = 0;    ///< likewise, in [0, 0.5)
+  double restitution = 0;      ///< speed after a blow by that before, in [0, 1]
   std::optional<int> tracker;  ///< number of the position sensor that drives it
 };
 

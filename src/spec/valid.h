@@ -50,6 +50,7 @@ inline constexpr Quantity time_step_rule{"time step", "s", 1e-7, 1};
 inline constexpr Quantity duration_rule{"time", "s", 0, 1e6};
 inline constexpr Quantity velocity_rule{"velocity", "m/s or rad/s", -1e6, 1e6};
 inline constexpr Quantity load_rule{"load", "N or N m", -1e15, 1e15};
+inline constexpr Quantity restitution_rule{"restitution", "", 0, 1};
 inline constexpr Quantity share_rule{"share", "", 0, 1};  ///< colours, transparency
 /// of joints and DOFs; files write 1e16 and the like for none
 inline constexpr Quantity limit_rule{"limit", "rad or m", -largest_number, largest_number};

@@ -55,6 +55,7 @@ struct WorldEntry {
 struct FrictionSpec {
   std::string a, b;
   double statics = 0, kinetic = 0;
+  std::optional<double> restitution = {};
 };
 
 /// All that is switched off, by the names of bodies.
@@ -99,6 +100,7 @@ struct WorldSpec {
   std::vector<Connection> connections;
   std::optional<Camera> camera;
   std::optional<double> contact_threshold;  ///< [m]; absent: that of an empty world
+  std::optional<double> time_step;          ///< of dynamics [s]; absent: that of an empty world
   std::vector<FrictionSpec> friction;       ///< in the order in which new materials get their names
   /// materials whose friction on those that every world begins with, but for frictionless, is the larger of both's own
   std::vector<std::string> larger_friction;

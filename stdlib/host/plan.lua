@@ -63,8 +63,14 @@ local function load_world(given, said)
   return world, hand, object
 end
 
+local function check_words(given)
+  if given.verify and given["no-verify"] then fail "expected --verify or --no-verify, got both" end
+  if given["keep-lost"] and not given.verify then fail "--keep-lost says what becomes of grasps that --verify loses, and there is no --verify" end
+end
+
 local function search(root, folder, package, unit, strict, ...)
   local given = read_words(...)
+  check_words(given)
   job.given = given
   job.files = plan_files.open(given)
   job.world, job.hand, job.object = load_world(given, {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""})
@@ -73,7 +79,7 @@ local function search(root, folder, package, unit, strict, ...)
     hand = job.hand, object = job.object, count = job.count or 1000000, seconds = tonumber(given.seconds),
     seed = math.tointeger(tonumber(given.seed)), threads = math.tointeger(tonumber(given.threads)) or clench.parallel.cores,
     contacts = given.contacts,
-    verify = given["no-verify"] == nil,
+    verify = given["no-verify"] == nil and {shake = given.verify ~= nil, keep_lost = given["keep-lost"] ~= nil},
     on_grasp = function(grasp) job.files:add(grasp) end,
   }
 end
@@ -104,17 +110,19 @@ end
 local shown = 20  -- rows of the table that is printed
 
 local function print_table(rows)
-  local list = {{"#", "epsilon", "load", "perturbed", "contacts", "azimuth", "elevation"}}
+  local shaken = rows[1].held ~= nil
+  local list = {{"#", "epsilon", "load", "perturbed", "contacts", "azimuth", "elevation", shaken and "shaken" or nil}}
   for i = 1, math.min(#rows, shown) do
     local row = rows[i]
     list[#list + 1] = {tostring(row.number), ("%.4f"):format(row.epsilon), row.load and ("%.1f"):format(row.load) or "-",
                        row.perturbed and ("%.4f"):format(row.perturbed) or "-", tostring(row.contacts),
-                       tostring(row.azimuth), tostring(row.elevation)}
+                       tostring(row.azimuth), tostring(row.elevation), shaken and (row.held == 6 and "held" or ("lost %d"):format(6 - row.held)) or nil}
   end
   columns(list, "")
   if #rows > shown then print(("and %d more"):format(#rows - shown)) end
   print "load: times the object's weight, in the worst direction; perturbed: least epsilon with the object displaced by 1 mm;"
   print "azimuth, elevation: where the hand comes from [degrees]"
+  if shaken then print "shaken: lost along so many of six directions, when pulled by its weight in simulation" end
 end
 
 local function finish(how)

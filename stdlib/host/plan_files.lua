@@ -1,5 +1,5 @@
 --- The files that `clench plan` writes: grasps while it runs, and in the end the list, the sheet and the page.
-local find_three = require "clench.plan.report_page_three"
+local find_three = require "clench.page.three"
 local in_utf8 = require "clench.in_utf8"
 local report_rows = require "clench.plan.report_rows"
 

@@ -35,6 +35,8 @@ function batch.try(job, told, next_state, options)
   told.candidates, told.rejected = 0, {}
   local shared = {hand = job.hand, object = job.object, approach = options.approach, back = options.back,
                   grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, touch = job.touch, seed = job.seed}
+  local shakes = options.verify and options.verify.shake
+  if shakes then told.shaken, told.survived = 0, 0 end
   local found, founders, number, unlike = {}, {}, 0, 0
   local is_new = distinct(job.hand, job.object, options.distance or 0)
   local tally = {near = {tried = 0, found = 0}, elsewhere = {tried = 0, found = 0}}
@@ -47,13 +49,20 @@ function batch.try(job, told, next_state, options)
       told.rejected[result.error] = (told.rejected[result.error] or 0) + 1
       return
     end
-    for why, count in pairs(result.rejected) do told.rejected[why] = (told.rejected[why] or 0) + count end
+    for why, count in pairs(result.rejected) do
+      told.rejected[why] = (told.rejected[why] or 0) + count
+      if why == "lost when shaken" then told.shaken = told.shaken + count end
+    end
     for _, new in ipairs(result.grasps) do
       local numbers = new.numbers or {}
       numbers.number, numbers.seed = new.number, job.seed
       -- a call that Ctrl-C has broken off is made again
       if not new.taken then
         new.taken = true
+        if shakes then
+          told.shaken = told.shaken + 1
+          if numbers.survived == 1 then told.survived = told.survived + 1 end
+        end
         found[#found + 1] = closing.note(new.grasp, options.planner, numbers)
         founders[#founders + 1] = new
         if is_new(new.grasp) then unlike = unlike + 1 end

@@ -41,6 +41,7 @@ function Report:__tostring()
   local lines = {("%s: %d grasps"):format(self.planner, self.grasps)}
   tell_steps(lines, self)
   tell_candidates(lines, self)
+  if self.shaken then add(lines, "%d of %d grasps that were shaken survived", self.survived, self.shaken) end
   if self.found > self.grasps + self.alike then
     add(lines, "of %d that were found the best %d are kept", self.found, self.grasps)
   end

@@ -1,17 +1,11 @@
 --- A page of HTML that shows grasps: a table that sorts, pictures, and each grasp in 3-D. It holds all that it needs.
 local base64 = require "clench.base64"
-local in_utf8 = require "clench.in_utf8"
 local of_grasps = require "clench.plan.report_page_data"
-local find_three = require "clench.plan.report_page_three"
+local find_three = require "clench.page.three"
+local text = require "clench.page.text"
 
 local largest = 100  -- grasps of a page
-
-local escapes = {["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;", ["'"] = "&#39;"}
-local function escaped(text) return (in_utf8(text):gsub("[&<>\"']", escapes):gsub("[%c]", function(c) return c == "\n" and c or " " end)) end
-
--- what a text is within <script>: nothing in it ends the element or begins a comment
-local function json(value) return (clench.json.encode(in_utf8(value)):gsub("[<>&]", function(c) return ("\\u%04x"):format(c:byte()) end)) end
-local function code(text) return (text:gsub("</([sS][cC][rR][iI][pP][tT])", "<\\/%1"):gsub("<!%-%-", "<\\!--")) end
+local escaped, json, code = text.escaped, text.json, text.code
 
 local function picture_of(world)
   local picture = clench.render(world, {size = {192, 144}, quality = "draft", background = "white"})
@@ -33,6 +27,7 @@ local columns = {
   {"epsilon", "", "epsilon", "%.4f", "the least wrench that breaks the grasp, with contact forces that sum to 1, torques divided by the length rho"},
   {"load margin", "weights", "load", "%.1f", "load that the hand can hold within its motors' limits, in the worst of six directions"},
   {"perturbed", "epsilon", "perturbed", "%.4f", "the least epsilon when the hand closes again on the object displaced by a little, in the worst of six directions"},
+  {"shaken", "held of 6", "held", "%d", "along how many of six directions the object was held when it was pulled by its weight in simulation"},
   {"contacts", "", "contacts", "%d", "points of the hand that touch the object"},
   {"azimuth", "degrees", "azimuth", "%d", "where the hand comes from, about the world's z, from +x towards +y"},
   {"elevation", "degrees", "elevation", "%d", "where the hand comes from: 90 is from above"},
@@ -46,7 +41,7 @@ local function head_of(title, subtitle)
 <title>%s</title>
 <style>%s</style></head>
 <body><header><h1>%s</h1><p>%s</p></header>
-]==]):format(escaped(title), require "clench.plan.report_page_style", escaped(title), escaped(subtitle))
+]==]):format(escaped(title), require "clench.page.style", escaped(title), escaped(subtitle))
 end
 
 local view = [==[
@@ -59,7 +54,7 @@ local view = [==[
 <span><span class="key" style="background:#f4511e"></span>friction cones</span></div></div>
 ]==]
 
-local function table_of(rows, pictures)
+local function table_of(rows, pictures, columns)
   local out = {'<div class="card"><table><thead><tr>'}
   local function add(text) out[#out + 1] = text end
   if pictures[1] then add '<th class="picture"></th>' end
@@ -83,7 +78,7 @@ local function table_of(rows, pictures)
   return table.concat(out)
 end
 
-local function words_of(report, notes)
+local function words_of(report, notes, columns)
   local out = {'<section class="words"><h2>What the columns mean</h2><dl>'}
   for i = 2, #columns do out[#out + 1] = ("<dt>%s</dt><dd>%s</dd>"):format(columns[i][1], escaped(columns[i][5])) end
   out[#out + 1] = "</dl><h2>What the search did</h2><pre>" .. escaped(report) .. "</pre>"
@@ -111,9 +106,13 @@ return function(hand, object, grasps, words)
     notes[#notes + 1] = "no pictures in the table: " .. no_pictures
   end
   if #grasps > largest then notes[#notes + 1] = ("the page shows the first %d of %d grasps"):format(largest, #grasps) end
-  local parts = {head_of(words.title, words.subtitle), view, table_of(rows, pictures), words_of(words.report, notes),
+  local shown_columns = {}
+  for _, column in ipairs(columns) do
+    if column[3] ~= "held" or rows[1] and rows[1].held then shown_columns[#shown_columns + 1] = column end
+  end
+  local parts = {head_of(words.title, words.subtitle), view, table_of(rows, pictures, shown_columns), words_of(words.report, notes, shown_columns),
                  '<script type="application/json" id="data">', json(data), "</script>\n<script>", code(three),
-                 "</script>\n<script>", code(require "clench.plan.report_page_view"),
+                 "</script>\n<script>", code(require "clench.page.scene"), code(require "clench.plan.report_page_view"),
                  code(require "clench.plan.report_page_table"), "</script>\n</body></html>\n"}
   return table.concat(parts), notes
 end

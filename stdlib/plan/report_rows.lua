@@ -14,7 +14,7 @@ end
 ---@param object body
 ---@param grasps grasp[]
 ---@param visit? fun(row: table, grasp: grasp)  called while the hand holds the object
----@return table[] rows  number, epsilon, load [weights] and perturbed (nil where not verified), contacts, azimuth and elevation [degrees]
+---@return table[] rows  number, epsilon, load [weights] and perturbed (nil where not verified), held (directions, nil where not shaken), contacts, azimuth and elevation [degrees]
 return function(hand, object, grasps, visit)
   local world, rows = hand.world, {}
   local here <close> = world:snapshot()
@@ -23,7 +23,7 @@ return function(hand, object, grasps, visit)
     local azimuth, elevation = comes_from(hand.approach.direction)
     local info = grasp.info
     rows[i] = {number = i, epsilon = grasp.epsilon, load = info.load_margin, perturbed = info.perturbed_epsilon,
-               contacts = #grasp.points, azimuth = azimuth, elevation = elevation}
+               held = info.directions_held, contacts = #grasp.points, azimuth = azimuth, elevation = elevation}
     if visit then visit(rows[i], grasp) end
   end
   world:restore(here)

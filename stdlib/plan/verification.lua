@@ -90,9 +90,21 @@ function verification.can_be_lifted(hand, object, height)
   return free
 end
 
+--- Is the object held when its weight pulls it along each axis of the world in turn, by a hand that presses with force_ratio weights?
+--- See study.shake.
+---@return integer held  in how many of the six directions
+---@return boolean survived
+function verification.shake(hand, object, shake, force_ratio)
+  local weight = 9.81 * object.mass
+  local options = {hand = hand, object = object, mass = object.mass, force = weight, grip_force = force_ratio * weight}
+  for key, value in pairs(shake) do options[key] = value end
+  local verdict = clench.study.shake(options)
+  return verdict.held, verdict.survived
+end
+
 ---@param hand robot  as it holds the object
----@param options {displacement: number, min_epsilon: number, force_ratio: number, min_load: number, lift: number, grasp?: table}
----@return table? numbers, string? why  perturbed_epsilon, load_margin
+---@param options {displacement: number, min_epsilon: number, force_ratio: number, min_load: number, lift: number, grasp?: table, shake?: table, keep_lost?: boolean}
+---@return table? numbers, string? why  perturbed_epsilon, load_margin; directions_held and survived (1 or 0) of those that were shaken
 function verification.check(hand, object, grasp, options)
   if not grasp.collision_free then return nil, "in collision when closed" end
   if grasp.epsilon < options.min_epsilon then return nil, "epsilon too small" end
@@ -103,7 +115,13 @@ function verification.check(hand, object, grasp, options)
   end
   local epsilon = verification.perturbed_epsilon(hand, object, grasp, options.displacement, options.min_epsilon, options.grasp)
   if epsilon < options.min_epsilon then return nil, "lost when the object is displaced" end
-  return {load_margin = load, perturbed_epsilon = epsilon}
+  local numbers = {load_margin = load, perturbed_epsilon = epsilon}
+  if options.shake then
+    local held, survived = verification.shake(hand, object, options.shake, options.force_ratio)
+    if not survived and not options.keep_lost then return nil, "lost when shaken" end
+    numbers.directions_held, numbers.survived = held, survived and 1 or 0
+  end
+  return numbers
 end
 
 return verification

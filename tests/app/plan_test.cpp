@@ -225,3 +225,17 @@ TEST_CASE("names that are HTML or no UTF-8 stay words in the page and in the lis
   CHECK(has(html, R"("pose":[-0.25,0,-1.0,1.0,0,0,0])"));
   CHECK(has(html, R"("object_pose":[0,0,0.5,0.707107,0,0,0.707107])"));
 }
+
+TEST_CASE("--verify shakes the grasps, and --keep-lost marks those that are lost") {
+  const auto survived = run("plan models/hands/barrett/barrett.cfg models/objects/mug.iv --count 1 --verify --mass 0.1");
+  CAPTURE(survived.out);
+  CHECK(survived.code == 0);
+  CHECK(has(survived.out, "grasps that were shaken survived"));
+  CHECK(has(survived.out, "shaken: lost along so many of six directions"));
+  const auto both = run("plan models/hands/barrett/barrett.cfg models/objects/mug.iv --verify --no-verify");
+  CHECK(both.code == 2);
+  CHECK(has(both.out, "expected --verify or --no-verify, got both"));
+  const auto alone = run("plan models/hands/barrett/barrett.cfg models/objects/mug.iv --keep-lost");
+  CHECK(alone.code == 2);
+  CHECK(has(alone.out, "--keep-lost says what becomes of grasps that --verify loses"));
+}

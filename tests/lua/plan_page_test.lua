@@ -3,7 +3,7 @@ local test = require "test"
 local base64 = require "clench.base64"
 local page = require "clench.plan.report_page"
 local report_rows = require "clench.plan.report_rows"
-local find_three = require "clench.plan.report_page_three"
+local find_three = require "clench.page.three"
 
 local three, missing = find_three()
 local hostile = "</script><img src=x onerror=\"document.documentElement.dataset.bad='yes'\"><!-- & \u{e9}"
@@ -54,7 +54,7 @@ end)
 test("a machine without three.js is told which package has it", function(t)
   local text, why = find_three {"/no/such/three.js"}
   t.equal(text, nil)
-  t.equal(why, "a report page needs three.js, which is not installed: apt-get install libjs-three")
+  t.equal(why, "a page with a 3-D view needs three.js, which is not installed: apt-get install libjs-three")
   local _, hand, flask, grasps = stage(1)
   t.fails(function() page(hand, flask, grasps, {title = "", subtitle = "", report = "", three = {}}) end, "apt-get install libjs-three")
 end)

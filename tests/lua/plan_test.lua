@@ -197,3 +197,43 @@ test("a hand on an arm keeps the grasps that the arm reaches", function(t)
   t.equal(#far.grasps, 0)
   t.ok(tostring(far.report):find "the arm reaches none")
 end)
+
+test("grasps that are verified by shaking survive it, and lost ones are dropped or marked", function(t)
+  local function shaken(verify, threads)
+    local _, hand, mug = barrett_mug()
+    mug.mass = 0.1
+    return clench.plan.sample {hand = hand, object = mug, count = 4, candidates = 24, seed = 2, refine = 0, verify = verify, threads = threads}
+  end
+  local easy = {seconds = 0.3, settle = 0.3}
+  local run = shaken({shake = easy}, 1)
+  t.ok(#run.grasps > 0 and run.report.survived >= #run.grasps and run.report.shaken >= run.report.survived)
+  for _, g in ipairs(run.grasps) do t.ok(g.info.survived == 1 and g.info.directions_held == 6) end
+  t.ok(tostring(run.report):find(("%d of %d grasps that were shaken survived"):format(run.report.survived, run.report.shaken), 1, true))
+  t.equal(clench.json.encode(shaken({shake = easy}, 2).grasps), clench.json.encode(run.grasps))
+  -- nothing survives a hundred weights
+  local hard = {seconds = 0.3, settle = 0.1, force = 100}
+  local lost = shaken({shake = hard})
+  t.ok(#lost.grasps == 0 and lost.report.survived == 0 and lost.report.rejected["lost when shaken"] == lost.report.shaken)
+  local kept = shaken({shake = hard, keep_lost = true})
+  t.ok(#kept.grasps > 0 and kept.report.survived == 0)
+  for _, g in ipairs(kept.grasps) do t.ok(g.info.survived == 0 and g.info.directions_held < 6) end
+  t.fails(function() shaken {shake = {hand = 1}} end, "plan.sample: verify: shake: unknown key 'hand'")
+end)
+
+test("a search may make small what the closed hand holds in simulation", function(t)
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local hand, flask = world.robots[1], world.objects[1]
+  local before = world:hash()
+  local e = clench.energy.dynamic {hand = hand, object = flask, shake = {seconds = 0.1, settle = 0.1}}
+  t.equal(e(), -6.0)
+  t.equal(world:hash(), before)
+  -- far away it is the way there
+  hand.pose = clench.pose {xyz = {0, 0, 1}} * hand.pose
+  t.close(e(), 1 + clench.energy.contact {hand = hand, object = flask}(), 1e-9)
+  world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local run = clench.plan.anneal {hand = world.robots[1], object = world.objects[1], steps = 5, energy = "dynamic"}
+  t.equal(run.report.steps, 5)
+  t.fails(function() clench.energy.dynamic {hand = hand} end, "clench.energy.dynamic: object must be a body, got nothing")
+  t.fails(function() clench.energy.dynamic {hand = hand, object = world.objects[1]} end, "belongs to another world than the hand")
+  t.fails(function() clench.energy.dynamic() end, "clench.energy.dynamic: expected one table of options")
+end)

@@ -13,9 +13,9 @@ namespace {
 // the ball and the surface that it meets, all in the frame of that one
 struct Meeting {
   const Shape* surface;
-  const Ball* ball;
+  const Sphere* ball;
   Eigen::Vector3d centre;
-  std::optional<Ball> other;  // when the surface is a ball's, too
+  std::optional<Sphere> other;  // when the surface is a ball's, too
   bool ball_is_b;
 };
 

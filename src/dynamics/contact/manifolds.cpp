@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/contact/contact_set.h"
+#include "clench/dynamics/contact/flat_contact.h"
 #include "clench/dynamics/contact/ball_contact.h"
 #include "clench/dynamics/contact/overlap.h"
 #include "clench/model/near_bodies.h"
@@ -90,6 +91,7 @@ static void find_patches(const World& world, const Manifold& m, std::vector<Mani
 }
 
 void measure(World& world, Manifold& m) {
+  if (follow_flat_contact(world, m)) return;
   const auto [first, second] = ordered(m.a, m.b);
   const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
   const double threshold = world.contact_threshold();
@@ -97,6 +99,7 @@ void measure(World& world, Manifold& m) {
   std::vector<ManifoldPoint> points;
   const double limit = manifold_reach + threshold;
   m.clear = 0;
+  m.flat.reset();
   const double spheres = sphere_gap(world, m.a, m.b);
   if (spheres > limit) {
     m.clear = spheres;
@@ -123,6 +126,7 @@ void measure(World& world, Manifold& m) {
   if (!points.empty()) find_patches(world, m, points);
   if (!points.empty() && !m.points.empty()) inherit(points, m.points);
   m.points = std::move(points);
+  m.flat = find_flat_contact(world, m);
 }
 
 static bool moves(const World& world, const System& system, Id<Body> id) {
@@ -181,6 +185,7 @@ void find_manifolds(World& world, const System& system, double travel) {
     if (X_AB == m.X_AB_left) continue;
     // placed elsewhere: what was there is no warm start
     m.points.clear();
+    m.flat.reset();
     measure(world, m);
     m.X_AB_left = X_AB;
   }

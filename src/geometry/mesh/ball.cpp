@@ -7,7 +7,7 @@
 
 namespace clench {
 
-std::optional<Ball> ball_of(const Mesh& mesh, double volume) {
+std::optional<Sphere> ball_of(const Mesh& mesh, double volume) {
   constexpr double filled = 0.95, exact = 1e-6;
   const Bounds bounds = mesh.bounds();
   const Eigen::Vector3d size = bounds.size();
@@ -29,7 +29,7 @@ std::optional<Ball> ball_of(const Mesh& mesh, double volume) {
   if (!(radius > 0) || volume < filled * 4 / 3 * std::numbers::pi * radius * radius * radius) return std::nullopt;
   for (const Eigen::Vector3d& v : mesh.vertices)
     if (std::abs((v - middle - centre).norm() - radius) > exact * radius) return std::nullopt;
-  return Ball{middle + centre, radius};
+  return Sphere{middle + centre, radius};
 }
 
 }  // namespace clench

@@ -6,7 +6,7 @@
 
 namespace clench {
 
-struct Ball {
+struct Sphere {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
   double radius = 0;                                 ///< [m]
 };
@@ -14,6 +14,6 @@ struct Ball {
 /// The ball that a closed mesh is a tessellation of: all its vertices lie on one sphere, to a millionth of its radius, and
 /// it fills at least 95 % of it. A cap or a bowl does not, nor does a cube.
 /// volume  that it encloses [m^3]
-std::optional<Ball> ball_of(const Mesh& mesh, double volume);
+std::optional<Sphere> ball_of(const Mesh& mesh, double volume);
 
 }  // namespace clench

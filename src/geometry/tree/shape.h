@@ -39,7 +39,7 @@ class Shape {
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }
   /// that it is a tessellation of
-  const std::optional<Ball>& ball() const { return ball_; }
+  const std::optional<Sphere>& ball() const { return ball_; }
   /// one triangle of each connected part (vertices at one place connect), in index order
   const std::vector<int>& parts() const { return parts_; }
   /// of each part, its vertices farthest along -x, x, -y, y, -z and z; empty where parts are many
@@ -65,7 +65,7 @@ class Shape {
   Bounds bounds_;
   Eigen::Vector3d centre_;
   double radius_ = 0;
-  std::optional<Ball> ball_;
+  std::optional<Sphere> ball_;
   std::vector<int> parts_;
   uint64_t hash_ = 0;
   std::vector<Extremes> part_extremes_;

@@ -139,7 +139,7 @@ void ClenchReader::read_joint(const XmlElement& element) {
 
 void ClenchReader::read_link(const XmlElement& element) {
   expect_only(element,
-              {"name", "material", "elastic_modulus", "soft_layer", "poisson_ratio", "tracker"});
+              {"name", "material", "elastic_modulus", "soft_layer", "poisson_ratio", "restitution", "tracker"});
   const XmlValues values(element);
   BodySpec& body = this->body(part(values, "name"));
   once(element, body.name);
@@ -151,6 +151,7 @@ void ClenchReader::read_link(const XmlElement& element) {
     body.elastic_modulus = checked(values, "elastic_modulus", 0, elastic_modulus_rule);
   body.soft_layer = checked(values, "soft_layer", body.soft_layer, soft_layer_rule);
   body.poisson_ratio = checked(values, "poisson_ratio", body.poisson_ratio, poisson_ratio_rule);
+  body.restitution = checked(values, "restitution", body.restitution, restitution_rule);
   if (values.has("tracker")) body.tracker = values.integer("tracker", 0);
 }
 

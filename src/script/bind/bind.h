@@ -121,7 +121,7 @@ extern const Library entries_library;
 
 // --- clench.files: the small files around hands and planners, as tables. ---
 
-extern const Library files_library;
+extern const Library files_library, arrays_library, film_library;
 
 // --- clench.chart: numbers as a picture. ---
 

@@ -14,7 +14,7 @@ std::span<const Library* const> all_libraries() {
       &units_library,        &vec3_library,        &pose_library,     &random_library,
       &catalog_library,      &convert_library,     &entries_library,  &json_library,
       &log_library,          &world_library,       &grasp_library,    &measures_library,
-      &wrench_space_library, &eigengrasps_library, &files_library,    &render_library,
+      &wrench_space_library, &eigengrasps_library, &files_library, &arrays_library, &film_library,    &render_library,
       &chart_library,        &plot_library,        &progress_library, &grasps_library,
       &energy_library,       &annealing_library,   &parallel_library,
   };
@@ -38,8 +38,9 @@ std::span<const Class* const> all_classes() {
       &grasps_class,      &energy_class,
       &annealing_class,
       &world_settings_class, &world_queries_class,
-      &world_dynamics_class, &motion_class,
-      &robot_dynamics_class,
+      &world_dynamics_class, &world_control_class,
+      &motion_class,
+      &joint_dynamics_class, &robot_dynamics_class,
   };
   return classes;
 }

@@ -117,6 +117,7 @@ static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
   if (options.has("elastic_modulus")) spec.elastic_modulus = options.number("elastic_modulus");
   spec.soft_layer = options.number("soft_layer", spec.soft_layer);
   spec.poisson_ratio = options.number("poisson_ratio", spec.poisson_ratio);
+  spec.restitution = options.number("restitution", spec.restitution);
   if (options.has("color")) {
     spec.appearance.color = options.vec3("color").cast<float>();
     spec.appearance.triangle_colors.clear();

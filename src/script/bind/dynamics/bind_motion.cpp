@@ -69,7 +69,8 @@ Pushes it in the next step, and in that one alone; pushes add up.
     {"apply_torque", guarded<apply_torque>, R"(
 Turns it in the next step, and in that one alone.
 @param torque vec3  in world axes [N m]
-> flask:apply_torque({0, 0, 0.1}))"},
+> flask:apply_torque({0, 0, 0.1})
+> flask:apply_torque({0, 0, 0 / 0})  --> error: torque)"},
 };
 
 const Class motion_class{.name = "motion",

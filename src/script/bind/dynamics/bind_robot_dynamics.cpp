@@ -135,12 +135,12 @@ static const Entry fields[] = {
     {"dof_velocities", guarded<get_dof_velocities>, R"(
 Of its degrees of freedom; a list of its own.
 @type number[]  [rad/s or m/s]
-> hand.dof_velocities[1]  --> 0)",
+> hand.dof_velocities[1]  --> 0.0)",
      guarded<set_dof_velocities>},
     {"dof_efforts", guarded<get_efforts>, R"(
 What its motors gave in the last step.
 @type number[]  [N m or N]
-> hand.dof_efforts[1]  --> 0)"},
+> hand.dof_efforts[1]  --> 0.0)"},
     {"controller", guarded<get_controller>, R"(
 What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities
 that are asked for; "effort" and "none", they give the forces that set_forces says, and nothing else.
@@ -187,6 +187,6 @@ const Class robot_dynamics_class{.name = "robot_dynamics",
                                  .doc = "How a robot's motors move it.",
                                  .fields = fields,
                                  .methods = methods,
-                                 .parent = &motion_class};
+                                 .parent = &joint_dynamics_class};
 
 }  // namespace clench

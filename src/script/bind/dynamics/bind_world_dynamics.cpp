@@ -1,6 +1,7 @@
 #include "clench/dynamics/measure.h"
 #include "clench/dynamics/stepper.h"
 #include "clench/script/bind/bind.h"
+#include "clench/script/bind/dynamics/control.h"
 #include "clench/script/bind/dynamics/dynamics.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
@@ -22,7 +23,11 @@ static double check_time(lua_State* L, int i, const char* name, double least) {
 
 static int run(lua_State* L) {
   const double duration = check_time(L, 2, "seconds", 0);
-  Stepper(world_of(L)).run(duration);
+  const WorldPtr world = self<WorldHandle>(L).world;
+  if (push_hooks(L, world, false))
+    run_with_hooks(L, world, duration);
+  else
+    Stepper(*world).run(duration);
   return 0;
 }
 
@@ -142,7 +147,7 @@ static const Entry fields[] = {
     {"time", guarded<get_time>, R"(
 How long it has run.
 @type number  [s]
-> world.time  --> 0)"},
+> world.time  --> 0.0)"},
     {"time_step", guarded<get_time_step>, R"(
 Length of the steps of `run`; from 1e-7 to 1.
 @type number  [s]
@@ -184,13 +189,13 @@ Of all objects and robots; the angular one about the origin of the world.
     {"energy", guarded<get_energy>, R"(
 Of all objects and robots: of motion, and of height above the origin of the world and springs.
 @return {kinetic: number, potential: number}  [J]
-> world:energy().kinetic  --> 0)"},
+> world:energy().kinetic  --> 0.0)"},
     {"average_contacts", guarded<average_contacts>, R"(
 What presses on each of some bodies, after the last step: the sum of the forces and their centre. Bodies on which nothing
 presses are left out.
 @param links body|body[]
 @return {link: body, force: vec3, point: vec3, count: integer}[]  [N], [m]
-> #world:average_contacts(hand.links)  --> 0)"},
+> #world:average_contacts(hand)  --> 0)"},
 };
 
 const Class world_dynamics_class{.name = "world_dynamics",
@@ -198,6 +203,6 @@ const Class world_dynamics_class{.name = "world_dynamics",
                                  .doc = "How a world moves: time, steps, momentum, and what presses on what.",
                                  .fields = fields,
                                  .methods = methods,
-                                 .parent = &world_settings_class};
+                                 .parent = &world_control_class};
 
 }  // namespace clench

@@ -6,6 +6,7 @@
 #include "clench/script/bind/planning/planning.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/packed.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 
@@ -149,6 +150,26 @@ int compliant(lua_State* L) {
   reading.min_epsilon = options.number("min_epsilon", reading.min_epsilon);
   options.done();
   return push_energy(L, world, std::make_unique<CompliantEnergy>(who, reading));
+}
+
+// (options) -> a function: stdlib/plan/dynamic_energy.lua
+int make_dynamic(lua_State* L) {
+  push_packed(L, "plan.dynamic_energy");
+  lua_pushvalue(L, 1);
+  protected_call(L, 1, 1);
+  return 1;
+}
+
+int dynamic(lua_State* L) {
+  lua_settop(L, 1);
+  lua_pushcfunction(L, guarded<make_dynamic>);
+  lua_pushvalue(L, 1);
+  protected_call(L, 1, 1);
+  lua_pushliteral(L, "hand");
+  lua_rawget(L, 1);
+  const auto* hand = to<RobotHandle>(L, -1);
+  if (!hand) fail("{}: hand: expected a robot, got {}", subject(L), described(L, -1));
+  return push_energy(L, hand->world, std::make_unique<EnergyFunction>(script_number(L, 2)));
 }
 
 // --- constraints ---
@@ -308,6 +329,15 @@ min_epsilon.
 @param options {hand: robot, object: body, approach?: number, min_epsilon?: number}  0.2 [m], 0.05
 @return energy
 > clench.energy.compliant {hand = hand, object = flask}() <= 1  --> true)"},
+    {"dynamic", guarded<dynamic>, R"(
+What the closed hand holds in simulation: minus the sum over six directions of the part of the time that the object was held
+in study.shake, down to -6; where the closed hand is not in force closure, or loses the object before, 1 + contact, which leads there. It runs on
+one thread, and takes some tenths of a second where the hand holds something.
+@param options {hand: robot, object: body, shake?: table, contacts?: string}  shake: options of study.shake; 0.5 s along each direction, 0.3 s of grip and of rest by default; contacts: "preset" or "live"
+@return energy
+> e = clench.energy.dynamic {hand = hand, object = flask, shake = {seconds = 0.1}}
+> e(), e.any_thread  --> -6.0, false
+> clench.energy.dynamic {hand = hand, object = flask, shake = {secs = 1}}()  --> error: unknown key 'secs')"},
     {"approach_cone", guarded<approach_cone>, R"(
 How much the hand's approach direction leans from an axis beyond an angle [rad]: grasps from above, or from one side.
 @param options {hand: robot, axis: vec3, angle?: number}  axis: in the world; angle: 0 [rad]

@@ -176,7 +176,7 @@ What pressed on body there in the last step of the world, in world axes; 0 in a 
     {"torsion", getter<[](const ContactHandle& x) { return x.contact.torsion; }>, R"(
 Of a soft contact, the torque about the normal on body in the last step of the world.
 @type number  [N m]
-> world:contacts(hand, flask)[1].torsion  --> 0)"},
+> world:contacts(hand, flask)[1].torsion  --> 0.0)"},
     {"mu", getter<[](const ContactHandle& x) { return x.contact.friction.statics; }>, R"(
 Static Coulomb coefficient of the two materials.
 @type number

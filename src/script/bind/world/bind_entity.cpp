@@ -199,7 +199,7 @@ How the triangles of its file were read and repaired: lines of text, and the sam
 How it bounces: speed after a blow by that before, from 0 to 1. Of two bodies the larger counts, unless set_friction says
 what holds for their materials.
 @type number
-> flask.restitution  --> 0
+> flask.restitution  --> 0.0
 > flask.restitution = 2  --> error: restitution)",
      guarded<set_restitution>},
     {"elastic_modulus", guarded<get_elastic_modulus>, R"(

@@ -54,7 +54,7 @@ static int set_friction(lua_State* L) {
   Friction friction{.statics = statics, .kinetic = options.number("kinetic", std::max(0.0, statics - 0.1))};
   if (options.has("restitution")) {
     friction.restitution = options.number("restitution");
-    check(share_rule.called("restitution"), *friction.restitution, subject(L));
+    check(restitution_rule, *friction.restitution, subject(L));
   }
   options.done();
   for (const std::string& name : {a, b}) tell_near_material(L, name);

@@ -168,6 +168,8 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
                                  "does not hold is not told",
                                  file, saving.confine.generic_string()));
   };
+  if (world.dynamics())
+    log_warning(L, fmt::format("{}: the time, velocities and targets of motors of a world that has run are not saved", subject(L)));
   write_world(describe_world(world), path, writing);
 }
 

@@ -1,4 +1,4 @@
---- The library three.js, which report pages carry with them, as Debian's package libjs-three installs it.
+--- The library three.js, which pages with a 3-D view carry with them, as Debian's package libjs-three installs it.
 local places = {"/usr/share/javascript/three/three.min.js", "/usr/share/javascript/three/build/three.min.js",
                 "/usr/share/nodejs/three/build/three.min.js"}
 
@@ -11,5 +11,5 @@ return function(candidates)
     if file then file:close() end
     if text and text:find("THREE", 1, true) then return text end
   end
-  return nil, "a report page needs three.js, which is not installed: apt-get install libjs-three"
+  return nil, "a page with a 3-D view needs three.js, which is not installed: apt-get install libjs-three"
 end

@@ -1,0 +1,16 @@
+// Pictures one after the other, as an animated GIF.
+#pragma once
+#include <span>
+#include <string>
+
+#include "clench/render/figure/picture.h"
+
+namespace clench {
+
+/// All frames share up to 256 colours, and begin anew after the last.
+/// delays   of each frame, in hundredths of a second
+/// source   CompuServe (1990), GIF89a; Heckbert (1982), Color image quantization for frame buffer display: median cut
+/// throws   Error for no frames, sizes that differ, or more than 65535 pixels in a row
+std::string gif_bytes(std::span<const Picture> frames, std::span<const int> delays);
+
+}  // namespace clench

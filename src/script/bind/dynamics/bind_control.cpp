@@ -1,0 +1,118 @@
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/dynamics/control.h"
+#include "clench/script/bind/dynamics/dynamics.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/packed.h"
+
+namespace clench {
+
+// (name, hooks, ...) -> a handle: a function of stdlib/dynamics/hooks.lua
+static int call_packed(lua_State* L) {
+  push_packed(L, "dynamics.hooks");
+  lua_pushvalue(L, 1);
+  lua_rawget(L, -2);
+  lua_replace(L, 1);
+  lua_pop(L, 1);
+  protected_call(L, lua_gettop(L) - 1, 1);
+  return 1;
+}
+
+// the arguments of a method, with the world's hooks in place of the world, and the world behind them
+static int add_hook(lua_State* L, const char* name) {
+  const auto& world = self<WorldHandle>(L).world;
+  lua_settop(L, 3);
+  lua_pushcfunction(L, guarded<call_packed>);
+  lua_pushstring(L, name);
+  push_hooks(L, world, true);
+  lua_pushvalue(L, 2);
+  lua_pushvalue(L, 3);
+  lua_pushvalue(L, 1);
+  protected_call(L, 5, 1);
+  return 1;
+}
+
+static int on_step(lua_State* L) { return add_hook(L, "on_step"); }
+static int spawn(lua_State* L) { return add_hook(L, "spawn"); }
+static int on(lua_State* L) { return add_hook(L, "on"); }
+static int log_quantities(lua_State* L) { return add_hook(L, "log"); }
+static int record(lua_State* L) { return add_hook(L, "record"); }
+static int push_state(lua_State* L) { return add_hook(L, "push"); }
+static int pop_state(lua_State* L) { return add_hook(L, "pop"); }
+
+static const Entry methods[] = {
+    {"on_step", guarded<on_step>, R"(
+Has a function called while the world runs, before each step, or so often: fn(world, dt), with the length of the step that
+comes, or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world,
+not to its clones or snapshots.
+@param fn function
+@param options? {rate?: number}  calls in a second of the world's time: at the first step at or after each multiple of 1 / rate [Hz]
+@return table handle  `remove()` ends it
+> count = 0
+> handle = world:on_step(function(world, dt) count = count + 1 end, {rate = 100})
+> world:run(0.1)
+> count  --> 10
+> handle:remove()
+> world:on_step(5)  --> error: world:on_step: expected a function, got 5)"},
+    {"spawn", guarded<spawn>, R"(
+Has a function run beside the world, as a coroutine: fn(task). It goes on when `task.wait(seconds)` is over, when
+`task.wait_until(condition, timeout)` finds the function `condition` true, which gives true, or the time over, which gives
+false, and before the next step after `task.wait_step()`. Tasks go on before steps, after the functions of on_step, in the order in which they were
+spawned; an error in one ends the run.
+@param fn function
+@return table handle  `remove()` ends it; `status`: "waiting", "done", "failed" or "removed"
+> task = world:spawn(function(task) task.wait(0.02) seen = world.time end)
+> world:run(0.05)
+> seen, task.status  --> 0.02, done)"},
+    {"on", guarded<on>, R"(
+Has a function called after each step in which something happens: "contact", two bodies touch that did not before, fn {kind, time, a,
+b, point, force}, with the middle of the contact [m] and the force on b [N]; "contact_lost", {kind, time, a, b}; "limit", a
+DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its number and "low" or "high".
+@param event string
+@param fn function
+@return table handle  `remove()` ends it
+> touched = {}
+> handle = world:on("contact", function(e) touched[#touched + 1] = e.b.name end)
+> world:run(0.01)
+> #touched > 0  --> true
+> world:on("contcat", print)  --> error: world:on: event must be 'contact' or 'contact_lost' or 'limit', got 'contcat')"},
+    {"log", guarded<log_quantities>, R"(
+Notes quantities while the world runs, from its first step on, at a rate of its time. In `quantities` stand, in order: bodies, of
+which place and velocity are noted; robots, their DOFs, velocities and efforts; "energy", "momentum", "contacts", "failures"; and by their names
+functions(world) that give a number, true or false, a vector, or a list of numbers that stays as long. Time is noted first.
+@param options {rate?: number, quantities: table}  rate: 100 [Hz]
+@return log log  `rows`, a list of {time, ...}; `columns`, their names; `save(path)`, as .csv or .npz; `remove()` ends it
+> log = world:log {rate = 50, quantities = {flask, "energy", height = function() return flask.pose.position.z end}}
+> world:run(0.1)
+> #log.rows, log.columns[1], log.columns[2]  --> 6, time, flask.position.x
+> log:save "build/flask.csv"
+> world:log {quantities = {"enrgy"}}  --> error: did you mean 'energy'?)"},
+    {"record", guarded<record>, R"(
+Records how the world runs, for films: its state at a rate of its time.
+@param options? {rate?: number}  30 [Hz]
+@return recording recording  `times`; `save(path, options)`, see the guide; `remove()` ends it
+> film = world:record {rate = 20}
+> world:run(0.1)
+> #film.times  --> 3
+> film:save "film.avi"  --> error: expected a name that ends in .html, .gif, .mp4 or .png, got 'film.avi')"},
+    {"push", guarded<push_state>, R"(
+Puts the state of the world on a stack of its own.
+@return integer depth  how many lie there now
+> world:push()  --> 1)"},
+    {"pop", guarded<pop_state>, R"(
+Goes back to the state that was pushed last, and takes it from the stack.
+@return integer depth  how many are left
+> before = world:hash()
+> world:push()
+> world:run(0.05)
+> world:pop(), world:hash() == before  --> 0, true
+> world:pop()  --> error: world:pop: the stack is empty: nothing was pushed, or all was popped)"},
+};
+
+const Class world_control_class{.name = "world_control",
+                                .variable = "world",
+                                .doc = "Scripts that take part while a world runs.",
+                                .fields = {},
+                                .methods = methods,
+                                .parent = &world_settings_class};
+
+}  // namespace clench

@@ -1,0 +1,113 @@
+#include "clench/dynamics/control/joint_dynamics.h"
+#include "clench/dynamics/control/motors.h"
+#include "clench/script/bind/bind.h"
+#include "clench/script/bind/dynamics/dynamics.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+static JointDynamics of_robot(const RobotHandle& robot) { return joint_dynamics(*robot.world, robot.id); }
+
+static int mass_matrix(lua_State* L) { return push_rows(L, of_robot(self<RobotHandle>(L)).mass_matrix); }
+
+static int bias_forces(lua_State* L) { return push_vector(L, of_robot(self<RobotHandle>(L)).bias); }
+
+static int inverse_dynamics(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const auto given = check_numbers(L, 2, "accelerations", static_cast<int>(robot->dofs.size()));
+  for (const double a : given) check(Quantity{"acceleration", "rad/s^2 or m/s^2", -1e12, 1e12}, a, subject(L));
+  const JointDynamics d = of_robot(robot);
+  const Eigen::Map<const Eigen::VectorXd> accelerations(given.data(), static_cast<Eigen::Index>(given.size()));
+  return push_vector(L, Eigen::VectorXd(d.mass_matrix * accelerations + d.bias + d.passive));
+}
+
+static int get_gains(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const Eigen::VectorXd inertia = of_robot(robot).mass_matrix.diagonal();
+  int dof = 0;
+  return push_list_of(L, robot->dofs, [&](const DofSpec&) {
+    const Gains gains = gains_of(*robot.world, robot.id, dof, inertia[dof]);
+    ++dof;
+    push_list(L, 0, 2);
+    set_field(L, "kp", gains.kp);
+    set_field(L, "kd", gains.kd);
+  });
+}
+
+static int set_gains(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  std::vector<std::optional<Gains>> gains;
+  if (given(L, 2)) {
+    const int count = static_cast<int>(robot->dofs.size());
+    if (!lua_istable(L, 2)) fail_expected({L, {}, ""}, "a list of gains", 2);
+    if (lua_rawlen(L, 2) != static_cast<size_t>(count))
+      fail("{}: expected {}, one per DOF, got {}", subject(L), count, lua_rawlen(L, 2));
+    for (int i = 1; i <= count; ++i) {
+      lua_rawgeti(L, 2, i);
+      auto& gain = gains.emplace_back();
+      if (lua_toboolean(L, -1)) {
+        Table table(L, lua_gettop(L), fmt::format("{}[{}]", subject(L), i));
+        gain = Gains{.kp = table.number("kp"), .kd = table.number("kd")};
+        table.done();
+        for (const double x : {gain->kp, gain->kd})
+          check(Quantity{"gain", "N m/rad, N m s/rad, N/m or N s/m", 0, 1e12}, x, table.subject());
+      }
+      lua_pop(L, 1);
+    }
+  }
+  DynamicSettings settings = robot.world->dynamic_settings();
+  settings.robots[robot.id].gains = std::move(gains);
+  robot.world->set_dynamic_settings(std::move(settings));
+  return 0;
+}
+
+static const Entry fields[] = {
+    {"gains", guarded<get_gains>, R"(
+How stiff its motors hold it, one per DOF: those that were set; else those of its file; else such that a DOF swings back at 60
+rad/s with critical damping, as it stands. Set a list of them, with false for those of the file; nil: all of the file.
+@type {kp: number, kd: number}[]  [N m/rad or N/m], [N m s/rad or N s/m]
+> hand.gains[1].kp  --> 1.0
+> gains = hand.gains
+> gains[1] = {kp = 20, kd = 0.5}
+> hand.gains = gains
+> hand.gains[1].kp  --> 20.0
+> hand.gains = nil
+> hand.gains[1].kp  --> 1.0
+> hand.gains = {{kp = 1}}  --> error: expected 12, one per DOF, got 1)",
+     guarded<set_gains>},
+};
+
+static const Entry methods[] = {
+    {"mass_matrix", guarded<mass_matrix>, R"(
+Inertia of its DOFs where it stands: half of v M v is the energy with which velocities v of the DOFs move it and all that it
+carries, its base held. Armature of the joints is in it.
+@return number[][] rows  one row and one column per DOF [kg m^2, kg m or kg]
+> M = hand:mass_matrix()
+> #M, #M[1], M[1][2] == M[2][1]  --> 12, 12, true)"},
+    {"bias_forces", guarded<bias_forces>, R"(
+Forces on its DOFs that velocities cause (Coriolis, centrifugal), and weight, unless its motors compensate that: what motors have to
+give so that no DOF accelerates, joints without springs and friction.
+@return number[] forces  one per DOF [N m or N]
+> hand.gravity_compensation = true
+> math.abs(hand:bias_forces()[1])  --> 0.0)"},
+    {"inverse_dynamics", guarded<inverse_dynamics>, R"(
+Forces that its motors have to give for these accelerations of the DOFs, where nothing touches it: mass matrix, bias forces,
+springs and viscous friction of the joints; not their dry friction.
+@param accelerations number[]  one per DOF [rad/s^2 or m/s^2]
+@return number[] forces  one per DOF, as set_forces takes them [N m or N]
+> accelerations = {}
+> for i = 1, #hand.dofs do accelerations[i] = 0 end
+> #hand:inverse_dynamics(accelerations)  --> 12
+> hand:inverse_dynamics {1}  --> error: expected 12)"},
+};
+
+const Class joint_dynamics_class{.name = "joint_dynamics",
+                                 .variable = "hand",
+                                 .doc = "Masses and forces as a robot's DOFs feel them.",
+                                 .fields = fields,
+                                 .methods = methods,
+                                 .parent = &motion_class};
+
+}  // namespace clench

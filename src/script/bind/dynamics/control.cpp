@@ -1,0 +1,194 @@
+#include "clench/script/bind/dynamics/control.h"
+
+#include <cmath>
+#include <set>
+
+#include "clench/dynamics/stepper.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/packed.h"
+
+namespace clench {
+
+namespace {
+
+// whose hooks they are, and what its listeners have been told
+struct Hooks {
+  std::weak_ptr<World> world;
+  std::set<std::pair<Id<Body>, Id<Body>>> touching;
+  std::set<std::pair<Id<Robot>, int>> at_limit;  // DOF + 1, or minus that at the lower one
+};
+
+// a world that runs
+struct Stepping {
+  WorldPtr world;
+  Stepper stepper;
+  explicit Stepping(WorldPtr of) : world(std::move(of)), stepper(*world) {}
+};
+using SteppingPtr = std::shared_ptr<Stepping>;
+
+const Class hooks_class{.name = "hooks", .variable = "hooks", .doc = "", .fields = {}, .methods = {}};
+const Class stepping_class{.name = "stepping", .variable = "stepping", .doc = "", .fields = {}, .methods = {}};
+
+const char hooks_key = 0;  // its address names the place of all tables of hooks
+
+}  // namespace
+
+template <>
+const Class& class_of<Hooks>() {
+  return hooks_class;
+}
+template <>
+const Class& class_of<SteppingPtr>() {
+  return stepping_class;
+}
+
+// the hooks of a table of them; null when their world has gone
+static Hooks* hooks_in(lua_State* L, int table) {
+  lua_rawgeti(L, table, 1);
+  Hooks* hooks = to<Hooks>(L, -1);
+  lua_pop(L, 1);
+  return hooks && !hooks->world.expired() ? hooks : nullptr;
+}
+
+// worlds that have gone leave their tables behind
+static void drop_old(lua_State* L, int all) {
+  for (lua_pushnil(L); lua_next(L, all); lua_pop(L, 1)) {
+    if (hooks_in(L, lua_gettop(L))) continue;
+    lua_pushvalue(L, -2);
+    lua_pushnil(L);
+    lua_rawset(L, all);
+  }
+}
+
+bool push_hooks(lua_State* L, const WorldPtr& world, bool make) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &hooks_key) != LUA_TTABLE) {
+    lua_pop(L, 1);
+    if (!make) return false;
+    lua_newtable(L);
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &hooks_key);
+  }
+  const int all = lua_gettop(L);
+  // another world may have had its place in memory
+  if (lua_rawgetp(L, all, world.get()) == LUA_TTABLE)
+    if (const Hooks* hooks = hooks_in(L, lua_gettop(L)); hooks && hooks->world.lock() == world) {
+      lua_remove(L, all);
+      return true;
+    }
+  lua_pop(L, 1);
+  if (make) {
+    drop_old(L, all);
+    lua_newtable(L);
+    push_object(L, Hooks{.world = world, .touching = {}, .at_limit = {}});
+    lua_rawseti(L, -2, 1);
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, all, world.get());
+  }
+  lua_remove(L, all);
+  return make;
+}
+
+// (stepping, end) -> was a step made?
+static int step(lua_State* L) {
+  const SteppingPtr stepping = check_object<SteppingPtr>(L, 1);
+  return push(L, stepping->stepper.step(check_number(L, 2)));
+}
+
+static int begin_event(lua_State* L, const char* kind, const World& world) {
+  push_list(L, 0, 6);
+  set_field(L, "kind", kind);
+  set_field(L, "time", world.time());
+  return 1;
+}
+
+static bool touches(const Manifold& m) { return !m.points.empty(); }
+
+// appends to the list on top of the stack
+static void tell_contacts(lua_State* L, const WorldPtr& world, Hooks& hooks) {
+  std::set<std::pair<Id<Body>, Id<Body>>> now;
+  const auto append = [&] { lua_rawseti(L, -2, static_cast<lua_Integer>(lua_rawlen(L, -2)) + 1); };
+  for (const Manifold& m : world->dynamics()->manifolds) {
+    if (!touches(m)) continue;
+    now.insert({m.a, m.b});
+    if (hooks.touching.contains({m.a, m.b})) continue;
+    const Pose& X_WA = world->pose(m.a);
+    Eigen::Vector3d point = Eigen::Vector3d::Zero(), force = Eigen::Vector3d::Zero();
+    for (const ManifoldPoint& p : m.points) {
+      point += X_WA * p.p_a / static_cast<double>(m.points.size());
+      force += X_WA.rotation * p.force;
+    }
+    begin_event(L, "contact", *world);
+    set_field(L, "a", BodyHandle{world, m.a});
+    set_field(L, "b", BodyHandle{world, m.b});
+    set_field(L, "point", point);
+    set_field(L, "force", force);
+    append();
+  }
+  for (const auto& [a, b] : hooks.touching) {
+    if (now.contains({a, b}) || !world->alive(a) || !world->alive(b)) continue;
+    begin_event(L, "contact_lost", *world);
+    set_field(L, "a", BodyHandle{world, a});
+    set_field(L, "b", BodyHandle{world, b});
+    append();
+  }
+  hooks.touching = std::move(now);
+}
+
+static void tell_limits(lua_State* L, const WorldPtr& world, Hooks& hooks) {
+  // reached within so much; left when it is farther away [rad or m]
+  constexpr double reached = 1e-5, left = 1e-4;
+  std::set<std::pair<Id<Robot>, int>> now;
+  for (const auto id : world->robots()) {
+    const Robot& robot = world->robot(id);
+    const auto q = world->dofs(id);
+    for (int d = 0; d < static_cast<int>(robot.dofs.size()); ++d)
+      for (const int side : {0, 1}) {
+        const std::pair key(id, side == 0 ? -(d + 1) : d + 1);
+        const bool was = hooks.at_limit.contains(key);
+        if (!(std::abs(q[d] - robot.limits[d][side]) < (was ? left : reached))) continue;
+        now.insert(key);
+        if (was) continue;
+        begin_event(L, "limit", *world);
+        set_field(L, "robot", RobotHandle{world, id});
+        set_field(L, "dof", d + 1);
+        set_field(L, "side", side == 0 ? "low" : "high");
+        set_field(L, "value", q[d]);
+        lua_rawseti(L, -2, static_cast<lua_Integer>(lua_rawlen(L, -2)) + 1);
+      }
+  }
+  hooks.at_limit = std::move(now);
+}
+
+// (stepping, hooks) -> list of events since the last call
+static int events(lua_State* L) {
+  const SteppingPtr stepping = check_object<SteppingPtr>(L, 1);
+  Hooks& hooks = check_object<Hooks>(L, 2);
+  push_list(L);
+  if (!stepping->world->dynamics()) return 1;
+  tell_contacts(L, stepping->world, hooks);
+  tell_limits(L, stepping->world, hooks);
+  return 1;
+}
+
+// (hooks, world, seconds, stepping)
+static int call_loop(lua_State* L) {
+  lua_settop(L, 4);
+  push_packed(L, "dynamics.control_loop");
+  lua_insert(L, 1);
+  lua_pushcfunction(L, guarded<step>);
+  lua_pushcfunction(L, guarded<events>);
+  protected_call(L, 6, 0);
+  return 0;
+}
+
+void run_with_hooks(lua_State* L, const WorldPtr& world, double duration) {
+  const int hooks = lua_gettop(L);
+  lua_pushcfunction(L, guarded<call_loop>);
+  lua_pushvalue(L, hooks);
+  push_object(L, WorldHandle{world});
+  push(L, duration);
+  push_object(L, std::make_shared<Stepping>(world));
+  protected_call(L, 4, 0);
+}
+
+}  // namespace clench

@@ -1,0 +1,149 @@
+--- The run of a world in which scripts take part: functions, then tasks, then a step, then listeners and observers.
+local error_text = require "clench.host.error_text"
+local error_value = require "clench.error_value"
+local raise = require "clench.raise"
+
+local tiny = 1e-9  -- parts of a period, and seconds, that are rounding
+
+-- With where it happened. Ctrl-C stays what it is.
+local function explained(problem, name, trace)
+  if type(problem) == "table" and problem.kind == "stopped" then return problem end
+  local text = ("%s\nin a %s\n%s"):format(error_text(problem), name, trace)
+  local kind = getmetatable(problem) == error_value and problem.kind or "input"
+  return setmetatable({text = text, kind = kind}, error_value)
+end
+
+local function call(handle, ...)
+  local ok, problem = xpcall(handle.fn, function(problem) return explained(problem, handle.name, debug.traceback("", 2):sub(2)) end, ...)
+  if not ok then error(problem, 0) end
+end
+
+-- Is it time? Periods are multiples of 1 / rate of the world's time, also after that went back.
+local function is_due(handle, time)
+  local rate = handle.rate
+  if not rate then return true end
+  if not handle.next or time < handle.last then handle.next = math.ceil(time * rate - tiny) end
+  handle.last = time
+  if time * rate < handle.next - tiny then return false end
+  handle.next = math.floor(time * rate + tiny) + 1
+  return true
+end
+
+-- those that are done go
+local function clear(list)
+  if not list then return end
+  local kept = 0
+  for i = 1, #list do
+    local handle = list[i]
+    if handle.status == "waiting" then
+      kept = kept + 1
+      list[kept] = handle
+    elseif handle.thread and handle.status == "removed" then
+      coroutine.close(handle.thread)
+    end
+  end
+  for i = #list, kept + 1, -1 do list[i] = nil end
+end
+
+-- those that are added meanwhile take part
+local function call_all(list, time, ...)
+  local i = 1
+  while list and list[i] do
+    local handle = list[i]
+    if handle.status == "waiting" and is_due(handle, time()) then call(handle, ...) end
+    i = i + 1
+  end
+end
+
+local function call_controllers(world, list)
+  local i = 1
+  while list and list[i] do
+    local handle = list[i]
+    if handle.status == "waiting" and is_due(handle, world.time) then
+      call(handle, world, handle.rate and 1 / handle.rate or world.time_step)
+    end
+    i = i + 1
+  end
+end
+
+-- Does what it waits for let it go on?   returns also what its wait gives
+local function may_go_on(handle, time)
+  local order = handle.order
+  if not order then return true end
+  if time < order.begun then order.begun = time end  -- the world went back
+  local over = time >= order.begun + order.seconds - tiny
+  if not order.condition then return over end
+  local ok, met = xpcall(order.condition, function(problem) return explained(problem, handle.name, debug.traceback("", 2):sub(2)) end)
+  if not ok then
+    handle.status = "failed"
+    error(met, 0)
+  end
+  return met and true or over, met and true or false
+end
+
+local function go_on(handle, world)
+  local free, result = may_go_on(handle, world.time)
+  if not free then return end
+  local first = not handle.order
+  local ok, order
+  if first then ok, order = coroutine.resume(handle.thread, handle.task) else ok, order = coroutine.resume(handle.thread, result) end
+  if not ok then
+    handle.status = "failed"
+    error(explained(order, handle.name, debug.traceback(handle.thread, "", 0):sub(2)), 0)
+  end
+  if coroutine.status(handle.thread) == "dead" then
+    if handle.status == "waiting" then handle.status = "done" end
+    return
+  end
+  -- a yield of its own waits for the next step
+  handle.order = type(order) == "table" and order.seconds and order or {seconds = 0}
+  handle.order.begun = world.time
+end
+
+local function call_tasks(world, list)
+  local i = 1
+  while list and list[i] do
+    if list[i].status == "waiting" then go_on(list[i], world) end
+    i = i + 1
+  end
+end
+
+local function tell(list, events)
+  for _, event in ipairs(events) do
+    local i = 1
+    while list[i] do
+      if list[i].status == "waiting" and list[i].event == event.kind then call(list[i], event) end
+      i = i + 1
+    end
+  end
+end
+
+---@param hooks table  of stdlib/dynamics/hooks.lua; 1: the engine's own
+---@param world world
+---@param seconds number
+---@param stepping userdata
+---@param step fun(stepping, last: number): boolean  a step that ends at `last` at the latest; false: there is no time left
+---@param events fun(stepping, own): table[]
+return function(hooks, world, seconds, stepping, step, events)
+  if hooks.runs then raise "world:run: the world runs already: what is called in a run cannot run it" end
+  hooks.runs = true
+  local running <close> = setmetatable({}, {__close = function()
+    hooks.runs = nil
+    for _, name in ipairs {"controllers", "tasks", "listeners", "observers"} do clear(hooks[name]) end
+  end})
+  local function time() return world.time end
+  local last = world.time + seconds
+  call_all(hooks.observers, time, world)
+  -- as Stepper::step: less is no time
+  while last - world.time > 1e-6 * world.time_step do
+    local before = world.time
+    call_controllers(world, hooks.controllers)
+    call_tasks(world, hooks.tasks)
+    -- one that went to another moment runs as long as it was asked to from there
+    if world.time ~= before then last = last + (world.time - before) end
+    if not step(stepping, last) then break end
+    if hooks.listeners and #hooks.listeners > 0 then tell(hooks.listeners, events(stepping, hooks[1])) end
+    call_all(hooks.observers, time, world)
+    if #(hooks.tasks or {}) > 64 then clear(hooks.tasks) end
+  end
+end

@@ -1,0 +1,104 @@
+--- Films of pictures: PNG files, an animated GIF, or MP4 by ffmpeg.
+local raise = require "clench.raise"
+local read_options = require "clench.options"
+
+-- a word for the shell
+local function quoted(word) return "'" .. word:gsub("'", "'\\''") .. "'" end
+
+-- what is seen of all frames: the middle and the radius of what moves
+local function seen(recording)
+  local low, high
+  recording:each(function(world)
+    local bodies = #world.objects + #world.robots > 0 and world.bodies or world.obstacles
+    for _, body in ipairs(bodies) do
+      if body.mesh and (body.kind ~= "obstacle" or bodies == world.obstacles) then
+        local b = body.bounds_in_world
+        low = low and clench.vec3(math.min(low.x, b.low.x), math.min(low.y, b.low.y), math.min(low.z, b.low.z)) or b.low
+        high = high and clench.vec3(math.max(high.x, b.high.x), math.max(high.y, b.high.y), math.max(high.z, b.high.z)) or b.high
+      end
+    end
+  end)
+  if not low then return clench.vec3(0, 0, 0), 0.5 end
+  return (low + high) * 0.5, math.max((high - low):norm() / 2, 1e-3)
+end
+
+-- a camera that stands still and sees everything, unless another is given
+local function camera_for(recording, given)
+  if given.eye then return end
+  local middle, radius = seen(recording)
+  local target = given.target or middle
+  local field = given.field_of_view or 0.6
+  local away = clench.vec3(0.75, -0.95, 0.6)
+  given.target, given.field_of_view = target, field
+  given.eye = target + away / away:norm() * (1.05 * radius / math.sin(field / 2))
+end
+
+local function no_ffmpeg(program)
+  local found = io.popen("command -v " .. quoted(program) .. " 2>/dev/null")
+  local path = found and found:read "l"
+  if found then found:close() end
+  if not path then
+    raise(("recording:save: .mp4 needs the program '%s', which is not installed; .gif and .html need nothing"):format(program))
+  end
+end
+
+local function encode(program, frames, count, rate, path)
+  local command = ("%s -y -loglevel error -framerate %.6g -i %s -frames:v %d -c:v libx264 -pix_fmt yuv420p -vf %s %s"):format(
+    quoted(program), rate, quoted(frames .. "%04d.png"), count, quoted "pad=ceil(iw/2)*2:ceil(ih/2)*2", quoted(path))
+  local ok, _, code = os.execute(command)
+  if not ok then raise(("recording:save: '%s' could not write '%s' and ended with code %s"):format(program, path, tostring(code))) end
+end
+
+-- hundredths of a second from one frame to the next
+local function delays(times, speed)
+  local out, shown = {}, 0
+  for i = 1, #times do
+    local stop = i < #times and (times[i + 1] - times[1]) / speed or (times[i] - times[1]) / speed + (#times > 1 and (times[2] - times[1]) / speed or 0.1)
+    local delay = math.max(1, math.floor(100 * stop + 0.5) - shown)
+    out[i], shown = delay, shown + delay
+  end
+  return out
+end
+
+---@param recording table
+---@param path string
+---@param ending "gif"|"mp4"|"png"
+---@param options table
+---@return integer frames
+return function(recording, path, ending, options)
+  local given, read = {}, {}
+  for key, value in pairs(options) do given[key] = value end
+  read.speed, read.ffmpeg = given.speed, given.ffmpeg
+  given.speed, given.ffmpeg = nil, nil
+  local own = read_options("recording:save", read)
+  local speed = own:positive("speed", 1)
+  local program = own:raw "ffmpeg" or "ffmpeg"
+  if type(program) ~= "string" then own:expected("ffmpeg", "the name of a program", program) end
+  if read.ffmpeg and ending ~= "mp4" then own:fail "ffmpeg writes .mp4 alone" end
+  if ending == "mp4" then no_ffmpeg(program) end
+  given.size, given.quality = given.size or {480, 360}, given.quality or "draft"
+  camera_for(recording, given)
+
+  local bar <close> = clench.progress(#recording.times, "recording:save")
+  local stem = ending == "mp4" and os.tmpname() or path:sub(1, -5) .. "_"
+  local files = setmetatable({}, {__close = function(list)
+    if ending ~= "mp4" then return end
+    for _, file in ipairs(list) do os.remove(file) end
+    os.remove(stem)
+  end})
+  local written <close> = files
+  local pictures = {}
+  recording:each(function(world, i)
+    local picture = clench.render(world, given)
+    if ending == "gif" then
+      pictures[i] = picture
+    else
+      files[i] = ("%s%04d.png"):format(stem, i)
+      picture:save(files[i])
+    end
+    bar:step(1)
+  end)
+  if ending == "gif" then clench.files.save_gif(path, pictures, {delays = delays(recording.times, speed)}) end
+  if ending == "mp4" then encode(program, stem, #recording.times, recording.rate * speed, path) end
+  return #recording.times
+end

@@ -1,0 +1,99 @@
+--- What takes part in a world's runs: functions called at steps, tasks and listeners, each in the order in which it came.
+local raise = require "clench.raise"
+local read_options = require "clench.options"
+local described = require "clench.described"
+local hooks = {}
+
+local Handle = {__name = "handle"}
+Handle.__index = Handle
+
+function Handle:__tostring() return ("%s (%s)"):format(self.name, self.status) end
+
+--- Ends it, also while it runs.
+function Handle:remove()
+  if self.status == "waiting" then self.status = "removed" end
+end
+
+local function check_function(subject, fn)
+  if type(fn) ~= "function" then raise(("%s: expected a function, got %s"):format(subject, described(fn))) end
+end
+
+local function add(set, list, handle)
+  handle.status = "waiting"
+  set[list] = set[list] or {}
+  table.insert(set[list], setmetatable(handle, Handle))
+  return handle
+end
+
+function hooks.on_step(set, fn, options)
+  check_function("world:on_step", fn)
+  local read = read_options("world:on_step", options or {})
+  local rate = read:raw "rate"
+  if rate ~= nil then rate = read:positive "rate" end
+  read:done()
+  return add(set, "controllers", {name = "function of world:on_step", fn = fn, rate = rate})
+end
+
+--- as on_step, but after steps, and before the first one
+function hooks.observe(set, fn, rate) return add(set, "observers", {name = "observer", fn = fn, rate = rate}) end
+
+function hooks.on(set, event, fn)
+  -- the names in messages are those of world:on
+  read_options("world:on", {event = event}):choice("event", {"contact", "contact_lost", "limit"})
+  if event == nil then raise "world:on: event must be 'contact' or 'contact_lost' or 'limit', got nothing" end
+  check_function("world:on", fn)
+  return add(set, "listeners", {name = ("listener of world:on '%s'"):format(event), fn = fn, event = event})
+end
+
+-- what a task calls from its own function
+local function new_task(handle)
+  local task = {}
+  local function pause(what, order)
+    if coroutine.running() ~= handle.thread then raise(("task.%s: expected to be called in the task's own function"):format(what)) end
+    return coroutine.yield(order)
+  end
+  local function check_time(what, seconds)
+    if type(seconds) ~= "number" or not (seconds >= 0 and seconds < math.huge) then
+      raise(("task.%s: expected a time >= 0 in seconds, got %s"):format(what, described(seconds)))
+    end
+  end
+  function task.wait(seconds)
+    check_time("wait", seconds)
+    pause("wait", {seconds = seconds})
+  end
+  function task.wait_step() pause("wait_step", {seconds = 0, step = true}) end
+  function task.wait_until(condition, timeout)
+    check_function("task.wait_until", condition)
+    if timeout ~= nil then check_time("wait_until", timeout) end
+    return pause("wait_until", {condition = condition, seconds = timeout or math.huge})
+  end
+  return task
+end
+
+function hooks.spawn(set, fn)
+  check_function("world:spawn", fn)
+  local handle = add(set, "tasks", {name = "task of world:spawn"})
+  handle.thread = coroutine.create(fn)
+  handle.task = new_task(handle)
+  return handle
+end
+
+--- stdlib/dynamics/log.lua and recording.lua
+function hooks.log(set, options, _, world) return require "clench.dynamics.log"(hooks, set, options, world) end
+function hooks.record(set, options, _, world) return require "clench.dynamics.recording"(hooks, set, options or {}, world) end
+
+function hooks.push(set, _, _, world)
+  set.stack = set.stack or {}
+  table.insert(set.stack, world:snapshot())
+  return #set.stack
+end
+
+function hooks.pop(set, _, _, world)
+  local stack = set.stack or {}
+  local last = table.remove(stack)
+  if not last then raise "world:pop: the stack is empty: nothing was pushed, or all was popped" end
+  world:restore(last)
+  return #stack
+end
+
+return hooks

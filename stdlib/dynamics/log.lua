@@ -1,0 +1,164 @@
+--- What quantities are while a world runs, as rows.
+local raise = require "clench.raise"
+local read_options = require "clench.options"
+local described = require "clench.described"
+local suggest = require "clench.suggest"
+
+-- what a value is made of: names of its parts, "" for a number
+local axes = {".x", ".y", ".z"}
+
+local named = {
+  energy = {
+    {"energy.kinetic", function(world) return world:energy().kinetic end},
+    {"energy.potential", function(world) return world:energy().potential end},
+  },
+  momentum = {
+    {"momentum.linear", function(world) return world:momentum().linear end},
+    {"momentum.angular", function(world) return world:momentum().angular end},
+  },
+  contacts = {{"contacts", function(world) return world.report.contacts end}},
+  failures = {{"failures", function(world) return world.report.failures end}},
+}
+
+local function of_body(body)
+  local name = body.name
+  return {
+    {name .. ".position", function() return body.pose.position end},
+    {name .. ".quat", function() return body.pose.quat end},
+    {name .. ".velocity", function() return body.velocity.linear end},
+    {name .. ".angular_velocity", function() return body.velocity.angular end},
+  }
+end
+
+local function of_robot(robot)
+  local name = robot.name
+  return {
+    {name .. ".dofs", function() return robot.dofs end},
+    {name .. ".dof_velocities", function() return robot.dof_velocities end},
+    {name .. ".dof_efforts", function() return robot.dof_efforts end},
+  }
+end
+
+-- {name, function} of all that is noted, in order
+local function sources_of(read, world)
+  local given = read:raw "quantities"
+  if type(given) ~= "table" then read:expected("quantities", "a table of bodies, robots, names and functions", given) end
+  local sources, seen = {}, {time = true}
+  local function add(list)
+    for _, source in ipairs(list) do
+      if seen[source[1]] then read:fail("quantities: '%s' stands there twice", source[1]) end
+      seen[source[1]] = true
+      sources[#sources + 1] = source
+    end
+  end
+  local names = {}
+  for name in pairs(named) do names[#names + 1] = name end
+  table.sort(names)
+  for i, item in ipairs(given) do
+    local kind = described(item)
+    if kind == "a body" or kind == "a robot" then
+      if item.world ~= world then read:fail("quantities[%d]: '%s' belongs to another world", i, item.name) end
+      add(kind == "a body" and of_body(item) or of_robot(item))
+    elseif named[item] then
+      add(named[item])
+    else
+      read:fail("quantities[%d]: expected a body, a robot or one of %s, got %s%s", i, table.concat(names, ", "), kind, suggest(tostring(item), names))
+    end
+  end
+  local own = {}
+  for name, fn in pairs(given) do
+    if math.type(name) == "integer" and name >= 1 and name <= #given then goto continue end
+    if type(name) ~= "string" then read:fail("quantities: expected names of functions as keys, got %s", described(name)) end
+    if type(fn) ~= "function" then read:fail("quantities: %s: expected a function, got %s", name, described(fn)) end
+    own[#own + 1] = name
+    ::continue::
+  end
+  table.sort(own)
+  for _, name in ipairs(own) do add {{name, given[name]}} end
+  if #sources == 0 then read:fail "quantities: expected at least one, got none" end
+  return sources
+end
+
+-- the parts of a value as numbers, and their names behind that of the whole
+local function parts_of(name, value)
+  if type(value) == "number" then return {value}, {""} end
+  if type(value) == "boolean" then return {value and 1 or 0}, {""} end
+  if described(value) == "a vec3" then return {value.x, value.y, value.z}, axes end
+  local parts, names = {}, {}
+  for i = 1, type(value) == "table" and #value or 0 do
+    if type(value[i]) ~= "number" then raise(("world:log: %s[%d]: expected a number, got %s"):format(name, i, described(value[i]))) end
+    parts[i], names[i] = value[i], ("[%d]"):format(i)
+  end
+  if type(value) ~= "table" then
+    raise(("world:log: %s: expected a function that gives a number, true or false, a vector or a list of numbers, got %s"):format(name, described(value)))
+  end
+  return parts, names
+end
+
+local Log = {__name = "log"}
+Log.__index = Log
+
+function Log:__tostring() return ("log of %d rows, %d columns"):format(#self.rows, #self.columns) end
+
+--- Ends it.
+function Log:remove() self.handle:remove() end
+
+-- a row of numbers by their columns
+local function note(self, world)
+  local row = {time = world.time}
+  for _, source in ipairs(self.sources) do
+    local name = source[1]
+    local parts, names = parts_of(name, source[2](world))
+    if not self.widths[name] then
+      self.widths[name] = #parts
+      for _, part in ipairs(names) do self.columns[#self.columns + 1] = name .. part end
+    elseif self.widths[name] ~= #parts then
+      raise(("world:log: %s: expected %d numbers as before, got %d"):format(name, self.widths[name], #parts))
+    end
+    for i, part in ipairs(names) do row[name .. part] = parts[i] end
+  end
+  self.rows[#self.rows + 1] = row
+end
+
+-- one array of each quantity: a number, or a row, each time
+local function arrays_of(self)
+  local arrays = {time = {}}
+  for i, row in ipairs(self.rows) do arrays.time[i] = row.time end
+  local column = 1
+  for _, source in ipairs(self.sources) do
+    local name, width = source[1], self.widths[source[1]] or 0
+    local single = width == 1 and self.columns[column + 1] == name
+    local list = {}
+    for i, row in ipairs(self.rows) do
+      if single then
+        list[i] = row[name]
+      else
+        list[i] = {}
+        for k = 1, width do list[i][k] = row[self.columns[column + k]] end
+      end
+    end
+    arrays[name:gsub("[/\\%z]", "_")] = list
+    column = column + width
+  end
+  return arrays
+end
+
+--- Writes it: .csv, a column for each number; .npz, an array for each quantity.
+---@param path string
+function Log:save(path)
+  if type(path) ~= "string" then raise("log:save: path: expected a name, got " .. described(path)) end
+  if path:lower():match "%.csv$" then return clench.csv.write(path, self.rows, {columns = self.columns}) end
+  if path:lower():match "%.npz$" then return clench.files.save_arrays(path, arrays_of(self)) end
+  raise("log:save: expected a name that ends in .csv or .npz, got " .. described(path))
+end
+
+return function(hooks, set, options, world)
+  local read = read_options("world:log", options)
+  local rate = read:positive("rate", 100)
+  local log = setmetatable({rows = {}, columns = {"time"}, widths = {}}, Log)
+  log.sources = sources_of(read, world)
+  read:done()
+  log.handle = hooks.observe(set, function(running) note(log, running) end, rate)
+  log.handle.name = "quantity of world:log"
+  return log
+end

@@ -1,0 +1,53 @@
+--- How a world ran, for films: its states at a rate of its time.
+local raise = require "clench.raise"
+local read_options = require "clench.options"
+local described = require "clench.described"
+
+local Recording = {__name = "recording"}
+Recording.__index = Recording
+
+function Recording:__tostring() return ("recording of %d frames at %g Hz"):format(#self.times, self.rate) end
+
+--- Ends it.
+function Recording:remove() self.handle:remove() end
+
+--- Calls with a copy of the world as it was at each frame in turn.
+---@param visit fun(world: world, frame: integer, time: number)
+function Recording:each(visit)
+  local world = self.world:clone()
+  for i, moment in ipairs(self.moments) do
+    world:restore(moment)
+    visit(world, i, self.times[i])
+  end
+end
+
+local writers = {html = "page", gif = "pictures", mp4 = "pictures", png = "pictures"}
+
+--- Writes a film; by the ending of the name .html, a page that plays in 3-D and can be turned while it does; .gif; .mp4, where the program ffmpeg is
+--- installed; .png, a picture of each frame, run_0001.png and so on.
+---@param path string
+---@param options? table  of .html: title, speed (1: as fast as it was); of pictures: speed, and those of clench.render; of .mp4: ffmpeg, the program
+---@return integer frames
+function Recording:save(path, options)
+  if type(path) ~= "string" then raise("recording:save: path: expected a name, got " .. described(path)) end
+  local ending = path:lower():match "%.(%w+)$"
+  if not writers[ending] then
+    raise("recording:save: expected a name that ends in .html, .gif, .mp4 or .png, got " .. described(path))
+  end
+  if #self.times == 0 then raise "recording:save: it holds nothing yet: the world has not run since it began" end
+  local write = require("clench.dynamics.film_" .. writers[ending])
+  return write(self, path, ending, options or {})
+end
+
+return function(hooks, set, options, world)
+  local read = read_options("world:record", options)
+  local rate = read:positive("rate", 30)
+  read:done()
+  local recording = setmetatable({rate = rate, times = {}, moments = {}, world = world}, Recording)
+  recording.handle = hooks.observe(set, function(running)
+    recording.times[#recording.times + 1] = running.time
+    recording.moments[#recording.moments + 1] = running:snapshot()
+  end, rate)
+  recording.handle.name = "recording"
+  return recording
+end

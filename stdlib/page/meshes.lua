@@ -1,0 +1,66 @@
+--- Meshes and poses as pages carry them: each mesh once, in base64.
+local base64 = require "clench.base64"
+local meshes = {}
+
+local large = 200000  -- triangles of a mesh that a page is slow with
+
+--- numbers in packs of some hundred: string.pack takes no more at once
+function meshes.packed(format, count, number)
+  local parts, values = {}, {}
+  for i = 1, count do
+    values[#values + 1] = number(i)
+    if #values == 192 or i == count then
+      parts[#parts + 1] = string.pack("<" .. format:rep(#values), table.unpack(values))
+      values = {}
+    end
+  end
+  return table.concat(parts)
+end
+
+local function packed_mesh(mesh)
+  local flat = {}
+  for _, v in ipairs(mesh.vertices) do
+    flat[#flat + 1], flat[#flat + 2], flat[#flat + 3] = v.x, v.y, v.z
+  end
+  local indices = {}
+  for _, t in ipairs(mesh.triangles) do
+    for k = 1, 3 do indices[#indices + 1] = t[k] - 1 end
+  end
+  local wide = #flat // 3 > 65536
+  return {positions = base64(meshes.packed("f", #flat, function(i) return flat[i] end)),
+          indices = base64(meshes.packed(wide and "I4" or "I2", #indices, function(i) return indices[i] end)), wide = wide}
+end
+
+--- to a micrometre
+function meshes.rounded(x)
+  local value = math.floor(x * 1e6 + 0.5) / 1e6
+  return value == 0 and 0 or value
+end
+
+--- seven numbers: x y z [m], then the quaternion w x y z
+function meshes.numbers(pose)
+  local p, q, rounded = pose.position, pose.quat, meshes.rounded
+  return {rounded(p.x), rounded(p.y), rounded(p.z), rounded(q[1]), rounded(q[2]), rounded(q[3]), rounded(q[4])}
+end
+
+local Meshes = {}
+Meshes.__index = Meshes
+
+--- The number, from 0, of a body's mesh in the list.
+function Meshes:add(body)
+  local mesh = packed_mesh(body.mesh)
+  local key = mesh.positions .. mesh.indices
+  if not self.number_of[key] then
+    self.list[#self.list + 1] = mesh
+    self.number_of[key] = #self.list
+  end
+  if body.mesh.triangle_count > large then
+    self.notes[#self.notes + 1] = ("the mesh of %s has %d triangles: the page is large and may turn slowly"):format(body.name, body.mesh.triangle_count)
+  end
+  return self.number_of[key] - 1
+end
+
+--- A list to fill; `notes`: sentences on meshes that are large.
+function meshes.new() return setmetatable({list = {}, notes = {}, number_of = {}}, Meshes) end
+
+return meshes

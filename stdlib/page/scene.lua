@@ -1,0 +1,140 @@
+--- The script of a page that draws meshes in 3-D, with three.js (written for its version 111): the data of the page, materials, lights, and a
+--- camera that the mouse turns. What a page shows comes after it.
+return [==[
+"use strict";
+const data = JSON.parse(document.getElementById("data").textContent);
+const view = document.getElementById("view");
+
+const bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer;
+
+// triangles with normals of their own: smooth where neighbours differ by less than 35 degrees, sharp at edges
+function geometryOf(mesh) {
+  const p = new Float32Array(bytes(mesh.positions));
+  const index = mesh.wide ? new Uint32Array(bytes(mesh.indices)) : new Uint16Array(bytes(mesh.indices));
+  const count = index.length / 3, area = new Float32Array(3 * count), unit = new Float32Array(3 * count);
+  const first = new Uint32Array(p.length / 3 + 1), around = new Uint32Array(index.length);
+  for (let t = 0; t < count; ++t) {
+    const [a, b, c] = [3 * index[3 * t], 3 * index[3 * t + 1], 3 * index[3 * t + 2]];
+    const u = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]], v = [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
+    const n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    const length = Math.hypot(...n) || 1;
+    for (let k = 0; k < 3; ++k) { area[3 * t + k] = n[k]; unit[3 * t + k] = n[k] / length; }
+  }
+  for (const v of index) ++first[v + 1];
+  for (let v = 1; v < first.length; ++v) first[v] += first[v - 1];
+  const next = first.slice();
+  for (let i = 0; i < index.length; ++i) around[next[index[i]]++] = (i / 3) | 0;
+  const points = new Float32Array(3 * index.length), normals = new Float32Array(3 * index.length);
+  const least = Math.cos(35 * Math.PI / 180);
+  for (let i = 0; i < index.length; ++i) {
+    const t = 3 * ((i / 3) | 0), v = index[i];
+    let x = 0, y = 0, z = 0;
+    for (let k = first[v]; k < first[v + 1]; ++k) {
+      const o = 3 * around[k];
+      if (unit[t] * unit[o] + unit[t + 1] * unit[o + 1] + unit[t + 2] * unit[o + 2] < least) continue;
+      x += area[o]; y += area[o + 1]; z += area[o + 2];
+    }
+    const length = Math.hypot(x, y, z) || 1;
+    points.set(p.subarray(3 * v, 3 * v + 3), 3 * i);
+    normals.set([x / length, y / length, z / length], 3 * i);
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
+  geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
+  geometry.computeBoundingSphere();
+  return geometry;
+}
+
+const paint = (color, more) => {
+  const material = new THREE.MeshStandardMaterial(Object.assign({color, roughness: 0.55, metalness: 0.05}, more));
+  material.color.convertSRGBToLinear();
+  return material;
+};
+
+function place(mesh, n) {
+  mesh.position.set(n[0], n[1], n[2]);
+  mesh.quaternion.set(n[4], n[5], n[6], n[3]);
+}
+
+let renderer = null;
+try {
+  renderer = new THREE.WebGLRenderer({antialias: true, alpha: true});
+  renderer.gammaOutput = true;
+  renderer.gammaFactor = 2.2;
+} catch (_) {
+  view.querySelector(".note").textContent = "This browser draws no WebGL: the table and its pictures remain.";
+}
+const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(32, 1, 0.001, 100);
+camera.up.set(0, 0, 1);
+scene.add(camera);
+scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 0.6));
+const lamp = new THREE.DirectionalLight(0xfff8f0, 0.7), fill = new THREE.DirectionalLight(0xe6eeff, 0.2);
+lamp.position.set(-0.6, 0.9, 0.6);
+fill.position.set(0.9, -0.1, 0.5);
+camera.add(lamp, lamp.target, fill, fill.target);
+
+const looks = {
+  link: paint(0xa9b4c2), base: paint(0x59626e), obstacle: paint(0xcfc8b8),
+  object: paint(0x4fa3b8, {transparent: true, opacity: 0.34, depthWrite: false}),
+  cone: paint(0xf4511e, {side: THREE.DoubleSide}), point: paint(0x8e1b0a),
+};
+const geometries = data.meshes.map(geometryOf);
+const solid = part => {
+  const mesh = new THREE.Mesh(geometries[part.mesh], looks[part.kind]);
+  if (part.kind === "object") mesh.renderOrder = 2;
+  scene.add(mesh);
+  return mesh;
+};
+// --- the camera: azimuth and elevation about a target ---
+const orbit = {target: new THREE.Vector3(), distance: 1, azimuth: 0, elevation: 0.4, turned: false};
+
+function draw() {
+  if (!renderer) return;
+  const {azimuth, elevation, distance, target} = orbit;
+  camera.position.set(Math.cos(azimuth) * Math.cos(elevation), Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation));
+  camera.position.multiplyScalar(distance).add(target);
+  camera.near = distance / 100;
+  camera.far = distance * 20;
+  camera.updateProjectionMatrix();
+  camera.lookAt(target);
+  renderer.render(scene, camera);
+}
+let waiting = false;
+const redraw = () => {
+  if (waiting) return;
+  waiting = true;
+  requestAnimationFrame(() => { waiting = false; draw(); });
+};
+
+function resize() {
+  if (!renderer) return;
+  renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+  renderer.setSize(view.clientWidth, view.clientHeight);
+  camera.aspect = view.clientWidth / view.clientHeight;
+  draw();
+}
+
+// --- what the mouse does ---
+let held = null;
+view.addEventListener("pointerdown", e => { held = {x: e.clientX, y: e.clientY, pan: e.button === 2 || e.shiftKey}; view.setPointerCapture(e.pointerId); });
+view.addEventListener("pointerup", () => { held = null; });
+view.addEventListener("pointercancel", () => { held = null; });
+view.addEventListener("contextmenu", e => e.preventDefault());
+view.addEventListener("pointermove", e => {
+  if (!held) return;
+  const dx = e.clientX - held.x, dy = e.clientY - held.y;
+  held.x = e.clientX;
+  held.y = e.clientY;
+  if (held.pan) {
+    const scale = 2 * orbit.distance * Math.tan(camera.fov * Math.PI / 360) / view.clientHeight;
+    orbit.target.addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrix, 0), -dx * scale);
+    orbit.target.addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrix, 1), dy * scale);
+  } else {
+    orbit.azimuth -= 0.008 * dx;
+    orbit.elevation = Math.max(-1.55, Math.min(1.55, orbit.elevation + 0.008 * dy));
+    orbit.turned = true;
+  }
+  redraw();
+});
+view.addEventListener("wheel", e => { e.preventDefault(); orbit.distance *= Math.exp(0.001 * e.deltaY); redraw(); }, {passive: false});
+]==]

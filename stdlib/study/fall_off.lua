@@ -1,0 +1,37 @@
+local read_options = require "clench.options"
+local read_motion = require "clench.study.motion.options"
+local directions = require "clench.study.motion.directions"
+local new_trial = require "clench.study.motion.trial"
+local verdict = require "clench.study.motion.verdict"
+
+--- Load and time at which a hand loses an object. The hand presses as in study.shake; then a force at the object's centre of mass grows along each
+--- axis of the world in turn, from zero by `rate`, until the object is displaced by max_distance or max_angle.
+---@param options {hand: robot, object: body, world?: world, rate?: number, max_force?: number, mass?: number, gravity?: vec3, max_distance?: number, max_angle?: number, grip?: string, grip_force?: number, grip_seconds?: number, settle?: number, surroundings?: boolean}  rate: 5 [N/s]; max_force: at which it ends, 20 [N]; mass: 0.1 [kg]; gravity: none [m/s^2]; grip_force: 10 [N]; the others as in study.shake
+---@return {survived: boolean, directions: table[], min_force: number, min_time: number, held: integer, settled: table, grip: string, contacts: integer, failures: integer, protocol: string} # survived: nowhere lost; directions: {direction, force [N] and time [s] at which it was lost or the test ended, moved [m], turned [rad], held}; min_force, min_time: the least of all
+--- > clench.study.fall_off({hand = hand, object = flask, rate = 10, max_force = 2, settle = 0.1}).min_force  --> 2.0
+return function(options)
+  local read = read_options("study.fall_off", options)
+  local rate, most = read:positive("rate", 5), read:positive("max_force", 20)
+  local job = read_motion(read, {mass = 0.1, gravity = clench.vec3(0, 0, 0), grip_force = 10})
+  read:done()
+  local trial = new_trial(job)
+  local result = verdict.new(trial, job, ("a force along each axis that grows by %g N/s up to %g N"):format(rate, most))
+  result.min_force, result.min_time = math.huge, math.huge
+  local seconds = most / rate
+  for _, direction in ipairs(directions) do
+    local row
+    if trial.settled.held then
+      trial:reset()
+      row = trial:watch(seconds, function(time)
+        trial.world.gravity = job.gravity + direction[2] * (rate * time / job.mass)
+      end)
+    else
+      row = verdict.lost_before(trial)
+    end
+    row.direction, row.time = direction[1], row.time or seconds
+    row.force = rate * row.time
+    result.min_force, result.min_time = math.min(result.min_force, row.force), math.min(result.min_time, row.time)
+    verdict.add(result, "directions", row, trial)
+  end
+  return verdict.close(result)
+end

@@ -1,0 +1,42 @@
+--- What all studies of moving grasps are given.
+local described = require "clench.described"
+
+local function check(read, name, kind)
+  local value = read:raw(name)
+  if described(value) ~= kind then read:expected(name, kind, value) end
+  return value
+end
+
+local function point(read, name, default)
+  local value = read:raw(name)
+  if value == nil then return default end
+  local ok, vector = pcall(function() return type(value) == "table" and clench.vec3(value[1], value[2], value[3]) or value end)
+  if not ok or described(vector) ~= "a vec3" then read:expected(name, "a vector {x, y, z}", value) end
+  return vector
+end
+
+--- Reads hand, object and world, how the hand grips, and when the object counts as lost.
+---@param read table  of clench.options
+---@param default {mass?: number, gravity?: vec3, grip_force?: number, surroundings?: boolean}  mass: the object's, unless given; gravity: the world's; grip_force: ten weights
+---@return table job
+return function(read, default)
+  local job = {subject = read.subject, hand = check(read, "hand", "a robot"), object = check(read, "object", "a body")}
+  job.world = read:raw "world" or job.hand.world
+  if described(job.world) ~= "a world" then read:expected("world", "a world", job.world) end
+  if job.hand.world ~= job.world or job.object.world ~= job.world then read:fail("hand and object must be in the same world") end
+  if job.object.kind ~= "object" then read:fail("object: '%s' is no object but of kind '%s'", job.object.name, job.object.kind) end
+  if not job.object.mesh then read:fail("object: '%s' has no surface", job.object.name) end
+  job.mass = read:positive("mass", default.mass or job.object.mass)
+  job.gravity = point(read, "gravity", default.gravity or job.world.gravity)
+  job.grip = read:choice("grip", {"forces", "close"})
+  job.grip_force = read:positive("grip_force", default.grip_force or 10 * 9.81 * job.mass)
+  job.grip_seconds = read:not_negative("grip_seconds", 0.5)
+  job.settle = read:not_negative("settle", 1)
+  job.max_distance = read:positive("max_distance", 0.05)
+  job.max_angle = read:positive("max_angle", math.rad(15))
+  local surroundings = read:raw "surroundings"
+  if surroundings ~= nil and type(surroundings) ~= "boolean" then read:expected("surroundings", "true or false", surroundings) end
+  if surroundings == nil then surroundings = default.surroundings == true end
+  job.surroundings = surroundings
+  return job
+end

@@ -1,0 +1,22 @@
+--- What a thread does with a grasp: its measures, and whether it survives being shaken. For clench.parallel.map.
+local verification = require "clench.plan.verification"
+
+local own = {
+  contacts = function(grasp) return #grasp.points end,
+  load_margin = function(grasp, object) return verification.load(object, grasp, verification.defaults.force_ratio) end,
+}
+
+---@param grasp grasp
+---@param shared {hand: robot, object: body, measures: string[], shake: table}
+return function(grasp, shared)
+  local hand, object = shared.hand, shared.object
+  local placed = grasp:apply(hand.world, {hand = hand, object = object})
+  local values = {}
+  for _, name in ipairs(shared.measures) do
+    values[name] = #placed.points == 0 and 0 or own[name] and own[name](placed, object) or placed:quality(name)
+  end
+  local options = {hand = hand, object = object}
+  for key, value in pairs(shared.shake) do options[key] = value end
+  local verdict = clench.study.shake(options)
+  return {values = values, survived = verdict.survived, held = verdict.held, protocol = verdict.protocol}
+end

@@ -1,0 +1,164 @@
+--- A grasp that moves: a copy of its world in which the hand presses the object by its motors, and how far the object
+--- goes from where the hand held it then.
+local Trial = {}
+Trial.__index = Trial
+
+local every = 0.01  -- between two looks [s]
+
+local function place_of(list, entity)
+  for i, other in ipairs(list) do
+    if other == entity then return i end
+  end
+end
+
+-- the robot at the end of all that carries a robot
+local function root_of(robot)
+  while robot.parent do robot = robot.parent end
+  return robot
+end
+
+-- hand, object, and what carries the hand
+local function remove_surroundings(world, hand, object)
+  local root, others = root_of(hand), {}
+  for _, robot in ipairs(world.robots) do
+    if root_of(robot) ~= root then others[#others + 1] = robot end
+  end
+  for _, robot in ipairs(others) do world:remove(robot) end
+  for _, list in ipairs {world.objects, world.obstacles} do
+    for _, body in ipairs(list) do
+      if body ~= object then world:remove(body) end
+    end
+  end
+end
+
+-- motors hold robots where they stand, and carry their weight
+local function hold_robots(world)
+  for _, robot in ipairs(world.robots) do
+    robot.controller = "position"
+    robot.gravity_compensation = true
+    robot.floating = false
+  end
+end
+
+local swing = 60  -- at which motors without gains of their own swing back [rad/s]
+
+-- Motors whose file gives no gains are as stiff as it takes to hold the object, too, at the lever that they have to it.
+local function set_gains(hand, object)
+  local M, gains, changes = hand:mass_matrix(), hand.gains, false
+  local com = object.pose * object.com
+  local levers = {}
+  for i = 1, #gains do levers[i] = 0 end
+  for _, link in ipairs(hand.links) do
+    local J = hand:jacobian(link, link.pose:inverse() * com)
+    for i = 1, #gains do levers[i] = math.max(levers[i], math.sqrt(J[1][i] ^ 2 + J[2][i] ^ 2 + J[3][i] ^ 2)) end
+  end
+  for i, info in ipairs(hand.dof_info) do
+    if info.kp > 0 or info.kd > 0 then
+      gains[i] = false
+    else
+      local inertia = M[i][i] + object.mass * levers[i] ^ 2
+      gains[i], changes = {kp = inertia * swing ^ 2, kd = 2 * inertia * swing}, true
+    end
+  end
+  if changes then hand.gains = gains end
+end
+
+-- Torques of the motors that press by forces in equilibrium; nil where there are none.
+local function grip_torques(hand, object, total)
+  local grasp = clench.grasp(hand, object)
+  if #grasp.points < 2 then return nil end
+  local found = grasp:contact_forces {objective = "max_margin", total_force = total}
+  return found.status == "optimal" and found.joint_torques or nil
+end
+
+-- Compliant DOFs pull their tendons until their springs give what the motors can.
+local function pull_tendons(hand)
+  local targets, pulls = hand.dofs, false
+  for i, info in ipairs(hand.dof_info) do
+    if info.kind == "compliant" and info.default_velocity ~= 0 then
+      targets[i], pulls = hand.dof_limits[i][info.default_velocity > 0 and 2 or 1], true
+    end
+  end
+  if pulls then hand:set_targets(targets) end
+end
+
+local function press(trial, job)
+  local world, hand = trial.world, trial.hand
+  local torques = job.grip == "forces" and grip_torques(hand, trial.object, job.grip_force)
+  trial.grip = torques and "forces" or "close"
+  if not torques then
+    hand:autograsp {dynamic = true}
+    world:run(job.grip_seconds)
+    return
+  end
+  pull_tendons(hand)
+  local steps = math.max(1, math.ceil(job.grip_seconds / every - 1e-9))
+  for step = 1, steps do
+    local now = {}
+    for i, torque in ipairs(torques) do now[i] = torque * step / steps end
+    hand:set_forces(now)
+    world:run(job.grip_seconds / steps)
+  end
+end
+
+--- Where the object is in the hand's base.
+function Trial:pose() return self.hand.pose:inverse() * self.object.pose end
+
+-- how far its centre of mass has gone, and how far it has turned, since it was held
+function Trial:displacement(from)
+  local now = self:pose()
+  return (now * self.com - from * self.com):norm(), (from:inverse() * now):angle()
+end
+
+--- Runs so long, or until the object is lost.
+---@param seconds number
+---@param tick? fun(time: number)  called before each part of the time, with what has passed
+---@param length? number  of the parts [s]
+---@return {moved: number, turned: number, held: boolean, time?: number}  the largest displacement [m, rad]; time at which it was lost [s]
+function Trial:watch(seconds, tick, length)
+  local from, row = self.held_at, {moved = 0, turned = 0, held = true}
+  local parts = math.max(1, math.ceil(seconds / (length or every) - 1e-9))
+  for part = 1, parts do
+    if tick then tick(seconds * (part - 1) / parts) end
+    self.world:run(seconds / parts)
+    local moved, turned = self:displacement(from)
+    row.moved, row.turned = math.max(row.moved, moved), math.max(row.turned, turned)
+    -- nor is what is no number held
+    if not (moved <= self.max_distance and turned <= self.max_angle) then
+      row.held, row.time = false, seconds * part / parts
+      break
+    end
+  end
+  return row
+end
+
+--- Goes back to where the hand held the object at rest.
+function Trial:reset() self.world:restore(self.ready) end
+
+--- Copies the world and lets the hand press: its motors hold its posture, and torques are added that press with forces in
+--- equilibrium, the contacts as far inside their friction cones as can be; or they close. There is no gravity while it does so,
+--- and until everything has come to rest.
+---@param job table  of study.motion.options
+return function(job)
+  local world = job.world:clone()
+  local hand = world.robots[place_of(job.world.robots, job.hand)]
+  local object = world.bodies[place_of(job.world.bodies, job.object)]
+  if not job.surroundings then remove_surroundings(world, hand, object) end
+  object.mass = job.mass
+  hold_robots(world)
+  object.velocity = {}
+  set_gains(hand, object)
+  world.gravity = {0, 0, 0}
+  local trial = setmetatable({world = world, hand = hand, object = object, root = root_of(hand), com = object.com,
+                              max_distance = job.max_distance, max_angle = job.max_angle}, Trial)
+  local first = trial:pose()
+  press(trial, job)
+  trial.held_at = trial:pose()
+  trial.settled = trial:watch(math.max(job.settle, every))
+  trial.contacts = #world:contacts(hand, object)
+  trial.settled.held = trial.settled.held and trial.contacts > 0
+  trial.settled.moved, trial.settled.turned = trial:displacement(first)
+  trial.held_at = trial:pose()
+  trial.ready = world:snapshot()
+  return trial
+end

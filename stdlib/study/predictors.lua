@@ -1,0 +1,133 @@
+local raise = require "clench.raise"
+local read_options = require "clench.options"
+local described = require "clench.described"
+local roc = require "clench.study.motion.roc"
+
+-- of their own: the others are grasp:quality's
+local own = {contacts = true, load_margin = true}
+local usual = {"epsilon", "volume", "load_margin", "contacts", "min_singular_value", "gravity_effort"}
+
+local Predictors = {__name = "predictors"}
+Predictors.__index = Predictors
+
+local function add_options(drawing, options, subject)
+  for key, value in pairs(options or {}) do
+    if key == "series" or key == "labels" then raise(("study.predictors: %s: unknown key '%s'"):format(subject, key)) end
+    drawing[key] = value
+  end
+  return drawing
+end
+
+--- the area under the curve of each measure, as bars
+function Predictors:chart(options)
+  local values, labels = {}, {}
+  for i, row in ipairs(self.rows) do values[i], labels[i] = row.auc == row.auc and row.auc, row.measure end
+  return clench.chart(add_options({series = {{name = "area under the curve", values = values}}, labels = labels,
+                                   title = "Which measures predict survival?"}, options, "chart"))
+end
+
+--- the curves: survivors among those above a bound of the measure, over the others among them
+function Predictors:plot(options)
+  local series = {}
+  for i, row in ipairs(self.rows) do
+    local name = row.auc == row.auc and ("%s %.2f"):format(row.measure, row.auc) or row.measure
+    series[i] = {name = name, x = row.curve.false_positives, y = row.curve.true_positives}
+  end
+  return clench.plot(add_options({series = series, title = "Which measures predict survival?", x_label = "share of the lost grasps",
+                                  y_label = "share of the survivors", x_range = {0, 1}, y_range = {0, 1}}, options, "plot"))
+end
+
+function Predictors:__tostring()
+  local lines = {("%d of %d grasps survived: %s"):format(self.survived, self.count, self.protocol)}
+  for _, row in ipairs(self.rows) do
+    lines[#lines + 1] = row.auc ~= row.auc and ("%-20s nothing to compare"):format(row.measure)
+      or ("%-20s %.3f  (%.3f to %.3f)"):format(row.measure, row.auc, row.low, row.high)
+  end
+  return table.concat(lines, "\n")
+end
+
+local function check_grasps(grasps)
+  local list = {}
+  local ok, count = pcall(function() return #grasps end)
+  if not ok or type(grasps) ~= "table" and described(grasps) ~= "a grasps" then
+    raise("study.predictors: expected a list of grasps, got " .. described(grasps))
+  end
+  for i = 1, count do
+    list[i] = grasps[i]
+    if described(list[i]) ~= "a grasp" then raise(("study.predictors: grasps[%d]: expected a grasp, got %s"):format(i, described(list[i]))) end
+  end
+  if count == 0 then raise "study.predictors: expected at least one grasp, got none" end
+  return list
+end
+
+local function read_measures(read, grasp_names)
+  local names = read:raw "measures" or usual
+  if type(names) ~= "table" or #names == 0 then read:expected("measures", "a list of names", names) end
+  local all = {}
+  for name in pairs(own) do all[#all + 1] = name end
+  for name in pairs(grasp_names) do all[#all + 1] = name end
+  table.sort(all)
+  for i, name in ipairs(names) do
+    if not own[name] and grasp_names[name] == nil then
+      read:fail("measures[%d]: there is no measure %s%s", i, described(name), require "clench.suggest"(tostring(name), all))
+    end
+  end
+  return names
+end
+
+local function higher_is_better()
+  local by_name = {}
+  for _, measure in ipairs(clench.measures()) do by_name[measure.name] = measure.higher_is_better end
+  return by_name
+end
+
+--- How well measures of quality predict whether a grasp survives the six-direction force test: for each the area under the ROC
+--- curve, the probability that of a survivor and a lost grasp the survivor has the better value. 0.5 is no better than chance. The interval holds it at 95 %
+--- (Hanley and McNeil 1982). The grasps, in any number of threads, are put into copies of the world.
+---@param grasps grasp[]|grasps
+---@param options {hand: robot, object: body, measures?: string[], shake?: table, threads?: integer}  measures: names as grasp:quality takes them, "load_margin" (times the object's weight that the hand holds in the worst of six directions, as the planners' verification has it) and "contacts"; shake: options of study.shake; threads: all cores
+---@return {rows: table[], grasps: table[], survived: integer, count: integer, failed: integer, protocol: string, chart: function, plot: function} # rows, best first: {measure, auc, low, high, curve}; grasps: {survived, held, values}, or {error}, of each; chart: bars; plot: the curves
+--- > p = clench.study.predictors({grasp, grasp}, {hand = hand, object = flask, measures = {"epsilon"}, shake = {seconds = 0.1, settle = 0.1}})
+--- > p.count, p.survived, p.rows[1].measure  --> 2, 2, epsilon
+return function(grasps, options)
+  local list = check_grasps(grasps)
+  local read = read_options("study.predictors", options)
+  local hand, object = read:raw "hand", read:raw "object"
+  if described(hand) ~= "a robot" then read:expected("hand", "a robot", hand) end
+  if described(object) ~= "a body" then read:expected("object", "a body", object) end
+  local larger = higher_is_better()
+  local measures = read_measures(read, larger)
+  local shake = read:raw "shake" or {}
+  if type(shake) ~= "table" then read:expected("shake", "a table of options", shake) end
+  for _, name in ipairs {"hand", "object", "world"} do
+    if shake[name] ~= nil then read:fail("shake: unknown key '%s'", name) end
+  end
+  local threads = read:count("threads", clench.parallel.cores, 1, 1024)
+  read:done()
+
+  local outcomes, failed = clench.parallel.map("clench.study.motion.survival_worker", list,
+    {threads = threads, shared = {hand = hand, object = object, measures = measures, shake = shake}})
+  if failed == #list then raise("study.predictors: " .. outcomes[1].error:gsub("^stdlib/[^:]*:%d+: ", "")) end
+  local result = {grasps = outcomes, survived = 0, count = #list, failed = failed, rows = {}}
+  for _, outcome in ipairs(outcomes) do
+    if outcome.survived then result.survived = result.survived + 1 end
+    result.protocol = result.protocol or outcome.protocol
+  end
+  for i, name in ipairs(measures) do
+    local good, bad = {}, {}
+    for _, outcome in ipairs(outcomes) do
+      if not outcome.error then
+        local value = larger[name] == false and -outcome.values[name] or outcome.values[name]
+        table.insert(outcome.survived and good or bad, value)
+      end
+    end
+    result.rows[i] = roc(good, bad)
+    result.rows[i].measure = name
+  end
+  local function key(row) return row.auc == row.auc and row.auc or -1 end
+  table.sort(result.rows, function(a, b)
+    if key(a) ~= key(b) then return key(a) > key(b) end
+    return a.measure < b.measure
+  end)
+  return setmetatable(result, Predictors)
+end

@@ -1,0 +1,45 @@
+local read_options = require "clench.options"
+local read_motion = require "clench.study.motion.options"
+local new_trial = require "clench.study.motion.trial"
+local verdict = require "clench.study.motion.verdict"
+
+local axes = {{"x", clench.vec3(1, 0, 0)}, {"y", clench.vec3(0, 1, 0)}, {"z", clench.vec3(0, 0, 1)}}
+
+--- The hand is shaken. In a copy of the world that holds nothing but the hand, what carries it and the object, the hand presses and
+--- all comes to rest, as in study.shake; then gravity acts, and the base that carries all moves to and fro like a sine along each axis of
+--- the world in turn, from the second period on with the whole acceleration.
+---@param options {hand: robot, object: body, world?: world, acceleration?: number, amplitude?: number, frequency?: number, seconds?: number, mass?: number, gravity?: vec3, max_distance?: number, max_angle?: number, grip?: string, grip_force?: number, grip_seconds?: number, settle?: number, surroundings?: boolean}  acceleration: the largest, 9.81 [m/s^2]; amplitude: instead of it [m]; frequency: 5 [Hz]; seconds: 2 along each axis; mass: the object's [kg]; gravity: the world's [m/s^2]; grip_force: ten weights [N]; the others as in study.shake
+---@return {survived: boolean, axes: table[], held: integer, settled: table, grip: string, contacts: integer, failures: integer, protocol: string} # axes: {axis, moved [m], turned [rad], held, time [s] at which it was lost}
+--- > clench.study.shake_base({hand = hand, object = flask, seconds = 0.4, settle = 0.1, mass = 0.1, acceleration = 2}).survived  --> true
+return function(options)
+  local read = read_options("study.shake_base", options)
+  local frequency, seconds = read:positive("frequency", 5), read:positive("seconds", 2)
+  local rate = 2 * math.pi * frequency
+  local acceleration
+  if read:raw "amplitude" ~= nil then
+    if read:raw "acceleration" ~= nil then read:fail "expected acceleration or amplitude, got both" end
+    acceleration = read:positive "amplitude" * rate ^ 2
+  else
+    acceleration = read:positive("acceleration", 9.81)
+  end
+  local job = read_motion(read, {})
+  read:done()
+  local trial = new_trial(job)
+  local result = verdict.new(trial, job, ("shaken along each axis with up to %.3g m/s^2 at %g Hz for %g s"):format(acceleration, frequency, seconds))
+  for _, axis in ipairs(axes) do
+    local row
+    if trial.settled.held then
+      trial:reset()
+      trial.world.gravity = job.gravity
+      row = trial:watch(seconds, function(time)
+        local speed = acceleration / rate * math.sin(rate * time) * math.min(1, time * frequency)
+        trial.root.velocity = {linear = axis[2] * speed}
+      end, math.min(0.001, 0.02 / frequency))
+    else
+      row = verdict.lost_before(trial)
+    end
+    row.axis = axis[1]
+    verdict.add(result, "axes", row, trial)
+  end
+  return verdict.close(result)
+end

@@ -1,0 +1,305 @@
+-- Scripts that take part in a run: when they are called, what ends them, and that nothing they do breaks the world.
+local test, clench = require "test", require "clench"
+
+local function falling_box()
+  local world = clench.world()
+  local box = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "box", mass = 1, pose = {xyz = {0, 0, 1}}})
+  return world, box
+end
+
+local function on_floor()
+  local world, box = falling_box()
+  world:add_obstacle(clench.shapes.box {2, 2, 0.1}, {name = "floor", pose = {xyz = {0, 0, -0.05}}})
+  return world, box
+end
+
+test("a function that does nothing changes nothing, to the bit, and run ends exactly", function(t)
+  local world, box = on_floor()
+  box.velocity = {linear = {0.3, 0, 0}, angular = {0, 5, 1}}
+  local other = world:clone()
+  local calls, sum = 0, 0
+  world:on_step(function(w, dt)
+    t.ok(w == world and dt == world.time_step)
+    calls, sum = calls + 1, sum + dt
+  end)
+  world:run(0.7123)
+  other:run(0.7123)
+  t.equal(world:hash(), other:hash())
+  t.equal(world.time, 0.7123)
+  t.ok(calls >= 713 and calls == world.report.steps)
+end)
+
+test("functions are called in order, at their rates, from where the world is", function(t)
+  local world = falling_box()
+  local seen = {}
+  world:on_step(function() seen[#seen + 1] = "a" end, {rate = 10})
+  world:on_step(function(_, dt) seen[#seen + 1] = "b" t.close(dt, 0.05, 1e-15) end, {rate = 20})
+  world:run(0.1)
+  t.equal(table.concat(seen), "abb")  -- at 0 both, b at 0.05; that of 0.1 comes with the next run
+  world:run(0.001)
+  t.equal(table.concat(seen), "abbab")
+  -- a world that goes back is called again there
+  local times, moment = {}, world:snapshot()
+  local handle = world:on_step(function(w) times[#times + 1] = w.time end, {rate = 50})
+  world:run(0.1)
+  local first = table.move(times, 1, #times, 1, {})
+  world:restore(moment)
+  times = {}
+  world:run(0.1)
+  t.close(times, first, 0)
+  t.ok(#times == 5)
+  handle:remove()
+  t.equal(handle.status, "removed")
+  world:run(0.1)
+  t.equal(#times, 5)
+end)
+
+test("a controller holds a box in the air", function(t)
+  local world, box = falling_box()
+  world:on_step(function()
+    local v, z = box.velocity.linear.z, box.pose.position.z
+    box:apply_force {0, 0, 9.81 + 100 * (1 - z) - 20 * v}
+  end)
+  world:run(1)
+  t.close(box.pose.position.z, 1, 1e-3)
+end)
+
+test("a controller at a rate is a script that steps by itself", function(t)
+  local world, box = falling_box()
+  local other = world:clone()
+  world:on_step(function() box.velocity = {linear = {world.time, 0, 0}} end, {rate = 100})
+  world:run(0.2)
+  local same = other.objects[1]
+  for i = 0, 19 do
+    same.velocity = {linear = {other.time, 0, 0}}
+    other:run((i + 1) / 100 - other.time)
+  end
+  t.close(box.pose.position, same.pose.position, 1e-12)
+end)
+
+test("tasks wait for times and for conditions, in the order in which they were spawned", function(t)
+  local world = falling_box()
+  local seen = {}
+  local function note(text) seen[#seen + 1] = ("%s %.3f"):format(text, world.time) end
+  local a = world:spawn(function(task)
+    note "a"
+    task.wait(0.01)
+    note "a"
+    local met = task.wait_until(function() return world.objects[1].velocity.linear.z < -0.2 end, 1)
+    note(tostring(met))
+    met = task.wait_until(function() return false end, 0.01)
+    note(tostring(met))
+  end)
+  local b = world:spawn(function(task)
+    note "b"
+    task.wait_step()
+    note "b"
+  end)
+  world:run(0.1)
+  t.equal(table.concat(seen, ", "), "a 0.000, b 0.000, b 0.001, a 0.010, true 0.021, false 0.031")
+  t.ok(a.status == "done" and b.status == "done")
+end)
+
+test("tasks may spawn tasks, end themselves and others, and outlive a run", function(t)
+  local world = falling_box()
+  local log = {}
+  local endless = world:spawn(function(task) while true do log[#log + 1] = "." task.wait(0.01) end end)
+  world:spawn(function(task)
+    task.wait(0.025)
+    world:spawn(function() log[#log + 1] = "new" end)
+    endless:remove()
+  end)
+  world:run(0.02)
+  t.equal(table.concat(log), "..")
+  world:run(0.05)
+  t.equal(table.concat(log), "...new")
+  t.equal(endless.status, "removed")
+end)
+
+test("events tell of contacts and limits once", function(t)
+  local world, box = on_floor()
+  box.pose = clench.pose {xyz = {0, 0, 0.2}}
+  local events = {}
+  world:on("contact", function(e)
+    events[#events + 1] = e.kind
+    t.ok(e.a.name == "box" and e.b.name == "floor" or e.a.name == "floor" and e.b.name == "box")
+    t.ok(e.time == world.time and math.abs(e.point.z) < 1e-3)
+  end)
+  world:on("contact_lost", function(e) events[#events + 1] = e.kind end)
+  world:run(0.5)
+  t.equal(table.concat(events, " "), "contact")
+  world:run(0.2)
+  t.equal(#events, 1)
+  box.pose = clench.pose {xyz = {0, 0, 0.5}}
+  world:run(0.01)
+  t.equal(table.concat(events, " "), "contact contact_lost")
+
+  local hand_world = clench.world()
+  local hand = hand_world:add_robot "models/hands/barrett/barrett.cfg"
+  local limits = {}
+  hand_world:on("limit", function(e) if e.robot == hand and e.side == "high" then limits[e.dof] = e.value end end)
+  hand.controller = "effort"
+  hand:set_forces {5, 0, 0, 0}
+  hand_world:run(2)
+  t.close(limits[1], math.pi, 1e-4)
+  t.equal(#limits, 1)
+end)
+
+test("an error ends the run, tells where it was, and leaves the world to run on", function(t)
+  local world = falling_box()
+  local handle = world:on_step(function() local nothing; nothing.x = 1 end)
+  local message = t.fails(function() world:run(1) end, "attempt to index a nil value (local 'nothing')", "in a function of world:on_step",
+                          "stack traceback", "control_test.lua")
+  t.ok(message:find "control_test.lua:%d+:")
+  t.equal(world.time, 0.0)
+  handle:remove()
+  world:run(0.01)
+  local function deep(task) task.wait(0.005) error "too deep" end
+  local task = world:spawn(function(task) deep(task) end)
+  t.fails(function() world:run(1) end, "too deep", "in a task of world:spawn", "in upvalue 'deep'")
+  t.equal(task.status, "failed")
+  t.close(world.time, 0.015, 1e-9)
+  world:run(0.01)
+  task = world:spawn(function(task) task.wait_until(function() error "bad condition" end) end)
+  t.fails(function() world:run(1) end, "bad condition")
+  world:on("contact", function() error "never called" end)
+  world:run(0.01)
+end)
+
+test("controllers may remove bodies, go back in time and start nothing else", function(t)
+  local world, box = on_floor()
+  local start = world:snapshot()
+  world:spawn(function(task)
+    task.wait(0.05)
+    world:remove(box)
+    task.wait(0.05)
+    world:restore(start)
+  end)
+  local lost = 0
+  world:on("contact_lost", function() lost = lost + 1 end)
+  world:run(0.2)
+  -- 0.1 s until it went back, and 0.1 s from there
+  t.close(world.time, 0.1, 1e-12)
+  t.close(box.pose.position.z, 1 - 0.5 * 9.81 * 0.01, 1e-2)
+  world:on_step(function() world:run(1) end)
+  t.fails(function() world:run(0.1) end, "world:run: the world runs already")
+  -- another world may run
+  local a, b = falling_box(), falling_box()
+  a:on_step(function() b:run(0.001) end)
+  a:run(0.01)
+  t.close(b.time, 0.01, 1e-9)
+end)
+
+test("functions belong to one world: neither to its clones nor to one that comes after it", function(t)
+  local calls = 0
+  for _ = 1, 50 do
+    local world = falling_box()
+    world:clone():run(0.002)
+    t.equal(calls, 0)
+    world:on_step(function() calls = calls + 1 end)
+    world:run(0.002)
+    t.equal(calls, 2)
+    calls = 0
+    world = nil
+    collectgarbage()
+  end
+end)
+
+test("what is wrong is said in a sentence", function(t)
+  local world = falling_box()
+  t.fails(function() world:on_step() end, "world:on_step: expected a function, got nothing")
+  t.fails(function() world:on_step(print, {rate = 0}) end, "world:on_step: rate must be")
+  t.fails(function() world:on_step(print, {rat = 1}) end, "world:on_step: unknown key 'rat'")
+  t.fails(function() world:spawn(3) end, "world:spawn: expected a function, got 3")
+  t.fails(function() world:on(nil, print) end, "world:on: event must be 'contact' or 'contact_lost' or 'limit', got nothing")
+  t.fails(function() world:on("touch", print) end, "world:on: event must be 'contact' or 'contact_lost' or 'limit', got 'touch'")
+  t.fails(function() world:on("contact") end, "world:on: expected a function, got nothing")
+  local kept
+  world:spawn(function(task)
+    kept = task
+    t.fails(function() task.wait(-1) end, "task.wait: expected a time >= 0 in seconds, got -1")
+    t.fails(function() task.wait_until(3) end, "task.wait_until: expected a function, got 3")
+    task.wait(1)
+  end)
+  world:run(0.01)
+  t.fails(function() kept.wait(1) end, "task.wait: expected to be called in the task's own function")
+end)
+
+local function vector(matrix, v)
+  local out = {}
+  for i, row in ipairs(matrix) do
+    out[i] = 0
+    for k, x in ipairs(row) do out[i] = out[i] + x * v[k] end
+  end
+  return out
+end
+
+test("the mass matrix gives the energy of motion, and inverse dynamics the forces that a motion needs", function(t)
+  for _, file in ipairs {"barrett/barrett.cfg", "dlr/dlr.cfg"} do
+    local world = clench.world()
+    local hand = world:add_robot("models/hands/" .. file)
+    hand.gravity_compensation = false
+    hand.controller = "none"
+    local random, velocities, middle = clench.random(3), {}, {}
+    for i, limit in ipairs(hand.dof_limits) do
+      velocities[i] = random:normal()
+      middle[i] = 0.6 * limit[1] + 0.4 * limit[2]
+    end
+    hand:set_dofs(middle)
+    hand.dof_velocities = velocities
+    local M = hand:mass_matrix()
+    for i = 1, #M do
+      for k = 1, #M do t.close(M[i][k], M[k][i], 1e-15) end
+    end
+    local before = hand.dof_velocities
+    -- forces of inverse dynamics give the accelerations that were asked for
+    local asked = {}
+    for i = 1, #M do asked[i] = random:normal() end
+    world.time_step = 1e-5
+    hand:set_forces(hand:inverse_dynamics(asked))
+    world:run(1e-5)
+    local largest = 0
+    for i, v in ipairs(hand.dof_velocities) do largest = math.max(largest, math.abs((v - before[i]) / 1e-5 - asked[i])) end
+    t.ok(largest < 0.02 * math.sqrt(#M), ("%s: %g"):format(file, largest))
+    local energy = 0
+    local v = hand.dof_velocities
+    for i, x in ipairs(vector(hand:mass_matrix(), v)) do energy = energy + 0.5 * x * v[i] end
+    t.close(world:energy().kinetic, energy, 1e-6 * energy)
+    t.fails(function() hand:inverse_dynamics {1 / 0} end, "expected")
+  end
+end)
+
+test("gravity is in the bias forces of a robot whose motors do not carry it", function(t)
+  local world = clench.world()
+  local hand = world:add_robot "models/hands/barrett/barrett.cfg"
+  hand.gravity_compensation = true
+  for _, force in ipairs(hand:bias_forces()) do t.close(force, 0, 1e-12) end
+  hand.gravity_compensation = false
+  local sum = 0
+  for _, force in ipairs(hand:bias_forces()) do sum = sum + math.abs(force) end
+  -- some 8 cm of finger, 0.2 kg in all
+  t.ok(sum > 0.1 and sum < 0.3)
+end)
+
+test("stiffer motors give way less", function(t)
+  local function deflection(gains)
+    local world = clench.world()
+    local hand = world:add_robot "models/hands/barrett/barrett.cfg"
+    hand.gains = gains
+    hand:set_dofs {0, 1, 1, 1}
+    for _ = 1, 500 do
+      hand.links[3]:apply_force {0, 0, -1}
+      hand.links[3]:apply_force {1, 0, 0}
+      world:run(0.001)
+    end
+    return math.abs(hand.dofs[2] - 1)
+  end
+  local function all(kp) return {{kp = kp, kd = 0.1}, {kp = kp, kd = 0.1}, {kp = kp, kd = 0.1}, {kp = kp, kd = 0.1}} end
+  local soft, stiff = deflection(all(2)), deflection(all(20))
+  t.ok(soft > 5 * stiff and stiff > 0, ("%g and %g"):format(soft, stiff))
+  local hand = clench.world():add_robot "models/hands/barrett/barrett.cfg"
+  t.fails(function() hand.gains = {{kp = 1}, false, false, false} end, "hand.gains[1]: kd: expected a number, got nil")
+  t.fails(function() hand.gains = {{kp = -1, kd = 0}, false, false, false} end, "expected a number from 0 to 1e+12")
+  t.fails(function() hand.gains = {{kp = 1, kd = 0, ki = 1}, false, false, false} end, "unknown key 'ki'")
+  t.fails(function() hand.gains = 5 end, "expected a list of gains, got 5")
+end)

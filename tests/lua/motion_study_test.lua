@@ -1,0 +1,176 @@
+-- Grasps judged in motion: what survives, what does not, and that the world is left as it was.
+local test, clench = require "test", require "clench"
+local roc = require "clench.study.motion.roc"
+
+local function closed_on_flask()
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  local hand, flask = world.robots[1], world.objects[1]
+  hand:autograsp()
+  return hand, flask, world
+end
+
+test("a grasp survives pushes along six directions, and the world stays as it was", function(t)
+  local hand, flask, world = closed_on_flask()
+  local before = world:hash()
+  local v = clench.study.shake {world = world, hand = hand, object = flask, seconds = 0.5, settle = 0.5}
+  t.ok(world:hash() == before)
+  t.ok(v.survived and v.held == 6 and #v.directions == 6 and v.grip == "forces" and v.failures == 0)
+  for i, name in ipairs {"+x", "-x", "+y", "-y", "+z", "-z"} do
+    local row = v.directions[i]
+    t.ok(row.direction == name and row.held and row.time == nil and row.moved < 0.05 and row.turned < math.rad(15))
+  end
+  t.ok(tostring(v):find("survived: 1 N along each axis for 0.5 s, 0.1 kg, gripped with 10 N of normal forces", 1, true))
+  -- the same bits again
+  local again = clench.study.shake {world = world, hand = hand, object = flask, seconds = 0.5, settle = 0.5}
+  for i, row in ipairs(v.directions) do t.ok(row.moved == again.directions[i].moved) end
+end)
+
+test("without friction the flask is lost, and the time of it is told", function(t)
+  local hand, flask = closed_on_flask()
+  flask.material = "frictionless"
+  local v = clench.study.shake {hand = hand, object = flask, seconds = 1, settle = 0.2}
+  t.ok(not v.survived and v.held < 6)
+  for _, row in ipairs(v.directions) do t.ok(row.held == (row.time == nil)) end
+end)
+
+test("an object that nothing touches is lost before it is shaken", function(t)
+  local hand, flask = closed_on_flask()
+  hand:open()
+  hand.pose = clench.pose {xyz = {0, 0, 1}} * hand.pose
+  local v = clench.study.shake {hand = hand, object = flask, seconds = 0.1, settle = 0.1, grip_seconds = 0.1}
+  t.ok(not v.survived and v.held == 0 and not v.settled.held and v.contacts == 0 and v.grip == "close")
+  for _, row in ipairs(v.directions) do t.ok(not row.held and row.time == 0) end
+end)
+
+test("what stands around is left out, unless it is asked for", function(t)
+  local hand, flask, world = closed_on_flask()
+  -- a table directly under the flask carries it
+  local bounds = flask.bounds_in_world
+  local middle = (bounds.low + bounds.high) * 0.5
+  world:add_obstacle(clench.shapes.box {1, 1, 0.02}, {pose = {xyz = {middle.x, middle.y, bounds.low.z - 0.0105}}})
+  flask.material = "frictionless"
+  local function falls(surroundings)
+    local v = clench.study.shake {hand = hand, object = flask, seconds = 0.5, settle = 0.1, surroundings = surroundings}
+    return v.directions[6].moved
+  end
+  t.ok(falls(true) < falls(false))
+end)
+
+test("a grasp is lifted, and slips without friction", function(t)
+  local hand, flask, world = closed_on_flask()
+  local before = world:hash()
+  local options = {hand = hand, object = flask, mass = 0.1, height = 0.05, hold = 0.2, settle = 0.2}
+  local v = clench.study.lift(options)
+  t.ok(v.survived and #v.rows == 3 and v.rows[1].phase == "gravity" and v.rows[2].phase == "lift" and v.rows[3].phase == "hold")
+  t.ok(world:hash() == before)
+  flask.material = "frictionless"
+  t.ok(not clench.study.lift(options).survived)
+  t.fails(function() clench.study.lift {hand = hand, object = flask, direction = {0, 0, 0}} end, "study.lift: direction must not be zero")
+end)
+
+test("a hand that is shaken harder loses the flask", function(t)
+  local hand, flask, world = closed_on_flask()
+  local before = world:hash()
+  local function shaken(acceleration)
+    return clench.study.shake_base {hand = hand, object = flask, mass = 0.1, acceleration = acceleration, seconds = 0.5, settle = 0.2}
+  end
+  local gentle, hard = shaken(2), shaken(200)
+  t.ok(gentle.survived and #gentle.axes == 3 and not hard.survived)
+  t.ok(world:hash() == before)
+  t.fails(function() clench.study.shake_base {hand = hand, object = flask, amplitude = 1, acceleration = 1} end, "expected acceleration or amplitude, got both")
+  local same = clench.study.shake_base {hand = hand, object = flask, mass = 0.1, amplitude = 2 / (10 * math.pi) ^ 2, seconds = 0.5, settle = 0.2}
+  t.close(same.axes[1].moved, gentle.axes[1].moved, 1e-6)
+end)
+
+test("the load at which a grasp is lost lies above what it survives", function(t)
+  local hand, flask = closed_on_flask()
+  local fall = clench.study.fall_off {hand = hand, object = flask, settle = 0.2, rate = 10, max_force = 10}
+  t.ok(not fall.survived and fall.min_force > 1 and fall.min_force < 10)
+  t.close(fall.min_time, fall.min_force / 10, 1e-12)
+  local function survives(force)
+    return clench.study.shake {hand = hand, object = flask, force = force, grip_force = 10, seconds = 0.5, settle = 0.2}.survived
+  end
+  t.ok(survives(0.3 * fall.min_force) and not survives(3 * fall.min_force))
+end)
+
+test("the area under a ROC curve is the part of pairs in the right order", function(t)
+  t.close(roc({3, 4}, {1, 2}).auc, 1, 0)
+  t.close(roc({1, 2}, {3, 4}).auc, 0, 0)
+  t.close(roc({1, 1}, {1, 1, 1}).auc, 0.5, 0)
+  local random, good, bad = clench.random(1), {}, {}
+  for i = 1, 40 do
+    good[i] = math.floor(10 * (random:normal() + 1))
+    bad[i] = math.floor(10 * random:normal())
+  end
+  local right = 0
+  for _, g in ipairs(good) do
+    for _, b in ipairs(bad) do right = right + (g > b and 1 or g == b and 0.5 or 0) end
+  end
+  local r = roc(good, bad)
+  t.close(r.auc, right / 1600, 1e-12)
+  t.ok(r.low < r.auc and r.auc < r.high)
+  t.ok(roc({1}, {}).auc ~= roc({1}, {}).auc)
+end)
+
+test("measures are rated by what survives, in any number of threads", function(t)
+  local hand, flask, world = closed_on_flask()
+  local grasps = {clench.grasp(hand, flask)}
+  flask.pose = clench.pose {xyz = {0, 0, 0.02}} * flask.pose
+  hand:open()
+  hand:autograsp()
+  grasps[2] = clench.grasp(hand, flask)
+  hand:open()
+  grasps[3] = clench.grasp(hand, flask)  -- of nothing
+  local options = {hand = hand, object = flask, measures = {"load_margin", "epsilon", "contacts", "gravity_effort"}, threads = 1,
+                   shake = {seconds = 0.2, settle = 0.2, grip_seconds = 0.2}}
+  local before = world:hash()
+  local p = clench.study.predictors(grasps, options)
+  t.ok(world:hash() == before and p.failed == 0 and p.count == 3 and not p.grasps[3].survived)
+  t.ok(p.survived >= 1 and p.rows[1].auc == 1)
+  options.threads = 2
+  local again = clench.study.predictors(grasps, options)
+  t.equal(tostring(again), tostring(p))
+  t.ok(p:chart {width = 300}.width == 300 and p:plot {width = 300}.picture.width == 300)
+  t.fails(function() p:plot {series = {}} end, "study.predictors: plot: unknown key 'series'")
+end)
+
+test("what is wrong with a study is said in a sentence", function(t)
+  local hand, flask, world = closed_on_flask()
+  local function refused(given, ...)
+    local words = {...}
+    t.fails(function() clench.study.shake(given) end, table.unpack(words))
+  end
+  refused({object = flask}, "study.shake: hand must be a robot, got nothing")
+  refused({hand = hand, object = hand}, "study.shake: object must be a body, got a robot")
+  refused({hand = hand, object = hand.base}, "study.shake: object: '", "is no object but of kind 'base'")
+  refused({hand = hand, object = flask, force = 0}, "study.shake: force must be")
+  refused({hand = hand, object = flask, gravity = 3}, "study.shake: gravity must be a vector {x, y, z}, got 3")
+  refused({hand = hand, object = flask, grip = "tight"}, "study.shake: grip must be 'forces' or 'close', got 'tight'")
+  refused({hand = hand, object = flask, surroundings = 1}, "study.shake: surroundings must be true or false, got 1")
+  refused({hand = hand, object = flask, forces = 1}, "study.shake: unknown key 'forces'")
+  refused({hand = hand, object = flask, world = clench.world()}, "study.shake: hand and object must be in the same world")
+  local function no_study(grasps, given, text) t.fails(function() clench.study.predictors(grasps, given) end, text) end
+  local grasp = clench.grasp(hand, flask)
+  no_study({}, {}, "study.predictors: expected at least one grasp, got none")
+  no_study({1}, {}, "study.predictors: grasps[1]: expected a grasp, got 1")
+  no_study(5, {}, "study.predictors: expected a list of grasps, got 5")
+  no_study({grasp}, {hand = hand, object = flask, measures = {"epsilom"}}, "study.predictors: measures[1]: there is no measure 'epsilom'; did you mean 'epsilon'?")
+  no_study({grasp}, {hand = hand, object = flask, shake = {hand = hand}}, "study.predictors: shake: unknown key 'hand'")
+  no_study({grasp}, {hand = hand, object = flask, shake = {sceonds = 1}}, "unknown key 'sceonds'")
+  t.ok(world)
+end)
+
+test("a hand on an arm is tried with its arm, and without other robots", function(t)
+  local world = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
+  local arm, hand, glass = world.robots[1], world.robots[2], world.objects[1]
+  t.ok(hand.parent == arm)
+  -- another hand on another arm, made before its arm
+  local other_hand = world:add_robot("models/hands/parallel_jaw/parallel_jaw.cfg", {name = "other"})
+  local before = world:hash()
+  hand:autograsp()
+  local closed = world:hash()
+  local v = clench.study.lift {hand = hand, object = glass, mass = 0.05, settle = 0.1, hold = 0.1, surroundings = false}
+  t.equal(#v.rows >= 1, true)
+  t.equal(world:hash(), closed)
+  t.ok(before ~= closed and other_hand.world == world)
+end)
