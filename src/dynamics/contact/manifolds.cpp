@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "clench/contact/contact_set.h"
-#include "clench/dynamics/contact/flat_contact.h"
 #include "clench/dynamics/contact/ball_contact.h"
+#include "clench/dynamics/contact/flat_contact.h"
 #include "clench/dynamics/contact/overlap.h"
 #include "clench/model/near_bodies.h"
 
@@ -109,7 +109,10 @@ void measure(World& world, Manifold& m) {
   } else {
     const Distance d = distance(a, b, m.X_AB, limit, &world.context().pair(first, second));
     m.clear = std::min(d.distance, limit);
-    if (d.distance == 0 && !m.points.empty()) return update_gaps(world, m);
+    // links of a robot may be made so that they overlap
+    const auto of_robot = [](const Body& body) { return body.kind != BodyKind::object && body.kind != BodyKind::obstacle; };
+    const bool own = of_robot(world.body(m.a)) && of_robot(world.body(m.b)) && world.body(m.a).robot == world.body(m.b).robot;
+    if (d.distance == 0 && (own || !m.points.empty())) return update_gaps(world, m);
     // bodies placed into each other touch where they would on the way out
     const std::optional<Pose> X_AT = d.distance == 0 ? moved_out(a, b, m.X_AB, threshold) : m.X_AB;
     if (X_AT && d.distance <= threshold)
@@ -126,7 +129,7 @@ void measure(World& world, Manifold& m) {
   if (!points.empty()) find_patches(world, m, points);
   if (!points.empty() && !m.points.empty()) inherit(points, m.points);
   m.points = std::move(points);
-  m.flat = find_flat_contact(world, m);
+  if (m.clear > 0) m.flat = find_flat_contact(world, m);
 }
 
 static bool moves(const World& world, const System& system, Id<Body> id) {
