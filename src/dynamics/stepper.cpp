@@ -94,6 +94,7 @@ double Stepper::move(double dt) {
   std::vector<PairBound> watches;
   std::vector<std::pair<int, double>> balls;  // manifolds, and bounds of their speeds
   std::vector<std::pair<int, Manifold>> measured;
+  bool near = false;  // is any of those that are followed within the threshold already?
   for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i) {
     const Manifold& m = state.manifolds[i];
     if (!may_have_met(world_, m)) continue;
@@ -108,6 +109,7 @@ double Stepper::move(double dt) {
         continue;
       }
     }
+    near = near || m.clear - displacement(m.X_AB, before[i], *world_.body(m.b).shape) <= world_.contact_threshold();
     // the bound holds on the whole way, which is longer than the chord of a turn
     if (has_ball(world_, m))
       balls.push_back({i, 1.1 * way / dt});
@@ -122,8 +124,8 @@ double Stepper::move(double dt) {
     passed = advance.s;
   }
   if (!balls.empty() || !watches.empty()) {
-    // a pair that starts with next to no gap still gets on
-    constexpr double least = 1e-3;
+    // a pair that starts with next to no gap still gets on; one that starts with a gap may meet at any time
+    const double least = near ? 1e-3 : 1e-9;
     passed = std::clamp(passed, least * dt, dt);
     if (passed < dt) ++state.report.impacts;
   }

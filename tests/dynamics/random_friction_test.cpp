@@ -128,6 +128,30 @@ TEST_CASE("redundant contacts share their load the same way wherever the solver 
   CHECK(apart <= 6);
 }
 
+TEST_CASE("steps of a motion, whose velocities change by a thousandth, need a few iterations each, redundant contacts or not") {
+  FrictionSolver solver;
+  double iterations = 0;
+  int steps = 0, many = 0;
+  for (int i = 0; i < test::cases(100); ++i) {
+    Random random(10, i);
+    FrictionProblem problem = random_problem(random, {.max_mu = 1});
+    const VectorXd change = 1e-3 * problem.W * test::normals(random, static_cast<int>(problem.q.size())) / problem.W.diagonal().maxCoeff();
+    VectorXd r = solver.solve(problem, {}).r;
+    for (int step = 0; step < 20; ++step) {
+      problem.q += change;
+      const FrictionSolution solution = solver.solve(problem, r);
+      CHECK(solution.solved);
+      check_law(problem, solution);
+      iterations += solution.iterations;
+      many += solution.iterations > 15;
+      ++steps;
+      r = solution.r;
+    }
+  }
+  CHECK(iterations / steps < 8);
+  CHECK(many < steps / 25);
+}
+
 TEST_CASE("pyramids: random contacts are solved, and with many edges they are cones") {
   FrictionSolver solver;
   int solved = 0;

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "clench/contact/contact_set.h"
-#include "clench/dynamics/contact/flat_contact.h"
 #include "clench/dynamics/contact/ball_contact.h"
+#include "clench/dynamics/contact/flat_contact.h"
+#include "clench/dynamics/contact/overlap.h"
 #include "clench/model/near_bodies.h"
 
 namespace clench {
@@ -108,20 +109,27 @@ void measure(World& world, Manifold& m) {
   } else {
     const Distance d = distance(a, b, m.X_AB, limit, &world.context().pair(first, second));
     m.clear = std::min(d.distance, limit);
-    if (d.distance == 0) return update_gaps(world, m);
-    if (d.distance > 0 && d.distance <= threshold)
-      for (const Touch& touch : contact_set(a, b, m.X_AB, {.threshold = threshold}))
+    // links of a robot may be made so that they overlap
+    const auto of_robot = [](const Body& body) { return body.kind != BodyKind::object && body.kind != BodyKind::obstacle; };
+    const bool own = of_robot(world.body(m.a)) && of_robot(world.body(m.b)) && world.body(m.a).robot == world.body(m.b).robot;
+    if (d.distance == 0 && (own || !m.points.empty())) return update_gaps(world, m);
+    // bodies placed into each other touch where they would on the way out
+    const std::optional<Pose> X_AT = d.distance == 0 ? moved_out(a, b, m.X_AB, threshold) : m.X_AB;
+    if (X_AT && d.distance <= threshold)
+      for (const Touch& touch : contact_set(a, b, *X_AT, {.threshold = threshold})) {
         points.push_back({.p_a = touch.p_a,
-                          .p_b = m.X_AB.inverse() * touch.p_b,
+                          .p_b = X_AT->inverse() * touch.p_b,
                           .normal = touch.normal_b,
                           .feature_a = touch.feature_a,
                           .feature_b = touch.feature_b,
                           .gap = touch.gap});
+        if (d.distance == 0) points.back().gap = gap_of(points.back(), m.X_AB);
+      }
   }
   if (!points.empty()) find_patches(world, m, points);
   if (!points.empty() && !m.points.empty()) inherit(points, m.points);
   m.points = std::move(points);
-  m.flat = find_flat_contact(world, m);
+  if (m.clear > 0) m.flat = find_flat_contact(world, m);
 }
 
 static bool moves(const World& world, const System& system, Id<Body> id) {

@@ -20,7 +20,7 @@ double displacement(const Pose& X_AB, const Pose& other, const Shape& b);
 void find_manifolds(World& world, const System& system, double travel);
 
 /// Measures a pair where it is. Points that lie on the same features as before keep their forces; those of a pair that has come
-/// to overlap stay, so that it is pushed apart.
+/// to overlap stay, so that it is pushed apart; one that was placed so gets those of the shortest way out.
 void measure(World& world, Manifold& manifold);
 
 /// Gaps of its points where the pair is now, in the order of the points.

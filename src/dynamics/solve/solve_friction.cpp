@@ -55,7 +55,11 @@ double FrictionSolver::descend(double rho, VectorXd& r, FrictionSolution& soluti
   for (int round = 0; round < 40 && reached > damping && shrink < 0.99; ++round) {
     const double level = std::max(reached * shrink, damping);
     r_ = r;
-    bool found = follow(level, 20, r_, solution);
+    bool found = newton(level, rho, 10, r_, solution);
+    if (!found) {
+      r_ = r;
+      found = follow(level, 20, r_, solution);
+    }
     if (!found) {
       gauss_seidel_.set(scaled_, level);
       int sweeps = 3;
@@ -126,16 +130,19 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
     return fault.largest;
   };
   double residual = measure(r);
+  bool straight = true;
   for (int i = 0; i < max_iterations; ++i) {
     if (enough) return true;
-    r_ = r;
-    ++solution.iterations;
-    if (newton_.refine(scaled_, by, u_, r_)) {
-      const double next = measure(r_);
-      if (enough || next < 0.5 * residual) {
-        r.swap(r_);
-        residual = next;
-        continue;
+    if (straight) {
+      r_ = r;
+      ++solution.iterations;
+      if (newton_.refine(scaled_, by, u_, r_)) {
+        const double next = measure(r_);
+        if (enough || next < 0.5 * residual) {
+          r.swap(r_);
+          residual = next;
+          continue;
+        }
       }
     }
     // the damping pulls to where it is, no more to 0
@@ -150,7 +157,9 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
     }
     if (found) {
       const double next = measure(r_);
+      straight = false;
       if (next > 0.3 * residual) by = std::max(by / 4, 1e-14);
+      else if (next > 0.01 * residual) by = std::max(by / 30, 1e-11);
       r.swap(r_);
       residual = next;
     } else {

@@ -1,0 +1,14 @@
+// Contacts of bodies that were placed into each other, or exactly against each other.
+#pragma once
+#include <optional>
+
+#include "clench/geometry/query/queries.h"
+
+namespace clench {
+
+/// Where b would stand if it were moved straight out of a, on a short way along an axis of either or away from a's centre,
+/// until less than the threshold is between them; none where no such way of up to 128 thresholds leads out.
+/// threshold  > 0 [m]
+std::optional<Pose> moved_out(const Shape& a, const Shape& b, const Pose& X_AB, double threshold);
+
+}  // namespace clench
