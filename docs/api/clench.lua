@@ -847,6 +847,7 @@ function world_control:pop() end
 ---How bodies and robots move: velocity, and what pushes them.
 ---@class motion: entity
 ---@field velocity {linear: vec3, angular: vec3} # Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. Setting a pose brings a body to rest. [m/s], [rad/s]
+---@field surface_velocity vec3 # Of a conveyor belt: what touches it is carried along at this velocity, in its own frame, while it stands. [m/s]
 local motion = {}
 
 ---Pushes it in the next step, and in that one alone; pushes add up.

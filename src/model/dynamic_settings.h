@@ -35,7 +35,6 @@ struct DynamicSettings {
   int cone_edges = 8;  ///< of a pyramid
   std::map<Id<Robot>, RobotDynamics> robots;  ///< those that differ from the default
   std::map<Id<Body>, Eigen::Vector3d> surface_velocities;  ///< of conveyor belts, in their bodies' frames [m/s]
-  std::vector<std::pair<Id<Body>, Id<Body>>> welds;
 
   RobotDynamics robot(Id<Robot> id) const {
     const auto found = robots.find(id);

@@ -96,10 +96,10 @@ struct StepReport {
   int contacts = 0;             ///< points of the last step
 };
 
-/// What a motor, limit, clutch, dry friction or weld gave in the last step.
+/// What a motor, limit, clutch or dry friction gave in the last step.
 struct RowImpulse {
   int kind = 0;    ///< see dynamics/control/rows.h
-  int index = 0;   ///< of the DOF, the joint or the weld's row
+  int index = 0;   ///< of the DOF or the joint
   double impulse = 0;  ///< [N s or N m s]
 
   auto key() const { return std::pair(kind, index); }

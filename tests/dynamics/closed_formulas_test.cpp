@@ -248,3 +248,16 @@ TEST_CASE("the same bits again, on a clone, and after a restored snapshot") {
   run(one, 0.25);
   CHECK(one.hash() == hash);
 }
+
+TEST_CASE("a conveyor belt carries what lies on it, to its own speed and no further") {
+  Slope belt(0, 0.4);
+  DynamicSettings settings = belt.world.dynamic_settings();
+  settings.surface_velocities[belt.ground] = {0.5, 0, 0};
+  belt.world.set_dynamic_settings(settings);
+  const auto id = belt.put("box", box(0.1, 0.1, 0.05), 1, Pose::translation({0, 0, 0.025 + touch}));
+  run(belt.world, 0.1);
+  CHECK(belt.speed(id) == doctest::Approx(0.4 * g * 0.1).epsilon(1e-3));
+  run(belt.world, 0.3);
+  CHECK(belt.speed(id) == doctest::Approx(0.5).epsilon(1e-9));
+  CHECK(belt.world.pose(belt.ground) == Pose{});
+}

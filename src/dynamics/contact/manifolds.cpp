@@ -37,11 +37,6 @@ void update_torsion(ManifoldPoint& point) {
   point.torsion_force = force;
 }
 
-bool follows(const World& world, const Manifold& m) {
-  return displacement(m.X_AB, relative_pose(world, m.a, m.b), *world.body(m.b).shape) <=
-         follows_within * world.contact_threshold();
-}
-
 // the one on the same features, else the nearest that no other has taken, within the radius in which contacts are one
 static void inherit(std::vector<ManifoldPoint>& points, const std::vector<ManifoldPoint>& before) {
   constexpr double same = 1e-3;

@@ -26,9 +26,6 @@ void measure(World& world, Manifold& manifold);
 /// Gaps of its points where the pair is now, in the order of the points.
 void update_gaps(const World& world, Manifold& manifold);
 
-/// Do they follow their bodies still?
-bool follows(const World& world, const Manifold& manifold);
-
 /// The radius by which a soft point resists torsion under its last force; found anew when that has changed by a twentieth.
 void update_torsion(ManifoldPoint& point);
 

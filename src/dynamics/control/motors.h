@@ -4,7 +4,7 @@
 
 namespace clench {
 
-enum class RowKind { motor, low_limit, high_limit, dry_friction, clutch, weld };
+enum class RowKind { motor, low_limit, high_limit, dry_friction, clutch };
 
 /// Of one coordinate: low <= impulse <= high holds its velocity at a target, which it may leave in the sense of the bound that
 /// is reached; with a compliance, velocity - target + compliance * impulse is 0 between them.

@@ -48,6 +48,24 @@ static int apply_torque(lua_State* L) {
   return 0;
 }
 
+static int get_surface_velocity(lua_State* L) {
+  const auto body = self_body(L);
+  const auto& belts = body.world->dynamic_settings().surface_velocities;
+  const auto found = belts.find(body.id);
+  return push(L, found == belts.end() ? Eigen::Vector3d(0, 0, 0) : found->second);
+}
+
+static int set_surface_velocity(lua_State* L) {
+  const auto body = self_body(L);
+  const Eigen::Vector3d velocity = check_vec3(L, 2);
+  check(velocity_rule.called("surface velocity"), velocity, subject(L));
+  DynamicSettings settings = body.world->dynamic_settings();
+  settings.surface_velocities.erase(body.id);
+  if (!velocity.isZero(0)) settings.surface_velocities[body.id] = velocity;
+  body.world->set_dynamic_settings(std::move(settings));
+  return 0;
+}
+
 static const Entry fields[] = {
     {"velocity", guarded<get_velocity>, R"(
 Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are
@@ -57,6 +75,13 @@ told, whatever they push. Setting a pose brings a body to rest.
 > flask.velocity.linear  --> (0, 0, 1)
 > flask.velocity = {linear = {0, 0, 1 / 0}}  --> error: velocity)",
      guarded<set_velocity>},
+    {"surface_velocity", guarded<get_surface_velocity>, R"(
+Of a conveyor belt: what touches it is carried along at this velocity, in its own frame, while it stands.
+@type vec3  [m/s]
+> flask.surface_velocity = {0.1, 0, 0}
+> flask.surface_velocity  --> (0.1, 0, 0)
+> flask.surface_velocity = {1e9, 0, 0}  --> error: surface velocity)",
+     guarded<set_surface_velocity>},
 };
 
 static const Entry methods[] = {

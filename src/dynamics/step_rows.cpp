@@ -1,0 +1,167 @@
+// Stepper: contacts, limits and motors as rows of a friction problem.
+#include <algorithm>
+#include <cmath>
+
+#include "clench/contact/cone.h"
+#include "clench/dynamics/stepper.h"
+#include "clench/model/near_bodies.h"
+
+namespace clench {
+
+// Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s].
+static constexpr double sliding_speed = 1e-6;
+// A gap this near to that at which bodies rest, as a part of the contact threshold, is that one.
+static constexpr double rest_band = 1e-3;
+// Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so [m/s].
+static constexpr double pushed_part = 0.2, pushed_at_most = 0.1;
+// Below this speed of approach nothing bounces [m/s].
+static constexpr double bounces_above = 0.01;
+
+Eigen::Vector3d Stepper::told_velocity(Id<Body> id, const Eigen::Vector3d& p_W) const {
+  Eigen::Vector3d out = Eigen::Vector3d::Zero();
+  const System::Place place = system_.place(id);
+  const Body& body = world_.body(id);
+  const Pose& X_WB = world_.pose(id);
+  if (place.tree < 0) {
+    const Twist twist = world_.twist(id);
+    out = twist.linear + twist.angular.cross(p_W - X_WB * body.com);
+  } else if (!system_.trees[place.tree].floating) {
+    const Vector6d twist = root_twist(place.tree);
+    const Eigen::Vector3d turning = twist.tail<3>();
+    out = twist.head<3>() + turning.cross(p_W - trees_[place.tree].about());
+  }
+  const auto& belts = world_.dynamic_settings().surface_velocities;
+  if (const auto belt = belts.find(id); belt != belts.end()) out += X_WB.rotation * belt->second;
+  return out;
+}
+
+void Stepper::update_manifolds() {
+  const double threshold = world_.contact_threshold();
+  for (Manifold& m : world_.edit_dynamics().manifolds) {
+    const double moved = displacement(m.X_AB, relative_pose(world_, m.a, m.b), *world_.body(m.b).shape);
+    if (m.clear > threshold ? moved >= m.clear - threshold : moved > follows_within * threshold)
+      measure(world_, m);
+    else
+      update_gaps(world_, m);
+    for (ManifoldPoint& point : m.points) update_torsion(point);
+  }
+}
+
+int Stepper::add_columns(int tree, int count) {
+  TreeRows& rows = tree_rows_[tree];
+  const int first = static_cast<int>(rows.rows.size());
+  const int needed = first + count;
+  if (rows.Y.rows() != system_.trees[tree].size() || rows.Y.cols() < needed)
+    rows.Y.conservativeResize(system_.trees[tree].size(), std::max(2 * needed, 16));
+  rows.Y.middleCols(first, count).setZero();
+  for (int k = 0; k < count; ++k) rows.rows.push_back(row_count_ + k);
+  return first;
+}
+
+void Stepper::add_contact(int manifold, int point, double h) {
+  const Manifold& m = world_.dynamics()->manifolds[manifold];
+  const ManifoldPoint& p = m.points[point];
+  const Body &a = world_.body(m.a), &b = world_.body(m.b);
+  const Pose &X_WA = world_.pose(m.a), &X_WB = world_.pose(m.b);
+  const Eigen::Vector3d normal = (X_WA.rotation * p.normal).normalized();
+  const Eigen::Matrix3d xyz = contact_frame(normal);
+  Touch touch{.manifold = manifold, .point = point, .frame = {}, .p_W = 0.5 * (X_WA * p.p_a + X_WB * p.p_b), .a = m.a, .b = m.b};
+  touch.frame << normal, xyz.col(0), xyz.col(1);
+  const Friction friction = world_.materials().friction(a.material, b.material);
+  Block block;
+  block.touch = static_cast<int>(touches_.size());
+  block.law.row = row_count_;
+  block.law.tangents = friction.statics > 0 ? (p.torsion_radius > 0 ? 3 : 2) : 0;
+  const int size = block.law.size();
+
+  const std::array<Id<Body>, 2> bodies = {m.a, m.b};
+  Eigen::Vector3d told = told_velocity(m.b, touch.p_W) - told_velocity(m.a, touch.p_W);
+  for (int side = 0; side < 2; ++side) {
+    const System::Place place = system_.place(bodies[side]);
+    if (place.tree < 0 || system_.trees[place.tree].size() == 0) continue;
+    const bool same = side == 1 && block.tree[0] == place.tree;
+    const int slot = same ? 0 : side;
+    block.tree[slot] = place.tree;
+    if (!same) block.column[slot] = add_columns(place.tree, size);
+    const double sign = side == 0 ? -1 : 1;
+    for (int k = 0; k < size; ++k) {
+      auto column = tree_rows_[place.tree].Y.col(block.column[slot] + k);
+      if (k < 3)
+        trees_[place.tree].add_linear(place.body, touch.p_W, touch.frame.col(k), sign, column);
+      else
+        trees_[place.tree].add_angular(place.body, normal, sign * p.torsion_radius, column);
+    }
+  }
+  // the gap may close as far as bodies rest, in the step to come
+  const double step = world_.dynamic_settings().step, beyond = p.gap - rest_gap * world_.contact_threshold();
+  double target = std::abs(beyond) <= rest_band * world_.contact_threshold() ? 0 : beyond > 0 ? -beyond / step : std::min(-pushed_part * beyond / step, pushed_at_most);
+  const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
+  double slip = 0;
+  for (int k = 0; k < size; ++k) {
+    double q = k < 3 ? touch.frame.col(k).dot(told) : 0, before = q;
+    for (int side = 0; side < 2; ++side)
+      if (const int t = block.tree[side]; t >= 0) {
+        const auto column = tree_rows_[t].Y.col(block.column[side] + k);
+        q += column.dot(v_.segment(system_.trees[t].first, system_.trees[t].size()));
+        before += column.dot(v_before_.segment(system_.trees[t].first, system_.trees[t].size()));
+      }
+    // Newton's law of impact, where the free motion would press
+    if (k == 0 && q < target && before < -bounces_above) target = std::max(target, -restitution * before);
+    if (k == 0) q -= target;
+    if (k > 0) slip += before * before;
+    q_.conservativeResize(row_count_ + k + 1);
+    q_[row_count_ + k] = q;
+  }
+  block.law.mu = slip > sliding_speed * sliding_speed ? friction.kinetic : friction.statics;
+  // warm start
+  const Eigen::Vector3d force = X_WA.rotation * p.force;
+  for (int k = 0; k < size; ++k) warm_.push_back(h * (k < 3 ? touch.frame.col(k).dot(force) : p.torsion / p.torsion_radius));
+  row_count_ += size;
+  touch.target = target;
+  touches_.push_back(touch);
+  blocks_.push_back(block);
+}
+
+void Stepper::add_row(int number) {
+  const CoordinateRow& row = coordinate_rows_[number];
+  Block block;
+  block.row = number;
+  block.law = {.row = row_count_, .low = row.low, .high = row.high};
+  block.tree[0] = row.tree;
+  block.column[0] = add_columns(row.tree, 1);
+  tree_rows_[row.tree].Y(row.coordinate, block.column[0]) = 1;
+  q_.conservativeResize(row_count_ + 1);
+  q_[row_count_] = v_[system_.trees[row.tree].first + row.coordinate] - row.target;
+  double warm = 0;
+  for (const RowImpulse& last : world_.dynamics()->impulses)
+    if (last.kind == static_cast<int>(row.kind) && last.index == row.index) warm = last.impulse;
+  warm_.push_back(std::clamp(warm, row.low, row.high));
+  ++row_count_;
+  blocks_.push_back(block);
+}
+
+void Stepper::find_rows(double h) {
+  DynamicState& state = world_.edit_dynamics();
+  row_count_ = 0;
+  touches_.clear();
+  blocks_.clear();
+  warm_.clear();
+  coordinate_rows_.clear();
+  q_.resize(0);
+  for (TreeRows& rows : tree_rows_) rows.rows.clear();
+  for (size_t m = 0; m < state.manifolds.size(); ++m)
+    for (size_t p = 0; p < state.manifolds[m].points.size(); ++p)
+      if (state.manifolds[m].points[p].gap <= world_.contact_threshold())
+        add_contact(static_cast<int>(m), static_cast<int>(p), h);
+  for (size_t t = 0; t < trees_.size(); ++t)
+    add_coordinate_rows(world_, system_.trees[t], static_cast<int>(t), trees_[t].mass_matrix(), h, state, coordinate_rows_);
+  for (size_t i = 0; i < coordinate_rows_.size(); ++i) add_row(static_cast<int>(i));
+  compliance_.setZero(row_count_);
+  for (const Block& block : blocks_)
+    if (block.row >= 0) compliance_[block.law.row] = coordinate_rows_[block.row].compliance;
+  for (size_t t = 0; t < trees_.size(); ++t)
+    if (const auto count = static_cast<Eigen::Index>(tree_rows_[t].rows.size()); count > 0)
+      trees_[t].half_solve(tree_rows_[t].Y.leftCols(count));
+}
+
+}  // namespace clench
