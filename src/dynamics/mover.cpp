@@ -97,7 +97,8 @@ void Mover::place(double s, bool finish) {
       if (dof.kind != DofKind::breakaway) continue;
       // opening, the DOF picks up what it left behind where it meets it
       const double closing = (dof.default_velocity < 0 ? -1.0 : 1.0) * (joint.ratio < 0 ? -1 : 1);
-      if (closing * machine.dof_velocities[joint.dof] >= 0 || closing * (followed - joints[j]) > 0) continue;
+      constexpr double met = 1e-5;  // [rad or m]
+      if (closing * machine.dof_velocities[joint.dof] >= 0 || closing * (followed - joints[j]) > met) continue;
       joints[j] = followed;
       if (finish) world_.set_follows_dof(machine.robot, static_cast<int>(j), true);
     }
