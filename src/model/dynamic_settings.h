@@ -25,6 +25,7 @@ struct RobotDynamics {
   bool floating = false;             ///< does its base move freely? else it stands, or moves as its velocity says
   bool gravity_compensation = true;  ///< do its motors carry its own weight?
   std::vector<std::optional<Gains>> gains;  ///< in place of those of its file; empty: none
+  bool breakaway = false;            ///< do joints leave breakaway DOFs? else these drive them rigidly, as in the original's dynamics
   bool has_controller = true;        ///< false: motors give what `efforts` say, and nothing holds them
 };
 

@@ -190,6 +190,11 @@ TEST_CASE("a breakaway finger leaves its stopped joint behind, closes on, and pi
   RobotSpec spec = two_finger(DofKind::breakaway, 0.5);
   for (DofSpec& dof : spec.dofs) dof.breakaway_torque = 0.05, dof.max_effort = 0.5, dof.kp = 20, dof.kd = 0.5;
   const auto id = world.add_robot(spec, {});
+  DynamicSettings settings;
+  settings.robots[id] = {.gains = {}, .breakaway = true};
+  world.set_dynamic_settings(settings);
+  // the other finger would meet it
+  for (const int l : {2, 3}) world.set_collision(false, world.robot(id).links[l].body);
   // a wall before the first link of the right finger alone
   const Eigen::Vector3d at = world.pose(world.robot(id).links[0].body) * Eigen::Vector3d(-0.025, 0, 0);
   world.add_body(body_spec("wall", box(0.01, 0.01, 0.01)), BodyKind::obstacle, Pose::translation(at + Eigen::Vector3d(-0.02, 0, 0)), "wall");

@@ -116,7 +116,7 @@ class RowMaker {
     const double q = alone ? world_.joints(c.robot)[c.joint] : world_.dofs(c.robot)[c.dof];
     const double v = alone ? state_.joint_velocities[c.joint_index] : state_.dof_velocities[c.dof_index];
     if (!alone) add_motor(c, robot, column, q);
-    if (alone && !is_compliant(robot, c)) add_clutch(c, robot, column);
+    if (alone && !is_compliant(robot, c)) add_lock(c, column);
     const std::array<double, 2> range =
         alone ? std::array{robot.joints[c.joint].min, robot.joints[c.joint].max} : robot.limits[c.dof];
     const int index = static_cast<int>(alone ? c.joint_index : c.dof_index);
@@ -155,10 +155,10 @@ class RowMaker {
          h_ * (gains.kp * (target - q) + gains.kd * velocity) / gain, -most * h_, most * h_, 1 / gain);
   }
 
-  // a joint that has left its breakaway DOF is held by its clutch
-  void add_clutch(const Coordinate& c, const Robot& robot, int column) {
-    const double most = bound_of(robot.dofs[c.dof].breakaway_torque) * h_;
-    push(RowKind::clutch, static_cast<int>(c.joint_index), column, 0, -most, most);
+  // a joint that has left its breakaway DOF is locked by its worm gear, which nothing drives back
+  // source  Townsend (2000), The BarrettHand grasper: programmably flexible part handling and assembly
+  void add_lock(const Coordinate& c, int column) {
+    push(RowKind::lock, static_cast<int>(c.joint_index), column, 0, -no_bound, no_bound);
   }
 
   const World& world_;

@@ -4,7 +4,7 @@
 
 namespace clench {
 
-enum class RowKind { motor, low_limit, high_limit, dry_friction, clutch };
+enum class RowKind { motor, low_limit, high_limit, dry_friction, lock };
 
 /// Of one coordinate: low <= impulse <= high holds its velocity at a target, which it may leave in the sense of the bound that
 /// is reached; with a compliance, velocity - target + compliance * impulse is 0 between them.
@@ -29,7 +29,7 @@ struct JointForces {
 /// h  length of the step [s]
 void find_joint_forces(const World& world, const Articulation& tree, double h, const DynamicState& state, JointForces& out);
 
-/// Motors, limits, dry friction and clutches.
+/// Motors, limits, dry friction, and locks of joints that have left their DOF.
 /// mass_matrix  of the tree: gains that no file gives follow from it
 void add_coordinate_rows(const World& world, const Articulation& tree, int number, const Eigen::MatrixXd& mass_matrix, double h,
                          const DynamicState& state, std::vector<CoordinateRow>& out);

@@ -115,6 +115,17 @@ static int set_gravity_compensation(lua_State* L) {
   return 0;
 }
 
+static int get_breakaway(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push(L, robot.world->dynamic_settings().robot(robot.id).breakaway);
+}
+
+static int set_breakaway(lua_State* L) {
+  const bool on = check_boolean(L, 2);
+  edit_robot(self<RobotHandle>(L), [&](RobotDynamics& settings) { settings.breakaway = on; });
+  return 0;
+}
+
 static int get_floating(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   return push(L, robot.world->dynamic_settings().robot(robot.id).floating);
@@ -154,6 +165,12 @@ Do its motors carry the weight of its own links? As controllers of real arms do.
 @type boolean
 > hand.gravity_compensation  --> true)",
      guarded<set_gravity_compensation>},
+    {"breakaway", guarded<get_breakaway>, R"(
+Do joints leave its breakaway DOFs while the world runs, when what stops them asks for more than the breakaway torque? They are
+then locked until the DOF, opening, comes back to them. Else, as in GraspIt!'s dynamics, the DOF drives all its joints rigidly.
+@type boolean
+> hand.breakaway  --> false)",
+     guarded<set_breakaway>},
     {"floating", guarded<get_floating>, R"(
 Is its base free to move? Else it stands, or moves as its velocity says.
 @type boolean
