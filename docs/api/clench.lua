@@ -883,6 +883,7 @@ function joint_dynamics:inverse_dynamics(accelerations) end
 ---@field dof_efforts number[] # What its motors gave in the last step. [N m or N]
 ---@field controller string # What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities that are asked for; "effort" and "none", they give the forces that set_forces says, and nothing else.
 ---@field gravity_compensation boolean # Do its motors carry the weight of its own links? As controllers of real arms do. A floating robot has all its weight.
+---@field breakaway boolean # Do joints leave its breakaway DOFs while the world runs, when what stops them asks for more than the breakaway torque? They are then locked until the DOF, opening, comes back to them. Else, as in GraspIt!'s dynamics, the DOF drives all its joints rigidly.
 ---@field floating boolean # Is its base free to move? Else it stands, or moves as its velocity says.
 local robot_dynamics = {}
 
