@@ -11,7 +11,7 @@ void Stepper::disengage(double h) {
   DynamicState& state = world_.edit_dynamics();
   for (size_t t = 0; t < trees_.size(); ++t) {
     const Articulation& tree = system_.trees[t];
-    const auto may_leave = [&](const TreeJoint& joint) {
+    const auto may_leave = [&](const ArticulationJoint& joint) {
       const Robot& robot = world_.robot(joint.robot);
       const DofSpec& dof = robot.dofs[robot.joints[joint.joint].dof];
       return world_.dynamic_settings().robot(joint.robot).breakaway && dof.kind == DofKind::breakaway && dof.breakaway_torque > 0 && world_.follows_dof(joint.robot, joint.joint);
@@ -38,7 +38,7 @@ void Stepper::disengage(double h) {
     const auto& efforts = trees_[t].inverse_dynamics(v_before_, (v_ - v_before_) / h, root_twist(static_cast<int>(t)),
                                                      world_.gravity(), loads);
     for (size_t i = 0; i < tree.joints.size(); ++i) {
-      const TreeJoint& joint = tree.joints[i];
+      const ArticulationJoint& joint = tree.joints[i];
       if (!may_leave(joint)) continue;
       const Robot& robot = world_.robot(joint.robot);
       const Joint& spec = robot.joints[joint.joint];

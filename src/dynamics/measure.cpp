@@ -23,8 +23,8 @@ Momentum momentum(const World& world) {
   return out;
 }
 
-Energy mechanical_energy(const World& world) {
-  Energy out;
+MechanicalEnergy mechanical_energy(const World& world) {
+  MechanicalEnergy out;
   each_moving(world, [&](const Body& body, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia, const Twist& v) {
     out.kinetic += 0.5 * (body.mass * v.linear.squaredNorm() + v.angular.dot(inertia * v.angular));
     out.potential -= body.mass * world.gravity().dot(com);

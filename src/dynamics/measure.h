@@ -12,10 +12,10 @@ struct Momentum {
 /// Of everything that moves of its own: objects and the parts of robots.
 Momentum momentum(const World& world);
 
-struct Energy {
+struct MechanicalEnergy {
   double kinetic = 0;    ///< [J]
   double potential = 0;  ///< of gravity, 0 at the world's origin, and of springs [J]
 };
-Energy mechanical_energy(const World& world);
+MechanicalEnergy mechanical_energy(const World& world);
 
 }  // namespace clench

@@ -13,7 +13,7 @@ namespace {
 
 
 double total(const World& world) {
-  const Energy e = mechanical_energy(world);
+  const MechanicalEnergy e = mechanical_energy(world);
   return e.kinetic + e.potential;
 }
 

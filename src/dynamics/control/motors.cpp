@@ -43,7 +43,7 @@ void find_joint_forces(const World& world, const Articulation& tree, double h, c
   out.efforts.setZero(tree.size());
   out.velocity_part.setZero(tree.size());
   out.added.setZero(tree.size());
-  for (const TreeJoint& part : tree.joints) {
+  for (const ArticulationJoint& part : tree.joints) {
     const Robot& robot = world.robot(part.robot);
     const Joint& joint = robot.joints[part.joint];
     const double q = world.joints(part.robot)[part.joint], r = part.ratio;
@@ -125,7 +125,7 @@ class RowMaker {
     if (q - range[0] < near) push(RowKind::low_limit, index, column, (range[0] - q) / step, 0, no_bound);
     if (range[1] - q < near) push(RowKind::high_limit, index, column, (range[1] - q) / step, -no_bound, 0);
     double coulomb = 0;
-    for (const TreeJoint& joint : tree_.joints)
+    for (const ArticulationJoint& joint : tree_.joints)
       if (joint.coordinate == column)
         coulomb += std::abs(joint.ratio) * world_.robot(joint.robot).joints[joint.joint].coulomb;
     if (coulomb > 0) push(RowKind::dry_friction, index, column, 0, -coulomb * h_, coulomb * h_);

@@ -84,7 +84,7 @@ void OdeScene::add_tree(const Articulation& tree, int number) {
   RobotFrames frames;
   Id<Robot> framed;
   for (size_t i = 0; i < tree.joints.size(); ++i) {
-    const TreeJoint& joint = tree.joints[i];
+    const ArticulationJoint& joint = tree.joints[i];
     const Robot& robot = world_.robot(joint.robot);
     if (joint.robot != framed) frames = world_.frames(framed = joint.robot);
     out.nodes[i + 1].free = true;
@@ -95,7 +95,7 @@ void OdeScene::add_tree(const Articulation& tree, int number) {
   find_motion(tree, number);
 }
 
-void OdeScene::add_joint(const TreeJoint& joint, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, OdeTree& out) {
+void OdeScene::add_joint(const ArticulationJoint& joint, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, OdeTree& out) {
   const int child = static_cast<int>(out.joints.size()) + 1, parent = joint.parent + 1;
   OdeJoint made{.child = child, .parent = parent, .origin = origin, .axis = axis, .slides = joint.slides};
   made.joint = joint.slides ? dJointCreateSlider(ode_.get(), nullptr) : dJointCreateHinge(ode_.get(), nullptr);

@@ -71,7 +71,7 @@ class OdeScene {
 
   void add_tree(const Articulation& tree, int number);
   void find_motion(const Articulation& tree, int number);
-  void add_joint(const TreeJoint& joint, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, OdeTree& out);
+  void add_joint(const ArticulationJoint& joint, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, OdeTree& out);
   void make_body(OdeNode& node);
   void jerk(const Articulation& tree, int number);
   void add_forces(const Articulation& tree, int number);

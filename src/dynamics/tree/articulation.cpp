@@ -97,7 +97,7 @@ void scatter_velocities(const System& system, const World& world, const Eigen::V
   for (const Articulation& tree : system.trees) {
     if (tree.floating)
       state.twists[tree.root.index] = {v.segment<3>(tree.first), v.segment<3>(tree.first + 3)};
-    for (const TreeJoint& joint : tree.joints)
+    for (const ArticulationJoint& joint : tree.joints)
       state.joint_velocities[world.robot(joint.robot).first_joint + static_cast<size_t>(joint.joint)] =
           joint.ratio * v[tree.first + joint.coordinate];
     for (size_t i = 0; i < tree.coordinates.size(); ++i)

@@ -8,7 +8,7 @@
 namespace clench {
 
 /// A joint of the tree. Its velocity is ratio times that of a coordinate: joints that one DOF turns share one.
-struct TreeJoint {
+struct ArticulationJoint {
   Id<Robot> robot;
   int joint = 0;        ///< of the robot
   int parent = -1;      ///< an earlier joint of the tree; -1: the root
@@ -33,7 +33,7 @@ struct Coordinate {
 struct Articulation {
   bool floating = false;  ///< six coordinates first: the velocity of the root's centre of mass, and its turning
   Id<Body> root;          ///< a free body or the base of a robot that nobody carries
-  std::vector<TreeJoint> joints;
+  std::vector<ArticulationJoint> joints;
   std::vector<TreeBody> bodies;  ///< the root first
   std::vector<Coordinate> coordinates;  ///< without the six
   std::vector<Id<Robot>> robots;

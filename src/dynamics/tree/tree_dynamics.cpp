@@ -62,7 +62,7 @@ void TreeDynamics::place_joints(const World& world) {
   Id<Robot> framed;
   bool weightless = false;
   for (size_t i = 0; i < S_.size(); ++i) {
-    const TreeJoint& joint = tree_->joints[i];
+    const ArticulationJoint& joint = tree_->joints[i];
     const Robot& robot = world.robot(joint.robot);
     if (joint.robot != framed) {
       framed = joint.robot;

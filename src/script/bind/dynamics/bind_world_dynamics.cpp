@@ -78,7 +78,7 @@ static int get_momentum(lua_State* L) {
 }
 
 static int get_energy(lua_State* L) {
-  const Energy e = mechanical_energy(world_of(L));
+  const MechanicalEnergy e = mechanical_energy(world_of(L));
   push_list(L, 0, 2);
   set_field(L, "kinetic", e.kinetic);
   set_field(L, "potential", e.potential);
