@@ -79,9 +79,11 @@ TEST_CASE("any matrix at all: what is found is a solution, and of semidefinite o
       }
     }
   }
-  CHECK(solved > 100);
-  CHECK(rays > 100);
-  CHECK(empty > 20);
+  // an eighth under the sanitizers
+  const bool all = clench::test::cases(8) == 8;
+  CHECK(solved > (all ? 100 : 10));
+  CHECK(rays > (all ? 100 : 10));
+  CHECK(empty > (all ? 20 : 0));
 }
 
 TEST_CASE("ties do not make the pivots cycle") {

@@ -13,7 +13,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 MatrixXd friction_edges(int tangents, int edges, double turned) {
-  MatrixXd directions(tangents, tangents == 2 ? edges : tangents == 3 ? 3 * edges - 4 : 0);
+  // a bounded row has none
+  MatrixXd directions(std::max(tangents, 0), tangents == 2 ? edges : tangents == 3 ? 3 * edges - 4 : 0);
   int column = 0;
   const auto ring = [&](int count, double latitude) {
     for (int k = 0; k < count; ++k) {
