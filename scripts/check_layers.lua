@@ -1,5 +1,6 @@
 -- Holds the sources against the three tables of docs/architecture.md: which module may include which, in which order
--- the rooms within a module stand, and where each library may be seen. Finds circles of includes, too. Runs in a stock interpreter:
+-- the rooms within a module stand, and where each library may be seen. Finds circles of includes, and types of one name,
+-- too. Runs in a stock interpreter:
 --   lua5.4 scripts/check_layers.lua [ROOT]
 -- One sentence a fault, file:line first; exit code 1 when there is any.
 local root = arg[1] or "."
@@ -265,10 +266,42 @@ local function check_library(source, library, sources)
   end
 end
 
+-- the type whose definition begins a line, as all of ours do, or nil
+local function defined_type(text)
+  local rest = text:match "^struct%s+(.*{.*)$" or text:match "^class%s+(.*{.*)$" or text:match "^enum class%s+(.*{.*)$"
+  local name, after = (rest or ""):gsub("^alignas%b()%s*", ""):match "^([%w_]+)(.*)$"
+  -- a member of another type, such as Font::Face, has a name of its own
+  return name and not after:find "^::" and name or nil
+end
+
+--- No two types of one name in the namespace clench: where the compiler does not inline them, their members would be
+--- exchanged. What lies in a namespace within it, without a name or with one, is its own.
+local function check_types(sources)
+  local first = {}
+  for _, source in ipairs(sources) do
+    local depth, outside = 0, nil  -- of braces; of them, those around a namespace that is not clench
+    for line, text in ipairs(source.lines) do
+      local space = text:match "^namespace%s*([%w_:]*)%s*{"
+      if space and space ~= "clench" and not outside then outside = depth end
+      local name = not outside and defined_type(text)
+      if name and first[name] then
+        fault(at(source, line), "type '%s' is defined in src/%s as well", name, first[name])
+      elseif name then
+        first[name] = source.path
+      end
+      local _, opened = text:gsub("{", "")
+      local _, closed = text:gsub("}", "")
+      depth = depth + opened - closed
+      if outside and depth <= outside then outside = nil end
+    end
+  end
+end
+
 local modules, libraries = read_modules "docs/architecture.md", read_libraries "docs/architecture.md"
 local sources = read_sources()
 check_modules(sources, modules, read_rooms("docs/architecture.md", modules))
 check_circles(sources)
+check_types(sources)
 for _, source in ipairs(sources) do
   for _, library in ipairs(libraries) do
     if not matches(source.path, library.homes) then check_library(source, library, sources) end

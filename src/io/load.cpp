@@ -18,12 +18,12 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-static BodySpec load_body(const fs::path& path, Library& library) {
+static BodySpec load_body(const fs::path& path, FileCache& cache) {
   const std::string file = path.filename().string();
-  const ReadOptions& options = library.options();
+  const ReadOptions& options = cache.options();
   BodySpec body;
   if (ending_of(path) == ".xml") {
-    body = read_body_xml(path, library);
+    body = read_body_xml(path, cache);
   } else if (geometry_format(ending_of(path)) == GeometryFormat::none) {
     fail("{}: expected a body from {}, got {}", file, one_of(body_endings()),
          in_quotes(ending_of(path)));
@@ -41,7 +41,7 @@ static BodySpec load_body(const fs::path& path, Library& library) {
     if (geometry.mesh.triangles.empty())
       options.suspected(file + ": no surface: the body is a frame, which touches nothing");
     else
-      body.shape = Shape::make(std::move(geometry.mesh), file, library.options().progress);
+      body.shape = Shape::make(std::move(geometry.mesh), file, cache.options().progress);
   }
   body.name = path.stem().string();
   repair_names(body, file, options);
@@ -50,9 +50,9 @@ static BodySpec load_body(const fs::path& path, Library& library) {
   return body;
 }
 
-void finish_robot(RobotSpec& robot, const fs::path& path, Library& library) {
+void finish_robot(RobotSpec& robot, const fs::path& path, FileCache& cache) {
   robot.file = absolute_name(path);
-  const ReadOptions& options = library.options();
+  const ReadOptions& options = cache.options();
   check_plausible(robot, path.filename().string(), options.listeners());
   std::vector<const BodySpec*> parts = {&robot.base};
   for (const LinkSpec& link : robot.links) parts.push_back(&link.body);
@@ -66,21 +66,21 @@ void finish_robot(RobotSpec& robot, const fs::path& path, Library& library) {
     robot.files.packages[name] = absolute_name(folder);
 }
 
-static RobotSpec load_robot(const fs::path& path, const std::string& body, Library& library) {
+static RobotSpec load_robot(const fs::path& path, const std::string& body, FileCache& cache) {
   const std::string extension = ending_of(path);
   RobotSpec robot;
   if (!body.empty() && !is_scene(path))
     fail("{}: body: expected a scene of MJCF, got another file", path.filename().string());
   if (extension == ".cfg")
-    robot = read_robot_cfg(path, library);
+    robot = read_robot_cfg(path, cache);
   else if (is_robot_tree(path))
-    robot = read_robot_tree(path, body, library);
+    robot = read_robot_tree(path, body, cache);
   else if (extension == ".xml")
-    robot = read_robot_xml(path, library);
+    robot = read_robot_xml(path, cache);
   else
     fail("{}: expected a robot from .cfg, .xml, .urdf or .mjcf, got {}", path.filename().string(),
          in_quotes(extension));
-  finish_robot(robot, path, library);
+  finish_robot(robot, path, cache);
   return robot;
 }
 

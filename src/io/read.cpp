@@ -31,7 +31,7 @@ static void check_options(const ReadOptions& options) {
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
   return of_file([&] {
-    BodySpec body = Library(options, all_formats).body(find_file(path.string(), "", options));
+    BodySpec body = FileCache(options, all_formats).body(find_file(path.string(), "", options));
     body.source = path.generic_string();
     return body;
   });
@@ -40,7 +40,7 @@ BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options
 RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
   return of_file([&] {
-    RobotSpec robot = Library(options, all_formats).robot(find_file(path.string(), "", options), options.body);
+    RobotSpec robot = FileCache(options, all_formats).robot(find_file(path.string(), "", options), options.body);
     robot.source = path.generic_string();
     read_chosen_files(robot, options);
     return robot;
@@ -62,33 +62,33 @@ static WorldSpec around(BodySpec body) {
   return world;
 }
 
-static WorldSpec world_of(const std::filesystem::path& path, Library& library) {
+static WorldSpec world_of(const std::filesystem::path& path, FileCache& cache) {
   const FileKind kind = file_kind(path);
   if (kind == FileKind::robot && is_scene(path)) {
-    WorldSpec world = read_world_mjcf(path, library);
-    for (PlacedRobot& placed : world.robots) finish_robot(placed.robot, path, library);
+    WorldSpec world = read_world_mjcf(path, cache);
+    for (PlacedRobot& placed : world.robots) finish_robot(placed.robot, path, cache);
     return world;
   }
   if (kind == FileKind::robot) {
-    RobotSpec robot = library.robot(path);
-    read_chosen_files(robot, library.options());
+    RobotSpec robot = cache.robot(path);
+    read_chosen_files(robot, cache.options());
     return around(std::move(robot));
   }
-  if (kind == FileKind::body) return around(library.body(path));
+  if (kind == FileKind::body) return around(cache.body(path));
   if (kind != FileKind::world)
     fail("{}: expected a world, a robot or a body, got {}", path.filename().string(),
          kind_name(kind));
   if (ending_of(path) == ".lua")
     fail("{}: expected a world, a robot or a body, got a script", path.filename().string());
-  return ending_of(path) == ".wld" ? read_world_wld(path, library) : read_world_xml(path, library);
+  return ending_of(path) == ".wld" ? read_world_wld(path, cache) : read_world_xml(path, cache);
 }
 
 WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
   return of_file([&] {
-    Library library(options, all_formats);
+    FileCache cache(options, all_formats);
     const auto found = find_file(path.string(), "", options);
-    WorldSpec world = world_of(found, library);
+    WorldSpec world = world_of(found, cache);
     std::set<std::pair<std::string, const Shape*>> told;  // of what stands there more than once, one
     std::vector<const BodySpec*> objects, obstacles;
     for (const PlacedBody& placed : world.bodies) {

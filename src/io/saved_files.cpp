@@ -30,7 +30,7 @@ SavedFiles::SavedFiles(const fs::path& path, const WriteOptions& options)
       folder_(path_.parent_path()),
       root_(absolute_folder(options.root)),
       reading_{.root = root_, .confine = options.confine},
-      library_(reading_, all_formats),
+      cache_(reading_, all_formats),
       warn_(options.warn) {}
 
 // --- names ---
@@ -84,7 +84,7 @@ const BodySpec* SavedFiles::again(const BodySpec& body) {
   std::string reason;
   try {
     check_within(body.file);
-    const BodySpec& read = library_.body(body.file);
+    const BodySpec& read = cache_.body(body.file);
     const bool same = (!read.shape && !body.shape) ||
                       (read.shape && body.shape && read.shape->hash() == body.shape->hash());
     if (same) return &read;
@@ -105,12 +105,12 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
   try {
     check_within(robot.file);
     if (robot.files.folder.empty() && robot.files.packages.empty()) {
-      read = &library_.robot(robot.file, robot.files.body);
+      read = &cache_.robot(robot.file, robot.files.body);
     } else {
       ReadOptions options = reading_;
       options.folder = robot.files.folder;
       options.packages.insert(robot.files.packages.begin(), robot.files.packages.end());
-      read = &(given_[robot.name] = Library(options, all_formats)
+      read = &(given_[robot.name] = FileCache(options, all_formats)
                                        .robot(robot.file, robot.files.body));
     }
   } catch (const Error& error) {

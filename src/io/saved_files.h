@@ -5,7 +5,7 @@
 #include <set>
 
 #include "clench/base/file.h"
-#include "clench/io/text/library.h"
+#include "clench/io/text/file_cache.h"
 #include "clench/io/text/write_options.h"
 
 namespace clench {
@@ -56,7 +56,7 @@ class SavedFiles {
 
   std::filesystem::path path_, folder_, root_;
   ReadOptions reading_;  // of what is read again
-  Library library_;
+  FileCache cache_;
   std::function<void(const std::string&)> warn_;
   std::map<std::string, RobotSpec> given_;  // robots whose reading was given folders, by name
   std::set<std::string> warned_;

@@ -23,14 +23,14 @@ bool is_scene(const fs::path& path) {
          xml_root_name(read_text(path)) == "mujoco";
 }
 
-RobotSpec read_robot_tree(const fs::path& path, const std::string& body, Library& library) {
+RobotSpec read_robot_tree(const fs::path& path, const std::string& body, FileCache& cache) {
   const std::string file = path.filename().string();
   if (lower_case(path.extension().string()) == ".xacro")
     fail("{}: xacro is no robot yet; expand it first: xacro {} > robot.urdf", file, file);
   const std::string text = read_text(path);
-  if (!body.empty()) return read_robot_mjcf(path, body, library);
-  if (xml_root_name(text) == "mujoco") return read_robot_mjcf(path, library);
-  return read_robot_urdf(path, library);
+  if (!body.empty()) return read_robot_mjcf(path, body, cache);
+  if (xml_root_name(text) == "mujoco") return read_robot_mjcf(path, cache);
+  return read_robot_urdf(path, cache);
 }
 
 }  // namespace clench

@@ -2,7 +2,7 @@
 #pragma once
 #include <filesystem>
 
-#include "clench/io/text/library.h"
+#include "clench/io/text/file_cache.h"
 
 namespace clench {
 
@@ -12,7 +12,7 @@ bool is_robot_tree(const std::filesystem::path& path);
 /// throws Error naming the line, or saying that xacro must be expanded first
 /// body  of a scene: the body that the robot begins with; empty: the file's robot
 RobotSpec read_robot_tree(const std::filesystem::path& path, const std::string& body,
-                          Library& library);
+                          FileCache& cache);
 
 /// Is it MJCF?
 bool is_scene(const std::filesystem::path& path);

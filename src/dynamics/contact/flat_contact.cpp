@@ -11,7 +11,7 @@ namespace clench {
 
 // Faces are flat, and normals one, to so much [m], [rad]; meshes of more triangles take longer than measuring anew.
 static constexpr double flat = 1e-12, parallel = 1e-9;
-static constexpr size_t most_triangles = 400;
+static constexpr size_t max_triangles = 400;
 
 static Pose corners_in_face(const FlatContact& contact, const Pose& X_AB) {
   return contact.face_of_a ? X_AB : X_AB.inverse();
@@ -41,7 +41,7 @@ static double margin(const Mesh& mesh, const Eigen::Vector3d& normal, double off
 static std::optional<FlatContact> find(const World& world, const Manifold& m, bool face_of_a) {
   const Mesh& face = world.body(face_of_a ? m.a : m.b).shape->mesh();
   const Mesh& other = world.body(face_of_a ? m.b : m.a).shape->mesh();
-  if (face.triangles.size() + other.triangles.size() > most_triangles) return {};
+  if (face.triangles.size() + other.triangles.size() > max_triangles) return {};
   FlatContact out{.face_of_a = face_of_a, .threshold = world.contact_threshold()};
   out.X_FV = corners_in_face(out, m.X_AB);
   std::vector<Eigen::Vector3d> corners, feet;

@@ -85,10 +85,10 @@ void FrictionNewton::decide(const ScaledFriction& problem, VectorXd& r) {
         directions_.push_back(across);
       } else if (tangents == 3) {
         // two directions across, at a right angle
-        const int least = std::abs(t[0]) < std::abs(t[1]) ? (std::abs(t[0]) < std::abs(t[2]) ? 0 : 2)
+        const int smallest = std::abs(t[0]) < std::abs(t[1]) ? (std::abs(t[0]) < std::abs(t[2]) ? 0 : 2)
                                                           : (std::abs(t[1]) < std::abs(t[2]) ? 1 : 2);
         const Eigen::Vector3d along_t(t[0], t[1], t[2]);
-        const Eigen::Vector3d a = along_t.cross(Eigen::Vector3d::Unit(least)).normalized(), b = along_t.cross(a);
+        const Eigen::Vector3d a = along_t.cross(Eigen::Vector3d::Unit(smallest)).normalized(), b = along_t.cross(a);
         for (const auto& direction : {a, b}) {
           for (int k = 0; k < 3; ++k) across.t[k] = direction[k];
           directions_.push_back(across);
@@ -207,25 +207,25 @@ FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, const V
     if (!(next_merit < merit * (1 - 1e-4))) {
       right_ = next_;
       VectorXd tried = next_;
-      double least = next_merit, least_fraction = 1;
+      double lowest = next_merit, best_fraction = 1;
       for (int i = 0; i < 3; ++i) {
         fraction /= 2;
         tried = r + fraction * (right_ - r);
         velocities(tried, u_next_);
         const double value = classify(problem, tried, u_next_);
-        if (value < least || !std::isfinite(least)) least = value, least_fraction = fraction;
+        if (value < lowest || !std::isfinite(lowest)) lowest = value, best_fraction = fraction;
         if (value < merit * (1 - 1e-4 * fraction)) break;
       }
-      if (!(least < merit)) {
+      if (!(lowest < merit)) {
         if (++climbs > 3) break;
-        least_fraction = 1;
+        best_fraction = 1;
       }
-      if (least_fraction != fraction) {
-        tried = r + least_fraction * (right_ - r);
+      if (best_fraction != fraction) {
+        tried = r + best_fraction * (right_ - r);
         velocities(tried, u_next_);
         next_merit = classify(problem, tried, u_next_);
       } else {
-        next_merit = least;
+        next_merit = lowest;
       }
       next_ = tried;
     }

@@ -69,9 +69,9 @@ GeometryFormat read_format(const XmlElement& file, const ReadOptions& options) {
 }
 
 /// Triangles in the body frame; coordinates of the file count as millimetres.
-Geometry read_scaled(const XmlElement& element, const PlacedFile& file, Library& library) {
+Geometry read_scaled(const XmlElement& element, const PlacedFile& file, FileCache& cache) {
   Eigen::Vector3d scaling = file.scaling;
-  ReadOptions options = library.options();
+  ReadOptions options = cache.options();
   options.mesh_scale.reset();
   if (file.format != GeometryFormat::inventor) {
     // one factor for both, so that metres scaled by 1000 lose no digit
@@ -91,18 +91,18 @@ Geometry read_scaled(const XmlElement& element, const PlacedFile& file, Library&
   return geometry;
 }
 
-void read_compliance(const XmlElement& body, const Library& library, Repairs& repairs) {
+void read_compliance(const XmlElement& body, const FileCache& cache, Repairs& repairs) {
   const std::array both = {body.child("normalCompliance"), body.child("shearCompliance")};
   for (int i = 0; i < 2; ++i) {
     if (!both[i]) continue;
     number_of(both[i], positive_rule, repairs);
     if (i == 0 || !both[0])
-      library.warn(
+      cache.warn(
           fmt::format("{}: normalCompliance and shearCompliance are not used", both[i].place()));
   }
 }
 
-void read_mass(const XmlElement& body, const Library& library, Repairs& repairs, BodySpec& out) {
+void read_mass(const XmlElement& body, const FileCache& cache, Repairs& repairs, BodySpec& out) {
   if (const XmlElement mass = body.child("mass")) {
     out.mass =
         number_of(mass, mass_rule.in("g", units::gram), repairs, BodySpec().mass / units::gram) *
@@ -117,11 +117,11 @@ void read_mass(const XmlElement& body, const Library& library, Repairs& repairs,
     const auto x = inertia.numbers(9);
     Eigen::Matrix3d rows;
     for (int i = 0; i < 9; ++i) rows(i / 3, i % 3) = x[i] * units::square_millimetre;
-    out.inertia_per_mass = checked_inertia(rows, inertia.place(), library.options().listeners());
+    out.inertia_per_mass = checked_inertia(rows, inertia.place(), cache.options().listeners());
   }
 }
 
-void read_matter(const XmlElement& body, const Library& library, Repairs& repairs, BodySpec& out) {
+void read_matter(const XmlElement& body, const FileCache& cache, Repairs& repairs, BodySpec& out) {
   if (const XmlElement material = body.child("material")) {
     out.material = material.text();
     out.material_given = true;
@@ -134,13 +134,13 @@ void read_matter(const XmlElement& body, const Library& library, Repairs& repair
   if (const XmlElement youngs = body.child("youngs")) {
     out.elastic_modulus = number_of(youngs, elastic_modulus_rule, repairs);
     if (*out.elastic_modulus < 1e4)
-      library.suspected(
+      cache.suspected(
           fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
                       youngs.place(), *out.elastic_modulus));
   }
   if (const XmlElement bird = body.child("useFlockOfBirds"))
     out.tracker = repairs.count(bird.text(), bird.place() + ": useFlockOfBirds");
-  read_compliance(body, library, repairs);
+  read_compliance(body, cache, repairs);
 }
 
 }  // namespace
@@ -167,32 +167,32 @@ std::optional<PlacedFile> read_placed_file(const XmlElement& body, const fs::pat
   return out;
 }
 
-BodySpec read_body_element(const XmlElement& element, const fs::path& path, Library& library) {
-  element.check(known, library.options().warn);
+BodySpec read_body_element(const XmlElement& element, const fs::path& path, FileCache& cache) {
+  element.check(known, cache.options().warn);
   BodySpec body;
-  Repairs repairs(library.options().listeners());
-  read_matter(element, library, repairs, body);
-  read_mass(element, library, repairs, body);
+  Repairs repairs(cache.options().listeners());
+  read_matter(element, cache, repairs, body);
+  read_mass(element, cache, repairs, body);
   repairs.tell();
   const XmlElement file = element.child("geometryFile");
   if (!file) {
-    library.suspected(fmt::format("{}: no <geometryFile>: the body is a frame without a surface",
+    cache.suspected(fmt::format("{}: no <geometryFile>: the body is a frame without a surface",
                                   element.place()));
     return body;
   }
   Geometry geometry =
-      read_scaled(file, *read_placed_file(element, path, library.options()), library);
+      read_scaled(file, *read_placed_file(element, path, cache.options()), cache);
   body.appearance = std::move(geometry.appearance);
   body.mesh_report = std::move(geometry.report);
   if (geometry.mesh.triangles.empty()) {
-    library.suspected(
+    cache.suspected(
         fmt::format("{}: no surface in {}: the body is a frame, which touches nothing",
                     file.place(), in_quotes(file.text())));
     return body;
   }
   try {
     body.shape =
-        Shape::make(std::move(geometry.mesh), path.filename().string(), library.options().progress);
+        Shape::make(std::move(geometry.mesh), path.filename().string(), cache.options().progress);
   } catch (const Error& error) {
     file.fail("{}", error.what());
   }
@@ -210,10 +210,10 @@ void check_body_root(const XmlFile& file) {
                      excerpt(file.root().name()));
 }
 
-BodySpec read_body_xml(const fs::path& path, Library& library) {
+BodySpec read_body_xml(const fs::path& path, FileCache& cache) {
   const XmlFile file(path);
   check_body_root(file);
-  return read_body_element(file.root(), path, library);
+  return read_body_element(file.root(), path, cache);
 }
 
 }  // namespace clench

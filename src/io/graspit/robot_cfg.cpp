@@ -31,10 +31,10 @@ struct DofLine {
 
 class CfgReader {
  public:
-  CfgReader(const fs::path& path, Library& library)
+  CfgReader(const fs::path& path, FileCache& cache)
       : path_(path),
-        library_(library),
-        repairs_(library.options().listeners()),
+        cache_(cache),
+        repairs_(cache.options().listeners()),
         lines_(path.filename().string(), read_text(path)) {}
   RobotSpec read();
 
@@ -42,7 +42,7 @@ class CfgReader {
   Line expected(std::string_view what) { return lines_.next_full(what).before('#'); }
   /// warns of words behind the first `used`
   void used_up(const Line& line, int used) {
-    if (const std::string sentence = line.surplus(used); !sentence.empty()) library_.warn(sentence);
+    if (const std::string sentence = line.surplus(used); !sentence.empty()) cache_.warn(sentence);
   }
   int count(const char* what, int low);
   void read_dofs();
@@ -58,7 +58,7 @@ class CfgReader {
   void check_ranges();
 
   const fs::path& path_;
-  Library& library_;
+  FileCache& cache_;
   Repairs repairs_;
   LineReader lines_;
   std::vector<DofLine> dof_lines_;
@@ -75,7 +75,7 @@ int CfgReader::count(const char* what, int low) {
 }
 
 BodySpec CfgReader::body(const Line& line, const std::string& name) {
-  BodySpec out = library_.part(std::string(line.word(0)), path_, line.place());
+  BodySpec out = cache_.part(std::string(line.word(0)), path_, line.place());
   out.name = name;
   return out;
 }
@@ -85,7 +85,7 @@ RobotSpec CfgReader::read() {
   robot_.source = path_.generic_string();
   const Line head = expected("the robot's class");
   robot_.class_name = head.word(0);
-  check_class(robot_.class_name, head.place(), library_.options().warn);
+  check_class(robot_.class_name, head.place(), cache_.options().warn);
   used_up(head, 1);
   const Line palm = expected("the palm's file");
   used_up(palm, 1);
@@ -97,9 +97,9 @@ RobotSpec CfgReader::read() {
   couple_by_springs(robot_);
   check_ranges();
   read_optional_blocks();
-  check_read_robot(robot_, head.place(), library_.options());
+  check_read_robot(robot_, head.place(), cache_.options());
   repairs_.tell();
-  read_robot_files(robot_, named_, path_, library_.options());
+  read_robot_files(robot_, named_, path_, cache_.options());
   return std::move(robot_);
 }
 
@@ -152,12 +152,12 @@ void CfgReader::read_dofs() {
 void CfgReader::read_chain(int number) {
   const int joints = count("number of joints", 0), links = count("number of links", 1);
   const Line transform = lines_.peek();
-  ChainLinks chain(read_transform_list(lines_, library_.options().listeners()));
+  ChainLinks chain(read_transform_list(lines_, cache_.options().listeners()));
   for (int j = 0; j < joints; ++j) read_joint(chain, j);
   for (int l = 0; l < links; ++l)
     read_link(chain, l, fmt::format("{}_chain{}_link{}", robot_.name, number, l));
   if (chain.last_joint() + 1 < joints)
-    library_.warn(fmt::format("{}: chain {}: joints from {} on move no link, and are not used",
+    cache_.warn(fmt::format("{}: chain {}: joints from {} on move no link, and are not used",
                               transform.place(), number, chain.last_joint() + 1));
 }
 
@@ -242,7 +242,7 @@ void CfgReader::read_link(ChainLinks& chain, int number, const std::string& name
     // a link stands on the one before: what moves that, moves it, too
     last = line.integer(1, fmt::format("link {}: last joint", number), before, joints - 1);
   } else {
-    library_.note(fmt::format("{}: link {}: its last joint is not given; joint {} moves it",
+    cache_.note(fmt::format("{}: link {}: its last joint is not given; joint {} moves it",
                               line.place(), number, last));
   }
   if (last >= joints)
@@ -256,7 +256,7 @@ void CfgReader::set_dof_units() {
     const DofLine& d = dof_lines_[i];
     const bool slides = dof_kinds_[i] == JointKind::prismatic;
     if (!dof_kinds_[i])
-      library_.suspected(fmt::format("{}: DOF {} moves no joint", d.line.place(), i));
+      cache_.suspected(fmt::format("{}: DOF {} moves no joint", d.line.place(), i));
     DofSpec dof;
     dof.kind = d.kind;
     dof.default_velocity = d.velocity * (slides ? units::millimetre : 1.0);
@@ -285,13 +285,13 @@ void CfgReader::read_tracker() {
   TrackerSpec tracker;
   // some files leave the number out
   if (lines_.skip_to_full() && begins_transform(lines_.peek())) {
-    library_.note(
+    cache_.note(
         fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
   } else {
     const Line line = expected("a bird number");
     tracker.number = repairs_.count(line.word(0), line.place() + ": FlockOfBirds");
   }
-  tracker.X_BS = read_transform_list(lines_, library_.options().listeners());
+  tracker.X_BS = read_transform_list(lines_, cache_.options().listeners());
   robot_.tracker = tracker;
 }
 
@@ -328,7 +328,7 @@ void CfgReader::read_optional_blocks() {
     else {
       const std::vector<std::string> keywords = {"EigenGrasps", "FlockOfBirds", "Approach",
                                                  "VirtualContacts", "CyberGlove"};
-      library_.warn(fmt::format("{}: unknown keyword {} is not used{}", line.place(),
+      cache_.warn(fmt::format("{}: unknown keyword {} is not used{}", line.place(),
                                 in_quotes(key), did_you_mean(key, keywords)));
     }
   }
@@ -336,8 +336,8 @@ void CfgReader::read_optional_blocks() {
 
 }  // namespace
 
-RobotSpec read_robot_cfg(const fs::path& path, Library& library) {
-  return CfgReader(path, library).read();
+RobotSpec read_robot_cfg(const fs::path& path, FileCache& cache) {
+  return CfgReader(path, cache).read();
 }
 
 }  // namespace clench

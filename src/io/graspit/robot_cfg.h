@@ -2,11 +2,11 @@
 #pragma once
 #include <filesystem>
 
-#include "clench/io/text/library.h"
+#include "clench/io/text/file_cache.h"
 
 namespace clench {
 
 /// throws Error  "Barrett.cfg:31: joint 2: min 144 exceeds max 0 [deg]"
-RobotSpec read_robot_cfg(const std::filesystem::path& path, Library& library);
+RobotSpec read_robot_cfg(const std::filesystem::path& path, FileCache& cache);
 
 }  // namespace clench

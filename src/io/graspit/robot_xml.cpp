@@ -25,8 +25,8 @@ constexpr size_t max_parts = 1000;  // DOFs, chains, joints, links: far above an
 
 class XmlRobotReader {
  public:
-  XmlRobotReader(const XmlElement& root, const fs::path& path, Library& library)
-      : root_(root), path_(path), library_(library), repairs_(library.options().listeners()) {}
+  XmlRobotReader(const XmlElement& root, const fs::path& path, FileCache& cache)
+      : root_(root), path_(path), cache_(cache), repairs_(cache.options().listeners()) {}
   RobotSpec read();
 
  private:
@@ -35,7 +35,7 @@ class XmlRobotReader {
     ChainPlace a, b;
   };
 
-  const std::function<void(const std::string&)>& warn() const { return library_.options().warn; }
+  const std::function<void(const std::string&)>& warn() const { return cache_.options().warn; }
   void read_type();
   void read_dof(const XmlElement& element);
   void read_chain(const XmlElement& element);
@@ -58,7 +58,7 @@ class XmlRobotReader {
 
   const XmlElement root_;
   const fs::path& path_;
-  Library& library_;
+  FileCache& cache_;
   Repairs repairs_;
   std::vector<XmlElement> dofs_;
   std::vector<std::optional<JointKind>> dof_kinds_;  // of its first joint
@@ -79,7 +79,7 @@ RobotSpec XmlRobotReader::read() {
   robot_.database_name = root_.attribute("DBName").value_or("");
   const XmlElement palm = root_.expected("palm");
   palm.check({}, warn());
-  robot_.base = library_.part(palm.text(), path_, palm.place());
+  robot_.base = cache_.part(palm.text(), path_, palm.place());
   robot_.base.name = robot_.name + "_base";
   dofs_ = root_.children("dof");
   const auto chains = root_.children("chain");
@@ -100,7 +100,7 @@ RobotSpec XmlRobotReader::read() {
       repairs_, robot_);
   read_approach();
   read_tracker();
-  check_read_robot(robot_, root_.place(), library_.options());
+  check_read_robot(robot_, root_.place(), cache_.options());
   repairs_.tell();
   read_files();
   return std::move(robot_);
@@ -109,7 +109,7 @@ RobotSpec XmlRobotReader::read() {
 void XmlRobotReader::read_type() {
   robot_.class_name = root_.attribute("type").value_or("");
   if (robot_.class_name.empty()) {
-    library_.note(fmt::format("{}: robot: no type; it is taken for a Hand", root_.place()));
+    cache_.note(fmt::format("{}: robot: no type; it is taken for a Hand", root_.place()));
     robot_.class_name = "Hand";
   } else {
     check_class(robot_.class_name, root_.place(), warn());
@@ -160,7 +160,7 @@ void XmlRobotReader::read_dof(const XmlElement& element) {
   const size_t i = robot_.dofs.size();
   const bool slides = dof_kinds_[i] == JointKind::prismatic;
   if (!dof_kinds_[i])
-    library_.suspected(fmt::format("{}: DOF {} moves no joint", element.place(), i));
+    cache_.suspected(fmt::format("{}: DOF {} moves no joint", element.place(), i));
   DofSpec dof;
   const std::string kind = element.attribute("type").value_or("");
   if (kind.empty())
@@ -201,7 +201,7 @@ void XmlRobotReader::set_dof_units() {
     if (dof.default_value < low || dof.default_value > high) {
       // 0 is only what nobody chose
       if (const XmlElement given = dofs_[i].child("defaultValue"))
-        library_.repaired(
+        cache_.repaired(
             fmt::format("{}: DOF {}: defaultValue {} is outside its range; moved to the limit",
                         given.place(), i, given.text()));
       dof.default_value = std::clamp(dof.default_value, low, high);
@@ -219,7 +219,7 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
     element.fail("chain: expected at most {} joints and links, got {} and {}", max_parts,
                  joints.size(), links.size());
   if (links.empty()) element.fail("chain: expected a link, got none");
-  ChainLinks chain(read_transform_of(element, library_.options().listeners()));
+  ChainLinks chain(read_transform_of(element, cache_.options().listeners()));
   for (const XmlElement& e : joints) read_joint(e, chain);
   chains_.emplace_back();
   for (int l = 0; l < static_cast<int>(links.size()); ++l) {
@@ -227,7 +227,7 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
     read_link(links[l], chain, {number, l});
   }
   if (chain.last_joint() + 1 < chain.joints())
-    library_.warn(fmt::format("{}: chain {}: joints from {} on move no link, and are not used",
+    cache_.warn(fmt::format("{}: chain {}: joints from {} on move no link, and are not used",
                               element.place(), number, chain.last_joint() + 1));
   read_tactile(
       element, number, [&](const XmlElement& e, ChainPlace place) { return part(e, place); },
@@ -326,7 +326,7 @@ void XmlRobotReader::read_link(const XmlElement& element, ChainLinks& chain, Cha
   if (last >= chain.joints())
     element.fail("link {}: expected {} joints for the links up to it, got {}", place.link, last + 1,
                  chain.joints());
-  BodySpec body = library_.part(element.text(), path_, element.place());
+  BodySpec body = cache_.part(element.text(), path_, element.place());
   body.name = fmt::format("{}_chain{}_link{}", robot_.name, place.chain, place.link);
   chain.add_link(body, last, robot_);
   read_rule(element, place);
@@ -394,8 +394,8 @@ void XmlRobotReader::read_tracker() {
   if (const auto number = element.attribute("number"))
     tracker.number = repairs_.count(*number, element.place() + ": flockOfBirds: number");
   else
-    library_.note(fmt::format("{}: flockOfBirds: no bird number, 0 is used", element.place()));
-  tracker.X_BS = read_transform_of(element, library_.options().listeners());
+    cache_.note(fmt::format("{}: flockOfBirds: no bird number, 0 is used", element.place()));
+  tracker.X_BS = read_transform_of(element, cache_.options().listeners());
   robot_.tracker = tracker;
 }
 
@@ -408,16 +408,16 @@ NamedFile XmlRobotReader::named(const char* name) const {
 
 void XmlRobotReader::read_files() {
   read_robot_files(robot_, {named("eigenGrasps"), named("virtualContacts"), named("cyberGlove")},
-                   path_, library_.options());
+                   path_, cache_.options());
 }
 
 }  // namespace
 
-RobotSpec read_robot_xml(const fs::path& path, Library& library) {
+RobotSpec read_robot_xml(const fs::path& path, FileCache& cache) {
   const XmlFile file(path);
   const XmlElement root = file.root();
   if (root.name() != "robot") root.fail("expected a <robot>, got <{}>", excerpt(root.name()));
-  return XmlRobotReader(root, path, library).read();
+  return XmlRobotReader(root, path, cache).read();
 }
 
 }  // namespace clench

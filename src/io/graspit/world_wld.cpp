@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 
 class WldReader {
  public:
-  WldReader(const fs::path& path, Library& library)
-      : path_(path), library_(library), lines_(path.filename().string(), read_text(path)) {}
+  WldReader(const fs::path& path, FileCache& cache)
+      : path_(path), cache_(cache), lines_(path.filename().string(), read_text(path)) {}
   WorldSpec read();
 
  private:
@@ -31,7 +31,7 @@ class WldReader {
   void read_camera(bool focal_distance);
   /// warns of words behind the first `used`
   void used_up(const Line& line, int used) const {
-    if (const std::string sentence = line.surplus(used); !sentence.empty()) library_.warn(sentence);
+    if (const std::string sentence = line.surplus(used); !sentence.empty()) cache_.warn(sentence);
   }
   Pose pose();
   Pose any_pose();
@@ -41,7 +41,7 @@ class WldReader {
   auto at(const Line& line, Read read) const;
 
   const fs::path& path_;
-  Library& library_;
+  FileCache& cache_;
   LineReader lines_;
   std::vector<ConnectionPlace> connection_places_;
   WorldSpec world_;
@@ -73,12 +73,12 @@ Pose WldReader::pose() {
 Pose WldReader::any_pose() {
   const Line line = lines_.next_full("a transform 'T (w x y z)[x y z]'");
   if (line.text().starts_with('<'))
-    return read_tagged_transform(line, lines_, library_.options().listeners());
+    return read_tagged_transform(line, lines_, cache_.options().listeners());
   if (!begins_pose(line))
     line.fail("expected a transform 'T (w x y z)[x y z]', got {}", in_quotes(line.text()));
   const std::string_view text = line.text();
   return read_full_transform(line, trim(text.substr(text.front() == 'T' ? 1 : 0)),
-                             library_.options().listeners());
+                             cache_.options().listeners());
 }
 
 void WldReader::read_header() {
@@ -88,7 +88,7 @@ void WldReader::read_header() {
   if (!named && !lines_.skip_to_full())
     first.fail("expected '#GraspIt! version ...', got {}", in_quotes(first.text()));
   if (!named)
-    library_.suspected(first.place() + ": the first line '#GraspIt! version ...' is missing");
+    cache_.suspected(first.place() + ": the first line '#GraspIt! version ...' is missing");
 }
 
 static constexpr const char* block_names[] = {"Obstacle",   "GraspableBody", "Robot",
@@ -129,7 +129,7 @@ void WldReader::read_body(Role role) {
   const Line line = lines_.next_full("the file of a body");
   PlacedBody placed;
   placed.role = role;
-  placed.body = library_.named_body(std::string(line.text()), path_, line.place());
+  placed.body = cache_.named_body(std::string(line.text()), path_, line.place());
   // an obstacle names its material, in most files
   if (lines_.skip_to_full() && !begins_pose(lines_.peek())) {
     const Line material = lines_.peek();
@@ -148,12 +148,12 @@ void WldReader::read_body(Role role) {
 void WldReader::read_robot() {
   const Line line = lines_.next_full("the file of a robot");
   PlacedRobot placed;
-  placed.robot = library_.named_robot(std::string(line.text()), path_, line.place());
+  placed.robot = cache_.named_robot(std::string(line.text()), path_, line.place());
   if (placed.robot.dofs.empty()) {
     if (lines_.peek().blank()) lines_.next();
   } else {
     read_dof_values(lines_.next_full("the values of the DOFs").before('#'), placed,
-                    library_.options().listeners());
+                    cache_.options().listeners());
   }
   placed.X_WB = pose();
   world_.order.push_back({WorldEntry::Kind::robot, static_cast<int>(world_.robots.size())});
@@ -171,7 +171,7 @@ void WldReader::read_connection() {
   const Line mount = lines_.peek();
   if (!begins_pose(mount)) lines_.next();
   if (!mount.blank() && !begins_pose(mount) && !mount.text().starts_with('#')) {
-    c.mount = library_.named_body(std::string(mount.text()), path_, mount.place());
+    c.mount = cache_.named_body(std::string(mount.text()), path_, mount.place());
   }
   c.X_LB = pose();
   connection_places_.push_back({line.place(), chain});
@@ -185,7 +185,7 @@ void WldReader::read_camera(bool focal_distance) {
     x[i] = line.number(i, i < 3 ? "camera position" : "camera orientation (x y z w)");
   const auto q = camera_orientation(x[3], x[4], x[5], x[6]);
   if (!q) {
-    library_.repaired(fmt::format(
+    cache_.repaired(fmt::format(
         "{}: camera orientation: expected a quaternion of length 1, got {} {} {} {}; the "
         "camera is not used",
         line.place(), x[3], x[4], x[5], x[6]));
@@ -195,13 +195,13 @@ void WldReader::read_camera(bool focal_distance) {
   Camera camera;
   camera.X_WC = {*q, Eigen::Vector3d(x[0], x[1], x[2]) * units::millimetre};
   if (focal_distance) camera.focal_distance = line.number(7, "focal distance") * units::millimetre;
-  world_.camera = checked_camera(camera, line.place(), library_.options());
+  world_.camera = checked_camera(camera, line.place(), cache_.options());
 }
 
 }  // namespace
 
-WorldSpec read_world_wld(const fs::path& path, Library& library) {
-  return WldReader(path, library).read();
+WorldSpec read_world_wld(const fs::path& path, FileCache& cache) {
+  return WldReader(path, cache).read();
 }
 
 }  // namespace clench

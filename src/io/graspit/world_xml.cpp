@@ -14,12 +14,12 @@ namespace fs = std::filesystem;
 
 class XmlWorldReader {
  public:
-  XmlWorldReader(const XmlElement& root, const fs::path& path, Library& library)
-      : root_(root), path_(path), library_(library) {}
+  XmlWorldReader(const XmlElement& root, const fs::path& path, FileCache& cache)
+      : root_(root), path_(path), cache_(cache) {}
   WorldSpec read();
 
  private:
-  const std::function<void(const std::string&)>& warn() const { return library_.options().warn; }
+  const std::function<void(const std::string&)>& warn() const { return cache_.options().warn; }
   void read_body(const XmlElement& element, Role role);
   BodySpec inline_body(const XmlElement& element);
   void read_robot(const XmlElement& element);
@@ -29,7 +29,7 @@ class XmlWorldReader {
 
   const XmlElement root_;
   const fs::path& path_;
-  Library& library_;
+  FileCache& cache_;
   std::vector<ConnectionPlace> connection_places_;
   WorldSpec world_;
 };
@@ -57,18 +57,18 @@ WorldSpec XmlWorldReader::read() {
 
 Pose XmlWorldReader::pose(const XmlElement& element) const {
   if (!element.child("transform"))
-    library_.note(fmt::format("{}: {}: no <transform>; it stands at the origin", element.place(),
+    cache_.note(fmt::format("{}: {}: no <transform>; it stands at the origin", element.place(),
                               element.name()));
-  const Pose X = read_transform_of(element, library_.options().listeners());
+  const Pose X = read_transform_of(element, cache_.options().listeners());
   check_place(X, fmt::format("{}: {}", element.place(), element.name()));
   return X;
 }
 
 BodySpec XmlWorldReader::inline_body(const XmlElement& element) {
-  BodySpec body = read_body_element(element, path_, library_);
+  BodySpec body = read_body_element(element, path_, cache_);
   const XmlElement geometry = element.child("geometryFile");
   body.name = geometry ? fs::path(geometry.text()).stem().string() : "body";
-  repair_names(body, element.place(), library_.options());
+  repair_names(body, element.place(), cache_.options());
   return body;
 }
 
@@ -79,14 +79,14 @@ void XmlWorldReader::read_body(const XmlElement& element, Role role) {
   const XmlElement own = element.child("body"), name = element.child("filename");
   if (own) {
     if (name && lower_case(name.text()) != "unspecified")
-      library_.repaired(
+      cache_.repaired(
           fmt::format("{}: {}: expected <filename> or <body>, got both; <body> is used",
                       name.place(), element.name()));
     placed.body = inline_body(own);
   } else {
     const XmlElement file = element.expected("filename");
     file.check({}, warn());
-    placed.body = library_.named_body(file.text(), path_, file.place());
+    placed.body = cache_.named_body(file.text(), path_, file.place());
   }
   placed.X_WB = pose(element);
   world_.order.push_back({WorldEntry::Kind::body, static_cast<int>(world_.bodies.size())});
@@ -98,13 +98,13 @@ void XmlWorldReader::read_robot(const XmlElement& element) {
   PlacedRobot placed;
   const XmlElement file = element.expected("filename");
   file.check({}, warn());
-  placed.robot = library_.named_robot(file.text(), path_, file.place());
+  placed.robot = cache_.named_robot(file.text(), path_, file.place());
   const XmlElement values = element.child("dofValues");
   if (values) {
     const std::string text = values.text();
-    read_dof_values(values.as_line(text), placed, library_.options().listeners());
+    read_dof_values(values.as_line(text), placed, cache_.options().listeners());
   } else if (!placed.robot.dofs.empty()) {
-    library_.note(fmt::format("{}: robot: no <dofValues>; its DOFs start at their defaults",
+    cache_.note(fmt::format("{}: robot: no <dofValues>; its DOFs start at their defaults",
                               element.place()));
   }
   placed.X_WB = pose(element);
@@ -120,7 +120,7 @@ void XmlWorldReader::read_connection(const XmlElement& element) {
   const int chain = element.expected("parentChain").integer(0);
   c.child = element.expected("childRobot").integer(0);
   if (const XmlElement mount = element.child("mountFilename"); mount && !mount.text().empty())
-    c.mount = library_.named_body(mount.text(), path_, mount.place());
+    c.mount = cache_.named_body(mount.text(), path_, mount.place());
   c.X_LB = pose(element);
   connection_places_.push_back({element.place(), chain});
   world_.connections.push_back(std::move(c));
@@ -132,7 +132,7 @@ void XmlWorldReader::read_camera(const XmlElement& element) {
   const auto x = turn.numbers(4);
   const auto q = camera_orientation(x[0], x[1], x[2], x[3]);
   if (!q) {
-    library_.repaired(fmt::format(
+    cache_.repaired(fmt::format(
         "{}: orientation: expected a quaternion of length 1, got {} {} {} {}; the camera "
         "is not used",
         turn.place(), x[0], x[1], x[2], x[3]));
@@ -142,14 +142,14 @@ void XmlWorldReader::read_camera(const XmlElement& element) {
   camera.X_WC = {*q, element.expected("position").vector() * units::millimetre};
   if (const XmlElement focus = element.child("focalDistance"))
     camera.focal_distance = focus.number() * units::millimetre;
-  world_.camera = checked_camera(camera, element.place(), library_.options());
+  world_.camera = checked_camera(camera, element.place(), cache_.options());
 }
 
 }  // namespace
 
-WorldSpec read_world_xml(const fs::path& path, Library& library) {
+WorldSpec read_world_xml(const fs::path& path, FileCache& cache) {
   const XmlFile file(path);
-  return XmlWorldReader(file.root(), path, library).read();
+  return XmlWorldReader(file.root(), path, cache).read();
 }
 
 }  // namespace clench

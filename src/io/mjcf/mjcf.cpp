@@ -12,10 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void tell_world_geoms(const Worldbody& world, const Library& library) {
+void tell_world_geoms(const Worldbody& world, const FileCache& cache) {
   if (world.geoms.empty()) return;
   const size_t count = world.geoms.size();
-  library.warn(fmt::format("{}: {} of the world itself, on no body, {} no part of the robot and "
+  cache.warn(fmt::format("{}: {} of the world itself, on no body, {} no part of the robot and "
                            "not used",
                            world.geoms.front().node->element.place(),
                            count == 1 ? "a geom" : fmt::format("{} geoms", count),
@@ -24,7 +24,7 @@ void tell_world_geoms(const Worldbody& world, const Library& library) {
 
 /// The body with the most joints is the robot; others that move freely are things beside it. One
 /// body alone is the base, as long as it has no joints of its own; else the world is.
-MjcfTree read_one_robot(MjcfModel& model, Library& library) {
+MjcfTree read_one_robot(MjcfModel& model, FileCache& cache) {
   std::vector<TopBody> bodies = model.worldbody().bodies;
   if (bodies.empty()) fail("{}: expected bodies in <worldbody>, got none", model.document().file());
   const auto robot =
@@ -33,12 +33,12 @@ MjcfTree read_one_robot(MjcfModel& model, Library& library) {
   const MjcfNode* kept = robot->node;
   std::erase_if(bodies, [&](const TopBody& body) {
     if (body.node == kept || !body.free) return false;
-    library.warn(fmt::format("{}: body '{}' moves freely beside the robot; it is not read",
+    cache.warn(fmt::format("{}: body '{}' moves freely beside the robot; it is not read",
                              body.node->element.place(),
                              excerpt(body.node->element.attribute("name").value_or(""))));
     return true;
   });
-  MjcfTreeReader reader(model.document(), model.geoms(), library, "robot");
+  MjcfTreeReader reader(model.document(), model.geoms(), cache, "robot");
   if (bodies.size() == 1 && !bodies.front().own_joints) {
     reader.read_body(bodies.front(), true);
   } else {
@@ -50,16 +50,16 @@ MjcfTree read_one_robot(MjcfModel& model, Library& library) {
 
 }  // namespace
 
-RobotSpec read_robot_mjcf(const fs::path& path, Library& library) {
-  MjcfModel model(path, library, "robot");
-  tell_world_geoms(model.worldbody(), library);
-  RobotSpec robot = model.make(read_one_robot(model, library), model.name(), {}, true).robot;
+RobotSpec read_robot_mjcf(const fs::path& path, FileCache& cache) {
+  MjcfModel model(path, cache, "robot");
+  tell_world_geoms(model.worldbody(), cache);
+  RobotSpec robot = model.make(read_one_robot(model, cache), model.name(), {}, true).robot;
   model.tell();
   return robot;
 }
 
-RobotSpec read_robot_mjcf(const fs::path& path, const std::string& body, Library& library) {
-  MjcfModel model(path, library, "world");
+RobotSpec read_robot_mjcf(const fs::path& path, const std::string& body, FileCache& cache) {
+  MjcfModel model(path, cache, "world");
   std::vector<std::string> names;
   for (const TopBody* tree : model.joint_trees()) {
     if (tree->name == body) return model.scene_robot(*tree, true).robot;

@@ -2,18 +2,18 @@
 #pragma once
 #include <filesystem>
 
-#include "clench/io/text/library.h"
+#include "clench/io/text/file_cache.h"
 #include "clench/spec/world_spec.h"
 
 namespace clench {
 
 /// throws Error  "hand.xml:31: joint: range: expected 2 numbers, got 3"
-RobotSpec read_robot_mjcf(const std::filesystem::path& path, Library& library);
+RobotSpec read_robot_mjcf(const std::filesystem::path& path, FileCache& cache);
 /// One of the robots that read_world_mjcf finds: that whose tree of joints begins with a body of that name.
 /// throws Error  that lists the names when there is none
 RobotSpec read_robot_mjcf(const std::filesystem::path& path, const std::string& body,
-                          Library& library);
+                          FileCache& cache);
 /// A scene: every tree of joints a robot, free bodies objects, what is fixed obstacles.
-WorldSpec read_world_mjcf(const std::filesystem::path& path, Library& library);
+WorldSpec read_world_mjcf(const std::filesystem::path& path, FileCache& cache);
 
 }  // namespace clench

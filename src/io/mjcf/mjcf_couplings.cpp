@@ -21,10 +21,10 @@ struct Tendon {
 
 class Couplings {
  public:
-  Couplings(MjcfDocument& document, Library& library, TreeModel& tree,
+  Couplings(MjcfDocument& document, FileCache& cache, TreeModel& tree,
             const std::set<std::string>& elsewhere, bool tells)
       : document_(document),
-        library_(library),
+        cache_(cache),
         tree_(tree),
         elsewhere_(elsewhere),
         tells_(tells),
@@ -42,7 +42,7 @@ class Couplings {
 
  private:
   void warn(const XmlElement& at, const std::string& what) const {
-    library_.warn(at.place() + ": " + what);
+    cache_.warn(at.place() + ": " + what);
   }
   void find_names(const MjcfNode& node, bool copied);
   bool concerns(const XmlValues& values) const;
@@ -64,7 +64,7 @@ class Couplings {
   void mark_passive();
 
   MjcfDocument& document_;
-  Library& library_;
+  FileCache& cache_;
   TreeModel& tree_;
   std::map<std::string, int> numbers_;
   std::map<std::string, bool>
@@ -223,7 +223,7 @@ void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
   const int leader = *second;
   if (leader == follower) values.fail("joint2", "expected another joint than joint1");
   if (c[1] == 0)
-    library_.suspected(
+    cache_.suspected(
         fmt::format("{}: joint '{}': polycoef has no linear part: it stands still when "
                     "'{}' moves",
                     element.place(), excerpt(tied.name), excerpt(tree_.joints[leader].name)));
@@ -282,7 +282,7 @@ void Couplings::take_control_range(const XmlElement& element, const XmlValues& v
     joint.min = low, joint.max = high;
     joint.start = std::clamp(joint.start, low, high);
     if (low == high)
-      library_.note(fmt::format("{}: joint '{}' may only stand at {:.4g}, as ctrlrange says",
+      cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g}, as ctrlrange says",
                                 element.place(), excerpt(joint.name), low));
   } else if (range[0] < range[1]) {
     warn(element, fmt::format("position: ctrlrange has nothing in common with the range of joint "
@@ -331,7 +331,7 @@ void Couplings::drive_tendon(const XmlElement& element, const Tendon& tendon) {
     const double ratio = c / c_first;
     follow(element, number, first, ratio,
            tree_.joints[number].zero - ratio * tree_.joints[first].zero);
-    library_.note(
+    cache_.note(
         fmt::format("{}: joints '{}' and '{}' share a tendon; they are taken to turn as "
                     "1 to {:.4g}",
                     element.place(), excerpt(tree_.joints[first].name),
@@ -432,15 +432,15 @@ void Couplings::mark_passive() {
     if (joint.passive && joint.leader < 0 && ++count <= 6)
       names += fmt::format("{}'{}'", count > 1 ? ", " : "", excerpt(joint.name));
   if (count > 0)
-    library_.note(fmt::format("{}: joints that no actuator drives do not close: {}{}",
+    cache_.note(fmt::format("{}: joints that no actuator drives do not close: {}{}",
                               document_.file(), names, count > 6 ? " and others" : ""));
 }
 
 }  // namespace
 
-void read_mjcf_couplings(MjcfDocument& document, Library& library, TreeModel& tree,
+void read_mjcf_couplings(MjcfDocument& document, FileCache& cache, TreeModel& tree,
                          const std::set<std::string>& elsewhere, bool tells) {
-  Couplings(document, library, tree, elsewhere, tells).read();
+  Couplings(document, cache, tree, elsewhere, tells).read();
 }
 
 }  // namespace clench

@@ -11,7 +11,7 @@ namespace clench {
 /// actuators, and marks joints that none drives as passive, when there are actuators at all. Tells
 /// what it cannot follow.
 /// elsewhere  joints of other robots of the file; tells  of what concerns no joint at all, too?
-void read_mjcf_couplings(MjcfDocument& document, Library& library, TreeModel& tree,
+void read_mjcf_couplings(MjcfDocument& document, FileCache& cache, TreeModel& tree,
                          const std::set<std::string>& elsewhere, bool tells);
 
 }  // namespace clench

@@ -15,11 +15,11 @@ namespace fs = std::filesystem;
 static constexpr int max_files = 100;        // included; far above any robot
 static constexpr int deepest_element = 200;  // of elements, over all includes
 
-MjcfDocument::MjcfDocument(const fs::path& path, Library& library)
+MjcfDocument::MjcfDocument(const fs::path& path, FileCache& cache)
     : path_(path),
       file_(path.filename().string()),
-      library_(library),
-      repairs_(library.options().listeners()) {
+      cache_(cache),
+      repairs_(cache.options().listeners()) {
   angle_unit_ = units::degree;
   files_.push_back(std::make_unique<XmlFile>(path));
   open_.push_back(fs::weakly_canonical(path));
@@ -55,10 +55,10 @@ void MjcfDocument::include(const XmlElement& element, std::vector<MjcfNode>& int
   fs::path found;
   try {
     // beside the including file, else beside the outermost
-    found = find_file(name, open_.back(), library_.options());
+    found = find_file(name, open_.back(), cache_.options());
   } catch (const Error& near) {
     try {
-      found = find_file(name, path_, library_.options());
+      found = find_file(name, path_, cache_.options());
     } catch (const Error&) {
       element.fail("include: {}", near.what());
     }
@@ -113,7 +113,7 @@ void MjcfDocument::read_defaults(const MjcfNode& node, int parent) {
     // MuJoCo once called the global class so, and refuses it today
     if (const auto [at, is_new] = class_numbers_.emplace(name, 0); !is_new && at->second != 0)
       node.element.fail("default: there is another class '{}'", excerpt(name));
-    library_.warn(fmt::format("{}: default: the outermost class is called main; {} is taken for it",
+    cache_.warn(fmt::format("{}: default: the outermost class is called main; {} is taken for it",
                               node.element.place(), in_quotes(name)));
   } else if (!name.empty() && name != "main") {
     const auto [at, is_new] = class_numbers_.emplace(name, static_cast<int>(classes_.size()));

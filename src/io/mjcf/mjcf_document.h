@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "clench/io/text/library.h"
+#include "clench/io/text/file_cache.h"
 #include "clench/io/tree/tree_xml.h"
 #include "clench/math/pose.h"
 
@@ -24,7 +24,7 @@ struct MjcfNode {
 class MjcfDocument {
  public:
   /// throws  Error for malformed XML, circles of includes, unknown classes, settings we cannot follow
-  MjcfDocument(const std::filesystem::path& path, Library& library);
+  MjcfDocument(const std::filesystem::path& path, FileCache& cache);
 
   const MjcfNode& root() const { return root_; }
   const std::filesystem::path& path() const { return path_; }
@@ -63,7 +63,7 @@ class MjcfDocument {
 
   std::filesystem::path path_;
   std::string file_;
-  Library& library_;
+  FileCache& cache_;
   std::vector<std::unique_ptr<XmlFile>> files_;
   std::vector<std::filesystem::path> open_;  // the file and those that include one another
   MjcfNode root_;

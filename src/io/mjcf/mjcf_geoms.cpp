@@ -10,8 +10,8 @@
 
 namespace clench {
 
-MjcfGeoms::MjcfGeoms(MjcfDocument& document, Library& library, bool scene)
-    : document_(document), library_(library), geometry_(library.options()), scene_(scene) {
+MjcfGeoms::MjcfGeoms(MjcfDocument& document, FileCache& cache, bool scene)
+    : document_(document), cache_(cache), geometry_(cache.options()), scene_(scene) {
   read_assets();
 }
 
@@ -91,7 +91,7 @@ std::shared_ptr<const Geometry> MjcfGeoms::read_mesh(Asset& asset) {
   auto geometry =
       values.has("vertex")
           ? inline_mesh(asset)
-          : geometry_.file(document_.mesh_file(values.text("file"), library_.options()));
+          : geometry_.file(document_.mesh_file(values.text("file"), cache_.options()));
   const Eigen::Vector3d scale = values.vec3("scale", {1, 1, 1}),
                         origin = values.vec3("refpos", {0, 0, 0});
   if (scale.cwiseAbs().minCoeff() == 0) values.fail("scale", "expected factors other than 0");
@@ -127,7 +127,7 @@ std::shared_ptr<const Geometry> MjcfGeoms::mesh(const XmlValues& geom, bool coll
     const std::string what = error.what(), place = asset.element.place();
     const std::string sentence = what.starts_with(place) ? what : place + ": mesh: " + what;
     if (collides) throw Error(sentence);
-    library_.warn(sentence + "; it is not drawn");
+    cache_.warn(sentence + "; it is not drawn");
     return nullptr;
   }
 }
@@ -195,7 +195,7 @@ void MjcfGeoms::set_plane(const XmlValues& values, MjcfGeom& geom) {
   Mesh mesh = box_mesh({2 * x, 2 * y, plane_thickness});
   for (auto& p : mesh.vertices) p.z() -= plane_thickness / 2;
   geom.piece.geometry = geometry_.made(fmt::format("plane {} {}", x, y), std::move(mesh));
-  library_.note(fmt::format("{}: geom: a plane has no end; a plate of {} x {} x {} m stands for it",
+  cache_.note(fmt::format("{}: geom: a plane has no end; a plate of {} x {} x {} m stands for it",
                             values.element().place(), 2 * x, 2 * y, plane_thickness));
 }
 
@@ -219,7 +219,7 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
       {"plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "sdf"},
       "sphere");
   const auto skip = [&](const std::string& what) {
-    library_.warn(fmt::format("{}: geom: {}; it is not used", element.place(), what));
+    cache_.warn(fmt::format("{}: geom: {}; it is not used", element.place(), what));
     return std::nullopt;
   };
   if ((type == "plane" && !of_world) || type == "hfield" || type == "sdf")
@@ -243,7 +243,7 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
   Pose X = document_.pose(values);
   if (type == "mesh" || (values.has("mesh") && !values.has("size") && !values.has("fromto"))) {
     if (type != "mesh")
-      library_.warn(fmt::format("{}: geom: a {} is to be fitted to a mesh; the mesh is used itself",
+      cache_.warn(fmt::format("{}: geom: a {} is to be fitted to a mesh; the mesh is used itself",
                                 element.place(), type));
     geom.piece.geometry = mesh(values, geom.collides());
     if (!geom.piece.geometry) return {};

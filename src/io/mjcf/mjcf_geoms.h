@@ -33,7 +33,7 @@ struct MjcfGeom {
 class MjcfGeoms {
  public:
   /// scene  are planes and friction read?
-  MjcfGeoms(MjcfDocument& document, Library& library, bool scene);
+  MjcfGeoms(MjcfDocument& document, FileCache& cache, bool scene);
 
   /// A geom in the frame of its body; empty for what we do not use, which is told.
   std::optional<MjcfGeom> read(const XmlElement& element, const std::string& child_class,
@@ -55,7 +55,7 @@ class MjcfGeoms {
   std::optional<PieceColor> color(const XmlValues& geom) const;
 
   MjcfDocument& document_;
-  Library& library_;
+  FileCache& cache_;
   TreeGeometry geometry_;
   bool scene_;
   std::map<std::string, Asset> meshes_;

@@ -15,8 +15,8 @@ constexpr double settled = 0.01;
 
 class KeyReader {
  public:
-  KeyReader(const XmlValues& values, const Library& library, const WorldSpec& world)
-      : values_(values), library_(library), world_(world) {}
+  KeyReader(const XmlValues& values, const FileCache& cache, const WorldSpec& world)
+      : values_(values), cache_(cache), world_(world) {}
   KeyframeSpec read(const std::vector<SceneBody>& bodies, const std::string& name);
 
  private:
@@ -24,7 +24,7 @@ class KeyReader {
   void add_robot(const SceneBody& body, const Pose& X_WB, const double* q);
 
   const XmlValues& values_;
-  const Library& library_;
+  const FileCache& cache_;
   const WorldSpec& world_;
   KeyframeSpec out_;
 };
@@ -58,11 +58,11 @@ void KeyReader::add_robot(const SceneBody& body, const Pose& X_WB, const double*
       const auto [low, high] = dof_range(robot, static_cast<int>(dofs.size()));
       dofs.push_back(std::clamp(q[j], low, high));
       if (std::abs(dofs.back() - q[j]) > 1e-6)
-        library_.repaired(fmt::format("{}: joint '{}' is at {}, outside [{}, {}]; moved to the limit",
+        cache_.repaired(fmt::format("{}: joint '{}' is at {}, outside [{}, {}]; moved to the limit",
                                       values_.subject("qpos"), excerpt(joint.name), q[j], low,
                                       high));
     } else if (std::abs(joint.ratio * q[joint.leader] + joint.offset - q[j]) > settled) {
-      library_.warn(fmt::format("{}: joint '{}' follows '{}', and is at {} rather than at {}; it "
+      cache_.warn(fmt::format("{}: joint '{}' follows '{}', and is at {} rather than at {}; it "
                                 "follows",
                                 values_.subject("qpos"), excerpt(joint.name),
                                 excerpt(body.joints[joint.leader].name), q[j],
@@ -125,7 +125,7 @@ int qpos_size(const std::vector<SceneBody>& bodies) {
 }  // namespace
 
 void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& bodies, bool lossy,
-                         const Library& library, WorldSpec& world) {
+                         const FileCache& cache, WorldSpec& world) {
   const int expected = qpos_size(bodies);
   int number = 0;
   for (const MjcfNode* node : document.section("keyframe")) {
@@ -139,14 +139,14 @@ void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& b
     std::string name = values.text("name", fmt::format("{}", number));
     if (const auto wrong = name_fault(name); !wrong.empty()) {
       name = repaired_name(name);
-      library.repaired(fmt::format("{}: {}; it becomes '{}'", values.subject("name"), wrong,
+      cache.repaired(fmt::format("{}: {}; it becomes '{}'", values.subject("name"), wrong,
                                    excerpt(name)));
     }
     const int got =
         values.has("qpos") ? static_cast<int>(values.numbers("qpos", 1, max_key_numbers).size())
                            : expected;
     if (got != expected && lossy) {
-      library.warn(fmt::format("{}: keyframe '{}' has {} numbers, and the bodies that are read take "
+      cache.warn(fmt::format("{}: keyframe '{}' has {} numbers, and the bodies that are read take "
                                "{}; it is not used",
                                values.subject("qpos"), excerpt(name), got, expected));
       continue;
@@ -159,7 +159,7 @@ void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& b
                                          node->element.place(), excerpt(name)));
       continue;
     }
-    world.keyframes.push_back(KeyReader(values, library, world).read(bodies, name));
+    world.keyframes.push_back(KeyReader(values, cache, world).read(bodies, name));
   }
 }
 

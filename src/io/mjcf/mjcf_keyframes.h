@@ -23,6 +23,6 @@ struct SceneBody {
 /// lossy  are there bodies that are not read, whose numbers qpos has, too?
 /// throws Error  "scene.xml:31: key: qpos: expected 9 numbers, got 8"
 void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& bodies, bool lossy,
-                         const Library& library, WorldSpec& world);
+                         const FileCache& cache, WorldSpec& world);
 
 }  // namespace clench

@@ -8,11 +8,11 @@
 
 namespace clench {
 
-MjcfModel::MjcfModel(const std::filesystem::path& path, Library& library, const char* whole)
-    : library_(library),
+MjcfModel::MjcfModel(const std::filesystem::path& path, FileCache& cache, const char* whole)
+    : cache_(cache),
       whole_(whole),
-      document_(path, library),
-      geoms_(document_, library, whole == std::string_view("world")) {
+      document_(path, cache),
+      geoms_(document_, cache, whole == std::string_view("world")) {
   name_ = document_.root().element.attribute("model").value_or("");
   if (name_.empty()) name_ = document_.path().stem().string();
   std::vector<std::string_view> known = {"compiler", "default",  "asset",  "worldbody",
@@ -21,7 +21,7 @@ MjcfModel::MjcfModel(const std::filesystem::path& path, Library& library, const 
   for (const auto& node : document_.root().children)
     if (std::find(known.begin(), known.end(), node.name()) == known.end())
       document_.unused().element(node.element);
-  worldbody_ = read_worldbody(document_, library, whole);
+  worldbody_ = read_worldbody(document_, cache, whole);
 }
 
 std::vector<const TopBody*> MjcfModel::joint_trees() const {
@@ -32,7 +32,7 @@ std::vector<const TopBody*> MjcfModel::joint_trees() const {
 }
 
 MjcfTree MjcfModel::read_tree(const TopBody& body) {
-  MjcfTreeReader reader(document_, geoms_, library_, whole_);
+  MjcfTreeReader reader(document_, geoms_, cache_, whole_);
   if (body.own_joints) reader.add_world();
   reader.read_body(body, !body.own_joints);
   return reader.take();
@@ -72,7 +72,7 @@ void MjcfModel::read_excludes(MjcfTree& tree) {
     if (a == tree.links.end() || b == tree.links.end()) {
       // a scene looks at them all
       if (alone)
-        library_.warn(fmt::format(
+        cache_.warn(fmt::format(
             "{}: exclude: '{}' and '{}' are not both bodies of the robot; not used",
             node->element.place(), excerpt(values.text("body1")), excerpt(values.text("body2"))));
     } else if (a != b) {
@@ -97,7 +97,7 @@ void MjcfModel::keep_masks(MjcfTree& tree) {
       ++apart;
     }
   if (apart > 0)
-    library_.note(
+    cache_.note(
         fmt::format("{}: {} pair{} of links never collide{}, as contype and conaffinity say",
                     document_.file(), apart, apart == 1 ? "" : "s", apart == 1 ? "s" : ""));
 }
@@ -111,13 +111,13 @@ MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
   model.class_name = document_.root().element.attribute("model").value_or("");
   read_excludes(tree);
   keep_masks(tree);
-  read_mjcf_couplings(document_, library_, model, elsewhere, tells);
+  read_mjcf_couplings(document_, cache_, model, elsewhere, tells);
   for (size_t i = 0; i < tree.geoms.size(); ++i)
     for (const MjcfGeom& geom : tree.geoms[i]) {
       if (geom.collides()) tree.pieces[i].collision.push_back(geom.piece);
       if (geom.drawn) tree.pieces[i].visual.push_back(geom.piece);
     }
-  dress_links(model, tree.pieces, geoms_.geometry(), document_.file(), library_,
+  dress_links(model, tree.pieces, geoms_.geometry(), document_.file(), cache_,
               whole_ == std::string_view("world"));
   resolve_leaders(model);
   MjcfRobot out;
@@ -126,9 +126,9 @@ MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
   out.robot = make_robot(
       std::move(model),
       several ? fmt::format("{}: '{}'", document_.file(), excerpt(robot_name)) : document_.file(),
-      library_);
+      cache_);
   out.robot.source = document_.path().generic_string();
-  tree.faults.tell(library_);
+  tree.faults.tell(cache_);
   out.tree.geoms = std::move(tree.geoms);
   out.tree.slots = std::move(tree.slots);
   out.tree.links = std::move(tree.links);
@@ -145,7 +145,7 @@ MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
 
 void MjcfModel::tell() {
   document_.repairs().tell();
-  for (const auto& sentence : document_.unused().sentences()) library_.warn(sentence);
+  for (const auto& sentence : document_.unused().sentences()) cache_.warn(sentence);
 }
 
 }  // namespace clench

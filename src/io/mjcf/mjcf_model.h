@@ -16,7 +16,7 @@ struct MjcfRobot {
 class MjcfModel {
  public:
   /// whole  what is read: "robot" or "world"
-  MjcfModel(const std::filesystem::path& path, Library& library, const char* whole);
+  MjcfModel(const std::filesystem::path& path, FileCache& cache, const char* whole);
 
   const Worldbody& worldbody() const { return worldbody_; }
   MjcfDocument& document() { return document_; }
@@ -38,7 +38,7 @@ class MjcfModel {
   void read_excludes(MjcfTree& tree);
   void keep_masks(MjcfTree& tree);
 
-  Library& library_;
+  FileCache& cache_;
   const char* whole_;
   MjcfDocument document_;
   MjcfGeoms geoms_;

@@ -23,8 +23,8 @@ struct ScenePart {
 
 class SceneReader {
  public:
-  SceneReader(const fs::path& path, Library& library)
-      : library_(library), model_(path, library, "world") {}
+  SceneReader(const fs::path& path, FileCache& cache)
+      : cache_(cache), model_(path, cache, "world") {}
   WorldSpec read();
 
  private:
@@ -43,7 +43,7 @@ class SceneReader {
   void never_meet();
   ScenePart part_of(PartRef ref, const std::vector<MjcfGeom>& geoms, bool fixed) const;
 
-  Library& library_;
+  FileCache& cache_;
   MjcfModel model_;
   WorldSpec world_;
   TreeModel things_;  // bodies of the world that are no robot's, one per link
@@ -101,7 +101,7 @@ void SceneReader::set_friction() {
       world_.friction.push_back({a->second, b->second, mu, mu});
     }
   if (!mixed_.empty())
-    library_.warn(fmt::format("{}: bodies whose geoms differ in friction, of which that of the "
+    cache_.warn(fmt::format("{}: bodies whose geoms differ in friction, of which that of the "
                               "highest priority, then the largest counts for all: {}",
                               model_.document().file(), some_names(mixed_)));
 }
@@ -211,7 +211,7 @@ std::optional<BodySpec> weigh(const MjcfTree& tree, const std::vector<Pose>& X) 
 /// A free body, and what is fixed to it, as one.
 void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
   MjcfTree tree = model_.read_tree(body);
-  tree.faults.tell(library_);
+  tree.faults.tell(cache_);
   const auto X = tree_poses(tree.model);
   LinkPieces pieces;
   pieces.place = body.node->element.place();
@@ -295,10 +295,10 @@ void SceneReader::add_body(const TopBody& body) {
 void SceneReader::dress_things() {
   if (things_.links.empty()) return;
   dress_links(things_, thing_pieces_, model_.geoms().geometry(), model_.document().file(),
-              library_, true);
+              cache_, true);
   for (size_t i = 0; i < things_.links.size(); ++i) {
     BodySpec& body = things_.links[i].body;
-    repair_names(body, thing_pieces_[i].place, library_.options());
+    repair_names(body, thing_pieces_[i].place, cache_.options());
     body.material = std::move(world_.bodies[i].body.material);
     world_.bodies[i].body = std::move(body);
   }
@@ -320,7 +320,7 @@ void SceneReader::exclude() {
       const std::string name = values.text(i ? "body2" : "body1");
       const auto found = by_name_.find(name);
       if (found == by_name_.end())
-        library_.warn(fmt::format("{}: exclude: no body {} is read; this is not used",
+        cache_.warn(fmt::format("{}: exclude: no body {} is read; this is not used",
                                   node->element.place(), in_quotes(name)));
       else
         pair[i] = found->second;
@@ -347,7 +347,7 @@ void SceneReader::never_meet() {
       world_.never_meet.push_back({a.ref, b.ref});
     }
   if (apart > 0)
-    library_.note(fmt::format("{}: {} pair{} of bodies never collide{}, as contype and "
+    cache_.note(fmt::format("{}: {} pair{} of bodies never collide{}, as contype and "
                               "conaffinity say",
                               model_.document().file(), apart, apart == 1 ? "" : "s",
                               apart == 1 ? "s" : ""));
@@ -380,7 +380,7 @@ void SceneReader::read_options() {
 
 WorldSpec SceneReader::read() {
   const Worldbody& worldbody = model_.worldbody();
-  const ReadOptions& options = library_.options();
+  const ReadOptions& options = cache_.options();
   const size_t trees = model_.joint_trees().size();
   if (trees != 1 && (!options.closing.empty() || options.approach))
     fail("{}: {}: expected a file of one robot, got {}; world:add_robot with the option 'body' "
@@ -403,15 +403,15 @@ WorldSpec SceneReader::read() {
   read_options();
   exclude();
   never_meet();
-  read_mjcf_keyframes(model_.document(), scene_, worldbody.lacks_bodies, library_, world_);
+  read_mjcf_keyframes(model_.document(), scene_, worldbody.lacks_bodies, cache_, world_);
   model_.tell();
   return std::move(world_);
 }
 
 }  // namespace
 
-WorldSpec read_world_mjcf(const fs::path& path, Library& library) {
-  return SceneReader(path, library).read();
+WorldSpec read_world_mjcf(const fs::path& path, FileCache& cache) {
+  return SceneReader(path, cache).read();
 }
 
 }  // namespace clench

@@ -39,11 +39,11 @@ static bool has_own_joints(const MjcfNode& node) {
   });
 }
 
-bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const Library& library,
+bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const FileCache& cache,
                   const char* whole) {
   const std::string name = node.name();
   const auto warn = [&](const std::string& what) {
-    library.warn(node.element.place() + ": " + what);
+    cache.warn(node.element.place() + ": " + what);
   };
   if (name == "replicate" || name == "composite" || name == "flexcomp") {
     const std::string what =
@@ -67,7 +67,7 @@ bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const Library& l
 }
 
 static void find_in_world(const MjcfNode& node, const std::string& child_class,
-                          const Pose& X_frame, MjcfDocument& document, const Library& library,
+                          const Pose& X_frame, MjcfDocument& document, const FileCache& cache,
                           const char* whole, Worldbody& into) {
   if (node.name() == "body") {
     const auto name = node.element.attribute("name").value_or("");
@@ -81,19 +81,19 @@ static void find_in_world(const MjcfNode& node, const std::string& child_class,
     const std::string inherited = node.element.attribute("childclass").value_or(child_class);
     const Pose X = X_frame * document.pose(XmlValues(node.element));
     for (const auto& child : node.children)
-      find_in_world(child, inherited, X, document, library, whole, into);
+      find_in_world(child, inherited, X, document, cache, whole, into);
   } else if (node.name() == "geom") {
     into.order.emplace_back(false, static_cast<int>(into.geoms.size()));
     into.geoms.push_back({&node, child_class, X_frame});
-  } else if (warn_of_loss(node, document, library, whole)) {
+  } else if (warn_of_loss(node, document, cache, whole)) {
     into.lacks_bodies = true;
   }
 }
 
-Worldbody read_worldbody(MjcfDocument& document, const Library& library, const char* whole) {
+Worldbody read_worldbody(MjcfDocument& document, const FileCache& cache, const char* whole) {
   Worldbody out;
   for (const MjcfNode* node : document.section("worldbody"))
-    find_in_world(*node, "", Pose{}, document, library, whole, out);
+    find_in_world(*node, "", Pose{}, document, cache, whole, out);
   return out;
 }
 
@@ -142,7 +142,7 @@ void MjcfTreeReader::read_body(const MjcfNode& node, int parent, const std::stri
   // where the base stands is the world's to say
   const int link = add_link(element, name, parent, base ? Pose{} : X);
   if (base && whole_ == std::string_view("robot") && !(X == Pose{}))
-    library_.note(fmt::format("{}: body '{}' is the base; its place in the file is not used",
+    cache_.note(fmt::format("{}: body '{}' is the base; its place in the file is not used",
                               element.place(), excerpt(tree_.model.links[link].body.name)));
   read_contents(node, link, inherited, Pose{});
   if (!tree_.pieces[link].has_inertial || document_.inertia_from_geoms()) weigh_geoms(link);
@@ -168,7 +168,7 @@ void MjcfTreeReader::read_contents(const MjcfNode& node, int link, const std::st
       if (auto geom = geoms_.read(child.element, child_class, X_frame))
         tree_.geoms[link].push_back(std::move(*geom));
     } else {
-      warn_of_loss(child, document_, library_, whole_);
+      warn_of_loss(child, document_, cache_, whole_);
     }
   }
 }
@@ -199,7 +199,7 @@ void MjcfTreeReader::set_range(const XmlValues& values, TreeJoint& joint) {
   if (limited == "false" || !has_range) {
     const double endless = turns ? endless_turn : endless_slide;
     joint.min = joint.zero - endless, joint.max = joint.zero + endless;
-    library_.note(fmt::format("{}: joint '{}' has no limits; it may go from {:.4g} to {:.4g} {}",
+    cache_.note(fmt::format("{}: joint '{}' has no limits; it may go from {:.4g} to {:.4g} {}",
                               joint.place, excerpt(joint.name), joint.min, joint.max,
                               turns ? "rad" : "m"));
     return;
@@ -208,7 +208,7 @@ void MjcfTreeReader::set_range(const XmlValues& values, TreeJoint& joint) {
   joint.min = range[0] * unit;
   joint.max = range[1] * unit;
   if (joint.min == joint.max)
-    library_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}", joint.place,
+    cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}", joint.place,
                               excerpt(joint.name), joint.min, turns ? "rad" : "m"));
 }
 
@@ -271,7 +271,7 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
   if (given_range(values) && values.text("limited", "auto") != "false")
     most = std::min(most, values.numbers("range", 2, 2)[1] * unit);
   if (!(most > 0)) values.fail("range", "expected a largest angle > 0");
-  library_.note(
+  cache_.note(
       fmt::format("{}: joint '{}' is a ball; it becomes three turns of at most {:.4g} rad",
                   joint.place, excerpt(joint.name), most));
   tree_.slots[link].push_back({QposSlot::Kind::ball, static_cast<int>(tree_.model.joints.size())});

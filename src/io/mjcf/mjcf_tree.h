@@ -49,17 +49,17 @@ struct Worldbody {
 };
 
 /// whole  what lacks the bodies that are not read: "robot" or "world"
-Worldbody read_worldbody(MjcfDocument& document, const Library& library, const char* whole);
+Worldbody read_worldbody(MjcfDocument& document, const FileCache& cache, const char* whole);
 
 /// Tells of an element that is not read and holds bodies or geoms.
 /// returns  is it one of these?
-bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const Library& library,
+bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const FileCache& cache,
                   const char* whole);
 
 class MjcfTreeReader {
  public:
-  MjcfTreeReader(MjcfDocument& document, MjcfGeoms& geoms, Library& library, const char* whole)
-      : document_(document), geoms_(geoms), library_(library), whole_(whole) {}
+  MjcfTreeReader(MjcfDocument& document, MjcfGeoms& geoms, FileCache& cache, const char* whole)
+      : document_(document), geoms_(geoms), cache_(cache), whole_(whole) {}
 
   /// A frame that bodies stand on.
   void add_world() { add_link(document_.root().element, "world", -1, {}); }
@@ -69,7 +69,7 @@ class MjcfTreeReader {
 
  private:
   void warn(const XmlElement& at, const std::string& what) const {
-    library_.warn(at.place() + ": " + what);
+    cache_.warn(at.place() + ": " + what);
   }
   int add_link(const XmlElement& element, const std::string& name, int parent, const Pose& X_PL);
   void read_body(const MjcfNode& node, int parent, const std::string& child_class,
@@ -87,7 +87,7 @@ class MjcfTreeReader {
 
   MjcfDocument& document_;
   MjcfGeoms& geoms_;
-  Library& library_;
+  FileCache& cache_;
   const char* whole_;
   MjcfTree tree_;
 };

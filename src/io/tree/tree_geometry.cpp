@@ -2,7 +2,7 @@
 
 #include "clench/base/error.h"
 #include "clench/io/inventor/read_geometry.h"
-#include "clench/io/text/library.h"
+#include "clench/io/text/file_cache.h"
 
 namespace clench {
 

@@ -29,16 +29,16 @@ void InertialFaults::add(Inertial fault, const std::string& place, const std::st
   links_[kind].push_back(link);
 }
 
-void InertialFaults::tell(const Library& library) const {
+void InertialFaults::tell(const FileCache& cache) const {
   if (!links_[0].empty())
-    library.repaired(fmt::format("{}: {}: {}", places_[0], raised_moments, some_names(links_[0])));
+    cache.repaired(fmt::format("{}: {}: {}", places_[0], raised_moments, some_names(links_[0])));
   if (!links_[1].empty())
-    library.warn(
+    cache.warn(
         fmt::format("{}: inertia that is not positive definite; it is computed from the "
                     "geometry: {}",
                     places_[1], some_names(links_[1])));
   if (!links_[2].empty())
-    library.note(
+    cache.note(
         fmt::format("{}: a mass without an inertia, which is computed from the geometry: {}",
                     places_[2], some_names(links_[2])));
 }
@@ -63,7 +63,7 @@ static bool same_surface(const ShapePtr& a, const ShapePtr& b) {
 }
 
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
-                 const std::string& file, const Library& library, bool friction_known) {
+                 const std::string& file, const FileCache& cache, bool friction_known) {
   const bool any = std::any_of(pieces.begin(), pieces.end(),
                                [](const LinkPieces& p) { return !p.collision.empty(); });
   const bool any_visual = std::any_of(pieces.begin(), pieces.end(),
@@ -91,22 +91,22 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     if (shape) (has_volume ? weightless : open).push_back(body.name);
   }
   if (!any && any_visual)
-    library.note(fmt::format(
+    cache.note(fmt::format(
         "{}: no link has geometry to collide with; that for pictures is used for both", file));
   if (!ghosts.empty())
-    library.note(
+    cache.note(
         fmt::format("{}: links that have geometry for pictures only collide with nothing: {}", file,
                     some_names(ghosts)));
   if (!weightless.empty())
-    library.note(fmt::format("{}: links without a mass weigh what their volume of water does: {}",
+    cache.note(fmt::format("{}: links without a mass weigh what their volume of water does: {}",
                              file, some_names(weightless)));
   if (!open.empty())
-    library.note(
+    cache.note(
         fmt::format("{}: links without a mass whose surface is open, and so bounds no "
                     "volume, weigh {} kg: {}",
                     first_open, frame_mass, some_names(open)));
   if (!friction_known)
-    library.note(fmt::format("{}: says nothing of friction; all links count as plastic", file));
+    cache.note(fmt::format("{}: says nothing of friction; all links count as plastic", file));
 }
 
 }  // namespace clench

@@ -1,6 +1,6 @@
 // What the readers of URDF and MJCF share about links: mass properties, and which geometry collides.
 #pragma once
-#include "clench/io/text/library.h"
+#include "clench/io/text/file_cache.h"
 #include "clench/io/tree/tree_geometry.h"
 #include "clench/io/tree/tree_model.h"
 #include "clench/spec/inertia.h"
@@ -20,7 +20,7 @@ struct LinkPieces {
 /// `pieces`  one per link
 /// `friction_known`  does the file say it?
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
-                 const std::string& file, const Library& library, bool friction_known = false);
+                 const std::string& file, const FileCache& cache, bool friction_known = false);
 
 /// Mass, centre and inertia of a link from the inertia about its centre of mass [kg m^2].
 Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
@@ -30,7 +30,7 @@ Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
 class InertialFaults {
  public:
   void add(Inertial fault, const std::string& place, const std::string& link);
-  void tell(const Library& library) const;
+  void tell(const FileCache& cache) const;
 
  private:
   std::array<std::string, 3> places_;  // of the first; no_body, not_definite, not_given

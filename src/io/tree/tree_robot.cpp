@@ -17,9 +17,9 @@ namespace {
 
 class RobotMaker {
  public:
-  RobotMaker(TreeModel tree, const std::string& file, const Library& library,
+  RobotMaker(TreeModel tree, const std::string& file, const FileCache& cache,
              const std::function<void(RobotSpec&)>& known)
-      : tree_(std::move(tree)), file_(file), library_(library), known_(known) {}
+      : tree_(std::move(tree)), file_(file), cache_(cache), known_(known) {}
   RobotSpec make();
 
  private:
@@ -33,7 +33,7 @@ class RobotMaker {
 
   TreeModel tree_;
   const std::string& file_;
-  const Library& library_;
+  const FileCache& cache_;
   const std::function<void(RobotSpec&)>& known_;
   RobotSpec robot_;
   std::vector<int> dof_of_;    // one per joint: of the leader; -1 for followers
@@ -89,7 +89,7 @@ void RobotMaker::widen_followers() {
       range = narrower;
       continue;
     }
-    library_.warn(
+    cache_.warn(
         slips ? fmt::format("{}: joint '{}' follows '{}' {}, and its own limits {} would stop "
                             "that; they are not used",
                             joint.place, excerpt(joint.name), excerpt(leader.name),
@@ -153,7 +153,7 @@ void RobotMaker::tell_closing() {
   for (const DofSpec& dof : robot_.dofs)
     if (dof.default_velocity != 0)
       closing.push_back((dof.default_velocity > 0 ? "+" : "-") + dof.name);
-  library_.note(
+  cache_.note(
       !closing.empty()
           ? fmt::format("{}: these DOFs close it, by its geometry: {}; the option "
                         "'close' says otherwise",
@@ -163,10 +163,10 @@ void RobotMaker::tell_closing() {
 }
 
 void RobotMaker::tell_approach() {
-  if (!robot_.X_BA || library_.options().approach) return;
+  if (!robot_.X_BA || cache_.options().approach) return;
   const Eigen::Vector3d z = robot_.X_BA->rotation * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d& p = robot_.X_BA->position;
-  library_.note(fmt::format(
+  cache_.note(fmt::format(
       "{}: by its geometry its approach direction is ({:.3g}, {:.3g}, {:.3g}) and its approach "
       "point ({:.3f}, {:.3f}, "
       "{:.3f}) m in its base; the option 'approach' says otherwise",
@@ -176,7 +176,7 @@ void RobotMaker::tell_approach() {
 void RobotMaker::close_hand() {
   if (known_) {
     known_(robot_);
-    choose_closing(robot_, file_, library_.options());
+    choose_closing(robot_, file_, cache_.options());
     if (robot_.X_BA) return;
     robot_.X_BA = guess_approach(robot_);
     tell_approach();
@@ -184,7 +184,7 @@ void RobotMaker::close_hand() {
   }
   const auto senses = guess_closing(robot_, passive_);
   for (size_t d = 0; d < senses.size(); ++d) set_closing(robot_, static_cast<int>(d), senses[d]);
-  choose_closing(robot_, file_, library_.options());
+  choose_closing(robot_, file_, cache_.options());
   if (!robot_.X_BA) robot_.X_BA = guess_approach(robot_);
   tell_closing();
 }
@@ -210,15 +210,15 @@ RobotSpec RobotMaker::make() {
     robot_.actuators.push_back(std::move(actuator));
   }
   close_hand();
-  check_read_robot(robot_, file_, library_.options());
+  check_read_robot(robot_, file_, cache_.options());
   return std::move(robot_);
 }
 
 }  // namespace
 
-RobotSpec make_robot(TreeModel tree, const std::string& file, const Library& library,
+RobotSpec make_robot(TreeModel tree, const std::string& file, const FileCache& cache,
                      const std::function<void(RobotSpec&)>& known) {
-  return RobotMaker(std::move(tree), file, library, known).make();
+  return RobotMaker(std::move(tree), file, cache, known).make();
 }
 
 }  // namespace clench

@@ -3,7 +3,7 @@
 #pragma once
 #include <functional>
 
-#include "clench/io/text/library.h"
+#include "clench/io/text/file_cache.h"
 #include "clench/io/tree/tree_model.h"
 
 namespace clench {
@@ -16,7 +16,7 @@ constexpr double min_follower_range = 0.1;
 /// throws  Error naming the joint, the DOF or the option that is wrong
 /// known  gives it what its file says of it beyond its tree; of how it closes nothing is guessed then, nor of its approach
 /// where that is known
-RobotSpec make_robot(TreeModel tree, const std::string& file, const Library& library,
+RobotSpec make_robot(TreeModel tree, const std::string& file, const FileCache& cache,
                      const std::function<void(RobotSpec&)>& known = {});
 
 }  // namespace clench

@@ -28,21 +28,21 @@ struct FileJoint {
 
 class UrdfReader {
  public:
-  UrdfReader(const fs::path& path, Library& library)
+  UrdfReader(const fs::path& path, FileCache& cache)
       : path_(path),
         file_(path.filename().string()),
-        library_(library),
+        cache_(cache),
         xml_(path),
-        geometry_(library.options()),
-        repairs_(library.options().listeners()) {}
+        geometry_(cache.options()),
+        repairs_(cache.options().listeners()) {}
   RobotSpec read();
 
  private:
   void warn(const XmlElement& at, const std::string& what) const {
-    library_.warn(at.place() + ": " + what);
+    cache_.warn(at.place() + ": " + what);
   }
   void note(const XmlElement& at, const std::string& what) const {
-    library_.note(at.place() + ": " + what);
+    cache_.note(at.place() + ": " + what);
   }
   void refuse_xacro(const XmlElement& element) const;
   void read_materials();
@@ -63,7 +63,7 @@ class UrdfReader {
 
   const fs::path& path_;
   const std::string file_;
-  Library& library_;
+  FileCache& cache_;
   XmlFile xml_;
   TreeGeometry geometry_;
   Repairs repairs_;
@@ -149,7 +149,7 @@ void UrdfReader::read_inertial(const XmlElement& element, BodySpec& body, LinkPi
     inertial_faults_.add(inertia ? inertial : Inertial::not_given, element.place(), body.name);
     pieces.has_inertial = true;
   } catch (const Error& error) {
-    library_.warn(
+    cache_.warn(
         fmt::format("{}; the inertial of link '{}' is not used", error.what(), excerpt(body.name)));
   }
 }
@@ -188,7 +188,7 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
       values.fail("scale", "expected factors other than 0");
     const std::string name = values.text("filename");
     try {
-      piece.geometry = geometry_.file(find_robot_file(name, path_, library_.options()));
+      piece.geometry = geometry_.file(find_robot_file(name, path_, cache_.options()));
     } catch (const Error& error) {
       // what is only looked at may be missing
       if (!visual) shape.fail("mesh: {}", error.what());
@@ -464,22 +464,22 @@ RobotSpec UrdfReader::read() {
   }
   order_links();
   read_mimics();
-  dress_links(tree_, pieces_, geometry_, file_, library_, !own.empty());
+  dress_links(tree_, pieces_, geometry_, file_, cache_, !own.empty());
   std::function<void(RobotSpec&)> known;
   if (!own.empty())
-    known = [&](RobotSpec& made) { read_clench_element(own.front(), made, path_, library_); };
-  RobotSpec robot = make_robot(std::move(tree_), file_, library_, known);
+    known = [&](RobotSpec& made) { read_clench_element(own.front(), made, path_, cache_); };
+  RobotSpec robot = make_robot(std::move(tree_), file_, cache_, known);
   robot.source = path_.generic_string();
   repairs_.tell();
-  inertial_faults_.tell(library_);
-  for (const auto& sentence : unused_.sentences()) library_.warn(sentence);
+  inertial_faults_.tell(cache_);
+  for (const auto& sentence : unused_.sentences()) cache_.warn(sentence);
   return robot;
 }
 
 }  // namespace
 
-RobotSpec read_robot_urdf(const fs::path& path, Library& library) {
-  return UrdfReader(path, library).read();
+RobotSpec read_robot_urdf(const fs::path& path, FileCache& cache) {
+  return UrdfReader(path, cache).read();
 }
 
 bool looks_like_urdf(std::string_view text) {

@@ -2,12 +2,12 @@
 #pragma once
 #include <filesystem>
 
-#include "clench/io/text/library.h"
+#include "clench/io/text/file_cache.h"
 
 namespace clench {
 
 /// throws Error  "hand.urdf:31: joint 'a': lower 2 exceeds upper 1 [rad]"
-RobotSpec read_robot_urdf(const std::filesystem::path& path, Library& library);
+RobotSpec read_robot_urdf(const std::filesystem::path& path, FileCache& cache);
 
 /// Is this text a URDF: is its outermost element a <robot> that holds links?
 bool looks_like_urdf(std::string_view text);

@@ -261,9 +261,9 @@ NamedFiles ClenchReader::read() {
 }  // namespace
 
 void read_clench_element(const XmlElement& element, RobotSpec& robot,
-                         const std::filesystem::path& path, const Library& library) {
+                         const std::filesystem::path& path, const FileCache& cache) {
   const NamedFiles files = ClenchReader(element, robot).read();
-  read_robot_files(robot, files, path, library.options());
+  read_robot_files(robot, files, path, cache.options());
 }
 
 }  // namespace clench

@@ -1,6 +1,6 @@
 // What a URDF cannot say of a robot and stands in an element <clench> of our own, which other readers ignore.
 #pragma once
-#include "clench/io/text/library.h"
+#include "clench/io/text/file_cache.h"
 #include "clench/io/text/xml.h"
 
 namespace clench {
@@ -11,6 +11,6 @@ namespace clench {
 /// throws  Error "hand.urdf:31: dof: no joint 'thum' that leads a DOF; did you mean 'thumb'?" for whatever in it is not
 ///         understood
 void read_clench_element(const XmlElement& element, RobotSpec& robot,
-                         const std::filesystem::path& path, const Library& library);
+                         const std::filesystem::path& path, const FileCache& cache);
 
 }  // namespace clench

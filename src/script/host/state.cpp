@@ -78,7 +78,7 @@ static int open_all(lua_State* L) {
 }
 
 // a script that asks for more gets an error, not the machine's last page
-static size_t most_of_the_machine() {
+static size_t default_memory_limit() {
   const auto pages = static_cast<size_t>(sysconf(_SC_PHYS_PAGES));
   return pages / 4 * 3 * static_cast<size_t>(sysconf(_SC_PAGESIZE));
 }
@@ -86,11 +86,11 @@ static size_t most_of_the_machine() {
 size_t State::memory_of(lua_State* L) {
   void* state = nullptr;
   return lua_getallocf(L, &state) == &State::allocate ? static_cast<State*>(state)->memory_.limit
-                                                      : most_of_the_machine();
+                                                      : default_memory_limit();
 }
 
 State::State(size_t memory) {
-  memory_.limit = memory > 0 ? memory : most_of_the_machine();
+  memory_.limit = memory > 0 ? memory : default_memory_limit();
   L_ = lua_newstate(allocate, this);
   if (!L_) fail(ErrorKind::limit, "clench: no memory for Lua");
   running_ = L_;

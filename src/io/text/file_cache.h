@@ -7,20 +7,20 @@
 
 namespace clench {
 
-class Library;
+class FileCache;
 
-/// How a file that was found becomes a spec. What else it names is asked of the library.
+/// How a file that was found becomes a spec. What else it names is asked of the cache.
 struct Loaders {
-  BodySpec (*body)(const std::filesystem::path& path, Library& library);
+  BodySpec (*body)(const std::filesystem::path& path, FileCache& cache);
   /// body  of a scene: the body that the robot's tree of joints begins with; empty: the robot of the file
-  RobotSpec (*robot)(const std::filesystem::path& path, const std::string& body, Library& library);
+  RobotSpec (*robot)(const std::filesystem::path& path, const std::string& body, FileCache& cache);
 };
 
 /// Bodies and robots by the file they stand in. Lives as long as one call of read_robot or
 /// read_world.
-class Library {
+class FileCache {
  public:
-  Library(const ReadOptions& options, const Loaders& loaders)
+  FileCache(const ReadOptions& options, const Loaders& loaders)
       : options_(options), loaders_(loaders) {}
 
   const ReadOptions& options() const { return options_; }

@@ -1,4 +1,4 @@
-#include "clench/io/text/library.h"
+#include "clench/io/text/file_cache.h"
 
 #include "clench/base/error.h"
 #include "clench/io/text/find_model.h"
@@ -7,14 +7,14 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-const BodySpec& Library::body(const fs::path& path) {
+const BodySpec& FileCache::body(const fs::path& path) {
   options_.progress.tell(-1, path.filename().string());
   auto found = bodies_.find(path);
   if (found == bodies_.end()) found = bodies_.emplace(path, loaders_.body(path, *this)).first;
   return found->second;
 }
 
-const RobotSpec& Library::robot(const fs::path& path, const std::string& body) {
+const RobotSpec& FileCache::robot(const fs::path& path, const std::string& body) {
   options_.progress.tell(-1, path.filename().string());
   const std::pair key(path, body);
   auto found = robots_.find(key);
@@ -22,7 +22,7 @@ const RobotSpec& Library::robot(const fs::path& path, const std::string& body) {
   return found->second;
 }
 
-BodySpec Library::named_body(const std::string& name, const fs::path& referrer,
+BodySpec FileCache::named_body(const std::string& name, const fs::path& referrer,
                              const std::string& place) {
   try {
     BodySpec out = body(find_model(name, referrer, ModelKind::body, place, options_));
@@ -33,7 +33,7 @@ BodySpec Library::named_body(const std::string& name, const fs::path& referrer,
   }
 }
 
-RobotSpec Library::named_robot(const std::string& name, const fs::path& referrer,
+RobotSpec FileCache::named_robot(const std::string& name, const fs::path& referrer,
                                const std::string& place) {
   try {
     const size_t at = name.rfind('#');
@@ -48,7 +48,7 @@ RobotSpec Library::named_robot(const std::string& name, const fs::path& referrer
   }
 }
 
-fs::path Library::find_part(const std::string& name, const fs::path& robot,
+fs::path FileCache::find_part(const std::string& name, const fs::path& robot,
                             const std::string& place) const {
   // in the folder iv/ beside the robot's file, or of the folder that the call names
   std::vector<fs::path> folders = {robot.parent_path() / "iv"};
@@ -69,7 +69,7 @@ fs::path Library::find_part(const std::string& name, const fs::path& robot,
   }
 }
 
-BodySpec Library::part(const std::string& name, const fs::path& robot, const std::string& place) {
+BodySpec FileCache::part(const std::string& name, const fs::path& robot, const std::string& place) {
   try {
     const fs::path found = find_part(name, robot, place);
     BodySpec out = body(found);

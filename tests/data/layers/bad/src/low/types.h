@@ -1,0 +1,7 @@
+namespace clench {
+struct Twice {};
+struct Twice::Inner {};
+namespace {
+struct Mine {};
+}
+}

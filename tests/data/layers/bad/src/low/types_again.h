@@ -1,0 +1,7 @@
+namespace clench {
+namespace other {
+struct Twice {};
+}
+struct Mine {};
+class alignas(16) Twice {};
+}
