@@ -1,7 +1,11 @@
 #include "clench/render/figure/gif.h"
 
+#include <gif_lib.h>
+
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <vector>
 
 #include "clench/base/error.h"
 
@@ -9,8 +13,26 @@ namespace clench {
 
 namespace {
 
+void check_done(bool done, const char* what) {
+  if (!done) fail(ErrorKind::internal, "an animated GIF: {} failed", what);
+}
+
+int append_bytes(GifFileType* file, const GifByteType* bytes, int count) {
+  static_cast<std::string*>(file->UserData)->append(reinterpret_cast<const char*>(bytes), static_cast<size_t>(count));
+  return count;
+}
+
+using ColorMap = std::unique_ptr<ColorMapObject, decltype(&GifFreeMapObject)>;
+using Encoder = std::unique_ptr<GifFileType, void (*)(GifFileType*)>;
+
+void close_gif(GifFileType* file) {
+  int error = 0;
+  EGifCloseFile(file, &error);
+}
+
 // colours are told apart by five bits a channel
 constexpr int bits = 5, shades = 1 << (3 * bits);
+constexpr size_t max_colors = 256;
 
 struct Shade {
   uint64_t count = 0;
@@ -66,7 +88,7 @@ Palette find_palette(std::span<const Picture> frames) {
   for (int shade = 0; shade < shades; ++shade)
     if (all[shade].count > 0) used.push_back(shade);
   std::vector<Part> parts = {part_of(std::move(used), all)};
-  while (parts.size() < 256) {
+  while (parts.size() < max_colors) {
     // the part whose pixels are farthest off
     const auto worst = std::ranges::max_element(parts, {}, [](const Part& p) { return p.count * static_cast<uint64_t>(p.width); });
     if (worst->width == 0) break;
@@ -88,78 +110,7 @@ Palette find_palette(std::span<const Picture> frames) {
   return out;
 }
 
-void put_16(std::string& out, int x) { out += {static_cast<char>(x & 255), static_cast<char>(x >> 8 & 255)}; }
-
-// Codes of growing length, packed from the lowest bit, in blocks of at most 255 bytes.
-class CodeWriter {
- public:
-  explicit CodeWriter(std::string& out) : out_(out) {}
-  void put(int code, int length) {
-    buffer_ |= static_cast<uint32_t>(code) << filled_;
-    for (filled_ += length; filled_ >= 8; filled_ -= 8, buffer_ >>= 8) put_byte(static_cast<char>(buffer_ & 255));
-  }
-  void finish() {
-    if (filled_ > 0) put_byte(static_cast<char>(buffer_ & 255));
-    if (!block_.empty()) flush();
-    out_ += '\0';
-  }
-
- private:
-  void put_byte(char byte) {
-    block_ += byte;
-    if (block_.size() == 255) flush();
-  }
-  void flush() {
-    out_ += static_cast<char>(block_.size());
-    out_ += block_;
-    block_.clear();
-  }
-  std::string& out_;
-  std::string block_;
-  uint32_t buffer_ = 0;
-  int filled_ = 0;
-};
-
-// LZW as GIF has it: the table begins anew when it is full
-void put_pixels(std::string& out, const Picture& frame, const Palette& palette, std::vector<uint16_t>& next) {
-  constexpr int clear = 256, end = 257, most = 4096;
-  out += 8;
-  CodeWriter writer(out);
-  int length = 9, used = end + 1, code = -1;
-  const auto begin = [&] {
-    writer.put(clear, length);
-    std::ranges::fill(next, uint16_t{0});
-    length = 9, used = end + 1;
-  };
-  begin();
-  for (size_t i = 0; i < frame.pixels.size(); i += 3) {
-    const int color = palette.index[shade_of(&frame.pixels[i])];
-    if (code < 0) {
-      code = color;
-      continue;
-    }
-    uint16_t& longer = next[static_cast<size_t>(code) * 256 + color];
-    if (longer != 0) {
-      code = longer;
-      continue;
-    }
-    writer.put(code, length);
-    code = color;
-    if (used < most) {
-      longer = static_cast<uint16_t>(used);
-      if (used++ == 1 << length) ++length;
-    } else {
-      begin();
-    }
-  }
-  if (code >= 0) writer.put(code, length);
-  writer.put(end, length);
-  writer.finish();
-}
-
-}  // namespace
-
-std::string gif_bytes(std::span<const Picture> frames, std::span<const int> delays) {
+void check_frames(std::span<const Picture> frames, std::span<const int> delays) {
   if (frames.empty()) fail("an animated GIF: expected at least one picture, got none");
   const int width = frames[0].width, height = frames[0].height;
   if (width < 1 || height < 1 || width > 65535 || height > 65535)
@@ -169,26 +120,49 @@ std::string gif_bytes(std::span<const Picture> frames, std::span<const int> dela
       fail("an animated GIF: picture {}: expected {} x {} pixels as the first, got {} x {}", i + 1, width, height,
            frames[i].width, frames[i].height);
   if (delays.size() != frames.size()) fail("an animated GIF: expected {} delays, got {}", frames.size(), delays.size());
-  const Palette palette = find_palette(frames);
+}
 
-  std::string out = "GIF89a";
-  put_16(out, width);
-  put_16(out, height);
-  out += {static_cast<char>(0xF7), 0, 0};  // a table of 256 colours for all
-  for (size_t i = 0; i < 256; ++i)
-    for (int c = 0; c < 3; ++c) out += static_cast<char>(i < palette.colors.size() ? palette.colors[i][c] : 0);
-  out += std::string("\x21\xFF\x0BNETSCAPE2.0\x03\x01\0\0\0", 19);  // again and again
-  std::vector<uint16_t> next(size_t{4096} * 256);
+void put_repeat_forever(GifFileType* file) {
+  constexpr GifByteType endless[] = {1, 0, 0};
+  check_done(EGifPutExtensionLeader(file, APPLICATION_EXT_FUNC_CODE) == GIF_OK &&
+            EGifPutExtensionBlock(file, 11, "NETSCAPE2.0") == GIF_OK && EGifPutExtensionBlock(file, 3, endless) == GIF_OK &&
+            EGifPutExtensionTrailer(file) == GIF_OK,
+        "writing");
+}
+
+}  // namespace
+
+std::string gif_bytes(std::span<const Picture> frames, std::span<const int> delays) {
+  check_frames(frames, delays);
+  const int width = frames[0].width, height = frames[0].height;
+  std::string out;
+  int error = 0;
+  Encoder file(EGifOpen(&out, append_bytes, &error), close_gif);
+  check_done(file != nullptr, "opening");
+  EGifSetGifVersion(file.get(), true);
+  const Palette palette = find_palette(frames);
+  const ColorMap map(GifMakeMapObject(max_colors, nullptr), GifFreeMapObject);
+  check_done(map != nullptr, "a colour map");
+  for (size_t i = 0; i < palette.colors.size(); ++i)
+    map->Colors[i] = {palette.colors[i][0], palette.colors[i][1], palette.colors[i][2]};
+  check_done(EGifPutScreenDesc(file.get(), width, height, 8, 0, map.get()) == GIF_OK, "writing");
+  put_repeat_forever(file.get());
+  std::vector<GifByteType> row(static_cast<size_t>(width));
   for (size_t i = 0; i < frames.size(); ++i) {
-    out += std::string("\x21\xF9\x04\0", 4);
-    put_16(out, std::clamp(delays[i], 0, 65535));
-    out += std::string("\0\0\x2C\0\0\0\0", 7);
-    put_16(out, width);
-    put_16(out, height);
-    out += '\0';
-    put_pixels(out, frames[i], palette, next);
+    const GraphicsControlBlock control{DISPOSE_DO_NOT, false, std::clamp(delays[i], 0, 65535), NO_TRANSPARENT_COLOR};
+    GifByteType bytes[4];
+    EGifGCBToExtension(&control, bytes);
+    check_done(EGifPutExtension(file.get(), GRAPHICS_EXT_FUNC_CODE, sizeof bytes, bytes) == GIF_OK &&
+                   EGifPutImageDesc(file.get(), 0, 0, width, height, false, nullptr) == GIF_OK,
+               "writing");
+    const uint8_t* pixel = frames[i].pixels.data();
+    for (int y = 0; y < height; ++y) {
+      for (GifByteType& color : row) color = palette.index[shade_of(pixel)], pixel += 3;
+      check_done(EGifPutLine(file.get(), row.data(), width) == GIF_OK, "writing");
+    }
   }
-  return out + '\x3B';
+  check_done(EGifCloseFile(file.release(), &error) == GIF_OK, "closing");
+  return out;
 }
 
 }  // namespace clench
