@@ -14,7 +14,8 @@ void Stepper::disengage(double h) {
     const auto may_leave = [&](const ArticulationJoint& joint) {
       const Robot& robot = world_.robot(joint.robot);
       const DofSpec& dof = robot.dofs[robot.joints[joint.joint].dof];
-      return world_.dynamic_settings().robot(joint.robot).breakaway && dof.kind == DofKind::breakaway && dof.breakaway_torque > 0 && world_.follows_dof(joint.robot, joint.joint);
+      return world_.dynamic_settings().robot(joint.robot).breakaway && dof.kind == DofKind::breakaway &&
+             dof.breakaway_torque > 0 && world_.follows_dof(joint.robot, joint.joint);
     };
     if (std::ranges::none_of(tree.joints, may_leave)) continue;
     std::vector<Vector6d> loads(tree.bodies.size(), Vector6d::Zero());

@@ -23,7 +23,7 @@ void Stepper::solve_by_ode(double h) {
     contact.target = touch.target;
     contact.surface_velocity = belt(touch.b) - belt(touch.a);
     const int linear = std::min(block.law.size(), 3);
-    contact.free_velocity.head(linear) = q_.segment(block.law.row, linear);
+    contact.free_velocity.head(linear) = Eigen::Map<const Eigen::VectorXd>(q_.data() + block.law.row, linear);
     contacts.push_back(contact);
   }
   Eigen::VectorXd before;
@@ -35,19 +35,13 @@ void Stepper::solve_by_ode(double h) {
   for (const Block& block : blocks_) {
     const int row = block.law.row;
     if (block.row >= 0) {
-      const CoordinateRow& c = coordinate_rows_[block.row];
       r_[row] = solution.row_impulses[block.row];
-      u_[row] = v_[system_.trees[c.tree].first + c.coordinate] - c.target;
       continue;
     }
     const ManifoldPoint& p = world_.dynamics()->manifolds[touches_[block.touch].manifold].points[touches_[block.touch].point];
     const int linear = std::min(block.law.size(), 3);
     r_.segment(row, linear) = solution.impulses[next].head(linear);
-    u_.segment(row, linear) = solution.velocities[next].head(linear);
-    if (block.law.tangents == 3) {
-      r_[row + 3] = solution.spins[next] / p.torsion_radius;
-      u_[row + 3] = 0;
-    }
+    if (block.law.tangents == 3) r_[row + 3] = solution.spins[next] / p.torsion_radius;
     ++next;
   }
   StepReport& report = world_.edit_dynamics().report;

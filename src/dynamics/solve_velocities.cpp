@@ -24,13 +24,13 @@ void Stepper::find_free_velocities(double h) {
     const Articulation& tree = system_.trees[t];
     TreeDynamics& dynamics = trees_[t];
     const int n = tree.size();
-    if (n == 0) continue;
     dynamics.place(world_, tree);
+    if (n == 0) continue;
     Eigen::VectorXd efforts = -dynamics.find_bias(v_, root_twist(static_cast<int>(t)), world_.gravity());
     find_joint_forces(world_, tree, h, state, forces_[t]);
     efforts += forces_[t].efforts;
     for (size_t i = 0; i < tree.coordinates.size(); ++i)
-      efforts[tree.root_size() + static_cast<int>(i)] += told_effort(world_, tree.coordinates[i], state);
+      efforts[tree.root_size() + static_cast<int>(i)] += feedforward_effort(world_, tree.coordinates[i], state);
     for (size_t b = 0; b < tree.bodies.size(); ++b) {
       const Load& load = state.loads[tree.bodies[b].body.index];
       if (load.force.isZero(0) && load.torque.isZero(0)) continue;
@@ -44,9 +44,9 @@ void Stepper::find_free_velocities(double h) {
     dynamics.factor(forces_[t].added);
     Eigen::VectorXd rhs = h * efforts - forces_[t].velocity_part.cwiseProduct(v);
     if (!tree.floating) {
-      Vector6d told;
-      told << state.told[tree.root.index].linear, state.told[tree.root.index].angular;
-      rhs += dynamics.jerk(root_twist(static_cast<int>(t)) - told);
+      Vector6d last;
+      last << state.prescribed[tree.root.index].linear, state.prescribed[tree.root.index].angular;
+      rhs += dynamics.base_impulse(root_twist(static_cast<int>(t)) - last);
     }
     dynamics.half_solve(rhs);
     dynamics.other_half_solve(rhs);
@@ -57,12 +57,14 @@ void Stepper::find_free_velocities(double h) {
 // What the next step, and whoever looks, wants of this one.
 void Stepper::keep(double h) {
   DynamicState& state = world_.edit_dynamics();
+  // an impulse at the end of a step that an impact has cut short is no force of that short time
+  const double time = std::max(h, state.asked);
   scatter_velocities(system_, world_, v_, state);
   for (size_t t = 0; t < trees_.size(); ++t) {
     const Articulation& tree = system_.trees[t];
     const Vector6d root = root_twist(static_cast<int>(t));
-    if (!tree.floating) state.told[tree.root.index] = world_.twist(tree.root);
-    if (tree.joints.empty() || tree.size() == 0) continue;
+    if (!tree.floating) state.prescribed[tree.root.index] = world_.twist(tree.root);
+    if (tree.is_free_body()) continue;
     for (size_t b = 0; b < tree.bodies.size(); ++b)
       if (tree.bodies[b].body != tree.root)
         state.twists[tree.bodies[b].body.index] =
@@ -70,13 +72,16 @@ void Stepper::keep(double h) {
   }
   for (Manifold& m : state.manifolds)
     for (ManifoldPoint& p : m.points) p.force.setZero(), p.torsion = 0;
-  state.impulses.clear();
+  state.row_forces.clear();
+  for (const Articulation& tree : system_.trees)
+    for (const Coordinate& c : tree.coordinates)
+      if (c.joint < 0) state.dof_efforts[c.dof_index] = feedforward_effort(world_, c, state);
   for (const Block& block : blocks_) {
     const int row = block.law.row;
     if (block.row >= 0) {
       const CoordinateRow& c = coordinate_rows_[block.row];
-      state.impulses.push_back({static_cast<int>(c.kind), c.index, r_[row]});
-      if (c.kind == RowKind::motor) state.dof_efforts[c.index] = r_[row] / h + state.controls[c.index].effort;
+      state.row_forces.push_back({static_cast<int>(c.kind), c.index, r_[row] / time});
+      if (c.kind == RowKind::motor) state.dof_efforts[c.index] += r_[row] / time;
       continue;
     }
     const Touch& touch = touches_[block.touch];
@@ -84,13 +89,13 @@ void Stepper::keep(double h) {
     ManifoldPoint& p = m.points[touch.point];
     const int linear = std::min(block.law.size(), 3);
     const Eigen::Vector3d impulse = touch.frame.leftCols(linear) * Eigen::Map<const Eigen::VectorXd>(r_.data() + row, linear);
-    p.force = world_.pose(m.a).rotation.conjugate() * Eigen::Vector3d(impulse / h);
-    if (block.law.tangents == 3) p.torsion = r_[row + 3] * p.torsion_radius / h;
+    p.force = world_.pose(m.a).rotation.conjugate() * Eigen::Vector3d(impulse / time);
+    if (block.law.tangents == 3) p.torsion = r_[row + 3] * p.torsion_radius / time;
   }
-  disengage(h);
+  disengage(time);
   for (Load& load : state.loads) load = {};
   state.report.contacts = static_cast<int>(touches_.size());
-  state.report.largest_residual = std::max(state.report.largest_residual, state.report.residual);
+  state.report.max_residual = std::max(state.report.max_residual, state.report.residual);
   ++state.report.steps;
 }
 
@@ -100,17 +105,16 @@ void Stepper::solve(double h) {
   find_manifolds(world_, system_, 0);
   for (const auto id : world_.robots()) pull_tendons(world_, id, h, state);
   state.report.residual = 0;
-  for (const Manifold& m : state.manifolds) state.report.overlaps += m.clear == 0;
+  for (const Manifold& m : state.manifolds) state.report.overlaps += m.clearance == 0;
   find_free_velocities(h);
   update_manifolds();
   find_rows(h);
   r_.setZero(row_count_);
-  u_ = q_;
   if (world_.dynamic_settings().engine == DynamicsEngine::ode) {
     solve_by_ode(h);
   } else {
     resting_.assign(trees_.size(), false);
-  for (const auto& island : find_islands()) solve_island(island);
+    for (const auto& island : find_islands()) solve_island(island);
     apply_impulses();
   }
   keep(h);

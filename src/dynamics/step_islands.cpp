@@ -115,7 +115,7 @@ void Stepper::solve_island(const std::vector<int>& blocks) {
   }
   const DynamicSettings& settings = world_.dynamic_settings();
   FrictionSolution solution;
-  const bool held = at_rest && settings.cone == FrictionCone::cone && holds(local, warm, solution);
+  const bool held = at_rest && settings.cone == FrictionCone::round && holds(local, warm, solution);
   if (!held) {
     assemble(local, count);
     solution = solver_.solve(
@@ -124,7 +124,6 @@ void Stepper::solve_island(const std::vector<int>& blocks) {
   for (int row = 0; row < row_count_; ++row) {
     if (local[row] < 0) continue;
     r_[row] = solution.r[local[row]];
-    u_[row] = solution.u[local[row]];
   }
   if (at_rest && solution.iterations == 0)
     for (const int i : blocks)

@@ -17,7 +17,7 @@ static constexpr double pushed_part = 0.2, pushed_at_most = 0.1;
 // Below this speed of approach nothing bounces [m/s].
 static constexpr double bounces_above = 0.01;
 
-Eigen::Vector3d Stepper::told_velocity(Id<Body> id, const Eigen::Vector3d& p_W) const {
+Eigen::Vector3d Stepper::prescribed_velocity(Id<Body> id, const Eigen::Vector3d& p_W) const {
   Eigen::Vector3d out = Eigen::Vector3d::Zero();
   const System::Place place = system_.place(id);
   const Body& body = world_.body(id);
@@ -39,7 +39,7 @@ void Stepper::update_manifolds() {
   const double threshold = world_.contact_threshold();
   for (Manifold& m : world_.edit_dynamics().manifolds) {
     const double moved = displacement(m.X_AB, relative_pose(world_, m.a, m.b), *world_.body(m.b).shape);
-    if (m.clear > threshold ? moved >= m.clear - threshold : moved > follows_within * threshold)
+    if (m.clearance > threshold ? moved >= m.clearance - threshold : moved > follows_within * threshold)
       measure(world_, m);
     else
       update_gaps(world_, m);
@@ -75,7 +75,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
   const int size = block.law.size();
 
   const std::array<Id<Body>, 2> bodies = {m.a, m.b};
-  Eigen::Vector3d told = told_velocity(m.b, touch.p_W) - told_velocity(m.a, touch.p_W);
+  const Eigen::Vector3d prescribed = prescribed_velocity(m.b, touch.p_W) - prescribed_velocity(m.a, touch.p_W);
   for (int side = 0; side < 2; ++side) {
     const System::Place place = system_.place(bodies[side]);
     if (place.tree < 0 || system_.trees[place.tree].size() == 0) continue;
@@ -93,12 +93,16 @@ void Stepper::add_contact(int manifold, int point, double h) {
     }
   }
   // the gap may close as far as bodies rest, in the step to come
-  const double step = world_.dynamic_settings().step, beyond = p.gap - rest_gap * world_.contact_threshold();
-  double target = std::abs(beyond) <= rest_band * world_.contact_threshold() ? 0 : beyond > 0 ? -beyond / step : std::min(-pushed_part * beyond / step, pushed_at_most);
+  const double step = std::max(world_.dynamic_settings().step, h), beyond = p.gap - rest_gap * world_.contact_threshold();
+  double target = 0;
+  if (beyond > rest_band * world_.contact_threshold())
+    target = -beyond / step;
+  else if (beyond < -rest_band * world_.contact_threshold())
+    target = std::min(-pushed_part * beyond / step, pushed_at_most);
   const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
   double slip = 0;
   for (int k = 0; k < size; ++k) {
-    double q = k < 3 ? touch.frame.col(k).dot(told) : 0, before = q;
+    double q = k < 3 ? touch.frame.col(k).dot(prescribed) : 0, before = q;
     for (int side = 0; side < 2; ++side)
       if (const int t = block.tree[side]; t >= 0) {
         const auto column = tree_rows_[t].Y.col(block.column[side] + k);
@@ -109,8 +113,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
     if (k == 0 && q < target && before < -bounces_above) target = std::max(target, -restitution * before);
     if (k == 0) q -= target;
     if (k > 0) slip += before * before;
-    q_.conservativeResize(row_count_ + k + 1);
-    q_[row_count_ + k] = q;
+    q_.push_back(q);
   }
   block.law.mu = slip > sliding_speed * sliding_speed ? friction.kinetic : friction.statics;
   // warm start
@@ -122,7 +125,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
   blocks_.push_back(block);
 }
 
-void Stepper::add_row(int number) {
+void Stepper::add_row(int number, double h) {
   const CoordinateRow& row = coordinate_rows_[number];
   Block block;
   block.row = number;
@@ -130,11 +133,10 @@ void Stepper::add_row(int number) {
   block.tree[0] = row.tree;
   block.column[0] = add_columns(row.tree, 1);
   tree_rows_[row.tree].Y(row.coordinate, block.column[0]) = 1;
-  q_.conservativeResize(row_count_ + 1);
-  q_[row_count_] = v_[system_.trees[row.tree].first + row.coordinate] - row.target;
+  q_.push_back(v_[system_.trees[row.tree].first + row.coordinate] - row.target);
   double warm = 0;
-  for (const RowImpulse& last : world_.dynamics()->impulses)
-    if (last.kind == static_cast<int>(row.kind) && last.index == row.index) warm = last.impulse;
+  for (const RowForce& last : world_.dynamics()->row_forces)
+    if (last.kind == static_cast<int>(row.kind) && last.index == row.index) warm = h * last.force;
   warm_.push_back(std::clamp(warm, row.low, row.high));
   ++row_count_;
   blocks_.push_back(block);
@@ -147,15 +149,19 @@ void Stepper::find_rows(double h) {
   blocks_.clear();
   warm_.clear();
   coordinate_rows_.clear();
-  q_.resize(0);
+  q_.clear();
   for (TreeRows& rows : tree_rows_) rows.rows.clear();
   for (size_t m = 0; m < state.manifolds.size(); ++m)
     for (size_t p = 0; p < state.manifolds[m].points.size(); ++p)
       if (state.manifolds[m].points[p].gap <= world_.contact_threshold())
         add_contact(static_cast<int>(m), static_cast<int>(p), h);
-  for (size_t t = 0; t < trees_.size(); ++t)
-    add_coordinate_rows(world_, system_.trees[t], static_cast<int>(t), trees_[t].mass_matrix(), h, state, coordinate_rows_);
-  for (size_t i = 0; i < coordinate_rows_.size(); ++i) add_row(static_cast<int>(i));
+  for (size_t t = 0; t < trees_.size(); ++t) {
+    if (system_.trees[t].coordinates.empty()) continue;
+    Eigen::MatrixXd mass = trees_[t].mass_matrix();
+    mass.diagonal() += forces_[t].added - forces_[t].velocity_part;
+    add_coordinate_rows(world_, system_.trees[t], static_cast<int>(t), mass, h, state, coordinate_rows_);
+  }
+  for (size_t i = 0; i < coordinate_rows_.size(); ++i) add_row(static_cast<int>(i), h);
   compliance_.setZero(row_count_);
   for (const Block& block : blocks_)
     if (block.row >= 0) compliance_[block.law.row] = coordinate_rows_[block.row].compliance;

@@ -39,12 +39,15 @@ namespace {
 bool may_have_met(const World& world, const Manifold& m) {
   // distances are exact but for rounding
   constexpr double certain = 0.999;
-  return displacement(m.X_AB, relative_pose(world, m.a, m.b), *world.body(m.b).shape) >= certain * m.clear;
+  return displacement(m.X_AB, relative_pose(world, m.a, m.b), *world.body(m.b).shape) >= certain * m.clearance;
 }
+
+// The least that a body measures along an axis of its own; no way that is shorter leads through it.
+double thickness(const Shape& shape) { return shape.bounds().size().minCoeff(); }
 
 }  // namespace
 
-double Stepper::largest_travel(double dt) const {
+double Stepper::max_travel(double dt) const {
   const DynamicState& state = *world_.dynamics();
   double travel = 0;
   for (const auto id : world_.bodies()) {
@@ -81,7 +84,7 @@ double Stepper::advance_balls(const std::vector<std::pair<int, double>>& pairs, 
 
 double Stepper::move(double dt) {
   refresh();
-  find_manifolds(world_, system_, largest_travel(dt));
+  find_manifolds(world_, system_, max_travel(dt));
   DynamicState& state = world_.edit_dynamics();
   std::vector<Pose> before;
   for (const Manifold& m : state.manifolds) before.push_back(relative_pose(world_, m.a, m.b));
@@ -99,17 +102,18 @@ double Stepper::move(double dt) {
     const Manifold& m = state.manifolds[i];
     if (!may_have_met(world_, m)) continue;
     suspects.push_back(i);
-    if (m.clear == 0) continue;  // they overlap: nothing to stop
+    if (m.clearance == 0) continue;  // they overlap: nothing to stop
     const double way = displacement(before[i], relative_pose(world_, m.a, m.b), *world_.body(m.b).shape);
-    if (way <= short_way * world_.contact_threshold()) {
+    const double thin = 0.5 * std::min(thickness(*world_.body(m.a).shape), thickness(*world_.body(m.b).shape));
+    if (way <= std::min(short_way * world_.contact_threshold(), thin)) {
       Manifold there = m;
       measure(world_, there);
-      if (there.clear > 0) {
+      if (there.clearance > 0) {
         measured.emplace_back(i, std::move(there));
         continue;
       }
     }
-    near = near || m.clear - displacement(m.X_AB, before[i], *world_.body(m.b).shape) <= world_.contact_threshold();
+    near = near || m.clearance - displacement(m.X_AB, before[i], *world_.body(m.b).shape) <= world_.contact_threshold();
     // the bound holds on the whole way, which is longer than the chord of a turn
     if (has_ball(world_, m))
       balls.push_back({i, 1.1 * way / dt});
@@ -124,9 +128,10 @@ double Stepper::move(double dt) {
     passed = advance.s;
   }
   if (!balls.empty() || !watches.empty()) {
-    // a pair that starts with next to no gap still gets on; one that starts with a gap may meet at any time
-    const double least = near ? 1e-3 : 1e-9;
-    passed = std::clamp(passed, least * dt, dt);
+    // Pairs that start with next to no gap still get on, by a hundredth of a step; one that starts with a gap may meet at
+    // any time.
+    const double least = near ? 0.01 * world_.dynamic_settings().step : 1e-9 * dt;
+    passed = std::clamp(passed, std::min(dt, least), dt);
     if (passed < dt) ++state.report.impacts;
   }
   mover.finish(passed);
@@ -141,6 +146,7 @@ double Stepper::move(double dt) {
   }
   for (Manifold& m : state.manifolds) m.X_AB_left = relative_pose(world_, m.a, m.b);
   state.time += passed;
+  state.asked = dt;
   return passed;
 }
 

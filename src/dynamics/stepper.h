@@ -35,7 +35,7 @@ class Stepper {
     Eigen::Matrix3d frame;  // columns: normal, tangents; world
     Eigen::Vector3d p_W;
     Id<Body> a, b;
-    double target = 0;      // least velocity along the normal
+    double target = 0;      // lowest velocity along the normal
   };
   /// A contact or a row of a coordinate, and where its rows stand.
   struct Block {
@@ -43,7 +43,6 @@ class Stepper {
     int touch = -1, row = -1;             // one of both
     std::array<int, 2> tree = {-1, -1};   // that it acts on
     std::array<int, 2> column = {0, 0};   // its first, in the tree's J
-    int island = -1;
   };
   struct TreeRows {
     Eigen::MatrixXd Y;      // L^-1 J^T: coordinates x rows
@@ -51,14 +50,14 @@ class Stepper {
   };
 
   void refresh();
-  double largest_travel(double dt) const;
+  double max_travel(double dt) const;
   double advance_balls(const std::vector<std::pair<int, double>>& pairs, double end, Mover& mover);
   Vector6d root_twist(int tree) const;
-  Eigen::Vector3d told_velocity(Id<Body> body, const Eigen::Vector3d& p_W) const;
+  Eigen::Vector3d prescribed_velocity(Id<Body> body, const Eigen::Vector3d& p_W) const;
   void find_free_velocities(double h);
   void update_manifolds();
   void add_contact(int manifold, int point, double h);
-  void add_row(int row);
+  void add_row(int row, double h);
   int add_columns(int tree, int count);
   void find_rows(double h);
   std::vector<std::vector<int>> find_islands() const;
@@ -80,8 +79,8 @@ class Stepper {
   std::vector<CoordinateRow> coordinate_rows_;
   std::vector<Touch> touches_;
   std::vector<Block> blocks_;
-  Eigen::VectorXd v_, v_before_, q_, r_, u_, compliance_;
-  std::vector<double> warm_;
+  Eigen::VectorXd v_, v_before_, r_, compliance_;
+  std::vector<double> q_, warm_;
   std::vector<bool> resting_;
   int row_count_ = 0;
   FrictionSolver solver_;

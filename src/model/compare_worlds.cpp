@@ -158,7 +158,7 @@ void Comparer::frictions() {
       const int k = at(i), l = at(j);
       // of a new material only what rubs
       const Friction f = one.friction(i, j), g = k < 0 || l < 0 ? Friction{} : two.friction(k, l);
-      if (f.statics != g.statics || f.kinetic != g.kinetic)
+      if (f.statics != g.statics || f.kinetic != g.kinetic || f.restitution != g.restitution)
         add("the friction of {} on {}", one.name(i), one.name(j));
     }
 }

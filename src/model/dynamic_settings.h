@@ -2,7 +2,6 @@
 #pragma once
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "clench/model/body.h"
@@ -11,7 +10,7 @@ namespace clench {
 
 enum class DynamicsEngine { clench, ode };
 enum class FrictionCone {
-  cone,    ///< |r_t| <= mu r_n
+  round,   ///< |r_t| <= mu r_n
   pyramid  ///< a polygon of some corners on that circle
 };
 
@@ -19,6 +18,8 @@ enum class FrictionCone {
 struct Gains {
   double kp = 0;  ///< [N m/rad or N/m]
   double kd = 0;  ///< [N m s/rad or N s/m]
+
+  bool operator==(const Gains&) const = default;
 };
 
 struct RobotDynamics {
@@ -26,20 +27,23 @@ struct RobotDynamics {
   bool gravity_compensation = true;  ///< do its motors carry its own weight?
   std::vector<std::optional<Gains>> gains;  ///< in place of those of its file; empty: none
   bool breakaway = false;            ///< do joints leave breakaway DOFs? else these drive them rigidly, as in the original's dynamics
-  bool has_controller = true;        ///< false: motors give what `efforts` say, and nothing holds them
+
+  bool operator==(const RobotDynamics&) const = default;
 };
 
 struct DynamicSettings {
   double step = 1e-3;  ///< > 0 [s]
   DynamicsEngine engine = DynamicsEngine::clench;
-  FrictionCone cone = FrictionCone::cone;
+  FrictionCone cone = FrictionCone::round;
   int cone_edges = 8;  ///< of a pyramid
-  std::map<Id<Robot>, RobotDynamics> robots;  ///< those that differ from the default
+  std::map<Id<Robot>, RobotDynamics> robots;  ///< others are as RobotDynamics begins
   std::map<Id<Body>, Eigen::Vector3d> surface_velocities;  ///< of conveyor belts, in their bodies' frames [m/s]
 
-  RobotDynamics robot(Id<Robot> id) const {
+  bool operator==(const DynamicSettings&) const = default;
+  const RobotDynamics& robot(Id<Robot> id) const {
+    static const RobotDynamics plain;
     const auto found = robots.find(id);
-    return found == robots.end() ? RobotDynamics{} : found->second;
+    return found == robots.end() ? plain : found->second;
   }
 };
 

@@ -35,7 +35,6 @@ enum class ControlMode { position, velocity, effort };
 /// A smooth way from one value to another: a polynomial of the fifth degree in time, without acceleration at its ends.
 struct Trajectory {
   double from = 0, to = 0;                  ///< [rad or m]
-  double from_velocity = 0, to_velocity = 0;  ///< at its ends [rad/s or m/s]
   double begin = 0, duration = 0;           ///< in the world's time [s]
 
   double value(double time) const;
@@ -47,7 +46,7 @@ struct DofControl {
   double target = 0;    ///< where a trajectory is not under way [rad or m]
   double velocity = 0;  ///< that is asked for there [rad/s or m/s]
   double effort = 0;    ///< added to what the mode gives [N m or N]
-  std::optional<Trajectory> way;
+  std::optional<Trajectory> trajectory;
 };
 
 /// A point of a manifold: where two bodies touch, in their frames, so that it follows them while they hardly move.
@@ -63,24 +62,13 @@ struct ManifoldPoint {
   double torsion = 0;             ///< about the normal, on b [N m]
 };
 
-/// Corners of one body on a flat face of the other one, and how far they may go before they are looked for anew.
-struct FlatContact {
-  bool face_of_a = true;    ///< else the face is b's, and the corners are a's
-  Eigen::Vector3d normal = {};  ///< of the face, outwards, in its body's frame
-  double offset = 0;        ///< normal . p of its points [m]
-  Pose X_FV = {};           ///< the body of the corners in that of the face, when this was found
-  double threshold = 0;     ///< at which bodies touch, then [m]
-  double along = 0, off = 0;  ///< from there, along the face and across it [m]
-};
-
 /// What is known of a pair of bodies between steps.
 struct Manifold {
   Id<Body> a, b;         ///< the earlier one is a
   Pose X_AB;             ///< when it was last measured
   Pose X_AB_left;        ///< when the last step ended: elsewhere, somebody has moved them, and it is measured anew
-  double clear = 0;      ///< they were at least this far apart when it was measured [m]; 0: they overlapped
+  double clearance = 0;  ///< they were at least this far apart when it was measured [m]; 0: they overlapped
   std::vector<ManifoldPoint> points;  ///< none beyond the contact threshold
-  std::optional<FlatContact> flat = {};
 };
 
 /// What steps came to.
@@ -88,38 +76,37 @@ struct StepReport {
   int64_t steps = 0;        ///< solved
   int64_t impacts = 0;      ///< steps that ended before their time, where bodies met
   int64_t iterations = 0;   ///< of the solver
-  int64_t fallbacks = 0;    ///< steps that needed its slow methods
-  int64_t failures = 0;     ///< steps whose residual stayed above the tolerance
+  int64_t fallbacks = 0;    ///< islands of bodies that needed its slow methods
+  int64_t failures = 0;     ///< islands whose residual stayed above the tolerance
   int64_t overlaps = 0;     ///< pairs of bodies that stood in each other when a step began
   double residual = 0;      ///< of the last step [m/s]
-  double largest_residual = 0;  ///< of all
+  double max_residual = 0;  ///< of all
   int contacts = 0;             ///< points of the last step
 };
 
 /// What a motor, limit, clutch or dry friction gave in the last step.
-struct RowImpulse {
-  int kind = 0;    ///< see dynamics/control/rows.h
-  int index = 0;   ///< of the DOF or the joint
-  double impulse = 0;  ///< [N s or N m s]
-
-  auto key() const { return std::pair(kind, index); }
+struct RowForce {
+  int kind = 0;      ///< see dynamics/control/motors.h
+  int index = 0;     ///< likewise
+  double force = 0;  ///< [N or N m]
 };
 
 /// Of a world that has moved; flat arrays like WorldState's.
 struct DynamicState {
   double time = 0;                           ///< [s]
+  double asked = 0;                          ///< length of the last step, were it not for an impact [s]
   std::vector<Twist> twists;                 ///< by the index of the body's id; of links too, as of the last step
-  std::vector<Twist> told;                   ///< likewise: of bases that move as told, in the last step
+  std::vector<Twist> prescribed;             ///< likewise: of bases that move as prescribed, in the last step
   std::vector<double> dof_velocities;        ///< [rad/s or m/s]
   std::vector<double> joint_velocities;      ///< likewise
   std::vector<DofControl> controls;          ///< one per DOF
   std::vector<double> dof_efforts;           ///< that motors gave in the last step [N m or N]
   std::vector<Load> loads;                   ///< by index of the body, for the next step alone
   std::vector<Manifold> manifolds;           ///< of pairs that may meet soon, in creation order
-  std::vector<Pose> swept;                   ///< poses when the pairs were last looked for
-  double swept_reach = 0;                    ///< how near pairs had to be then [m]
-  uint64_t swept_model = 0, swept_settings = 0;  ///< stamps then
-  std::vector<RowImpulse> impulses;          ///< of what is no contact, for a warm start
+  std::vector<Pose> sweep_poses;             ///< poses when the pairs were last looked for
+  double sweep_reach = 0;                    ///< how near pairs had to be then [m]
+  uint64_t sweep_model = 0, sweep_settings = 0;  ///< stamps then
+  std::vector<RowForce> row_forces;          ///< of what is no contact, for a warm start
   StepReport report;
 
   size_t bytes() const;

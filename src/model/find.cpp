@@ -96,16 +96,27 @@ static Elasticity elasticity(const Body& body) {
   return {.modulus = body.elastic_modulus, .layer = body.soft_layer, .poisson = body.poisson_ratio};
 }
 
-// of the last step's manifold, the point on the same features, or else the nearest
-static const ManifoldPoint* same_point(const Manifold& manifold, const Touch& touch) {
+// Gives each point's force of the last step to one touch: that on the same features, else the nearest.
+static void add_forces(const Manifold& manifold, const std::vector<Touch>& touches, const Pose& X_WA, bool on_b,
+                       std::span<Contact> contacts) {
   constexpr double near = 1e-3;
-  const ManifoldPoint* best = nullptr;
-  double nearest = near;
+  std::vector<bool> taken(touches.size());
   for (const ManifoldPoint& p : manifold.points) {
-    if (p.feature_a == touch.feature_a && p.feature_b == touch.feature_b) return &p;
-    if (const double d = (p.p_a - touch.p_a).norm(); d < nearest) best = &p, nearest = d;
+    size_t best = touches.size();
+    double nearest = near;
+    for (size_t i = 0; i < touches.size(); ++i) {
+      if (taken[i]) continue;
+      const bool same = p.feature_a == touches[i].feature_a && p.feature_b == touches[i].feature_b;
+      const double d = same ? 0 : (p.p_a - touches[i].p_a).norm();
+      if (d < nearest) best = i, nearest = d;
+      if (same) break;
+    }
+    if (best == touches.size()) continue;
+    taken[best] = true;
+    const Eigen::Vector3d force = X_WA.rotation * p.force;
+    contacts[best].force_W = on_b ? force : Eigen::Vector3d(-force);
+    contacts[best].torsion = p.torsion;
   }
-  return best;
 }
 
 static const Manifold* manifold_of(const World& world, Id<Body> a, Id<Body> b) {
@@ -148,12 +159,8 @@ static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
                    .site = sites[i],
                    .X_WA = X_WA,
                    .body_is_b = on_b});
-    const ManifoldPoint* point = manifold ? same_point(*manifold, touch) : nullptr;
-    if (!point) continue;
-    const Eigen::Vector3d force = X_WA.rotation * point->force;
-    out.back().force_W = on_b ? force : Eigen::Vector3d(-force);
-    out.back().torsion = point->torsion;
   }
+  if (manifold) add_forces(*manifold, touches, X_WA, on_b, std::span(out).last(touches.size()));
 }
 
 std::vector<Contact> contacts(const World& world, QueryContext* context) {

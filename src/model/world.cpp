@@ -286,6 +286,13 @@ void World::erase(Id<Body> id) {
   settings.switched_off.erase(id);
   std::erase_if(settings.pairs_off,
                 [&](const auto& pair) { return pair.first == id || pair.second == id; });
+  settings.dynamics.surface_velocities.erase(id);
+  if (state_.dynamics) {
+    DynamicState& state = edit_dynamics();
+    std::erase_if(state.manifolds, [&](const Manifold& m) { return m.a == id || m.b == id; });
+    state.twists[id.index] = state.prescribed[id.index] = {};
+    state.loads[id.index] = {};
+  }
   scratch_.context.forget(id);
 }
 
@@ -307,6 +314,7 @@ void World::remove(Id<Robot> id) {
     }
   edit_model().robots[id.index].used = false;
   std::erase(model_->robot_order, id);
+  edit_settings().dynamics.robots.erase(id);
 }
 
 std::vector<Id<Body>> World::bodies_of(Id<Robot> id) const {

@@ -123,7 +123,7 @@ class World {
   DynamicState& edit_dynamics();
   double time() const { return state_.dynamics ? state_.dynamics->time : 0; }
   Twist twist(Id<Body> id) const;
-  /// Of an object, an obstacle that moves as it is told from then on, or a robot's base.
+  /// Of an object, an obstacle that moves at it from then on, or a robot's base.
   /// throws  Error for a link or what is not finite
   void set_twist(Id<Body> id, const Twist& twist);
   Eigen::VectorXd dof_velocities(Id<Robot> id) const;
@@ -183,6 +183,8 @@ class World {
   void erase(Id<Body> id);
   /// throws Error when another robot carries it
   void check_free(Id<Robot> robot) const;
+  /// What links do as base and joints have it; a step finds them anew.
+  void update_link_twists(Id<Robot> robot);
   void come_to_rest(Id<Body> body);
   /// with all that it carries; its motors hold it where it is
   void come_to_rest(Id<Robot> robot);

@@ -20,13 +20,13 @@ DynamicState& World::edit_dynamics() {
   std::atomic_thread_fence(std::memory_order_acquire);
   DynamicState& state = *shared;
   state.twists.resize(state_.X_WB.size());
-  state.told.resize(state_.X_WB.size());
+  state.prescribed.resize(state_.X_WB.size());
   state.loads.resize(state_.X_WB.size());
   state.dof_velocities.resize(state_.dofs.size());
   state.dof_efforts.resize(state_.dofs.size());
   state.joint_velocities.resize(state_.joints.size());
   for (size_t i = state.controls.size(); i < state_.dofs.size(); ++i)
-    state.controls.push_back({.target = state_.dofs[i], .way = {}});
+    state.controls.push_back({.target = state_.dofs[i], .trajectory = {}});
   return state;
 }
 
@@ -45,6 +45,7 @@ void World::set_twist(Id<Body> id, const Twist& twist) {
   check(velocity_rule.called("linear velocity"), twist.linear, the_body(b.name));
   check(velocity_rule.called("angular velocity"), twist.angular, the_body(b.name));
   edit_dynamics().twists[id.index] = twist;
+  if (b.robot) update_link_twists(b.robot);
 }
 
 Eigen::VectorXd World::dof_velocities(Id<Robot> id) const {
@@ -65,7 +66,12 @@ void World::set_dof_velocities(Id<Robot> id, const Eigen::VectorXd& velocities) 
   for (size_t j = 0; j < r.joints.size(); ++j)
     if (follows_dof(id, static_cast<int>(j)))
       state.joint_velocities[r.first_joint + j] = r.joints[j].ratio * velocities[r.joints[j].dof];
-  // what its links do then; a step finds them anew
+  update_link_twists(id);
+}
+
+void World::update_link_twists(Id<Robot> id) {
+  const Robot& r = robot(id);
+  DynamicState& state = edit_dynamics();
   const RobotFrames all = frames(id);
   const Twist base = state.twists[r.base.index];
   const Eigen::Vector3d p_base = pose(r.base) * body(r.base).com;
@@ -80,6 +86,15 @@ void World::set_dof_velocities(Id<Robot> id, const Eigen::VectorXd& velocities) 
       if (r.joints[j].kind == JointKind::revolute) twist.angular += v * all.axis(r, static_cast<int>(j));
     }
     state.twists[part.index] = twist;
+  }
+  for (const auto other : robots()) {
+    const auto& mounting = robot(other).mounting;
+    if (!mounting || mounting->parent != id) continue;
+    const Id<Body> carrier = r.links[mounting->link].body, carried = robot(other).base;
+    const Twist link = state.twists[carrier.index];
+    const Eigen::Vector3d between = pose(carried) * body(carried).com - pose(carrier) * body(carrier).com;
+    state.twists[carried.index] = {link.linear + link.angular.cross(between), link.angular};
+    update_link_twists(other);
   }
 }
 
@@ -108,10 +123,10 @@ void World::come_to_rest(Id<Robot> id) {
   if (!state_.dynamics) return;
   DynamicState& state = edit_dynamics();
   const Robot& r = robot(id);
-  for (const auto part : bodies_of(id)) state.twists[part.index] = state.told[part.index] = {};
+  for (const auto part : bodies_of(id)) state.twists[part.index] = state.prescribed[part.index] = {};
   for (size_t i = r.first_dof; i < r.first_dof + r.dofs.size(); ++i) {
     state.dof_velocities[i] = 0;
-    state.controls[i] = {.mode = state.controls[i].mode, .target = state_.dofs[i], .way = {}};
+    state.controls[i] = {.mode = state.controls[i].mode, .target = state_.dofs[i], .trajectory = {}};
   }
   for (size_t i = r.first_joint; i < r.first_joint + r.joints.size(); ++i) state.joint_velocities[i] = 0;
   for (const auto other : robots())

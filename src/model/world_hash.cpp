@@ -32,21 +32,56 @@ static void add(Hasher& h, const std::vector<VirtualContactSpec>& contacts) {
   }
 }
 
-// but for manifolds and warm starts
-static void add(Hasher& h, const DynamicState& state) {
-  h.add(state.time);
-  for (const Twist& twist : state.twists) add(h, twist.linear), add(h, twist.angular);
-  for (const double v : state.dof_velocities) h.add(v);
-  for (const double v : state.joint_velocities) h.add(v);
-  for (const Load& load : state.loads) add(h, load.force), add(h, load.torque);
-  for (const DofControl& c : state.controls) {
-    h.add(static_cast<uint64_t>(c.mode));
-    for (const double x : {c.target, c.velocity, c.effort}) h.add(x);
-    h.add(static_cast<uint64_t>(c.way.has_value()));
-    if (!c.way) continue;
-    for (const double x : {c.way->from, c.way->to, c.way->from_velocity, c.way->to_velocity, c.way->begin, c.way->duration})
-      h.add(x);
+static void add(Hasher& h, const DofControl& control) {
+  h.add(static_cast<uint64_t>(control.mode));
+  for (const double x : {control.target, control.velocity, control.effort}) h.add(x);
+  h.add(static_cast<uint64_t>(control.trajectory.has_value()));
+  if (const auto& t = control.trajectory)
+    for (const double x : {t->from, t->to, t->begin, t->duration}) h.add(x);
+}
+
+static void add(Hasher& h, const Gains& gains) { h.add(gains.kp), h.add(gains.kd); }
+
+// how a world moves, but for manifolds and warm starts; one that never did has the same as one at rest
+static void add_motion(Hasher& h, const World& world) {
+  const DynamicState* state = world.dynamics();
+  const auto at = [](const auto& list, size_t i) {
+    using Item = std::decay_t<decltype(list[0])>;
+    return i < list.size() ? list[i] : Item{};
+  };
+  static const DynamicState rest;
+  const DynamicState& s = state ? *state : rest;
+  h.add(s.time);
+  for (const auto id : world.bodies()) {
+    for (const Twist& twist : {at(s.twists, id.index), at(s.prescribed, id.index)}) add(h, twist.linear), add(h, twist.angular);
+    const Load load = at(s.loads, id.index);
+    add(h, load.force), add(h, load.torque);
   }
+  for (const auto id : world.robots()) {
+    const Robot& robot = world.robot(id);
+    for (size_t i = robot.first_dof; i < robot.first_dof + robot.dofs.size(); ++i) {
+      h.add(at(s.dof_velocities, i));
+      const double q = world.dofs(id)[static_cast<Eigen::Index>(i - robot.first_dof)];
+      add(h, i < s.controls.size() ? s.controls[i] : DofControl{.target = q, .trajectory = {}});
+    }
+    for (size_t j = robot.first_joint; j < robot.first_joint + robot.joints.size(); ++j) h.add(at(s.joint_velocities, j));
+  }
+}
+
+static void add(Hasher& h, const World& world, const DynamicSettings& settings) {
+  const auto flag = [&](bool on) { h.add(static_cast<uint64_t>(on)); };
+  h.add(settings.step);
+  for (const int x : {static_cast<int>(settings.engine), static_cast<int>(settings.cone), settings.cone_edges})
+    h.add(static_cast<uint64_t>(x));
+  for (const auto id : world.robots()) {
+    const RobotDynamics& robot = settings.robot(id);
+    for (const bool on : {robot.floating, robot.gravity_compensation, robot.breakaway}) flag(on);
+    for (const auto& gains : robot.gains) {
+      flag(gains.has_value());
+      if (gains) add(h, *gains);
+    }
+  }
+  for (const auto& [id, velocity] : settings.surface_velocities) h.add(world.body(id).name), add(h, velocity);
 }
 
 uint64_t World::hash() const {
@@ -110,8 +145,8 @@ uint64_t World::hash() const {
     }
   }
   flag(settings_->collision_on);
-  flag(state_.dynamics != nullptr);
-  if (state_.dynamics) add(h, *state_.dynamics);
+  add(h, *this, settings_->dynamics);
+  add_motion(h, *this);
   return h.value();
 }
 

@@ -22,9 +22,10 @@ return function(options)
     local row
     if trial.settled.held then
       trial:reset()
-      row = trial:watch(seconds, function(time)
-        trial.world.gravity = job.gravity + direction[2] * (rate * time / job.mass)
-      end)
+      trial.world.gravity = job.gravity
+      local push = trial:push(function(time) return direction[2] * (rate * time) end)
+      row = trial:watch(seconds)
+      push:remove()
     else
       row = verdict.lost_before(trial)
     end

@@ -26,9 +26,10 @@ return function(options)
     local row
     if trial.settled.held then
       trial:reset()
-      -- nothing but the object has weight
-      trial.world.gravity = job.gravity + direction[2] * (force / job.mass)
+      trial.world.gravity = job.gravity
+      local push = trial:push(function() return direction[2] * force end)
       row = trial:watch(seconds)
+      push:remove()
     else
       row = verdict.lost_before(trial)
     end

@@ -55,7 +55,7 @@ class Ours : public DynamicEngine {
         state.controls[i] = {.mode = scene.links[i].slides ? ControlMode::effort : ControlMode::position,
                              .target = scene.links[i].target,
                              .effort = scene.links[i].effort,
-                             .way = {}};
+                             .trajectory = {}};
     }
     world_.set_dynamic_settings(settings);
     stepper_.emplace(world_);

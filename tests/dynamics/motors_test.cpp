@@ -66,7 +66,7 @@ TEST_CASE("an effort limit holds, and a limit of the joint stops it without boun
   JointSpec joint;
   joint.min = -0.5, joint.max = 0.4;
   Arm limited({}, joint);
-  limited.control() = {.mode = ControlMode::effort, .effort = 5, .way = {}};
+  limited.control() = {.mode = ControlMode::effort, .effort = 5, .trajectory = {}};
   run(limited.world, 1);
   CHECK(limited.q() <= 0.4 + 1e-12);
   CHECK(limited.q() > 0.4 - 1e-6);
@@ -100,7 +100,7 @@ TEST_CASE("a trajectory is followed: it begins and ends at rest, and in its midd
 
 TEST_CASE("velocity control keeps a velocity, viscous friction fades it, dry friction stops it") {
   Arm arm({.kd = 50});
-  arm.control() = {.mode = ControlMode::velocity, .velocity = 0.7, .way = {}};
+  arm.control() = {.mode = ControlMode::velocity, .velocity = 0.7, .trajectory = {}};
   run(arm.world, 0.5);
   CHECK(arm.v() == doctest::Approx(0.7).epsilon(1e-6));
 

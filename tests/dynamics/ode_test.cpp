@@ -76,10 +76,10 @@ RobotSpec chain(int links, const std::vector<Vector3d>& axes, JointKind kind = J
 Id<Robot> add_loose(World& world, const RobotSpec& spec) {
   const auto id = world.add_robot(spec, {});
   DynamicSettings settings = world.dynamic_settings();
-  settings.robots[id].has_controller = false;
   settings.robots[id].gravity_compensation = false;
   world.set_dynamic_settings(settings);
   world.set_collision(false);
+  for (DofControl& control : world.edit_dynamics().controls) control.mode = ControlMode::effort;
   return id;
 }
 
@@ -225,14 +225,11 @@ TEST_CASE("ODE: motors hold, follow and give what they are told") {
   spec.dofs[0].max_effort = 0.5;
   spec.dofs[1].kp = 5, spec.dofs[1].kd = 0.1;
   const auto id = add_loose(world, spec);
-  DynamicSettings settings = world.dynamic_settings();
-  settings.robots[id].has_controller = true;
-  world.set_dynamic_settings(settings);
-  world.edit_dynamics().controls[0] = {.mode = ControlMode::velocity, .velocity = 2, .way = {}};
+  world.edit_dynamics().controls[0] = {.mode = ControlMode::velocity, .velocity = 2, .trajectory = {}};
   send_dof(world, id, 1, -0.7, 1);
   Both both(world);
   check_dofs(both, id, 0.6, 1e-6);
-  for (World* w : {&both.ours, &both.ode}) w->edit_dynamics().controls[0] = {.mode = ControlMode::effort, .effort = 0.3, .way = {}};
+  for (World* w : {&both.ours, &both.ode}) w->edit_dynamics().controls[0] = {.mode = ControlMode::effort, .effort = 0.3, .trajectory = {}};
   check_dofs(both, id, 0.2, 1e-6);
   CHECK(both.ode.dynamics()->dof_efforts[1] == doctest::Approx(both.ours.dynamics()->dof_efforts[1]).epsilon(1e-3));
 }

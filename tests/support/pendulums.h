@@ -35,8 +35,9 @@ inline Id<Robot> add_free_robot(World& world, const RobotSpec& spec, bool floati
   const auto id = world.add_robot(spec, {});
   world.set_collision(false);
   DynamicSettings settings = world.dynamic_settings();
-  settings.robots[id] = {.floating = floating, .gravity_compensation = false, .gains = {}, .has_controller = false};
+  settings.robots[id] = {.floating = floating, .gravity_compensation = false, .gains = {}};
   world.set_dynamic_settings(settings);
+  for (DofControl& control : world.edit_dynamics().controls) control.mode = ControlMode::effort;
   return id;
 }
 

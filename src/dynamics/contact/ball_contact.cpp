@@ -37,7 +37,8 @@ double ball_distance(const World& world, const Manifold& manifold, double limit)
   if (m.other) return std::min(limit, (m.centre - m.other->centre).norm() - m.other->radius - m.ball->radius);
   const double far = (m.centre - m.surface->centre()).norm() - m.surface->radius() - m.ball->radius;
   if (far >= limit) return limit;
-  return std::min(limit, closest_point(*m.surface, m.centre).distance - m.ball->radius);
+  const double distance = closest_point(*m.surface, m.centre).distance;
+  return std::min(limit, (contains(*m.surface, m.centre) ? -distance : distance) - m.ball->radius);
 }
 
 std::vector<ManifoldPoint> ball_points(const World& world, const Manifold& manifold, double threshold) {
@@ -62,6 +63,9 @@ std::vector<ManifoldPoint> ball_points(const World& world, const Manifold& manif
     // the nearest first; of what lies beside a nearer one, on the way round an edge or within a face, nothing counts
     std::ranges::stable_sort(near, {}, &Near::distance);
   }
+  // one whose centre has got into the other body is pushed back to where it came in
+  const bool inside = !m.other && contains(*m.surface, m.centre);
+  if (inside) near.resize(std::min<size_t>(near.size(), 1));
   std::vector<Near> kept;
   for (const Near& candidate : near) {
     if (candidate.distance <= 0) continue;
@@ -76,11 +80,12 @@ std::vector<ManifoldPoint> ball_points(const World& world, const Manifold& manif
   std::vector<ManifoldPoint> out;
   const Pose X_AB = relative_pose(world, manifold.a, manifold.b), X_BA = X_AB.inverse();
   for (const Near& k : kept) {
-    const Eigen::Vector3d outward = (m.centre - k.point) / k.distance;  // from the surface to the ball's centre
+    // from the surface to the ball's centre, or out of the surface
+    const Eigen::Vector3d outward = (inside ? -1 : 1) * (m.centre - k.point) / k.distance;
     const Eigen::Vector3d on_ball = m.centre - radius * outward;
     const Feature on_surface{.kind = Feature::triangle, .first = k.triangle};
     ManifoldPoint point;
-    point.gap = k.distance - radius;
+    point.gap = (inside ? -k.distance : k.distance) - radius;
     if (m.ball_is_b) {
       point.p_a = k.point;
       point.p_b = X_BA * on_ball;

@@ -5,7 +5,6 @@
 
 #include "clench/contact/contact_set.h"
 #include "clench/dynamics/contact/ball_contact.h"
-#include "clench/dynamics/contact/flat_contact.h"
 #include "clench/dynamics/contact/overlap.h"
 #include "clench/model/near_bodies.h"
 
@@ -86,27 +85,24 @@ static void find_patches(const World& world, const Manifold& m, std::vector<Mani
 }
 
 void measure(World& world, Manifold& m) {
-  if (follow_flat_contact(world, m)) return;
   const auto [first, second] = ordered(m.a, m.b);
   const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
   const double threshold = world.contact_threshold();
   m.X_AB = relative_pose(world, m.a, m.b);
   std::vector<ManifoldPoint> points;
   const double limit = manifold_reach + threshold;
-  m.clear = 0;
-  m.flat.reset();
+  m.clearance = 0;
+  // links of a robot may be made so that they overlap
+  const bool own = world.body(m.a).robot && world.body(m.a).robot == world.body(m.b).robot;
   const double spheres = sphere_gap(world, m.a, m.b);
   if (spheres > limit) {
-    m.clear = spheres;
+    m.clearance = spheres;
   } else if (has_ball(world, m)) {
-    m.clear = std::max(0.0, ball_distance(world, m, limit));
-    if (m.clear <= threshold) points = ball_points(world, m, threshold);
+    m.clearance = std::max(0.0, ball_distance(world, m, limit));
+    if (m.clearance <= threshold && !(m.clearance == 0 && own)) points = ball_points(world, m, threshold);
   } else {
     const Distance d = distance(a, b, m.X_AB, limit, &world.context().pair(first, second));
-    m.clear = std::min(d.distance, limit);
-    // links of a robot may be made so that they overlap
-    const auto of_robot = [](const Body& body) { return body.kind != BodyKind::object && body.kind != BodyKind::obstacle; };
-    const bool own = of_robot(world.body(m.a)) && of_robot(world.body(m.b)) && world.body(m.a).robot == world.body(m.b).robot;
+    m.clearance = std::min(d.distance, limit);
     if (d.distance == 0 && (own || !m.points.empty())) return update_gaps(world, m);
     // bodies placed into each other touch where they would on the way out
     const std::optional<Pose> X_AT = d.distance == 0 ? moved_out(a, b, m.X_AB, threshold) : m.X_AB;
@@ -124,27 +120,25 @@ void measure(World& world, Manifold& m) {
   if (!points.empty()) find_patches(world, m, points);
   if (!points.empty() && !m.points.empty()) inherit(points, m.points);
   m.points = std::move(points);
-  if (m.clear > 0) m.flat = find_flat_contact(world, m);
 }
 
-static bool moves(const World& world, const System& system, Id<Body> id) {
-  return system.place(id).tree >= 0 || !world.twist(id).is_zero();
+// is there nothing that a force could move?
+static bool is_prescribed(const System& system, System::Place place) {
+  return place.tree < 0 || system.trees[place.tree].size() == 0;
 }
 
-// two bodies on one joint of a tree, or both on what stands, never come nearer to each other
-static bool rigid(const World& world, const System& system, Id<Body> a, Id<Body> b) {
+// Two bodies on one joint of a tree never come nearer to each other, and two that move as prescribed, whatever they meet.
+static bool needs_no_contact(const System& system, Id<Body> a, Id<Body> b) {
   const auto p = system.place(a), q = system.place(b);
-  if (p.tree < 0 && q.tree < 0) return !moves(world, system, a) && !moves(world, system, b);
-  if (p.tree != q.tree) return false;
-  const Articulation& tree = system.trees[p.tree];
-  return tree.bodies[p.body].joint == tree.bodies[q.body].joint;
+  if (is_prescribed(system, p) && is_prescribed(system, q)) return true;
+  return p.tree == q.tree && system.trees[p.tree].bodies[p.body].joint == system.trees[q.tree].bodies[q.body].joint;
 }
 
-static bool swept_is_old(const World& world, const DynamicState& state, double travel) {
-  if (state.swept_model != world.model().stamp || state.swept_settings != world.settings().stamp) return true;
+static bool sweep_is_old(const World& world, const DynamicState& state, double travel) {
+  if (state.sweep_model != world.model().stamp || state.sweep_settings != world.settings().stamp) return true;
   for (const auto id : world.bodies()) {
     const Body& body = world.body(id);
-    if (body.shape && displacement(state.swept[id.index], world.pose(id), *body.shape) + travel > state.swept_reach / 2)
+    if (body.shape && displacement(state.sweep_poses[id.index], world.pose(id), *body.shape) + travel > state.sweep_reach / 2)
       return true;
   }
   return false;
@@ -152,17 +146,17 @@ static bool swept_is_old(const World& world, const DynamicState& state, double t
 
 void find_manifolds(World& world, const System& system, double travel) {
   DynamicState& state = world.edit_dynamics();
-  if (swept_is_old(world, state, travel)) {
-    state.swept_reach = std::max(manifold_reach, 8 * travel);
+  if (sweep_is_old(world, state, travel)) {
+    state.sweep_reach = std::max(manifold_reach, 8 * travel);
     std::vector<Manifold> before = std::move(state.manifolds);
     state.manifolds.clear();
     QueryContext& context = world.context();
     context.attend(world.lineage(), world.model());
     const auto less = [](const Manifold& m, const BodyPair& p) { return std::pair(m.a, m.b) < p; };
     std::ranges::sort(before, {}, [](const Manifold& m) { return std::pair(m.a, m.b); });
-    for (const BodyPair& near : near_bodies(world, state.swept_reach + world.contact_threshold(), context)) {
+    for (const BodyPair& near : near_bodies(world, state.sweep_reach + world.contact_threshold(), context)) {
       const BodyPair pair = ordered(near.first, near.second);
-      if (rigid(world, system, pair.first, pair.second)) continue;
+      if (needs_no_contact(system, pair.first, pair.second)) continue;
       const auto found = std::lower_bound(before.begin(), before.end(), pair, less);
       if (found != before.end() && found->a == pair.first && found->b == pair.second) {
         state.manifolds.push_back(std::move(*found));
@@ -173,17 +167,16 @@ void find_manifolds(World& world, const System& system, double travel) {
         made.X_AB_left = made.X_AB;
       }
     }
-    state.swept.assign(world.model().bodies.size(), {});
-    for (const auto id : world.bodies()) state.swept[id.index] = world.pose(id);
-    state.swept_model = world.model().stamp;
-    state.swept_settings = world.settings().stamp;
+    state.sweep_poses.assign(world.model().bodies.size(), {});
+    for (const auto id : world.bodies()) state.sweep_poses[id.index] = world.pose(id);
+    state.sweep_model = world.model().stamp;
+    state.sweep_settings = world.settings().stamp;
   }
   for (Manifold& m : state.manifolds) {
     const Pose X_AB = relative_pose(world, m.a, m.b);
     if (X_AB == m.X_AB_left) continue;
     // placed elsewhere: what was there is no warm start
     m.points.clear();
-    m.flat.reset();
     measure(world, m);
     m.X_AB_left = X_AB;
   }

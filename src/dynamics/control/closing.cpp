@@ -19,7 +19,7 @@ void send_dof(World& world, Id<Robot> id, int dof, double target, double velocit
   control.mode = ControlMode::position;
   control.target = target;
   control.velocity = 0;
-  control.way = Trajectory{.from = q, .to = target, .begin = state.time, .duration = peak * std::abs(target - q) / velocity};
+  control.trajectory = Trajectory{.from = q, .to = target, .begin = state.time, .duration = peak * std::abs(target - q) / velocity};
 }
 
 void close_by_motors(World& world, Id<Robot> id, double speed) {

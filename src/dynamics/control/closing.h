@@ -5,14 +5,14 @@
 namespace clench {
 
 /// Each DOF is sent to its limit in the sense of its default velocity, on a smooth way at that velocity times `speed`, all of
-/// them faster where the longest way would take more than 3 s / speed; negative: it opens. What its motor cannot push away stops it; then it presses. DOFs without a default velocity hold.
+/// them faster where one would go for more than 3 s at speed 1 and constant velocity; negative: it opens. What its motor cannot push away stops it; then it presses. DOFs without a default velocity hold.
 /// throws  Error for a speed that is 0 or not finite
 void close_by_motors(World& world, Id<Robot> robot, double speed);
 
 /// Sends one DOF to a value, in a time that its largest speed is `velocity` [rad/s or m/s]; see Trajectory.
 void send_dof(World& world, Id<Robot> robot, int dof, double target, double velocity);
 
-/// Has every DOF that closes come to its limit, or does all that it moves last touch something?
+/// Of every chain, does the last link touch something, or is its last joint's DOF within 0.03 rad of the limit that it closes to?
 bool has_closed(const World& world, Id<Robot> robot);
 
 }  // namespace clench

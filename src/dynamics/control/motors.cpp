@@ -10,6 +10,8 @@ static constexpr double no_bound = std::numeric_limits<double>::infinity();
 static constexpr double natural_frequency = 60;  // of motors without gains [rad/s]
 // a limit is a row when it is as near as this many steps at the present speed, or as this
 static constexpr double steps_ahead = 8, always_near = 0.05;
+// of what a joint is beyond its limit, this part is taken back in a step, but not faster than so [rad/s or m/s]
+static constexpr double returned_part = 0.2, returned_at_most = 1;
 
 static double bound_of(double effort) { return effort > 0 ? effort : no_bound; }
 
@@ -60,7 +62,7 @@ void find_joint_forces(const World& world, const Articulation& tree, double h, c
   out.added += out.velocity_part;
 }
 
-double told_effort(const World& world, const Coordinate& c, const DynamicState& state) {
+double feedforward_effort(const World& world, const Coordinate& c, const DynamicState& state) {
   if (c.joint >= 0) return 0;
   const double most = bound_of(world.robot(c.robot).dofs[c.dof].max_effort);
   return std::clamp(state.controls[c.dof_index].effort, -most, most);
@@ -82,14 +84,14 @@ void pull_tendons(const World& world, Id<Robot> id, double h, DynamicState& stat
       force += joint.ratio * k * (joint.ratio * x - world.joints(id)[static_cast<int>(j)]);
       stiffness += joint.ratio * joint.ratio * k;
     }
-    const bool told = control.mode == ControlMode::effort || !world.dynamic_settings().robot(id).has_controller;
+    if (!(stiffness > 0)) continue;
     double speed;
-    if (told)  // until the springs give what it is told
+    if (control.mode == ControlMode::effort)  // until the springs give it
       speed = (control.effort - force) / (stiffness * h);
     else if (control.mode == ControlMode::velocity)
       speed = control.velocity;
     else
-      speed = ((control.way ? control.way->value(state.time + h) : control.target) - x) / h;
+      speed = ((control.trajectory ? control.trajectory->value(state.time + h) : control.target) - x) / h;
     const double fastest = dof.max_velocity > 0 ? dof.max_velocity : std::max(std::abs(dof.default_velocity), 1.0);
     speed = std::clamp(speed, -fastest, fastest);
     if (const double most = dof.max_effort; most > 0)
@@ -119,11 +121,13 @@ class RowMaker {
     if (alone && !is_compliant(robot, c)) add_lock(c, column);
     const std::array<double, 2> range =
         alone ? std::array{robot.joints[c.joint].min, robot.joints[c.joint].max} : robot.limits[c.dof];
-    const int index = static_cast<int>(alone ? c.joint_index : c.dof_index);
-    const double near = steps_ahead * std::abs(v) * world_.dynamic_settings().step + always_near;
-    const double step = world_.dynamic_settings().step;
-    if (q - range[0] < near) push(RowKind::low_limit, index, column, (range[0] - q) / step, 0, no_bound);
-    if (range[1] - q < near) push(RowKind::high_limit, index, column, (range[1] - q) / step, -no_bound, 0);
+    // joints by themselves are numbered apart from DOFs
+    const int index = alone ? -1 - static_cast<int>(c.joint_index) : static_cast<int>(c.dof_index);
+    const double step = std::max(world_.dynamic_settings().step, h_), near = steps_ahead * std::abs(v) * step + always_near;
+    // within them, as far as the next step may go; what stands beyond one comes back gently
+    const auto target = [&](double left) { return left <= 0 ? left / step : std::min(returned_part * left / step, returned_at_most); };
+    if (q - range[0] < near) push(RowKind::low_limit, index, column, target(range[0] - q), 0, no_bound);
+    if (range[1] - q < near) push(RowKind::high_limit, index, column, -target(q - range[1]), -no_bound, 0);
     double coulomb = 0;
     for (const ArticulationJoint& joint : tree_.joints)
       if (joint.coordinate == column)
@@ -138,27 +142,29 @@ class RowMaker {
 
   void add_motor(const Coordinate& c, const Robot& robot, int column, double q) {
     const DofControl& control = state_.controls[c.dof_index];
-    if (control.mode == ControlMode::effort || !world_.dynamic_settings().robot(c.robot).has_controller) return;
+    if (control.mode == ControlMode::effort) return;
     Gains gains = gains_of(world_, c.robot, c.dof, M_(column, column));
     double target = q, velocity = control.velocity;
     if (control.mode == ControlMode::velocity) {
       gains.kp = 0;
       if (gains.kd <= 0) gains.kd = 2 * natural_frequency * M_(column, column);
     } else {
-      target = control.way ? control.way->value(state_.time + h_) : control.target;
-      if (control.way) velocity = control.way->velocity(state_.time + h_);
+      target = control.trajectory ? control.trajectory->value(state_.time + h_) : control.target;
+      if (control.trajectory) velocity = control.trajectory->velocity(state_.time + h_);
     }
     const double most = bound_of(robot.dofs[c.dof].max_effort);
     const double gain = h_ * (gains.kd + h_ * gains.kp);
     if (!(gain > 0)) return;
+    // both together stay within the largest effort
+    const double given = feedforward_effort(world_, c, state_);
     push(RowKind::motor, static_cast<int>(c.dof_index), column,
-         h_ * (gains.kp * (target - q) + gains.kd * velocity) / gain, -most * h_, most * h_, 1 / gain);
+         h_ * (gains.kp * (target - q) + gains.kd * velocity) / gain, (-most - given) * h_, (most - given) * h_, 1 / gain);
   }
 
   // a joint that has left its breakaway DOF is locked by its worm gear, which nothing drives back
   // source  Townsend (2000), The BarrettHand grasper: programmably flexible part handling and assembly
   void add_lock(const Coordinate& c, int column) {
-    push(RowKind::lock, static_cast<int>(c.joint_index), column, 0, -no_bound, no_bound);
+    push(RowKind::lock, -1 - static_cast<int>(c.joint_index), column, 0, -no_bound, no_bound);
   }
 
   const World& world_;

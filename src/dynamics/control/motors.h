@@ -10,7 +10,7 @@ enum class RowKind { motor, low_limit, high_limit, dry_friction, lock };
 /// is reached; with a compliance, velocity - target + compliance * impulse is 0 between them.
 struct CoordinateRow {
   RowKind kind = RowKind::motor;
-  int index = 0;       ///< of the DOF or joint in the state's arrays
+  int index = 0;       ///< of the DOF in the state's arrays; -1 - that of a joint by itself
   int tree = 0, coordinate = 0;
   double target = 0;   ///< [rad/s or m/s]
   double low = 0, high = 0;  ///< [N m s or N s]
@@ -30,7 +30,7 @@ struct JointForces {
 void find_joint_forces(const World& world, const Articulation& tree, double h, const DynamicState& state, JointForces& out);
 
 /// Motors, limits, dry friction, and locks of joints that have left their DOF.
-/// mass_matrix  of the tree: gains that no file gives follow from it
+/// mass_matrix  of the tree, armature included: gains that no file gives follow from it
 void add_coordinate_rows(const World& world, const Articulation& tree, int number, const Eigen::MatrixXd& mass_matrix, double h,
                          const DynamicState& state, std::vector<CoordinateRow>& out);
 
@@ -38,8 +38,8 @@ void add_coordinate_rows(const World& world, const Articulation& tree, int numbe
 /// 60 rad/s.   inertia  that the DOF feels [kg m^2 or kg]
 Gains gains_of(const World& world, Id<Robot> robot, int dof, double inertia);
 
-/// What a motor is told to give beside what its mode does, within its largest effort; 0 for a joint that no motor turns.
-double told_effort(const World& world, const Coordinate& coordinate, const DynamicState& state);
+/// What a motor gives beside what its mode does, within its largest effort; 0 for a joint that no motor turns.
+double feedforward_effort(const World& world, const Coordinate& coordinate, const DynamicState& state);
 
 /// Tendons of compliant DOFs: how fast each goes to its target, as far as its effort allows. Their joints follow by springs.
 void pull_tendons(const World& world, Id<Robot> robot, double h, DynamicState& state);

@@ -49,7 +49,7 @@ OdeScene::OdeScene(const World& world, const OdeProblem& problem, double h, doub
     }
   for (size_t t = 0; t < trees_.size(); ++t) {
     add_forces(problem.system.trees[t], static_cast<int>(t));
-    jerk(problem.system.trees[t], static_cast<int>(t));
+    base_impulse(problem.system.trees[t], static_cast<int>(t));
   }
 }
 
@@ -78,8 +78,8 @@ void OdeScene::add_tree(const Articulation& tree, int number) {
     before.inertia = ghost * node.inertia;
   }
   out.nodes[0].free = tree.floating;
-  const bool told = !tree.floating && !world_.twist(tree.root).is_zero();
-  if (tree.floating || told) make_body(out.nodes[0]);
+  const bool prescribed = !tree.floating && !world_.twist(tree.root).is_zero();
+  if (tree.floating || prescribed) make_body(out.nodes[0]);
   out.lead.assign(tree.size(), -1);
   RobotFrames frames;
   Id<Robot> framed;
@@ -149,11 +149,11 @@ void OdeScene::find_motion(const Articulation& tree, int number) {
   }
 }
 
-// what hangs on a base that is jerked moves on as it did
-void OdeScene::jerk(const Articulation& tree, int number) {
+// what hangs on a base whose velocity changes at once moves on as it did
+void OdeScene::base_impulse(const Articulation& tree, int number) {
   if (tree.floating) return;
   OdeTree& out = trees_[number];
-  const Twist twist = world_.twist(tree.root), last = world_.dynamics()->told[tree.root.index];
+  const Twist twist = world_.twist(tree.root), last = world_.dynamics()->prescribed[tree.root.index];
   const Eigen::Vector3d dv = twist.linear - last.linear, dw = twist.angular - last.angular;
   const Eigen::Vector3d about = world_.pose(tree.root) * world_.body(tree.root).com;
   for (size_t i = 1; i < out.nodes.size(); ++i) {
@@ -191,7 +191,7 @@ void OdeScene::add_forces(const Articulation& tree, int number) {
     const int c = tree.root_size() + static_cast<int>(i), lead = out.lead[c];
     if (lead < 0) continue;
     const double ratio = tree.joints[lead].ratio;
-    push(number, lead, (forces.efforts[c] + told_effort(world_, tree.coordinates[i], state)) / ratio);
+    push(number, lead, (forces.efforts[c] + feedforward_effort(world_, tree.coordinates[i], state)) / ratio);
     if (const double added = forces.added[c]; added > 0) {
       const double kept = (added - forces.velocity_part[c]) * problem_.v[tree.first + c] / added;
       add_motor(out, out.joints[lead], ratio * kept, h_ * ratio * ratio / added, dInfinity);

@@ -73,7 +73,7 @@ class OdeScene {
   void find_motion(const Articulation& tree, int number);
   void add_joint(const ArticulationJoint& joint, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, OdeTree& out);
   void make_body(OdeNode& node);
-  void jerk(const Articulation& tree, int number);
+  void base_impulse(const Articulation& tree, int number);
   void add_forces(const Articulation& tree, int number);
   dJointID add_motor(const OdeTree& tree, const OdeJoint& joint, double velocity, double cfm, double most);
   const OdeNode* node_of(Id<Body> id) const;

@@ -12,13 +12,13 @@ namespace clench {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixXd friction_edges(int tangents, int edges, double turned) {
+MatrixXd pyramid_directions(int tangents, int edges) {
   // a bounded row has none
   MatrixXd directions(std::max(tangents, 0), tangents == 2 ? edges : tangents == 3 ? 3 * edges - 4 : 0);
   int column = 0;
   const auto ring = [&](int count, double latitude) {
     for (int k = 0; k < count; ++k) {
-      const double angle = turned + 2 * std::numbers::pi * k / count;
+      const double angle = 2 * std::numbers::pi * k / count;
       directions(0, column) = std::cos(latitude) * std::cos(angle);
       directions(1, column) = std::cos(latitude) * std::sin(angle);
       if (tangents == 3) directions(2, column) = std::sin(latitude);

@@ -6,9 +6,8 @@ namespace clench {
 
 /// Directions that friction may take, columns of length one: `edges` on a circle; with torsion five rings of a sphere,
 /// at latitudes 90, 45, 0, -45 and -90 degrees, of 1, edges - 3, edges, edges - 3 and 1 (20 for 8).
-/// turned  the first one's angle [rad]
 /// source  Ciocarlie, Lackner & Allen (2007), Soft finger model with adaptive contact geometry
-Eigen::MatrixXd friction_edges(int tangents, int edges, double turned = 0);
+Eigen::MatrixXd pyramid_directions(int tangents, int edges);
 
 /// Impulses of a scaled problem, and how true they are.
 struct PyramidSolution {

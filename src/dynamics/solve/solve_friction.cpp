@@ -85,7 +85,7 @@ double FrictionSolver::descend(double rho, VectorXd& r, FrictionSolution& soluti
 
 bool FrictionSolver::solve_by_pyramids(int edges_per_contact, VectorXd& r, FrictionSolution& solution) {
   std::vector<Eigen::MatrixXd> edges;
-  for (const auto& block : scaled_.blocks) edges.push_back(friction_edges(block.tangents, edges_per_contact));
+  for (const auto& block : scaled_.blocks) edges.push_back(pyramid_directions(block.tangents, edges_per_contact));
   for (int round = 0; round < 8; ++round) {
     const PyramidSolution pyramid = solve_pyramid(scaled_, 1e-7, VectorXd::Zero(scaled_.rows()), edges);
     solution.iterations += pyramid.iterations;
@@ -175,7 +175,7 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
   solution.residual = infinity;
   scaled_.set(problem);
   std::vector<Eigen::MatrixXd> edges;
-  for (const auto& block : scaled_.blocks) edges.push_back(friction_edges(block.tangents, edges_per_contact));
+  for (const auto& block : scaled_.blocks) edges.push_back(pyramid_directions(block.tangents, edges_per_contact));
   VectorXd r = VectorXd::Zero(scaled_.rows());
   // pivots lose what is far below 1
   double by = 1e-6;
@@ -210,7 +210,7 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
   solution.residual = fault.largest;
   solution.solved = fault.excess <= 1;
   const bool finite = problem.q.allFinite() && problem.W.allFinite() && std::isfinite(fault.largest);
-  if (solution.solved && finite && options.cone == FrictionCone::cone) return solution;
+  if (solution.solved && finite && options.cone == FrictionCone::round) return solution;
   if (!finite) {
     solution.solved = false;
     solution.residual = infinity;

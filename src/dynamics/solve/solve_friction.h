@@ -10,8 +10,8 @@
 namespace clench {
 
 struct FrictionOptions {
-  FrictionCone cone = FrictionCone::cone;
-  int edges = 8;  ///< of a pyramid, >= 4; with torsion 3 edges - 4 (see friction_edges)
+  FrictionCone cone = FrictionCone::round;
+  int edges = 8;  ///< of a pyramid, >= 4; with torsion 3 edges - 4 (see pyramid_directions)
   /// Faults up to so much of the largest velocity in q, and of at least 1e-3, are none. Rounding of W r is allowed for
   /// beside it, up to 1e6 times as much where masses differ by that; of a pyramid, as pivots lose digits, 100 times.
   double tolerance = 1e-12;

@@ -163,7 +163,7 @@ const std::vector<double>& TreeDynamics::inverse_dynamics(const Eigen::VectorXd&
   return joint_efforts_;
 }
 
-Eigen::VectorXd TreeDynamics::jerk(const Vector6d& change) const {
+Eigen::VectorXd TreeDynamics::base_impulse(const Vector6d& change) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(tree_->size());
   for (size_t i = 0; i < tree_->joints.size(); ++i)
     out[tree_->joints[i].coordinate] -= tree_->joints[i].ratio * S_[i].dot(all_[i + 1] * change);

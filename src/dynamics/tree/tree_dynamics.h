@@ -31,7 +31,7 @@ class TreeDynamics {
   /// Where joints and masses are, and the mass matrix.
   void place(const World& world, const Articulation& tree);
   /// Forces that velocities cause, on each coordinate: M dv/dt = efforts - bias.
-  /// root_twist  of a root that is moved as told, at the point about() [m/s, rad/s]
+  /// root_twist  of a root that moves as prescribed, at the point about() [m/s, rad/s]
   /// gravity     [m/s^2]; a robot that compensates its weight does not feel it
   /// returns     bias, one per coordinate [N or N m]
   const Eigen::VectorXd& find_bias(const Eigen::VectorXd& v, const Vector6d& root_twist, const Eigen::Vector3d& gravity);
@@ -41,8 +41,8 @@ class TreeDynamics {
   /// returns one per joint of the tree, for its own unit [N m or N]
   const std::vector<double>& inverse_dynamics(const Eigen::VectorXd& v, const Eigen::VectorXd& change, const Vector6d& root_twist,
                                               const Eigen::Vector3d& gravity, const std::vector<Vector6d>& loads);
-  /// Impulses on the coordinates that take the momentum of a root's change of velocity: a base that is jerked.
-  Eigen::VectorXd jerk(const Vector6d& change_of_root) const;
+  /// Impulses on the coordinates when the velocity of a base that moves as prescribed changes at once.
+  Eigen::VectorXd base_impulse(const Vector6d& change_of_root) const;
   /// Adds to the diagonal what acts like mass (armature; damping h d and springs h^2 k, taken at the step's end), and factors.
   void factor(const Eigen::VectorXd& added_to_diagonal);
 
@@ -57,15 +57,13 @@ class TreeDynamics {
   void add_linear(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction, double sign,
                   Eigen::Ref<Eigen::VectorXd> column) const;
   void add_angular(int body, const Eigen::Vector3d& direction, double sign, Eigen::Ref<Eigen::VectorXd> column) const;
-  /// Spatial velocity of a body at about().
-  Vector6d motion(int body, const Eigen::Ref<const Eigen::VectorXd>& v, const Vector6d& root_twist) const;
   /// Of its centre of mass.
   Twist twist(int body, const Eigen::Ref<const Eigen::VectorXd>& v, const Vector6d& root_twist) const;
   const Eigen::Vector3d& com(int body) const { return com_[body]; }
-  /// Axis of a joint as it moves points: (velocity at about(), turning).
-  const Vector6d& axis(int joint) const { return S_[joint]; }
 
  private:
+  // spatial velocity of a body at about()
+  Vector6d motion(int body, const Eigen::Ref<const Eigen::VectorXd>& v, const Vector6d& root_twist) const;
   void place_joints(const World& world);
   void find_mass_matrix();
   void find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* change, const Vector6d& root_twist, const Eigen::Vector3d& gravity);

@@ -132,6 +132,13 @@ function Trial:watch(seconds, tick, length)
   return row
 end
 
+--- Pushes the object at its centre of mass until the handle that it returns is removed.
+---@param force fun(time: number): vec3  of the time since then [s], [N]
+function Trial:push(force)
+  local world, object, began = self.world, self.object, self.world.time
+  return world:on_step(function() object:apply_force(force(world.time - began)) end)
+end
+
 --- Goes back to where the hand held the object at rest.
 function Trial:reset() self.world:restore(self.ready) end
 
@@ -147,9 +154,10 @@ return function(job)
   object.mass = job.mass
   hold_robots(world)
   object.velocity = {}
+  local failures_before = world.report.failures
   set_gains(hand, object)
   world.gravity = {0, 0, 0}
-  local trial = setmetatable({world = world, hand = hand, object = object, root = root_of(hand), com = object.com,
+  local trial = setmetatable({world = world, hand = hand, object = object, root = root_of(hand), com = object.com, failures_before = failures_before,
                               max_distance = job.max_distance, max_angle = job.max_angle}, Trial)
   local first = trial:pose()
   press(trial, job)

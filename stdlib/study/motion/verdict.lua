@@ -27,7 +27,7 @@ function verdict.add(result, name, row, trial)
   table.insert(result[name], row)
   result.count = result.count + 1
   if row.held then result.held = result.held + 1 end
-  result.failures = math.max(result.failures, trial.world.report.failures)
+  result.failures = math.max(result.failures, trial.world.report.failures - trial.failures_before)
 end
 
 --- Survived is what was held in all rows.

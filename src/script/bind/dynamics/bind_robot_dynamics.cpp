@@ -34,26 +34,27 @@ static constexpr const char* mode_names[] = {"position", "velocity", "effort"};
 
 static int get_controller(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  if (!robot.world->dynamic_settings().robot(robot.id).has_controller) return push(L, "none");
   const DynamicState* state = robot.world->dynamics();
   if (robot->dofs.empty() || !state || state->controls.size() <= robot->first_dof) return push(L, "position");
-  return push(L, mode_names[static_cast<int>(state->controls[robot->first_dof].mode)]);
+  const auto mode = [&](size_t dof) { return state->controls[robot->first_dof + dof].mode; };
+  for (size_t dof = 1; dof < robot->dofs.size(); ++dof)
+    if (mode(dof) != mode(0)) return push(L, "mixed");
+  return push(L, mode_names[static_cast<int>(mode(0))]);
 }
 
 static int set_controller(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const std::string name = check_string(L, 2);
-  int mode = -1;
+  int mode = name == "none" ? static_cast<int>(ControlMode::effort) : -1;
   for (int i = 0; i < 3; ++i)
     if (name == mode_names[i]) mode = i;
-  if (mode < 0 && name != "none")
+  if (mode < 0)
     fail("{}: expected \"position\", \"velocity\", \"effort\" or \"none\", got {}", subject(L), in_quotes(name));
-  edit_robot(robot, [&](RobotDynamics& settings) { settings.has_controller = name != "none"; });
   DynamicState& state = robot.world->edit_dynamics();
   const auto q = robot.world->dofs(robot.id);
   for (int i = 0; i < q.size(); ++i) {
     DofControl& control = state.controls[robot->first_dof + static_cast<size_t>(i)];
-    control = {.mode = mode < 0 ? ControlMode::effort : static_cast<ControlMode>(mode), .target = q[i], .way = {}};
+    control = {.mode = static_cast<ControlMode>(mode), .target = q[i], .trajectory = {}};
   }
   return 0;
 }
@@ -89,7 +90,7 @@ static int set_targets(lua_State* L) {
       continue;
     }
     DofControl& control = robot.world->edit_dynamics().controls[robot->first_dof + static_cast<size_t>(i)];
-    control = {.mode = ControlMode::position, .target = target, .way = {}};
+    control = {.mode = ControlMode::position, .target = target, .trajectory = {}};
   }
   return 0;
 }
@@ -100,7 +101,7 @@ static int set_target_velocities(lua_State* L) {
   for (const double v : values) check(velocity_rule.called("velocity"), v, subject(L));
   DynamicState& state = robot.world->edit_dynamics();
   for (size_t i = 0; i < values.size(); ++i)
-    state.controls[robot->first_dof + i] = {.mode = ControlMode::velocity, .velocity = values[i], .way = {}};
+    state.controls[robot->first_dof + i] = {.mode = ControlMode::velocity, .velocity = values[i], .trajectory = {}};
   return 0;
 }
 
@@ -154,7 +155,7 @@ What its motors gave in the last step.
 > hand.dof_efforts[1]  --> 0.0)"},
     {"controller", guarded<get_controller>, R"(
 What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities
-that are asked for; "effort" and "none", they give the forces that set_forces says, and nothing else.
+that are asked for; "effort", they give the forces that set_forces says, and nothing else; "none" is another word for that. "mixed": not all the same.
 @type string
 > hand.controller  --> position
 > hand.controller = "none"

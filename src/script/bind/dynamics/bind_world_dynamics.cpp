@@ -64,7 +64,7 @@ static int get_report(lua_State* L) {
   set_field(L, "failures", static_cast<int>(report.failures));
   set_field(L, "overlaps", static_cast<int>(report.overlaps));
   set_field(L, "residual", report.residual);
-  set_field(L, "largest_residual", report.largest_residual);
+  set_field(L, "max_residual", report.max_residual);
   set_field(L, "contacts", report.contacts);
   return 1;
 }
@@ -124,23 +124,48 @@ static int average_contacts(lua_State* L) {
   });
 }
 
-DynamicSettings read_dynamic_settings(Table& options) {
-  DynamicSettings settings;
-  if (options.push("dynamics") == LUA_TNIL) {
-    lua_pop(options.state(), 1);
-    return settings;
-  }
-  lua_State* L = options.state();
-  Table table(L, lua_gettop(L), options.what("dynamics").text());
+// --- how it is solved ---
+
+static void read_settings(Table& table, DynamicSettings& settings) {
   settings.step = table.number("time_step", settings.step);
-  if (table.choice("engine", {"clench", "ode"}, "clench") == "ode") settings.engine = DynamicsEngine::ode;
-  if (table.choice("cone", {"round", "pyramid"}, "round") == "pyramid") settings.cone = FrictionCone::pyramid;
+  settings.engine = table.choice("engine", {"clench", "ode"}, settings.engine == DynamicsEngine::ode ? "ode" : "clench") == "ode"
+                        ? DynamicsEngine::ode
+                        : DynamicsEngine::clench;
+  settings.cone = table.choice("cone", {"round", "pyramid"}, settings.cone == FrictionCone::pyramid ? "pyramid" : "round") == "pyramid"
+                      ? FrictionCone::pyramid
+                      : FrictionCone::round;
   settings.cone_edges = table.integer("edges", settings.cone_edges);
   if (settings.cone_edges < 4 || settings.cone_edges > 64 || settings.cone_edges % 2 != 0)
     fail("{}: edges: expected an even number from 4 to 64, got {}", table.subject(), settings.cone_edges);
   table.done();
-  lua_pop(L, 1);
+}
+
+DynamicSettings read_dynamic_settings(Table& options) {
+  DynamicSettings settings;
+  if (options.push("dynamics") != LUA_TNIL) {
+    Table table(options.state(), lua_gettop(options.state()), options.what("dynamics").text());
+    read_settings(table, settings);
+  }
+  lua_pop(options.state(), 1);
   return settings;
+}
+
+static int get_dynamics(lua_State* L) {
+  const DynamicSettings& settings = world_of(L).dynamic_settings();
+  push_list(L, 0, 4);
+  set_field(L, "time_step", settings.step);
+  set_field(L, "engine", settings.engine == DynamicsEngine::ode ? "ode" : "clench");
+  set_field(L, "cone", settings.cone == FrictionCone::pyramid ? "pyramid" : "round");
+  set_field(L, "edges", settings.cone_edges);
+  return 1;
+}
+
+static int set_dynamics(lua_State* L) {
+  DynamicSettings settings = world_of(L).dynamic_settings();
+  Table table(L, 2);
+  read_settings(table, settings);
+  world_of(L).set_dynamic_settings(std::move(settings));
+  return 0;
 }
 
 static const Entry fields[] = {
@@ -154,12 +179,20 @@ Length of the steps of `run`; from 1e-7 to 1.
 > world.time_step  --> 0.001
 > world.time_step = 0  --> error: time step)",
      guarded<set_time_step>},
+    {"dynamics", guarded<get_dynamics>, R"(
+How steps are solved; a table of its own, and a table that is set changes what it names. `engine`: "clench", or "ode", which solves the same
+contacts by another library; `cone`: friction cones are "round", or a "pyramid" of `edges` edges.
+@type {time_step: number, engine: string, cone: string, edges: integer}
+> world.dynamics = {engine = "ode"}
+> world.dynamics.engine, world.dynamics.time_step  --> ode, 0.001
+> world.dynamics = {engine = "odee"}  --> error: did you mean 'ode'?)",
+     guarded<set_dynamics>},
     {"report", guarded<get_report>, R"(
 What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took
-(`iterations`; `fallbacks`, steps that needed its slow methods; `failures`, steps that it did not solve to the tolerance),
+(`iterations`; of groups of bodies that touch each other, `fallbacks`, that needed its slow methods, and `failures`, that it did not solve to the tolerance),
 pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have
 as velocities [m/s].
-@type {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, largest_residual: number}
+@type {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, max_residual: number}
 > world.report.failures  --> 0)"},
 };
 
