@@ -261,3 +261,68 @@ TEST_CASE("a conveyor belt carries what lies on it, to its own speed and no furt
   CHECK(belt.speed(id) == doctest::Approx(0.5).epsilon(1e-9));
   CHECK(belt.world.pose(belt.ground) == Pose{});
 }
+
+TEST_CASE("the base of a robot without DOFs carries what lies on it, as it turns about an axis far away") {
+  World world;
+  world.set_friction("wood", "wood", {.statics = 0.9, .kinetic = 0.9});
+  RobotSpec table = pendulum(0);
+  table.base = body_spec("turntable", moved(box(2, 2, 0.1), {0, 0, -0.05}));
+  const auto robot = world.add_robot(table, Pose::translation({5, 3, 0}));
+  BodySpec spec = body_spec("cup", box(0.05, 0.05, 0.05));
+  const auto cup = world.add_body(spec, BodyKind::object, Pose::translation({5.3, 3, 0.025 + touch}));
+  run(world, 0.05);
+  world.set_twist(world.robot(robot).base, {{0, 0, 0}, {0, 0, 2}});
+  world.set_twist(cup, {{0, 0.6, 0}, {0, 0, 2}});
+  run(world, 0.5);
+  // it goes round with the table: 2 rad/s at 0.3 m takes 1.2 m/s^2, friction gives nine
+  const Eigen::Vector3d expected(5 + 0.3 * std::cos(1.0), 3 + 0.3 * std::sin(1.0), 0);
+  CHECK((world.pose(cup).position - expected).head<2>().norm() < 2e-3);
+  CHECK(world.twist(cup).angular.z() == doctest::Approx(2).epsilon(1e-3));
+}
+
+TEST_CASE("obstacles that move into obstacles, and bodies that are removed while they touch, disturb nothing") {
+  Slope floor(0);
+  const auto box_id = floor.put("box", box(0.1, 0.1, 0.1), 1, Pose::translation({0, 0, 0.05 + touch}));
+  const auto wall = floor.world.add_body(body_spec("wall", box(0.1, 0.1, 0.1)), BodyKind::obstacle, Pose::translation({1, 0, 0.2}), "wall");
+  floor.world.set_twist(wall, {{0, 0, -1}, {0, 0, 0}});
+  run(floor.world, 0.5);
+  CHECK(floor.world.dynamics()->report.steps == 500);
+  CHECK(floor.world.pose(wall).position.z() == doctest::Approx(-0.3).epsilon(1e-9));
+  floor.world.remove(box_id);
+  CHECK(floor.world.dynamics()->manifolds.empty());
+  run(floor.world, 0.01);
+}
+
+TEST_CASE("a ball whose centre has come into a plate is pushed out of it, and contacts tell its weight once") {
+  Slope floor(0);
+  const double radius = 0.02;
+  const auto id = floor.put("ball", ball(radius, 24, 48), 1, Pose::translation({0, 0, -0.005}));
+  run(floor.world, 2);
+  CHECK(floor.world.pose(id).position.z() == doctest::Approx(radius + touch).epsilon(1e-3));
+  double sum = 0;
+  for (const Contact& c : contacts(floor.world)) sum += c.force_W.z() * (c.body == id ? 1 : -1);
+  CHECK(sum == doctest::Approx(g).epsilon(1e-4));
+}
+
+TEST_CASE("the fingerprint of a world tells all that makes it move otherwise, and nothing that does not") {
+  const auto start = [] {
+    Slope slope(0);
+    slope.put("box", box(0.1, 0.1, 0.1), 1, Pose::translation({0, 0, 0.05 + touch}));
+    return std::move(slope.world);
+  };
+  World world = start();
+  const uint64_t hash = world.hash();
+  world.edit_dynamics();
+  run(world, 0);
+  CHECK(world.hash() == hash);
+  for (const auto change : {+[](DynamicSettings& s) { s.step = 2e-3; }, +[](DynamicSettings& s) { s.engine = DynamicsEngine::ode; },
+                            +[](DynamicSettings& s) { s.cone = FrictionCone::pyramid; }, +[](DynamicSettings& s) { s.cone_edges = 10; }}) {
+    World other = start();
+    DynamicSettings settings = other.dynamic_settings();
+    change(settings);
+    other.set_dynamic_settings(settings);
+    CHECK(other.hash() != hash);
+  }
+  world.set_twist(world.bodies().back(), {{0, 0, 1}, {0, 0, 0}});
+  CHECK(world.hash() != hash);
+}

@@ -243,3 +243,30 @@ TEST_CASE("a base that moves as it is told carries the arm on it, and jerks it b
   stepper.run(0.1);
   CHECK(world.pose(world.robot(id).base).position.x() == doctest::Approx(0.1).epsilon(1e-9));
 }
+
+TEST_CASE("what a motor is given and what its controller adds stay within its largest effort together, and are told") {
+  Arm arm({.max_effort = 2, .kp = 1e6, .kd = 1e3});
+  arm.control() = {.target = 3, .effort = 1.5, .trajectory = {}};
+  run(arm.world, 0.1);
+  CHECK(arm.v() == doctest::Approx(2 / arm.inertia * 0.1).epsilon(1e-9));
+  CHECK(arm.world.dynamics()->dof_efforts[0] == doctest::Approx(2).epsilon(1e-9));
+  arm.control() = {.mode = ControlMode::effort, .effort = -0.7, .trajectory = {}};
+  run(arm.world, 0.001);
+  CHECK(arm.world.dynamics()->dof_efforts[0] == -0.7);
+}
+
+TEST_CASE("a joint that stands beyond its limit comes back gently") {
+  JointSpec joint;
+  joint.min = -0.5, joint.max = 0.4;
+  Arm arm({}, joint);
+  arm.control().mode = ControlMode::effort;
+  arm.world.set_dofs_unchecked(arm.id, Eigen::VectorXd::Constant(1, 0.6), {});
+  double fastest = 0;
+  Stepper stepper(arm.world);
+  for (int i = 0; i < 500; ++i) {
+    stepper.run(0.001);
+    fastest = std::max(fastest, std::abs(arm.v()));
+  }
+  CHECK(fastest <= 1 + 1e-9);
+  CHECK(arm.q() <= 0.4 + 1e-6);
+}
