@@ -83,35 +83,6 @@ double FrictionSolver::descend(double rho, VectorXd& r, FrictionSolution& soluti
   return reached;
 }
 
-bool FrictionSolver::solve_by_pyramids(int edges_per_contact, VectorXd& r, FrictionSolution& solution) {
-  std::vector<Eigen::MatrixXd> edges;
-  for (const auto& block : scaled_.blocks) edges.push_back(pyramid_directions(block.tangents, edges_per_contact));
-  for (int round = 0; round < 8; ++round) {
-    const PyramidSolution pyramid = solve_pyramid(scaled_, 1e-7, VectorXd::Zero(scaled_.rows()), edges);
-    solution.iterations += pyramid.iterations;
-    if (!pyramid.found) return false;
-    r = pyramid.r;
-    for (const double rho : {1.0, 0.2, 5.0}) {
-      r_ = r;
-      if (newton(damping, rho, 20, r_, solution)) {
-        r = r_;
-        return true;
-      }
-    }
-    // an edge where each contact slides to
-    u_ = scaled_.S * r + scaled_.q;
-    for (size_t i = 0; i < edges.size(); ++i) {
-      const auto& block = scaled_.blocks[i];
-      if (block.tangents < 2) continue;
-      const VectorXd slip = u_.segment(block.row + 1, block.tangents);
-      if (!(slip.norm() > 1e-9)) continue;
-      edges[i].conservativeResize(Eigen::NoChange, edges[i].cols() + 1);
-      edges[i].col(edges[i].cols() - 1) = -slip.normalized();
-    }
-  }
-  return false;
-}
-
 bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, VectorXd& r,
                             FrictionSolution& solution) {
   // sets u_ and keeps the best
@@ -240,15 +211,13 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
     return nearest;
   }
   // from other sides, at last from the best that was found
-  for (int way = 0; way < 5 && !solution.solved; ++way) {
+  for (const double rho : {0.2, 5.0, 0.05, 0.0}) {
+    if (solution.solved) break;
     double level = 1e-3;
-    if (way == 1) {
-      if (solve_by_pyramids(options.edges, r, solution)) level = damping;
-    } else if (way == 4) {
+    if (rho > 0)
+      level = descend(rho, r, solution);
+    else
       r = solution.r.cwiseQuotient(scaled_.units);
-    } else {
-      level = descend(way == 0 ? 0.2 : way == 2 ? 5 : 0.05, r, solution);
-    }
     solution.solved = refine(problem, tolerance, level, 100, r, solution);
   }
   solution.u = problem.W * solution.r + problem.q;

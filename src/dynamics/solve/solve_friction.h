@@ -44,7 +44,6 @@ class FrictionSolver {
   /// r of a problem with damping; returns how strong that still is.
   double solve_damped(Eigen::VectorXd& r, FrictionSolution& solution);
   double descend(double rho, Eigen::VectorXd& r, FrictionSolution& solution);
-  bool solve_by_pyramids(int edges_per_contact, Eigen::VectorXd& r, FrictionSolution& solution);
   /// Takes the damping away; keeps the best r in the solution.
   bool refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, Eigen::VectorXd& r,
               FrictionSolution& solution);

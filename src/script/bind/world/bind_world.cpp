@@ -176,7 +176,7 @@ static int snapshot_text(lua_State* L) {
 static const Entry functions[] = {
     {"world", guarded<new_world>, R"(
 An empty world.
-@param options? {contact_threshold?: number}  surfaces closer than this touch, 1e-4 by default [m]
+@param options? {contact_threshold?: number, dynamics?: {time_step?: number, engine?: string, cone?: string, edges?: integer}}  contact_threshold: surfaces closer than this touch, 1e-4 by default [m]; dynamics: as of world.dynamics
 @return world
 > #clench.world().bodies  --> 0)"},
     {"load", guarded<load_world>, R"(
