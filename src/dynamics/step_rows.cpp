@@ -8,12 +8,14 @@
 
 namespace clench {
 
-// Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s].
-static constexpr double sliding_speed = 1e-6;
+// Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s], if it is also faster than
+// gravity makes them in a step: a body that comes to rest from next to no height sticks.
+static constexpr double sliding_speed = 1e-3;
 // A gap this near to that at which bodies rest, as a part of the contact threshold, is that one.
 static constexpr double rest_band = 1e-3;
-// Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so [m/s].
-static constexpr double pushed_part = 0.2, pushed_at_most = 0.1;
+// Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so [m/s]: so slowly that what is
+// pushed apart presses on each other as if it rested.
+static constexpr double pushed_part = 0.02, pushed_at_most = 0.1;
 // Below this speed of approach nothing bounces [m/s].
 static constexpr double bounces_above = 0.01;
 
@@ -92,13 +94,10 @@ void Stepper::add_contact(int manifold, int point, double h) {
         trees_[place.tree].add_angular(place.body, normal, sign * p.torsion_radius, column);
     }
   }
-  // the gap may close as far as bodies rest, in the step to come
+  // what touches comes no nearer, and what is too near parts
   const double step = std::max(world_.dynamic_settings().step, h), beyond = p.gap - rest_gap * world_.contact_threshold();
   double target = 0;
-  if (beyond > rest_band * world_.contact_threshold())
-    target = -beyond / step;
-  else if (beyond < -rest_band * world_.contact_threshold())
-    target = std::min(-pushed_part * beyond / step, pushed_at_most);
+  if (beyond < -rest_band * world_.contact_threshold()) target = std::min(-pushed_part * beyond / step, pushed_at_most);
   const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
   double slip = 0;
   for (int k = 0; k < size; ++k) {
@@ -115,7 +114,8 @@ void Stepper::add_contact(int manifold, int point, double h) {
     if (k > 0) slip += before * before;
     q_.push_back(q);
   }
-  block.law.mu = slip > sliding_speed * sliding_speed ? friction.kinetic : friction.statics;
+  const double slow = std::max(sliding_speed, world_.gravity().norm() * step);
+  block.law.mu = slip > slow * slow ? friction.kinetic : friction.statics;
   // warm start
   const Eigen::Vector3d force = X_WA.rotation * p.force;
   for (int k = 0; k < size; ++k) warm_.push_back(h * (k < 3 ? touch.frame.col(k).dot(force) : p.torsion / p.torsion_radius));

@@ -4,7 +4,7 @@
 
 namespace clench {
 
-/// Gap at which bodies rest, as a part of the contact threshold: deep enough that all corners of a face are within it.
+/// Bodies rest at gaps from this part of the contact threshold on.
 inline constexpr double rest_gap = 0.25;
 /// Points follow their bodies as long as these have moved by no more than this part of the threshold.
 inline constexpr double follows_within = 0.05;
