@@ -776,7 +776,8 @@ function world_queries:contacts(a, b) end
 ---@class world_dynamics: world_control
 ---@field time number # How long it has run. [s]
 ---@field time_step number # Length of the steps of `run`; from 1e-7 to 1. [s]
----@field report {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, largest_residual: number} # What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took (`iterations`; `fallbacks`, steps that needed its slow methods; `failures`, steps that it did not solve to the tolerance), pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have as velocities [m/s].
+---@field dynamics {time_step: number, engine: string, cone: string, edges: integer} # How steps are solved; a table of its own, and a table that is set changes what it names. `engine`: "clench", or "ode", which solves the same contacts by another library; `cone`: friction cones are "round", or a "pyramid" of `edges` edges.
+---@field report {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, max_residual: number} # What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took (`iterations`; of groups of bodies that touch each other, `fallbacks`, that needed its slow methods, and `failures`, that it did not solve to the tolerance), pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have as velocities [m/s].
 local world_dynamics = {}
 
 ---Simulates: everything that is free moves by gravity, contacts and the motors of robots. Each step first moves bodies with the velocities that they have, then finds contacts, then solves for new velocities. Afterwards exactly so much time has passed.
@@ -846,7 +847,7 @@ function world_control:pop() end
 
 ---How bodies and robots move: velocity, and what pushes them.
 ---@class motion: entity
----@field velocity {linear: vec3, angular: vec3} # Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. Setting a pose brings a body to rest. [m/s], [rad/s]
+---@field velocity {linear: vec3, angular: vec3} # Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. A table of its own; one that is set changes what it names. Setting a pose brings a body to rest. [m/s], [rad/s]
 ---@field surface_velocity vec3 # Of a conveyor belt: what touches it is carried along at this velocity, in its own frame, while it stands. [m/s]
 local motion = {}
 
@@ -881,7 +882,7 @@ function joint_dynamics:inverse_dynamics(accelerations) end
 ---@class robot_dynamics: joint_dynamics
 ---@field dof_velocities number[] # Of its degrees of freedom; a list of its own. [rad/s or m/s]
 ---@field dof_efforts number[] # What its motors gave in the last step. [N m or N]
----@field controller string # What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities that are asked for; "effort" and "none", they give the forces that set_forces says, and nothing else.
+---@field controller string # What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities that are asked for; "effort", they give the forces that set_forces says, and nothing else, as DOFs that no actuator of a MuJoCo file drives do at first ("none" is another word for it); "mixed": not all the same. `set_targets`, `set_target_velocities` and `autograsp {dynamic = true}` switch the DOFs that they move.
 ---@field gravity_compensation boolean # Do its motors carry the weight of its own links? As controllers of real arms do. A floating robot has all its weight.
 ---@field breakaway boolean # Do joints leave its breakaway DOFs while the world runs, when what stops them asks for more than the breakaway torque? They are then locked until the DOF, opening, comes back to them. Else, as in GraspIt!'s dynamics, the DOF drives all its joints rigidly.
 ---@field floating boolean # Is its base free to move? Else it stands, or moves as its velocity says.
@@ -900,7 +901,7 @@ function robot_dynamics:set_targets(dofs, options) end
 ---@param velocities number[] # [rad/s or m/s]
 function robot_dynamics:set_target_velocities(velocities) end
 
----Has every finger come to its limit, or does its last link touch something?
+---Has every finger closed: does its last link touch something, is it at its limit, or has it come to rest after the time in which it was to close?
 ---@return boolean
 function robot_dynamics:has_closed() end
 
@@ -975,7 +976,7 @@ function clench.convert(from, to, options) end
 function clench.entries() end
 
 ---An empty world.
----@param options? {contact_threshold?: number} # surfaces closer than this touch, 1e-4 by default [m]
+---@param options? {contact_threshold?: number, dynamics?: {time_step?: number, engine?: string, cone?: string, edges?: integer}} # contact_threshold: surfaces closer than this touch, 1e-4 by default [m]; dynamics: as of world.dynamics
 ---@return world
 function clench.world(options) end
 

@@ -27,7 +27,7 @@ void Stepper::find_free_velocities(double h) {
     dynamics.place(world_, tree);
     if (n == 0) continue;
     Eigen::VectorXd efforts = -dynamics.find_bias(v_, root_twist(static_cast<int>(t)), world_.gravity());
-    find_joint_forces(world_, tree, h, state, forces_[t]);
+    find_joint_forces(world_, tree, dynamics, h, state, forces_[t]);
     efforts += forces_[t].efforts;
     for (size_t i = 0; i < tree.coordinates.size(); ++i)
       efforts[tree.root_size() + static_cast<int>(i)] += feedforward_effort(world_, tree.coordinates[i], state);

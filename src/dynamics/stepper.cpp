@@ -9,6 +9,9 @@
 
 namespace clench {
 
+// Less than this part of a step is no time.
+static constexpr double rounding = 1e-6;
+
 Stepper::Stepper(World& world) : world_(world) { refresh(); }
 
 // The system follows from the model, the settings, and which joints follow their DOFs.
@@ -146,14 +149,15 @@ double Stepper::move(double dt) {
   }
   for (Manifold& m : state.manifolds) m.X_AB_left = relative_pose(world_, m.a, m.b);
   state.time += passed;
+  // the same moments however time is divided: sums of many steps are off by rounding
+  const double step = world_.dynamic_settings().step, whole = std::round(state.time / step) * step;
+  if (std::abs(whole - state.time) < rounding * step) state.time = whole;
   state.asked = dt;
   return passed;
 }
 
 bool Stepper::step(double end) {
   const double step = world_.dynamic_settings().step;
-  // of a step: what is less is no time. Ends that are sums of many steps are off by rounding.
-  constexpr double rounding = 1e-6;
   if (!(end - world_.time() > rounding * step)) return false;
   world_.context().progress().check();
   // Steps end at multiples of the step, after an impact as well: the same ones however a time is divided.
@@ -162,7 +166,6 @@ bool Stepper::step(double end) {
   if (std::abs(left - step) < rounding * step) left = step;
   const double h = move(left);
   double& time = world_.edit_dynamics().time;
-  if (std::abs(next - time) < rounding * step) time = next;
   if (std::abs(end - time) < rounding * step) time = end;
   solve(h);
   return true;

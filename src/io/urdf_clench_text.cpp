@@ -59,7 +59,7 @@ void ClenchText::add_dof(int number) {
        unless(0, "kp", dof.kp / scale / scale) + unless(0, "kd", dof.kd / scale / scale) +
        unless(0, "breakaway", dof.breakaway_torque / scale) +
        unless(0, "handle", dof.dragger_scale) + attribute("start", dof.default_value * scale) +
-       "/>");
+       (dof.driven ? "" : attribute("driven", std::string("false"))) + "/>");
 }
 
 /// A leader that turns against its DOF turns along in the file.

@@ -126,6 +126,7 @@ class World {
   /// Of an object, an obstacle that moves at it from then on, or a robot's base.
   /// throws  Error for a link or what is not finite
   void set_twist(Id<Body> id, const Twist& twist);
+  DofControl control(Id<Robot> robot, int dof) const;
   Eigen::VectorXd dof_velocities(Id<Robot> id) const;
   /// throws  Error on a wrong count or a number that is not finite
   void set_dof_velocities(Id<Robot> id, const Eigen::VectorXd& velocities);
@@ -185,6 +186,7 @@ class World {
   void check_free(Id<Robot> robot) const;
   /// What links do as base and joints have it; a step finds them anew.
   void update_link_twists(Id<Robot> robot);
+  DofControl first_control(const Robot& robot, size_t dof) const;
   void come_to_rest(Id<Body> body);
   /// with all that it carries; its motors hold it where it is
   void come_to_rest(Id<Robot> robot);

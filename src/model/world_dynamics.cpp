@@ -25,9 +25,28 @@ DynamicState& World::edit_dynamics() {
   state.dof_velocities.resize(state_.dofs.size());
   state.dof_efforts.resize(state_.dofs.size());
   state.joint_velocities.resize(state_.joints.size());
-  for (size_t i = state.controls.size(); i < state_.dofs.size(); ++i)
-    state.controls.push_back({.target = state_.dofs[i], .trajectory = {}});
+  const size_t known = state.controls.size();
+  state.controls.resize(state_.dofs.size());
+  for (const auto id : robots()) {
+    const Robot& r = robot(id);
+    for (size_t i = 0; i < r.dofs.size(); ++i)
+      if (const size_t index = r.first_dof + i; index >= known) state.controls[index] = first_control(r, i);
+  }
   return state;
+}
+
+// what a DOF does until it is told otherwise: a motor holds it, if it has one
+DofControl World::first_control(const Robot& r, size_t dof) const {
+  return {.mode = r.dofs[dof].driven ? ControlMode::position : ControlMode::effort,
+          .target = state_.dofs[r.first_dof + dof],
+          .trajectory = {}};
+}
+
+DofControl World::control(Id<Robot> id, int dof) const {
+  const Robot& r = robot(id);
+  const size_t index = r.first_dof + static_cast<size_t>(dof);
+  const DynamicState* state = state_.dynamics.get();
+  return state && index < state->controls.size() ? state->controls[index] : first_control(r, static_cast<size_t>(dof));
 }
 
 Twist World::twist(Id<Body> id) const {

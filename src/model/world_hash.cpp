@@ -61,8 +61,7 @@ static void add_motion(Hasher& h, const World& world) {
     const Robot& robot = world.robot(id);
     for (size_t i = robot.first_dof; i < robot.first_dof + robot.dofs.size(); ++i) {
       h.add(at(s.dof_velocities, i));
-      const double q = world.dofs(id)[static_cast<Eigen::Index>(i - robot.first_dof)];
-      add(h, i < s.controls.size() ? s.controls[i] : DofControl{.target = q, .trajectory = {}});
+      add(h, world.control(id, static_cast<int>(i - robot.first_dof)));
     }
     for (size_t j = robot.first_joint; j < robot.first_joint + robot.joints.size(); ++j) h.add(at(s.joint_velocities, j));
   }

@@ -22,6 +22,7 @@ enum class JointKind { revolute, prismatic };
 struct DofSpec {
   std::string name = {};  ///< as its file calls it; empty: it has none
   DofKind kind = DofKind::rigid;
+  bool driven = true;           ///< false: no motor holds it while a world runs, unless one is asked to
   double default_velocity = 0;  ///< of closing [rad/s or m/s]; 0 does not move
   double max_effort = 0;        ///< [N m or N]
   double max_velocity = 0;      ///< [rad/s or m/s]; 0: not known

@@ -45,25 +45,23 @@ local function clear(list)
   for i = #list, kept + 1, -1 do list[i] = nil end
 end
 
--- those that are added meanwhile take part
-local function call_all(list, time, ...)
-  local i = 1
-  while list and list[i] do
-    local handle = list[i]
-    if handle.status == "waiting" and is_due(handle, time()) then call(handle, ...) end
-    i = i + 1
+-- Those that wait, in their order; those that are added meanwhile begin with the next step.
+local function each(list, visit)
+  for i = 1, list and #list or 0 do
+    if list[i].status == "waiting" then visit(list[i]) end
   end
 end
 
+local function call_observers(world, list)
+  each(list, function(handle)
+    if is_due(handle, world.time) then call(handle, world) end
+  end)
+end
+
 local function call_controllers(world, list)
-  local i = 1
-  while list and list[i] do
-    local handle = list[i]
-    if handle.status == "waiting" and is_due(handle, world.time) then
-      call(handle, world, handle.rate and 1 / handle.rate or world.time_step)
-    end
-    i = i + 1
-  end
+  each(list, function(handle)
+    if is_due(handle, world.time) then call(handle, world, handle.rate and 1 / handle.rate or world.time_step) end
+  end)
 end
 
 -- Does what it waits for let it go on?   returns also what its wait gives
@@ -100,21 +98,11 @@ local function go_on(handle, world)
   handle.order.begun = world.time
 end
 
-local function call_tasks(world, list)
-  local i = 1
-  while list and list[i] do
-    if list[i].status == "waiting" then go_on(list[i], world) end
-    i = i + 1
-  end
-end
-
 local function tell(list, events)
   for _, event in ipairs(events) do
-    local i = 1
-    while list[i] do
-      if list[i].status == "waiting" and list[i].event == event.kind then call(list[i], event) end
-      i = i + 1
-    end
+    each(list, function(handle)
+      if handle.event == event.kind then call(handle, event) end
+    end)
   end
 end
 
@@ -131,19 +119,18 @@ return function(hooks, world, seconds, stepping, step, events)
     hooks.runs = nil
     for _, name in ipairs {"controllers", "tasks", "listeners", "observers"} do clear(hooks[name]) end
   end})
-  local function time() return world.time end
   local last = world.time + seconds
-  call_all(hooks.observers, time, world)
+  call_observers(world, hooks.observers)
   -- as Stepper::step: less is no time
   while last - world.time > 1e-6 * world.time_step do
     local before = world.time
     call_controllers(world, hooks.controllers)
-    call_tasks(world, hooks.tasks)
+    each(hooks.tasks, function(handle) go_on(handle, world) end)
     -- one that went to another moment runs as long as it was asked to from there
     if world.time ~= before then last = last + (world.time - before) end
     if not step(stepping, last) then break end
     if hooks.listeners and #hooks.listeners > 0 then tell(hooks.listeners, events(stepping, hooks[1])) end
-    call_all(hooks.observers, time, world)
+    call_observers(world, hooks.observers)
     if #(hooks.tasks or {}) > 64 then clear(hooks.tasks) end
   end
 end

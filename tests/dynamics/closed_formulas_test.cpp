@@ -329,12 +329,17 @@ TEST_CASE("the fingerprint of a world tells all that makes it move otherwise, an
 
 TEST_CASE("a body that is put down with its faces touching, or a little above, sticks by static friction") {
   for (const double gap : {0.0, 1e-6, 1e-5, 2.5e-5, 9e-5, 1.1e-4, 5e-4}) {
+    CAPTURE(gap);
     Slope slope(26 * degree);
     // tan 26 degrees is 0.488
     slope.world.set_friction("wood", "wood", {.statics = 0.5, .kinetic = 0.3});
     const auto id = slope.put("box", box(0.06, 0.06, 0.04), 0.44, Pose::translation({0, 0, 0.02 + gap}));
     run(slope.world, 0.3);
-    CHECK(std::abs(slope.speed(id)) < 1e-6);
+    // what has fallen 0.4 mm arrives at 39 mm/s along the slope, of which kinetic friction takes 24: it slides on
+    if (gap == 5e-4)
+      CHECK(slope.speed(id) > 0.3);
+    else
+      CHECK(std::abs(slope.speed(id)) < 1e-6);
     CHECK(slope.world.dynamics()->report.failures == 0);
   }
 }

@@ -265,14 +265,21 @@ TEST_CASE("what a scene's bits and excludes keep apart never meets, nor what is 
 
 TEST_CASE("what a scene holds and a world does not is told, one warning a kind of element") {
   const ToldWorld told("<light/><light/><geom type='hfield' hfield='h'/>" + mug,
-                       "<option timestep='1'/><sensor/><visual/>");
+                       "<option wind='1 0 0'/><sensor/><visual/>");
   CHECK(told.warned("<light> is not used, nor is another one"));
   CHECK(told.warned("<sensor> is not used"));
-  CHECK(told.warned("of <option>, here and further on, not used: timestep"));
+  CHECK(told.warned("of <option>, here and further on, not used: wind"));
   CHECK(told.warned("geom: no obstacle is made of a hfield here; it is not used"));
   CHECK(ToldWorld("<body name='b'><geom type='plane' size='1 1 1'/><geom size='1'/></body>")
             .warned("geom: a plane is no part of a body here; it is not used"));
   CHECK(failure("<light/>").ends_with("scene.xml: expected bodies or geoms in <worldbody>, got none"));
+}
+
+TEST_CASE("a scene's time step is the world's") {
+  CHECK(ToldWorld(mug, "<option timestep='0.002'/>").world.time_step == 0.002);
+  CHECK(!ToldWorld(mug).world.time_step);
+  CHECK(failure(mug, "<option timestep='0'/>").find("option: timestep: ") != std::string::npos);
+  CHECK(failure(mug, "<option timestep='nan'/>").find("option: timestep: ") != std::string::npos);
 }
 
 TEST_CASE("names that are none are repaired") {

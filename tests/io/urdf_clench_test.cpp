@@ -58,7 +58,8 @@ TEST_CASE("what is wrong in <clench> is told by file and line") {
   check_refused("<dof joint='k'/>", "dof: joint: no joint 'k' that leads a DOF");
   check_refused("<dof joint='j' spede='1'/>",
                 "dof: unknown attribute 'spede', expected one of joint, kind, velocity, kp, kd, "
-                "breakaway, handle, start");
+                "breakaway, handle, start, driven");
+  check_refused("<dof joint='j' driven='no'/>", "dof: driven: expected true or false, got 'no'");
   check_refused("<dof joint='j' kind='soft'/>",
                 "dof: kind: expected rigid, breakaway or compliant, got 'soft'");
   check_refused("<dof joint='j' breakaway='-1'/>",

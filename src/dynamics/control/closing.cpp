@@ -43,7 +43,7 @@ void close_by_motors(World& world, Id<Robot> id, double speed) {
 
 // the original's test: each chain's last link touches something, or its last joint is within 0.03 of its limit
 bool has_closed(const World& world, Id<Robot> id) {
-  constexpr double near = 0.03;
+  constexpr double near = 0.03, still = 1e-3;  // [rad or m], [rad/s or m/s]
   const Robot& robot = world.robot(id);
   const DynamicState* state = world.dynamics();
   for (const Chain& chain : robot.chains) {
@@ -58,6 +58,9 @@ bool has_closed(const World& world, Id<Robot> id) {
       const Joint& joint = robot.joints[joints.back()];
       const double rate = robot.dofs[joint.dof].default_velocity;
       const double q = world.dofs(id)[joint.dof];
+      const DofControl control = world.control(id, joint.dof);
+      const bool over = control.trajectory && world.time() >= control.trajectory->begin + control.trajectory->duration;
+      done = done || (over && std::abs(world.dof_velocities(id)[joint.dof]) < still);
       done = done || rate == 0 || std::abs(robot.limits[joint.dof][rate > 0 ? 1 : 0] - q) < near;
     }
     if (!done) return false;

@@ -12,7 +12,8 @@ void close_by_motors(World& world, Id<Robot> robot, double speed);
 /// Sends one DOF to a value, in a time that its largest speed is `velocity` [rad/s or m/s]; see Trajectory.
 void send_dof(World& world, Id<Robot> robot, int dof, double target, double velocity);
 
-/// Of every chain, does the last link touch something, or is its last joint's DOF within 0.03 rad of the limit that it closes to?
+/// Of every chain: does its last link touch something, is its last joint's DOF within 0.03 of the limit that it closes to, or has it
+/// come to rest after the time in which it was to close?
 bool has_closed(const World& world, Id<Robot> robot);
 
 }  // namespace clench

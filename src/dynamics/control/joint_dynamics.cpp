@@ -27,13 +27,14 @@ JointDynamics joint_dynamics(const World& world, Id<Robot> id) {
   }
   TreeDynamics dynamics;
   dynamics.place(world, *tree);
-  const Eigen::VectorXd bias = dynamics.find_bias(v, root, world.gravity());
+  Eigen::VectorXd bias = dynamics.find_bias(v, root, world.gravity());
   JointForces forces;
   // damping of an endless short step
   constexpr double h = 1e-9;
-  find_joint_forces(world, *tree, h, state, forces);
+  find_joint_forces(world, *tree, dynamics, h, state, forces);
   const Eigen::VectorXd own = v.segment(tree->first, tree->size());
-  const Eigen::VectorXd passive = forces.velocity_part.cwiseProduct(own) / h - forces.efforts;
+  const Eigen::VectorXd passive = forces.velocity_part.cwiseProduct(own) / h - (forces.efforts - forces.weight);
+  bias -= forces.weight;
   Eigen::MatrixXd mass = dynamics.mass_matrix();
   mass.diagonal() += forces.added - forces.velocity_part;
 

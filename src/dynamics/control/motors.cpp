@@ -40,8 +40,8 @@ static bool is_compliant(const Robot& robot, const Coordinate& c) {
   return robot.dofs[c.dof].kind == DofKind::compliant;
 }
 
-void find_joint_forces(const World& world, const Articulation& tree, double h, const DynamicState& state,
-                       JointForces& out) {
+void find_joint_forces(const World& world, const Articulation& tree, const TreeDynamics& dynamics, double h,
+                       const DynamicState& state, JointForces& out) {
   out.efforts.setZero(tree.size());
   out.velocity_part.setZero(tree.size());
   out.added.setZero(tree.size());
@@ -60,6 +60,15 @@ void find_joint_forces(const World& world, const Articulation& tree, double h, c
     out.added[part.coordinate] += r * r * joint.armature;
   }
   out.added += out.velocity_part;
+  out.weight.setZero(tree.size());
+  if (tree.floating || tree.coordinates.empty()) return;
+  const Eigen::VectorXd weight = dynamics.weight(world.gravity());
+  for (int i = 0; i < static_cast<int>(tree.coordinates.size()); ++i) {
+    const Coordinate& c = tree.coordinates[i];
+    if (world.dynamic_settings().robot(c.robot).gravity_compensation && world.robot(c.robot).dofs[c.dof].driven)
+      out.weight[tree.root_size() + i] = weight[tree.root_size() + i];
+  }
+  out.efforts += out.weight;
 }
 
 double feedforward_effort(const World& world, const Coordinate& c, const DynamicState& state) {

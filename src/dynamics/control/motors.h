@@ -20,14 +20,17 @@ struct CoordinateRow {
 /// Forces on the coordinates of a tree, and what is added to its mass matrix so that springs and dampers act as they are when
 /// the step ends.
 struct JointForces {
-  Eigen::VectorXd efforts;  ///< [N m or N]
+  Eigen::VectorXd efforts;  ///< of all of them [N m or N]
+  Eigen::VectorXd weight;   ///< that motors carry, of that [N m or N]
   Eigen::VectorXd added;    ///< to the diagonal of the mass matrix
   /// the part of it that acts on velocities, not on their change: damping h d and springs h^2 k
   Eigen::VectorXd velocity_part;
 };
 
+/// Springs, friction, and what motors give to carry the robot's own weight where they are to.
 /// h  length of the step [s]
-void find_joint_forces(const World& world, const Articulation& tree, double h, const DynamicState& state, JointForces& out);
+void find_joint_forces(const World& world, const Articulation& tree, const TreeDynamics& dynamics, double h,
+                       const DynamicState& state, JointForces& out);
 
 /// Motors, limits, dry friction, and locks of joints that have left their DOF.
 /// mass_matrix  of the tree, armature included: gains that no file gives follow from it

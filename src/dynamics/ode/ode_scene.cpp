@@ -165,9 +165,6 @@ void OdeScene::base_impulse(const Articulation& tree, int number) {
 void OdeScene::add_forces(const Articulation& tree, int number) {
   OdeTree& out = trees_[number];
   const DynamicState& state = *world_.dynamics();
-  std::vector<bool> weightless(out.nodes.size());
-  for (size_t i = 0; i < tree.joints.size(); ++i)
-    weightless[i + 1] = !tree.floating && world_.dynamic_settings().robot(tree.joints[i].robot).gravity_compensation;
   for (size_t i = 0; i < out.nodes.size(); ++i) {
     OdeNode& node = out.nodes[i];
     if (!node.free) continue;
@@ -177,7 +174,7 @@ void OdeScene::add_forces(const Articulation& tree, int number) {
       const Eigen::Vector3d spin = node.inertia * node.w;
       node.torque = -node.inertia * node.turning - node.w.cross(spin);
     }
-    if (!weightless[i]) node.force += node.mass * world_.gravity();
+    node.force += node.mass * world_.gravity();
   }
   for (const TreeBody& part : tree.bodies) {
     OdeNode& node = out.nodes[part.joint + 1];

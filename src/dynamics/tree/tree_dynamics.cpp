@@ -58,9 +58,7 @@ void TreeDynamics::place(const World& world, const Articulation& tree) {
 
 void TreeDynamics::place_joints(const World& world) {
   S_.resize(tree_->joints.size());
-  weightless_.assign(tree_->joints.size() + 1, false);
   Id<Robot> framed;
-  bool weightless = false;
   for (size_t i = 0; i < S_.size(); ++i) {
     const ArticulationJoint& joint = tree_->joints[i];
     const Robot& robot = world.robot(joint.robot);
@@ -68,14 +66,12 @@ void TreeDynamics::place_joints(const World& world) {
       framed = joint.robot;
       const auto q = world.joints(framed);
       find_frames(robot, world.pose(robot.base), {q.data(), robot.joints.size()}, frames_);
-      weightless = world.dynamic_settings().robot(framed).gravity_compensation && !tree_->floating;
     }
     const Eigen::Vector3d axis = frames_.axis(robot, joint.joint).normalized();
     if (joint.slides)
       S_[i] << axis, Eigen::Vector3d::Zero();
     else
       S_[i] << (frames_.joints[joint.joint].position - about_).cross(axis), axis;
-    weightless_[i + 1] = weightless;
   }
 }
 
@@ -124,7 +120,6 @@ void TreeDynamics::find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* 
   }
   for (size_t i = 0; i <= joints.size(); ++i) {
     force_[i] = own_[i] * acceleration_[i] + cross_force(velocity_[i], own_[i] * velocity_[i]);
-    if (weightless_[i]) continue;
     force_[i].head<3>() -= own_[i].mass * gravity;
     force_[i].tail<3>() -= own_[i].moment.cross(gravity);
   }
@@ -161,6 +156,16 @@ const std::vector<double>& TreeDynamics::inverse_dynamics(const Eigen::VectorXd&
     force_[joints[i].parent + 1] += force_[i + 1];
   }
   return joint_efforts_;
+}
+
+Eigen::VectorXd TreeDynamics::weight(const Eigen::Vector3d& gravity) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(tree_->size());
+  for (size_t i = 0; i < tree_->joints.size(); ++i) {
+    Vector6d force;
+    force << all_[i + 1].mass * gravity, all_[i + 1].moment.cross(gravity);
+    out[tree_->joints[i].coordinate] -= tree_->joints[i].ratio * S_[i].dot(force);
+  }
+  return out;
 }
 
 Eigen::VectorXd TreeDynamics::base_impulse(const Vector6d& change) const {

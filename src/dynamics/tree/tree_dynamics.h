@@ -32,7 +32,7 @@ class TreeDynamics {
   void place(const World& world, const Articulation& tree);
   /// Forces that velocities cause, on each coordinate: M dv/dt = efforts - bias.
   /// root_twist  of a root that moves as prescribed, at the point about() [m/s, rad/s]
-  /// gravity     [m/s^2]; a robot that compensates its weight does not feel it
+  /// gravity     [m/s^2]
   /// returns     bias, one per coordinate [N or N m]
   const Eigen::VectorXd& find_bias(const Eigen::VectorXd& v, const Vector6d& root_twist, const Eigen::Vector3d& gravity);
   /// What must act on each joint, beside what acts on bodies, so that velocities change as they do. Recursive Newton and Euler.
@@ -41,6 +41,8 @@ class TreeDynamics {
   /// returns one per joint of the tree, for its own unit [N m or N]
   const std::vector<double>& inverse_dynamics(const Eigen::VectorXd& v, const Eigen::VectorXd& change, const Vector6d& root_twist,
                                               const Eigen::Vector3d& gravity, const std::vector<Vector6d>& loads);
+  /// What on each coordinate carries the weight of all that it moves [N m or N].
+  Eigen::VectorXd weight(const Eigen::Vector3d& gravity) const;
   /// Impulses on the coordinates when the velocity of a base that moves as prescribed changes at once.
   Eigen::VectorXd base_impulse(const Vector6d& change_of_root) const;
   /// Adds to the diagonal what acts like mass (armature; damping h d and springs h^2 k, taken at the step's end), and factors.
@@ -75,7 +77,6 @@ class TreeDynamics {
   std::vector<SpatialInertia> own_, all_;   // by joint + 1, the root first: of what it carries directly, and with all beyond
   std::vector<Vector6d> velocity_, acceleration_, force_;
   std::vector<double> joint_efforts_;
-  std::vector<bool> weightless_;
   Eigen::MatrixXd M_, L_;
   Eigen::VectorXd bias_;
   RobotFrames frames_;

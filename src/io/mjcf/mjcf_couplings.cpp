@@ -420,12 +420,12 @@ void Couplings::read_actuator(const XmlElement& element) {
 }
 
 void Couplings::mark_passive() {
+  for (auto& joint : tree_.joints) joint.driven = false;
+  for (const int number : driven_)
+    if (leader_of(number) >= 0) tree_.joints[leader_of(number)].driven = true;
+  // of a model without actuators all joints may be meant to close
   if (!has_actuators_) return;
-  for (auto& joint : tree_.joints) joint.passive = true;
-  for (const int number : driven_) {
-    if (leader_of(number) < 0) continue;
-    tree_.joints[leader_of(number)].passive = false;
-  }
+  for (auto& joint : tree_.joints) joint.passive = !joint.driven;
   std::string names;
   int count = 0;
   for (const auto& joint : tree_.joints)

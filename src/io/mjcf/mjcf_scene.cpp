@@ -360,7 +360,11 @@ void SceneReader::read_options() {
   for (const MjcfNode& node : model_.document().root().children) {
     if (node.name() != "option") continue;
     const XmlValues values(node.element);
-    model_.document().unused().attributes(node.element, {"gravity"});
+    model_.document().unused().attributes(node.element, {"gravity", "timestep"});
+    if (values.has("timestep")) {
+      world_.time_step = values.number("timestep", 0);
+      if (const auto wrong = fault(time_step_rule, *world_.time_step); !wrong.empty()) values.fail("timestep", "{}", wrong);
+    }
     for (const MjcfNode& child : node.children) {
       const XmlValues flags(child.element);
       if (child.name() == "flag" && flags.word("gravity", {"enable", "disable"}, "enable") ==

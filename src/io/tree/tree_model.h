@@ -25,7 +25,8 @@ struct TreeJoint {
   double armature = 0;                                    ///< likewise
   double kp = 0, kd = 0;                                  ///< as DofSpec
   double start = 0;                                       ///< value of a leader at first [rad or m]
-  bool passive = false;                                   ///< no motor drives it
+  bool passive = false;                                   ///< no motor closes it
+  bool driven = true;                                     ///< as DofSpec
   int leader = -1;  ///< index into joints; -1: a DOF of its own
   double ratio = 1, offset = 0;
 };

@@ -51,6 +51,7 @@ void RobotMaker::number_dofs() {
     dof.kp = joint.kp;
     dof.kd = joint.kd;
     dof.default_value = joint.start;
+    dof.driven = joint.driven;
     robot_.dofs.push_back(dof);
     passive_.push_back(joint.passive);
   }

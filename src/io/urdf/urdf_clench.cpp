@@ -103,7 +103,7 @@ int ClenchReader::part(const XmlValues& values, const char* attribute) const {
 }
 
 void ClenchReader::read_dof(const XmlElement& element) {
-  expect_only(element, {"joint", "kind", "velocity", "kp", "kd", "breakaway", "handle", "start"});
+  expect_only(element, {"joint", "kind", "velocity", "kp", "kd", "breakaway", "handle", "start", "driven"});
   const XmlValues values(element);
   DofSpec& dof = robot_.dofs[this->dof(values, "joint")];
   once(element, dof.name);
@@ -116,6 +116,7 @@ void ClenchReader::read_dof(const XmlElement& element) {
   dof.kd = checked(values, "kd", 0, number_rule);
   dof.breakaway_torque = checked(values, "breakaway", 0, not_negative_rule);
   dof.dragger_scale = checked(values, "handle", 0, number_rule);
+  dof.driven = values.word("driven", {"true", "false"}, "true") == "true";
   dof.default_value = checked(values, "start", dof.default_value, limit_rule);
 }
 

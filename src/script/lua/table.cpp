@@ -26,6 +26,12 @@ int Table::push(const char* key) {
   return lua_rawget(L_, index_);
 }
 
+void Table::push_required(const char* key) {
+  if (push(key) != LUA_TNIL || !index_) return;
+  for (lua_pushnil(L_); lua_next(L_, index_); lua_pop(L_, 1))
+    if (lua_type(L_, -2) == LUA_TSTRING && !did_you_mean(string_at(L_, -2), {key}).empty()) refuse(lua_absindex(L_, -2));
+}
+
 bool Table::has(const char* key) {
   const bool there = push(key) != LUA_TNIL;
   lua_pop(L_, 1);
@@ -33,7 +39,7 @@ bool Table::has(const char* key) {
 }
 
 double Table::number(const char* key) {
-  push(key);
+  push_required(key);
   const double x = read_number(L_, -1, what(key));
   lua_pop(L_, 1);
   return x;
@@ -48,7 +54,7 @@ double Table::positive(const char* key, double fallback) {
 }
 
 int Table::integer(const char* key) {
-  push(key);
+  push_required(key);
   const int n = read_int(L_, -1, what(key));
   lua_pop(L_, 1);
   return n;
@@ -73,7 +79,7 @@ bool Table::boolean(const char* key, bool fallback) {
 }
 
 std::string Table::string(const char* key) {
-  push(key);
+  push_required(key);
   std::string text = read_string(L_, -1, what(key));
   lua_pop(L_, 1);
   return text;
@@ -93,7 +99,7 @@ std::string Table::choice(const char* key, const std::vector<std::string>& names
 }
 
 Eigen::Vector3d Table::vec3(const char* key) {
-  push(key);
+  push_required(key);
   const Eigen::Vector3d v = read_vec3(L_, -1, what(key));
   lua_pop(L_, 1);
   return v;
@@ -104,7 +110,7 @@ Eigen::Vector3d Table::vec3(const char* key, const Eigen::Vector3d& fallback) {
 }
 
 Pose Table::pose(const char* key) {
-  push(key);
+  push_required(key);
   const Pose pose = read_pose(L_, -1, what(key));
   lua_pop(L_, 1);
   return pose;

@@ -55,6 +55,8 @@ class Table {
 
  private:
   [[noreturn]] void refuse(int key) const;
+  /// throws Error when the key is absent, and one that nobody asked for reads nearly like it
+  void push_required(const char* key);
 
   lua_State* L_;
   int index_;  // 0: no table

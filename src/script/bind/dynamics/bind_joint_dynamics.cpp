@@ -91,7 +91,7 @@ Forces on its DOFs that velocities cause (Coriolis, centrifugal), and weight, un
 give so that no DOF accelerates, joints without springs and friction.
 @return number[] forces  one per DOF [N m or N]
 > hand.gravity_compensation = true
-> math.abs(hand:bias_forces()[1])  --> 0.0)"},
+> math.abs(hand:bias_forces()[1]) < 1e-12  --> true)"},
     {"inverse_dynamics", guarded<inverse_dynamics>, R"(
 Forces that its motors have to give for these accelerations of the DOFs, where nothing touches it: mass matrix, bias forces,
 springs and viscous friction of the joints; not their dry friction.

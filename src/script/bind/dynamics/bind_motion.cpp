@@ -17,9 +17,10 @@ static int get_velocity(lua_State* L) {
 
 static int set_velocity(lua_State* L) {
   const auto body = self_body(L);
+  if (!lua_istable(L, 2) || lua_rawlen(L, 2) > 0) fail_expected({L, {}, ""}, "{linear = {x, y, z}, angular = {x, y, z}}", 2);
   Table table(L, 2);
-  const Eigen::Vector3d linear = table.vec3("linear", Eigen::Vector3d::Zero());
-  const Eigen::Vector3d angular = table.vec3("angular", Eigen::Vector3d::Zero());
+  const Twist now = body.world->twist(body.id);
+  const Eigen::Vector3d linear = table.vec3("linear", now.linear), angular = table.vec3("angular", now.angular);
   table.done();
   body.world->set_twist(body.id, {linear, angular});
   return 0;
@@ -69,7 +70,7 @@ static int set_surface_velocity(lua_State* L) {
 static const Entry fields[] = {
     {"velocity", guarded<get_velocity>, R"(
 Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are
-told, whatever they push. Setting a pose brings a body to rest.
+told, whatever they push. A table of its own; one that is set changes what it names. Setting a pose brings a body to rest.
 @type {linear: vec3, angular: vec3}  [m/s], [rad/s]
 > flask.velocity = {linear = {0, 0, 1}}
 > flask.velocity.linear  --> (0, 0, 1)

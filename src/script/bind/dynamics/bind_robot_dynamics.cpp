@@ -34,10 +34,9 @@ static constexpr const char* mode_names[] = {"position", "velocity", "effort"};
 
 static int get_controller(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  const DynamicState* state = robot.world->dynamics();
-  if (robot->dofs.empty() || !state || state->controls.size() <= robot->first_dof) return push(L, "position");
-  const auto mode = [&](size_t dof) { return state->controls[robot->first_dof + dof].mode; };
-  for (size_t dof = 1; dof < robot->dofs.size(); ++dof)
+  if (robot->dofs.empty()) return push(L, "position");
+  const auto mode = [&](int dof) { return robot.world->control(robot.id, dof).mode; };
+  for (int dof = 1; dof < static_cast<int>(robot->dofs.size()); ++dof)
     if (mode(dof) != mode(0)) return push(L, "mixed");
   return push(L, mode_names[static_cast<int>(mode(0))]);
 }
@@ -155,7 +154,9 @@ What its motors gave in the last step.
 > hand.dof_efforts[1]  --> 0.0)"},
     {"controller", guarded<get_controller>, R"(
 What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities
-that are asked for; "effort", they give the forces that set_forces says, and nothing else; "none" is another word for that. "mixed": not all the same.
+that are asked for; "effort", they give the forces that set_forces says, and nothing else, as DOFs that no actuator of a MuJoCo
+file drives do at first ("none" is another word for it); "mixed": not all the same. `set_targets`, `set_target_velocities` and
+`autograsp {dynamic = true}` switch the DOFs that they move.
 @type string
 > hand.controller  --> position
 > hand.controller = "none"
@@ -195,7 +196,8 @@ The velocities that its motors are to keep.
 @param velocities number[]  [rad/s or m/s]
 > hand:set_target_velocities {1}  --> error: expected 12)"},
     {"has_closed", guarded<has_closed_now>, R"(
-Has every finger come to its limit, or does its last link touch something?
+Has every finger closed: does its last link touch something, is it at its limit, or has it come to rest after the time in which
+it was to close?
 @return boolean
 > hand:has_closed()  --> false)"},
 };

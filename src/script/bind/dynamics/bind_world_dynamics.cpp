@@ -21,22 +21,52 @@ static double check_time(lua_State* L, int i, const char* name, double least) {
 
 // --- time ---
 
+// What happened in a run that its user does not expect: told once.
+static void tell_trouble(lua_State* L, const World& world, const StepReport& before) {
+  static const char overlaps = 0, failures = 0;
+  if (!world.dynamics()) return;
+  const StepReport& report = world.dynamics()->report;
+  if (report.overlaps > before.overlaps) {
+    std::vector<BodyPair> pairs;
+    for (const Manifold& m : world.dynamics()->manifolds)
+      if (m.clearance == 0) pairs.emplace_back(m.a, m.b);
+    const std::string which = pairs.empty() ? "for a time" : "still (" + describe(world, pairs) + ")";
+    warn_once(L, &overlaps, fmt::format("{}: bodies overlapped, {}; they are pushed apart slowly; "
+                                        "world.report.overlaps counts such steps", subject(L), which));
+  }
+  if (report.failures > before.failures)
+    warn_once(L, &failures, fmt::format("{}: some steps ask of contacts, limits and motors what cannot be at once; "
+                                        "what comes nearest was done; world.report.failures counts them", subject(L)));
+}
+
 static int run(lua_State* L) {
   const double duration = check_time(L, 2, "seconds", 0);
   const WorldPtr world = self<WorldHandle>(L).world;
+  const StepReport before = world->dynamics() ? world->dynamics()->report : StepReport{};
   if (push_hooks(L, world, false))
     run_with_hooks(L, world, duration);
   else
     Stepper(*world).run(duration);
+  tell_trouble(L, *world, before);
   return 0;
 }
 
+// halves of a step within a run would be steps that it does not know of
+static void check_not_running(lua_State* L) {
+  if (!push_hooks(L, self<WorldHandle>(L).world, false)) return;
+  lua_getfield(L, -1, "runs");
+  if (lua_toboolean(L, -1)) fail("{}: the world runs already: what is called in a run cannot step it", subject(L));
+  lua_pop(L, 2);
+}
+
 static int move_bodies(lua_State* L) {
+  check_not_running(L);
   const double dt = check_time(L, 2, "dt", time_step_rule.min);
   return push(L, Stepper(world_of(L)).move(dt));
 }
 
 static int solve_velocities(lua_State* L) {
+  check_not_running(L);
   const double h = check_time(L, 2, "h", 1e-12);
   Stepper(world_of(L)).solve(h);
   return 0;

@@ -84,9 +84,10 @@ static const char* dof_kind(DofKind kind) {
 
 static int get_dof_info(lua_State* L) {
   return push_list_of(L, self<RobotHandle>(L)->dofs, [&](const DofSpec& dof) {
-    push_list(L, 0, 8);
+    push_list(L, 0, 9);
     if (!dof.name.empty()) set_field(L, "name", std::string_view(dof.name));
     set_field(L, "kind", dof_kind(dof.kind));
+    set_field(L, "driven", dof.driven);
     set_field(L, "default_velocity", dof.default_velocity);
     set_field(L, "max_effort", dof.max_effort);
     if (dof.max_velocity > 0) set_field(L, "max_velocity", dof.max_velocity);
