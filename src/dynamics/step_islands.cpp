@@ -119,7 +119,7 @@ void Stepper::solve_island(const std::vector<int>& blocks) {
   if (!held) {
     assemble(local, count);
     solution = solver_.solve(
-        problem_, warm, {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = 1, .speed = at_rest ? rest_tolerance : tolerance});
+        problem_, warm, {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = 1, .speed = tolerance});
   }
   for (int row = 0; row < row_count_; ++row) {
     if (local[row] < 0) continue;

@@ -95,9 +95,9 @@ void Stepper::add_contact(int manifold, int point, double h) {
     }
   }
   // what touches comes no nearer, and what is too near parts
-  const double step = std::max(world_.dynamic_settings().step, h), beyond = p.gap - rest_gap * world_.contact_threshold();
-  double target = 0;
-  if (beyond < -rest_band * world_.contact_threshold()) target = std::min(-pushed_part * beyond / step, pushed_at_most);
+  const double step = std::max(world_.dynamic_settings().step, h);
+  const double missing = (rest_gap - rest_band) * world_.contact_threshold() - p.gap;
+  double target = std::clamp(pushed_part * missing / step, 0.0, pushed_at_most);
   const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
   double slip = 0;
   for (int k = 0; k < size; ++k) {
