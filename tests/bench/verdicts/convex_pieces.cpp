@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "geometry/mesh/hull.h"
+#include "clench/geometry/mesh/hull.h"
 
 namespace clench::bench {
 
