@@ -4,6 +4,8 @@ local Trial = {}
 Trial.__index = Trial
 
 local every = 0.01  -- between two looks [s]
+-- Contacts act within this distance: points of a patch carry next to no torsion, as is asked of a grasp that is to hold elsewhere, too.
+local contact_threshold = 2e-5  -- [m]
 
 local function place_of(list, entity)
   for i, other in ipairs(list) do
@@ -27,6 +29,18 @@ local function remove_surroundings(world, hand, object)
   for _, list in ipairs {world.objects, world.obstacles} do
     for _, body in ipairs(list) do
       if body ~= object then world:remove(body) end
+    end
+  end
+end
+
+-- the hand counts on no more than a share of the friction between its materials and the object's
+local function share_friction(world, hand, object, share)
+  local done = {}
+  for _, body in ipairs(hand.bodies) do
+    if not done[body.material] then
+      local static, kinetic = world:friction(body.material, object.material)
+      world:set_friction(body.material, object.material, {static = static * share, kinetic = kinetic * share})
+      done[body.material] = true
     end
   end
 end
@@ -86,6 +100,7 @@ local function press(trial, job)
   local world, hand = trial.world, trial.hand
   local torques = job.grip == "forces" and grip_torques(hand, trial.object, job.grip_force)
   trial.grip = torques and "forces" or "close"
+  world.contact_threshold = math.min(world.contact_threshold, contact_threshold)
   if not torques then
     hand:autograsp {dynamic = true}
     world:run(job.grip_seconds)
@@ -154,6 +169,7 @@ return function(job)
   object.mass = job.mass
   hold_robots(world)
   object.velocity = {}
+  if job.friction_share ~= 1 then share_friction(world, hand, object, job.friction_share) end
   local failures_before = world.report.failures
   set_gains(hand, object)
   world.gravity = {0, 0, 0}
