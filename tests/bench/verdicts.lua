@@ -34,8 +34,10 @@ end
 local function find(hand, object)
   local options = {hand = hand, object = object, threads = clench.parallel.cores, seed = 3}
   if kind == "verified" then
-    options.count, options.seconds, options.verify = count, 120, {shake = true}
-    return clench.plan.sample(options).grasps
+    options.count, options.seconds, options.verify = count, 25, {shake = true}
+    local found = {}
+    for i, grasp in ipairs(clench.plan.sample(options).grasps) do found[i] = grasp end
+    return found
   end
   options.count, options.candidates = 100000, 1000
   local all = {}

@@ -1,5 +1,7 @@
 --- A grasp that moves: a copy of its world in which the hand presses the object by its motors, and how far the object
 --- goes from where the hand held it then.
+local share_friction = require "clench.study.motion.share_friction"
+
 local Trial = {}
 Trial.__index = Trial
 
@@ -29,18 +31,6 @@ local function remove_surroundings(world, hand, object)
   for _, list in ipairs {world.objects, world.obstacles} do
     for _, body in ipairs(list) do
       if body ~= object then world:remove(body) end
-    end
-  end
-end
-
--- the hand counts on no more than a share of the friction between its materials and the object's
-local function share_friction(world, hand, object, share)
-  local done = {}
-  for _, body in ipairs(hand.bodies) do
-    if not done[body.material] then
-      local static, kinetic = world:friction(body.material, object.material)
-      world:set_friction(body.material, object.material, {static = static * share, kinetic = kinetic * share})
-      done[body.material] = true
     end
   end
 end
@@ -169,7 +159,7 @@ return function(job)
   object.mass = job.mass
   hold_robots(world)
   object.velocity = {}
-  if job.friction_share ~= 1 then share_friction(world, hand, object, job.friction_share) end
+  if job.friction_share ~= 1 then share_friction(hand, object, job.friction_share) end
   local failures_before = world.report.failures
   set_gains(hand, object)
   world.gravity = {0, 0, 0}
