@@ -1,5 +1,7 @@
 -- Grasps of URDF hands on scans, their verdicts by study.shake, and all that another engine needs to judge them again, as JSON: a file per pair.
--- clench run tests/bench/verdicts.lua FOLDER KIND [COUNT]    KIND: "random", force closure from random approaches; "verified", by plan.sample with shake
+-- clench run tests/bench/verdicts.lua FOLDER KIND [COUNT]
+--   KIND   "random", force closure from random approaches; "verified", by plan.sample with shake; "brief", two of our own hand on our own cylinder
+--   COUNT  of each pair
 package.path = "tests/bench/?.lua;" .. package.path
 local clench = require "clench"
 local describe = require "verdicts.describe"
@@ -21,11 +23,11 @@ end
 
 local function make(hand_name, object_name)
   local world = clench.world()
-  local hand = world:add_robot(data .. "hands-urdf/" .. hands[hand_name] .. ".urdf")
+  local hand = world:add_robot(kind == "brief" and "models/hands/three_finger/three_finger.cfg" or data .. "hands-urdf/" .. hands[hand_name] .. ".urdf")
   zero(hand)
   local out = {hand_name = hand_name, object_name = object_name, mu = mu, force = mass * 9.81, hand = describe.hand(hand)}
   hand:open()
-  local object = world:add_object(data .. "ycb/" .. objects[object_name] .. ".obj", {mass = mass, pose = clench.pose {xyz = {2, 0, 0}}})
+  local object = world:add_object(kind == "brief" and "models/objects/cylinder.iv" or data .. "ycb/" .. objects[object_name] .. ".obj", {mass = mass, pose = clench.pose {xyz = {2, 0, 0}}})
   out.object = describe.body(object)
   for _, body in ipairs(hand.bodies) do world:set_friction(body.material, object.material, {static = mu, kinetic = mu}) end
   return hand, object, out
@@ -64,8 +66,9 @@ local function judge(grasp, shared)
           load = require "clench.plan.verification".load(object, placed, shared.weights), held = verdict.held, survived = verdict.survived}
 end
 
-for _, object_name in ipairs {"apple", "can", "mustard", "banana"} do
-  for _, hand_name in ipairs {"allegro", "leap", "shadow", "barrett"} do
+if kind == "brief" then count = 2 end
+for _, object_name in ipairs(kind == "brief" and {"cylinder"} or {"apple", "can", "mustard", "banana"}) do
+  for _, hand_name in ipairs(kind == "brief" and {"three_finger"} or {"allegro", "leap", "shadow", "barrett"}) do
     local hand, object, out = make(hand_name, object_name)
     local grasps = find(hand, object)
     out.grasps = {}

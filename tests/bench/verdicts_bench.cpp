@@ -1,8 +1,8 @@
 // Verdicts of clench.study.shake beside those of the same test in Bullet, grasp by grasp.
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "bench/verdicts/bullet_grip.h"
@@ -25,11 +25,29 @@ struct Tally {
   }
 };
 
+// the file with convex pieces in place of meshes, for tests/bench/verdicts/mujoco.mjs
+void write_pieces(const std::string& from, const GripScene& scene, const std::string& to) {
+  nlohmann::json all;
+  std::ifstream(from) >> all;
+  const auto put = [](nlohmann::json& body, const GripBody& of) {
+    body.erase("mesh");
+    body["pieces"] = nlohmann::json::array();
+    for (const Points& piece : of.pieces) {
+      auto list = nlohmann::json::array();
+      for (const auto& p : piece) list.push_back({p.x(), p.y(), p.z()});
+      body["pieces"].push_back(list);
+    }
+  };
+  for (size_t i = 0; i < scene.links.size(); ++i) put(all["hand"]["links"][i], scene.links[i].body);
+  put(all["object"], scene.object);
+  std::ofstream(to) << all;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::vector<std::string> files;
-  std::string csv;
+  std::string csv, pieces;
   BulletGripOptions options;
   bool each = false;
   size_t limit = 1000000;
@@ -37,7 +55,9 @@ int main(int argc, char** argv) {
     const std::string word = argv[i];
     const auto value = [&] { return ++i < argc ? std::string(argv[i]) : std::string("0"); };
     if (word == "--each") each = true;
+    else if (word == "--brief") options.settle = 0.2, options.seconds = 0.2;
     else if (word == "--csv") csv = value();
+    else if (word == "--pieces") pieces = value();
     else if (word == "--step") options.step = std::stod(value());
     else if (word == "--kp") options.kp = std::stod(value());
     else if (word == "--kd") options.kd = std::stod(value());
@@ -46,13 +66,17 @@ int main(int argc, char** argv) {
     else files.push_back(word);
   }
   if (files.empty()) {
-    std::cerr << "usage: bench_verdicts [--each] [--csv FILE] [--limit COUNT] [--step S] [--kp N] [--kd N] [--iterations N] FILE...\n";
+    std::cerr << "usage: bench_verdicts [--each] [--brief] [--pieces FOLDER] [--csv FILE] [--limit COUNT] [--step S] [--kp N] [--kd N] [--iterations N] FILE...\n";
     return 2;
   }
-  std::printf("%-28s %5s %9s %9s %11s %9s %9s\n", "", "count", "survived", "in Bullet", "agreement", "verified", "in Bullet");
+  if (pieces.empty()) std::printf("%-28s %5s %9s %9s %11s %9s %9s\n", "", "count", "survived", "in Bullet", "agreement", "verified", "in Bullet");
   Tally all;
   for (const std::string& file : files) {
     const GripScene scene = read_grip_scene(file);
+    if (!pieces.empty()) {
+      write_pieces(file, scene, pieces + "/" + file.substr(file.find_last_of('/') + 1));
+      continue;
+    }
     const size_t count = std::min(limit, scene.grasps.size());
     std::vector<BulletVerdict> verdicts(count);
     std::vector<std::thread> threads;
@@ -72,6 +96,7 @@ int main(int argc, char** argv) {
     }
     tally.print(scene.hand_name + ", " + scene.object_name);
   }
+  if (!pieces.empty()) return 0;
   all.print("all");
   if (!csv.empty()) {
     std::ofstream out(csv);

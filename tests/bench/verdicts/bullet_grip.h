@@ -7,7 +7,7 @@ namespace clench::bench {
 struct BulletGripOptions {
   double step = 0.0005;              // [s]
   double kp = 5, kd = 0.1;           // of the servos that hold the posture [N m/rad, N m s/rad]; 100 times that for joints that slide
-  int iterations = 50;
+  int iterations = 20;
   double grip_seconds = 0.5, settle = 1, seconds = 2;
   double max_distance = 0.05, max_angle = 0.2617993877991494;  // [m, rad]
 };

@@ -35,7 +35,7 @@ Hull hull_of(const std::vector<Triangle>& triangles) {
 // of many corners those farthest along directions spread evenly over the sphere: within a thousandth of the size, and few enough for engines
 // that go through all of them for each contact
 Points thinned(const Points& points) {
-  constexpr int count = 500;
+  constexpr int count = 300;
   if (int(points.size()) <= count / 2) return points;
   std::set<size_t> kept;
   for (int i = 0; i < count; ++i) {
