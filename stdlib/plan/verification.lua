@@ -6,7 +6,7 @@ local verification = {}
 verification.defaults = {displacement = 0.001, force_ratio = 10, min_load = 2, min_slippery_load = 0, min_epsilon = 0.01, lift = 0.1}
 
 --- min_slippery_load of grasps that are shaken, too
-verification.min_slippery_load_of_shaken = 1.5
+verification.min_slippery_load_of_shaken = 2
 
 --- the six directions in which the object is displaced and pulled, in the world
 verification.directions = {clench.vec3(1, 0, 0), clench.vec3(-1, 0, 0), clench.vec3(0, 1, 0), clench.vec3(0, -1, 0),

@@ -1,6 +1,6 @@
 -- Grasps of URDF hands on scans, their verdicts by study.shake, and all that another engine needs to judge them again, as JSON: a file per pair.
 -- clench run tests/bench/verdicts.lua FOLDER KIND [COUNT]
---   KIND   "random", force closure from random approaches; "verified", by plan.sample with shake; "brief", two of our own hand on our own cylinder
+--   KIND   "random", force closure from random approaches; "verified", by plan.sample with shake; "brief", two of our own hand on our own cube
 --   COUNT  of each pair
 package.path = "tests/bench/?.lua;" .. package.path
 local clench = require "clench"
@@ -23,11 +23,11 @@ end
 
 local function make(hand_name, object_name)
   local world = clench.world()
-  local hand = world:add_robot(kind == "brief" and "models/hands/three_finger/three_finger.cfg" or data .. "hands-urdf/" .. hands[hand_name] .. ".urdf")
+  local hand = world:add_robot(kind == "brief" and "models/hands/parallel_jaw/parallel_jaw.cfg" or data .. "hands-urdf/" .. hands[hand_name] .. ".urdf")
   zero(hand)
   local out = {hand_name = hand_name, object_name = object_name, mu = mu, force = mass * 9.81, hand = describe.hand(hand)}
   hand:open()
-  local object = world:add_object(kind == "brief" and "models/objects/cylinder.iv" or data .. "ycb/" .. objects[object_name] .. ".obj", {mass = mass, pose = clench.pose {xyz = {2, 0, 0}}})
+  local object = world:add_object(kind == "brief" and "models/objects/cube.iv" or data .. "ycb/" .. objects[object_name] .. ".obj", {mass = mass, pose = clench.pose {xyz = {2, 0, 0}}})
   out.object = describe.body(object)
   for _, body in ipairs(hand.bodies) do world:set_friction(body.material, object.material, {static = mu, kinetic = mu}) end
   return hand, object, out
@@ -67,8 +67,8 @@ local function judge(grasp, shared)
 end
 
 if kind == "brief" then count = 2 end
-for _, object_name in ipairs(kind == "brief" and {"cylinder"} or {"apple", "can", "mustard", "banana"}) do
-  for _, hand_name in ipairs(kind == "brief" and {"three_finger"} or {"allegro", "leap", "shadow", "barrett"}) do
+for _, object_name in ipairs(kind == "brief" and {"cube"} or {"apple", "can", "mustard", "banana"}) do
+  for _, hand_name in ipairs(kind == "brief" and {"parallel_jaw"} or {"allegro", "leap", "shadow", "barrett"}) do
     local hand, object, out = make(hand_name, object_name)
     local grasps = find(hand, object)
     out.grasps = {}

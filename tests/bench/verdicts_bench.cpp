@@ -43,9 +43,7 @@ void write_pieces(const std::string& from, const GripScene& scene, const std::st
   std::ofstream(to) << all;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   std::vector<std::string> files;
   std::string csv, pieces;
   BulletGripOptions options;
@@ -104,4 +102,15 @@ int main(int argc, char** argv) {
         << all.count << ',' << all.ours << ',' << all.theirs << ',' << double(all.agree) / std::max(1, all.count) << ',' << all.verified << ',' << all.verified_survived << '\n';
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& problem) {
+    std::cerr << "bench_verdicts: " << problem.what() << '\n';
+    return 1;
+  }
 }

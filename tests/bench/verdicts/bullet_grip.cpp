@@ -178,7 +178,7 @@ class Grip {
       X_HP[i + 1] = link.pose * p.X_LP;
       const Isometry3d &X_H = X_HP[i + 1], &parent = X_HP[link.parent];
       const Eigen::Matrix3d turn = X_H.linear().transpose() * parent.linear();  // from the parent's axes to its own
-      const Vector3d pivot = parent.inverse() * link.pose.translation(), to_com = X_H.linear().transpose() * (X_H.translation() - link.pose.translation());
+      const Vector3d pivot = parent.inverse() * link.point, to_com = X_H.linear().transpose() * (X_H.translation() - link.point);
       const Vector3d axis = X_H.linear().transpose() * link.axis;
       Vector3d moments = p.moments;
       const double mass = std::max(link.body.mass, 1e-4);

@@ -31,8 +31,9 @@ local function joint_of(hand, link, parent)
     if turns or linear:norm() > 1e-9 then
       assert(not found, link.name .. ": several joints in a row")
       local axis = turns and angular or linear
-      found = {kind = turns and "revolute" or "prismatic", dof = dof - 1, ratio = axis:norm(), axis = list(axis / axis:norm())}
-      assert(not turns or linear:norm() < 1e-9, link.name .. ": its joint does not pass through its origin")
+      -- the nearest point of the axis
+      local point = link.pose.position + (turns and angular:cross(linear) / angular:dot(angular) or clench.vec3(0, 0, 0))
+      found = {kind = turns and "revolute" or "prismatic", dof = dof - 1, ratio = axis:norm(), axis = list(axis / axis:norm()), point = list(point)}
     end
   end
   return found

@@ -43,12 +43,13 @@ GripScene read_grip_scene(const std::string& path) {
   out.object.pieces = convex_pieces(surface_of(all.at("object").at("mesh")));
   for (const json& v : all.at("hand").at("links")) {
     GripLink link{.body = body_of(v), .parent = v.at("parent"), .pose = pose_of(v.at("pose"))};
+    link.point = link.pose.translation();
     if (v.contains("mesh")) link.body.pieces = hulls_of_parts(surface_of(v.at("mesh")));
     if (v.contains("joint")) {
       const json& joint = v.at("joint");
       link.has_joint = true;
       link.turns = joint.at("kind") == "revolute";
-      link.dof = joint.at("dof"), link.ratio = joint.at("ratio"), link.axis = vector_of(joint.at("axis"));
+      link.dof = joint.at("dof"), link.ratio = joint.at("ratio"), link.axis = vector_of(joint.at("axis")), link.point = vector_of(joint.at("point"));
     }
     out.links.push_back(link);
   }

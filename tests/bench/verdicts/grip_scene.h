@@ -24,7 +24,7 @@ struct GripLink {
   bool has_joint = false, turns = true;
   int dof = 0;
   double ratio = 1;  // of the joint's motion to its DOF's
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // in the base, through the link's origin
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX(), point = Eigen::Vector3d::Zero();  // of the joint, in the base
 };
 
 struct GripDof {

@@ -41,6 +41,7 @@ function model_of(scene, grasp) {
     if (link.joint) {
       const dof = dofs[link.joint.dof], range = [dof.min, dof.max].map((x) => (x - dof.value) * link.joint.ratio);
       text += `<joint name="joint${i}" type="${link.joint.kind === 'revolute' ? 'hinge' : 'slide'}" axis="${rotate(conjugate(link.pose[1]), link.joint.axis).join(' ')}"
+        pos="${rotate(conjugate(link.pose[1]), sub(link.joint.point, link.pose[0])).join(' ')}"
         damping="${dof.damping}" frictionloss="${dof.friction}" armature="${dof.armature}" ${range.every(Number.isFinite) ? `limited="true" range="${range.join(' ')}"` : ''}/>`;
     }
     text += geoms(link.pieces, 'contype="1" conaffinity="2"');
