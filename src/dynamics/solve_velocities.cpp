@@ -91,6 +91,7 @@ void Stepper::keep(double h) {
     p.force = world_.pose(m.a).rotation.conjugate() * Eigen::Vector3d(impulse / time);
     if (block.law.tangents == 3) p.torsion = r_[row + 3] * p.torsion_radius / time;
   }
+  std::ranges::sort(state.row_forces, {}, [](const RowForce& row) { return std::pair(row.kind, row.index); });
   disengage(time);
   for (Load& load : state.loads) load = {};
   state.report.contacts = static_cast<int>(touches_.size());

@@ -135,8 +135,10 @@ void Stepper::add_row(int number, double h) {
   tree_rows_[row.tree].Y(row.coordinate, block.column[0]) = 1;
   q_.push_back(v_[system_.trees[row.tree].first + row.coordinate] - row.target);
   double warm = 0;
-  for (const RowForce& last : world_.dynamics()->row_forces)
-    if (last.kind == static_cast<int>(row.kind) && last.index == row.index) warm = h * last.force;
+  const auto key = [](const RowForce& last) { return std::pair(last.kind, last.index); };
+  const std::pair wanted(static_cast<int>(row.kind), row.index);
+  const auto& all = world_.dynamics()->row_forces;
+  if (const auto last = std::ranges::lower_bound(all, wanted, {}, key); last != all.end() && key(*last) == wanted) warm = h * last->force;
   warm_.push_back(std::clamp(warm, row.low, row.high));
   ++row_count_;
   blocks_.push_back(block);
@@ -163,6 +165,7 @@ void Stepper::find_rows(double h) {
   }
   for (size_t i = 0; i < coordinate_rows_.size(); ++i) add_row(static_cast<int>(i), h);
   compliance_.setZero(row_count_);
+  local_.resize(row_count_);
   for (const Block& block : blocks_)
     if (block.row >= 0) compliance_[block.law.row] = coordinate_rows_[block.row].compliance;
   for (size_t t = 0; t < trees_.size(); ++t)

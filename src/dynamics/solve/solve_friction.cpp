@@ -169,11 +169,12 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
 }
 
 FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const VectorXd& warm_start,
-                                       const FrictionOptions& options) {
+                                       const FrictionOptions& options, const Progress& progress) {
   FrictionSolution solution;
+  newton_.watch(progress);
   const int n = static_cast<int>(problem.q.size());
   const double largest = std::max(1e-3, n > 0 ? problem.q.lpNorm<Eigen::Infinity>() : 0);
-  const double tolerance = options.tolerance * options.speed.value_or(largest);
+  const double tolerance = options.tolerance.value_or(1e-12 * largest);
   solution.r = warm_start.size() == n && warm_start.allFinite() ? warm_start : VectorXd::Zero(n);
   solution.u = problem.q;
   solution.u.noalias() += problem.W * solution.r;

@@ -12,10 +12,9 @@ namespace clench {
 struct FrictionOptions {
   FrictionCone cone = FrictionCone::round;
   int edges = 8;  ///< of a pyramid, >= 4; with torsion 3 edges - 4 (see pyramid_directions)
-  /// Faults up to so much of the largest velocity in q, and of at least 1e-3, are none. Rounding of W r is allowed for
-  /// beside it, up to 1e6 times as much where masses differ by that; of a pyramid, as pivots lose digits, 100 times.
-  double tolerance = 1e-12;
-  std::optional<double> speed = {};  ///< in place of the largest velocity in q, which may be of a far limit [m/s]
+  /// Faults up to so much are none [m/s]; by default 1e-12 of the largest velocity in q, and of at least 1e-3. Rounding of W r is
+  /// allowed for beside it, up to 1e6 times as much where masses differ by that; of a pyramid, as pivots lose digits, 100 times.
+  std::optional<double> tolerance = {};
 };
 
 /// Solves one problem after another; memory is kept between them, nothing else: the same problem and the same warm start
@@ -34,8 +33,9 @@ class FrictionSolver {
  public:
   /// problem      of a number that is not finite or a block that is none: r = u = 0, residual infinite
   /// warm_start   impulses of the last step, or none (any other size)
+  /// throws       Stopped
   FrictionSolution solve(const FrictionProblem& problem, const Eigen::VectorXd& warm_start,
-                         const FrictionOptions& options = {});
+                         const FrictionOptions& options = {}, const Progress& progress = {});
 
  private:
   FrictionSolution solve_as_pyramid(const FrictionProblem& problem, double tolerance, int edges_per_contact);
