@@ -262,6 +262,7 @@ test("what a world that has run does not take along is told", function(t)
   world.time_step = 0.002
   t.equal(warnings(function() world:save(folder .. "/dynamic.lua") end), "")
   t.equal(clench.load(folder .. "/dynamic.lua").time_step, 0.002)
+  t.equal(warnings(function() world:save(folder .. "/dynamic.wld") end), "dynamic.wld does not hold the time step")
   world.robots[1].floating = true
   world:run(0.01)
   t.equal(warnings(function() world:save(folder .. "/dynamic.lua") end),
