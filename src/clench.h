@@ -8,6 +8,7 @@
 #include "clench/dynamics/control/joint_dynamics.h"
 #include "clench/dynamics/measure.h"
 #include "clench/dynamics/stepper.h"
+#include "clench/dynamics/weld.h"
 #include "clench/geometry/query/queries.h"
 #include "clench/grasp/force/contact_forces.h"
 #include "clench/grasp/force/equilibrium.h"

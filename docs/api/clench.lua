@@ -849,6 +849,7 @@ function world_control:pop() end
 ---@class motion: entity
 ---@field velocity {linear: vec3, angular: vec3} # Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. A table of its own; one that is set changes what it names. Setting a pose brings a body to rest. [m/s], [rad/s]
 ---@field surface_velocity vec3 # Of a conveyor belt: what touches it is carried along at this velocity, in its own frame, while it stands. [m/s]
+---@field welded_to body? # The body that it is welded to, or nil.
 local motion = {}
 
 ---Pushes it in the next step, and in that one alone; pushes add up.
@@ -859,6 +860,13 @@ function motion:apply_force(force, point) end
 ---Turns it in the next step, and in that one alone.
 ---@param torque vec3 # in world axes [N m]
 function motion:apply_torque(torque) end
+
+---Makes it one piece with another body, as the two stand: in runs it moves as a part of that, with its mass, until it is unwelded. Contacts between the two end. Their momentum stays, as in a blow after which they go on together. Placed by hand, they stay welded as they then stand. Collision tests go on as before.
+---@param to body|robot # a body that does not hang on it by welds; of a robot its base
+function motion:weld(to) end
+
+---It goes on by itself, with the velocity that it has.
+function motion:unweld() end
 
 ---Masses and forces as a robot's DOFs feel them.
 ---@class joint_dynamics: motion

@@ -54,6 +54,7 @@ class Stepper {
   double advance_balls(const std::vector<std::pair<int, double>>& pairs, double end, Mover& mover);
   Vector6d root_twist(int tree) const;
   Eigen::Vector3d prescribed_velocity(Id<Body> body, const Eigen::Vector3d& p_W) const;
+  void carry_welded();
   void find_free_velocities(double h);
   void update_manifolds();
   void add_contact(int manifold, int point, double h);

@@ -267,7 +267,7 @@ test("what a world that has run does not take along is told", function(t)
   world:run(0.01)
   t.equal(warnings(function() world:save(folder .. "/dynamic.lua") end),
     "world:save: settings of dynamics beside the time step are not saved: engine, friction cone, gains, floating bases, breakaway, " ..
-    "gravity compensation, belts\n" ..
+    "gravity compensation, belts, welds\n" ..
     "world:save: the time, velocities and targets of motors of a world that has run are not saved")
 end)
 
