@@ -359,6 +359,18 @@ test("a velocity that is set changes what it names", function(t)
   t.fails(function() box.velocity = {linaer = {1, 0, 0}} end, "unknown key 'linaer', expected one of linear, angular; did you mean 'linear'?")
 end)
 
+test("targets by name leave the other DOFs as they are", function(t)
+  local hand = clench.load("worlds/barrett_mug.wld").robots[1]
+  hand.controller = "effort"
+  hand:set_forces {0, 0, 0.05, 0}
+  hand:set_targets {dof2 = 0.1}
+  t.equal(hand.controller, "mixed")
+  hand.world:run(0.01)
+  t.close(hand.dof_efforts[3], 0.05, 1e-12)
+  hand:set_targets {0, 0.1, 0, 0}
+  t.equal(hand.controller, "position")
+end)
+
 test("what is added in a step begins with the next one", function(t)
   local world = falling_box()
   local spawned, called, tasks = 0, 0, 0
