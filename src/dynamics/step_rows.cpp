@@ -16,6 +16,8 @@ static constexpr double rest_band = 1e-3;
 // Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so [m/s]: so slowly that what is
 // pushed apart presses on each other as if it rested.
 static constexpr double pushed_part = 0.02, pushed_at_most = 0.1;
+// What turns while it slides comes nearer as it does; it is pushed apart by more, up to a part of the speed of sliding.
+static constexpr double pushed_part_sliding = 0.5, pushed_of_slip = 0.1;
 // Below this speed of approach nothing bounces [m/s].
 static constexpr double bounces_above = 0.01;
 
@@ -96,26 +98,34 @@ void Stepper::add_contact(int manifold, int point, double h) {
   }
   // what touches comes no nearer, and what is too near parts
   const double step = std::max(world_.dynamic_settings().step, h), beyond = p.gap - rest_gap * world_.contact_threshold();
-  double target = 0;
-  if (beyond < -rest_band * world_.contact_threshold()) target = std::min(-pushed_part * beyond / step, pushed_at_most);
   const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
-  double slip = 0;
+  std::array<double, 4> before;
   for (int k = 0; k < size; ++k) {
-    double q = k < 3 ? touch.frame.col(k).dot(prescribed) : 0, before = q;
+    double q = k < 3 ? touch.frame.col(k).dot(prescribed) : 0;
+    before[k] = q;
     for (int side = 0; side < 2; ++side)
       if (const int t = block.tree[side]; t >= 0) {
         const auto column = tree_rows_[t].Y.col(block.column[side] + k);
         q += column.dot(v_.segment(system_.trees[t].first, system_.trees[t].size()));
-        before += column.dot(v_before_.segment(system_.trees[t].first, system_.trees[t].size()));
+        before[k] += column.dot(v_before_.segment(system_.trees[t].first, system_.trees[t].size()));
       }
-    // Newton's law of impact, where the free motion would press
-    if (k == 0 && q < target && before < -bounces_above) target = std::max(target, -restitution * before);
-    if (k == 0) q -= target;
-    if (k > 0) slip += before * before;
     q_.push_back(q);
   }
-  const double slow = std::max(sliding_speed, world_.gravity().norm() * step);
-  block.law.mu = slip > slow * slow ? friction.kinetic : friction.statics;
+  double slip = 0;
+  for (int k = 1; k < size; ++k) slip += before[k] * before[k];
+  slip = std::sqrt(slip);
+  const bool slides = slip > std::max(sliding_speed, world_.gravity().norm() * step);
+  block.law.mu = slides ? friction.kinetic : friction.statics;
+  double target = 0;
+  if (beyond < -rest_band * world_.contact_threshold()) {
+    target = -pushed_part * beyond / step;
+    if (slides) target = std::max(target, std::min(-pushed_part_sliding * beyond / step, pushed_of_slip * slip));
+    target = std::min(target, pushed_at_most);
+  }
+  // Newton's law of impact, where the free motion would press
+  double& q_normal = q_[block.law.row];
+  if (q_normal < target && before[0] < -bounces_above) target = std::max(target, -restitution * before[0]);
+  q_normal -= target;
   // warm start
   const Eigen::Vector3d force = X_WA.rotation * p.force;
   for (int k = 0; k < size; ++k) warm_.push_back(h * (k < 3 ? touch.frame.col(k).dot(force) : p.torsion / p.torsion_radius));
