@@ -263,6 +263,10 @@ test("what a world that has run does not take along is told", function(t)
   t.equal(warnings(function() world:save(folder .. "/dynamic.lua") end), "")
   t.equal(clench.load(folder .. "/dynamic.lua").time_step, 0.002)
   t.equal(warnings(function() world:save(folder .. "/dynamic.wld") end), "dynamic.wld does not hold the time step")
+  -- there and back is no change
+  world.robots[1].floating = true
+  world.robots[1].floating = false
+  t.equal(warnings(function() world:save(folder .. "/dynamic.lua") end), "")
   world.robots[1].floating = true
   world:run(0.01)
   t.equal(warnings(function() world:save(folder .. "/dynamic.lua") end),
