@@ -4,6 +4,7 @@
 
 #include "clench/dynamics/measure.h"
 #include "clench/model/find.h"
+#include "support/meshes.h"
 #include "support/pendulums.h"
 
 using namespace clench;
@@ -170,6 +171,24 @@ TEST_CASE("nothing tunnels: a bullet stops at a sheet of a tenth of a millimetre
   run(world, 0.01);
   CHECK(world.pose(id).position.x() < -0.005);
   CHECK(world.twist(id).linear.x() < 1e-6);
+}
+
+TEST_CASE("what slides far in a step slides as it should, and stops at a narrow ridge of the same floor") {
+  // 2 mm wide, as high as the box, 3 m ahead
+  const Mesh ridge = moved(box(0.002, 1, 0.2), Pose::translation({3, 0, 0.1}));
+  World world;
+  world.add_body(body_spec("floor", joined(box(8, 1, 0.2), ridge)), BodyKind::obstacle, {}, "floor");
+  world.set_friction("wood", "wood", {.statics = 0.3, .kinetic = 0.3});
+  const auto id = world.add_body(body_spec("box", box(0.1, 0.1, 0.1)), BodyKind::object, Pose::translation({0, 0, 0.15 + touch}), "box");
+  // 20 mm in a step
+  world.set_twist(id, {{20, 0, 0}, {0, 0, 0}});
+  run(world, 0.1);
+  CHECK(world.twist(id).linear.x() == doctest::Approx(20 - 0.3 * g * 0.1).epsilon(1e-9));
+  CHECK(world.dynamics()->report.impacts == 0);
+  run(world, 0.2);
+  CHECK(world.dynamics()->report.impacts > 0);
+  CHECK(world.dynamics()->report.overlaps == 0);
+  CHECK(world.pose(id).position.x() < 2.96);
 }
 
 TEST_CASE("a tall box tips over its edge when the slope is steep, and stands when it is not") {
