@@ -118,7 +118,7 @@ void Stepper::solve_island(const Island& island) {
     assemble(island, count);
     solution = solver_.solve(
         problem_, warm,
-        {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = at_rest ? rest_tolerance : tolerance},
+        {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = tolerance},
         world_.context().progress());
   }
   for (const int row : rows_) r_[row] = solution.r[local_[row]];

@@ -97,7 +97,8 @@ void Stepper::add_contact(int manifold, int point, double h) {
     }
   }
   // what touches comes no nearer, and what is too near parts
-  const double step = std::max(world_.dynamic_settings().step, h), beyond = p.gap - rest_gap * world_.contact_threshold();
+  const double step = std::max(world_.dynamic_settings().step, h);
+  const double missing = std::max(0.0, (rest_gap - rest_band) * world_.contact_threshold() - p.gap);
   const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
   std::array<double, 4> before;
   for (int k = 0; k < size; ++k) {
@@ -116,12 +117,9 @@ void Stepper::add_contact(int manifold, int point, double h) {
   slip = std::sqrt(slip);
   const bool slides = slip > std::max(sliding_speed, world_.gravity().norm() * step);
   block.law.mu = slides ? friction.kinetic : friction.statics;
-  double target = 0;
-  if (beyond < -rest_band * world_.contact_threshold()) {
-    target = -pushed_part * beyond / step;
-    if (slides) target = std::max(target, std::min(-pushed_part_sliding * beyond / step, pushed_of_slip * slip));
-    target = std::min(target, pushed_at_most);
-  }
+  double target = pushed_part * missing / step;
+  if (slides) target = std::max(target, std::min(pushed_part_sliding * missing / step, pushed_of_slip * slip));
+  target = std::min(target, pushed_at_most);
   // Newton's law of impact, where the free motion would press
   double& q_normal = q_[block.law.row];
   if (q_normal < target && before[0] < -bounces_above) target = std::max(target, -restitution * before[0]);

@@ -1,8 +1,12 @@
 --- Does a grasp hold when it is not met exactly, and against loads? What is asked of a grasp that is called verified.
 local closing = require "clench.plan.closing"
+local share_friction = require "clench.study.motion.share_friction"
 local verification = {}
 
-verification.defaults = {displacement = 0.001, force_ratio = 10, min_load = 2, min_epsilon = 0.01, lift = 0.1}
+verification.defaults = {displacement = 0.001, force_ratio = 10, min_load = 2, min_slippery_load = 0, min_epsilon = 0.01, lift = 0.1}
+
+--- min_slippery_load of grasps that are shaken, too
+verification.min_slippery_load_of_shaken = 1.5
 
 --- the six directions in which the object is displaced and pulled, in the world
 verification.directions = {clench.vec3(1, 0, 0), clench.vec3(-1, 0, 0), clench.vec3(0, 1, 0), clench.vec3(0, -1, 0),
@@ -73,6 +77,16 @@ function verification.load(object, grasp, force_ratio)
   return math.max(least, 0)
 end
 
+--- The same with half of the friction between hand and object.
+function verification.slippery_load(hand, object, force_ratio, options)
+  local world = hand.world
+  local here <close> = world:snapshot()
+  share_friction(hand, object, 0.5)
+  local load = verification.load(object, clench.grasp(hand, object, options), force_ratio)
+  world:restore(here)
+  return load
+end
+
 --- Do hand and object stay clear of everything else while they are lifted together?
 function verification.can_be_lifted(hand, object, height)
   local world = hand.world
@@ -103,13 +117,16 @@ function verification.shake(hand, object, shake, force_ratio)
 end
 
 ---@param hand robot  as it holds the object
----@param options {displacement: number, min_epsilon: number, force_ratio: number, min_load: number, lift: number, grasp?: table, shake?: table, keep_lost?: boolean}
+---@param options {displacement: number, min_epsilon: number, force_ratio: number, min_load: number, min_slippery_load: number, lift: number, grasp?: table, shake?: table, keep_lost?: boolean}
 ---@return table? numbers, string? why  perturbed_epsilon, load_margin; directions_held and survived (1 or 0) of those that were shaken
 function verification.check(hand, object, grasp, options)
   if not grasp.collision_free then return nil, "in collision when closed" end
   if grasp.epsilon < options.min_epsilon then return nil, "epsilon too small" end
   local load = verification.load(object, grasp, options.force_ratio)
   if load < options.min_load then return nil, "too weak against loads" end
+  if options.min_slippery_load > 0 and verification.slippery_load(hand, object, options.force_ratio, options.grasp) < options.min_slippery_load then
+    return nil, "too weak with half of the friction"
+  end
   if options.lift > 0 and not verification.can_be_lifted(hand, object, options.lift) then
     return nil, "in the way of the lift"
   end

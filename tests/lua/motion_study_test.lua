@@ -25,6 +25,35 @@ test("a grasp survives pushes along six directions, and the world stays as it wa
   for i, row in ipairs(v.directions) do t.ok(row.moved == again.directions[i].moved) end
 end)
 
+test("a grasp held under a load comes to rest, and costs next to no more iterations", function(t)
+  local new_trial, read_motion = require "clench.study.motion.trial", require "clench.study.motion.options"
+  for _, name in ipairs {"dlr_flask", "human_flask", "shadow_bottle"} do
+    local world = clench.load("worlds/" .. name .. ".wld", {root = "."})
+    local hand, object = world.robots[1], world.objects[1]
+    hand:autograsp()
+    local read = require "clench.options"("test", {hand = hand, object = object, mass = 0.1, grip_force = 10})
+    local trial = new_trial(read_motion(read, {gravity = clench.vec3(0, 0, 0)}))
+    trial:push(function() return clench.vec3(0.5, 0, 0) end)
+    trial.world:run(1)
+    local before = trial.world.report.iterations
+    trial.world:run(0.2)
+    t.ok(trial.world.report.iterations - before <= 400)
+  end
+end)
+
+test("a share of the friction is counted on, and a weaker one loses what a stronger one holds", function(t)
+  local hand, flask, world = closed_on_flask()
+  local static, kinetic = world:friction(hand.links[1].material, flask.material)
+  local all = {hand = hand, object = flask, seconds = 0.5, settle = 0.2}
+  all.friction_share = 1
+  t.ok(clench.study.shake(all).held == 6)
+  all.friction_share = 0.02
+  t.ok(clench.study.shake(all).held < 6)
+  t.equal({world:friction(hand.links[1].material, flask.material)}, {static, kinetic})
+  all.friction_share = 0
+  t.fails(function() clench.study.shake(all) end, "friction_share must be")
+end)
+
 test("without friction the flask is lost, and the time of it is told", function(t)
   local hand, flask = closed_on_flask()
   flask.material = "frictionless"

@@ -6,6 +6,10 @@
 
 namespace clench {
 
+// Stops let joints pass by so much, each by more than the one before [rad/s, m/s]: Dantzig's method breaks off at ties, and a joint that stands at its
+// stop is one.
+static constexpr double stop_slack = 1e-12;
+
 static Eigen::Vector3d vector_of(const dReal* x) { return {x[0], x[1], x[2]}; }
 
 Eigen::Vector3d OdeScene::velocity_of(const OdeNode& node) {
@@ -71,7 +75,7 @@ void OdeScene::add_row(const CoordinateRow& row) {
     set(low ? dParamHiStop : dParamLoStop, low ? dInfinity : -dInfinity);
   }
   set(low ? dParamLoStop : dParamHiStop, low ? 1 : -1);
-  set(dParamStopERP, (low ? asked : -asked) * h_);
+  set(dParamStopERP, ((low ? asked : -asked) - stop_slack * static_cast<double>(rows_.size())) * h_);
   dJointSetFeedback(joint.joint, made.feedback.get());
 }
 

@@ -32,6 +32,7 @@ return function(read, default)
   job.grip_force = read:positive("grip_force", default.grip_force or 10 * 9.81 * job.mass)
   job.grip_seconds = read:not_negative("grip_seconds", 0.5)
   job.settle = read:not_negative("settle", 1)
+  job.friction_share = read:positive("friction_share", 0.75)
   job.max_distance = read:positive("max_distance", 0.05)
   job.max_angle = read:positive("max_angle", math.rad(15))
   local surroundings = read:raw "surroundings"

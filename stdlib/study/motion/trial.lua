@@ -1,9 +1,13 @@
 --- A grasp that moves: a copy of its world in which the hand presses the object by its motors, and how far the object
 --- goes from where the hand held it then.
+local share_friction = require "clench.study.motion.share_friction"
+
 local Trial = {}
 Trial.__index = Trial
 
 local every = 0.01  -- between two looks [s]
+-- Contacts act within this distance: points of a patch carry next to no torsion, as is asked of a grasp that is to hold elsewhere, too.
+local contact_threshold = 2e-5  -- [m]
 
 local function place_of(list, entity)
   for i, other in ipairs(list) do
@@ -86,6 +90,7 @@ local function press(trial, job)
   local world, hand = trial.world, trial.hand
   local torques = job.grip == "forces" and grip_torques(hand, trial.object, job.grip_force)
   trial.grip = torques and "forces" or "close"
+  world.contact_threshold = math.min(world.contact_threshold, contact_threshold)
   if not torques then
     hand:autograsp {dynamic = true}
     world:run(job.grip_seconds)
@@ -154,6 +159,7 @@ return function(job)
   object.mass = job.mass
   hold_robots(world)
   object.velocity = {}
+  if job.friction_share ~= 1 then share_friction(hand, object, job.friction_share) end
   local failures_before = world.report.failures
   set_gains(hand, object)
   world.gravity = {0, 0, 0}

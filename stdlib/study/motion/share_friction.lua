@@ -1,0 +1,14 @@
+--- Leaves a share of the friction between a hand's materials and an object's.
+---@param hand robot
+---@param object body
+---@param share number  > 0
+return function(hand, object, share)
+  local world, done = hand.world, {}
+  for _, body in ipairs(hand.bodies) do
+    if not done[body.material] then
+      local static, kinetic = world:friction(body.material, object.material)
+      world:set_friction(body.material, object.material, {static = static * share, kinetic = kinetic * share})
+      done[body.material] = true
+    end
+  end
+end

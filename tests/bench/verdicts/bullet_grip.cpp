@@ -1,0 +1,292 @@
+#include "bench/verdicts/bullet_grip.h"
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <Eigen/Eigenvalues>
+#include <memory>
+
+namespace clench::bench {
+
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double margin = 1e-4;  // about convex shapes [m]
+
+btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+btQuaternion turn_to_bullet(const Eigen::Matrix3d& R) {
+  const Eigen::Quaterniond q(R);
+  return {q.x(), q.y(), q.z(), q.w()};
+}
+btTransform to_bullet(const Isometry3d& X) { return btTransform(turn_to_bullet(X.linear()), to_bullet(Vector3d(X.translation()))); }
+Isometry3d from_bullet(const btTransform& X) {
+  const btQuaternion q = X.getRotation();
+  Isometry3d out = Isometry3d::Identity();
+  out.linear() = Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).toRotationMatrix();
+  out.translation() = Vector3d(X.getOrigin().x(), X.getOrigin().y(), X.getOrigin().z());
+  return out;
+}
+
+// Bullet's bodies are centred in their centre of mass, along their principal axes.
+struct Principal {
+  Isometry3d X_LP = Isometry3d::Identity();  // in the body's frame
+  Vector3d moments = Vector3d::Zero();
+};
+
+Principal principal(const GripBody& body) {
+  Principal out;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(body.inertia);
+  out.X_LP.linear() = solver.eigenvectors();
+  if (out.X_LP.linear().determinant() < 0) out.X_LP.linear().col(2) *= -1;
+  out.X_LP.translation() = body.com;
+  out.moments = solver.eigenvalues().cwiseMax(1e-9);
+  return out;
+}
+
+class Grip {
+ public:
+  Grip(const GripScene& scene, const StoredGrasp& grasp, const BulletGripOptions& options)
+      : scene_(scene), grasp_(grasp), options_(options), dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+    world_.setGravity(btVector3(0, 0, 0));
+    world_.getSolverInfo().m_numIterations = options.iterations;
+    world_.getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+    add_object();
+    add_hand();
+  }
+  ~Grip() {
+    for (const auto& limit : limits_) world_.removeMultiBodyConstraint(limit.get());
+    for (const auto& collider : colliders_) world_.removeCollisionObject(collider.get());
+    world_.removeMultiBody(hand_.get());
+    world_.removeRigidBody(object_.get());
+  }
+  Grip(const Grip&) = delete;
+
+  void step(double share, const Vector3d& force) {
+    for (size_t j = 0; j < joints_.size(); ++j) {
+      const GripLink& link = scene_.links[joints_[j].link];
+      const int i = joints_[j].index;
+      const double scale = link.turns ? 1 : 100;
+      double torque = scale * (options_.kp * (joints_[j].target - hand_->getJointPos(i)) - options_.kd * hand_->getJointVel(i));
+      torque -= scene_.dofs[link.dof].damping * hand_->getJointVel(i);
+      if (!grasp_.torques.empty()) torque += share * grasp_.torques[link.dof] / link.ratio;
+      hand_->addJointTorque(i, torque);
+    }
+    object_->applyCentralForce(to_bullet(force));
+    world_.stepSimulation(options_.step, 0);
+  }
+  // of the object's frame
+  Isometry3d pose() const { return from_bullet(object_->getWorldTransform()) * object_frame_.inverse(); }
+  Vector3d com() const { return from_bullet(object_->getWorldTransform()).translation(); }
+
+  int contacts(double* depth = nullptr) {
+    int count = 0;
+    for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
+      const btPersistentManifold* manifold = dispatcher_.getManifoldByIndexInternal(m);
+      for (int p = 0; p < manifold->getNumContacts(); ++p) {
+        const double distance = manifold->getContactPoint(p).getDistance();
+        count += distance < 1e-3;
+        if (depth) *depth = std::min(*depth, distance);
+      }
+    }
+    return count;
+  }
+  void find_contacts() { world_.performDiscreteCollisionDetection(); }
+
+  void save() {
+    saved_.q.clear();
+    for (int i = 0; i < hand_->getNumLinks(); ++i) saved_.q.push_back(hand_->getJointPos(i)), saved_.q.push_back(hand_->getJointVel(i));
+    saved_.X = object_->getWorldTransform(), saved_.v = object_->getLinearVelocity(), saved_.w = object_->getAngularVelocity();
+  }
+  void restore() {
+    for (int i = 0; i < hand_->getNumLinks(); ++i) {
+      if (hand_->getLink(i).m_dofCount == 0) continue;
+      hand_->setJointPos(i, saved_.q[2 * i]);
+      hand_->setJointVel(i, saved_.q[2 * i + 1]);
+    }
+    object_->setWorldTransform(saved_.X), object_->setInterpolationWorldTransform(saved_.X);
+    object_->setLinearVelocity(saved_.v), object_->setAngularVelocity(saved_.w);
+    update_hand();
+  }
+
+ private:
+  struct Joint {
+    size_t link;
+    int index;
+    double target;
+  };
+
+  btCollisionShape* shape_of(const GripBody& body, const Isometry3d& X_PL) {
+    std::vector<btConvexHullShape*> hulls;
+    for (const Points& piece : body.pieces) {
+      auto hull = std::make_unique<btConvexHullShape>();
+      for (const Vector3d& p : piece) hull->addPoint(to_bullet(X_PL * p), false);
+      hull->recalcLocalAabb();
+      hull->setMargin(margin);
+      hulls.push_back(hull.get());
+      shapes_.push_back(std::move(hull));
+    }
+    if (hulls.size() == 1) return hulls[0];
+    auto all = std::make_unique<btCompoundShape>();
+    for (btConvexHullShape* hull : hulls) all->addChildShape(btTransform::getIdentity(), hull);
+    all->setMargin(margin);
+    shapes_.push_back(std::move(all));
+    return shapes_.back().get();
+  }
+
+  void add_object() {
+    const Principal p = principal(scene_.object);
+    object_frame_ = p.X_LP;
+    btCollisionShape* shape = shape_of(scene_.object, p.X_LP.inverse());
+    btRigidBody::btRigidBodyConstructionInfo info(scene_.object.mass, nullptr, shape, to_bullet(p.moments));
+    info.m_startWorldTransform = to_bullet(p.X_LP);
+    // of two bodies the product counts
+    info.m_friction = std::sqrt(scene_.mu);
+    object_ = std::make_unique<btRigidBody>(info);
+    object_->setActivationState(DISABLE_DEACTIVATION);
+    world_.addRigidBody(object_.get(), 2, 1);
+  }
+
+  void add_collider(int index, const GripBody& body, const Isometry3d& X_PL) {
+    if (body.pieces.empty()) return;
+    auto collider = std::make_unique<btMultiBodyLinkCollider>(hand_.get(), index);
+    collider->setCollisionShape(shape_of(body, X_PL));
+    collider->setFriction(std::sqrt(scene_.mu));
+    collider->setActivationState(DISABLE_DEACTIVATION);
+    world_.addCollisionObject(collider.get(), 1, 2);
+    if (index < 0)
+      hand_->setBaseCollider(collider.get());
+    else
+      hand_->getLink(index).m_collider = collider.get();
+    colliders_.push_back(std::move(collider));
+  }
+
+  void add_hand() {
+    const int count = int(scene_.links.size()) - 1;
+    hand_ = std::make_unique<btMultiBody>(count, 1, btVector3(1, 1, 1), true, false);
+    hand_->setBaseWorldTransform(to_bullet(grasp_.pose));
+    std::vector<Isometry3d> X_HP(scene_.links.size(), Isometry3d::Identity());
+    X_HP[0] = scene_.links[0].pose;
+    for (int i = 0; i < count; ++i) {
+      const GripLink& link = scene_.links[i + 1];
+      const Principal p = principal(link.body);
+      X_HP[i + 1] = link.pose * p.X_LP;
+      const Isometry3d &X_H = X_HP[i + 1], &parent = X_HP[link.parent];
+      const Eigen::Matrix3d turn = X_H.linear().transpose() * parent.linear();  // from the parent's axes to its own
+      const Vector3d pivot = parent.inverse() * link.pose.translation(), to_com = X_H.linear().transpose() * (X_H.translation() - link.pose.translation());
+      const Vector3d axis = X_H.linear().transpose() * link.axis;
+      Vector3d moments = p.moments;
+      const double mass = std::max(link.body.mass, 1e-4);
+      if (link.has_joint) {
+        // what an implicit servo adds to the inertia about its axis; without it explicit ones swing up
+        const GripDof& dof = scene_.dofs[link.dof];
+        moments.array() += options_.step * options_.kd + options_.step * options_.step * options_.kp + options_.step * dof.damping + dof.armature;
+      }
+      if (!link.has_joint)
+        hand_->setupFixed(i, mass, to_bullet(moments), link.parent - 1, turn_to_bullet(turn), to_bullet(pivot), to_bullet(to_com));
+      else if (link.turns)
+        hand_->setupRevolute(i, mass, to_bullet(moments), link.parent - 1, turn_to_bullet(turn), to_bullet(axis), to_bullet(pivot), to_bullet(to_com), true);
+      else
+        hand_->setupPrismatic(i, mass, to_bullet(moments), link.parent - 1, turn_to_bullet(turn), to_bullet(axis), to_bullet(pivot), to_bullet(to_com), true);
+    }
+    hand_->finalizeMultiDof();
+    hand_->setHasSelfCollision(false);
+    hand_->setLinearDamping(0), hand_->setAngularDamping(0);
+    hand_->setCanSleep(false);
+    world_.addMultiBody(hand_.get());
+    add_collider(-1, scene_.links[0].body, Isometry3d::Identity());
+    for (int i = 0; i < count; ++i) {
+      const GripLink& link = scene_.links[i + 1];
+      add_collider(i, link.body, principal(link.body).X_LP.inverse());
+      if (!link.has_joint) continue;
+      const GripDof& dof = scene_.dofs[link.dof];
+      const double target = link.ratio * (grasp_.dofs[link.dof] - dof.value);
+      joints_.push_back({size_t(i) + 1, i, target});
+      hand_->setJointPos(i, target);
+      if (std::isfinite(dof.min) && std::isfinite(dof.max)) {
+        limits_.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(hand_.get(), i, link.ratio * (dof.min - dof.value), link.ratio * (dof.max - dof.value)));
+        world_.addMultiBodyConstraint(limits_.back().get());
+      }
+    }
+    update_hand();
+  }
+
+  void update_hand() {
+    btAlignedObjectArray<btQuaternion> turns;
+    btAlignedObjectArray<btVector3> origins;
+    hand_->forwardKinematics(turns, origins);
+    hand_->updateCollisionObjectWorldTransforms(turns, origins);
+  }
+
+  const GripScene& scene_;
+  const StoredGrasp& grasp_;
+  BulletGripOptions options_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_;
+  btDbvtBroadphase broadphase_;
+  btMultiBodyConstraintSolver solver_;
+  btMultiBodyDynamicsWorld world_;
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  std::unique_ptr<btRigidBody> object_;
+  std::unique_ptr<btMultiBody> hand_;
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
+  std::vector<std::unique_ptr<btMultiBodyConstraint>> limits_;
+  std::vector<Joint> joints_;
+  Isometry3d object_frame_ = Isometry3d::Identity();
+  struct {
+    std::vector<double> q;
+    btTransform X;
+    btVector3 v, w;
+  } saved_;
+};
+
+struct Displacement {
+  double moved, turned;
+};
+
+Displacement between(const Isometry3d& from, const Isometry3d& to, const Vector3d& com) {
+  const Eigen::AngleAxisd turn(from.linear().transpose() * to.linear());
+  return {(to * com - from * com).norm(), std::abs(turn.angle())};
+}
+
+}  // namespace
+
+BulletVerdict shake_in_bullet(const GripScene& scene, const StoredGrasp& grasp, const BulletGripOptions& options) {
+  BulletVerdict out;
+  Grip grip(scene, grasp, options);
+  grip.find_contacts();
+  grip.contacts(&out.depth);
+  const auto steps = [&](double seconds) { return int(std::lround(seconds / options.step)); };
+  const Isometry3d start = grip.pose();
+  const auto lost = [&](const Displacement& d) { return !(d.moved <= options.max_distance && d.turned <= options.max_angle); };
+  for (int i = 1; i <= steps(options.grip_seconds); ++i) grip.step(double(i) / steps(options.grip_seconds), Vector3d::Zero());
+  const Isometry3d pressed = grip.pose();
+  for (int i = 0; i < steps(options.settle); ++i) grip.step(1, Vector3d::Zero());
+  const Isometry3d rest = grip.pose();
+  const Displacement all = between(start, rest, scene.object.com);
+  out.moved = all.moved, out.turned = all.turned;
+  out.settled = !lost(between(pressed, rest, scene.object.com)) && grip.contacts() > 0;
+  if (!out.settled) return out;
+  grip.save();
+  for (int d = 0; d < 6; ++d) {
+    grip.restore();
+    for (int i = 0; i < steps(0.02); ++i) grip.step(1, Vector3d::Zero());  // contacts are found again
+    const Isometry3d from = grip.pose();
+    bool held = true;
+    const Vector3d force = (d % 2 == 0 ? 1 : -1) * scene.force * Vector3d::Unit(d / 2);
+    for (int i = 0; held && i < steps(options.seconds); ++i) {
+      grip.step(1, force);
+      held = !lost(between(from, grip.pose(), scene.object.com));
+    }
+    out.held += held;
+  }
+  out.survived = out.held == 6;
+  return out;
+}
+
+}  // namespace clench::bench

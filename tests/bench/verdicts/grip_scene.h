@@ -1,0 +1,56 @@
+// A hand, an object and grasps as tests/bench/verdicts.lua writes them: numbers, and nothing of ours that calculates with them.
+#pragma once
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/verdicts/convex_pieces.h"
+
+namespace clench::bench {
+
+struct GripBody {
+  std::string name;
+  double mass = 0;                                      // [kg]
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();        // in its frame [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();    // about com [kg m^2]
+  std::vector<Points> pieces;                           // convex, in its frame [m]
+};
+
+struct GripLink {
+  GripBody body;
+  int parent = -1;  // links[0] is the base
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  // in the base, as all DOFs have their `value`
+  bool has_joint = false, turns = true;
+  int dof = 0;
+  double ratio = 1;  // of the joint's motion to its DOF's
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // in the base, through the link's origin
+};
+
+struct GripDof {
+  double value = 0, min = 0, max = 0;           // [rad or m]
+  double damping = 0, friction = 0, armature = 0;
+};
+
+struct StoredGrasp {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  // of the hand in the object
+  std::vector<double> dofs, torques;                       // torques: of the motors, beside what holds the posture; empty: none found
+  double epsilon = 0, load = 0;
+  bool verified = false;  // by `clench plan --verify`
+  int held = 0;           // in how many of the six directions study.shake held it
+  bool survived = false;
+};
+
+struct GripScene {
+  std::string hand_name, object_name;
+  std::vector<GripLink> links;
+  std::vector<GripDof> dofs;
+  GripBody object;
+  double mu = 0, force = 0;  // of the shake [N]
+  std::vector<StoredGrasp> grasps;
+};
+
+/// throws  std::exception when the file is not as verdicts.lua writes it
+GripScene read_grip_scene(const std::string& path);
+
+}  // namespace clench::bench
