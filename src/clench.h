@@ -1,9 +1,14 @@
-// All that a host needs: worlds from files, motions, grasps, pictures, and the module for its Lua. Each header says what it
+// All that a host needs: worlds from files, motions, dynamics, grasps, pictures, and the module for its Lua. Each header says what it
 // gives; a host may include single ones.
 #pragma once
 #include "clench/base/error.h"
 #include "clench/base/progress.h"
 #include "clench/base/random.h"
+#include "clench/dynamics/control/closing.h"
+#include "clench/dynamics/control/joint_dynamics.h"
+#include "clench/dynamics/measure.h"
+#include "clench/dynamics/stepper.h"
+#include "clench/dynamics/weld.h"
 #include "clench/geometry/query/queries.h"
 #include "clench/grasp/force/contact_forces.h"
 #include "clench/grasp/force/equilibrium.h"

@@ -83,12 +83,11 @@ local function of_chains(robot)
   return chains
 end
 
--- what its file describes and nothing acts on yet; nil when there is nothing
+-- what its file describes and nothing acts on; nil when there is nothing
 local function of_kept(robot)
   local kept = {
     tendons = #robot.tendons > 0 and names(robot.tendons) or nil,
     tendon_wrappers = #robot.tendon_wrappers > 0 and #robot.tendon_wrappers or nil,
-    actuators = #robot.actuators > 0 and #robot.actuators or nil,
     tactile_sensors = #robot.tactile_sensors > 0 and #robot.tactile_sensors or nil,
     glove = robot.glove and {dofs = #robot.glove.slopes, sensors = #robot.glove.slopes[1]},
     tracker = robot.tracker and robot.tracker.number,
@@ -102,7 +101,8 @@ local function of_robot(robot)
   local approach = robot.pose:inverse() * robot.approach.frame
   return {name = robot.name, base = of_body(robot.base), dofs = dofs, chains = of_chains(robot),
           approach = {point = numbers(approach.position), direction = numbers(approach:rotate {0, 0, 1})},  -- in the base
-          eigengrasps = #robot.eigengrasps, virtual_contacts = #robot.virtual_contacts, kept = of_kept(robot)}
+          eigengrasps = #robot.eigengrasps, virtual_contacts = #robot.virtual_contacts,
+          actuators = #robot.actuators, kept = of_kept(robot)}
 end
 
 -- tells of sets for grasping that no file gives; of a robot that never closes, none

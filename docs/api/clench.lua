@@ -229,10 +229,10 @@ function mesh:save(path) end
 ---@field has_own_virtual_contacts boolean # Do its virtual contacts come from a file or a script? Otherwise they are found from its geometry.
 ---@field glove {slopes: number[][], intercepts: number[]}? # Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that DOF = intercept + slopes * raw. nil when there is none. [rad per count, rad]
 ---@field tracker {number: integer, pose: pose}? # Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
----@field tendons {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[] # Tendons of its file, as they are there: they do not act yet. Points are in the frame of their link. [N/m, m]
----@field tendon_wrappers {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[] # Posts that tendons wrap around, each an endless cylinder; `exempt` names the tendons that pass it by, `sides` say on which side of it the others lie. They do not act yet.
----@field actuators table[] # Actuators as an MJCF file describes them, kept for dynamics: `name`, `kind` ("motor", "position", "general"), `joint` or `tendon`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] + bias[2] * length + bias[3] * velocity. Nothing acts on them yet.
----@field tactile_sensors {link: body, low: vec3, high: vec3}[] # Boxes in which contacts count as one sensor's, by their `low` and `high` corners in the frame of their `link`. They do not act yet.
+---@field tendons {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[] # Tendons of its file, as they are there; they exert no force. Points are in the frame of their link. [N/m, m]
+---@field tendon_wrappers {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[] # Posts that tendons wrap around, each an endless cylinder; `exempt` names the tendons that pass it by, `sides` say on which side of it the others lie. They have no effect.
+---@field actuators table[] # Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or `tendon`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] + bias[2] * length + bias[3] * velocity. Of them the motors take which DOFs are driven, the largest efforts, and kp and kv of position servos; a script that sets forces may follow their laws.
+---@field tactile_sensors {link: body, low: vec3, high: vec3}[] # Boxes in which contacts count as one sensor's, by their `low` and `high` corners in the frame of their `link`. They have no effect.
 local hand = {}
 
 ---Takes the posture that amplitudes of its eigengrasps stand for, whatever is in the way. DOFs stop at their limits.
@@ -292,7 +292,7 @@ function kinematics:random_posture(random) end
 ---@field dofs number[] # Values of its degrees of freedom; a list of its own, set as by set_dofs. [rad or m]
 ---@field named_dofs table<string, number> # The same values by the names of dof_names; a table of its own, set as by set_dofs. [rad or m]
 ---@field dof_limits number[][] # Least and largest value of each DOF. [rad or m]
----@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m].
+---@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m], and driven: false of a DOF that no actuator of an MJCF file drives.
 ---@field dof_names string[] # Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
 local dofs = {}
 
@@ -849,6 +849,7 @@ function world_control:pop() end
 ---@class motion: entity
 ---@field velocity {linear: vec3, angular: vec3} # Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. A table of its own; one that is set changes what it names. Setting a pose brings a body to rest. [m/s], [rad/s]
 ---@field surface_velocity vec3 # Of a conveyor belt: what touches it is carried along at this velocity, in its own frame, while it stands. [m/s]
+---@field welded_to body? # The body that it is welded to, or nil.
 local motion = {}
 
 ---Pushes it in the next step, and in that one alone; pushes add up.
@@ -859,6 +860,13 @@ function motion:apply_force(force, point) end
 ---Turns it in the next step, and in that one alone.
 ---@param torque vec3 # in world axes [N m]
 function motion:apply_torque(torque) end
+
+---Makes it one piece with another body, as the two stand: in runs it moves as a part of that, with its mass, until it is unwelded. Contacts between the two end. Their momentum stays, as in a blow after which they go on together. Placed by hand, they stay welded as they then stand. Collision tests go on as before.
+---@param to body|robot # a body that does not hang on it by welds; of a robot its base
+function motion:weld(to) end
+
+---It goes on by itself, with the velocity that it has.
+function motion:unweld() end
 
 ---Masses and forces as a robot's DOFs feel them.
 ---@class joint_dynamics: motion
@@ -892,7 +900,7 @@ local robot_dynamics = {}
 ---@param forces number[] # one per DOF [N m or N]
 function robot_dynamics:set_forces(forces) end
 
----Where its motors are to bring it: at once, or on a smooth way (a polynomial of the fifth degree in time).
+---Where its motors are to bring it: at once, or on a smooth way (a polynomial of the fifth degree in time). DOFs that a table by names leaves out go on as they did.
 ---@param dofs number[]|table<string, number> # [rad or m]
 ---@param options? {velocity?: number} # the largest on the way [rad/s or m/s]
 function robot_dynamics:set_targets(dofs, options) end
@@ -976,7 +984,7 @@ function clench.convert(from, to, options) end
 function clench.entries() end
 
 ---An empty world.
----@param options? {contact_threshold?: number, dynamics?: {time_step?: number, engine?: string, cone?: string, edges?: integer}} # contact_threshold: surfaces closer than this touch, 1e-4 by default [m]; dynamics: as of world.dynamics
+---@param options? {contact_threshold?: number, gravity?: vec3, dynamics?: {time_step?: number, engine?: string, cone?: string, edges?: integer}} # contact_threshold: surfaces closer than this touch, 1e-4 by default [m]; gravity: {0, 0, -9.81} by default [m/s^2]; dynamics: as of world.dynamics
 ---@return world
 function clench.world(options) end
 

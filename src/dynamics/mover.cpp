@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/dynamics/tree/tree_dynamics.h"
+
 namespace clench {
 
 // turned by a rotation vector, in world axes
@@ -24,10 +26,13 @@ static Pose moved_rigidly(const Pose& X_WB, const Eigen::Vector3d& com, const Tw
 Mover::Mover(World& world, const System& system) : world_(world) {
   const DynamicState& state = world.edit_dynamics();
   for (const auto id : world.bodies()) {
-    const BodyKind kind = world.body(id).kind;
-    if (kind == BodyKind::object || (kind == BodyKind::obstacle && !state.twists[id.index].is_zero()))
-      parts_.push_back({id, world.pose(id), state.twists[id.index], kind == BodyKind::object});
+    const Body& body = world.body(id);
+    if (body.kind == BodyKind::obstacle && !state.twists[id.index].is_zero())
+      parts_.push_back({id, world.pose(id), state.twists[id.index], body.com, {}});
   }
+  for (const Articulation& tree : system.trees)
+    if (tree.is_free_body() && tree.robots.empty()) parts_.push_back(free_part(world, tree));
+  for (const auto& [body, to] : system.welds) welded_.push_back({body, to, world.pose(body), world.pose(to)});
   for (const Articulation& tree : system.trees)
     for (const auto id : tree.robots) {
       const Robot& robot = world.robot(id);
@@ -43,16 +48,30 @@ Mover::Mover(World& world, const System& system) : world_(world) {
     }
 }
 
+Mover::Part Mover::free_part(const World& world, const Articulation& tree) {
+  const Body& root = world.body(tree.root);
+  const Twist twist = world.twist(tree.root);
+  Part out{tree.root, world.pose(tree.root), twist, root.com, root.mass * root.inertia_per_mass};
+  if (tree.bodies.size() == 1) return out;
+  const Eigen::Vector3d c = centre(world, tree);
+  SpatialInertia all;
+  for (const TreeBody& part : tree.bodies) all.add(SpatialInertia::of(world.body(part.body), world.pose(part.body), c));
+  const Eigen::Matrix3d R = out.X_WB.matrix();
+  out.twist.linear += twist.angular.cross(c - out.X_WB * root.com);
+  out.com = out.X_WB.inverse() * c;
+  out.inertia = R.transpose() * all.turning * R;
+  return out;
+}
+
 // Euler's equations in the body's axes, by Runge and Kutta's fourth order; in world axes they are stiff for slender bodies.
 // Then what is known to stay is put right: the angular momentum in the world, by a turn of the size of the error.
 Pose Mover::moved(const Part& part, double s, Twist& after) const {
-  const Body& body = world_.body(part.body);
   after = part.twist;
   const Eigen::Vector3d& w = part.twist.angular;
   constexpr double no_turn = 1e-9, turn_of_a_step = 0.1;  // [rad]
   const double turn = w.norm() * s;
-  if (turn < no_turn) return moved_rigidly(part.X_WB, body.com, part.twist, s);
-  const Eigen::Matrix3d I = body.inertia_per_mass, inverse = I.inverse();
+  if (!part.inertia || turn < no_turn) return moved_rigidly(part.X_WB, part.com, part.twist, s);
+  const Eigen::Matrix3d &I = *part.inertia, inverse = I.inverse();
   struct Spin {
     Eigen::Vector3d momentum;  // in the body's axes
     Eigen::Vector4d rotation;
@@ -80,8 +99,8 @@ Pose Mover::moved(const Part& part, double s, Twist& after) const {
   const Eigen::Quaterniond turned =
       (Eigen::Quaterniond::FromTwoVectors(near * spin.momentum, momentum) * near).normalized();
   after.angular = turned * (inverse * spin.momentum);
-  const Eigen::Vector3d c = part.X_WB * body.com + s * part.twist.linear;
-  return {turned, c - turned * body.com};
+  const Eigen::Vector3d c = part.X_WB * part.com + s * part.twist.linear;
+  return {turned, c - turned * part.com};
 }
 
 void Mover::place(double s) { place(s, false); }
@@ -90,9 +109,11 @@ void Mover::finish(double s) { place(s, true); }
 void Mover::place(double s, bool finish) {
   for (const Part& part : parts_) {
     Twist after = part.twist;
-    const Pose X_WB = part.free ? moved(part, s, after) : moved_rigidly(part.X_WB, world_.body(part.body).com, part.twist, s);
+    const Pose X_WB = moved(part, s, after);
     world_.drift(part.body, X_WB);
-    if (finish && part.free) world_.edit_dynamics().twists[part.body.index] = after;
+    if (!finish || !part.inertia) continue;
+    const Eigen::Vector3d arm = X_WB.rotation * (world_.body(part.body).com - part.com);
+    world_.edit_dynamics().twists[part.body.index] = {after.linear + after.angular.cross(arm), after.angular};
   }
   for (const Machine& machine : machines_) {
     const Robot& robot = world_.robot(machine.robot);
@@ -121,6 +142,15 @@ void Mover::place(double s, bool finish) {
     const Pose X_WB = robot.mounting ? world_.pose(robot.base)
                                      : moved_rigidly(machine.X_WB, world_.body(robot.base).com, machine.twist, s);
     world_.drift(machine.robot, X_WB, dofs, joints);
+  }
+  place_welded();
+}
+
+void Mover::place_welded() {
+  for (const Welded& weld : welded_) {
+    const Pose& X_WT = world_.pose(weld.to);
+    // what stands stays where it is to the bit
+    world_.drift(weld.body, X_WT == weld.X_WT ? weld.X_WB : X_WT * (weld.X_WT.inverse() * weld.X_WB));
   }
 }
 

@@ -1,5 +1,7 @@
 // A world along the motion of one step: where everything is at a time, were it to go on with the velocities that it has.
 #pragma once
+#include <optional>
+
 #include "clench/dynamics/tree/articulation.h"
 
 namespace clench {
@@ -14,12 +16,14 @@ class Mover {
   void finish(double s);
 
  private:
-  struct Part {  // a free body, or one that moves as it is told
+  struct Part {  // a free body with what is welded to it, or one that moves as it is told
     Id<Body> body;
     Pose X_WB;
-    Twist twist;
-    bool free = false;
+    Twist twist;                // at com
+    Eigen::Vector3d com;        // of all, in the frame of the body [m]
+    std::optional<Eigen::Matrix3d> inertia;  // of all about it, in that frame [kg m^2]; none: it moves as it is told
   };
+  static Part free_part(const World& world, const Articulation& tree);
   struct Machine {  // a robot
     Id<Robot> robot;
     Pose X_WB;  // of its base, when nobody carries it
@@ -28,10 +32,16 @@ class Mover {
   };
   Pose moved(const Part& part, double s, Twist& after) const;
   void place(double s, bool finish);
+  void place_welded();
 
   World& world_;
   std::vector<Part> parts_;
   std::vector<Machine> machines_;  // carriers before what they carry
+  struct Welded {
+    Id<Body> body, to;
+    Pose X_WB, X_WT;
+  };
+  std::vector<Welded> welded_;  // likewise
 };
 
 }  // namespace clench

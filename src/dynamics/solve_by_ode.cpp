@@ -27,7 +27,7 @@ void Stepper::solve_by_ode(double h) {
     contacts.push_back(contact);
   }
   Eigen::VectorXd before;
-  gather_velocities(system_, *world_.dynamics(), before);
+  gather_velocities(system_, world_, *world_.dynamics(), before);
   const OdeSolution solution = step_ode(
       world_, {.system = system_, .v = before, .forces = forces_, .rows = coordinate_rows_, .contacts = contacts}, h);
   v_ = solution.v;

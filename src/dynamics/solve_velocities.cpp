@@ -10,7 +10,7 @@ Vector6d Stepper::root_twist(int tree) const {
   const Articulation& articulation = system_.trees[tree];
   Vector6d out = Vector6d::Zero();
   if (articulation.floating) return out;
-  // about() is the root's centre of mass
+  // about() is the root's centre of mass where it does not float
   const Twist twist = world_.twist(articulation.root);
   out << twist.linear, twist.angular;
   return out;
@@ -18,7 +18,7 @@ Vector6d Stepper::root_twist(int tree) const {
 
 void Stepper::find_free_velocities(double h) {
   const DynamicState& state = *world_.dynamics();
-  gather_velocities(system_, state, v_);
+  gather_velocities(system_, world_, state, v_);
   v_before_ = v_;
   for (size_t t = 0; t < trees_.size(); ++t) {
     const Articulation& tree = system_.trees[t];
@@ -64,7 +64,6 @@ void Stepper::keep(double h) {
     const Articulation& tree = system_.trees[t];
     const Vector6d root = root_twist(static_cast<int>(t));
     if (!tree.floating) state.prescribed[tree.root.index] = world_.twist(tree.root);
-    if (tree.is_free_body()) continue;
     for (size_t b = 0; b < tree.bodies.size(); ++b)
       if (tree.bodies[b].body != tree.root)
         state.twists[tree.bodies[b].body.index] =
@@ -92,6 +91,7 @@ void Stepper::keep(double h) {
     p.force = world_.pose(m.a).rotation.conjugate() * Eigen::Vector3d(impulse / time);
     if (block.law.tangents == 3) p.torsion = r_[row + 3] * p.torsion_radius / time;
   }
+  std::ranges::sort(state.row_forces, {}, [](const RowForce& row) { return std::pair(row.kind, row.index); });
   disengage(time);
   for (Load& load : state.loads) load = {};
   state.report.contacts = static_cast<int>(touches_.size());
@@ -99,8 +99,20 @@ void Stepper::keep(double h) {
   ++state.report.steps;
 }
 
+// What is welded to something that moves as prescribed moves so, too.
+void Stepper::carry_welded() {
+  DynamicState& state = world_.edit_dynamics();
+  for (const auto& [body, to] : system_.welds) {
+    if (system_.place(body).tree >= 0) continue;
+    const Twist twist = world_.twist(to);
+    const Eigen::Vector3d arm = world_.pose(body) * world_.body(body).com - world_.pose(to) * world_.body(to).com;
+    state.twists[body.index] = {twist.linear + twist.angular.cross(arm), twist.angular};
+  }
+}
+
 void Stepper::solve(double h) {
   refresh();
+  carry_welded();
   DynamicState& state = world_.edit_dynamics();
   find_manifolds(world_, system_, 0);
   for (const auto id : world_.robots()) pull_tendons(world_, id, h, state);

@@ -14,8 +14,7 @@ static constexpr double tolerance = 1e-12;
 // its forces stay. In a step of 1 ms that is a millionth of gravity [m/s, rad/s].
 static constexpr double rest_speed = 1e-7, rest_tolerance = 1e-8;
 
-// Blocks that share a tree, straight or through others.
-std::vector<std::vector<int>> Stepper::find_islands() const {
+std::vector<Stepper::Island> Stepper::find_islands() const {
   std::vector<int> leader(trees_.size());
   std::iota(leader.begin(), leader.end(), 0);
   const auto find = [&](int t) {
@@ -28,7 +27,7 @@ std::vector<std::vector<int>> Stepper::find_islands() const {
       leader[std::max(a, b)] = std::min(a, b);
     }
   std::vector<int> island_of(trees_.size(), -1);
-  std::vector<std::vector<int>> islands;
+  std::vector<Island> islands;
   for (size_t i = 0; i < blocks_.size(); ++i) {
     const int tree = blocks_[i].tree[0] >= 0 ? blocks_[i].tree[0] : blocks_[i].tree[1];
     if (tree < 0) continue;
@@ -37,34 +36,37 @@ std::vector<std::vector<int>> Stepper::find_islands() const {
       island = static_cast<int>(islands.size());
       islands.emplace_back();
     }
-    islands[island].push_back(static_cast<int>(i));
+    islands[island].blocks.push_back(static_cast<int>(i));
   }
+  for (size_t t = 0; t < trees_.size(); ++t)
+    if (const int island = island_of[find(static_cast<int>(t))]; island >= 0 && !tree_rows_[t].rows.empty())
+      islands[island].trees.push_back(static_cast<int>(t));
   return islands;
 }
 
 // Do the forces of the last step hold what rests? Answered by the velocities that they leave, without the matrix of the problem.
-bool Stepper::holds(const std::vector<int>& local, const Eigen::VectorXd& warm, FrictionSolution& solution) {
+bool Stepper::holds(const Island& island, const Eigen::VectorXd& warm, FrictionSolution& solution) {
   const Eigen::Index count = warm.size();
   // of the matrix its diagonal is enough
   if (problem_.W.rows() != count) problem_.W.resize(count, count);
   solution.u = problem_.q;
-  for (int row = 0; row < row_count_; ++row) {
-    if (local[row] < 0) continue;
-    problem_.W(local[row], local[row]) = compliance_[row];
-    solution.u[local[row]] += compliance_[row] * warm[local[row]];
+  for (const int row : rows_) {
+    const int k = local_[row];
+    problem_.W(k, k) = compliance_[row];
+    solution.u[k] += compliance_[row] * warm[k];
   }
   Eigen::VectorXd change;
-  for (const TreeRows& rows : tree_rows_) {
-    if (rows.rows.empty() || local[rows.rows[0]] < 0) continue;
+  for (const int tree : island.trees) {
+    const TreeRows& rows = tree_rows_[tree];
     change.setZero(rows.Y.rows());
     for (size_t i = 0; i < rows.rows.size(); ++i) {
       const auto column = rows.Y.col(static_cast<Eigen::Index>(i));
-      const int k = local[rows.rows[i]];
+      const int k = local_[rows.rows[i]];
       change += warm[k] * column;
       problem_.W(k, k) += column.squaredNorm();
     }
     for (size_t i = 0; i < rows.rows.size(); ++i)
-      solution.u[local[rows.rows[i]]] += rows.Y.col(static_cast<Eigen::Index>(i)).dot(change);
+      solution.u[local_[rows.rows[i]]] += rows.Y.col(static_cast<Eigen::Index>(i)).dot(change);
   }
   const FrictionFault fault = friction_fault(problem_, warm, solution.u, rest_tolerance);
   solution.r = warm;
@@ -73,62 +75,55 @@ bool Stepper::holds(const std::vector<int>& local, const Eigen::VectorXd& warm, 
   return solution.solved;
 }
 
-void Stepper::assemble(const std::vector<int>& local, int count) {
+void Stepper::assemble(const Island& island, int count) {
   problem_.W.setZero(count, count);
-  for (int row = 0; row < row_count_; ++row)
-    if (local[row] >= 0) problem_.W(local[row], local[row]) = compliance_[row];
-  for (const TreeRows& rows : tree_rows_) {
-    const int columns = static_cast<int>(rows.rows.size());
-    if (columns == 0 || local[rows.rows[0]] < 0) continue;
-    for (int i = 0; i < columns; ++i)
+  for (const int row : rows_) problem_.W(local_[row], local_[row]) = compliance_[row];
+  for (const int tree : island.trees) {
+    const TreeRows& rows = tree_rows_[tree];
+    for (int i = 0; i < static_cast<int>(rows.rows.size()); ++i)
       for (int j = 0; j <= i; ++j) {
         const double w = rows.Y.col(i).dot(rows.Y.col(j));
-        const int a = local[rows.rows[i]], b = local[rows.rows[j]];
+        const int a = local_[rows.rows[i]], b = local_[rows.rows[j]];
         problem_.W(a, b) += w;
         if (i != j) problem_.W(b, a) += w;
       }
   }
 }
 
-void Stepper::solve_island(const std::vector<int>& blocks) {
-  std::vector<int> local(row_count_, -1);
+void Stepper::solve_island(const Island& island) {
   problem_.blocks.clear();
+  rows_.clear();
   int count = 0;
-  for (const int i : blocks) {
+  for (const int i : island.blocks) {
     FrictionProblem::Block law = blocks_[i].law;
-    for (int k = 0; k < law.size(); ++k) local[law.row + k] = count + k;
+    for (int k = 0; k < law.size(); ++k) local_[law.row + k] = count + k, rows_.push_back(law.row + k);
     law.row = count;
     count += law.size();
     problem_.blocks.push_back(law);
   }
   // what rests keeps the forces that it has as long as they hold it
   bool at_rest = true;
-  for (const int i : blocks)
-    for (const int t : blocks_[i].tree)
-      at_rest = at_rest && (t < 0 || v_before_.segment(system_.trees[t].first, system_.trees[t].size()).cwiseAbs().maxCoeff() < rest_speed);
+  for (const int t : island.trees)
+    at_rest = at_rest && v_before_.segment(system_.trees[t].first, system_.trees[t].size()).cwiseAbs().maxCoeff() < rest_speed;
   problem_.q.resize(count);
   Eigen::VectorXd warm(count);
-  for (int row = 0; row < row_count_; ++row) {
-    if (local[row] < 0) continue;
-    problem_.q[local[row]] = q_[row];
-    warm[local[row]] = warm_[row];
+  for (const int row : rows_) {
+    problem_.q[local_[row]] = q_[row];
+    warm[local_[row]] = warm_[row];
   }
   const DynamicSettings& settings = world_.dynamic_settings();
   FrictionSolution solution;
-  const bool held = at_rest && settings.cone == FrictionCone::round && holds(local, warm, solution);
+  const bool held = at_rest && settings.cone == FrictionCone::round && holds(island, warm, solution);
   if (!held) {
-    assemble(local, count);
+    assemble(island, count);
     solution = solver_.solve(
-        problem_, warm, {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = 1, .speed = tolerance});
+        problem_, warm,
+        {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = tolerance},
+        world_.context().progress());
   }
-  for (int row = 0; row < row_count_; ++row) {
-    if (local[row] < 0) continue;
-    r_[row] = solution.r[local[row]];
-  }
+  for (const int row : rows_) r_[row] = solution.r[local_[row]];
   if (at_rest && solution.iterations == 0)
-    for (const int i : blocks)
-      for (const int t : blocks_[i].tree)
-        if (t >= 0) resting_[t] = true;
+    for (const int t : island.trees) resting_[t] = true;
   StepReport& report = world_.edit_dynamics().report;
   report.iterations += solution.iterations;
   report.fallbacks += solution.fell_back;

@@ -16,6 +16,8 @@ static constexpr double rest_band = 1e-3;
 // Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so [m/s]: so slowly that what is
 // pushed apart presses on each other as if it rested.
 static constexpr double pushed_part = 0.02, pushed_at_most = 0.1;
+// What turns while it slides comes nearer as it does; it is pushed apart by more, up to a part of the speed of sliding.
+static constexpr double pushed_part_sliding = 0.5, pushed_of_slip = 0.1;
 // Below this speed of approach nothing bounces [m/s].
 static constexpr double bounces_above = 0.01;
 
@@ -96,26 +98,32 @@ void Stepper::add_contact(int manifold, int point, double h) {
   }
   // what touches comes no nearer, and what is too near parts
   const double step = std::max(world_.dynamic_settings().step, h);
-  const double missing = (rest_gap - rest_band) * world_.contact_threshold() - p.gap;
-  double target = std::clamp(pushed_part * missing / step, 0.0, pushed_at_most);
+  const double missing = std::max(0.0, (rest_gap - rest_band) * world_.contact_threshold() - p.gap);
   const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
-  double slip = 0;
+  std::array<double, 4> before;
   for (int k = 0; k < size; ++k) {
-    double q = k < 3 ? touch.frame.col(k).dot(prescribed) : 0, before = q;
+    double q = k < 3 ? touch.frame.col(k).dot(prescribed) : 0;
+    before[k] = q;
     for (int side = 0; side < 2; ++side)
       if (const int t = block.tree[side]; t >= 0) {
         const auto column = tree_rows_[t].Y.col(block.column[side] + k);
         q += column.dot(v_.segment(system_.trees[t].first, system_.trees[t].size()));
-        before += column.dot(v_before_.segment(system_.trees[t].first, system_.trees[t].size()));
+        before[k] += column.dot(v_before_.segment(system_.trees[t].first, system_.trees[t].size()));
       }
-    // Newton's law of impact, where the free motion would press
-    if (k == 0 && q < target && before < -bounces_above) target = std::max(target, -restitution * before);
-    if (k == 0) q -= target;
-    if (k > 0) slip += before * before;
     q_.push_back(q);
   }
-  const double slow = std::max(sliding_speed, world_.gravity().norm() * step);
-  block.law.mu = slip > slow * slow ? friction.kinetic : friction.statics;
+  double slip = 0;
+  for (int k = 1; k < size; ++k) slip += before[k] * before[k];
+  slip = std::sqrt(slip);
+  const bool slides = slip > std::max(sliding_speed, world_.gravity().norm() * step);
+  block.law.mu = slides ? friction.kinetic : friction.statics;
+  double target = pushed_part * missing / step;
+  if (slides) target = std::max(target, std::min(pushed_part_sliding * missing / step, pushed_of_slip * slip));
+  target = std::min(target, pushed_at_most);
+  // Newton's law of impact, where the free motion would press
+  double& q_normal = q_[block.law.row];
+  if (q_normal < target && before[0] < -bounces_above) target = std::max(target, -restitution * before[0]);
+  q_normal -= target;
   // warm start
   const Eigen::Vector3d force = X_WA.rotation * p.force;
   for (int k = 0; k < size; ++k) warm_.push_back(h * (k < 3 ? touch.frame.col(k).dot(force) : p.torsion / p.torsion_radius));
@@ -135,8 +143,10 @@ void Stepper::add_row(int number, double h) {
   tree_rows_[row.tree].Y(row.coordinate, block.column[0]) = 1;
   q_.push_back(v_[system_.trees[row.tree].first + row.coordinate] - row.target);
   double warm = 0;
-  for (const RowForce& last : world_.dynamics()->row_forces)
-    if (last.kind == static_cast<int>(row.kind) && last.index == row.index) warm = h * last.force;
+  const auto key = [](const RowForce& last) { return std::pair(last.kind, last.index); };
+  const std::pair wanted(static_cast<int>(row.kind), row.index);
+  const auto& all = world_.dynamics()->row_forces;
+  if (const auto last = std::ranges::lower_bound(all, wanted, {}, key); last != all.end() && key(*last) == wanted) warm = h * last->force;
   warm_.push_back(std::clamp(warm, row.low, row.high));
   ++row_count_;
   blocks_.push_back(block);
@@ -163,6 +173,7 @@ void Stepper::find_rows(double h) {
   }
   for (size_t i = 0; i < coordinate_rows_.size(); ++i) add_row(static_cast<int>(i), h);
   compliance_.setZero(row_count_);
+  local_.resize(row_count_);
   for (const Block& block : blocks_)
     if (block.row >= 0) compliance_[block.law.row] = coordinate_rows_[block.row].compliance;
   for (size_t t = 0; t < trees_.size(); ++t)

@@ -85,6 +85,19 @@ double Stepper::advance_balls(const std::vector<std::pair<int, double>>& pairs, 
   return stop;
 }
 
+// Do bodies that touch not come into each other at so many places between the ends of a step?
+bool Stepper::is_free_on_the_way(const Manifold& m, int places, double dt, Mover& mover) {
+  const auto [first, second] = ordered(m.a, m.b);
+  bool free = true;
+  for (int k = 1; free && k <= places; ++k) {
+    mover.place(dt * k / (places + 1));
+    free = distance(*world_.body(m.a).shape, *world_.body(m.b).shape, relative_pose(world_, m.a, m.b), world_.contact_threshold(),
+                    &world_.context().pair(first, second)).distance > 0;
+  }
+  mover.place(dt);
+  return free;
+}
+
 double Stepper::move(double dt) {
   refresh();
   find_manifolds(world_, system_, max_travel(dt));
@@ -108,7 +121,11 @@ double Stepper::move(double dt) {
     if (m.clearance == 0) continue;  // they overlap: nothing to stop
     const double way = displacement(before[i], relative_pose(world_, m.a, m.b), *world_.body(m.b).shape);
     const double thin = 0.5 * std::min(thickness(*world_.body(m.a).shape), thickness(*world_.body(m.b).shape));
-    if (way <= std::min(short_way * world_.contact_threshold(), thin)) {
+    const bool touching = m.clearance - displacement(m.X_AB, before[i], *world_.body(m.b).shape) <= world_.contact_threshold();
+    const double looked_at = short_way * world_.contact_threshold();
+    // what slides is looked at every now and then: following it would ask a thousand times whether it still only touches
+    if (way <= thin && (way <= looked_at || (touching && !has_ball(world_, m) &&
+                                             is_free_on_the_way(m, static_cast<int>(way / looked_at), dt, mover)))) {
       Manifold there = m;
       measure(world_, there);
       if (there.clearance > 0) {
@@ -116,7 +133,7 @@ double Stepper::move(double dt) {
         continue;
       }
     }
-    near = near || m.clearance - displacement(m.X_AB, before[i], *world_.body(m.b).shape) <= world_.contact_threshold();
+    near = near || touching;
     // the bound holds on the whole way, which is longer than the chord of a turn
     if (has_ball(world_, m))
       balls.push_back({i, 1.1 * way / dt});

@@ -48,22 +48,28 @@ class Stepper {
     Eigen::MatrixXd Y;      // L^-1 J^T: coordinates x rows
     std::vector<int> rows;  // of all, by column
   };
+  /// What touches each other, straight or through others, and is solved by itself.
+  struct Island {
+    std::vector<int> blocks, trees;
+  };
 
   void refresh();
   double max_travel(double dt) const;
   double advance_balls(const std::vector<std::pair<int, double>>& pairs, double end, Mover& mover);
+  bool is_free_on_the_way(const Manifold& m, int places, double dt, Mover& mover);
   Vector6d root_twist(int tree) const;
   Eigen::Vector3d prescribed_velocity(Id<Body> body, const Eigen::Vector3d& p_W) const;
+  void carry_welded();
   void find_free_velocities(double h);
   void update_manifolds();
   void add_contact(int manifold, int point, double h);
   void add_row(int row, double h);
   int add_columns(int tree, int count);
   void find_rows(double h);
-  std::vector<std::vector<int>> find_islands() const;
-  bool holds(const std::vector<int>& local, const Eigen::VectorXd& warm, FrictionSolution& solution);
-  void assemble(const std::vector<int>& local, int count);
-  void solve_island(const std::vector<int>& blocks);
+  std::vector<Island> find_islands() const;
+  bool holds(const Island& island, const Eigen::VectorXd& warm, FrictionSolution& solution);
+  void assemble(const Island& island, int count);
+  void solve_island(const Island& island);
   void apply_impulses();
   void solve_by_ode(double h);
   void keep(double h);
@@ -80,6 +86,8 @@ class Stepper {
   std::vector<Touch> touches_;
   std::vector<Block> blocks_;
   Eigen::VectorXd v_, v_before_, r_, compliance_;
+  std::vector<int> rows_;   // of the island that is solved
+  std::vector<int> local_;  // of all rows: which one of its island's problem it is
   std::vector<double> q_, warm_;
   std::vector<bool> resting_;
   int row_count_ = 0;

@@ -190,6 +190,7 @@ void Comparer::switches() {
     add("which bodies may collide");
   if (!same(a_.contact_threshold(), b_.contact_threshold())) add("the contact threshold");
   if (a_.gravity() != b_.gravity()) add("gravity");
+  if (a_.dynamic_settings().step != b_.dynamic_settings().step) add("the time step");
   const auto names = [](const Keyframe& keyframe) { return keyframe.name; };
   if (!std::ranges::equal(a_.keyframes(), b_.keyframes(), {}, names, names)) add("the keyframes");
 }

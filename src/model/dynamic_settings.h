@@ -38,6 +38,7 @@ struct DynamicSettings {
   int cone_edges = 8;  ///< of a pyramid
   std::map<Id<Robot>, RobotDynamics> robots;  ///< others are as RobotDynamics begins
   std::map<Id<Body>, Eigen::Vector3d> surface_velocities;  ///< of conveyor belts, in their bodies' frames [m/s]
+  std::map<Id<Body>, Id<Body>> welds;  ///< objects, and the body with which each moves as one piece; no cycles
 
   bool operator==(const DynamicSettings&) const = default;
   const RobotDynamics& robot(Id<Robot> id) const {

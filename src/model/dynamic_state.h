@@ -106,7 +106,7 @@ struct DynamicState {
   std::vector<Pose> sweep_poses;             ///< poses when the pairs were last looked for
   double sweep_reach = 0;                    ///< how near pairs had to be then [m]
   uint64_t sweep_model = 0, sweep_settings = 0;  ///< stamps then
-  std::vector<RowForce> row_forces;          ///< of what is no contact, for a warm start
+  std::vector<RowForce> row_forces;          ///< of what is no contact, by kind and index, for a warm start
   StepReport report;
 
   size_t bytes() const;

@@ -53,7 +53,7 @@ struct Robot {
   std::shared_ptr<const GloveCalibration> glove;
   RobotFiles files;  ///< where the three above came from
   std::optional<TrackerSpec> tracker;
-  std::shared_ptr<const PassiveParts> passive;  ///< null: none; nothing acts on them yet
+  std::shared_ptr<const PassiveParts> passive;  ///< null: none; kept for scripts
 
   Id<Body> body_of(int link) const { return link < 0 ? base : links[link].body; }
 };

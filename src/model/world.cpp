@@ -287,6 +287,7 @@ void World::erase(Id<Body> id) {
   std::erase_if(settings.pairs_off,
                 [&](const auto& pair) { return pair.first == id || pair.second == id; });
   settings.dynamics.surface_velocities.erase(id);
+  std::erase_if(settings.dynamics.welds, [&](const auto& weld) { return weld.first == id || weld.second == id; });
   if (state_.dynamics) {
     DynamicState& state = edit_dynamics();
     std::erase_if(state.manifolds, [&](const Manifold& m) { return m.a == id || m.b == id; });

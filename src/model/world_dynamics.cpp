@@ -1,4 +1,8 @@
 // How the things of a world move.
+#include <algorithm>
+#include <atomic>
+#include <memory>
+
 #include "clench/base/error.h"
 #include "clench/base/text.h"
 #include "clench/model/world.h"
@@ -7,6 +11,10 @@ namespace clench {
 
 void World::set_dynamic_settings(DynamicSettings settings) {
   check(time_step_rule, settings.step, "world");
+  // what is as it was at first is no setting
+  for (auto& [id, robot] : settings.robots)
+    if (std::ranges::none_of(robot.gains, [](const auto& gains) { return gains.has_value(); })) robot.gains.clear();
+  std::erase_if(settings.robots, [](const auto& of) { return of.second == RobotDynamics{}; });
   edit_settings().dynamics = std::move(settings);
 }
 

@@ -81,6 +81,7 @@ static void add(Hasher& h, const World& world, const DynamicSettings& settings) 
     }
   }
   for (const auto& [id, velocity] : settings.surface_velocities) h.add(world.body(id).name), add(h, velocity);
+  for (const auto& [object, to] : settings.welds) h.add(world.body(object).name), h.add(world.body(to).name);
 }
 
 uint64_t World::hash() const {

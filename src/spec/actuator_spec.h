@@ -1,4 +1,5 @@
-// Actuators as a file describes them: kept for dynamics; nothing acts on them yet.
+// Actuators as an MJCF file describes them. What motors take from them (limits, gains of position servos, which DOFs are
+// driven) is in DofSpec; their laws are kept for scripts.
 #pragma once
 #include <array>
 #include <optional>

@@ -104,7 +104,7 @@ struct RobotSpec {
   std::vector<TactileSpec> tactile;
   std::vector<TendonSpec> tendons;
   std::vector<TendonWrapper> wrappers;
-  std::vector<ActuatorSpec> actuators;  ///< in the file's order; nothing acts on them yet
+  std::vector<ActuatorSpec> actuators;  ///< in the file's order; what motors take from them is in dofs
 };
 
 /// Approach frame from a reference point and a direction, both in the base frame.

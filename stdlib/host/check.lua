@@ -51,7 +51,6 @@ local function kept_words(kept)
   local function add(format, ...) list[#list + 1] = format:format(...) end
   if kept.tendons then add("%s (%s)", several(#kept.tendons, "tendon"), name_list(kept.tendons)) end
   if kept.tendon_wrappers then add("%s", several(kept.tendon_wrappers, "tendon wrapper")) end
-  if kept.actuators then add("%s", several(kept.actuators, "actuator")) end
   if kept.tactile_sensors then add("%s", several(kept.tactile_sensors, "tactile sensor")) end
   if kept.glove then add("a glove of %s for %s", several(kept.glove.sensors, "sensor"), several(kept.glove.dofs, "DOF")) end
   if kept.tracker then add("position sensor %d", kept.tracker) end
@@ -72,7 +71,7 @@ function print_kind.body(body)
   if body.mesh and body.mesh.volume then print(("  volume         %.4g m^3, area %.4g m^2"):format(body.mesh.volume, body.mesh.area)) end
   if body.elastic_modulus then print(("  elastic        %.3g Pa"):format(body.elastic_modulus)) end
   if body.primitives then print("  for planners   " .. counted(body.primitives)) end
-  if body.tracker then print(("  kept, without effect yet: position sensor %d"):format(body.tracker)) end
+  if body.tracker then print(("  kept, without effect: position sensor %d"):format(body.tracker)) end
 end
 
 function print_kind.robot(robot)
@@ -81,7 +80,8 @@ function print_kind.robot(robot)
     for _, link in ipairs(chain.links) do links[#links + 1] = body_row(link) end
   end
   print("  " .. table.concat({several(#robot.dofs, "DOF"), several(#robot.chains, "chain"), several(#links - 1, "link"),
-    several(robot.eigengrasps, "eigengrasp"), several(robot.virtual_contacts, "virtual contact")}, ", "))
+    several(robot.eigengrasps, "eigengrasp"), several(robot.virtual_contacts, "virtual contact"),
+    robot.actuators > 0 and several(robot.actuators, "actuator") or nil}, ", "))
   columns(links, "  ")
   local rows = {{"DOF", "name", "kind", "from", "to", "at", "closes", "effort"}}
   for i, dof in ipairs(robot.dofs) do
@@ -101,7 +101,7 @@ function print_kind.robot(robot)
   columns(rows, "  ")
   print(("  approaches along %s, approach point %s m, in its base"):format(vector(robot.approach.direction, "%.3g"),
     vector(robot.approach.point, "%.3f")))
-  if robot.kept then print("  kept, without effect yet: " .. kept_words(robot.kept)) end
+  if robot.kept then print("  kept, without effect: " .. kept_words(robot.kept)) end
 end
 
 function print_kind.world(world)
@@ -119,7 +119,7 @@ function print_kind.world(world)
       print(("  %s:"):format(robot.name))
       print_kind.robot(robot)
     elseif robot.kept then
-      print(("  %s: kept, without effect yet: %s"):format(robot.name, kept_words(robot.kept)))
+      print(("  %s: kept, without effect: %s"):format(robot.name, kept_words(robot.kept)))
     end
   end
   for _, pair in ipairs(world.overlaps) do print(("  %s and %s overlap"):format(pair[1], pair[2])) end

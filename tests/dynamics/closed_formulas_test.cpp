@@ -4,6 +4,7 @@
 
 #include "clench/dynamics/measure.h"
 #include "clench/model/find.h"
+#include "support/meshes.h"
 #include "support/pendulums.h"
 
 using namespace clench;
@@ -39,6 +40,21 @@ TEST_CASE("a box on a slope sticks below the friction angle, and above it slides
         CHECK(slope.world.dynamics()->report.overlaps == 0);
       }
     }
+}
+
+TEST_CASE("of a cube that slides the corners in front carry more than those behind, and each of a pair the same") {
+  const double angle = 20 * degree, mu = 0.95 * std::tan(angle), mass = 0.4;
+  Slope slope(angle, mu);
+  slope.put("box", box(0.1, 0.1, 0.1), mass, Pose::translation({-5, 0, 0.05 + touch}));
+  run(slope.world, 1);
+  std::vector<double> normal;
+  for (const Contact& c : contacts(slope.world))
+    if (const Eigen::Vector3d up = slope.X_WS.rotation * Eigen::Vector3d::UnitZ(); c.force_W.dot(up) > 0) normal.push_back(c.force_W.dot(up));
+  REQUIRE(normal.size() == 4);
+  std::ranges::sort(normal);
+  // moments about the centre: friction acts half an edge below it. Rounding of the gaps spreads what is redundant a little
+  const double each = mass * g * std::cos(angle) / 4;
+  for (int i = 0; i < 4; ++i) CHECK(normal[i] == doctest::Approx(each * (i < 2 ? 1 - mu : 1 + mu)).epsilon(1e-4));
 }
 
 TEST_CASE("kinetic friction holds once it slides, static friction until then") {
@@ -170,6 +186,24 @@ TEST_CASE("nothing tunnels: a bullet stops at a sheet of a tenth of a millimetre
   run(world, 0.01);
   CHECK(world.pose(id).position.x() < -0.005);
   CHECK(world.twist(id).linear.x() < 1e-6);
+}
+
+TEST_CASE("what slides far in a step slides as it should, and stops at a narrow ridge of the same floor") {
+  // 2 mm wide, as high as the box, 3 m ahead
+  const Mesh ridge = moved(box(0.002, 1, 0.2), Pose::translation({3, 0, 0.1}));
+  World world;
+  world.add_body(body_spec("floor", joined(box(8, 1, 0.2), ridge)), BodyKind::obstacle, {}, "floor");
+  world.set_friction("wood", "wood", {.statics = 0.3, .kinetic = 0.3});
+  const auto id = world.add_body(body_spec("box", box(0.1, 0.1, 0.1)), BodyKind::object, Pose::translation({0, 0, 0.15 + touch}), "box");
+  // 20 mm in a step
+  world.set_twist(id, {{20, 0, 0}, {0, 0, 0}});
+  run(world, 0.1);
+  CHECK(world.twist(id).linear.x() == doctest::Approx(20 - 0.3 * g * 0.1).epsilon(1e-9));
+  CHECK(world.dynamics()->report.impacts == 0);
+  run(world, 0.2);
+  CHECK(world.dynamics()->report.impacts > 0);
+  CHECK(world.dynamics()->report.overlaps == 0);
+  CHECK(world.pose(id).position.x() < 2.96);
 }
 
 TEST_CASE("a tall box tips over its edge when the slope is steep, and stands when it is not") {

@@ -160,6 +160,9 @@ TEST_CASE("damping, friction and armature of joints and actuators are kept") {
   CHECK(servo.dof == 0);
   CHECK(servo.gear == 2);
   CHECK(servo.gain == 5);
+  // of the servo, the damper and the general one together; gears count squared
+  CHECK(robot.dofs[0].kp == 5 * 4 + 2);
+  CHECK(robot.dofs[0].kd == 0.5 * 4 + 3 + 3);
   CHECK(servo.bias == std::array{0.0, -5.0, -0.5});
   CHECK(servo.control_range == std::array{-1.0, 1.0});
   CHECK(robot.actuators[1].bias == std::array{0.0, 0.0, -3.0});
@@ -280,6 +283,21 @@ TEST_CASE("a scene's time step is the world's") {
   CHECK(!ToldWorld(mug).world.time_step);
   CHECK(failure(mug, "<option timestep='0'/>").find("option: timestep: ") != std::string::npos);
   CHECK(failure(mug, "<option timestep='nan'/>").find("option: timestep: ") != std::string::npos);
+}
+
+TEST_CASE("an actuator on a tendon gives its gains to the DOF that the tendon's joints share") {
+  const std::string fingers = "<body name='palm'><geom size='1'/>"
+      "<body name='left'><joint name='l' axis='1 0 0' range='0 1'/><geom size='1' mass='1'/></body>"
+      "<body name='right'><joint name='r' axis='1 0 0' range='0 1'/><geom size='1' mass='1'/></body></body>";
+  const ToldWorld told(fingers, "<tendon><fixed name='split'><joint joint='l' coef='0.5'/><joint joint='r' coef='0.5'/></fixed></tendon>"
+                                "<actuator><general tendon='split' gainprm='0.3' biastype='affine' biasprm='0 -100 -10' gear='2' "
+                                "forcerange='-5 5'/></actuator>");
+  const RobotSpec& robot = told.world.robots[0].robot;
+  REQUIRE(robot.dofs.size() == 1);
+  // the actuator gains 2 (0.5 + 0.5) for a unit of both joints
+  CHECK(robot.dofs[0].kp == doctest::Approx(400));
+  CHECK(robot.dofs[0].kd == doctest::Approx(40));
+  CHECK(robot.dofs[0].max_effort == doctest::Approx(10));
 }
 
 TEST_CASE("names that are none are repaired") {

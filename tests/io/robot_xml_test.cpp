@@ -202,7 +202,7 @@ TEST_CASE("tendons, wrappers and tactile sensors are kept, and one warning says 
   CHECK((r.tactile[0].high_L - Eigen::Vector3d(0.003, 0.004, 0.005)).norm() < 1e-15);
   CHECK(warnings.list ==
         std::vector<std::string>{
-            "hand.xml:9: tendons and their wrappers are kept, 1 and 1, but do not act yet"});
+            "hand.xml:9: tendons and their wrappers are kept, 1 and 1, but have no effect"});
 }
 
 TEST_CASE("a wrapper that names a tendon which does not exist is told") {

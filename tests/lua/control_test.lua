@@ -303,3 +303,122 @@ test("stiffer motors give way less", function(t)
   t.fails(function() hand.gains = {{kp = 1, kd = 0, ki = 1}, false, false, false} end, "unknown key 'ki'")
   t.fails(function() hand.gains = 5 end, "expected a list of gains, got 5")
 end)
+
+-- a rod of 0.2 m on a hinge, horizontal at first; actuators: elements of MuJoCo
+local function rod(actuators)
+  local path = os.tmpname() .. ".xml"
+  local file = assert(io.open(path, "w"))
+  file:write([[<mujoco model="rod"><compiler angle="radian"/><worldbody><body name="base" pos="0 0 1"><geom size="0.02" mass="1"/>
+    <body name="rod"><joint name="hinge" axis="0 1 0" range="-3 3" limited="true"/>
+    <geom type="box" size="0.1 0.005 0.005" pos="0.1 0 0" mass="0.1"/></body></body></worldbody>]], actuators or "", "</mujoco>")
+  file:close()
+  local world = clench.world()
+  local robot = world:add_robot(path)
+  os.remove(path)
+  return world, robot
+end
+
+test("a joint that no actuator drives swings; one with a servo is held, and carries the weight", function(t)
+  local world, robot = rod()
+  t.equal(robot.controller, "effort")
+  t.equal(robot.dof_info[1].driven, false)
+  -- the weight of 0.1 kg at 0.1 m, on the hinge
+  t.close(math.abs(robot:bias_forces()[1]), 0.1 * 9.81 * 0.1, 1e-9)
+  world:run(0.05)
+  -- a thin rod's angular acceleration 3 g / (2 l), a box's inertia a little more
+  t.close(robot.dof_velocities[1] / 0.05, 1.5 * 9.81 / 0.2, 0.5)
+  t.equal(robot.dof_efforts[1], 0)
+  robot.controller = "position"
+  robot:set_targets {0}
+  world:run(1)
+  -- held, by gains that follow from its inertia: it sags
+  t.close(robot.dofs[1], 0, 0.05)
+  t.close(robot.dof_velocities[1], 0, 1e-6)
+
+  world, robot = rod [[<actuator><position joint="hinge" kp="1"/></actuator>]]
+  t.equal(robot.controller, "position")
+  t.equal(robot.dof_info[1].driven, true)
+  t.close(robot:bias_forces()[1], 0, 1e-12)
+  world:run(0.5)
+  t.close(robot.dofs[1], 0, 1e-9)
+  robot.gravity_compensation = false
+  world:run(2)
+  -- kp q = m g l cos q
+  t.close(robot.dofs[1], 0.0981 * math.cos(robot.dofs[1]), 1e-3)
+end)
+
+test("a velocity that is set changes what it names", function(t)
+  local _, box = falling_box()
+  box.velocity = {linear = {1, 2, 3}, angular = {4, 5, 6}}
+  box.velocity = {angular = {0, 0, 1}}
+  t.equal(box.velocity.linear, clench.vec3(1, 2, 3))
+  t.equal(box.velocity.angular, clench.vec3(0, 0, 1))
+  for _, wrong in ipairs {{{1, 2, 3}}, {3}} do
+    t.fails(function() box.velocity = wrong[1] end, "expected {linear = {x, y, z}, angular = {x, y, z}}, got")
+  end
+  t.fails(function() box.velocity = {linaer = {1, 0, 0}} end, "unknown key 'linaer', expected one of linear, angular; did you mean 'linear'?")
+end)
+
+test("targets by name leave the other DOFs as they are", function(t)
+  local hand = clench.load("worlds/barrett_mug.wld").robots[1]
+  hand.controller = "effort"
+  hand:set_forces {0, 0, 0.05, 0}
+  hand:set_targets {dof2 = 0.1}
+  t.equal(hand.controller, "mixed")
+  hand.world:run(0.01)
+  t.close(hand.dof_efforts[3], 0.05, 1e-12)
+  hand:set_targets {0, 0.1, 0, 0}
+  t.equal(hand.controller, "position")
+end)
+
+test("what is added in a step begins with the next one", function(t)
+  local world = falling_box()
+  local spawned, called, tasks = 0, 0, 0
+  local function again()
+    spawned = spawned + 1
+    world:spawn(again)  -- would go on for ever within one step
+  end
+  world:spawn(again)
+  world:on_step(function()
+    tasks = tasks + 1
+    if tasks == 1 then world:on_step(function() called = called + 1 end) end
+  end)
+  world:run(0.01)
+  t.equal(spawned, 10)
+  t.equal(called, 9)
+end)
+
+test("the halves of a step are not for what is called in a run", function(t)
+  local world = falling_box()
+  world:on_step(function() world:move_bodies(0.001) end)
+  t.fails(function() world:run(0.01) end, "world:move_bodies: the world runs already: what is called in a run cannot step it")
+  world = falling_box()
+  world:on_step(function() world:solve_velocities(0.001) end)
+  t.fails(function() world:run(0.01) end, "world:solve_velocities: the world runs already: what is called in a run cannot step it")
+end)
+
+test("with breakaway a stopped link lets its fingertip close on, without it both stay", function(t)
+  for _, breakaway in ipairs {true, false} do
+    local world = clench.world {gravity = {0, 0, 0}}
+    local hand = world:add_robot "models/hands/barrett/barrett.cfg"
+    t.equal(hand.breakaway, false)
+    hand.breakaway = breakaway
+    -- a rod where the first link of the third finger passes
+    hand:set_dofs {0, 0, 0, 1.6}
+    local finger = hand.chains[3]
+    local bounds = finger.links[1].bounds_in_world
+    hand:set_dofs {0, 0, 0, 0}
+    world:add_obstacle(clench.shapes.box {0.02, 0.005, 0.005}, {pose = {xyz = (bounds.low + bounds.high) / 2}})
+    hand:autograsp {dynamic = true}
+    world:run(4)
+    local joints = hand.chains[3].joints
+    t.ok(joints[1].value > 0.1 and joints[1].value < 1.6)
+    t.equal(joints[2].broken_away, false)
+    t.equal(joints[1].broken_away, breakaway)
+    if breakaway then
+      t.ok(joints[2].value > joints[1].value / 2)
+    else
+      t.close(joints[2].value, joints[1].value / 3, 1e-6)
+    end
+  end
+end)

@@ -257,6 +257,24 @@ test("files outside of the folder of confine are not read again to save a world"
   t.fails(function() world:save(folder .. "/confined.lua", {confine = "no such"}) end, "world:save: confine: expected a folder, got 'no such'")
 end)
 
+test("what a world that has run does not take along is told", function(t)
+  local world = clench.load("worlds/parallel_jaw_cube.wld")
+  world.time_step = 0.002
+  t.equal(warnings(function() world:save(folder .. "/dynamic.lua") end), "")
+  t.equal(clench.load(folder .. "/dynamic.lua").time_step, 0.002)
+  t.equal(warnings(function() world:save(folder .. "/dynamic.wld") end), "dynamic.wld does not hold the time step")
+  -- there and back is no change
+  world.robots[1].floating = true
+  world.robots[1].floating = false
+  t.equal(warnings(function() world:save(folder .. "/dynamic.lua") end), "")
+  world.robots[1].floating = true
+  world:run(0.01)
+  t.equal(warnings(function() world:save(folder .. "/dynamic.lua") end),
+    "world:save: settings of dynamics beside the time step are not saved: engine, friction cone, gains, floating bases, breakaway, " ..
+    "gravity compensation, belts, welds\n" ..
+    "world:save: the time, velocities and targets of motors of a world that has run are not saved")
+end)
+
 test("worlds of the original come back from every format, and are the same in both of its generations", function(t)
   local shared = os.getenv "CLENCH_SHARED" or "../shared"
   local file = io.open(shared .. "/data/README.md")

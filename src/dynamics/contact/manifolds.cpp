@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/contact/contact_set.h"
+#include "clench/contact/near_points.h"
 #include "clench/dynamics/contact/ball_contact.h"
 #include "clench/dynamics/contact/overlap.h"
 #include "clench/model/near_bodies.h"
@@ -84,6 +85,19 @@ static void find_patches(const World& world, const Manifold& m, std::vector<Mani
   }
 }
 
+// Where a point lies within a face the direction is that face's normal: taken from there all points of the face have the same one
+// to the bit, while the way between two points a gap apart rounds to some 1e-11.
+static Eigen::Vector3d normal_of(const Shape& a, const Shape& b, const Pose& X_AB, const Touch& touch) {
+  constexpr double same = 1 - 1e-9;
+  const auto face = [](const Shape& shape, const Feature& at) { return face_normal(shape.mesh().corners(at.first)); };
+  Eigen::Vector3d normal = touch.normal_b;
+  if (touch.feature_a.kind == Feature::triangle)
+    normal = face(a, touch.feature_a);
+  else if (touch.feature_b.kind == Feature::triangle)
+    normal = -(X_AB.rotation * face(b, touch.feature_b));
+  return normal.dot(touch.normal_b) > same ? normal : touch.normal_b;
+}
+
 void measure(World& world, Manifold& m) {
   const auto [first, second] = ordered(m.a, m.b);
   const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
@@ -110,7 +124,7 @@ void measure(World& world, Manifold& m) {
       for (const Touch& touch : contact_set(a, b, *X_AT, {.threshold = threshold})) {
         points.push_back({.p_a = touch.p_a,
                           .p_b = X_AT->inverse() * touch.p_b,
-                          .normal = touch.normal_b,
+                          .normal = normal_of(a, b, *X_AT, touch),
                           .feature_a = touch.feature_a,
                           .feature_b = touch.feature_b,
                           .gap = touch.gap});

@@ -19,7 +19,7 @@ JointDynamics joint_dynamics(const World& world, Id<Robot> id) {
   World copy = world;
   const DynamicState& state = copy.edit_dynamics();
   Eigen::VectorXd v;
-  gather_velocities(system, state, v);
+  gather_velocities(system, world, state, v);
   Vector6d root = Vector6d::Zero();
   if (!tree->floating) {
     const Twist twist = world.twist(tree->root);

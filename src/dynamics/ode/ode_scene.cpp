@@ -40,7 +40,7 @@ OdeScene::OdeScene(const World& world, const OdeProblem& problem, double h, doub
   }
   if (heaviest > 0) dWorldSetCFM(ode_.get(), soft_joint * h / heaviest);
   for (const auto id : world.bodies())
-    if (const Twist twist = world.twist(id); world.body(id).kind == BodyKind::obstacle && !twist.is_zero()) {
+    if (const Twist twist = world.twist(id); problem.system.place(id).tree < 0 && !twist.is_zero()) {
       OdeNode& node = told_[id.index];
       node.com = world.pose(id) * world.body(id).com;
       node.v = twist.linear;
@@ -113,8 +113,8 @@ void OdeScene::add_joint(const ArticulationJoint& joint, const Eigen::Vector3d& 
 void OdeScene::find_motion(const Articulation& tree, int number) {
   OdeTree& out = trees_[number];
   OdeNode& root = out.nodes[0];
-  // the root's centre of mass moves as its velocity says; the group's is elsewhere where something is fixed to it
-  const Eigen::Vector3d arm = root.com - world_.pose(tree.root) * world_.body(tree.root).com;
+  // the group's centre of mass is elsewhere where something is fixed to the root
+  const Eigen::Vector3d arm = root.com - centre(world_, tree);
   Twist twist = world_.twist(tree.root);
   if (tree.floating) twist = {problem_.v.segment<3>(tree.first), problem_.v.segment<3>(tree.first + 3)};
   if (root.body) {
@@ -229,11 +229,10 @@ void OdeScene::step() {
   if (dWorldStep(ode_.get(), h_) == 0) fail(ErrorKind::limit, "dynamics: ODE has no memory for a step");
 }
 
-Twist OdeScene::twist(int tree, Id<Body> root) const {
+Twist OdeScene::root_twist(int tree) const {
   const OdeNode& node = trees_[tree].nodes[0];
   const Eigen::Vector3d w = turning_of(node);
-  const Eigen::Vector3d c = world_.pose(root) * world_.body(root).com;
-  return {velocity_of(node) + w.cross(c - node.com), w};
+  return {velocity_of(node) + w.cross(centre(world_, problem_.system.trees[tree]) - node.com), w};
 }
 
 }  // namespace clench

@@ -53,7 +53,7 @@ class OdeScene {
   double joint_velocity(int tree, int joint) const;
   double row_impulse(int row) const;
   void read_contact(const OdeContact& contact, int number, OdeSolution& out) const;
-  Twist twist(int tree, Id<Body> root) const;  ///< of a floating root, at its centre of mass
+  Twist root_twist(int tree) const;  ///< of a floating root, at its centre of mass
   const std::vector<OdeTree>& trees() const { return trees_; }
 
  private:

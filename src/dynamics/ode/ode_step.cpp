@@ -138,7 +138,7 @@ OdeSolution step_ode(const World& world, const OdeProblem& problem, double h) {
   for (size_t t = 0; t < problem.system.trees.size(); ++t) {
     const Articulation& tree = problem.system.trees[t];
     if (tree.floating) {
-      const Twist twist = scene.twist(static_cast<int>(t), tree.root);
+      const Twist twist = scene.root_twist(static_cast<int>(t));
       out.v.segment<3>(tree.first) = twist.linear;
       out.v.segment<3>(tree.first + 3) = twist.angular;
     }

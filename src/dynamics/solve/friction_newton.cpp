@@ -99,6 +99,7 @@ void FrictionNewton::decide(const ScaledFriction& problem, VectorXd& r) {
 }
 
 bool FrictionNewton::factor(const ScaledFriction& problem, double damping) {
+  progress_.check();
   const int n = static_cast<int>(directions_.size()), rows = problem.rows();
   Eigen::MatrixXd& m = system_.matrix(n);
   columns_.resize(rows, 1);

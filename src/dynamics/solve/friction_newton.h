@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "clench/base/progress.h"
 #include "clench/dynamics/solve/dense_system.h"
 #include "clench/dynamics/solve/scaled_friction.h"
 
@@ -37,6 +38,8 @@ class FrictionNewton {
   /// u        S r + q
   /// returns  false: the matrix is singular
   bool refine(const ScaledFriction& problem, double damping, const Eigen::VectorXd& u, Eigen::VectorXd& r);
+  /// What follows may be stopped by it, with Stopped.
+  void watch(const Progress& progress) { progress_ = progress; }
 
  private:
   enum class State : char { fixed, low, high, free, sticks, slides };
@@ -70,6 +73,7 @@ class FrictionNewton {
   Eigen::VectorXd u_, next_, u_next_, best_, decided_, right_, shift_, z_, change_;
   Eigen::MatrixXd columns_;
   DenseSystem system_;
+  Progress progress_;
   double factored_damping_ = -1, rho_ = 1;
 };
 

@@ -16,6 +16,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // of a block's own diagonal: redundant contacts share their load to 1e-8 the same way wherever Newton starts, and what is
 // 1e8 times as soft as a contact itself is still no redundancy
 constexpr double damping = 1e-8;
+// Forces of the last step that leave faults below this are changed as little as can be where following them does not end: what
+// all but rests would else waver between solutions [m/s].
+constexpr double nearly_holds = 1e-4;
 
 }  // namespace
 
@@ -32,7 +35,6 @@ bool FrictionSolver::follow(double by, int max_iterations, VectorXd& r, Friction
 }
 
 double FrictionSolver::solve_damped(VectorXd& r, FrictionSolution& solution) {
-  if (!r.isZero(0) && follow(damping, 30, r, solution)) return damping;
   gauss_seidel_.set(scaled_, damping);
   gauss_seidel_.sweep(scaled_, 3, r);
   solution.iterations += 3;
@@ -169,11 +171,12 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
 }
 
 FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const VectorXd& warm_start,
-                                       const FrictionOptions& options) {
+                                       const FrictionOptions& options, const Progress& progress) {
   FrictionSolution solution;
+  newton_.watch(progress);
   const int n = static_cast<int>(problem.q.size());
   const double largest = std::max(1e-3, n > 0 ? problem.q.lpNorm<Eigen::Infinity>() : 0);
-  const double tolerance = options.tolerance * options.speed.value_or(largest);
+  const double tolerance = options.tolerance.value_or(1e-12 * largest);
   solution.r = warm_start.size() == n && warm_start.allFinite() ? warm_start : VectorXd::Zero(n);
   solution.u = problem.q;
   solution.u.noalias() += problem.W * solution.r;
@@ -191,7 +194,21 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
   if (options.cone == FrictionCone::pyramid) return solve_as_pyramid(problem, tolerance, options.edges);
   scaled_.set(problem);
   VectorXd r = solution.r.cwiseQuotient(scaled_.units);
-  const double reached = solve_damped(r, solution);
+  double reached = damping;
+  if (!r.isZero(0)) {
+    const VectorXd warm = r;
+    if (!follow(damping, 30, r, solution)) {
+      r = warm;
+      if (fault.largest < nearly_holds) solution.solved = refine(problem, tolerance, 10 * damping, 8, r, solution);
+      if (!solution.solved) reached = solve_damped(r = warm, solution);
+    }
+  } else {
+    reached = solve_damped(r, solution);
+  }
+  if (solution.solved) {
+    solution.u = problem.W * solution.r + problem.q;
+    return solution;
+  }
   // what the damping adds to velocities
   pull_ = reached * scaled_.weights.cwiseProduct(r);
   solution.solved = refine(problem, tolerance, reached, 40, r, solution);

@@ -12,10 +12,9 @@ namespace clench {
 struct FrictionOptions {
   FrictionCone cone = FrictionCone::round;
   int edges = 8;  ///< of a pyramid, >= 4; with torsion 3 edges - 4 (see pyramid_directions)
-  /// Faults up to so much of the largest velocity in q, and of at least 1e-3, are none. Rounding of W r is allowed for
-  /// beside it, up to 1e6 times as much where masses differ by that; of a pyramid, as pivots lose digits, 100 times.
-  double tolerance = 1e-12;
-  std::optional<double> speed = {};  ///< in place of the largest velocity in q, which may be of a far limit [m/s]
+  /// Faults up to so much are none [m/s]; by default 1e-12 of the largest velocity in q, and of at least 1e-3. Rounding of W r is
+  /// allowed for beside it, up to 1e6 times as much where masses differ by that; of a pyramid, as pivots lose digits, 100 times.
+  std::optional<double> tolerance = {};
 };
 
 /// Solves one problem after another; memory is kept between them, nothing else: the same problem and the same warm start
@@ -23,7 +22,7 @@ struct FrictionOptions {
 ///
 /// Of many solutions, as at the four corners of a box, it is the one of least sum of W_ii r_i^2 of its states (open,
 /// sticking, sliding), wherever it starts from. A warm start that already solves the problem is returned as it is, for the
-/// price of W r. Demands that contradict each other (two opposite limits that both ask for more) get as much as can be had,
+/// price of W r; one that all but does may end in a solution near it. Demands that contradict each other (two opposite limits that both ask for more) get as much as can be had,
 /// with least squares of what is missing and without great impulses; then the solution is not `solved`.
 ///
 /// The ways, the next where one does not end: from the warm start along a path of states, with a damping that is 1e-8 of
@@ -34,8 +33,9 @@ class FrictionSolver {
  public:
   /// problem      of a number that is not finite or a block that is none: r = u = 0, residual infinite
   /// warm_start   impulses of the last step, or none (any other size)
+  /// throws       Stopped
   FrictionSolution solve(const FrictionProblem& problem, const Eigen::VectorXd& warm_start,
-                         const FrictionOptions& options = {});
+                         const FrictionOptions& options = {}, const Progress& progress = {});
 
  private:
   FrictionSolution solve_as_pyramid(const FrictionProblem& problem, double tolerance, int edges_per_contact);

@@ -1,5 +1,7 @@
 #include "clench/dynamics/tree/articulation.h"
 
+#include <algorithm>
+
 namespace clench {
 
 namespace {
@@ -52,6 +54,19 @@ class TreeBuilder {
   Articulation& tree_;
 };
 
+void add_welded(const World& world, Id<Body> object, Id<Body> to, System& system) {
+  const auto known = [&](const auto& weld) { return weld.first == object; };
+  if (std::ranges::any_of(system.welds, known)) return;
+  const auto& welds = world.dynamic_settings().welds;
+  if (const auto carrier = welds.find(to); carrier != welds.end()) add_welded(world, to, carrier->second, system);
+  system.welds.emplace_back(object, to);
+  const System::Place place = system.place(to);
+  if (place.tree < 0) return;
+  auto& bodies = system.trees[place.tree].bodies;
+  bodies.push_back({object, bodies[place.body].joint});
+  system.places[object.index] = {place.tree, static_cast<int>(bodies.size()) - 1};
+}
+
 }  // namespace
 
 System find_system(const World& world) {
@@ -65,7 +80,7 @@ System find_system(const World& world) {
   };
   system.places.resize(world.model().bodies.size());
   for (const auto id : world.bodies())
-    if (world.body(id).kind == BodyKind::object)
+    if (world.body(id).kind == BodyKind::object && !world.dynamic_settings().welds.contains(id))
       add({.floating = true, .root = id, .joints = {}, .bodies = {{id, -1}}, .coordinates = {}, .robots = {}});
   for (const auto id : world.robots()) {
     if (world.robot(id).mounting) continue;
@@ -75,16 +90,30 @@ System find_system(const World& world) {
     TreeBuilder(world, tree).add_robot(id, -1);
     add(std::move(tree));
   }
+  for (const auto& [object, to] : world.dynamic_settings().welds) add_welded(world, object, to, system);
   return system;
 }
 
-void gather_velocities(const System& system, const DynamicState& state, Eigen::VectorXd& v) {
+static Eigen::Vector3d com(const World& world, Id<Body> id) { return world.pose(id) * world.body(id).com; }
+
+Eigen::Vector3d centre(const World& world, const Articulation& tree) {
+  if (!tree.is_free_body() || tree.bodies.size() == 1) return com(world, tree.root);
+  double mass = 0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (const TreeBody& part : tree.bodies) {
+    mass += world.body(part.body).mass;
+    moment += world.body(part.body).mass * com(world, part.body);
+  }
+  return moment / mass;
+}
+
+void gather_velocities(const System& system, const World& world, const DynamicState& state, Eigen::VectorXd& v) {
   v.resize(system.size);
   for (const Articulation& tree : system.trees) {
     int at = tree.first;
     if (tree.floating) {
       const Twist& twist = state.twists[tree.root.index];
-      v.segment<3>(at) = twist.linear;
+      v.segment<3>(at) = twist.linear + twist.angular.cross(centre(world, tree) - com(world, tree.root));
       v.segment<3>(at + 3) = twist.angular;
       at += 6;
     }
@@ -95,8 +124,10 @@ void gather_velocities(const System& system, const DynamicState& state, Eigen::V
 
 void scatter_velocities(const System& system, const World& world, const Eigen::VectorXd& v, DynamicState& state) {
   for (const Articulation& tree : system.trees) {
-    if (tree.floating)
-      state.twists[tree.root.index] = {v.segment<3>(tree.first), v.segment<3>(tree.first + 3)};
+    if (tree.floating) {
+      const Eigen::Vector3d linear = v.segment<3>(tree.first), angular = v.segment<3>(tree.first + 3);
+      state.twists[tree.root.index] = {linear + angular.cross(com(world, tree.root) - centre(world, tree)), angular};
+    }
     for (const ArticulationJoint& joint : tree.joints)
       state.joint_velocities[world.robot(joint.robot).first_joint + static_cast<size_t>(joint.joint)] =
           joint.ratio * v[tree.first + joint.coordinate];

@@ -1,4 +1,4 @@
-// Which bodies move together: robots with all that they carry, and free bodies, each as a tree of joints with coordinates of
+// Which bodies move together: robots with all that they carry, and free bodies with what is welded to them, each as a tree of joints with coordinates of
 // its own. Joints cannot drift apart, since nothing but the coordinates is integrated.
 #pragma once
 #include <vector>
@@ -31,7 +31,7 @@ struct Coordinate {
 };
 
 struct Articulation {
-  bool floating = false;  ///< six coordinates first: the velocity of the root's centre of mass, and its turning
+  bool floating = false;  ///< six coordinates first: the root's velocity at centre(), and its turning
   Id<Body> root;          ///< a free body or the base of a robot that nobody carries
   std::vector<ArticulationJoint> joints;
   std::vector<TreeBody> bodies;  ///< the root first
@@ -41,6 +41,7 @@ struct Articulation {
 
   int root_size() const { return floating ? 6 : 0; }
   int size() const { return root_size() + static_cast<int>(coordinates.size()); }
+  /// is it one rigid piece?
   bool is_free_body() const { return floating && joints.empty(); }
 };
 
@@ -52,6 +53,7 @@ struct System {
     int body = -1;  ///< of the tree
   };
   std::vector<Place> places;  ///< by the index of the body's id
+  std::vector<std::pair<Id<Body>, Id<Body>>> welds;  ///< objects and what carries them, carriers first
   int size = 0;
 
   Place place(Id<Body> id) const { return places[id.index]; }
@@ -59,8 +61,11 @@ struct System {
 
 System find_system(const World& world);
 
+/// The point of the root whose velocity counts: its centre of mass; that of all that is welded to it, where nothing has joints [m].
+Eigen::Vector3d centre(const World& world, const Articulation& tree);
+
 /// Velocities of all coordinates, as the world's state has them.
-void gather_velocities(const System& system, const DynamicState& state, Eigen::VectorXd& v);
+void gather_velocities(const System& system, const World& world, const DynamicState& state, Eigen::VectorXd& v);
 /// The other way round; joints that follow a DOF get theirs.
 void scatter_velocities(const System& system, const World& world, const Eigen::VectorXd& v, DynamicState& state);
 

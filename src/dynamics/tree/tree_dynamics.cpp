@@ -35,8 +35,7 @@ static Vector6d cross_force(const Vector6d& v, const Vector6d& f) {
 
 void TreeDynamics::place(const World& world, const Articulation& tree) {
   tree_ = &tree;
-  const Pose& X_WR = world.pose(tree.root);
-  about_ = X_WR * world.body(tree.root).com;
+  about_ = centre(world, tree);
   com_.resize(tree.bodies.size());
   own_.assign(tree.joints.size() + 1, {});
   for (size_t i = 0; i < tree.bodies.size(); ++i) {

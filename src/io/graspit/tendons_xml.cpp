@@ -118,7 +118,7 @@ void read_tendons(const XmlElement& robot, const FindLink& find, const Warn& war
   for (const XmlElement& e : wrappers) out.wrappers.push_back(read_wrapper(e, find, warn, repairs));
   if (warn) check_names(wrappers, out.tendons, warn);
   if (warn && !(tendons.empty() && wrappers.empty()))
-    warn(fmt::format("{}: tendons and their wrappers are kept, {} and {}, but do not act yet",
+    warn(fmt::format("{}: tendons and their wrappers are kept, {} and {}, but have no effect",
                      (tendons.empty() ? wrappers : tendons).front().place(), tendons.size(),
                      wrappers.size()));
 }

@@ -57,6 +57,7 @@ class Couplings {
   void tie_tendon(const XmlElement& element, const XmlValues& values);
   void read_actuator(const XmlElement& element);
   ActuatorSpec actuator_spec(const XmlElement& element, const XmlValues& values);
+  void take_gains(const ActuatorSpec& servo, const Tendon* tendon);
   void drive_joint(const XmlElement& element, const XmlValues& values, int joint);
   void drive_tendon(const XmlElement& element, const Tendon& tendon);
   void take_control_range(const XmlElement& element, const XmlValues& values, TreeJoint& joint,
@@ -304,10 +305,7 @@ void Couplings::drive_joint(const XmlElement& element, const XmlValues& values, 
     const auto range = values.numbers("ctrlrange", 2, 2);
     joint.effort = std::max(std::abs(range[0]), std::abs(range[1])) * std::abs(gear);
   }
-  if (element.name() != "position") return;
-  joint.kp = values.number("kp", 1) * gear * gear;
-  joint.kd = values.number("kv", 0) * gear * gear;
-  take_control_range(element, values, joint, gear);
+  if (element.name() == "position") take_control_range(element, values, joint, gear);
 }
 
 /// A motor on a tendon moves its joints together: nothing else is said of how they share its length,
@@ -337,6 +335,22 @@ void Couplings::drive_tendon(const XmlElement& element, const Tendon& tendon) {
                     element.place(), excerpt(tree_.joints[first].name),
                     excerpt(tree_.joints[number].name), ratio));
   }
+}
+
+/// What a DOF feels of an actuator that pulls it to where its control says, and damps it; those of several add up.
+void Couplings::take_gains(const ActuatorSpec& servo, const Tendon* tendon) {
+  const int leader = leader_of(servo.dof);
+  if (!servo.law_known || leader < 0) return;
+  const auto ratio = [&](int number) { return number == leader ? 1 : tree_.joints[number].ratio; };
+  double reach = tendon ? 0 : servo.gear * ratio(servo.dof);  // of its length, for a unit of the DOF
+  if (tendon)
+    for (const auto& [number, c] : tendon->joints)
+      if (leader_of(number) == leader) reach += servo.gear * c * ratio(number);
+  TreeJoint& joint = tree_.joints[leader];
+  joint.kp += std::max(0.0, -servo.bias[1]) * reach * reach;
+  joint.kd += std::max(0.0, -servo.bias[2]) * reach * reach;
+  if (tendon && servo.force_range)
+    joint.effort = std::max(std::abs((*servo.force_range)[0]), std::abs((*servo.force_range)[1])) * std::abs(reach);
 }
 
 /// As a file says it, with how its force follows from control, length and velocity.
@@ -397,6 +411,7 @@ void Couplings::read_actuator(const XmlElement& element) {
                       "ctrllimited", "forcerange", "forcelimited", "kp", "kv", "gear", "gaintype",
                       "gainprm", "biastype", "biasprm", "dyntype"});
   int moved = -1;
+  const Tendon* pulled = nullptr;
   if (on_joint) {
     turns_of_balls_.clear();
     const auto number = joint(values, values.has("joint") ? "joint" : "jointinparent");
@@ -407,16 +422,17 @@ void Couplings::read_actuator(const XmlElement& element) {
     if (!number) return;
     moved = *number;
   } else if (values.has("tendon")) {
-    const Tendon& pulled = tendon(values, "tendon");
-    drive_tendon(element, pulled);
-    if (pulled.joints.empty()) return;
-    moved = pulled.joints.front().first;
+    pulled = &tendon(values, "tendon");
+    drive_tendon(element, *pulled);
+    if (pulled->joints.empty()) return;
+    moved = pulled->joints.front().first;
   } else {
     document_.unused().element(element);
     return;
   }
   tree_.actuators.push_back(actuator_spec(element, values));
   tree_.actuators.back().dof = moved;
+  take_gains(tree_.actuators.back(), pulled);
 }
 
 void Couplings::mark_passive() {

@@ -1,3 +1,4 @@
+#include "clench/dynamics/weld.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
 #include "clench/script/lua/guard.h"
@@ -18,6 +19,7 @@ static int get_velocity(lua_State* L) {
 static int set_velocity(lua_State* L) {
   const auto body = self_body(L);
   if (!lua_istable(L, 2) || lua_rawlen(L, 2) > 0) fail_expected({L, {}, ""}, "{linear = {x, y, z}, angular = {x, y, z}}", 2);
+  if (body.world->dynamic_settings().welds.contains(body.id)) fail("{}: it is welded, and moves with what it is welded to", subject(L));
   Table table(L, 2);
   const Twist now = body.world->twist(body.id);
   const Eigen::Vector3d linear = table.vec3("linear", now.linear), angular = table.vec3("angular", now.angular);
@@ -67,6 +69,27 @@ static int set_surface_velocity(lua_State* L) {
   return 0;
 }
 
+static int get_welded_to(lua_State* L) {
+  const auto body = self_body(L);
+  const auto& welds = body.world->dynamic_settings().welds;
+  const auto found = welds.find(body.id);
+  if (found == welds.end()) return lua_pushnil(L), 1;
+  return push(L, BodyHandle{body.world, found->second});
+}
+
+static int weld_to(lua_State* L) {
+  const auto body = self_body(L);
+  const auto to = check_bodies(L, 2, "to", body.world);
+  weld(*body.world, body.id, to.front());
+  return 0;
+}
+
+static int unweld_it(lua_State* L) {
+  const auto body = self_body(L);
+  unweld(*body.world, body.id);
+  return 0;
+}
+
 static const Entry fields[] = {
     {"velocity", guarded<get_velocity>, R"(
 Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are
@@ -83,6 +106,10 @@ Of a conveyor belt: what touches it is carried along at this velocity, in its ow
 > flask.surface_velocity  --> (0.1, 0, 0)
 > flask.surface_velocity = {1e9, 0, 0}  --> error: surface velocity)",
      guarded<set_surface_velocity>},
+    {"welded_to", guarded<get_welded_to>, R"(
+The body that it is welded to, or nil.
+@type body?
+> flask.welded_to  --> nil)"},
 };
 
 static const Entry methods[] = {
@@ -97,6 +124,20 @@ Turns it in the next step, and in that one alone.
 @param torque vec3  in world axes [N m]
 > flask:apply_torque({0, 0, 0.1})
 > flask:apply_torque({0, 0, 0 / 0})  --> error: torque)"},
+    {"weld", guarded<weld_to>, R"(
+Makes it one piece with another body, as the two stand: in runs it moves as a part of that, with its mass, until it is unwelded.
+Contacts between the two end. Their momentum stays, as in a blow after which they go on together. Placed by hand, they stay
+welded as they then stand. Collision tests go on as before.
+@param to body|robot  a body that does not hang on it by welds; of a robot its base
+> flask:weld(hand.links[3])
+> flask.welded_to == hand.links[3]  --> true
+> flask:weld(hand.base)  --> error: is welded to)"},
+    {"unweld", guarded<unweld_it>, R"(
+It goes on by itself, with the velocity that it has.
+> flask:weld(hand.base)
+> flask:unweld()
+> flask.welded_to  --> nil
+> flask:unweld()  --> error: is welded to nothing)"},
 };
 
 const Class motion_class{.name = "motion",

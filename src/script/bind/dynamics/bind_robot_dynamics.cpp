@@ -82,7 +82,14 @@ static int set_targets(lua_State* L) {
   const bool smooth = options.has("velocity");
   const double velocity = smooth ? options.positive("velocity", 1) : 0;
   options.done();
+  // a table by names moves those that it names
+  const bool named = lua_istable(L, 2) && lua_rawlen(L, 2) == 0;
   for (int i = 0; i < targets.size(); ++i) {
+    if (named) {
+      const bool moves = lua_getfield(L, 2, dof_name(*robot, i).c_str()) != LUA_TNIL;
+      lua_pop(L, 1);
+      if (!moves) continue;
+    }
     const double target = within_limits(*robot, i, targets[i], "robot");
     if (smooth && target != robot.world->dofs(robot.id)[i]) {
       send_dof(*robot.world, robot.id, i, target, velocity);
@@ -186,7 +193,8 @@ What each motor gives from now on: beside what its controller does, or alone wit
 @param forces number[]  one per DOF [N m or N]
 > hand:set_forces {1}  --> error: expected 12)"},
     {"set_targets", guarded<set_targets>, R"(
-Where its motors are to bring it: at once, or on a smooth way (a polynomial of the fifth degree in time).
+Where its motors are to bring it: at once, or on a smooth way (a polynomial of the fifth degree in time). DOFs that a table
+by names leaves out go on as they did.
 @param dofs number[]|table<string, number>  [rad or m]
 @param options? {velocity?: number}  the largest on the way [rad/s or m/s]
 > hand:set_targets({dof2 = 0.3}, {velocity = 1})

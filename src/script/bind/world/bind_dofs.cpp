@@ -192,7 +192,8 @@ Least and largest value of each DOF.
 > #hand.dof_limits[1]  --> 2)"},
     {"dof_info", guarded<get_dof_info>, R"(
 What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity
-of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m].
+of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m], and
+driven: false of a DOF that no actuator of an MJCF file drives.
 @type table[]
 > hand.dof_info[1].kind  --> rigid)"},
     {"dof_names", guarded<get_dof_names>, R"(

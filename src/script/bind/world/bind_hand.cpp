@@ -224,7 +224,7 @@ static int get_tracker(lua_State* L) {
   return 1;
 }
 
-// --- parts that do not act yet ---
+// --- parts that are kept as their file describes them ---
 
 // base or link that a part stands for
 static void set_link(lua_State* L, const RobotHandle& robot, int link) {
@@ -356,23 +356,24 @@ Position sensor on it: its `number` and its mounting `pose` in the base. nil whe
 @type {number: integer, pose: pose}?
 > hand.tracker  --> nil)"},
     {"tendons", guarded<get_tendons>, R"(
-Tendons of its file, as they are there: they do not act yet. Points are in the frame of their link.
+Tendons of its file, as they are there; they exert no force. Points are in the frame of their link.
 @type {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[]  [N/m, m]
 > #hand.tendons  --> 0)"},
     {"tendon_wrappers", guarded<get_tendon_wrappers>, R"(
 Posts that tendons wrap around, each an endless cylinder; `exempt` names the tendons that pass it by, `sides` say on which
-side of it the others lie. They do not act yet.
+side of it the others lie. They have no effect.
 @type {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[]
 > #hand.tendon_wrappers  --> 0)"},
     {"actuators", guarded<get_actuators>, R"(
-Actuators as an MJCF file describes them, kept for dynamics: `name`, `kind` ("motor", "position", "general"), `joint` or
+Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or
 `tendon`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] +
-bias[2] * length + bias[3] * velocity. Nothing acts on them yet.
+bias[2] * length + bias[3] * velocity. Of them the motors take which DOFs are driven, the largest efforts, and kp and kv of
+position servos; a script that sets forces may follow their laws.
 @type table[]
 > #hand.actuators  --> 0)"},
     {"tactile_sensors", guarded<get_tactile_sensors>, R"(
-Boxes in which contacts count as one sensor's, by their `low` and `high` corners in the frame of their `link`. They do not
-act yet.
+Boxes in which contacts count as one sensor's, by their `low` and `high` corners in the frame of their `link`. They have
+no effect.
 @type {link: body, low: vec3, high: vec3}[]
 > #hand.tactile_sensors  --> 0)"},
 };

@@ -24,6 +24,7 @@ static int new_world(lua_State* L) {
   Table options(L, 1);
   const auto world = std::make_shared<World>();
   world->set_contact_threshold(options.number("contact_threshold", world->contact_threshold()));
+  world->set_gravity(options.vec3("gravity", world->gravity()));
   world->set_dynamic_settings(read_dynamic_settings(options));
   options.done();
   return push_world(L, world);
@@ -176,7 +177,7 @@ static int snapshot_text(lua_State* L) {
 static const Entry functions[] = {
     {"world", guarded<new_world>, R"(
 An empty world.
-@param options? {contact_threshold?: number, dynamics?: {time_step?: number, engine?: string, cone?: string, edges?: integer}}  contact_threshold: surfaces closer than this touch, 1e-4 by default [m]; dynamics: as of world.dynamics
+@param options? {contact_threshold?: number, gravity?: vec3, dynamics?: {time_step?: number, engine?: string, cone?: string, edges?: integer}}  contact_threshold: surfaces closer than this touch, 1e-4 by default [m]; gravity: {0, 0, -9.81} by default [m/s^2]; dynamics: as of world.dynamics
 @return world
 > #clench.world().bodies  --> 0)"},
     {"load", guarded<load_world>, R"(

@@ -1,0 +1,131 @@
+-- Objects that are one piece with another body for a time.
+local test, clench = require "test", require "clench"
+
+local function ball(world, x, mass, options)
+  local all = {mass = mass, pose = {xyz = {x, 0, 0}}}
+  for key, value in pairs(options or {}) do all[key] = value end
+  return world:add_object(clench.shapes.sphere {radius = 0.02}, all)
+end
+
+local function close(t, a, b, tolerance) t.close((a - b):norm(), 0, tolerance) end
+
+test("two that are welded on the way keep momentum and turn about their common centre", function(t)
+  local world = clench.world {gravity = {0, 0, 0}}
+  local a, b = ball(world, 0, 1), ball(world, 0.1, 3)
+  a.velocity = {linear = {0, 2, 0}}
+  local before = world:momentum()
+  a:weld(b)
+  local after = world:momentum()
+  close(t, after.linear, before.linear, 1e-14)
+  close(t, after.angular, before.angular, 1e-14)
+  t.ok(world:energy().kinetic < 2)
+  -- about the centre, 75 mm from a: L = mu r v, with the inertia of two balls and of their masses about it
+  local mu, ball_inertia = 1 * 3 / 4, 0.4 * 4 * 0.02 ^ 2
+  t.close(a.velocity.angular.z, -mu * 0.1 * 2 / (mu * 0.1 ^ 2 + ball_inertia), 0.02)
+  local apart = (b.pose.position - a.pose.position):norm()
+  world:run(1)
+  t.close((b.pose.position - a.pose.position):norm(), apart, 1e-13)
+  close(t, world:momentum().linear, before.linear, 1e-12)
+  -- the centre goes straight on
+  local centre = (a.pose.position + 3 * b.pose.position) / 4
+  close(t, centre, clench.vec3(0.075, 0.5, 0), 1e-3)
+  a:unweld()
+  local velocity = a.velocity.linear
+  world:run(0.5)
+  close(t, a.velocity.linear, velocity, 1e-12)
+  t.ok((b.pose.position - a.pose.position):norm() > apart + 0.01)
+end)
+
+test("a dumb-bell of two welded objects falls and rests like one of one piece", function(t)
+  for _, engine in ipairs {"clench", "ode"} do
+    local world = clench.world {dynamics = {engine = engine}}
+    world:add_obstacle(clench.shapes.box {2, 2, 0.1}, {pose = {xyz = {0, 0, -0.05}}})
+    local low = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {mass = 1, pose = {xyz = {0, 0, 0.06}}})
+    -- beyond the edge of the lower one, but the common centre is not
+    local high = world:add_object(clench.shapes.box {0.1, 0.1, 0.02}, {mass = 0.2, pose = {xyz = {0.09, 0, 0.12}}})
+    high:weld(low)
+    local relative = low.pose:inverse() * high.pose
+    world:run(1)
+    t.close(low.pose.position.z, 0.05, 1e-4)
+    t.close(low.velocity.linear:norm(), 0, engine == "ode" and 1e-6 or 1e-12)
+    close(t, (low.pose:inverse() * high.pose).position, relative.position, 1e-13)
+    t.equal(world.report.failures, 0)
+    local weight = 0
+    for _, pressed in ipairs(world:average_contacts(low)) do weight = weight + pressed.force.z end
+    t.close(weight, 1.2 * 9.81, 1e-3)
+    high:unweld()
+    world:run(0.3)
+    t.ok(high.pose.position.z < 0.11, engine)  -- it tips off
+  end
+end)
+
+test("what is welded to a finger moves with it, and loads it; what is welded to an obstacle goes with that", function(t)
+  local world = clench.world()
+  local hand = world:add_robot "models/hands/barrett/barrett.cfg"
+  hand.gravity_compensation = false
+  local link = hand.chains[3].links[1]
+  local load = ball(world, 0, 0.1)
+  local before = hand:bias_forces()[4]
+  load.pose = {xyz = (link.bounds_in_world.low + link.bounds_in_world.high) / 2 + clench.vec3(0, 0, 0.1)}
+  load:weld(link)
+  -- the weight of 0.1 kg on an arm of some centimetres
+  t.ok(math.abs(hand:bias_forces()[4] - before) > 0.01)
+  local relative = link.pose:inverse() * load.pose
+  hand:set_targets({0, 0, 0, 0.3})
+  world:run(1)
+  t.ok(hand.dofs[4] > 0.1)
+  close(t, (link.pose:inverse() * load.pose).position, relative.position, 1e-12)
+
+  local table_top = world:add_obstacle(clench.shapes.box {0.2, 0.2, 0.02}, {pose = {xyz = {1, 0, 0}}})
+  local cup = ball(world, 1, 0.1)
+  cup.pose = {xyz = {1, 0, 0.1}}
+  cup:weld(table_top)
+  table_top.velocity = {linear = {0.1, 0, 0}, angular = {0, 0, 1}}
+  world:run(0.5)
+  t.close(cup.pose.position.x, 1.05, 1e-12)
+  close(t, cup.velocity.linear, clench.vec3(0.1, 0, 0), 1e-12)
+  t.close(cup.velocity.angular.z, 1, 1e-12)
+  cup:unweld()
+  world:run(0.1)
+  t.ok(cup.velocity.linear.z < -0.9)
+end)
+
+test("welds are in snapshots, clones and fingerprints, and end with what they held", function(t)
+  local world = clench.world {gravity = {0, 0, 0}}
+  local a, b, c = ball(world, 0, 1), ball(world, 0.1, 1), ball(world, 0.2, 1)
+  local hash, free = world:hash(), world:snapshot()
+  c:weld(b)
+  b:weld(a)  -- c hangs on it
+  t.ok(world:hash() ~= hash)
+  local clone = world:clone()
+  a.velocity = {angular = {0, 0, 1}}
+  clone.objects[1].velocity = {angular = {0, 0, 1}}
+  world:run(0.5)
+  clone:run(0.5)
+  t.equal(world:hash(), clone:hash())
+  -- 0.2 m from the axis, which goes through the middle one
+  t.close((c.pose.position - a.pose.position):norm(), 0.2, 1e-13)
+  world:restore(free)
+  t.equal(a.welded_to, nil)
+  t.equal(c.welded_to, nil)
+  t.equal(world:hash(), hash)
+  c:weld(b)
+  world:remove(b)
+  t.equal(c.welded_to, nil)
+  world:run(0.01)
+end)
+
+test("what cannot be welded is told", function(t)
+  local world = clench.world()
+  local a, b, c = ball(world, 0, 1, {name = "a"}), ball(world, 0.1, 1, {name = "b"}), ball(world, 0.2, 1, {name = "c"})
+  local wall = world:add_obstacle(clench.shapes.box {1, 1, 0.1}, {name = "wall"})
+  t.fails(function() wall:weld(a) end, "expected an object to weld, got 'wall'")
+  t.fails(function() a:weld(a) end, "'a' hangs on 'a'")
+  t.fails(function() a:weld() end, "body:weld: to: expected")
+  a:weld(b)
+  t.fails(function() a:weld(c) end, "'a' is welded to 'b' already")
+  b:weld(c)
+  t.fails(function() c:weld(a) end, "'a' hangs on 'c'")
+  t.fails(function() c:unweld() end, "'c' is welded to nothing")
+  t.fails(function() a.velocity = {linear = {1, 0, 0}} end, "it is welded, and moves with what it is welded to")
+end)
