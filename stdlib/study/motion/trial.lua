@@ -90,6 +90,8 @@ local function press(trial, job)
   local world, hand = trial.world, trial.hand
   local torques = job.grip == "forces" and grip_torques(hand, trial.object, job.grip_force)
   trial.grip = torques and "forces" or "close"
+  -- torques as for the whole friction; then less of it is there
+  share_friction(hand, trial.object, job.friction_share)
   world.contact_threshold = math.min(world.contact_threshold, contact_threshold)
   if not torques then
     hand:autograsp {dynamic = true}
@@ -159,7 +161,6 @@ return function(job)
   object.mass = job.mass
   hold_robots(world)
   object.velocity = {}
-  if job.friction_share ~= 1 then share_friction(hand, object, job.friction_share) end
   local failures_before = world.report.failures
   set_gains(hand, object)
   world.gravity = {0, 0, 0}
