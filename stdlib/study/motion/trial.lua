@@ -88,10 +88,12 @@ end
 
 local function press(trial, job)
   local world, hand = trial.world, trial.hand
-  local torques = job.grip == "forces" and grip_torques(hand, trial.object, job.grip_force)
-  trial.grip = torques and "forces" or "close"
-  -- torques as for the whole friction; then less of it is there
+  -- torques for what friction is left, or, where nothing is held with that, for the whole of it
+  local by_forces = job.grip == "forces"
+  local torques = by_forces and grip_torques(hand, trial.object, job.grip_force)
   share_friction(hand, trial.object, job.friction_share)
+  torques = by_forces and grip_torques(hand, trial.object, job.grip_force) or torques
+  trial.grip = torques and "forces" or "close"
   world.contact_threshold = math.min(world.contact_threshold, contact_threshold)
   if not torques then
     hand:autograsp {dynamic = true}
