@@ -65,6 +65,25 @@ static void inherit(std::vector<ManifoldPoint>& points, const std::vector<Manifo
   }
 }
 
+// What presses goes on to as long as its two points stay opposite each other: of a facet that rocks from one corner to the next
+// both are points, though the nearest alone stands for all within a millimetre.
+static void keep_pressing(const std::vector<ManifoldPoint>& before, const Pose& X_AB, double threshold, std::vector<ManifoldPoint>& points) {
+  constexpr double opposite = 0.2;  // of the threshold
+  const size_t fresh = points.size();
+  for (ManifoldPoint p : before) {
+    if (p.force.isZero(0) || points.size() == 2 * fresh) continue;
+    const auto same = [&](const ManifoldPoint& q) { return p.feature_a == q.feature_a && p.feature_b == q.feature_b; };
+    if (std::any_of(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(fresh), same)) continue;
+    p.gap = gap_of(p, X_AB);
+    const Eigen::Vector3d aside = X_AB * p.p_b - p.p_a - p.gap * p.normal;
+    if (p.gap <= 0 || p.gap > threshold || aside.norm() > opposite * threshold) continue;
+    // the nearest one has its force to begin with
+    p.force.setZero();
+    p.torsion = 0;
+    points.push_back(p);
+  }
+}
+
 static Elasticity elasticity(const Body& body) {
   return {.modulus = body.elastic_modulus, .layer = body.soft_layer, .poisson = body.poisson_ratio};
 }
@@ -132,7 +151,10 @@ void measure(World& world, Manifold& m) {
       }
   }
   if (!points.empty()) find_patches(world, m, points);
-  if (!points.empty() && !m.points.empty()) inherit(points, m.points);
+  if (!points.empty() && !m.points.empty()) {
+    inherit(points, m.points);
+    if (m.clearance > 0) keep_pressing(m.points, m.X_AB, threshold, points);
+  }
   m.points = std::move(points);
 }
 
