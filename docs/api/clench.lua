@@ -725,6 +725,7 @@ function world_settings:set_friction(a, b, friction) end
 ---@param b string
 ---@return number static
 ---@return number kinetic
+---@return number? restitution # where the pair has one of its own
 function world_settings:friction(a, b) end
 
 ---Gives a name to a state: to that of now, or to one that a list tells. A keyframe of the same name gives way.

@@ -422,3 +422,17 @@ test("with breakaway a stopped link lets its fingertip close on, without it both
     end
   end
 end)
+
+test("a pair of materials keeps its own restitution when a study takes a share of its friction", function(t)
+  local world = clench.world()
+  local a = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {material = "wood"})
+  t.equal(select("#", world:friction("plastic", "wood")), 2)
+  world:set_friction("plastic", "wood", {static = 0.4, kinetic = 0.3, restitution = 0.7})
+  local hand = world:add_robot "models/hands/barrett/barrett.cfg"
+  for _, body in ipairs(hand.bodies) do body.material = "plastic" end
+  require "clench.study.motion.share_friction"(hand, a, 0.5)
+  local static, kinetic, restitution = world:friction("plastic", "wood")
+  t.close(static, 0.2, 1e-15)
+  t.close(kinetic, 0.15, 1e-15)
+  t.equal(restitution, 0.7)
+end)

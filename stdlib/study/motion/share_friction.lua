@@ -6,8 +6,8 @@ return function(hand, object, share)
   local world, done = hand.world, {}
   for _, body in ipairs(hand.bodies) do
     if not done[body.material] then
-      local static, kinetic = world:friction(body.material, object.material)
-      world:set_friction(body.material, object.material, {static = static * share, kinetic = kinetic * share})
+      local static, kinetic, restitution = world:friction(body.material, object.material)
+      world:set_friction(body.material, object.material, {static = static * share, kinetic = kinetic * share, restitution = restitution})
       done[body.material] = true
     end
   end

@@ -68,7 +68,8 @@ static int friction(lua_State* L) {
                                     table.index(check_string(L, 3, "material")));
   push(L, f.statics);
   push(L, f.kinetic);
-  return 2;
+  if (f.restitution) push(L, *f.restitution);
+  return f.restitution ? 3 : 2;
 }
 
 static int get_materials(lua_State* L) {
@@ -205,6 +206,7 @@ The coefficients of a pair of materials.
 @param b string
 @return number static
 @return number kinetic
+@return number? restitution  where the pair has one of its own
 > world:friction("rubber", "stone")  --> 1.5, 1.4)"},
     {"add_keyframe", guarded<add_keyframe>, R"(
 Gives a name to a state: to that of now, or to one that a list tells. A keyframe of the same name gives way.
