@@ -67,21 +67,24 @@ static void inherit(std::vector<ManifoldPoint>& points, const std::vector<Manifo
 
 // What presses goes on to as long as its two points stay opposite each other: of a facet that rocks from one corner to the next
 // both are points, though the nearest alone stands for all within a millimetre.
-static void keep_pressing(const std::vector<ManifoldPoint>& before, const Pose& X_AB, double threshold, std::vector<ManifoldPoint>& points) {
+// They are taken out of what was before.
+// mu  kinetic friction: a point that slides is left behind
+static std::vector<ManifoldPoint> take_pressing(std::vector<ManifoldPoint>& before, const Pose& X_AB, double threshold, double mu,
+                                                const std::vector<ManifoldPoint>& fresh) {
   constexpr double opposite = 0.2;  // of the threshold
-  const size_t fresh = points.size();
-  for (ManifoldPoint p : before) {
-    if (p.force.isZero(0) || points.size() == 2 * fresh) continue;
+  std::vector<ManifoldPoint> out;
+  std::erase_if(before, [&](ManifoldPoint& p) {
+    const double pressing = p.force.dot(p.normal);
+    if (pressing <= 0 || out.size() == fresh.size() || (p.force - pressing * p.normal).norm() >= 0.99 * mu * pressing) return false;
     const auto same = [&](const ManifoldPoint& q) { return p.feature_a == q.feature_a && p.feature_b == q.feature_b; };
-    if (std::any_of(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(fresh), same)) continue;
+    if (std::ranges::any_of(fresh, same)) return false;
     p.gap = gap_of(p, X_AB);
     const Eigen::Vector3d aside = X_AB * p.p_b - p.p_a - p.gap * p.normal;
-    if (p.gap <= 0 || p.gap > threshold || aside.norm() > opposite * threshold) continue;
-    // the nearest one has its force to begin with
-    p.force.setZero();
-    p.torsion = 0;
-    points.push_back(p);
-  }
+    if (p.gap <= 0 || p.gap > threshold || aside.norm() > opposite * threshold) return false;
+    out.push_back(p);
+    return true;
+  });
+  return out;
 }
 
 static Elasticity elasticity(const Body& body) {
@@ -152,8 +155,11 @@ void measure(World& world, Manifold& m) {
   }
   if (!points.empty()) find_patches(world, m, points);
   if (!points.empty() && !m.points.empty()) {
+    std::vector<ManifoldPoint> pressing;
+    const double mu = world.materials().friction(world.body(m.a).material, world.body(m.b).material).kinetic;
+    if (m.clearance > 0) pressing = take_pressing(m.points, m.X_AB, threshold, mu, points);
     inherit(points, m.points);
-    if (m.clearance > 0) keep_pressing(m.points, m.X_AB, threshold, points);
+    points.insert(points.end(), pressing.begin(), pressing.end());
   }
   m.points = std::move(points);
 }

@@ -219,7 +219,7 @@ contacts by another library; `cone`: friction cones are "round", or a "pyramid" 
      guarded<set_dynamics>},
     {"report", guarded<get_report>, R"(
 What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took
-(`iterations`; of groups of bodies that touch each other, `fallbacks`, that needed its slow methods, and `failures`, that it did not solve to the tolerance),
+(`iterations`; of groups of bodies that touch each other, `fallbacks`, that needed its slow methods, and `failures`, that it did not solve to 1e-9 m/s),
 pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have
 as velocities [m/s].
 @type {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, max_residual: number}
