@@ -6,15 +6,7 @@
 
 namespace clench {
 
-Vector6d Stepper::root_twist(int tree) const {
-  const Articulation& articulation = system_.trees[tree];
-  Vector6d out = Vector6d::Zero();
-  if (articulation.floating) return out;
-  // about() is the root's centre of mass where it does not float
-  const Twist twist = world_.twist(articulation.root);
-  out << twist.linear, twist.angular;
-  return out;
-}
+Vector6d Stepper::root_twist(int tree) const { return prescribed_twist(world_, system_.trees[tree]); }
 
 void Stepper::find_free_velocities(double h) {
   const DynamicState& state = *world_.dynamics();
@@ -35,10 +27,8 @@ void Stepper::find_free_velocities(double h) {
       const Load& load = state.loads[tree.bodies[b].body.index];
       if (load.force.isZero(0) && load.torque.isZero(0)) continue;
       const int body = static_cast<int>(b);
-      for (int k = 0; k < 3; ++k) {
-        dynamics.add_linear(body, dynamics.com(body), Eigen::Vector3d::Unit(k), load.force[k], efforts);
-        dynamics.add_angular(body, Eigen::Vector3d::Unit(k), load.torque[k], efforts);
-      }
+      dynamics.add_linear(body, dynamics.com(body), load.force, 1, efforts);
+      dynamics.add_angular(body, load.torque, 1, efforts);
     }
     auto v = v_.segment(tree.first, n);
     dynamics.factor(forces_[t].added);

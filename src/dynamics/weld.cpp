@@ -17,14 +17,6 @@ static void check_weld(const World& world, Id<Body> object, Id<Body> to) {
   if (carrier == object) fail("'{}' hangs on '{}'", excerpt(world.body(to).name), name);
 }
 
-static Vector6d prescribed_twist(const World& world, const Articulation& tree) {
-  Vector6d out = Vector6d::Zero();
-  if (tree.floating) return out;
-  const Twist twist = world.twist(tree.root);
-  out << twist.linear, twist.angular;
-  return out;
-}
-
 void weld(World& world, Id<Body> object, Id<Body> to) {
   check_weld(world, object, to);
   DynamicState& state = world.edit_dynamics();
@@ -58,10 +50,8 @@ void weld(World& world, Id<Body> object, Id<Body> to) {
     const Eigen::Matrix3d R = world.pose(piece.bodies[i].body).matrix();
     const Eigen::Vector3d linear = body.mass * (was.linear - is.linear);
     const Eigen::Vector3d angular = R * (body.mass * body.inertia_per_mass) * R.transpose() * (was.angular - is.angular);
-    for (int k = 0; k < 3; ++k) {
-      together.add_linear(part, together.com(part), Eigen::Vector3d::Unit(k), linear[k], impulse);
-      together.add_angular(part, Eigen::Vector3d::Unit(k), angular[k], impulse);
-    }
+    together.add_linear(part, together.com(part), linear, 1, impulse);
+    together.add_angular(part, angular, 1, impulse);
   }
   Eigen::VectorXd armature = Eigen::VectorXd::Zero(tree.size());
   for (const ArticulationJoint& joint : tree.joints)

@@ -1,4 +1,4 @@
-// Actuators as an MJCF file describes them. What motors take from them (limits, gains of position servos, which DOFs are
+// Actuators as an MJCF file describes them. What motors take from them (limits, gains, which DOFs are
 // driven) is in DofSpec; their laws are kept for scripts.
 #pragma once
 #include <array>

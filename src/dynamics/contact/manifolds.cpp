@@ -65,10 +65,9 @@ static void inherit(std::vector<ManifoldPoint>& points, const std::vector<Manifo
   }
 }
 
-// What presses goes on to as long as its two points stay opposite each other: of a facet that rocks from one corner to the next
-// both are points, though the nearest alone stands for all within a millimetre.
-// They are taken out of what was before.
-// mu  kinetic friction: a point that slides is left behind
+// Points that press and stick, and whose two sides still lie opposite each other, are taken out of those of before and stay points:
+// of a facet that rocks from one corner to the next both count, though among fresh points the nearest stands for all within 1 mm.
+// mu  kinetic friction; what is near it slides
 static std::vector<ManifoldPoint> take_pressing(std::vector<ManifoldPoint>& before, const Pose& X_AB, double threshold, double mu,
                                                 const std::vector<ManifoldPoint>& fresh) {
   constexpr double opposite = 0.2;  // of the threshold

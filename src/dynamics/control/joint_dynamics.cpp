@@ -20,11 +20,7 @@ JointDynamics joint_dynamics(const World& world, Id<Robot> id) {
   const DynamicState& state = copy.edit_dynamics();
   Eigen::VectorXd v;
   gather_velocities(system, world, state, v);
-  Vector6d root = Vector6d::Zero();
-  if (!tree->floating) {
-    const Twist twist = world.twist(tree->root);
-    root << twist.linear, twist.angular;
-  }
+  const Vector6d root = prescribed_twist(world, *tree);
   TreeDynamics dynamics;
   dynamics.place(world, *tree);
   Eigen::VectorXd bias = dynamics.find_bias(v, root, world.gravity());

@@ -107,6 +107,14 @@ Eigen::Vector3d centre(const World& world, const Articulation& tree) {
   return moment / mass;
 }
 
+Vector6d prescribed_twist(const World& world, const Articulation& tree) {
+  Vector6d out = Vector6d::Zero();
+  if (tree.floating) return out;
+  const Twist twist = world.twist(tree.root);
+  out << twist.linear, twist.angular;
+  return out;
+}
+
 void gather_velocities(const System& system, const World& world, const DynamicState& state, Eigen::VectorXd& v) {
   v.resize(system.size);
   for (const Articulation& tree : system.trees) {

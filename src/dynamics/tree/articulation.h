@@ -64,6 +64,9 @@ System find_system(const World& world);
 /// The point of the root whose velocity counts: its centre of mass; that of all that is welded to it, where nothing has joints [m].
 Eigen::Vector3d centre(const World& world, const Articulation& tree);
 
+/// Of a root that moves as prescribed, at centre() [m/s, rad/s]; 0 of one that floats, whose velocity is in the coordinates.
+Vector6d prescribed_twist(const World& world, const Articulation& tree);
+
 /// Velocities of all coordinates, as the world's state has them.
 void gather_velocities(const System& system, const World& world, const DynamicState& state, Eigen::VectorXd& v);
 /// The other way round; joints that follow a DOF get theirs.

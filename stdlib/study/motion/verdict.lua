@@ -12,7 +12,8 @@ function verdict.new(trial, job, asked)
   local grip = trial.grip == "forces" and ("gripped with %.3g N of normal forces"):format(job.grip_force) or "gripped by closing motors"
   return setmetatable({
     survived = false, held = 0, settled = trial.settled, grip = trial.grip, contacts = trial.contacts, failures = 0, count = 0,
-    protocol = ("%s, %.4g kg, %s; displaced by less than %.3g m and %.3g degrees"):format(asked, job.mass, grip, job.max_distance, math.deg(job.max_angle)),
+    protocol = ("%s, %.4g kg, %s, %.3g of the friction; displaced by less than %.3g m and %.3g degrees"):format(asked, job.mass, grip,
+      job.friction_share, job.max_distance, math.deg(job.max_angle)),
   }, Verdict)
 end
 

@@ -30,9 +30,9 @@ static void tell_trouble(lua_State* L, const World& world, const StepReport& bef
     std::vector<BodyPair> pairs;
     for (const Manifold& m : world.dynamics()->manifolds)
       if (m.clearance == 0) pairs.emplace_back(m.a, m.b);
-    const std::string which = pairs.empty() ? "for a time" : "still (" + describe(world, pairs) + ")";
-    warn_once(L, &overlaps, fmt::format("{}: bodies overlapped, {}; they are pushed apart slowly; "
-                                        "world.report.overlaps counts such steps", subject(L), which));
+    const std::string which = pairs.empty() ? "overlapped for a time" : "overlap (" + describe(world, pairs) + ")";
+    warn_once(L, &overlaps, fmt::format("{}: bodies {}; they are pushed apart slowly; world.report.overlaps counts them",
+                                        subject(L), which));
   }
   if (report.failures > before.failures)
     warn_once(L, &failures, fmt::format("{}: some steps ask of contacts, limits and motors what cannot be at once; "
