@@ -1,0 +1,44 @@
+--- Points of an object's surface that face each other: on both sides of a solid, of a wall, or of all that a ray meets on its way, so that
+--- a vessel is held by its rim as well as about its neck.
+local facing = {}
+
+local max_hits = 16  -- of a ray
+local clear = 1e-5   -- what a ray goes on by, behind what it met [m]
+
+-- Where the ray from a point of the surface into the object leaves it again, within the friction cone and not farther than `widest`.
+local function opposite(world, object, at, friction, widest)
+  local point, along = object.pose * at.point, object.pose:rotate(at.normal) * -1
+  local list, gone, steepest = {}, clear, math.cos(math.atan(friction))
+  for _ = 1, max_hits do
+    local hit = gone < widest and world:raycast(point + along * gone, along, widest - gone)
+    if not hit then break end
+    gone = gone + hit.distance
+    if hit.body == object and gone >= 1e-4 and hit.normal:dot(along) >= steepest then list[#list + 1] = gone end
+    gone = gone + clear
+  end
+  return list, point, along
+end
+
+--- A point that faces one of the surface.
+---@param at {point: vec3, normal: vec3}  of the object's mesh
+---@param friction number  the line between both lies within these cones
+---@return vec3? middle, vec3? line, number? width  in the object; from the first to the second
+function facing.pair(world, object, at, random, friction, widest)
+  local list, point, along = opposite(world, object, at, friction, widest)
+  if #list == 0 then return end
+  local width = list[#list == 1 and 1 or random:integer(1, #list)]
+  local X_OW = object.pose:inverse()
+  return X_OW * (point + along * (width / 2)), X_OW:rotate(along), width
+end
+
+--- The least distance of two points that face each other, of `count` at random; nil: there are none [m].
+function facing.narrowest(world, object, count, friction)
+  local least
+  for _, at in ipairs(object.mesh:sample(clench.random(1), count)) do
+    local first = opposite(world, object, at, friction, math.huge)[1]
+    if first and (not least or first < least) then least = first end
+  end
+  return least
+end
+
+return facing
