@@ -1,5 +1,6 @@
 --- From a state to a grasp: the hand is placed, comes to the first touch where that is asked for, closes, and what it
 --- holds is measured.
+local give_way = require "clench.plan.give_way"
 local closing = {}
 
 --- Places the hand of a world.   returns whether it is free of collision there
@@ -33,44 +34,6 @@ local function close_behind(hand, object, dofs, steps, options)
   return grasp
 end
 
--- does one DOF close two fingers? then it stops where the first of them touches
-local function is_coupled(hand)
-  local info, chain_of = hand.dof_info, {}
-  for number, chain in ipairs(hand.chains) do
-    for _, joint in ipairs(chain.joints) do
-      local other = chain_of[joint.dof]
-      if other and other ~= number and info[joint.dof].default_velocity ~= 0 then return true end
-      chain_of[joint.dof] = number
-    end
-  end
-  return false
-end
-
-local max_way, max_centrings = 0.05, 4  -- how far a hand gives way [m], and how often
-
--- Where one side alone touches, the hand gives way by half of what is left on the other side, and closes again, until it holds.
--- returns  by how much it gave way, in the world [m]; nil: it never held
-local function centre(hand, object, options)
-  local shift = clench.vec3(0, 0, 0)
-  for _ = 1, max_centrings do
-    local push = clench.vec3(0, 0, 0)
-    for _, contact in ipairs(hand.world:contacts(hand, object)) do push = push + contact.normal end
-    local z = hand.approach.direction
-    push = push - z * push:dot(z)  -- to the side: what stops the palm is no reason
-    if push:norm() < 0.5 then return end
-    push = push / push:norm()
-    local X_WO = object.pose
-    local move = object:move_to(clench.pose {xyz = push * max_way} * X_WO)
-    object.pose = X_WO
-    if not move.touched then return end
-    local step = push * (-move.fraction * max_way / 2)
-    hand.pose, shift = clench.pose {xyz = step} * hand.pose, shift + step
-    if hand.world:collides(hand) then return end
-    local grasp = measure(hand, object, options)
-    if grasp and grasp.epsilon > 0 then return shift end
-  end
-end
-
 local at_once = {count = 0, length = 0}
 
 -- as closing.close, without giving way
@@ -92,7 +55,7 @@ local function close_from(hand, object, state, options)
   return grasp
 end
 
---- A hand whose fingers stop together, where the first of them touches, begins again to the side where both do.
+--- A hand whose fingers stop together, where the first of them touches, gives way until both press, and begins again from there.
 ---@param hand robot
 ---@param object body
 ---@param state {pose: pose, dofs: number[], reach?: number, retreat?: number}  of the hand in the object; reach: how far it goes on where nothing touches; retreat: from the first touch [m]
@@ -100,12 +63,13 @@ end
 ---@return grasp? grasp, string? why  what was in the way
 function closing.close(hand, object, state, options)
   local grasp, why = close_from(hand, object, state, options)
-  if not grasp or grasp.epsilon > 0 or not is_coupled(hand) then return grasp, why end
-  local shift = centre(hand, object, options.grasp)
-  if not shift then return grasp end
+  if not grasp or grasp.epsilon > 0 or not give_way.is_coupled(hand) then return grasp, why end
+  local before = hand.pose
+  local after = give_way.hand(hand, object, before, state.dofs)
+  if not after then return grasp end
   local X_WO = object.pose
   local aside = {dofs = state.dofs, reach = state.reach, retreat = state.retreat,
-                 pose = X_WO:inverse() * clench.pose {xyz = shift} * X_WO * state.pose}
+                 pose = X_WO:inverse() * after * before:inverse() * X_WO * state.pose}
   return close_from(hand, object, aside, options) or grasp
 end
 

@@ -6,8 +6,8 @@ local max_hits = 16  -- of a ray
 local clear = 1e-5   -- what a ray goes on by, behind what it met [m]
 
 -- Where the ray from a point of the surface into the object leaves it again, within the friction cone and not farther than `widest`.
-local function opposite(world, object, at, friction, widest)
-  local point, along = object.pose * at.point, object.pose:rotate(at.normal) * -1
+local function opposite(world, object, at, inward, friction, widest)
+  local point, along = object.pose * at.point, object.pose:rotate(inward)
   local list, gone, steepest = {}, clear, math.cos(math.atan(friction))
   for _ = 1, max_hits do
     local hit = gone < widest and world:raycast(point + along * gone, along, widest - gone)
@@ -19,12 +19,22 @@ local function opposite(world, object, at, friction, widest)
   return list, point, along
 end
 
---- A point that faces one of the surface.
+-- a direction within the friction cone
+local function tilted(inward, random, friction)
+  local side = inward:cross(random:direction())
+  if side:norm() < 1e-3 then return inward end
+  return clench.pose {axis = side / side:norm(), angle = random:uniform(0, math.atan(friction))}:rotate(inward)
+end
+
+--- A point that faces one of the surface, along the normal there or, as often, a direction within the friction cone: walls of a cone face each
+--- other along no normal.
 ---@param at {point: vec3, normal: vec3}  of the object's mesh
 ---@param friction number  the line between both lies within these cones
 ---@return vec3? middle, vec3? line, number? width  in the object; from the first to the second
 function facing.pair(world, object, at, random, friction, widest)
-  local list, point, along = opposite(world, object, at, friction, widest)
+  local inward = -at.normal
+  if random:uniform() < 0.5 then inward = tilted(inward, random, friction) end
+  local list, point, along = opposite(world, object, at, inward, friction, widest)
   if #list == 0 then return end
   local width = list[#list == 1 and 1 or random:integer(1, #list)]
   local X_OW = object.pose:inverse()
@@ -35,7 +45,7 @@ end
 function facing.narrowest(world, object, count, friction)
   local least
   for _, at in ipairs(object.mesh:sample(clench.random(1), count)) do
-    local first = opposite(world, object, at, friction, math.huge)[1]
+    local first = opposite(world, object, at, -at.normal, friction, math.huge)[1]
     if first and (not least or first < least) then least = first end
   end
   return least

@@ -178,7 +178,8 @@ local function gets_there(hand, object, direction, pose, dofs)
 end
 
 --- The thumb on one of two points that face each other and the fingers on the other, from any side across that line.
-local function about_two_points(hand, world, object, random, options)
+---@param checked boolean  for jaws: only where the hand gets to the points
+local function about_two_points(hand, world, object, random, options, checked)
   local width = math.min(options.width, hand.aperture - clearance)
   local middle, line, apart = facing.pair(world, object, object.mesh:sample(random, 1)[1], random, options.friction, width)
   local direction = middle and across(line, random)
@@ -188,7 +189,7 @@ local function about_two_points(hand, world, object, random, options)
   local deeper
   if hand.is_two_fingered then
     deeper = random:uniform(-0.7, 0.7) * pad
-    if not gets_there(hand, object, direction, opposition.frame(middle + direction * deeper, direction, line) * X_FH, dofs) then return end
+    if checked and not gets_there(hand, object, direction, opposition.frame(middle + direction * deeper, direction, line) * X_FH, dofs) then return end
   else
     deeper = random:uniform(-0.01, 0.02)
   end
@@ -205,17 +206,17 @@ local max_tries = 200  -- until two points face each other
 function starts.random(job, options)
   local hand, object, world = describe(job.hand), job.object, job.world
   return function(number)
-    local paired = hand.has_thumb and (options.kind == "antipodal" or number % 2 == 0)
+    local paired = hand.has_thumb and (options.kind == "antipodal" or number % (hand.is_two_fingered and 8 or 2) ~= 1)
     for try = 1, max_tries do
       local random = clench.random(job.seed, number * max_tries + try)
       local state
       if paired then
-        state = about_two_points(hand, world, object, random, options)
+        state = about_two_points(hand, world, object, random, options, try < max_tries)
       else
         state = before_surface(hand, object, random, options.standoff)
       end
       if state then return state end
-      -- an object without such pairs is approached along its normals
+      -- an object without such pairs, or with none that the hand gets to, is approached along its normals
       if try == max_tries // 2 and options.kind ~= "antipodal" then paired = false end
     end
   end

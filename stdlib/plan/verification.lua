@@ -1,5 +1,5 @@
 --- Does a grasp hold when it is not met exactly, and against loads? What is asked of a grasp that is called verified.
-local closing = require "clench.plan.closing"
+local give_way = require "clench.plan.give_way"
 local share_friction = require "clench.study.motion.share_friction"
 local verification = {}
 
@@ -34,15 +34,27 @@ local function close_on_free(hand, object, way, options)
   return grasp
 end
 
+-- Jaws that one motor closes draw what lies free between them, and turn it.
+local function close_around_free(hand, object, dofs, options)
+  local X_WH, X_WO = hand.pose, object.pose
+  local after = give_way.hand(hand, object, X_WH, dofs)
+  hand:set_posture(X_WH, dofs)
+  if after then
+    object.pose = X_WH * after:inverse() * X_WO
+    if hand.world:collides(object) then object.pose = X_WO end
+  end
+  hand:autograsp()
+  return clench.grasp(hand, object, options)
+end
+
 --- The least epsilon when the hand closes again on the object displaced along each axis of the world, from the pose of
 --- the grasp and the DOFs before it closed; 0 where something is in the way. An object that one side alone touches gives
---- way. Looks no further once it is not above
---- `enough`.
+--- way; between jaws that one motor closes it turns as well. Looks no further once it is not above `enough`.
 function verification.perturbed_epsilon(hand, object, grasp, displacement, enough, options)
   local world = hand.world
   local here <close> = world:snapshot()
   local X_WH, dofs, X_WO = object.pose * grasp.pose, grasp.pregrasp.dofs, object.pose
-  local least = math.huge
+  local least, coupled = math.huge, give_way.is_coupled(hand)
   for _, direction in ipairs(verification.directions) do
     object.pose = moved(X_WO, direction * displacement)
     hand:set_posture(X_WH, dofs)
@@ -52,7 +64,13 @@ function verification.perturbed_epsilon(hand, object, grasp, displacement, enoug
       hand:set_posture(moved(X_WH, hand.approach.direction * (-2 * displacement)), dofs)
     end
     if not world:collides(hand) then
+      local stands = hand.pose
       local again = close_on_free(hand, object, 4 * displacement, options)
+      if coupled and (#again.points == 0 or again:quality "epsilon" <= enough) then
+        object.pose = moved(X_WO, direction * displacement)
+        hand:set_posture(stands, dofs)
+        again = close_around_free(hand, object, dofs, options)
+      end
       epsilon = #again.points > 0 and again:quality "epsilon" or 0
     end
     least = math.min(least, epsilon)
