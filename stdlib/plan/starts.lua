@@ -162,6 +162,7 @@ local function before_surface(hand, object, random, standoff)
 end
 
 local clearance = 0.002  -- left on both sides together of what the open hand is to enter [m]
+local to_palm = 0.06      -- how far a hand goes on until its palm touches [m]
 local seen_from = {0, 0.025, 0.06}  -- before where it is to close: there the hand is free as well [m]
 
 -- Does the hand come to the object so that what is to be between its pads gets there, and not what is in the way?
@@ -190,6 +191,7 @@ local function about_two_points(hand, world, object, random, options, checked)
   if hand.is_two_fingered then
     deeper = random:uniform(-0.7, 0.7) * pad
     if checked and not gets_there(hand, object, direction, opposition.frame(middle + direction * deeper, direction, line) * X_FH, dofs) then return end
+    if random:uniform() < 0.3 then deeper = to_palm end
   else
     deeper = random:uniform(-0.01, 0.02)
   end
