@@ -3,6 +3,7 @@
 local closing = require "clench.plan.closing"
 local touch = require "clench.plan.touch"
 local neighbour = require "clench.plan.neighbour"
+local quiet = require "clench.plan.quiet"
 local verification = require "clench.plan.verification"
 
 -- keeps what is better, from one try to the next nearer to what is kept
@@ -23,10 +24,11 @@ end
 
 ---@param states {pose: pose, dofs: number[], retreat?: number, number: integer}[]
 ---@param shared {hand: robot, object: body, approach?: number, back?: table, grasp?: table, refine: integer, verify?: table, touch?: table, seed: integer, over?: number}  over: when there is no time left, of clench.clock
----@return {grasps: table[], rejected: table<string, integer>}  grasps: {grasp, number, numbers, start}
+---@return {grasps: table[], rejected: table<string, integer>, best_load?: number}  grasps: {grasp, number, numbers, start}; best_load: of those that are too weak [weights]
 return function(states, shared)
+  local silence <close> = quiet()
   local hand, object = shared.hand, shared.object
-  local found, rejected = {}, {}
+  local found, rejected, best_load = {}, {}, nil
   local function reject(why) rejected[why] = (rejected[why] or 0) + 1 end
   for _, state in ipairs(states) do
     if shared.over and clench.clock() >= shared.over then
@@ -45,7 +47,9 @@ return function(states, shared)
           grasp, state = improve(hand, object, state, grasp, clench.random(shared.seed, 2 * number + 1), shared)
           grasp:apply(hand.world)
         end
-        if shared.verify then numbers, why = verification.check(hand, object, grasp, shared.verify) end
+        local load
+        if shared.verify then numbers, why, load = verification.check(hand, object, grasp, shared.verify) end
+        if load then best_load = math.max(load, best_load or 0) end
         if shared.verify and not numbers then
           reject(why)
         else
@@ -54,5 +58,5 @@ return function(states, shared)
       end
     end
   end
-  return {grasps = found, rejected = rejected}
+  return {grasps = found, rejected = rejected, best_load = best_load}
 end

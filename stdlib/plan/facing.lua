@@ -43,9 +43,10 @@ end
 
 --- The least distance of two points that face each other, of `count` at random; nil: there are none [m].
 function facing.narrowest(world, object, count, friction)
-  local least
+  local bounds, least = object.mesh.bounds, nil
+  local far = (bounds.high - bounds.low):norm()
   for _, at in ipairs(object.mesh:sample(clench.random(1), count)) do
-    local first = opposite(world, object, at, -at.normal, friction, math.huge)[1]
+    local first = opposite(world, object, at, -at.normal, friction, far)[1]
     if first and (not least or first < least) then least = first end
   end
   return least

@@ -56,7 +56,7 @@ local function close_between(hand, object, pose, dofs)
   end
 end
 
-local turns = {0.08, 0.04, 0.02, 0.01}  -- that are tried, one after the other [rad]
+local turns = {0.06, 0.02}  -- that are tried, one after the other [rad]
 
 --- Lets the hand give way around an object that stays: it shifts to where both sides touch, then turns about the approach and across it as
 --- long as the jaws come closer by that. The hand is left closed there.

@@ -5,6 +5,8 @@ local verification = {}
 
 verification.defaults = {displacement = 0.001, force_ratio = 10, min_load = 2, min_slippery_load = 0, min_epsilon = 0.01, lift = 0.1}
 
+verification.too_weak = "too weak against loads"
+
 --- min_slippery_load of grasps that are shaken, too
 verification.min_slippery_load_of_shaken = 2
 
@@ -136,12 +138,12 @@ end
 
 ---@param hand robot  as it holds the object
 ---@param options {displacement: number, min_epsilon: number, force_ratio: number, min_load: number, min_slippery_load: number, lift: number, grasp?: table, shake?: table, keep_lost?: boolean}
----@return table? numbers, string? why  perturbed_epsilon, load_margin; directions_held and survived (1 or 0) of those that were shaken
+---@return table? numbers, string? why, number? load  in weights, where that is too small; numbers: perturbed_epsilon, load_margin; directions_held and survived (1 or 0) of those that were shaken
 function verification.check(hand, object, grasp, options)
   if not grasp.collision_free then return nil, "in collision when closed" end
   if grasp.epsilon < options.min_epsilon then return nil, "epsilon too small" end
   local load = verification.load(object, grasp, options.force_ratio)
-  if load < options.min_load then return nil, "too weak against loads" end
+  if load < options.min_load then return nil, verification.too_weak, load end
   if options.min_slippery_load > 0 and verification.slippery_load(hand, object, options.force_ratio, options.grasp) < options.min_slippery_load then
     return nil, "too weak with half of the friction"
   end
