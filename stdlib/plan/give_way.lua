@@ -18,20 +18,33 @@ function give_way.is_coupled(hand)
 end
 
 local max_way, max_shifts = 0.05, 4  -- how far a hand gives way to the side [m], and how often
-local pressed = 0.5                  -- net push of the unit normals, above which one side alone touches
+local aside = 0.2                    -- cosine: a normal that says from which side an object is touched
 
--- how far the DOFs have closed, and the sum of normals on the object across the approach
-local function close(hand, object, dofs)
-  hand:autograsp()
+-- On which sides is the object touched: by the thumb, which stands towards `axis`, and by the others?
+local function sides(hand, object, axis)
+  local thumb, others = false, false
+  for _, contact in ipairs(hand.world:contacts(hand, object)) do
+    local push = contact.normal:dot(axis)
+    thumb, others = thumb or push < -aside, others or push > aside
+  end
+  return thumb, others
+end
+
+--- Where a hand has closed, does it touch the object from one side alone?
+function give_way.touches_one_side(hand, object)
+  local axis = opposition.thumb(hand)
+  if not axis then return false end
+  local thumb, others = sides(hand, object, axis)
+  return thumb ~= others
+end
+
+-- how far the DOFs have closed
+local function closed_by(hand, dofs)
   local closed, now = 0, hand.dofs
   for i, info in ipairs(hand.dof_info) do
     if info.default_velocity ~= 0 then closed = closed + math.abs(now[i] - dofs[i]) end
   end
-  local push, z, count = clench.vec3(0, 0, 0), hand.approach.direction, 0
-  for _, contact in ipairs(hand.world:contacts(hand, object)) do
-    push, count = push + contact.normal, count + 1
-  end
-  return closed, push - z * push:dot(z), count  -- to the side: what stops the palm is no reason
+  return closed
 end
 
 -- Closes at a pose from `dofs`, and shifts the hand by half of what is left on the other side while one side alone touches.
@@ -41,45 +54,48 @@ local function close_between(hand, object, pose, dofs)
   local world, X_WO, axis = hand.world, object.pose, opposition.thumb(hand)
   if not axis or world:collides(hand) then return end
   for _ = 0, max_shifts do
-    local closed, push, count = close(hand, object, dofs)
-    if count == 0 then return end
-    local side = push:dot(axis)
-    if math.abs(side) < pressed * math.min(count, 2) / 2 then return closed, hand.pose end
-    local way = axis * (side > 0 and 1 or -1)
+    hand:autograsp()
+    local thumb, others = sides(hand, object, axis)
+    if thumb and others then return closed_by(hand, dofs), hand.pose end
+    if not thumb and not others then return end
+    local way = axis * (others and 1 or -1)
     local move = object:move_to(clench.pose {xyz = way * max_way} * X_WO)
     object.pose = X_WO
     if not move.touched then return end
-    local left = move.fraction * max_way
-    if left < 1e-4 then return closed, hand.pose end  -- the other side touches as well
-    hand.pose = clench.pose {xyz = way * (-left / 2)} * hand.pose
+    hand.pose = clench.pose {xyz = way * (-move.fraction * max_way / 2)} * hand.pose
     if world:collides(hand) then return end
   end
 end
 
-local turns = {0.06, 0.02}  -- that are tried, one after the other [rad]
+local function middle_of_contacts(hand, object)
+  local contacts, sum = hand.world:contacts(hand, object), clench.vec3(0, 0, 0)
+  for _, contact in ipairs(contacts) do sum = sum + contact.point end
+  return #contacts > 0 and sum / #contacts or hand.approach.point
+end
 
---- Lets the hand give way around an object that stays: it shifts to where both sides touch, then turns about the approach and across it as
---- long as the jaws come closer by that. The hand is left closed there.
+--- Lets the hand give way to the side, around an object that stays, to where both sides touch.
 ---@param hand robot
 ---@param object body
 ---@param pose pose  of the hand in the world, where it begins
 ---@param dofs number[]  before it closes
 ---@return pose?  of the hand, in the world; nil: both sides never touch
-function give_way.hand(hand, object, pose, dofs)
+function give_way.shift(hand, object, pose, dofs)
+  return select(2, close_between(hand, object, pose, dofs))
+end
+
+local turns = {0.06, 0.02}  -- that are tried, one after the other [rad]
+
+--- The same, and lets it turn about the approach and across it as long as the jaws come closer by that.
+function give_way.turn(hand, object, pose, dofs)
   local best, at = close_between(hand, object, pose, dofs)
   if not best then return end
+  local middle = middle_of_contacts(hand, object)
   local z, x = hand.approach.direction, opposition.thumb(hand)
   local axes = {z, z:cross(x)}
   for _, angle in ipairs(turns) do
     for _, axis in ipairs(axes) do
       for _, sign in ipairs {1, -1} do
-        local about = clench.pose {xyz = hand.approach.point}
-        local points = hand.world:contacts(hand, object)
-        if #points > 0 then
-          local sum = clench.vec3(0, 0, 0)
-          for _, contact in ipairs(points) do sum = sum + contact.point end
-          about = clench.pose {xyz = sum / #points}
-        end
+        local about = clench.pose {xyz = middle}
         local turned = about * clench.pose {axis = axis, angle = sign * angle} * about:inverse() * at
         local closed, shifted = close_between(hand, object, turned, dofs)
         if closed and closed > best + 1e-6 then
@@ -89,7 +105,7 @@ function give_way.hand(hand, object, pose, dofs)
       end
     end
   end
-  return select(2, close_between(hand, object, at, dofs))
+  return at
 end
 
 return give_way

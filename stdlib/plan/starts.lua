@@ -178,11 +178,19 @@ local function gets_there(hand, object, direction, pose, dofs)
   return free
 end
 
+-- A point of the surface. Two fingers carry what lies aside of them by friction alone: of two points they take the one nearer to the centre of mass.
+local function surface_point(hand, object, random)
+  local a = object.mesh:sample(random, 1)[1]
+  if not hand.is_two_fingered then return a end
+  local b = object.mesh:sample(random, 1)[1]
+  return (a.point - object.com):norm() <= (b.point - object.com):norm() and a or b
+end
+
 --- The thumb on one of two points that face each other and the fingers on the other, from any side across that line.
 ---@param checked boolean  for jaws: only where the hand gets to the points
 local function about_two_points(hand, world, object, random, options, checked)
   local width = math.min(options.width, hand.aperture - clearance)
-  local middle, line, apart = facing.pair(world, object, object.mesh:sample(random, 1)[1], random, options.friction, width)
+  local middle, line, apart = facing.pair(world, object, surface_point(hand, object, random), random, options.friction, width)
   local direction = middle and across(line, random)
   if not direction then return end
   local closed, X_FH, pad = holding(hand, apart + clearance)

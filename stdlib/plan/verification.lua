@@ -39,7 +39,7 @@ end
 -- Jaws that one motor closes draw what lies free between them, and turn it.
 local function close_around_free(hand, object, dofs, options)
   local X_WH, X_WO = hand.pose, object.pose
-  local after = give_way.hand(hand, object, X_WH, dofs)
+  local after = give_way.turn(hand, object, X_WH, dofs)
   hand:set_posture(X_WH, dofs)
   if after then
     object.pose = X_WH * after:inverse() * X_WO
