@@ -5,7 +5,7 @@ local pads = {}
 
 local samples = 400       -- points of a fingertip that are looked at
 local facing = 0.8        -- cosine: what is turned away further is no pad
-local depth = 0.002       -- from the foremost point that is [m]
+local depth = 0.001       -- from the foremost point that is [m]
 
 -- the last link of each finger, and points of its surface, in its frame
 local function tips_of(hand)

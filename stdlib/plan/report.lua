@@ -103,7 +103,8 @@ local function rejected_most(told)
   if not told.candidates then return end
   local most, why = 0, nil
   for reason, count in pairs(told.rejected) do
-    if count > most or count == most and why and reason < why then most, why = count, reason end
+    local comes_first = count > most or count == most and why and reason < why
+    if comes_first and reason ~= "no time left" then most, why = count, reason end
   end
   if why then return ("most candidates were rejected: %s (%d of %d)"):format(why, most, told.candidates) end
 end
@@ -149,7 +150,9 @@ return function(job, told)
   told.causes = {}
   told.one_thread = job.in_place and job.threads > 1 or nil
   if told.steps then told.steps_per_second = told.steps / math.max(told.seconds, 1e-9) end
-  if told.grasps == 0 and not told.stopped then
+  if told.grasps == 0 and told.stopped then
+    told.causes[1] = too_weak(told)
+  elseif told.grasps == 0 then
     for _, cause in ipairs {arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_wide(job) or false, too_weak(told) or false,
                             search_causes(told) or false, rejected_most(told) or false} do
       if cause then told.causes[#told.causes + 1] = cause end
