@@ -83,7 +83,7 @@ function give_way.shift(hand, object, pose, dofs)
   return select(2, close_between(hand, object, pose, dofs))
 end
 
-local turns = {0.06, 0.02}  -- that are tried, one after the other [rad]
+local turns = {0.06, 0.02, 0.007, 0.0025}  -- that are tried, one after the other: at last edges of a pad of 20 mm are level within half the contact threshold [rad]
 
 --- The same, and lets it turn about the approach and across it as long as the jaws come closer by that.
 function give_way.turn(hand, object, pose, dofs)
@@ -98,7 +98,7 @@ function give_way.turn(hand, object, pose, dofs)
         local about = clench.pose {xyz = middle}
         local turned = about * clench.pose {axis = axis, angle = sign * angle} * about:inverse() * at
         local closed, shifted = close_between(hand, object, turned, dofs)
-        if closed and closed > best + 1e-6 then
+        if closed and closed > best + 1e-7 then
           best, at = closed, shifted
           break
         end

@@ -229,6 +229,19 @@ TEST_CASE("names that are HTML or no UTF-8 stay words in the page and in the lis
   CHECK(has(html, R"("object_pose":[0,0,0.5,0.707107,0,0,0.707107])"));
 }
 
+TEST_CASE("--force-ratio says how hard verified grasps may press") {
+  const std::string plan = "plan models/hands/barrett/barrett.cfg models/objects/mug.iv --count 1 ";
+  const auto hard = run(plan + "--force-ratio 20");
+  CAPTURE(hard.out);
+  CHECK(hard.code == 0);
+  // the load of a grasp that is limited by friction is twice as much
+  CHECK(hard.out != run(plan + "--force-ratio 10").out);
+  CHECK(run(plan + "--force-ratio 0").code == 2);
+  const auto both = run(plan + "--force-ratio 20 --no-verify");
+  CHECK(both.code == 2);
+  CHECK(has(both.out, "--force-ratio says how hard grasps may press to be verified, and --no-verify asks for none"));
+}
+
 TEST_CASE("--verify shakes the grasps, and --keep-lost marks those that are lost") {
   const auto survived = run("plan models/hands/barrett/barrett.cfg models/objects/mug.iv --count 1 --verify --mass 0.1");
   CAPTURE(survived.out);
