@@ -13,7 +13,7 @@ local function opposite(world, object, at, inward, friction, widest)
     local hit = gone < widest and world:raycast(point + along * gone, along, widest - gone)
     if not hit then break end
     gone = gone + hit.distance
-    if hit.body == object and gone >= 1e-4 and hit.normal:dot(along) >= steepest then list[#list + 1] = gone end
+    if hit.body == object and gone >= 1e-4 and hit.normal:dot(along) >= steepest then list[#list + 1] = {gone, hit.normal} end
     gone = gone + clear
   end
   return list, point, along
@@ -27,18 +27,20 @@ local function tilted(inward, random, friction)
 end
 
 --- A point that faces one of the surface, along the normal there or, as often, a direction within the friction cone: walls of a cone face each
---- other along no normal.
+--- other along no normal. Flat pads lie on both sides best across the mean of the two normals.
 ---@param at {point: vec3, normal: vec3}  of the object's mesh
 ---@param friction number  the line between both lies within these cones
----@return vec3? middle, vec3? line, number? width  in the object; from the first to the second
+---@return vec3? middle, vec3? across, number? width  in the object: between the points; the mean of the normals, from the first to the second; how far the points are apart along it
 function facing.pair(world, object, at, random, friction, widest)
   local inward = -at.normal
   if random:uniform() < 0.5 then inward = tilted(inward, random, friction) end
   local list, point, along = opposite(world, object, at, inward, friction, widest)
   if #list == 0 then return end
-  local width = list[#list == 1 and 1 or random:integer(1, #list)]
+  local gone, normal = table.unpack(list[#list == 1 and 1 or random:integer(1, #list)])
   local X_OW = object.pose:inverse()
-  return X_OW * (point + along * (width / 2)), X_OW:rotate(along), width
+  local across = X_OW:rotate(normal) - at.normal
+  across = across / across:norm()
+  return X_OW * (point + along * (gone / 2)), across, gone * X_OW:rotate(along):dot(across)
 end
 
 --- The least distance of two points that face each other, of `count` at random; nil: there are none [m].
@@ -47,7 +49,7 @@ function facing.narrowest(world, object, count, friction)
   local far = (bounds.high - bounds.low):norm()
   for _, at in ipairs(object.mesh:sample(clench.random(1), count)) do
     local first = opposite(world, object, at, -at.normal, friction, far)[1]
-    if first and (not least or first < least) then least = first end
+    if first and (not least or first[1] < least) then least = first[1] end
   end
   return least
 end
