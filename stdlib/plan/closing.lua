@@ -72,13 +72,13 @@ end
 ---@param hand robot
 ---@param object body
 ---@param state {pose: pose, dofs: number[], reach?: number, retreat?: number}  of the hand in the object; reach: how far it goes on where nothing touches; retreat: from the first touch [m]
----@param options {approach?: number, back?: {count: integer, length: number}, grasp?: table, quick?: boolean}  approach: at most so far, to the first touch [m]; quick: it gives way to the side alone, without a turn
+---@param options {approach?: number, back?: {count: integer, length: number}, grasp?: table, quick?: boolean}  approach: at most so far, to the first touch [m]; quick: jaws give way to the side alone, without a turn
 ---@return grasp? grasp, string? why  what was in the way
 function closing.close(hand, object, state, options)
   local coupled = give_way.is_coupled(hand)
   local grasp, why, from = close_from(hand, object, state, options, coupled)
   if not coupled or grasp and grasp.epsilon > 0 or not grasp and why ~= one_side then return grasp, why end
-  local give = options.quick and give_way.shift or give_way.turn
+  local give = (options.quick or not give_way.are_jaws(hand)) and give_way.shift or give_way.turn
   local after = give(hand, object, from, state.dofs)
   local again = after and close_from(hand, object, moved(object, state, from, after), options, coupled)
   grasp = again or grasp

@@ -83,6 +83,23 @@ function give_way.shift(hand, object, pose, dofs)
   return select(2, close_between(hand, object, pose, dofs))
 end
 
+--- does one DOF close all fingers, as of jaws? then a turn brings them closer together or farther apart
+function give_way.are_jaws(hand)
+  local info, fingers, closes = hand.dof_info, 0, {}
+  for _, chain in ipairs(hand.chains) do
+    local own = {}
+    for _, joint in ipairs(chain.joints) do
+      if info[joint.dof].default_velocity ~= 0 then own[joint.dof] = true end
+    end
+    if next(own) then fingers = fingers + 1 end
+    for dof in pairs(own) do closes[dof] = (closes[dof] or 0) + 1 end
+  end
+  for _, count in pairs(closes) do
+    if count == fingers and fingers > 1 then return true end
+  end
+  return false
+end
+
 local turns = {0.06, 0.02, 0.007, 0.0025}  -- that are tried, one after the other: at last edges of a pad of 20 mm are level within half the contact threshold [rad]
 
 --- The same, and lets it turn about the approach and across it as long as the jaws come closer by that.

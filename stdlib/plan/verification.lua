@@ -56,7 +56,7 @@ function verification.perturbed_epsilon(hand, object, grasp, displacement, enoug
   local world = hand.world
   local here <close> = world:snapshot()
   local X_WH, dofs, X_WO = object.pose * grasp.pose, grasp.pregrasp.dofs, object.pose
-  local least, coupled = math.huge, give_way.is_coupled(hand)
+  local least, coupled = math.huge, give_way.are_jaws(hand)
   for _, direction in ipairs(verification.directions) do
     object.pose = moved(X_WO, direction * displacement)
     hand:set_posture(X_WH, dofs)

@@ -68,6 +68,13 @@ test("jaws begin where what is in the way leaves the pads room to get there", fu
   t.ok(free >= 30, free)
 end)
 
+test("jaws are hands whose fingers all close by one motor", function(t)
+  for path, expected in pairs {["parallel_jaw/parallel_jaw"] = true, ["adaptive_gripper/adaptive_gripper"] = true, ["robonaut/robonaut"] = false,
+                               ["barrett/barrett"] = false} do
+    t.equal(give_way.are_jaws(clench.world():add_robot(("models/hands/%s.cfg"):format(path))), expected)
+  end
+end)
+
 test("jaws turn to where they come closest", function(t)
   local hand, bar = scene("parallel_jaw", clench.shapes.box {0.03, 0.06, 0.06})
   hand.pose = clench.pose {axis = {0, 0, 1}, angle = 0.05} * clench.pose {xyz = {0.004, 0, 1 - 0.115}}
