@@ -105,7 +105,7 @@ TEST_CASE("where nothing is found, plan ends with 1 and says why") {
                           " --unit m --seconds 0.5 -o " + out);
   CHECK(result.code == 1);
   CHECK(has(result.out, "plan.sample: 0 grasps"));
-  CHECK(has(result.out, "\nwhy: the object is 1000 mm wide where it is narrowest, and the hand opens to"));
+  CHECK(has(result.out, "\nwhy: cube is wider than parallel_jaw opens: where points of its surface face each other they are at least 1000 mm apart, and the pads open to 80 mm"));
   CHECK(epsilons(out).empty());
 }
 
