@@ -1,5 +1,5 @@
 -- scripts/models/grippers.lua
---- Grippers for industry: a parallel jaw, an adaptive one of two fingers, an adaptive one of three. The flange is at
+--- Grippers for industry: a parallel jaw, two fingers on linkages, two on springs, three that adapt. The flange is at
 --- z = 0 or below, the fingers point along +z. See the README.md beside each for the figures.
 local shapes = require "clench.shapes"
 local build = require "models.build"
@@ -10,10 +10,12 @@ local sites = require "models.sites"
 local white, black, steel = {0.86, 0.87, 0.88}, {0.15, 0.155, 0.16}, {0.64, 0.66, 0.68}
 local grey, rubber, orange = {0.36, 0.37, 0.39}, {0.22, 0.22, 0.23}, {0.80, 0.42, 0.12}
 
-local function body(folder, name, about, mass, material, parts)
+local function body(folder, name, about, mass, material, parts, youngs)
   return {"models/hands/" .. folder .. "/iv/" .. name .. ".iv", about = about, material = material, mass = mass,
-          parts = parts}
+          parts = parts, youngs = youngs}
 end
+
+local soft_pad = 1.5e6  -- Young's modulus of rubber [Pa]
 
 --- a prism with its outline in x and z, from y = low to y = high
 local function slab(outline, low, high, rounding)
@@ -45,7 +47,7 @@ local function parallel_jaw()
     {build.spine {{x = -43, y = -12, h = 19, w = 19, r = 2}, {x = -30, y = -10, h = 14, w = 19, r = 2},
                   {x = -20, y = -8, h = 11, w = 19, r = 2}, {x = 0, y = -7, h = 9, w = 19, r = 2}}, color = white},
     {shapes.move(shapes.box {20, 4, 17.6, rounding = 0.6, segments = 1}, {-10, -2.05, 0}), color = rubber},
-  })
+  }, soft_pad)
   local chains, places = {}, {}
   for k, side in ipairs {1, -1} do
     chains[k] = {
@@ -77,8 +79,59 @@ local function phalanx(o)
   return build.segment(o)
 end
 
--- two fingers of two links on springs, pulled by one tendon
+-- two fingers whose pads stay parallel while cranks swing them; one motor
 local function adaptive()
+  local crank, open, height, reach = 57.1, 48.8, 54.9, 51.2  -- [mm], [degrees]
+  local across = 30.6
+  local block = slab(shapes.outline {{-38, 10, 6}, {38, 10, 6}, {38, 58}, {24, 75}, {-24, 75}, {-38, 58}, segments = 3}, -14, 14, 2)
+  local parts = {flange(37.5, 0, 12, grey), {block, color = black},
+                 {slab({{-18, 70}, {18, 70}, {18, 76}, {-18, 76}}, -11, 11, 1), color = rubber}}
+  for _, side in ipairs {1, -1} do
+    parts[#parts + 1] = {shapes.cylinder {5, from = {side * across, -17, height}, to = {side * across, 17, height}, chamfer = 0.8, segments = 16},
+                         color = steel}
+  end
+  local palm = body("adaptive_gripper", "palm", "housing of a gripper with two fingers", 700, "plastic", parts)
+  -- from its joint at x = -crank to the fingertip's at x = 0
+  local swing = body("adaptive_gripper", "crank", "crank of a finger", 40, "metal", {
+    {build.fork(build.belt({-crank, 0}, 8, {0, 0}, 7, 5), 14.6, 18, 0.6), color = grey},
+    {build.drum(0, 0, 4, -18.5, 18.5, 16), color = steel}, {build.drum(-crank, 0, 4, -18.5, 18.5, 16), color = steel},
+  })
+  -- x along the finger, y towards the other one; closed, the pads are a quarter of a millimetre apart
+  local tip = body("adaptive_gripper", "fingertip", "fingertip with a pad", 45, "rubber", {
+    {build.drum(-reach, 0, 7, -13.5, 13.5, 24), color = steel},
+    {build.plate(shapes.outline {{-58, -6, 2}, {-46, -7.5, 2}, {-3, 8, 2}, {0, 12, 2}, {0, 19.6, 1}, {-37.5, 19.6, 1}, {-58, 6, 2}, segments = 2},
+                 -10, 10, 1), color = black},
+    {shapes.move(shapes.box {37.5, 6.9, 22, rounding = 0.6, segments = 1}, {-18.75, 22.45, 0}), color = rubber},
+  }, soft_pad)
+  local chains, places = {}, {}
+  for k, side in ipairs {1, -1} do
+    chains[k] = {
+      about = k == 1 and "finger at +x" or "finger at -x",
+      base = {robot.frame({side * across, 0, height}, {side, 0, 0}, {0, -side, 0})},
+      joints = {{"d0+" .. open, 0, crank, 0, 0, 45.8}, {("d0*-1+%g"):format(90 - open), 0, reach, 0, -45.8, 0}},
+      links = {{"Revolute", "crank.iv", 0}, {"Revolute", "fingertip.iv", 1}},
+    }
+    for _, at in ipairs {{-33, 7}, {-33, -7}, {-5, 7}, {-5, -7}} do
+      places[#places + 1] = {finger = k - 1, link = 1, body = tip, at = {at[1], 22, at[2]}}
+    end
+  end
+  places[#places + 1] = {finger = -1, link = 0, body = palm, at = {0, 0, 70}, along = {0, 0, 1}}
+  local folder = "models/hands/adaptive_gripper/"
+  return {
+    palm, swing, tip,
+    {folder .. "adaptive_gripper.cfg", text = robot.text {
+      about = "A gripper of two fingers on linkages, one motor", palm = "palm.iv", chains = chains,
+      dofs = {{speed = 1, effort = 23.5, kp = 100, kd = 1}},
+      approach = {{0, 0, 76}, {0, 0, 1}}, eigengrasps = "adaptive_gripper.egr",
+      virtual_contacts = "adaptive_gripper.vgr",
+    }},
+    {folder .. "adaptive_gripper.egr", text = eigengrasps {origin = {10}, {1}}},
+    {folder .. "adaptive_gripper.vgr", text = sites("adaptive_gripper", places)},
+  }
+end
+
+-- two fingers of two links on springs, pulled by one tendon
+local function tendon()
   local lengths = {62, 44}
   local block = slab(shapes.outline {{-48, -62, 8}, {48, -62, 8}, {48, -16, 4}, {38, -6}, {21, -6}, {14, -14, 4},
                                      {-14, -14, 4},
@@ -96,12 +149,12 @@ local function adaptive()
                                           segments = 16},
                          color = steel}
   end
-  local palm = body("adaptive_gripper", "palm", "palm with motor and tendon drum", 420, "plastic", parts)
-  local proximal = body("adaptive_gripper", "proximal", "proximal link on a spring", 38, "rubber", phalanx {
+  local palm = body("tendon_gripper", "palm", "palm with motor and tendon drum", 420, "plastic", parts)
+  local proximal = body("tendon_gripper", "proximal", "proximal link on a spring", 38, "rubber", phalanx {
     length = lengths[1], drum = 8, grip = 12.4, wide = {24, 22}, high = {15, 13}, axle = 7.4, inner = 7.4,
     pad = {-50, -14, 3},
   })
-  local distal = body("adaptive_gripper", "distal", "distal link on a spring", 22, "rubber", phalanx {
+  local distal = body("tendon_gripper", "distal", "distal link on a spring", 22, "rubber", phalanx {
     length = lengths[2], drum = 7, grip = 7, wide = {20, 18}, high = {12.6, 9.4}, pad = {-34, -6, 3},
   })
   local chains, places = {}, {}
@@ -119,17 +172,17 @@ local function adaptive()
     end
   end
   places[#places + 1] = {finger = -1, link = 0, body = palm, at = {0, 0, -15}, along = {0, 0, 1}}
-  local folder = "models/hands/adaptive_gripper/"
+  local folder = "models/hands/tendon_gripper/"
   return {
     palm, proximal, distal,
-    {folder .. "adaptive_gripper.cfg", text = robot.text {
-      about = "An adaptive gripper: two fingers on springs, one tendon", palm = "palm.iv", chains = chains,
+    {folder .. "tendon_gripper.cfg", text = robot.text {
+      about = "Two fingers on springs, one tendon", palm = "palm.iv", chains = chains,
       dofs = {{kind = "c", speed = 1, effort = 1.5, kp = 10, kd = 0.1}},
-      approach = {{0, 0, -11}, {0, 0, 1}}, eigengrasps = "adaptive_gripper.egr",
-      virtual_contacts = "adaptive_gripper.vgr",
+      approach = {{0, 0, -11}, {0, 0, 1}}, eigengrasps = "tendon_gripper.egr",
+      virtual_contacts = "tendon_gripper.vgr",
     }},
-    {folder .. "adaptive_gripper.egr", text = eigengrasps {origin = {10}, {1}}},
-    {folder .. "adaptive_gripper.vgr", text = sites("adaptive_gripper", places)},
+    {folder .. "tendon_gripper.egr", text = eigengrasps {origin = {10}, {1}}},
+    {folder .. "tendon_gripper.vgr", text = sites("tendon_gripper", places)},
   }
 end
 
@@ -223,5 +276,5 @@ local function three_finger()
 end
 
 local all = {}
-for _, list in ipairs {parallel_jaw(), adaptive(), three_finger()} do table.move(list, 1, #list, #all + 1, all) end
+for _, list in ipairs {parallel_jaw(), adaptive(), tendon(), three_finger()} do table.move(list, 1, #list, #all + 1, all) end
 return all

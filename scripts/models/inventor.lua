@@ -54,9 +54,9 @@ local function part_text(mesh, part)
   return table.concat(out, "\n")
 end
 
----@param body {about: string, material: string, mass?: number, density?: number, cog?: number[], inertia?: number[],
+---@param body {about: string, material: string, youngs?: number, mass?: number, density?: number, cog?: number[], inertia?: number[],
 ---  parts: table[]}
----  parts: {mesh, color = {r, g, b}, transparency?}; mass [g] or density [g/mm^3]; published centre of gravity [mm] and
+---  parts: {mesh, color = {r, g, b}, transparency?}; youngs: of an elastic body [Pa]; mass [g] or density [g/mm^3]; published centre of gravity [mm] and
 ---  principal moments about it, divided by the mass [mm^2], instead of those of the solid
 ---@param subject string  for messages
 ---@return string text, integer triangles
@@ -87,6 +87,7 @@ function inventor.text(body, subject)
     "}",
     "",
   }
+  if body.youngs then table.insert(out, 4, "#youngs " .. number(body.youngs)) end
   return table.concat(out, "\n"), count
 end
 

@@ -73,8 +73,9 @@ local function gallery()
   place({
     {"barrett/barrett", free, height = 118, turn = {half, 0, 0, half}},
     {"three_finger/three_finger", zeros(13), height = 84},
-    {"adaptive_gripper/adaptive_gripper", {0}, height = 74}, {"parallel_jaw/parallel_jaw", {0}, height = 8},
-  }, -160, 290, nil)
+    {"tendon_gripper/tendon_gripper", {0}, height = 74}, {"adaptive_gripper/adaptive_gripper", {0}, height = 0.1},
+    {"parallel_jaw/parallel_jaw", {0}, height = 8},
+  }, -160, 250, nil)
   blocks[#blocks + 1] = camera({0, -1250, 560}, {0, 40, 130})
   return blocks
 end
@@ -108,7 +109,7 @@ return {
     camera({360, -400, 260}, {0, 0, 70}),
   }),
   world("adaptive_cylinder", {
-    object("cylinder", {0, 0, 0}), a_robot("hands/adaptive_gripper/adaptive_gripper", {0}, {-60, 0, 60}, forward),
+    object("cylinder", {0, 0, 0}), a_robot("hands/tendon_gripper/tendon_gripper", {0}, {-60, 0, 60}, forward),
     camera({330, -400, 320}, {-20, 0, 55}),
   }),
   world("barrett_plane", {

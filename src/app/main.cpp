@@ -92,6 +92,9 @@ static void add_plan(CLI::App& verb, PlanOptions& plan) {
                   "fingertip: with the last links alone; power: with the palm, too; default: any")
       ->type_name("KIND")
       ->check(CLI::IsMember({"fingertip", "power", "any"}));
+  verb.add_option("--force-ratio", plan.force_ratio, "times the object's weight that all fingers together press with at most; default: 10")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   verb.add_option("-o", plan.out, "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
       ->type_name("FILE");
   verb.add_option("--format", plan.format, "of -o, where the ending does not say: graspgen ...")

@@ -33,6 +33,7 @@ static Words words_of(const PlanOptions& options) {
   add("verify", options.shaken ? "yes" : "");
   add("keep-lost", options.keep_lost ? "yes" : "");
   add("contacts", options.contacts);
+  add("force-ratio", options.force_ratio);
   add("no-verify", options.unverified ? "yes" : "");
   add("o", options.out);
   add("format", options.format);

@@ -58,6 +58,7 @@ struct PlanOptions {
   std::string out, format, report, sheet;  ///< what is written
   bool shaken = false, keep_lost = false;  ///< is each grasp shaken in simulation, and kept when it is lost?
   std::string contacts;                    ///< which links may or must touch
+  std::string force_ratio;                 ///< all normal forces together, in weights of the object
   bool unverified = false;  ///< is force closure enough?
   bool quiet = false;
   ReadingOptions reading;

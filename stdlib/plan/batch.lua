@@ -36,6 +36,7 @@ function batch.try(job, told, next_state, options)
   local shared = {hand = job.hand, object = job.object, approach = options.approach, back = options.back,
                   grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, touch = job.touch, seed = job.seed}
   local shakes = options.verify and options.verify.shake
+  told.verify = options.verify
   if shakes then told.shaken, told.survived = 0, 0 end
   local found, founders, number, unlike = {}, {}, 0, 0
   local is_new = distinct(job.hand, job.object, options.distance or 0)
@@ -54,6 +55,7 @@ function batch.try(job, told, next_state, options)
       told.rejected[why] = (told.rejected[why] or 0) + count
       if why == "lost when shaken" then told.shaken = told.shaken + count end
     end
+    if result.best_load then told.best_load = math.max(result.best_load, told.best_load or 0) end
     for _, new in ipairs(result.grasps) do
       local numbers = new.numbers or {}
       numbers.number, numbers.seed = new.number, job.seed

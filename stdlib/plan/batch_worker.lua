@@ -3,15 +3,17 @@
 local closing = require "clench.plan.closing"
 local touch = require "clench.plan.touch"
 local neighbour = require "clench.plan.neighbour"
+local quiet = require "clench.plan.quiet"
 local verification = require "clench.plan.verification"
 
 -- keeps what is better, from one try to the next nearer to what is kept
 local function improve(hand, object, state, grasp, random, shared)
   local centre = grasp.pose * (hand.pose:inverse() * hand.approach.point)
   local size, kept = 1, state
+  local quick = {approach = shared.approach, back = shared.back, grasp = shared.grasp, quick = true}
   for _ = 1, shared.refine do
     local try = neighbour(kept, centre, random, size, hand, object)
-    local better = closing.close(hand, object, try, shared)
+    local better = closing.close(hand, object, try, quick)
     if better and better.collision_free and better.epsilon > grasp.epsilon and not touch.fault(shared.touch, better) then
       grasp, kept, size = better, try, math.min(1, size * 1.5)
     else
@@ -21,13 +23,24 @@ local function improve(hand, object, state, grasp, random, shared)
   return grasp, kept
 end
 
+local hopeless = 0.4  -- of the load that is asked for: small changes do not mend what holds less
+
 ---@param states {pose: pose, dofs: number[], retreat?: number, number: integer}[]
 ---@param shared {hand: robot, object: body, approach?: number, back?: table, grasp?: table, refine: integer, verify?: table, touch?: table, seed: integer, over?: number}  over: when there is no time left, of clench.clock
----@return {grasps: table[], rejected: table<string, integer>}  grasps: {grasp, number, numbers, start}
+---@return {grasps: table[], rejected: table<string, integer>, best_load?: number}  grasps: {grasp, number, numbers, start}; best_load: of those that are too weak [weights]
 return function(states, shared)
+  local silence <close> = quiet()
   local hand, object = shared.hand, shared.object
-  local found, rejected = {}, {}
+  local found, rejected, best_load = {}, {}, nil
   local function reject(why) rejected[why] = (rejected[why] or 0) + 1 end
+  local function note_load(load) best_load = math.max(load, best_load or 0) end
+  local function is_hopeless(grasp)
+    local asked = shared.verify and shared.refine > 0 and shared.verify.min_load or 0
+    if asked <= 0 then return false end
+    local load = verification.load(object, grasp, shared.verify.force_ratio)
+    if load < hopeless * asked then note_load(load) end
+    return load < hopeless * asked
+  end
   for _, state in ipairs(states) do
     if shared.over and clench.clock() >= shared.over then
       reject "no time left"
@@ -39,13 +52,17 @@ return function(states, shared)
         reject "no force closure"
       elseif touch.fault(shared.touch, grasp) then
         reject(touch.fault(shared.touch, grasp))
+      elseif is_hopeless(grasp) then
+        reject(verification.too_weak)
       else
         local numbers, number = nil, state.number
         if shared.refine > 0 then
           grasp, state = improve(hand, object, state, grasp, clench.random(shared.seed, 2 * number + 1), shared)
           grasp:apply(hand.world)
         end
-        if shared.verify then numbers, why = verification.check(hand, object, grasp, shared.verify) end
+        local load
+        if shared.verify then numbers, why, load = verification.check(hand, object, grasp, shared.verify) end
+        if load then note_load(load) end
         if shared.verify and not numbers then
           reject(why)
         else
@@ -54,5 +71,5 @@ return function(states, shared)
       end
     end
   end
-  return {grasps = found, rejected = rejected}
+  return {grasps = found, rejected = rejected, best_load = best_load}
 end

@@ -4,6 +4,7 @@ local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
 local closing = require "clench.plan.closing"
+local quiet = require "clench.plan.quiet"
 local running = require "clench.plan.running"
 local touch = require "clench.plan.touch"
 local Job = {}
@@ -76,6 +77,7 @@ end
 --- The hand closes from a state; why it gave no grasp is counted in what the report tells.
 ---@param approach? number  as of closing.close [m]
 function Job:close(hand, object, state, told, approach)
+  local silence <close> = quiet()
   local grasp, why = closing.close(hand, object, state, {approach = approach, grasp = self.grasp_options})
   why = why or touch.fault(self.touch, grasp)
   if not why then return grasp end

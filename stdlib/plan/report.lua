@@ -1,5 +1,10 @@
 --- What a planner did: counts by reason, best energy over its steps, and, where nothing was found, why.
+local facing = require "clench.plan.facing"
+local opposition = require "clench.plan.opposition"
+local pads = require "clench.plan.pads"
+local starts = require "clench.plan.starts"
 local touch = require "clench.plan.touch"
+local verification = require "clench.plan.verification"
 local Report = {__name = "report"}
 
 --- the best energy over the steps, as a figure
@@ -67,38 +72,39 @@ local function self_collision(job)
   return pair and ("the hand collides with itself where it starts: %s and %s"):format(pair[1].name, pair[2].name)
 end
 
--- how wide the hand opens: the largest distance of the points of two links along any axis, about
-local function aperture(hand)
-  local open = 0
-  local points = {}
-  for _, link in ipairs(hand.links) do points[#points + 1] = link.bounds_in_world end
-  for _, a in ipairs(points) do
-    for _, b in ipairs(points) do
-      open = math.max(open, ((a.low + a.high) * 0.5 - (b.low + b.high) * 0.5):norm())
-    end
+local looked_at, friction = 400, 0.5  -- points of the surface, and the cones in which the line to the one opposite lies
+
+-- does nothing of the object fit between the pads of thumb and fingers?
+local function too_wide(job)
+  if job.in_place then return end  -- the world is the script's own
+  local hand, object = job.hand, job.object
+  local world = hand.world
+  local here <close> = world:snapshot()
+  hand:set_dofs((starts.opened(hand)))
+  local thumb, finger = opposition.thumb(hand)
+  local open = thumb and select(2, pads.of(hand)(hand.dofs, thumb, finger))
+  world:restore(here)
+  local least = open and facing.narrowest(world, object, looked_at, friction)
+  if least and least > open then
+    return ("%s is wider than %s opens: where points of its surface face each other they are at least %.0f mm apart, and the pads open to %.0f mm"):format(
+      object.name, hand.name, 1000 * least, 1000 * open)
   end
-  return open
 end
 
-local function too_large(job)
-  local bounds = job.object.mesh.bounds
-  local size = bounds.high - bounds.low
-  local least = math.min(size.x, size.y, size.z)
-  local world = job.world:clone()
-  local hand = world:robot(job.hand.name)
-  world:set_collision(false, hand)  -- it may stand in the object
-  hand:open()
-  local open = aperture(hand)
-  if least > open then
-    return ("the object is %.0f mm wide where it is narrowest, and the hand opens to some %.0f mm"):format(1000 * least, 1000 * open)
-  end
+-- would the grasps that were found hold, were less asked of them?
+local function too_weak(told)
+  local count = told.rejected and told.rejected[verification.too_weak]
+  if not count or not told.best_load then return end
+  return ("%d grasps in force closure are too weak against loads: the best holds %.2g times the object's weight in its weakest direction, with %g weights of normal force in all and the motors within their limits, and %g are asked; see min_load and force_ratio of verify"):format(
+    count, told.best_load, told.verify.force_ratio, told.verify.min_load)
 end
 
 local function rejected_most(told)
   if not told.candidates then return end
   local most, why = 0, nil
   for reason, count in pairs(told.rejected) do
-    if count > most or count == most and why and reason < why then most, why = count, reason end
+    local comes_first = count > most or count == most and why and reason < why
+    if comes_first and reason ~= "no time left" then most, why = count, reason end
   end
   if why then return ("most candidates were rejected: %s (%d of %d)"):format(why, most, told.candidates) end
 end
@@ -144,8 +150,10 @@ return function(job, told)
   told.causes = {}
   told.one_thread = job.in_place and job.threads > 1 or nil
   if told.steps then told.steps_per_second = told.steps / math.max(told.seconds, 1e-9) end
-  if told.grasps == 0 and not told.stopped then
-    for _, cause in ipairs {arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_large(job) or false,
+  if told.grasps == 0 and told.stopped then
+    told.causes[1] = too_weak(told)
+  elseif told.grasps == 0 then
+    for _, cause in ipairs {arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_wide(job) or false, too_weak(told) or false,
                             search_causes(told) or false, rejected_most(told) or false} do
       if cause then told.causes[#told.causes + 1] = cause end
     end

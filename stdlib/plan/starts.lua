@@ -1,6 +1,8 @@
 --- Where a hand may begin: before a point of the object's surface, looking at it, or about two points that face each other;
 --- more or less opened. See plan.neighbour for starts near those that succeeded.
+local facing = require "clench.plan.facing"
 local opposition = require "clench.plan.opposition"
+local pads = require "clench.plan.pads"
 local starts = {}
 
 local far_away = clench.pose {xyz = {0, 0, 9.5}}  -- from all that is not the hand
@@ -71,10 +73,12 @@ local function posture(hand, closed, spread, values)
   return dofs
 end
 
--- closed by a part of the way; DOFs that closing does not move (a spread) anywhere, or nearer to where they are open when
+local most_closed = 0.35  -- of the way, where the hand begins
+
+-- closed by a part of the way, at most `most`; DOFs that closing does not move (a spread) anywhere, or nearer to where they are open when
 -- the hand would collide with itself
-local function random_posture(hand, random)
-  local closed, values = random:uniform(0, 0.35), {}
+local function random_posture(hand, random, most)
+  local closed, values = random:uniform(0, most), {}
   for i in ipairs(hand.open) do values[i] = random:uniform() end
   for spread = 1, 0, -0.25 do
     local dofs = posture(hand, closed * spread, spread, values)
@@ -86,8 +90,28 @@ local function random_posture(hand, random)
   return hand.open
 end
 
--- What the starts of a hand have in common. The thumb is told from the open hand; between it and the fingers of the half closed one
--- lies what the hand will hold.
+local closing_steps = 12  -- at which the distance between the pads is measured
+
+-- The hand as it closes in free air: how far its pads stand apart, from the widest on down, and the base where the frame of approach and thumb
+-- in the middle between them is the unit frame.
+local function closings(self, thumb, finger)
+  local measure, list = pads.of(self.robot), {}
+  for i = 0, closing_steps do
+    local closed = i / closing_steps
+    local middle, width, pad = measure(posture(self, closed, 0), thumb, finger)
+    local last = list[#list]
+    if last and width >= last.width then
+      if i > closing_steps / 2 or width <= 0 then break end
+      list = {}  -- it opens first
+    end
+    list[#list + 1] = {closed = closed, width = width, pad = pad, X_FH = opposition.base_in_frame(self.robot, middle, self.across)}
+    if width <= 0 then break end
+  end
+  return list
+end
+
+-- What the starts of a hand have in common. The thumb is told from the open hand; between its pad and the fingers' lies what the hand
+-- will hold.
 local function describe(hand)
   local before = hand.world:snapshot()
   local open, closes = starts.opened(hand)
@@ -96,14 +120,28 @@ local function describe(hand)
   hand.world:restore(before)
   local self = {robot = hand, before = before, open = open, closes = closes, limits = hand.dof_limits, has_thumb = thumb ~= nil}
   local z = hand.approach.direction
-  local across = thumb or z:cross(math.abs(z.z) < 0.9 and clench.vec3(0, 0, 1) or clench.vec3(1, 0, 0))
+  self.across = thumb or z:cross(math.abs(z.z) < 0.9 and clench.vec3(0, 0, 1) or clench.vec3(1, 0, 0))
   local middle = hand.approach.point
   if thumb then
-    self.aperture = select(2, opposition.middle(hand, open, finger))
+    self.closings = closings(self, thumb, finger)
+    self.aperture = self.closings[1].width
+    self.is_two_fingered = #opposition.fingers(hand) == 2
     middle = opposition.middle(hand, posture(self, 0.5, 0), finger)
   end
-  self.X_FH = opposition.base_in_frame(hand, middle, across)
+  self.X_FH = opposition.base_in_frame(hand, middle, self.across)
   return self
+end
+
+-- The hand whose pads stand so far apart: how far it is closed then, and its base in the frame of approach and thumb in their middle.
+local function holding(self, width)
+  local list = self.closings
+  local i = 1
+  while i < #list and list[i + 1].width >= width do i = i + 1 end
+  local a, b = list[i], list[i + 1] or list[i]
+  local part = a.width > b.width and math.max(0, math.min(1, (a.width - width) / (a.width - b.width))) or 0
+  -- the frames lie apart without a turn
+  local shift = (b.X_FH.position - a.X_FH.position) * part
+  return a.closed + part * (b.closed - a.closed), clench.pose {xyz = shift} * a.X_FH, a.pad
 end
 
 local function across(direction, random)
@@ -120,33 +158,53 @@ local function before_surface(hand, object, random, standoff)
   local side = across(direction, random)
   if not side then return end
   return {pose = opposition.frame(at.point - direction * standoff, direction, side) * hand.X_FH,
-          dofs = random_posture(hand, random), retreat = math.max(0, random:uniform(-0.03, 0.03))}
+          dofs = random_posture(hand, random, most_closed), retreat = math.max(0, random:uniform(-0.03, 0.03))}
 end
 
--- Two points of the surface that face each other along a line inside both friction cones: their middle, and the line.
-local function facing_points(world, object, at, friction, widest)
-  local point, normal = object.pose * at.point, object.pose:rotate(at.normal)
-  local hit = world:raycast(point - normal * 1e-5, -normal, widest)
-  if not hit or hit.body ~= object then return end
-  local line = hit.point - point
-  local width = line:norm()
-  if width < 1e-4 then return end
-  line = line / width
-  if math.abs(hit.normal:dot(line)) < math.cos(math.atan(friction)) then return end
-  local X_OW = object.pose:inverse()
-  return X_OW * ((point + hit.point) * 0.5), X_OW:rotate(line)
+local clearance = 0.002  -- left on both sides together of what the open hand is to enter [m]
+local to_palm = 0.06      -- how far a hand goes on until its palm touches [m]
+local seen_from = {0, 0.025, 0.06}  -- before where it is to close: there the hand is free as well [m]
+
+-- Does the hand come to the object so that what is to be between its pads gets there, and not what is in the way?
+local function gets_there(hand, object, direction, pose, dofs)
+  local robot, X_WO = hand.robot, object.pose
+  local free = true
+  for _, back in ipairs(seen_from) do
+    robot:set_posture(X_WO * clench.pose {xyz = direction * -back} * pose, dofs)
+    free = not robot.world:collides(robot)
+    if not free then break end
+  end
+  robot.world:restore(hand.before)
+  return free
+end
+
+-- A point of the surface. Two fingers carry what lies aside of them by friction alone: of two points they take the one nearer to the centre of mass.
+local function surface_point(hand, object, random)
+  local a = object.mesh:sample(random, 1)[1]
+  if not hand.is_two_fingered then return a end
+  local b = object.mesh:sample(random, 1)[1]
+  return (a.point - object.com):norm() <= (b.point - object.com):norm() and a or b
 end
 
 --- The thumb on one of two points that face each other and the fingers on the other, from any side across that line.
-local function about_two_points(hand, world, object, random, options)
-  local width = math.min(options.width, hand.aperture)
-  local middle, line = facing_points(world, object, object.mesh:sample(random, 1)[1], options.friction, width)
+---@param checked boolean  for jaws: only where the hand gets to the points
+local function about_two_points(hand, world, object, random, options, checked)
+  local width = math.min(options.width, hand.aperture - clearance)
+  local middle, line, apart = facing.pair(world, object, surface_point(hand, object, random), random, options.friction, width)
   local direction = middle and across(line, random)
   if not direction then return end
-  local deeper = random:uniform(-0.01, 0.02)
+  local closed, X_FH, pad = holding(hand, apart + clearance)
+  local dofs = random:uniform() < 0.5 and hand.open or random_posture(hand, random, math.min(most_closed, closed))
+  local deeper
+  if hand.is_two_fingered then
+    deeper = random:uniform(-0.7, 0.7) * pad
+    if checked and not gets_there(hand, object, direction, opposition.frame(middle + direction * deeper, direction, line) * X_FH, dofs) then return end
+    if random:uniform() < 0.3 then deeper = to_palm end
+  else
+    deeper = random:uniform(-0.01, 0.02)
+  end
   local start = middle - direction * options.standoff
-  return {pose = opposition.frame(start, direction, line) * hand.X_FH,
-          dofs = random:uniform() < 0.5 and hand.open or random_posture(hand, random), reach = options.standoff + deeper}
+  return {pose = opposition.frame(start, direction, line) * X_FH, dofs = dofs, reach = options.standoff + deeper}
 end
 
 local max_tries = 200  -- until two points face each other
@@ -158,17 +216,17 @@ local max_tries = 200  -- until two points face each other
 function starts.random(job, options)
   local hand, object, world = describe(job.hand), job.object, job.world
   return function(number)
-    local paired = hand.has_thumb and (options.kind == "antipodal" or number % 2 == 0)
+    local paired = hand.has_thumb and (options.kind == "antipodal" or number % (hand.is_two_fingered and 8 or 2) ~= 1)
     for try = 1, max_tries do
       local random = clench.random(job.seed, number * max_tries + try)
       local state
       if paired then
-        state = about_two_points(hand, world, object, random, options)
+        state = about_two_points(hand, world, object, random, options, try < max_tries)
       else
         state = before_surface(hand, object, random, options.standoff)
       end
       if state then return state end
-      -- an object without such pairs is approached along its normals
+      -- an object without such pairs, or with none that the hand gets to, is approached along its normals
       if try == max_tries // 2 and options.kind ~= "antipodal" then paired = false end
     end
   end

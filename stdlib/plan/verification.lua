@@ -1,9 +1,11 @@
 --- Does a grasp hold when it is not met exactly, and against loads? What is asked of a grasp that is called verified.
-local closing = require "clench.plan.closing"
+local give_way = require "clench.plan.give_way"
 local share_friction = require "clench.study.motion.share_friction"
 local verification = {}
 
 verification.defaults = {displacement = 0.001, force_ratio = 10, min_load = 2, min_slippery_load = 0, min_epsilon = 0.01, lift = 0.1}
+
+verification.too_weak = "too weak against loads"
 
 --- min_slippery_load of grasps that are shaken, too
 verification.min_slippery_load_of_shaken = 2
@@ -34,15 +36,27 @@ local function close_on_free(hand, object, way, options)
   return grasp
 end
 
+-- Jaws that one motor closes draw what lies free between them, and turn it.
+local function close_around_free(hand, object, dofs, options)
+  local X_WH, X_WO = hand.pose, object.pose
+  local after = give_way.turn(hand, object, X_WH, dofs)
+  hand:set_posture(X_WH, dofs)
+  if after then
+    object.pose = X_WH * after:inverse() * X_WO
+    if hand.world:collides(object) then object.pose = X_WO end
+  end
+  hand:autograsp()
+  return clench.grasp(hand, object, options)
+end
+
 --- The least epsilon when the hand closes again on the object displaced along each axis of the world, from the pose of
 --- the grasp and the DOFs before it closed; 0 where something is in the way. An object that one side alone touches gives
---- way. Looks no further once it is not above
---- `enough`.
+--- way; between jaws that one motor closes it turns as well. Looks no further once it is not above `enough`.
 function verification.perturbed_epsilon(hand, object, grasp, displacement, enough, options)
   local world = hand.world
   local here <close> = world:snapshot()
   local X_WH, dofs, X_WO = object.pose * grasp.pose, grasp.pregrasp.dofs, object.pose
-  local least = math.huge
+  local least, coupled = math.huge, give_way.are_jaws(hand)
   for _, direction in ipairs(verification.directions) do
     object.pose = moved(X_WO, direction * displacement)
     hand:set_posture(X_WH, dofs)
@@ -52,7 +66,13 @@ function verification.perturbed_epsilon(hand, object, grasp, displacement, enoug
       hand:set_posture(moved(X_WH, hand.approach.direction * (-2 * displacement)), dofs)
     end
     if not world:collides(hand) then
+      local stands = hand.pose
       local again = close_on_free(hand, object, 4 * displacement, options)
+      if coupled and (#again.points == 0 or again:quality "epsilon" <= enough) then
+        object.pose = moved(X_WO, direction * displacement)
+        hand:set_posture(stands, dofs)
+        again = close_around_free(hand, object, dofs, options)
+      end
       epsilon = #again.points > 0 and again:quality "epsilon" or 0
     end
     least = math.min(least, epsilon)
@@ -118,12 +138,12 @@ end
 
 ---@param hand robot  as it holds the object
 ---@param options {displacement: number, min_epsilon: number, force_ratio: number, min_load: number, min_slippery_load: number, lift: number, grasp?: table, shake?: table, keep_lost?: boolean}
----@return table? numbers, string? why  perturbed_epsilon, load_margin; directions_held and survived (1 or 0) of those that were shaken
+---@return table? numbers, string? why, number? load  in weights, where that is too small; numbers: perturbed_epsilon, load_margin; directions_held and survived (1 or 0) of those that were shaken
 function verification.check(hand, object, grasp, options)
   if not grasp.collision_free then return nil, "in collision when closed" end
   if grasp.epsilon < options.min_epsilon then return nil, "epsilon too small" end
   local load = verification.load(object, grasp, options.force_ratio)
-  if load < options.min_load then return nil, "too weak against loads" end
+  if load < options.min_load then return nil, verification.too_weak, load end
   if options.min_slippery_load > 0 and verification.slippery_load(hand, object, options.force_ratio, options.grasp) < options.min_slippery_load then
     return nil, "too weak with half of the friction"
   end

@@ -105,7 +105,7 @@ TEST_CASE("where nothing is found, plan ends with 1 and says why") {
                           " --unit m --seconds 0.5 -o " + out);
   CHECK(result.code == 1);
   CHECK(has(result.out, "plan.sample: 0 grasps"));
-  CHECK(has(result.out, "\nwhy: the object is 1000 mm wide where it is narrowest, and the hand opens to"));
+  CHECK(has(result.out, "\nwhy: cube is wider than parallel_jaw opens: where points of its surface face each other they are at least 1000 mm apart, and the pads open to 80 mm"));
   CHECK(epsilons(out).empty());
 }
 
@@ -227,6 +227,19 @@ TEST_CASE("names that are HTML or no UTF-8 stay words in the page and in the lis
   CHECK(has(html, R"("kind":"obstacle","mesh")"));
   CHECK(has(html, R"("pose":[-0.25,0,-1.0,1.0,0,0,0])"));
   CHECK(has(html, R"("object_pose":[0,0,0.5,0.707107,0,0,0.707107])"));
+}
+
+TEST_CASE("--force-ratio says how hard verified grasps may press") {
+  const std::string plan = "plan models/hands/barrett/barrett.cfg models/objects/mug.iv --count 1 ";
+  const auto hard = run(plan + "--force-ratio 20");
+  CAPTURE(hard.out);
+  CHECK(hard.code == 0);
+  // the load of a grasp that is limited by friction is twice as much
+  CHECK(hard.out != run(plan + "--force-ratio 10").out);
+  CHECK(run(plan + "--force-ratio 0").code == 2);
+  const auto both = run(plan + "--force-ratio 20 --no-verify");
+  CHECK(both.code == 2);
+  CHECK(has(both.out, "--force-ratio says how hard grasps may press to be verified, and --no-verify asks for none"));
 }
 
 TEST_CASE("--verify shakes the grasps, and --keep-lost marks those that are lost") {

@@ -49,7 +49,8 @@ TEST_CASE("the approach of our hands is guessed as their files say it") {
                            {"robonaut/robonaut.cfg", 0.03},
                            {"shadow/shadow.cfg", 0.016},
                            {"three_finger/three_finger.cfg", 0.015},
-                           {"adaptive_gripper/adaptive_gripper.cfg", 0.002}}) {
+                           {"adaptive_gripper/adaptive_gripper.cfg", 0.002},
+                           {"tendon_gripper/tendon_gripper.cfg", 0.002}}) {
     CAPTURE(hand.file);
     const RobotSpec robot = read_robot(std::filesystem::path("models/hands") / hand.file, {});
     const auto guess = guess_approach(robot);

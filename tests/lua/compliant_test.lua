@@ -50,7 +50,7 @@ test("deflected springs stay so in Lua worlds; other formats say that they do no
     clench.log.sink(function(_, text) said[#said + 1] = text end)
     world:save(path .. ending, {root = "."})
     clench.log.sink()
-    t.ok(table.concat(said, "\n"):find("the joints of 'adaptive_gripper' that do not follow their DOFs", 1, true), ending)
+    t.ok(table.concat(said, "\n"):find("the joints of 'tendon_gripper' that do not follow their DOFs", 1, true), ending)
     os.remove(path .. ending)
   end
   os.remove(path .. ".lua")

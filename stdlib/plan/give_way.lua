@@ -1,0 +1,128 @@
+--- What jaws do that one motor closes: they stop where the first of them touches, and go on when hand or object gives way, to the side and
+--- by turning, until both press and can come no closer.
+--- source  Goldberg (1993), Orienting polygonal parts without sensors: squeezed, a part turns to where the jaws come closest
+local opposition = require "clench.plan.opposition"
+local give_way = {}
+
+--- does one DOF close two fingers? then it stops where the first of them touches
+function give_way.is_coupled(hand)
+  local info, chain_of = hand.dof_info, {}
+  for number, chain in ipairs(hand.chains) do
+    for _, joint in ipairs(chain.joints) do
+      local other = chain_of[joint.dof]
+      if other and other ~= number and info[joint.dof].default_velocity ~= 0 then return true end
+      chain_of[joint.dof] = number
+    end
+  end
+  return false
+end
+
+local max_way, max_shifts = 0.05, 4  -- how far a hand gives way to the side [m], and how often
+local aside = 0.2                    -- cosine: a normal that says from which side an object is touched
+
+-- On which sides is the object touched: by the thumb, which stands towards `axis`, and by the others?
+local function sides(hand, object, axis)
+  local thumb, others = false, false
+  for _, contact in ipairs(hand.world:contacts(hand, object)) do
+    local push = contact.normal:dot(axis)
+    thumb, others = thumb or push < -aside, others or push > aside
+  end
+  return thumb, others
+end
+
+--- Where a hand has closed, does it touch the object from one side alone?
+function give_way.touches_one_side(hand, object)
+  local axis = opposition.thumb(hand)
+  if not axis then return false end
+  local thumb, others = sides(hand, object, axis)
+  return thumb ~= others
+end
+
+-- how far the DOFs have closed
+local function closed_by(hand, dofs)
+  local closed, now = 0, hand.dofs
+  for i, info in ipairs(hand.dof_info) do
+    if info.default_velocity ~= 0 then closed = closed + math.abs(now[i] - dofs[i]) end
+  end
+  return closed
+end
+
+-- Closes at a pose from `dofs`, and shifts the hand by half of what is left on the other side while one side alone touches.
+-- returns  how far it closed, and the pose; nil: something is in the way, or only one side is ever touched
+local function close_between(hand, object, pose, dofs)
+  hand:set_posture(pose, dofs)
+  local world, X_WO, axis = hand.world, object.pose, opposition.thumb(hand)
+  if not axis or world:collides(hand) then return end
+  for _ = 0, max_shifts do
+    hand:autograsp()
+    local thumb, others = sides(hand, object, axis)
+    if thumb and others then return closed_by(hand, dofs), hand.pose end
+    if not thumb and not others then return end
+    local way = axis * (others and 1 or -1)
+    local move = object:move_to(clench.pose {xyz = way * max_way} * X_WO)
+    object.pose = X_WO
+    if not move.touched then return end
+    hand.pose = clench.pose {xyz = way * (-move.fraction * max_way / 2)} * hand.pose
+    if world:collides(hand) then return end
+  end
+end
+
+local function middle_of_contacts(hand, object)
+  local contacts, sum = hand.world:contacts(hand, object), clench.vec3(0, 0, 0)
+  for _, contact in ipairs(contacts) do sum = sum + contact.point end
+  return #contacts > 0 and sum / #contacts or hand.approach.point
+end
+
+--- Lets the hand give way to the side, around an object that stays, to where both sides touch.
+---@param hand robot
+---@param object body
+---@param pose pose  of the hand in the world, where it begins
+---@param dofs number[]  before it closes
+---@return pose?  of the hand, in the world; nil: both sides never touch
+function give_way.shift(hand, object, pose, dofs)
+  return select(2, close_between(hand, object, pose, dofs))
+end
+
+--- does one DOF close all fingers, as of jaws? then a turn brings them closer together or farther apart
+function give_way.are_jaws(hand)
+  local info, fingers, closes = hand.dof_info, 0, {}
+  for _, chain in ipairs(hand.chains) do
+    local own = {}
+    for _, joint in ipairs(chain.joints) do
+      if info[joint.dof].default_velocity ~= 0 then own[joint.dof] = true end
+    end
+    if next(own) then fingers = fingers + 1 end
+    for dof in pairs(own) do closes[dof] = (closes[dof] or 0) + 1 end
+  end
+  for _, count in pairs(closes) do
+    if count == fingers and fingers > 1 then return true end
+  end
+  return false
+end
+
+local turns = {0.06, 0.02, 0.007, 0.0025}  -- that are tried, one after the other: at last edges of a pad of 20 mm are level within half the contact threshold [rad]
+
+--- The same, and lets it turn about the approach and across it as long as the jaws come closer by that.
+function give_way.turn(hand, object, pose, dofs)
+  local best, at = close_between(hand, object, pose, dofs)
+  if not best then return end
+  local middle = middle_of_contacts(hand, object)
+  local z, x = hand.approach.direction, opposition.thumb(hand)
+  local axes = {z, z:cross(x)}
+  for _, angle in ipairs(turns) do
+    for _, axis in ipairs(axes) do
+      for _, sign in ipairs {1, -1} do
+        local about = clench.pose {xyz = middle}
+        local turned = about * clench.pose {axis = axis, angle = sign * angle} * about:inverse() * at
+        local closed, shifted = close_between(hand, object, turned, dofs)
+        if closed and closed > best + 1e-7 then
+          best, at = closed, shifted
+          break
+        end
+      end
+    end
+  end
+  return at
+end
+
+return give_way
