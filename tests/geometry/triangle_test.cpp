@@ -208,13 +208,13 @@ TEST_CASE("nearest points of four triangles at once are those of one at a time, 
   for (int i = 0; i < 3000; ++i) {
     const double size = std::pow(10, random.uniform(-3, 3));
     Corners triangles[point_step];
-    CornerLanes lanes = {};
-    const int count = 1 + i % point_step;
-    for (int lane = 0; lane < count; ++lane) {
+    CornerLanes lanes;
+    for (int lane = 0; lane < point_step; ++lane) {
       triangles[lane] = random_triangle(random, i % 3 == 0);
-      for (int k = 0; k < 3; ++k)
-        for (int m = 0; m < 3; ++m)
-          lanes.at[3 * k + m][lane] = triangles[lane][k][m] *= size;
+      for (int k = 0; k < 3; ++k) {
+        triangles[lane][k] *= size;
+        lanes.at[k][lane] = triangles[lane][k].data();
+      }
     }
     Vector3d p = size * random_point(random, 2);
     // on a corner, and beyond the range of squares
@@ -222,7 +222,7 @@ TEST_CASE("nearest points of four triangles at once are those of one at a time, 
     if (i % 100 == 1) p *= 1e200;
     NearestToPoint out;
     nearest_to_point(p.data(), lanes, out);
-    for (int lane = 0; lane < count; ++lane) {
+    for (int lane = 0; lane < point_step; ++lane) {
       const Closest c = point_triangle(p, triangles[lane]);
       CHECK(std::sqrt(out.squared[lane]) == c.distance);
       CHECK(Vector3d(out.q[0][lane], out.q[1][lane], out.q[2][lane]) == c.q);

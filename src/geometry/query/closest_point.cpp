@@ -31,12 +31,10 @@ ClosestPoint closest_point(const Shape& shape, const Vector3d& p, int seed) {
       for (const int v : mesh.triangles[waiting[i]]) __builtin_prefetch(&mesh.vertices[v]);
     for (int first = 0; first < count; first += point_step) {
       const int here = std::min(point_step, count - first);
-      CornerLanes corners = {};
-      for (int lane = 0; lane < here; ++lane) {
-        const auto& triangle = mesh.triangles[waiting[first + lane]];
-        for (int k = 0; k < 3; ++k)
-          for (int m = 0; m < 3; ++m)
-            corners.at[3 * k + m][lane] = mesh.vertices[triangle[k]][m];
+      CornerLanes corners;
+      for (int lane = 0; lane < point_step; ++lane) {
+        const auto& triangle = mesh.triangles[waiting[first + std::min(lane, here - 1)]];
+        for (int k = 0; k < 3; ++k) corners.at[k][lane] = mesh.vertices[triangle[k]].data();
       }
       NearestToPoint nearest;
       nearest_to_point(p.data(), corners, nearest);

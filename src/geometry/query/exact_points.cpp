@@ -10,8 +10,13 @@ using F = Lanes<double, DoubleLanes::width, point_step>;
 using Vector = Triple<F>;
 
 CLENCH_INLINE Vector corner(const CornerLanes& triangles, int k) {
-  return {F::stored(triangles.at[3 * k]), F::stored(triangles.at[3 * k + 1]),
-          F::stored(triangles.at[3 * k + 2])};
+  const auto coordinate = [&](int m) {
+    F out;
+    for (int i = 0; i < point_step; ++i)
+      out.chunk[i / F::width][i % F::width] = triangles.at[k][i][m];
+    return out;
+  };
+  return {coordinate(0), coordinate(1), coordinate(2)};
 }
 
 struct Best {

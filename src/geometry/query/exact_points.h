@@ -8,9 +8,9 @@ namespace clench {
 /// So many triangles are judged at once.
 inline constexpr int point_step = 4;
 
-/// Coordinate m of corner k of triangle i at [3 k + m][i]. Lanes without one have any numbers.
-struct alignas(32) CornerLanes {
-  double at[9][point_step];
+/// Corner k of triangle i at [k][i]: three coordinates. Lanes without a triangle repeat another.
+struct CornerLanes {
+  const double* at[3][point_step];
 };
 
 struct alignas(32) NearestToPoint {

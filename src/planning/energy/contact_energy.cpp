@@ -50,7 +50,8 @@ double ContactEnergy::bounded_value(World& world, double bound) {
   // no term is less than the distance counts
   min_rest_.assign(count + 1, 0);
   if (bound < infinite)
-    for (int i = count - 1; i >= 0; --i) min_rest_[i] = min_rest_[i + 1] + energy_length * sites_.min_distance(world, i);
+    for (int i = count - 1; i >= 0; --i)
+      min_rest_[i] = min_rest_[i + 1] + energy_length * sites_.min_distance(world, i);
   double sum = 0;
   for (int i = 0; i < count; ++i) {
     if (const double min_sum = (sum + min_rest_[i]) * (1 - 1e-12); min_sum > enough)

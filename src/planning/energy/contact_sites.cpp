@@ -26,6 +26,7 @@ ContactSites::ContactSites(const World& world, const HandAndObject& who, SiteKin
       sites_.push_back({.body = hand.body_of(c.link), .X_LC = c.X_LC, .mu = c.mu, .edges = c.edges,
                         .n_L = turned(c.X_LC.rotation, Vector3d::UnitZ())});
     if (sites_.empty()) refuse("the hand has no virtual contacts");
+    places_.resize(sites_.size());
   } else {
     for (const Id<Body> id : world.bodies_of(who.hand))
       if (world.body(id).shape) sites_.push_back({.body = id, .X_LC = {}, .edges = {}});
@@ -36,7 +37,6 @@ ContactSites::ContactSites(const World& world, const HandAndObject& who, SiteKin
 void ContactSites::attend(const World& world) {
   X_OW_ = world.pose(who_.object).inverse();
   if (kind_ == SiteKind::live) return;
-  places_.resize(sites_.size());
   for (size_t i = 0; i < sites_.size(); ++i) {
     const ContactSite& site = sites_[i];
     const Pose& X_WL = world.pose(site.body);
