@@ -41,30 +41,30 @@ void ContactSites::attend(const World& world) {
     const ContactSite& site = sites_[i];
     const Pose& X_WL = world.pose(site.body);
     const Vector3d p_W = turned(X_WL.rotation, site.X_LC.position) + X_WL.position;
-    places_[i].p = turned(X_OW_.rotation, p_W) + X_OW_.position;
-    places_[i].n = turned(X_OW_.rotation, turned(X_WL.rotation, site.n_L));
+    places_[i].p_O = turned(X_OW_.rotation, p_W) + X_OW_.position;
   }
 }
 
 double ContactSites::min_distance(const World& world, int i) const {
   if (kind_ == SiteKind::live) return 0;
   const Bounds& bounds = world.body(who_.object).shape->bounds();
-  const Vector3d& p = places_[i].p;
+  const Vector3d& p = places_[i].p_O;
   const double out = (bounds.low - p).cwiseMax(p - bounds.high).cwiseMax(0).norm();
   return std::max(0.0, out - 1e-12 * p.norm());
 }
 
 SiteDistance ContactSites::measure(World& world, int i) {
   if (kind_ == SiteKind::live) return measure_live(world, i);
-  Place& at = places_[i];
-  const ClosestPoint near = closest_point(*world.body(who_.object).shape, at.p, at.triangle);
-  at.triangle = near.triangle;
-  SiteDistance out{.p = at.p,
-                   .n = at.n,
-                   .q = near.point,
-                   .u = at.n,
-                   .triangle = near.triangle,
-                   .distance = near.distance};
+  auto& [p_O, triangle] = places_[i];
+  const ClosestPoint near = closest_point(*world.body(who_.object).shape, p_O, triangle);
+  triangle = near.triangle;
+  SiteDistance out;
+  out.p = p_O;
+  out.n = turned(X_OW_.rotation, turned(world.pose(sites_[i].body).rotation, sites_[i].n_L));
+  out.q = near.point;
+  out.u = out.n;
+  out.triangle = near.triangle;
+  out.distance = near.distance;
   if (near.distance > 0) out.u = (out.q - out.p) / near.distance;
   return out;
 }

@@ -51,9 +51,9 @@ class ContactSites {
  private:
   SiteDistance measure_live(World& world, int i);
 
-  /// Of a preset site, in the object's frame.
+  /// Of a preset site.
   struct Place {
-    Eigen::Vector3d p, n;
+    Eigen::Vector3d p_O;
     int triangle = -1;  ///< of the object, where it was nearest last
   };
   HandAndObject who_;
