@@ -45,7 +45,13 @@ Mover::Mover(World& world, const System& system) : world_(world) {
                            {joints.begin(), joints.end()},
                            from(state.dof_velocities, robot.first_dof, robot.dofs.size()),
                            from(state.joint_velocities, robot.first_joint, robot.joints.size())});
+      if (!robot.mounting && machines_.back().rests()) machines_.pop_back();
     }
+}
+
+bool Mover::Machine::rests() const {
+  const auto none = [](const std::vector<double>& all) { return std::ranges::all_of(all, [](double x) { return x == 0; }); };
+  return twist.is_zero() && none(dof_velocities) && none(joint_velocities);
 }
 
 Mover::Part Mover::free_part(const World& world, const Articulation& tree) {
@@ -103,21 +109,14 @@ Pose Mover::moved(const Part& part, double s, Twist& after) const {
   return {turned, c - turned * part.com};
 }
 
-void Mover::place(double s) { place(s, false); }
-void Mover::finish(double s) { place(s, true); }
-
-void Mover::place(double s, bool finish) {
-  for (const Part& part : parts_) {
-    Twist after = part.twist;
-    const Pose X_WB = moved(part, s, after);
-    world_.drift(part.body, X_WB);
-    if (!finish || !part.inertia) continue;
-    const Eigen::Vector3d arm = X_WB.rotation * (world_.body(part.body).com - part.com);
-    world_.edit_dynamics().twists[part.body.index] = {after.linear + after.angular.cross(arm), after.angular};
-  }
-  for (const Machine& machine : machines_) {
+void Mover::place(double s) {
+  if (s == placed_) return;
+  placed_ = s;
+  for (Part& part : parts_) world_.drift(part.body, moved(part, s, part.after));
+  for (Machine& machine : machines_) {
     const Robot& robot = world_.robot(machine.robot);
     std::vector<double> dofs = machine.dofs, joints = machine.joints;
+    machine.picked_up.clear();
     for (size_t i = 0; i < dofs.size(); ++i)
       dofs[i] = std::clamp(dofs[i] + s * machine.dof_velocities[i], std::min(dofs[i], robot.limits[i][0]),
                            std::max(dofs[i], robot.limits[i][1]));
@@ -136,7 +135,7 @@ void Mover::place(double s, bool finish) {
       constexpr double met = 1e-5;  // [rad or m]
       if (closing * machine.dof_velocities[joint.dof] >= 0 || closing * (followed - joints[j]) > met) continue;
       joints[j] = followed;
-      if (finish) world_.set_follows_dof(machine.robot, static_cast<int>(j), true);
+      machine.picked_up.push_back(static_cast<int>(j));
     }
     // a robot that is carried stands where its carrier has put it
     const Pose X_WB = robot.mounting ? world_.pose(robot.base)
@@ -144,6 +143,17 @@ void Mover::place(double s, bool finish) {
     world_.drift(machine.robot, X_WB, dofs, joints);
   }
   place_welded();
+}
+
+void Mover::finish(double s) {
+  place(s);
+  for (const Part& part : parts_) {
+    if (!part.inertia) continue;
+    const Eigen::Vector3d arm = world_.pose(part.body).rotation * (world_.body(part.body).com - part.com);
+    world_.edit_dynamics().twists[part.body.index] = {part.after.linear + part.after.angular.cross(arm), part.after.angular};
+  }
+  for (const Machine& machine : machines_)
+    for (const int joint : machine.picked_up) world_.set_follows_dof(machine.robot, joint, true);
 }
 
 void Mover::place_welded() {

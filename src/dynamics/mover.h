@@ -19,9 +19,10 @@ class Mover {
   struct Part {  // a free body with what is welded to it, or one that moves as it is told
     Id<Body> body;
     Pose X_WB;
-    Twist twist;                // at com
+    Twist twist;                // at com, at the start
     Eigen::Vector3d com;        // of all, in the frame of the body [m]
     std::optional<Eigen::Matrix3d> inertia;  // of all about it, in that frame [kg m^2]; none: it moves as it is told
+    Twist after = {};  // where it was placed
   };
   static Part free_part(const World& world, const Articulation& tree);
   struct Machine {  // a robot
@@ -29,12 +30,14 @@ class Mover {
     Pose X_WB;  // of its base, when nobody carries it
     Twist twist;
     std::vector<double> dofs, joints, dof_velocities, joint_velocities;
+    std::vector<int> picked_up = {};  // joints that their DOF has met, where it was placed
+    bool rests() const;
   };
   Pose moved(const Part& part, double s, Twist& after) const;
-  void place(double s, bool finish);
   void place_welded();
 
   World& world_;
+  double placed_ = -1;  // where everything is [s]; negative: nobody has been asked to move
   std::vector<Part> parts_;
   std::vector<Machine> machines_;  // carriers before what they carry
   struct Welded {

@@ -102,9 +102,14 @@ void Stepper::carry_welded() {
 
 void Stepper::solve(double h) {
   refresh();
+  find_manifolds(world_, system_, 0);
+  solve_found(h);
+}
+
+void Stepper::solve_found(double h) {
+  refresh();
   carry_welded();
   DynamicState& state = world_.edit_dynamics();
-  find_manifolds(world_, system_, 0);
   for (const auto id : world_.robots()) pull_tendons(world_, id, h, state);
   state.report.residual = 0;
   for (const Manifold& m : state.manifolds) state.report.overlaps += m.clearance == 0;

@@ -28,7 +28,7 @@ Eigen::Vector3d Stepper::prescribed_velocity(Id<Body> id, const Eigen::Vector3d&
   const Pose& X_WB = world_.pose(id);
   if (place.tree < 0) {
     const Twist twist = world_.twist(id);
-    out = twist.linear + twist.angular.cross(p_W - X_WB * body.com);
+    if (!twist.is_zero()) out = twist.linear + twist.angular.cross(p_W - X_WB * body.com);
   } else if (!system_.trees[place.tree].floating) {
     const Vector6d twist = root_twist(place.tree);
     const Eigen::Vector3d turning = twist.tail<3>();
@@ -67,10 +67,15 @@ void Stepper::add_contact(int manifold, int point, double h) {
   const ManifoldPoint& p = m.points[point];
   const Body &a = world_.body(m.a), &b = world_.body(m.b);
   const Pose &X_WA = world_.pose(m.a), &X_WB = world_.pose(m.b);
-  const Eigen::Vector3d normal = (X_WA.rotation * p.normal).normalized();
-  const Eigen::Matrix3d xyz = contact_frame(normal);
   Touch touch{.manifold = manifold, .point = point, .frame = {}, .p_W = 0.5 * (X_WA * p.p_a + X_WB * p.p_b), .a = m.a, .b = m.b};
-  touch.frame << normal, xyz.col(0), xyz.col(1);
+  if (const Touch* last = touches_.empty() ? nullptr : &touches_.back();
+      last && last->manifold == manifold && m.points[last->point].normal == p.normal) {
+    touch.frame = last->frame;
+  } else {
+    const Eigen::Vector3d normal = (X_WA.rotation * p.normal).normalized();
+    const Eigen::Matrix3d xyz = contact_frame(normal);
+    touch.frame << normal, xyz.col(0), xyz.col(1);
+  }
   const Friction friction = world_.materials().friction(a.material, b.material);
   Block block;
   block.touch = static_cast<int>(touches_.size());
@@ -93,7 +98,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
       if (k < 3)
         trees_[place.tree].add_linear(place.body, touch.p_W, touch.frame.col(k), sign, column);
       else
-        trees_[place.tree].add_angular(place.body, normal, sign * p.torsion_radius, column);
+        trees_[place.tree].add_angular(place.body, touch.frame.col(0), sign * p.torsion_radius, column);
     }
   }
   // what touches comes no nearer, and what is too near parts

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/dynamics/contact/ball_contact.h"
+#include "clench/dynamics/contact/slide.h"
 #include "clench/model/advance.h"
 #include "clench/model/near_bodies.h"
 
@@ -39,10 +40,10 @@ void Stepper::refresh() {
 namespace {
 
 // How far apart a pair was when it was last measured, and how far it has moved since.
-bool may_have_met(const World& world, const Manifold& m) {
+bool may_have_met(const World& world, const Manifold& m, const Pose& X_AB) {
   // distances are exact but for rounding
   constexpr double certain = 0.999;
-  return displacement(m.X_AB, relative_pose(world, m.a, m.b), *world.body(m.b).shape) >= certain * m.clearance;
+  return displacement(m.X_AB, X_AB, *world.body(m.b).shape) >= certain * m.clearance;
 }
 
 // The least that a body measures along an axis of its own; no way that is shorter leads through it.
@@ -102,8 +103,6 @@ double Stepper::move(double dt) {
   refresh();
   find_manifolds(world_, system_, max_travel(dt));
   DynamicState& state = world_.edit_dynamics();
-  std::vector<Pose> before;
-  for (const Manifold& m : state.manifolds) before.push_back(relative_pose(world_, m.a, m.b));
   Mover mover(world_, system_);
   mover.place(dt);
 
@@ -116,17 +115,20 @@ double Stepper::move(double dt) {
   bool near = false;  // is any of those that are followed within the threshold already?
   for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i) {
     const Manifold& m = state.manifolds[i];
-    if (!may_have_met(world_, m)) continue;
+    const Pose &before = m.X_AB_left, X_AB = relative_pose(world_, m.a, m.b);
+    if (!may_have_met(world_, m, X_AB)) continue;
     suspects.push_back(i);
     if (m.clearance == 0) continue;  // they overlap: nothing to stop
-    const double way = displacement(before[i], relative_pose(world_, m.a, m.b), *world_.body(m.b).shape);
+    const double way = displacement(before, X_AB, *world_.body(m.b).shape);
     const double thin = 0.5 * std::min(thickness(*world_.body(m.a).shape), thickness(*world_.body(m.b).shape));
-    const bool touching = m.clearance - displacement(m.X_AB, before[i], *world_.body(m.b).shape) <= world_.contact_threshold();
+    const bool touching = m.clearance - displacement(m.X_AB, before, *world_.body(m.b).shape) <= world_.contact_threshold();
     const double looked_at = short_way * world_.contact_threshold();
     // what slides is looked at every now and then: following it would ask a thousand times whether it still only touches
-    if (way <= thin && (way <= looked_at || (touching && !has_ball(world_, m) &&
-                                             is_free_on_the_way(m, static_cast<int>(way / looked_at), dt, mover)))) {
-      Manifold there = m;
+    Manifold there = m;
+    const auto arrives = [&] {
+      return slide(world_, there) || is_free_on_the_way(m, static_cast<int>(way / looked_at), dt, mover);
+    };
+    if (way <= thin && (way <= looked_at || (touching && !has_ball(world_, m) && arrives()))) {
       measure(world_, there);
       if (there.clearance > 0) {
         measured.emplace_back(i, std::move(there));
@@ -184,7 +186,7 @@ bool Stepper::step(double end) {
   const double h = move(left);
   double& time = world_.edit_dynamics().time;
   if (std::abs(end - time) < rounding * step) time = end;
-  solve(h);
+  solve_found(h);
   return true;
 }
 

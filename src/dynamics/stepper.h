@@ -54,6 +54,7 @@ class Stepper {
   };
 
   void refresh();
+  void solve_found(double h);  // the manifolds are those of the bodies where they are
   double max_travel(double dt) const;
   double advance_balls(const std::vector<std::pair<int, double>>& pairs, double end, Mover& mover);
   bool is_free_on_the_way(const Manifold& m, int places, double dt, Mover& mover);

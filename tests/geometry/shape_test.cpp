@@ -37,6 +37,24 @@ TEST_CASE("the sphere holds every corner, the bounds leave out what no triangle 
     CHECK((mesh.vertices[i] - shape->centre()).norm() <= shape->radius());
 }
 
+TEST_CASE("closed bodies that bulge everywhere are convex") {
+  Random random(4);
+  const auto convex = [](const Mesh& mesh) { return Shape::make(mesh)->convex(); };
+  CHECK(convex(box(1, 2, 3)));
+  CHECK(convex(moved(box(1, 2, 3), random_pose(random, 10))));
+  CHECK(convex(ball(0.1, 8, 12)));
+  CHECK_FALSE(convex(inverted(box(1, 2, 3))));
+  CHECK_FALSE(convex(joined(box(1, 1, 1), moved(box(1, 1, 1), Pose::translation({2, 0, 0})))));
+  Mesh dented = box(1, 1, 1);
+  dented.vertices[0] *= 0.5;
+  CHECK_FALSE(convex(dented));
+  Mesh open = box(1, 1, 1);
+  open.triangles.pop_back();
+  CHECK_FALSE(convex(open));
+  // too large to tell
+  CHECK_FALSE(convex(ball(0.1, 60, 60)));
+}
+
 TEST_CASE("each connected part is named by its first triangle") {
   const Mesh one = ball(1), two = joined(one, moved(one, Pose::translation({5, 0, 0})));
   const int count = static_cast<int>(one.triangles.size());

@@ -195,6 +195,20 @@ std::string MeshFaults::describe() const {
   return text.empty() ? "no faults" : text;
 }
 
+bool is_convex(const Mesh& mesh) {
+  constexpr size_t most = 1 << 18;  // vertices to be held against planes
+  if (mesh.vertices.size() * mesh.triangles.size() > most) return false;
+  const double rounding = 1e-12 * mesh.bounds().size().norm();
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (without_area(mesh, static_cast<int>(i))) return false;
+    const auto c = mesh.corners(static_cast<int>(i));
+    const Vector3d normal = (c[1] - c[0]).cross(c[2] - c[0]).stableNormalized();
+    for (const Vector3d& p : mesh.vertices)
+      if (normal.dot(p - c[0]) > rounding) return false;
+  }
+  return true;
+}
+
 MeshFaults find_faults(const Mesh& mesh, const Progress& progress) {
   check_indices(mesh, "find_faults");
   MeshFaults faults;

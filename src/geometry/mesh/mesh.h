@@ -60,6 +60,10 @@ struct MeshFaults {
 /// Has the triangle a vertex twice, or no more area than rounding leaves of three points in a line?
 bool without_area(const Mesh& mesh, int triangle);
 
+/// Do all vertices lie on or behind the plane of every triangle, up to rounding? False also of what would take long to tell:
+/// of meshes with more than some 500 triangles.
+bool is_convex(const Mesh& mesh);
+
 /// throws Stopped
 MeshFaults find_faults(const Mesh& mesh, const Progress& progress = {});
 

@@ -101,6 +101,7 @@ std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject,
     for (const int v : t) shape->bounds_.add(shape->mesh_.vertices[v]);
   shape->centre_ = shape->bounds_.centre();
   shape->radius_ = largest_radius(shape->mesh_, shape->centre_);
+  shape->convex_ = shape->closed() && is_convex(shape->mesh_);
   if (shape->closed()) shape->ball_ = ball_of(shape->mesh_, shape->solid_.volume);
   progress.check();
   shape->find_parts();

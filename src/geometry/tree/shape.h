@@ -35,6 +35,8 @@ class Shape {
   bool closed() const { return faults_.closed(); }
   /// Is it closed, with a volume that its surface can hold? A sheet folded on itself has none.
   bool has_volume() const;
+  /// closed and convex, and small enough to tell: see is_convex
+  bool convex() const { return convex_; }
   /// centre and radius [m] of a sphere that holds the mesh
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }
@@ -65,6 +67,7 @@ class Shape {
   Bounds bounds_;
   Eigen::Vector3d centre_;
   double radius_ = 0;
+  bool convex_ = false;
   std::optional<Sphere> ball_;
   std::vector<int> parts_;
   uint64_t hash_ = 0;
