@@ -12,7 +12,7 @@ namespace {
 
 constexpr int samples = 256;       // of all DOFs, for the centre
 constexpr int steps = 32;          // of a DOF from end to end
-constexpr double along = 0.8;      // axes whose cosine exceeds this turn the same way
+constexpr double along = 0.8;      // axes or ways whose cosine exceeds this are the same way
 constexpr double hardly = 0.02;    // of the way of the tips: nearer by less is not nearer
 constexpr double sideways = 0.15;  // the same for a DOF that swings a finger sideways
 constexpr double rolling = 0.02;   // of the tips' distance to the centre: a shorter way is a roll
@@ -128,6 +128,33 @@ Posture half_way(const HandTree& hand) {
   return out;
 }
 
+/// Which way each tip goes, in the palm's frame, as DOFs go a quarter of the way to an end; zero: it
+/// stays.
+std::vector<Eigen::Vector3d> ways_of_tips(const HandTree& hand, const std::vector<double>& senses) {
+  auto q = hand.rest.q;
+  for (const int dof : hand.dofs) {
+    const auto [low, high] = hand.ranges[dof];
+    if (senses[dof] != 0) q[dof] += 0.25 * ((senses[dof] > 0 ? high : low) - q[dof]);
+  }
+  std::vector<Eigen::Vector3d> out;
+  for (const Finger& finger : hand.fingers) {
+    const Eigen::Vector3d before = tip_at(hand, hand.rest, hand.rest.q, finger);
+    out.push_back((tip_at(hand, hand.rest, q, finger) - before).stableNormalized());
+  }
+  return out;
+}
+
+/// Does a finger that the DOF leaves where it is close the way that one does that it moves?
+bool beside_another(const HandTree& hand, int dof, const std::vector<Eigen::Vector3d>& ways) {
+  const auto moved = moved_fingers(hand, dof);
+  for (int f = 0; f < static_cast<int>(hand.fingers.size()); ++f) {
+    if (std::ranges::count(moved, f) > 0) continue;
+    for (const int g : moved)
+      if (ways[f].dot(ways[g]) > along) return true;
+  }
+  return false;
+}
+
 double sense_of(const HandTree& hand, const Posture& bent, int dof, const Eigen::Vector3d& centre) {
   const auto fingers = moved_fingers(hand, dof);
   const auto [low, high] = hand.ranges[dof];
@@ -162,8 +189,17 @@ std::vector<double> guess_closing(const RobotSpec& robot, const std::vector<bool
   const Eigen::Vector3d centre = grasp_centre(hand);
   if (!centre.allFinite()) return senses;
   const Posture bent = half_way(hand);
-  for (const int dof : hand.dofs)
-    if (!passive[dof]) senses[dof] = sense_of(hand, bent, dof, centre);
+  std::vector<int> swings;  // DOFs that swing fingers sideways: the others tell how these close
+  for (const int dof : hand.dofs) {
+    if (passive[dof]) continue;
+    senses[dof] = sense_of(hand, bent, dof, centre);
+    if (senses[dof] != 0 && !flexes(hand, dof)) swings.push_back(dof);
+  }
+  auto flexing = senses;
+  for (const int dof : swings) flexing[dof] = 0;
+  const auto ways = ways_of_tips(hand, flexing);
+  for (const int dof : swings)
+    if (beside_another(hand, dof, ways)) senses[dof] = 0;
   return senses;
 }
 

@@ -1,42 +1,88 @@
--- How many random approaches of a hand end in force closure: clench run tests/bench/approaches.lua HAND TRIALS [OBJECT | DOF=VALUE]...
+-- How many random approaches of a hand end in force closure: clench run tests/bench/approaches.lua HAND TRIALS [OBJECT | DOF=VALUE | search]...
 --
 -- An object in a random orientation stands with its centre of mass on the hand's line of approach; the opened hand comes along that line
 -- until it touches, and closes. Objects are of wood unless their files say otherwise; without any, they are a cube, a ball and a can, 6 cm wide. DOFs
--- with a value stand there from the first on.
+-- with a value stand there from the first on. With `search` the same trials are made along lines beside the hand's own and leaning from it, too:
+-- on which most succeed, and how many objects at least one of them grasps as they stand.
 local clench = require "clench"
 local path, trials = arg[1], tonumber(arg[2] or 90)
 clench.log.level "error"
 local world = clench.world {}
 local hand = world:add_robot(path)
-local things, posture = {}, {}
+local things, posture, search = {}, {}, false
 for i = 3, #arg do
   local dof, value = arg[i]:match "^([^=]+)=(.+)$"
-  if dof then posture[dof] = tonumber(value) else things[#things + 1] = arg[i] end
+  if dof then posture[dof] = tonumber(value)
+  elseif arg[i] == "search" then search = true
+  else things[#things + 1] = arg[i] end
 end
 if #things == 0 then
   things = {clench.shapes.box {0.057, 0.057, 0.057}, clench.shapes.sphere {radius = 0.03}, clench.shapes.cylinder {radius = 0.03, height = 0.12}}
 end
-local objects, counts = {}, {}
+local objects = {}
 for i, thing in ipairs(things) do
   local name = type(thing) == "string" and thing:match "([^/]*)%.%w+$" or ({"cube", "ball", "can"})[i]
-  objects[i], counts[i] = world:add_object(thing, {name = name, pose = {xyz = {6 * i, 0, 0}}}), {held = 0, tried = 0}
+  objects[i] = world:add_object(thing, {name = name, pose = {xyz = {6 * i, 0, 0}}})
 end
 hand:open()
 if next(posture) then hand:set_dofs(posture) end
-local start, random = world:snapshot(), clench.random(11)
-local approach = hand.pose:inverse() * hand.approach.frame
-local total = 0
-for trial = 1, trials do
-  world:restore(start)
-  local i = trial % #objects + 1
-  local object = objects[i]
-  object.pose = random:rotation() * clench.pose {xyz = -1 * object.com}
-  hand.pose = clench.pose {xyz = {0, 0, -0.5}} * approach:inverse()
-  counts[i].tried = counts[i].tried + 1
-  if hand:move_to(clench.pose {xyz = {0, 0, 1}} * hand.pose).touched then
-    hand:autograsp()
-    if clench.grasp(hand, object):is_force_closure() then counts[i].held, total = counts[i].held + 1, total + 1 end
+local start = world:snapshot()
+local own = hand.pose:inverse() * hand.approach.frame
+
+-- which of the trials succeed along the z axis of a frame in the base, and how many
+local function try(frame)
+  local random, held, total = clench.random(11), {}, 0
+  for trial = 1, trials do
+    world:restore(start)
+    local object = objects[trial % #objects + 1]
+    object.pose = random:rotation() * clench.pose {xyz = -1 * object.com}
+    hand.pose = clench.pose {xyz = {0, 0, -0.5}} * frame:inverse()
+    held[trial] = false
+    if hand:move_to(clench.pose {xyz = {0, 0, 1}} * hand.pose).touched then
+      hand:autograsp()
+      held[trial] = clench.grasp(hand, object):is_force_closure()
+      if held[trial] then total = total + 1 end
+    end
+  end
+  return held, total
+end
+
+local held, total = try(own)
+for i, object in ipairs(objects) do
+  local succeeded, tried = 0, 0
+  for trial = 1, trials do
+    if trial % #objects + 1 == i then
+      tried = tried + 1
+      if held[trial] then succeeded = succeeded + 1 end
+    end
+  end
+  print(("%s %d of %d"):format(object.name, succeeded, tried))
+end
+print(("%s: %d of %d approaches end in force closure"):format(hand.name, total, trials))
+if not search then return end
+
+local lines = {}
+for x = -30, 30, 15 do
+  for y = -30, 30, 15 do
+    lines[#lines + 1] = {frame = clench.pose {xyz = {x / 1000, y / 1000, 0}}, name = ("%g, %g mm beside it"):format(x, y)}
   end
 end
-for i, object in ipairs(objects) do print(("%s %d of %d"):format(object.name, counts[i].held, counts[i].tried)) end
-print(("%s: %d of %d approaches end in force closure"):format(hand.name, total, trials))
+for _, lean in ipairs {15, 30} do
+  for about = 0, 315, 45 do
+    local a = clench.rad(about)
+    lines[#lines + 1] = {frame = clench.pose {axis = {math.cos(a), math.sin(a), 0}, angle = clench.rad(lean)},
+                         name = ("leaning %d degrees about an axis at %d degrees"):format(lean, about)}
+  end
+end
+local graspable, ranking = {}, {}
+for i, line in ipairs(lines) do
+  local also, count = try(own * line.frame)
+  for trial = 1, trials do graspable[trial] = graspable[trial] or also[trial] end
+  ranking[i] = {count = count, name = line.name}
+end
+table.sort(ranking, function(a, b) return a.count > b.count or a.count == b.count and a.name < b.name end)
+for i = 1, 5 do print(("  %d succeed %s"):format(ranking[i].count, ranking[i].name)) end
+local possible = 0
+for trial = 1, trials do if graspable[trial] then possible = possible + 1 end end
+print(("  %d of %d objects are grasped along one of these %d lines as they stand: %.0f %% of these along the hand's own"):format(
+  possible, trials, #lines, 100 * total / math.max(1, possible)))

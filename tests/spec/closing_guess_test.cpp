@@ -159,6 +159,28 @@ TEST_CASE(
   CHECK(right[10] == -1);
 }
 
+TEST_CASE(
+    "a finger is not swung into the way of those that close beside it, a thumb is swung to them") {
+  for (const bool is_thumb : {false, true}) {
+    CAPTURE(is_thumb);
+    Sketch hand;
+    for (const double x : {-0.03, 0.0}) {
+      const int first = hand.phalanx(0, Pose::translation({x, 0, 0.04}));
+      hand.phalanx(hand.phalanx(first, up40), up40);
+    }
+    // a bone in the palm's side swings what it carries to the front of the others, to one side only
+    const int bone = hand.add("bone", 0, Pose::translation({0.03, 0, -0.02}),
+                              {0.014, 0.014, 0.05}, {0, 0, 0.025});
+    const int swing = hand.joint(bone, Eigen::Vector3d(0, -1, 1).normalized(), 0, 0.8);
+    // the thumb closes to -x, towards the others
+    const Pose X{Eigen::Quaterniond(Eigen::AngleAxisd(is_thumb ? -std::numbers::pi / 2 : 0.0,
+                                                      Eigen::Vector3d::UnitZ())),
+                 {0, 0, 0.06}};
+    hand.phalanx(hand.phalanx(hand.phalanx(bone, X), up40), up40);
+    CHECK((hand.guess()[swing] != 0) == is_thumb);
+  }
+}
+
 TEST_CASE("a gripper closes whether it is drawn open or shut") {
   for (const double open : {0.0, 0.04}) {
     Sketch gripper;

@@ -101,15 +101,16 @@ void FrictionNewton::decide(const ScaledFriction& problem, VectorXd& r) {
 bool FrictionNewton::factor(const ScaledFriction& problem, double damping) {
   progress_.check();
   const int n = static_cast<int>(directions_.size()), rows = problem.rows();
-  Eigen::MatrixXd& m = system_.matrix(n);
+  Eigen::MatrixXd& m = matrix_;
+  m.resize(n, n);
   columns_.resize(rows, 1);
-  bool symmetric = true;
+  symmetric_ = true;
   for (int l = 0; l < n; ++l) {
     const Direction& by = directions_[l];
     const double* column = problem.S.col(by.row).data();
     if (by.tangents > 0) {
       // the velocities that this combination of a contact's rows causes
-      symmetric = false;
+      symmetric_ = false;
       if (by.across)
         columns_.col(0).setZero();
       else
@@ -131,7 +132,12 @@ bool FrictionNewton::factor(const ScaledFriction& problem, double damping) {
     out[l] += by.factor * damping * problem.weights[by.row] + by.diagonal;
   }
   factored_ = states_, factored_damping_ = damping;
-  if (system_.factor(symmetric)) return true;
+  if (!symmetric_) {
+    lu_.compute(m);
+    return true;
+  }
+  cholesky_.compute(m);
+  if (cholesky_.info() == Eigen::Success) return true;
   factored_.clear();
   return false;
 }
@@ -160,12 +166,15 @@ bool FrictionNewton::step(const ScaledFriction& problem, double damping, const V
   }
   const bool kept = keep && factored_damping_ == damping && factored_ == states_;
   if (!kept && !factor(problem, damping)) return false;
-  system_.solve(right_);
+  if (symmetric_)
+    along_ = cholesky_.solve(right_);
+  else
+    along_ = lu_.solve(right_);
   for (int k = 0; k < n; ++k) {
     const Direction& by = directions_[k];
-    if (!std::isfinite(right_[k])) return false;
-    if (!by.across) next[by.row] += right_[k];
-    for (int c = 0; c < by.tangents; ++c) next[by.row + 1 + c] += by.t[c] * right_[k];
+    if (!std::isfinite(along_[k])) return false;
+    if (!by.across) next[by.row] += along_[k];
+    for (int c = 0; c < by.tangents; ++c) next[by.row + 1 + c] += by.t[c] * along_[k];
   }
   return true;
 }

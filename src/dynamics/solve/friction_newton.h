@@ -1,10 +1,10 @@
 // Newton's method for contacts with friction: which open, stick, slide, and what follows.
 #pragma once
-#include <Eigen/Core>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <vector>
 
 #include "clench/base/progress.h"
-#include "clench/dynamics/solve/dense_system.h"
 #include "clench/dynamics/solve/scaled_friction.h"
 
 namespace clench {
@@ -70,9 +70,12 @@ class FrictionNewton {
   std::vector<State> states_, factored_;
   std::vector<double> slide_;  // four per block: of what the friction changes as the normal does not, and where to
   std::vector<Direction> directions_;
-  Eigen::VectorXd u_, next_, u_next_, best_, decided_, right_, shift_, z_, change_;
+  Eigen::VectorXd u_, next_, u_next_, best_, decided_, right_, along_, shift_, z_, change_;
   Eigen::MatrixXd columns_;
-  DenseSystem system_;
+  Eigen::MatrixXd matrix_;
+  bool symmetric_ = true;
+  Eigen::LLT<Eigen::MatrixXd> cholesky_;  // of a symmetric matrix
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
   Progress progress_;
   double factored_damping_ = -1, rho_ = 1;
 };

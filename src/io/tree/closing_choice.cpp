@@ -12,6 +12,7 @@ namespace clench {
 // paces of closing, where a file says none
 static constexpr double turning = 1;     // [rad/s]
 static constexpr double sliding = 0.05;  // [m/s]
+static constexpr double outer = 0.5;     // of these, behind another closing joint
 
 void set_closing(RobotSpec& robot, int dof, double sense) {
   double& velocity = robot.dofs[dof].default_velocity;
@@ -19,6 +20,26 @@ void set_closing(RobotSpec& robot, int dof, double sense) {
                       : dof_slides(robot, dof) ? sliding
                                                : turning;
   velocity = sense > 0 ? pace : sense < 0 ? -pace : 0;
+}
+
+void slow_outer_joints(RobotSpec& robot) {
+  constexpr int none = -1, several = -2;
+  // what closes on the way to a link, its own joints included: no DOF, one, or several; parents come
+  // before their children
+  std::vector<int> before(robot.links.size(), none);
+  std::vector<bool> first(robot.dofs.size());  // has the DOF a joint behind no other?
+  for (size_t l = 0; l < robot.links.size(); ++l) {
+    const LinkSpec& link = robot.links[l];
+    int& way = before[l];
+    if (link.parent >= 0) way = before[link.parent];
+    for (const JointSpec& joint : link.joints) {
+      if (robot.dofs[joint.dof].default_velocity == 0) continue;
+      if (way == none || way == joint.dof) first[joint.dof] = true;
+      way = way == none || way == joint.dof ? joint.dof : several;
+    }
+  }
+  for (size_t d = 0; d < robot.dofs.size(); ++d)
+    if (!first[d]) robot.dofs[d].default_velocity *= outer;
 }
 
 void choose_closing(RobotSpec& robot, const std::string& file, const ReadOptions& options) {

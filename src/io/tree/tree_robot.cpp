@@ -186,6 +186,7 @@ void RobotMaker::close_hand() {
   const auto senses = guess_closing(robot_, passive_);
   for (size_t d = 0; d < senses.size(); ++d) set_closing(robot_, static_cast<int>(d), senses[d]);
   choose_closing(robot_, file_, cache_.options());
+  slow_outer_joints(robot_);
   if (!robot_.X_BA) robot_.X_BA = guess_approach(robot_);
   tell_closing();
 }
