@@ -6,14 +6,14 @@ namespace clench {
 
 // A pose that is put together of many; its rotation is made unit once, at the end. Half of what joints of the original
 // stand in is where the joint before ends, and not turned.
-static void append(Pose& X, const Pose& next) {
-  if (!next.position.isZero(0)) X.position += X.rotation * next.position;
+[[gnu::always_inline]] static inline void append(Pose& X, const Pose& next) {
+  if (!next.position.isZero(0)) X.position += turned(X.rotation, next.position);
   if (!next.rotation.vec().isZero(0)) X.rotation = X.rotation * next.rotation;
 }
 
-static void move(Pose& X, const Joint& joint, double q) {
+[[gnu::always_inline]] static inline void move(Pose& X, const Joint& joint, double q) {
   if (joint.kind == JointKind::prismatic) {
-    X.position += X.rotation * (q * joint.axis);
+    X.position += turned(X.rotation, q * joint.axis);
     return;
   }
   const Eigen::Vector3d axis = std::sin(0.5 * q) * joint.axis;

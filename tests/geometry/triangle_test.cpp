@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "clench/base/random.h"
+#include "clench/geometry/query/exact_points.h"
 #include "support/meshes.h"
 
 using namespace clench;
@@ -199,5 +200,32 @@ TEST_CASE("nearest point of a triangle: inside it, and no corner is nearer along
     CHECK(std::abs((c.p - c.q).norm() - c.distance) < 1e-14);
     CHECK(outside(c.q, t) < 1e-12);
     for (const Vector3d& corner : t) CHECK((c.q - p).dot(corner - c.q) > -1e-12);
+  }
+}
+
+TEST_CASE("nearest points of four triangles at once are those of one at a time, to the bit") {
+  Random random(8);
+  for (int i = 0; i < 3000; ++i) {
+    const double size = std::pow(10, random.uniform(-3, 3));
+    Corners triangles[point_step];
+    CornerLanes lanes;
+    for (int lane = 0; lane < point_step; ++lane) {
+      triangles[lane] = random_triangle(random, i % 3 == 0);
+      for (int k = 0; k < 3; ++k) {
+        triangles[lane][k] *= size;
+        lanes.at[k][lane] = triangles[lane][k].data();
+      }
+    }
+    Vector3d p = size * random_point(random, 2);
+    // on a corner, and beyond the range of squares
+    if (i % 5 == 0) p = triangles[0][1];
+    if (i % 100 == 1) p *= 1e200;
+    NearestToPoint out;
+    nearest_to_point(p.data(), lanes, out);
+    for (int lane = 0; lane < point_step; ++lane) {
+      const Closest c = point_triangle(p, triangles[lane]);
+      CHECK(std::sqrt(out.squared[lane]) == c.distance);
+      CHECK(Vector3d(out.q[0][lane], out.q[1][lane], out.q[2][lane]) == c.q);
+    }
   }
 }

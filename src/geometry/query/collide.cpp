@@ -11,10 +11,11 @@ bool colliding(const Shape& a, const Shape& b, const Pose& X_AB, PairCache* cach
   if (cache && cache->measured.shapes == fingerprint(a, b) &&
       motion_bound(b, cache->measured.X_AB, X_AB) < cache->measured.clear)
     return false;
-  // what met last time often still does
-  if (cache && a.has_triangle(cache->hit_a) && b.has_triangle(cache->hit_b) &&
-      meet(cache->hit_a, cache->hit_b))
-    return true;
+  // what met last time often still does, what met before that seldom
+  if (cache && a.has_triangle(cache->hit_a) && b.has_triangle(cache->hit_b)) {
+    if (meet(cache->hit_a, cache->hit_b)) return true;
+    cache->hit_a = cache->hit_b = -1;
+  }
   if (placement.clearly_apart(0, cache)) return false;
   const bool hit = for_meeting_pairs(placement.trees(), [&](int triangle_a, int triangle_b) {
     if (!meet(triangle_a, triangle_b)) return false;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "clench/geometry/tree/box_lanes.h"
@@ -23,8 +24,8 @@ Triple<Real> triple(const double v[3]) {
   return {static_cast<Real>(v[0]), static_cast<Real>(v[1]), static_cast<Real>(v[2])};
 }
 
-// Depth first, the child of least bound on top. bounds(boxes) gives eight of them; judge(leaf) ends the
-// walk by returning true; limit() may sink on the way.
+// Depth first, the child of least bound on top. bounds(boxes) gives eight of them, or their squares where limit() is
+// one; judge(leaf) ends the walk by returning true; limit() may sink on the way.
 template <class F, class Bounds, class Judge, class Limit>
 bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
   using Real = typename F::Real;
@@ -44,15 +45,17 @@ bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
     const F gaps = bounds(load_boxes<F>(from));
     const unsigned near = used_lanes(from.child) & ~(gaps > limit()).set();
     if (!near) continue;
-    // the least bound on top
-    typename F::Int place[8];
-    gaps.places(near, place);
     gaps.store(values);
-    for (int lane = 0; lane < 8; ++lane)
-      stack[height + place[lane]] = {values[lane], from.child[lane]};
-    for (unsigned rest = near; rest; rest &= rest - 1)
-      tree.prefetch(from.child[__builtin_ctz(rest)]);
-    height += __builtin_popcount(near);
+    // the least bound on top; an order of the others would cost more than it spares
+    const int first = height;
+    for (unsigned rest = near; rest; rest &= rest - 1) {
+      const int lane = __builtin_ctz(rest);
+      Task<Real> next{values[lane], from.child[lane]};
+      tree.prefetch(next.child);
+      if (height > first && stack[height - 1].bound < next.bound)
+        std::swap(next, stack[height - 1]);
+      stack[height++] = next;
+    }
   }
   return false;
 }
@@ -95,22 +98,30 @@ void near_point(const Tree& tree, const double at[3], double extent, double roun
   Candidates<Real> found;
   const Triple<Real> p = triple<Real>(at);
   const Real slack = slack_of<Real>(extent, tree.radius(), rounding);
-  Real limit = at_least<Real>(reach) + slack;
+  constexpr Real up = 1 + 4 * std::numeric_limits<Real>::epsilon();
+  Real limit = at_least<Real>(reach) + slack, squared_limit = limit * limit * up;
   const auto judge = [&](const TriangleBundle& leaf) {
     const PointBounds<F> bounds = point_bounds(load_triangles<F>(leaf), p);
-    if (nearest_only) limit = std::min(limit, min_of(bounds.high) + 2 * slack);
-    Real low[8];
-    bounds.low.store(low);
-    for (unsigned left = used_lanes(leaf.triangle) & ~(bounds.low > limit).set(); left;
-         left &= left - 1) {
+    if (nearest_only) {
+      const Real high = std::sqrt(min_of(bounds.squared_high)) + 2 * slack;
+      if (high < limit) limit = high, squared_limit = limit * limit * up;
+    }
+    // lower bounds by squares: those that are no number stay
+    const auto beyond = (bounds.height > Real{0}) &
+                        (bounds.height * bounds.height > bounds.squared_high * squared_limit);
+    unsigned left = used_lanes(leaf.triangle) & ~beyond.set();
+    if (!left) return false;
+    Real height[8], squared_high[8];
+    bounds.height.store(height), bounds.squared_high.store(squared_high);
+    for (; left; left &= left - 1) {
       const int k = __builtin_ctz(left);
-      found.add(low[k], leaf.triangle[k]);
+      found.add(height[k] / std::sqrt(squared_high[k]), leaf.triangle[k]);
     }
     return false;
   };
   walk<F>(
-      tree, [&](const BoxOf<F>& eight) { return point_gaps(eight, p); }, judge,
-      [&] { return limit; });
+      tree, [&](const BoxOf<F>& eight) { return squared_point_gaps(eight, p); }, judge,
+      [&] { return squared_limit; });
   found.visit(limit, visit);
 }
 

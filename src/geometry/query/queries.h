@@ -26,7 +26,7 @@ struct PairMeasure {
 /// it: of several pairs equally near the first in the order of triangles is the answer.
 struct PairCache {
   int closest_a = -1, closest_b = -1;  ///< triangles of the last closest pair
-  int hit_a = -1, hit_b = -1;          ///< triangles of the last intersection
+  int hit_a = -1, hit_b = -1;          ///< triangles that met, when they were last asked
   float hit_rate = 0;                  ///< how often it collided of late, of those times that it was asked
   /// along which b may lie beyond a, in the frame of a, unit; zero when unknown
   Eigen::Vector3d separation = Eigen::Vector3d::Zero();

@@ -33,7 +33,7 @@ class PolytopePair {
  private:
   static CLENCH_INLINE Triple<float> corner(const BoundingPolytope& bounding_polytope,
                                             const Triple<float>& n) {
-    return farthest_point<FloatLanes>(bounding_polytope.corners, BoundingPolytope::bundles, n).at;
+    return farthest_point<FloatLanes>(bounding_polytope.corners, bounding_polytope.bundles, n).at;
   }
 
   const BoundingPolytope &a_, &b_;

@@ -11,12 +11,13 @@ struct alignas(32) PointBundle {
 };
 
 struct BoundingPolytope {
-  static constexpr int bundles = 16;
-  static constexpr int max_corners = bundles * lane_count;
+  static constexpr int max_bundles = 16;
+  static constexpr int max_corners = max_bundles * lane_count;
 
   /// None is farther than 1.8 r from the centre, r the tree's radius. By rounding, u = 2^-24, the mesh
   /// may reach 16 u r beyond them.
-  PointBundle corners[bundles];
+  PointBundle corners[max_bundles];
+  int bundles = 0;  ///< that are used, the first ones
 };
 
 struct FarPoint {

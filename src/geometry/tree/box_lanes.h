@@ -159,16 +159,16 @@ CLENCH_INLINE F edge_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& 
   return most;
 }
 
-/// Distances of a point from eight boxes; 0 inside.
+/// Squares of the distances of a point from eight boxes; 0 inside.
 template <class F>
-CLENCH_INLINE F point_gaps(const BoxOf<F>& eight, const Triple<typename F::Real>& p) {
+CLENCH_INLINE F squared_point_gaps(const BoxOf<F>& eight, const Triple<typename F::Real>& p) {
   const Triple<F> between = {eight.centre.x - p.x, eight.centre.y - p.y, eight.centre.z - p.z};
   F squared = F::all(0);
   for (int k = 0; k < 3; ++k) {
     const F apart = max(abs(dot(eight.axis[k], between)) - eight.half[k], F::all(0));
     squared = squared + apart * apart;
   }
-  return sqrt(squared);
+  return squared;
 }
 
 }  // namespace clench

@@ -58,20 +58,6 @@ struct Lanes {
     }
   };
 
-  /// those whose bit is set, lane 0 the lowest
-  static CLENCH_INLINE Mask lanes_of(unsigned set) {
-    Mask out;
-    for (int i = 0; i < chunks; ++i)
-      out.bits[i] = ((Bits{} + static_cast<Int>(set)) >> lane_numbers(i) & 1) != 0;
-    return out;
-  }
-  /// of the lanes of a chunk
-  static CLENCH_INLINE Bits lane_numbers(int index) {
-    Bits out;
-    for (int i = 0; i < Width; ++i) out[i] = index * Width + i;
-    return out;
-  }
-
   Chunk chunk[chunks];
 
   static CLENCH_INLINE Lanes all(Real x) {
@@ -123,6 +109,8 @@ struct Lanes {
   CLENCH_LANES_OPERATOR(/)
   CLENCH_LANES_COMPARISON(<)
   CLENCH_LANES_COMPARISON(>)
+  CLENCH_LANES_COMPARISON(<=)
+  CLENCH_LANES_COMPARISON(>=)
 #undef CLENCH_LANES_OPERATOR
 #undef CLENCH_LANES_COMPARISON
 
@@ -172,25 +160,6 @@ struct Lanes {
     for (int i = 0; i < Count; ++i)
       out.chunk[i / Width][i % Width] = std::sqrt(x.chunk[i / Width][i % Width]);
     return out;
-  }
-  /// Where each lane of `set` comes when they are put in order of their sizes, the largest first: a
-  /// different place for each, whatever the numbers. The other lanes come right behind.
-  CLENCH_INLINE void places(unsigned set, Int* to) const {
-    constexpr Int size = ~(Int{1} << (8 * sizeof(Real) - 1));
-    const Mask expected = lanes_of(set);
-    Bits keys[chunks];
-    // sizes are in the order of their bits; the last ones give way to the lane
-    for (int i = 0; i < chunks; ++i)
-      keys[i] = expected.bits[i]
-                    ? (reinterpret_cast<Bits>(chunk[i]) & (size & ~Int{7})) | lane_numbers(i)
-                    : Bits{} - 1;
-    Int all[lane_count];
-    std::memcpy(all, keys, sizeof all);
-    for (int i = 0; i < chunks; ++i) {
-      Bits larger{};
-      for (const Int key : all) larger -= (Bits{} + key) > keys[i];
-      std::memcpy(to + i * Width, &larger, sizeof larger);
-    }
   }
   friend CLENCH_INLINE Lanes select(const Mask& mask, const Lanes& yes, const Lanes& no) {
     Lanes out;

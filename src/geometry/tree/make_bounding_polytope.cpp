@@ -143,6 +143,7 @@ BoundingPolytope make_bounding_polytope(const std::vector<Vector3d>& points,
                                             ? points
                                             : PolytopeCutter(points, axes).corners();
   BoundingPolytope out;
+  out.bundles = (static_cast<int>(corners.size()) + lane_count - 1) / lane_count;
   for (int i = 0; i < BoundingPolytope::max_corners; ++i) {
     const Vector3d& p = corners[i < static_cast<int>(corners.size()) ? i : 0];
     for (int m = 0; m < 3; ++m)

@@ -181,7 +181,8 @@ CLENCH_INLINE unsigned within_reach(const TrianglesOf<F>& a, const TrianglesOf<F
 /// What of the distances of a point from eight triangles is sure, up to slack.
 template <class F>
 struct PointBounds {
-  F low, high;  ///< low is not a number where single precision does not tell
+  F squared_high;  ///< the square of an upper bound
+  F height;        ///< the square root of that times a lower bound; that bound itself may not be a number
 };
 
 template <class F>
@@ -210,8 +211,8 @@ CLENCH_INLINE PointBounds<F> point_bounds(const TrianglesOf<F>& t,
   least = select(nearer, squared, least);
   best = select(nearer, d, best);
   PointBounds<F> out;
-  out.high = sqrt(least);
-  out.low = min(min(dot(to[0], best), dot(to[1], best)), dot(to[2], best)) / out.high;
+  out.squared_high = least;
+  out.height = min(min(dot(to[0], best), dot(to[1], best)), dot(to[2], best));
   return out;
 }
 

@@ -23,8 +23,10 @@ ContactSites::ContactSites(const World& world, const HandAndObject& who, SiteKin
   if (object.robot) refuse("the object is a part of a robot");
   if (kind == SiteKind::preset) {
     for (const VirtualContactSpec& c : virtual_contacts(world, who.hand))
-      sites_.push_back({.body = hand.body_of(c.link), .X_LC = c.X_LC, .mu = c.mu, .edges = c.edges});
+      sites_.push_back({.body = hand.body_of(c.link), .X_LC = c.X_LC, .mu = c.mu, .edges = c.edges,
+                        .n_L = turned(c.X_LC.rotation, Vector3d::UnitZ())});
     if (sites_.empty()) refuse("the hand has no virtual contacts");
+    places_.resize(sites_.size());
   } else {
     for (const Id<Body> id : world.bodies_of(who.hand))
       if (world.body(id).shape) sites_.push_back({.body = id, .X_LC = {}, .edges = {}});
@@ -32,34 +34,38 @@ ContactSites::ContactSites(const World& world, const HandAndObject& who, SiteKin
   }
 }
 
-void ContactSites::attend(World& world) { X_OW_ = world.pose(who_.object).inverse(); }
-
-Vector3d ContactSites::position(const World& world, int i) const {
-  return X_OW_ * (world.pose(sites_[i].body) * sites_[i].X_LC.position);
+void ContactSites::attend(const World& world) {
+  X_OW_ = world.pose(who_.object).inverse();
+  if (kind_ == SiteKind::live) return;
+  for (size_t i = 0; i < sites_.size(); ++i) {
+    const ContactSite& site = sites_[i];
+    const Pose& X_WL = world.pose(site.body);
+    const Vector3d p_W = turned(X_WL.rotation, site.X_LC.position) + X_WL.position;
+    places_[i].p_O = turned(X_OW_.rotation, p_W) + X_OW_.position;
+  }
 }
 
 double ContactSites::min_distance(const World& world, int i) const {
   if (kind_ == SiteKind::live) return 0;
   const Bounds& bounds = world.body(who_.object).shape->bounds();
-  const Vector3d p = position(world, i);
+  const Vector3d& p = places_[i].p_O;
   const double out = (bounds.low - p).cwiseMax(p - bounds.high).cwiseMax(0).norm();
   return std::max(0.0, out - 1e-12 * p.norm());
 }
 
 SiteDistance ContactSites::measure(World& world, int i) {
   if (kind_ == SiteKind::live) return measure_live(world, i);
-  ContactSite& site = sites_[i];
-  const Pose& X_WL = world.pose(site.body);
+  auto& [p_O, triangle] = places_[i];
+  const ClosestPoint near = closest_point(*world.body(who_.object).shape, p_O, triangle);
+  triangle = near.triangle;
   SiteDistance out;
-  out.p = position(world, i);
-  out.n = turned(X_OW_.rotation,
-                 turned(X_WL.rotation, turned(site.X_LC.rotation, Vector3d::UnitZ())));
-  const ClosestPoint near = closest_point(*world.body(who_.object).shape, out.p, site.triangle);
-  site.triangle = near.triangle;
+  out.p = p_O;
+  out.n = turned(X_OW_.rotation, turned(world.pose(sites_[i].body).rotation, sites_[i].n_L));
   out.q = near.point;
+  out.u = out.n;
   out.triangle = near.triangle;
   out.distance = near.distance;
-  out.u = near.distance > 0 ? Vector3d((out.q - out.p) / near.distance) : out.n;
+  if (near.distance > 0) out.u = (out.q - out.p) / near.distance;
   return out;
 }
 

@@ -17,7 +17,7 @@ struct ContactSite {
   Pose X_LC;  ///< contact frame in the body, +z outward; of live ones not known
   double mu = 1;
   FrictionEdges edges;
-  int triangle = -1;  ///< of the object, where it was nearest last
+  Eigen::Vector3d n_L = Eigen::Vector3d::UnitZ();  ///< z of the contact frame in the body
 };
 
 /// How a site lies to the object, in the object's frame.
@@ -41,8 +41,8 @@ class ContactSites {
   int size() const { return static_cast<int>(sites_.size()); }
   const ContactSite& site(int i) const { return sites_[i]; }
   const HandAndObject& who() const { return who_; }
-  /// Puts the object where it is now; then measure() says how the sites lie to it.
-  void attend(World& world);
+  /// Sees where the object and the sites are now; then measure() says how they lie to each other.
+  void attend(const World& world);
   /// world  as it was attended to
   SiteDistance measure(World& world, int i);
   /// No more than measure() finds, and found sooner [m].
@@ -50,12 +50,16 @@ class ContactSites {
 
  private:
   SiteDistance measure_live(World& world, int i);
-  /// of a preset one, in the object's frame
-  Eigen::Vector3d position(const World& world, int i) const;
 
+  /// Of a preset site.
+  struct Place {
+    Eigen::Vector3d p_O;
+    int triangle = -1;  ///< of the object, where it was nearest last
+  };
   HandAndObject who_;
   SiteKind kind_;
   std::vector<ContactSite> sites_;
+  std::vector<Place> places_;
   Pose X_OW_;
 };
 

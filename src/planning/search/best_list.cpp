@@ -23,8 +23,8 @@ bool BestList::may_keep(double energy) const {
 bool BestList::add(const SearchSpace& space, FoundState found) {
   if (!may_keep(found.energy)) return false;
   const auto alike = [&](const FoundState& other) {
-    return space.distance(found.state, other.state, options_.radius, options_.posture) <
-           options_.distance;
+    return space.alike(found.state, other.state, options_.radius, options_.posture,
+                       options_.distance);
   };
   const auto worse = std::ranges::upper_bound(states_, found.energy, {}, &FoundState::energy);
   if (std::any_of(states_.begin(), worse, alike)) return false;
@@ -37,7 +37,7 @@ bool BestList::add(const SearchSpace& space, FoundState found) {
 
 bool BestList::is_avoided(const SearchSpace& space, const HandState& state) const {
   return std::ranges::any_of(avoided_, [&](const HandState& other) {
-    return space.distance(state, other, options_.radius, options_.posture) < options_.distance;
+    return space.alike(state, other, options_.radius, options_.posture, options_.distance);
   });
 }
 

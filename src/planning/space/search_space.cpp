@@ -246,18 +246,28 @@ Values SearchSpace::values(const HandState& state) const {
   return out;
 }
 
-double SearchSpace::distance(const HandState& a, const HandState& b, double radius,
-                             bool posture) const {
-  const Pose X_a = a.X_RH * X_HA_, X_b = b.X_RH * X_HA_;
-  double out = std::max((X_a.position - X_b.position).norm() / radius,
-                        0.5 * (a.X_RH.inverse() * b.X_RH).angle() / pi);
-  if (!posture) return out;
+double SearchSpace::posture_distance(const HandState& a, const HandState& b) const {
+  double out = 0;
   for (int d = 0; d < a.dofs.size(); ++d) {
     const double range = limits_[d][1] - limits_[d][0];
     if (std::isfinite(range) && range > 0)
       out = std::max(out, std::abs(a.dofs[d] - b.dofs[d]) / range);
   }
   return out;
+}
+
+double SearchSpace::distance(const HandState& a, const HandState& b, double radius,
+                             bool posture) const {
+  const Eigen::Vector3d p_a = a.X_RH * X_HA_.position, p_b = b.X_RH * X_HA_.position;
+  const double place = std::max((p_a - p_b).norm() / radius,
+                                0.5 * (a.X_RH.inverse() * b.X_RH).angle() / pi);
+  return posture ? std::max(place, posture_distance(a, b)) : place;
+}
+
+bool SearchSpace::alike(const HandState& a, const HandState& b, double radius, bool posture,
+                        double limit) const {
+  if (posture && !(posture_distance(a, b) < limit)) return false;
+  return distance(a, b, radius, false) < limit;
 }
 
 }  // namespace clench

@@ -58,8 +58,11 @@ class SearchSpace {
   /// How different two states are: the largest of the distance of the approach frames' origins by the radius, half the
   /// rotation by pi, and, where it counts, the largest difference of a DOF by its range.
   double distance(const HandState& a, const HandState& b, double radius, bool posture) const;
+  /// Is that below a limit? Found sooner.
+  bool alike(const HandState& a, const HandState& b, double radius, bool posture, double limit) const;
 
  private:
+  double posture_distance(const HandState& a, const HandState& b) const;
   void add_position();
   void add_posture();
   Pose position(const Values& values) const;
