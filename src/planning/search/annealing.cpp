@@ -20,9 +20,12 @@ double temperature(double t0, double decay, double dimensions, double step) {
   return std::max(t0 * std::exp(-decay * std::pow(step, 1 / dimensions)), coldest);
 }
 
-// an even draw x in [-1, 1] as a change that is the longer the warmer
-double spread(double x, double temperature) {
-  return std::copysign(temperature * (std::pow(1 + 1 / temperature, std::abs(x)) - 1), x);
+// log(1 + 1 / T) of a temperature: how far changes reach
+double reach(double temperature) { return std::log(1 + 1 / temperature); }
+
+// an even draw x in [-1, 1] as a change that is the longer the warmer: T ((1 + 1 / T)^|x| - 1)
+double spread(double x, double temperature, double reach) {
+  return std::copysign(temperature * (std::exp(reach * std::abs(x)) - 1), x);
 }
 
 void check_schedule(const AnnealingSchedule& s) {
@@ -100,19 +103,18 @@ Annealing::Verdict Annealing::place(const HandState& state) {
 
 // A value near this one. With a target, one between it and the target more likely than others: the more so, the more the
 // target is trusted.
-double Annealing::jump(const Variable& v, double value, double temperature) {
+double Annealing::jump(const Variable& v, double value, double temperature, double reach) {
   double x;
   if (v.target && v.confidence > 0) {
     const double change = std::clamp(*v.target - value, -v.jump, v.jump) / v.jump;
-    const double mean = std::copysign(
-        std::log(1 + std::abs(change) / temperature) / std::log(1 + 1 / temperature), change);
+    const double mean = std::copysign(std::log(1 + std::abs(change) / temperature) / reach, change);
     const double deviation = std::sqrt(1 - v.confidence);
     do x = mean + deviation * random_.normal();
     while (std::abs(x) > 1);
   } else {
     x = 2 * random_.uniform() - 1;
   }
-  double out = value + v.jump * spread(x, temperature);
+  double out = value + v.jump * spread(x, temperature, reach);
   if (v.circular) {
     const double range = v.max - v.min;
     if (out > v.max) out -= range;
@@ -125,6 +127,7 @@ std::optional<Values> Annealing::neighbour() {
   const double temperature =
       options_.schedule.neighbour_scale *
       options_.schedule.neighbour_temperature(static_cast<double>(k_));
+  const double farthest = reach(temperature);
   Values out = values_;
   for (int i = 0; i < out.size(); ++i) {
     const Variable& v = space_.variables()[i];
@@ -135,7 +138,7 @@ std::optional<Values> Annealing::neighbour() {
         ++counts_.outside;
         return {};
       }
-      out[i] = jump(v, values_[i], temperature);
+      out[i] = jump(v, values_[i], temperature, farthest);
     } while (!(out[i] >= v.min && out[i] <= v.max));
   }
   return out;

@@ -77,7 +77,7 @@ class Annealing {
  private:
   enum class Verdict { legal, collides, avoided };
   std::optional<Values> neighbour();
-  double jump(const Variable& variable, double value, double temperature);
+  double jump(const Variable& variable, double value, double temperature, double reach);
   Verdict place(const HandState& state);
   bool take_step();
 
