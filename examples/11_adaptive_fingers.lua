@@ -3,7 +3,7 @@
 local clench = require "clench"
 local picture = arg and arg[1] or "build/adaptive.png"
 
-local world = clench.load("worlds/adaptive_cylinder.wld", {root = "."})
+local world = clench.load("worlds/tendon_cylinder.wld", {root = "."})
 local gripper, cylinder = world.robots[1], world.objects[1]
 
 -- rods before the palm: the wider, the sooner they hold the proximal links, and the further the distal ones go on

@@ -108,7 +108,7 @@ return {
     object("cube", {0, 0, 0}), a_robot("hands/parallel_jaw/parallel_jaw", {0}, {0, 0, 150}, down),
     camera({360, -400, 260}, {0, 0, 70}),
   }),
-  world("adaptive_cylinder", {
+  world("tendon_cylinder", {
     object("cylinder", {0, 0, 0}), a_robot("hands/tendon_gripper/tendon_gripper", {0}, {-60, 0, 60}, forward),
     camera({330, -400, 320}, {-20, 0, 55}),
   }),

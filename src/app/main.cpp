@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -61,6 +62,15 @@ static void add_reading(CLI::App& verb, ReadingOptions& reading) {
 }
 
 // what is typed as a number is looked at here, and handed on as it is
+// a finite number above 0
+static const CLI::Validator positive(
+    [](std::string& text) -> std::string {
+      double x = 0;
+      if (CLI::detail::lexical_cast(text, x) && std::isfinite(x) && x > 0) return {};
+      return fmt::format("expected a number above 0, got '{}'", text);
+    },
+    "POSITIVE");
+
 static void add_plan(CLI::App& verb, PlanOptions& plan) {
   verb.add_option("HAND", plan.hand, "a robot's file")->required();
   verb.add_option("OBJECT", plan.object, "a body's file, or a mesh")->required();
@@ -75,13 +85,13 @@ static void add_plan(CLI::App& verb, PlanOptions& plan) {
       ->type_name("POSE");
   verb.add_option("--mass", plan.mass, "of the object, instead of its file's [kg]")
       ->type_name("KG")
-      ->check(CLI::PositiveNumber);
+      ->check(positive);
   verb.add_option("--count", plan.count, "the best so many are kept; default: 20, or all of --seconds")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
   verb.add_option("--seconds", plan.seconds, "search no longer than this")
       ->type_name("S")
-      ->check(CLI::PositiveNumber);
+      ->check(positive);
   verb.add_option("--seed", plan.seed, "of the random numbers; default: 1")
       ->type_name("N")
       ->check(CLI::TypeValidator<long>("INT"));
@@ -94,7 +104,7 @@ static void add_plan(CLI::App& verb, PlanOptions& plan) {
       ->check(CLI::IsMember({"fingertip", "power", "any"}));
   verb.add_option("--force-ratio", plan.force_ratio, "times the object's weight that all fingers together press with at most; default: 10")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(positive);
   verb.add_option("-o", plan.out, "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
       ->type_name("FILE");
   verb.add_option("--format", plan.format, "of -o, where the ending does not say: graspgen ...")

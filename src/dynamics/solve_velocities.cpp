@@ -107,7 +107,6 @@ void Stepper::solve(double h) {
 }
 
 void Stepper::solve_found(double h) {
-  refresh();
   carry_welded();
   DynamicState& state = world_.edit_dynamics();
   for (const auto id : world_.robots()) pull_tendons(world_, id, h, state);

@@ -8,8 +8,8 @@
 
 namespace clench {
 
-// Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s], if it is also faster than
-// gravity makes them in a step: a body that comes to rest from next to no height sticks.
+// Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s]; those that have just met, if it
+// is also faster than gravity makes them in a step: a body that comes to rest from next to no height sticks.
 static constexpr double sliding_speed = 1e-3;
 // A gap this near to that at which bodies rest, as a part of the contact threshold, is that one.
 static constexpr double rest_band = 1e-3;
@@ -34,9 +34,14 @@ Eigen::Vector3d Stepper::prescribed_velocity(Id<Body> id, const Eigen::Vector3d&
     const Eigen::Vector3d turning = twist.tail<3>();
     out = twist.head<3>() + turning.cross(p_W - trees_[place.tree].about());
   }
-  const auto& belts = world_.dynamic_settings().surface_velocities;
-  if (const auto belt = belts.find(id); belt != belts.end()) out += X_WB.rotation * belt->second;
   return out;
+}
+
+// how its surface runs over it, as that of a conveyor belt [m/s]
+Eigen::Vector3d Stepper::surface_velocity(Id<Body> id) const {
+  const auto& belts = world_.dynamic_settings().surface_velocities;
+  const auto belt = belts.find(id);
+  return belt != belts.end() ? world_.pose(id).rotation * belt->second : Eigen::Vector3d::Zero();
 }
 
 void Stepper::update_manifolds() {
@@ -84,7 +89,10 @@ void Stepper::add_contact(int manifold, int point, double h) {
   const int size = block.law.size();
 
   const std::array<Id<Body>, 2> bodies = {m.a, m.b};
-  const Eigen::Vector3d prescribed = prescribed_velocity(m.b, touch.p_W) - prescribed_velocity(m.a, touch.p_W);
+  // a surface runs along itself
+  const Eigen::Vector3d normal = touch.frame.col(0), belt = surface_velocity(m.b) - surface_velocity(m.a);
+  const Eigen::Vector3d prescribed =
+      prescribed_velocity(m.b, touch.p_W) - prescribed_velocity(m.a, touch.p_W) + belt - belt.dot(normal) * normal;
   for (int side = 0; side < 2; ++side) {
     const System::Place place = system_.place(bodies[side]);
     if (place.tree < 0 || system_.trees[place.tree].size() == 0) continue;
@@ -98,7 +106,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
       if (k < 3)
         trees_[place.tree].add_linear(place.body, touch.p_W, touch.frame.col(k), sign, column);
       else
-        trees_[place.tree].add_angular(place.body, touch.frame.col(0), sign * p.torsion_radius, column);
+        trees_[place.tree].add_angular(place.body, normal, sign * p.torsion_radius, column);
     }
   }
   // what touches comes no nearer, and what is too near parts
@@ -120,7 +128,10 @@ void Stepper::add_contact(int manifold, int point, double h) {
   double slip = 0;
   for (int k = 1; k < size; ++k) slip += before[k] * before[k];
   slip = std::sqrt(slip);
-  const bool slides = slip > std::max(sliding_speed, world_.gravity().norm() * step);
+  // what rubbed in the last step as hard as it can slides on
+  const double pressed = p.force.dot(p.normal), rubbed = (p.force - pressed * p.normal).norm();
+  const bool slid = pressed > 0 && rubbed >= 0.999 * friction.kinetic * pressed;
+  const bool slides = slip > (slid ? sliding_speed : std::max(sliding_speed, world_.gravity().norm() * step));
   block.law.mu = slides ? friction.kinetic : friction.statics;
   double target = pushed_part * missing / step;
   if (slides) target = std::max(target, std::min(pushed_part_sliding * missing / step, pushed_of_slip * slip));

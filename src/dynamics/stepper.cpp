@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "clench/dynamics/contact/ball_contact.h"
-#include "clench/dynamics/contact/slide.h"
+#include "clench/dynamics/contact/sliding.h"
 #include "clench/model/advance.h"
 #include "clench/model/near_bodies.h"
 
@@ -122,15 +122,19 @@ double Stepper::move(double dt) {
     const double way = displacement(before, X_AB, *world_.body(m.b).shape);
     const double thin = 0.5 * std::min(thickness(*world_.body(m.a).shape), thickness(*world_.body(m.b).shape));
     const bool touching = m.clearance - displacement(m.X_AB, before, *world_.body(m.b).shape) <= world_.contact_threshold();
-    const double looked_at = short_way * world_.contact_threshold();
-    // what slides is looked at every now and then: following it would ask a thousand times whether it still only touches
-    Manifold there = m;
-    const auto arrives = [&] {
-      return slide(world_, there) || is_free_on_the_way(m, static_cast<int>(way / looked_at), dt, mover);
-    };
-    if (way <= thin && (way <= looked_at || (touching && !has_ball(world_, m) && arrives()))) {
-      measure(world_, there);
-      if (there.clearance > 0) {
+    if (way <= thin) {
+      Manifold there = m;
+      bool arrived = follow_sliding(world_, there);
+      if (!arrived) {
+        // what slides is looked at every now and then: following it would ask a thousand times whether it still only touches
+        const double looked_at = short_way * world_.contact_threshold();
+        if (way <= looked_at ||
+            (touching && !has_ball(world_, m) && is_free_on_the_way(m, static_cast<int>(way / looked_at), dt, mover))) {
+          measure(world_, there);
+          arrived = there.clearance > 0;
+        }
+      }
+      if (arrived) {
         measured.emplace_back(i, std::move(there));
         continue;
       }
@@ -186,6 +190,7 @@ bool Stepper::step(double end) {
   const double h = move(left);
   double& time = world_.edit_dynamics().time;
   if (std::abs(end - time) < rounding * step) time = end;
+  refresh();
   solve_found(h);
   return true;
 }

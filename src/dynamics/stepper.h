@@ -60,6 +60,7 @@ class Stepper {
   bool is_free_on_the_way(const Manifold& m, int places, double dt, Mover& mover);
   Vector6d root_twist(int tree) const;
   Eigen::Vector3d prescribed_velocity(Id<Body> body, const Eigen::Vector3d& p_W) const;
+  Eigen::Vector3d surface_velocity(Id<Body> body) const;
   void carry_welded();
   void find_free_velocities(double h);
   void update_manifolds();

@@ -58,9 +58,15 @@ local function call_observers(world, list)
   end)
 end
 
-local function call_controllers(world, list)
+-- How long the step that comes is, unless bodies meet in it: steps end at multiples of the time step, and with the run.
+local function length_of_step(world, last)
+  local time, step = world.time, world.time_step
+  return math.min((math.floor(time / step + 1e-6) + 1) * step, last) - time
+end
+
+local function call_controllers(world, list, last)
   each(list, function(handle)
-    if is_due(handle, world.time) then call(handle, world, handle.rate and 1 / handle.rate or world.time_step) end
+    if is_due(handle, world.time) then call(handle, world, handle.rate and 1 / handle.rate or length_of_step(world, last)) end
   end)
 end
 
@@ -124,7 +130,7 @@ return function(hooks, world, seconds, stepping, step, events)
   -- as Stepper::step: less is no time
   while last - world.time > 1e-6 * world.time_step do
     local before = world.time
-    call_controllers(world, hooks.controllers)
+    call_controllers(world, hooks.controllers, last)
     each(hooks.tasks, function(handle) go_on(handle, world) end)
     -- one that went to another moment runs as long as it was asked to from there
     if world.time ~= before then last = last + (world.time - before) end

@@ -87,7 +87,7 @@ function print_kind.robot(robot)
   for i, dof in ipairs(robot.dofs) do
     rows[#rows + 1] = {tostring(i), dof.name or "", dof.kind, quantity(dof.low, dof.unit), quantity(dof.high, dof.unit),
       quantity(dof.value, dof.unit), dof.closing > 0 and "up" or dof.closing < 0 and "down" or "not",
-      quantity(dof.max_effort, dof.unit == "m" and "N" or "N m")}
+      dof.max_effort > 0 and quantity(dof.max_effort, dof.unit == "m" and "N" or "N m") or "no limit"}
   end
   columns(rows, "  ")
   rows = {{"chain", "from", "joint", "kind", "DOF", "ratio", "from", "to"}}

@@ -10,9 +10,9 @@ function closing.place(hand, object, state)
 end
 
 -- Jaws that touch one side alone are not worth measuring.
-local function measure(hand, object, options, coupled)
+local function measure(hand, object, options, jaws)
   hand:autograsp()
-  if coupled and give_way.touches_one_side(hand, object) then return nil, true end
+  if jaws and give_way.touches_one_side(hand, object) then return nil, true end
   local grasp = clench.grasp(hand, object, options)
   if #grasp.points == 0 then return nil end
   grasp:quality "epsilon"
@@ -21,7 +21,7 @@ local function measure(hand, object, options, coupled)
 end
 
 -- Closes where the hand touched; then, while that holds nothing, again from one step further back, and so on.
-local function close_behind(hand, object, dofs, steps, options, coupled)
+local function close_behind(hand, object, dofs, steps, options, jaws)
   local touched, grasp, one_sided = hand.pose, nil, nil
   local back = -hand.approach.direction
   for i = 0, steps.count do
@@ -29,7 +29,7 @@ local function close_behind(hand, object, dofs, steps, options, coupled)
       hand:set_posture(clench.pose {xyz = back * (i * steps.length)} * touched, dofs)
       if hand.world:collides(hand) then break end
     end
-    local next_grasp, on_one_side = measure(hand, object, options, coupled)
+    local next_grasp, on_one_side = measure(hand, object, options, jaws)
     one_sided = one_sided or on_one_side
     if next_grasp and (not grasp or next_grasp.epsilon > grasp.epsilon) then grasp = next_grasp end
     if grasp and grasp.epsilon > 0 then break end
@@ -42,7 +42,7 @@ local one_side = "one side alone touched"
 
 -- as closing.close, without giving way
 -- returns  the grasp, or why there is none; where the hand began to close, in the world
-local function close_from(hand, object, state, options, coupled)
+local function close_from(hand, object, state, options, jaws)
   if not closing.place(hand, object, state) then return nil, "in collision at the start" end
   if state.reach then
     hand:approach_object {reach = state.reach}
@@ -55,7 +55,7 @@ local function close_from(hand, object, state, options, coupled)
     end
   end
   local from = hand.pose
-  local grasp, one_sided = close_behind(hand, object, state.dofs, options.back or at_once, options.grasp, coupled)
+  local grasp, one_sided = close_behind(hand, object, state.dofs, options.back or at_once, options.grasp, jaws)
   if not grasp then return nil, one_sided and one_side or "nothing touched", from end
   grasp.pregrasp = {pose = state.pose, dofs = state.dofs}
   return grasp, nil, from
@@ -68,19 +68,19 @@ local function moved(object, state, before, after)
           pose = X_WO:inverse() * after * before:inverse() * X_WO * state.pose}
 end
 
---- A hand whose fingers stop together, where the first of them touches, gives way until both press, and begins again from there.
+--- A hand with coupled fingers shifts, and jaws also turn, until both sides touch; then it closes again from there.
 ---@param hand robot
 ---@param object body
 ---@param state {pose: pose, dofs: number[], reach?: number, retreat?: number}  of the hand in the object; reach: how far it goes on where nothing touches; retreat: from the first touch [m]
----@param options {approach?: number, back?: {count: integer, length: number}, grasp?: table, quick?: boolean}  approach: at most so far, to the first touch [m]; quick: jaws give way to the side alone, without a turn
+---@param options {approach?: number, back?: {count: integer, length: number}, grasp?: table, turn?: boolean}  approach: at most so far, to the first touch [m]; turn: false: jaws shift only
 ---@return grasp? grasp, string? why  what was in the way
 function closing.close(hand, object, state, options)
-  local coupled = give_way.is_coupled(hand)
-  local grasp, why, from = close_from(hand, object, state, options, coupled)
-  if not coupled or grasp and grasp.epsilon > 0 or not grasp and why ~= one_side then return grasp, why end
-  local give = (options.quick or not give_way.are_jaws(hand)) and give_way.shift or give_way.turn
+  local jaws = give_way.are_jaws(hand)
+  local grasp, why, from = close_from(hand, object, state, options, jaws)
+  if not give_way.is_coupled(hand) or grasp and grasp.epsilon > 0 or not grasp and why ~= one_side then return grasp, why end
+  local give = jaws and options.turn ~= false and give_way.turn or give_way.shift
   local after = give(hand, object, from, state.dofs)
-  local again = after and close_from(hand, object, moved(object, state, from, after), options, coupled)
+  local again = after and close_from(hand, object, moved(object, state, from, after), options, jaws)
   grasp = again or grasp
   return grasp, not grasp and why or nil
 end

@@ -62,7 +62,7 @@ function opposition.thumb(hand)
   return thumb, number
 end
 
---- The middle between the thumb's tip and the others' with these DOFs, in the world, and how far they stand apart [m].
+--- The middle between the thumb's tip and the others' with these DOFs, in the world.
 ---@param finger integer  the thumb, as of opposition.thumb
 function opposition.middle(hand, dofs, finger)
   local world = hand.world
@@ -71,7 +71,7 @@ function opposition.middle(hand, dofs, finger)
   local tips = tips_of(hand)
   local others = mean(all_but(tips, finger))
   world:restore(here)
-  return (tips[finger] + others) * 0.5, (tips[finger] - others):norm()
+  return (tips[finger] + others) * 0.5
 end
 
 --- The pose of the hand's base where a frame of approach and thumb at a point of it is the unit frame.

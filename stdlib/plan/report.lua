@@ -78,16 +78,11 @@ local looked_at, friction = 400, 0.5  -- points of the surface, and the cones in
 local function too_wide(job)
   if job.in_place then return end  -- the world is the script's own
   local hand, object = job.hand, job.object
-  local world = hand.world
-  local here <close> = world:snapshot()
-  hand:set_dofs((starts.opened(hand)))
-  local thumb, finger = opposition.thumb(hand)
-  local open = thumb and select(2, pads.of(hand)(hand.dofs, thumb, finger))
-  world:restore(here)
-  local least = open and facing.narrowest(world, object, looked_at, friction)
-  if least and least > open then
-    return ("%s is wider than %s opens: where points of its surface face each other they are at least %.0f mm apart, and the pads open to %.0f mm"):format(
-      object.name, hand.name, 1000 * least, 1000 * open)
+  local open = starts.aperture(hand)
+  local least = open and facing.narrowest(hand.world, object, looked_at, friction)
+  if least and least > open - starts.clearance then
+    return ("%s is wider than %s opens: where points of its surface face each other they are at least %.0f mm apart, and the pads open to %.0f mm, of which %.0f are left free"):format(
+      object.name, hand.name, 1000 * least, 1000 * open, 1000 * starts.clearance)
   end
 end
 
@@ -95,7 +90,7 @@ end
 local function too_weak(told)
   local count = told.rejected and told.rejected[verification.too_weak]
   if not count or not told.best_load then return end
-  return ("%d grasps in force closure are too weak against loads: the best holds %.2g times the object's weight in its weakest direction, with %g weights of normal force in all and the motors within their limits, and %g are asked; see min_load and force_ratio of verify"):format(
+  return ("%d grasps in force closure are too weak against loads: the best holds %.3g times the object's weight in its weakest direction, with %g weights of normal force in all and the motors within their limits, and %g are asked; see min_load and force_ratio of verify, --force-ratio of clench plan"):format(
     count, told.best_load, told.verify.force_ratio, told.verify.min_load)
 end
 
@@ -159,5 +154,6 @@ return function(job, told)
     end
     if #told.causes == 0 then told.causes[1] = "none that is known; try more steps or another seed" end
   end
+  told.verify, told.best_load = nil, nil
   return setmetatable(told, Report)
 end

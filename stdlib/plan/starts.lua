@@ -73,12 +73,12 @@ local function posture(hand, closed, spread, values)
   return dofs
 end
 
-local most_closed = 0.35  -- of the way, where the hand begins
+local max_closed = 0.35  -- of the way, where the hand begins
 
--- closed by a part of the way, at most `most`; DOFs that closing does not move (a spread) anywhere, or nearer to where they are open when
+-- closed by a part of the way, at most `max`; DOFs that closing does not move (a spread) anywhere, or nearer to where they are open when
 -- the hand would collide with itself
-local function random_posture(hand, random, most)
-  local closed, values = random:uniform(0, most), {}
+local function random_posture(hand, random, max)
+  local closed, values = random:uniform(0, max), {}
   for i in ipairs(hand.open) do values[i] = random:uniform() end
   for spread = 1, 0, -0.25 do
     local dofs = posture(hand, closed * spread, spread, values)
@@ -90,6 +90,7 @@ local function random_posture(hand, random, most)
   return hand.open
 end
 
+starts.clearance = 0.002  -- left on both sides together of what comes between the pads [m]
 local closing_steps = 12  -- at which the distance between the pads is measured
 
 -- The hand as it closes in free air: how far its pads stand apart, from the widest on down, and the base where the frame of approach and thumb
@@ -132,6 +133,11 @@ local function describe(hand)
   return self
 end
 
+--- How wide the hand opens between thumb and fingers; nil: it has no thumb [m].
+function starts.aperture(hand)
+  return describe(hand).aperture
+end
+
 -- The hand whose pads stand so far apart: how far it is closed then, and its base in the frame of approach and thumb in their middle.
 local function holding(self, width)
   local list = self.closings
@@ -158,18 +164,17 @@ local function before_surface(hand, object, random, standoff)
   local side = across(direction, random)
   if not side then return end
   return {pose = opposition.frame(at.point - direction * standoff, direction, side) * hand.X_FH,
-          dofs = random_posture(hand, random, most_closed), retreat = math.max(0, random:uniform(-0.03, 0.03))}
+          dofs = random_posture(hand, random, max_closed), retreat = math.max(0, random:uniform(-0.03, 0.03))}
 end
 
-local clearance = 0.002  -- left on both sides together of what the open hand is to enter [m]
 local to_palm = 0.06      -- how far a hand goes on until its palm touches [m]
-local seen_from = {0, 0.025, 0.06}  -- before where it is to close: there the hand is free as well [m]
+local approach_distances = {0, 0.025, 0.06}  -- before where it is to close: there the hand is free as well [m]
 
 -- Does the hand come to the object so that what is to be between its pads gets there, and not what is in the way?
 local function gets_there(hand, object, direction, pose, dofs)
   local robot, X_WO = hand.robot, object.pose
   local free = true
-  for _, back in ipairs(seen_from) do
+  for _, back in ipairs(approach_distances) do
     robot:set_posture(X_WO * clench.pose {xyz = direction * -back} * pose, dofs)
     free = not robot.world:collides(robot)
     if not free then break end
@@ -189,12 +194,12 @@ end
 --- The thumb on one of two points that face each other and the fingers on the other, from any side across that line.
 ---@param checked boolean  for jaws: only where the hand gets to the points
 local function about_two_points(hand, world, object, random, options, checked)
-  local width = math.min(options.width, hand.aperture - clearance)
+  local width = math.min(options.width, hand.aperture - starts.clearance)
   local middle, line, apart = facing.pair(world, object, surface_point(hand, object, random), random, options.friction, width)
   local direction = middle and across(line, random)
   if not direction then return end
-  local closed, X_FH, pad = holding(hand, apart + clearance)
-  local dofs = random:uniform() < 0.5 and hand.open or random_posture(hand, random, math.min(most_closed, closed))
+  local closed, X_FH, pad = holding(hand, apart + starts.clearance)
+  local dofs = random:uniform() < 0.5 and hand.open or random_posture(hand, random, math.min(max_closed, closed))
   local deeper
   if hand.is_two_fingered then
     deeper = random:uniform(-0.7, 0.7) * pad

@@ -56,7 +56,7 @@ function verification.perturbed_epsilon(hand, object, grasp, displacement, enoug
   local world = hand.world
   local here <close> = world:snapshot()
   local X_WH, dofs, X_WO = object.pose * grasp.pose, grasp.pregrasp.dofs, object.pose
-  local least, coupled = math.huge, give_way.are_jaws(hand)
+  local least, jaws = math.huge, give_way.are_jaws(hand)
   for _, direction in ipairs(verification.directions) do
     object.pose = moved(X_WO, direction * displacement)
     hand:set_posture(X_WH, dofs)
@@ -68,7 +68,7 @@ function verification.perturbed_epsilon(hand, object, grasp, displacement, enoug
     if not world:collides(hand) then
       local stands = hand.pose
       local again = close_on_free(hand, object, 4 * displacement, options)
-      if coupled and (#again.points == 0 or again:quality "epsilon" <= enough) then
+      if jaws and (#again.points == 0 or again:quality "epsilon" <= enough) then
         object.pose = moved(X_WO, direction * displacement)
         hand:set_posture(stands, dofs)
         again = close_around_free(hand, object, dofs, options)

@@ -78,7 +78,7 @@ std::vector<Named> real_sets(bool brief) {
   std::vector<Named> out;
   ReadOptions options;
   options.root = ".";
-  for (const char* name : {"dlr_flask", "barrett_mug", "human_flask", "adaptive_cylinder"})
+  for (const char* name : {"dlr_flask", "barrett_mug", "human_flask", "tendon_cylinder"})
     for (const bool soft : {false, true}) {
       if (brief && (out.size() == 2)) continue;
       World world = build_world(read_world(std::string("worlds/") + name + ".wld", options));

@@ -90,7 +90,7 @@ local function run(text, step, target)
 end
 
 -- the second takes ten times as long to load and to grasp as the first, the others forty times
-local worlds = {{95, "worlds/parallel_jaw_cube.wld"}, {100, "worlds/adaptive_cylinder.wld"}, {101, "worlds/three_finger_sphere.wld"},
+local worlds = {{95, "worlds/parallel_jaw_cube.wld"}, {100, "worlds/tendon_cylinder.wld"}, {101, "worlds/three_finger_sphere.wld"},
                 {102, "worlds/barrett_mug.wld"}, {103, "worlds/dlr_flask.wld"}}
 local function any_world()
   local n = random(103)

@@ -23,7 +23,7 @@ known.numbers = {
 
 local light = {"models/objects/cube.iv", "models/objects/sphere.iv", "models/objects/mug.iv"}
 local files = {
-  ["clench.load"] = {"worlds/parallel_jaw_cube.wld", "worlds/adaptive_cylinder.wld", "worlds/barrett_mug.wld"},
+  ["clench.load"] = {"worlds/parallel_jaw_cube.wld", "worlds/tendon_cylinder.wld", "worlds/barrett_mug.wld"},
   ["world:add_robot"] = {"models/hands/parallel_jaw/parallel_jaw.cfg", "models/hands/barrett/barrett.cfg",
                          "models/hands/three_finger/three_finger.cfg", "models/arms/puma560/puma560.cfg"},
   ["world:add_object"] = light, ["world:add_obstacle"] = light, ["clench.convert"] = light, ["clench.files.primitives"] = light,

@@ -27,7 +27,7 @@ std::vector<double> paces(const std::vector<PacedLink>& rows, std::vector<double
     link.parent = row.parent;
     for (const int dof : row.dofs) link.joints.push_back({.dof = dof});
   }
-  slow_outer_joints(robot);
+  slow_distal_joints(robot);
   for (size_t d = 0; d < velocities.size(); ++d) velocities[d] = robot.dofs[d].default_velocity;
   return velocities;
 }

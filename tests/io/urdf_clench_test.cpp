@@ -38,7 +38,31 @@ TEST_CASE("what <clench> says counts, and nothing is guessed beside it") {
   CHECK(told.robot.collision_rules.parts_off == std::vector{0});
   CHECK(!told.noted("these DOFs close it"));
   CHECK(!told.noted("says nothing of friction"));
-  CHECK(with("<clench/>").robot.dofs[0].default_velocity == 0);
+}
+
+TEST_CASE("how a hand closes is guessed where <clench> has no word of it") {
+  const auto jaws = [](const std::string& element) {
+    const auto link = [](const std::string& name, const std::string& size, const std::string& at) {
+      const std::string shape = "<origin xyz='" + at + "'/><geometry><box size='" + size + "'/></geometry>";
+      return "<link name='" + name + "'><collision>" + shape + "</collision></link>";
+    };
+    const auto joint = [](const std::string& finger, const std::string& axis) {
+      return "<joint name='" + finger + "_joint' type='prismatic'><parent link='palm'/><child link='" + finger + "'/><axis xyz='" + axis +
+             "'/><limit lower='0' upper='0.04'/></joint>";
+    };
+    TemporaryFolder folder;
+    return ToldRobot(folder.write("j.urdf", "<robot name='j'>" + link("palm", "0.1 0.04 0.04", "0 0 -0.02") +
+                                                link("left", "0.01 0.02 0.06", "0.005 0 0.03") +
+                                                link("right", "0.01 0.02 0.06", "-0.005 0 0.03") + joint("left", "1 0 0") +
+                                                joint("right", "-1 0 0") + element + "</robot>"));
+  };
+  const ToldRobot plain(jaws("")), dressed(jaws("<clench><link name='left' material='rubber'/></clench>"));
+  CHECK(plain.robot.dofs[0].default_velocity != 0);
+  CHECK(dressed.robot.dofs[0].default_velocity == plain.robot.dofs[0].default_velocity);
+  REQUIRE(plain.robot.X_BA);
+  REQUIRE(dressed.robot.X_BA);
+  CHECK(dressed.robot.X_BA->position == plain.robot.X_BA->position);
+  CHECK(dressed.robot.links[0].body.material == "rubber");
 }
 
 TEST_CASE("the caller's choice comes before that of <clench>") {

@@ -7,7 +7,7 @@ local function each_joint(hand, visit)
 end
 
 local function closed_on_cylinder()
-  local world = clench.load("worlds/adaptive_cylinder.wld", {root = "."})
+  local world = clench.load("worlds/tendon_cylinder.wld", {root = "."})
   local hand, cylinder = world.robots[1], world.objects[1]
   return world, hand, cylinder, hand:autograsp()
 end

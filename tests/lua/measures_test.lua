@@ -74,7 +74,7 @@ test("manipulability is the volume of what DOFs of length one do to the object, 
 end)
 
 test("all measures of grasps of many contacts come in time, and are the same however they are asked", function(t)
-  for _, name in ipairs {"human_flask", "shadow_bottle", "adaptive_cylinder"} do
+  for _, name in ipairs {"human_flask", "shadow_bottle", "tendon_cylinder"} do
     local grasp, again = closed(name), closed(name)
     local all = grasp:quality_all()
     t.ok(all.epsilon and all.grasp_robustness >= all.contact_robustness)

@@ -63,7 +63,7 @@ end
 
 for _, entry in ipairs {
   {"dlr_flask", 6}, {"barrett_mug", 3}, {"barrett_glass_table", 3}, {"barrett_plane", 3}, {"human_flask", 6},
-  {"shadow_bottle", 6}, {"robonaut_glass", 6}, {"three_finger_sphere", 3}, {"adaptive_cylinder", 4},
+  {"shadow_bottle", 6}, {"robonaut_glass", 6}, {"three_finger_sphere", 3}, {"tendon_cylinder", 4},
   {"parallel_jaw_cube", 8}, {"puma_barrett_glass", 3},
 } do
   local name, least = table.unpack(entry)

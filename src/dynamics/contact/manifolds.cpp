@@ -7,7 +7,7 @@
 #include "clench/contact/near_points.h"
 #include "clench/dynamics/contact/ball_contact.h"
 #include "clench/dynamics/contact/overlap.h"
-#include "clench/dynamics/contact/slide.h"
+#include "clench/dynamics/contact/sliding.h"
 #include "clench/model/near_bodies.h"
 
 namespace clench {
@@ -121,7 +121,7 @@ static Eigen::Vector3d normal_of(const Shape& a, const Shape& b, const Pose& X_A
 }
 
 void measure(World& world, Manifold& m) {
-  if (slide(world, m)) return;
+  if (follow_sliding(world, m)) return;
   const auto [first, second] = ordered(m.a, m.b);
   const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
   const double threshold = world.contact_threshold();

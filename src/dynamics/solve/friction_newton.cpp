@@ -172,7 +172,7 @@ bool FrictionNewton::step(const ScaledFriction& problem, double damping, const V
     along_ = lu_.solve(right_);
   for (int k = 0; k < n; ++k) {
     const Direction& by = directions_[k];
-    if (!std::isfinite(along_[k])) return false;
+    if (!std::isfinite(along_[k])) return factored_.clear(), false;
     if (!by.across) next[by.row] += along_[k];
     for (int c = 0; c < by.tangents; ++c) next[by.row + 1 + c] += by.t[c] * along_[k];
   }

@@ -61,7 +61,7 @@ struct MeshFaults {
 bool without_area(const Mesh& mesh, int triangle);
 
 /// Do all vertices lie on or behind the plane of every triangle, up to rounding? False also of what would take long to tell:
-/// of meshes with more than some 500 triangles.
+/// of meshes with more than some 700 triangles.
 bool is_convex(const Mesh& mesh);
 
 /// throws Stopped

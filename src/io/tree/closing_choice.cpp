@@ -22,7 +22,7 @@ void set_closing(RobotSpec& robot, int dof, double sense) {
   velocity = sense > 0 ? pace : sense < 0 ? -pace : 0;
 }
 
-void slow_outer_joints(RobotSpec& robot) {
+void slow_distal_joints(RobotSpec& robot) {
   constexpr int none = -1, several = -2;
   // what closes on the way to a link, its own joints included: no DOF, one, or several; parents come
   // before their children

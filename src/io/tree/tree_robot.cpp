@@ -18,7 +18,7 @@ namespace {
 class RobotMaker {
  public:
   RobotMaker(TreeModel tree, const std::string& file, const FileCache& cache,
-             const std::function<void(RobotSpec&)>& known)
+             const std::function<bool(RobotSpec&)>& known)
       : tree_(std::move(tree)), file_(file), cache_(cache), known_(known) {}
   RobotSpec make();
 
@@ -34,7 +34,7 @@ class RobotMaker {
   TreeModel tree_;
   const std::string& file_;
   const FileCache& cache_;
-  const std::function<void(RobotSpec&)>& known_;
+  const std::function<bool(RobotSpec&)>& known_;
   RobotSpec robot_;
   std::vector<int> dof_of_;    // one per joint: of the leader; -1 for followers
   std::vector<bool> passive_;  // one per DOF
@@ -175,8 +175,7 @@ void RobotMaker::tell_approach() {
 }
 
 void RobotMaker::close_hand() {
-  if (known_) {
-    known_(robot_);
+  if (known_ && known_(robot_)) {
     choose_closing(robot_, file_, cache_.options());
     if (robot_.X_BA) return;
     robot_.X_BA = guess_approach(robot_);
@@ -186,7 +185,7 @@ void RobotMaker::close_hand() {
   const auto senses = guess_closing(robot_, passive_);
   for (size_t d = 0; d < senses.size(); ++d) set_closing(robot_, static_cast<int>(d), senses[d]);
   choose_closing(robot_, file_, cache_.options());
-  slow_outer_joints(robot_);
+  slow_distal_joints(robot_);
   if (!robot_.X_BA) robot_.X_BA = guess_approach(robot_);
   tell_closing();
 }
@@ -219,7 +218,7 @@ RobotSpec RobotMaker::make() {
 }  // namespace
 
 RobotSpec make_robot(TreeModel tree, const std::string& file, const FileCache& cache,
-                     const std::function<void(RobotSpec&)>& known) {
+                     const std::function<bool(RobotSpec&)>& known) {
   return RobotMaker(std::move(tree), file, cache, known).make();
 }
 

@@ -14,9 +14,9 @@ constexpr double min_follower_range = 0.1;
 /// Guesses what closes the hand and how it approaches, as far as the options do not say it, and
 /// tells. `file` is the name shown in sentences.
 /// throws  Error naming the joint, the DOF or the option that is wrong
-/// known  gives it what its file says of it beyond its tree; of how it closes nothing is guessed then, nor of its approach
-/// where that is known
+/// known  gives it what its file says of it beyond its tree; true: also how it closes, of which nothing is guessed then. Nor is its
+/// approach where that is known
 RobotSpec make_robot(TreeModel tree, const std::string& file, const FileCache& cache,
-                     const std::function<void(RobotSpec&)>& known = {});
+                     const std::function<bool(RobotSpec&)>& known = {});
 
 }  // namespace clench

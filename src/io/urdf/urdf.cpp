@@ -465,9 +465,12 @@ RobotSpec UrdfReader::read() {
   order_links();
   read_mimics();
   dress_links(tree_, pieces_, geometry_, file_, cache_, !own.empty());
-  std::function<void(RobotSpec&)> known;
+  std::function<bool(RobotSpec&)> known;
   if (!own.empty())
-    known = [&](RobotSpec& made) { read_clench_element(own.front(), made, path_, cache_); };
+    known = [&](RobotSpec& made) {
+      read_clench_element(own.front(), made, path_, cache_);
+      return !own.front().children("dof").empty();  // they say how it closes
+    };
   RobotSpec robot = make_robot(std::move(tree_), file_, cache_, known);
   robot.source = path_.generic_string();
   repairs_.tell();

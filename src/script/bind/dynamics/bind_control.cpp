@@ -42,7 +42,7 @@ static int pop_state(lua_State* L) { return add_hook(L, "pop"); }
 static const Entry methods[] = {
     {"on_step", guarded<on_step>, R"(
 Has a function called while the world runs, before each step, or so often: fn(world, dt), with the length of the step that
-comes, or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world,
+comes (an impact may cut it short), or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world,
 not to its clones or snapshots.
 @param fn function
 @param options? {rate?: number}  calls in a second of the world's time: at the first step at or after each multiple of 1 / rate [Hz]

@@ -1,4 +1,4 @@
-#include "clench/dynamics/contact/slide.h"
+#include "clench/dynamics/contact/sliding.h"
 
 #include <algorithm>
 
@@ -58,7 +58,7 @@ TEST_CASE("corners that slide over a face touch where measuring anew finds them"
                    {random.uniform(-0.1, 0.5), random.uniform(-0.3, 0.3), 0.07 + random.uniform(1e-5, 9e-5)}};
       pair.world.set_pose(pair.mover, X);
       Manifold followed = pair.manifold;
-      if (!slide(pair.world, followed)) continue;
+      if (!follow_sliding(pair.world, followed)) continue;
       ++slid;
       const Manifold fresh = pair.fresh();
       REQUIRE(fresh.points.size() == followed.points.size());
@@ -87,7 +87,7 @@ TEST_CASE("what may touch elsewhere is measured anew, and stays as it was until 
     pair.world.set_pose(pair.mover, {Eigen::Quaterniond(Eigen::AngleAxisd(0.01, Vector3d::UnitX())), {0.1, 0.05, 0.0703}});
   }
   const Manifold before = pair.manifold;
-  CHECK_FALSE(slide(pair.world, pair.manifold));
+  CHECK_FALSE(follow_sliding(pair.world, pair.manifold));
   CHECK(pair.manifold.X_AB == before.X_AB);
   for (size_t i = 0; i < before.points.size(); ++i) CHECK(pair.manifold.points[i].p_a == before.points[i].p_a);
 }
@@ -103,11 +103,11 @@ TEST_CASE("a foot that comes near the face beside those that touch is a contact 
   REQUIRE(three > 0);
   pair.world.set_pose(pair.mover, Pose::translation({0.01, 0.11, 0.05 + 6e-5}));
   Manifold followed = pair.manifold;
-  CHECK(slide(pair.world, followed));
+  CHECK(follow_sliding(pair.world, followed));
   CHECK(followed.points.size() == pair.fresh().points.size());
   pair.world.set_pose(pair.mover, {Eigen::Quaterniond(Eigen::AngleAxisd(8e-4, Vector3d(-1, 1, 0).normalized())), {0, 0.1, 0.05 + 9e-5}});
   followed = pair.manifold;
-  CHECK_FALSE(slide(pair.world, followed));
+  CHECK_FALSE(follow_sliding(pair.world, followed));
 }
 
 TEST_CASE("only convex bodies lend their faces") {
@@ -115,5 +115,5 @@ TEST_CASE("only convex bodies lend their faces") {
   const Mesh trough = joined(box(1, 0.6, 0.1), moved(box(1, 0.1, 0.3), Pose::translation({0, 0.25, 0.2})));
   Pair pair(true, block, Pose::translation({0.1, -0.1, 0.07 + 3e-5}), trough);
   REQUIRE(pair.manifold.points.size() == 4);
-  CHECK_FALSE(slide(pair.world, pair.manifold));
+  CHECK_FALSE(follow_sliding(pair.world, pair.manifold));
 }

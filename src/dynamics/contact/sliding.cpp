@@ -1,4 +1,4 @@
-#include "clench/dynamics/contact/slide.h"
+#include "clench/dynamics/contact/sliding.h"
 
 #include <algorithm>
 
@@ -16,12 +16,13 @@ static bool is_inside(const Vector3d& p, const Corners& c, const Vector3d& norma
   return true;
 }
 
-bool slide(const World& world, Manifold& m) {
+bool follow_sliding(const World& world, Manifold& m) {
   if (m.points.empty()) return false;
   const Body &a = world.body(m.a), &b = world.body(m.b);
   const bool face_of_a = m.points[0].feature_a.kind == Feature::triangle;
   const Shape &face = *(face_of_a ? a : b).shape, &other = *(face_of_a ? b : a).shape;
-  if (!face.convex() || a.elastic_modulus || b.elastic_modulus) return false;
+  constexpr size_t max_vertices = 4096;  // of more, a search is faster
+  if (!face.convex() || other.mesh().vertices.size() > max_vertices || a.elastic_modulus || b.elastic_modulus) return false;
 
   const Pose X_AB = relative_pose(world, m.a, m.b), X_FV = face_of_a ? X_AB : X_AB.inverse();
   const auto& vertices = other.mesh().vertices;
