@@ -811,7 +811,7 @@ function world_dynamics:average_contacts(links) end
 ---@class world_control: world_settings
 local world_control = {}
 
----Has a function called while the world runs, before each step, or so often: fn(world, dt), with the length of the step that comes, or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world, not to its clones or snapshots.
+---Has a function called while the world runs, before each step, or so often: fn(world, dt), with the length of the step that comes (an impact may cut it short), or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world, not to its clones or snapshots.
 ---@param fn function
 ---@param options? {rate?: number} # calls in a second of the world's time: at the first step at or after each multiple of 1 / rate [Hz]
 ---@return table handle # `remove()` ends it
@@ -849,7 +849,7 @@ function world_control:pop() end
 ---How bodies and robots move: velocity, and what pushes them.
 ---@class motion: entity
 ---@field velocity {linear: vec3, angular: vec3} # Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. A table of its own; one that is set changes what it names. Setting a pose brings a body to rest. [m/s], [rad/s]
----@field surface_velocity vec3 # Of a conveyor belt: what touches it is carried along at this velocity, in its own frame, while it stands. [m/s]
+---@field surface_velocity vec3 # Of a conveyor belt: what touches it is carried along at this velocity, in its own frame, while it stands. Only the part along the surface counts. [m/s]
 ---@field welded_to body? # The body that it is welded to, or nil.
 local motion = {}
 

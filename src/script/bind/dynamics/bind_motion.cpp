@@ -100,7 +100,7 @@ told, whatever they push. A table of its own; one that is set changes what it na
 > flask.velocity = {linear = {0, 0, 1 / 0}}  --> error: velocity)",
      guarded<set_velocity>},
     {"surface_velocity", guarded<get_surface_velocity>, R"(
-Of a conveyor belt: what touches it is carried along at this velocity, in its own frame, while it stands.
+Of a conveyor belt: what touches it is carried along at this velocity, in its own frame, while it stands. Only the part along the surface counts.
 @type vec3  [m/s]
 > flask.surface_velocity = {0.1, 0, 0}
 > flask.surface_velocity  --> (0.1, 0, 0)
