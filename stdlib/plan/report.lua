@@ -72,11 +72,18 @@ local function self_collision(job)
   return pair and ("the hand collides with itself where it starts: %s and %s"):format(pair[1].name, pair[2].name)
 end
 
+local function nothing_closes(job)
+  for _, info in ipairs(job.hand.dof_info) do
+    if info.default_velocity ~= 0 then return end
+  end
+  return ("no DOF of %s closes: nothing in its file says so or lets it be guessed; the option close of its reader names those that do"):format(job.hand.name)
+end
+
 local looked_at, friction = 400, 0.5  -- points of the surface, and the cones in which the line to the one opposite lies
 
 -- does nothing of the object fit between the pads of thumb and fingers?
 local function too_wide(job)
-  if job.in_place then return end  -- the world is the script's own
+  if job.in_place or nothing_closes(job) then return end  -- in place: the world is the script's own
   local hand, object = job.hand, job.object
   local open = starts.aperture(hand)
   local least = open and facing.narrowest(hand.world, object, looked_at, friction)
@@ -148,7 +155,7 @@ return function(job, told)
   if told.grasps == 0 and told.stopped then
     told.causes[1] = too_weak(told)
   elseif told.grasps == 0 then
-    for _, cause in ipairs {arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_wide(job) or false, too_weak(told) or false,
+    for _, cause in ipairs {nothing_closes(job) or false, arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_wide(job) or false, too_weak(told) or false,
                             search_causes(told) or false, rejected_most(told) or false} do
       if cause then told.causes[#told.causes + 1] = cause end
     end
