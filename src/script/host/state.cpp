@@ -182,7 +182,12 @@ static double now() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-static constexpr double patience = 0.5;  // with what catches an interruption [s]
+// with what catches an interruption [s]
+#ifdef __SANITIZE_ADDRESS__
+static constexpr double patience = 3;  // all takes several times as long
+#else
+static constexpr double patience = 0.5;
+#endif
 static constexpr int all_events = LUA_MASKCALL | LUA_MASKRET | LUA_MASKCOUNT;
 
 void State::on_hook(lua_State* L, lua_Debug*) {
