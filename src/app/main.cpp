@@ -61,7 +61,6 @@ static void add_reading(CLI::App& verb, ReadingOptions& reading) {
   verb.add_flag("--strict", reading.strict, "what would be warned of is an error");
 }
 
-// what is typed as a number is looked at here, and handed on as it is
 // a finite number above 0
 static const CLI::Validator positive(
     [](std::string& text) -> std::string {
@@ -71,6 +70,7 @@ static const CLI::Validator positive(
     },
     "POSITIVE");
 
+// what is typed as a number is looked at here, and handed on as it is
 static void add_plan(CLI::App& verb, PlanOptions& plan) {
   verb.add_option("HAND", plan.hand, "a robot's file")->required();
   verb.add_option("OBJECT", plan.object, "a body's file, or a mesh")->required();

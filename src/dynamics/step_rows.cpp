@@ -8,8 +8,8 @@
 
 namespace clench {
 
-// Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s]; those that have just met, if it
-// is also faster than gravity makes them in a step: a body that comes to rest from next to no height sticks.
+// Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s], if it is also faster than
+// gravity makes them in a step: a body that comes to rest from next to no height sticks.
 static constexpr double sliding_speed = 1e-3;
 // A gap this near to that at which bodies rest, as a part of the contact threshold, is that one.
 static constexpr double rest_band = 1e-3;
@@ -128,10 +128,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
   double slip = 0;
   for (int k = 1; k < size; ++k) slip += before[k] * before[k];
   slip = std::sqrt(slip);
-  // what rubbed in the last step as hard as it can slides on
-  const double pressed = p.force.dot(p.normal), rubbed = (p.force - pressed * p.normal).norm();
-  const bool slid = pressed > 0 && rubbed >= 0.999 * friction.kinetic * pressed;
-  const bool slides = slip > (slid ? sliding_speed : std::max(sliding_speed, world_.gravity().norm() * step));
+  const bool slides = slip > std::max(sliding_speed, world_.gravity().norm() * step);
   block.law.mu = slides ? friction.kinetic : friction.statics;
   double target = pushed_part * missing / step;
   if (slides) target = std::max(target, std::min(pushed_part_sliding * missing / step, pushed_of_slip * slip));

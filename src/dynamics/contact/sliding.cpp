@@ -21,7 +21,7 @@ bool follow_sliding(const World& world, Manifold& m) {
   const Body &a = world.body(m.a), &b = world.body(m.b);
   const bool face_of_a = m.points[0].feature_a.kind == Feature::triangle;
   const Shape &face = *(face_of_a ? a : b).shape, &other = *(face_of_a ? b : a).shape;
-  constexpr size_t max_vertices = 4096;  // of more, a search is faster
+  constexpr size_t max_vertices = 4096;  // all are looked at in every step
   if (!face.convex() || other.mesh().vertices.size() > max_vertices || a.elastic_modulus || b.elastic_modulus) return false;
 
   const Pose X_AB = relative_pose(world, m.a, m.b), X_FV = face_of_a ? X_AB : X_AB.inverse();

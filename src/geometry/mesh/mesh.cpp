@@ -196,8 +196,8 @@ std::string MeshFaults::describe() const {
 }
 
 bool is_convex(const Mesh& mesh) {
-  constexpr size_t most = 1 << 18;  // vertices to be held against planes
-  if (mesh.vertices.size() * mesh.triangles.size() > most) return false;
+  constexpr size_t max_tests = 1 << 18;  // vertices to be held against planes
+  if (mesh.vertices.size() * mesh.triangles.size() > max_tests) return false;
   const double rounding = 1e-12 * mesh.bounds().size().norm();
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (without_area(mesh, static_cast<int>(i))) return false;
