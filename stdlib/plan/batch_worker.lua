@@ -12,7 +12,6 @@ local function improve(hand, object, state, grasp, random, shared)
   local size, kept = 1, state
   local quick = {approach = shared.approach, back = shared.back, grasp = shared.grasp, turn = false}
   for _ = 1, shared.refine do
-    if shared.over and clench.clock() >= shared.over then break end
     local try = neighbour(kept, centre, random, size, hand, object)
     local better = closing.close(hand, object, try, quick)
     if better and better.collision_free and better.epsilon > grasp.epsilon and not touch.fault(shared.touch, better) then

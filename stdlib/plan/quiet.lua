@@ -1,4 +1,4 @@
---- Thousands of grasps are tried and thrown away: what there is to say of each, as of soft contacts at an edge, is not said of these.
+--- Silences warnings, as of soft contacts at an edge, while a planner tries thousands of grasps and throws them away.
 local shown = {debug = true, info = true, warning = true}
 
 --- Warnings are silent until the variable that holds this is closed.

@@ -1,7 +1,5 @@
 --- What a planner did: counts by reason, best energy over its steps, and, where nothing was found, why.
 local facing = require "clench.plan.facing"
-local opposition = require "clench.plan.opposition"
-local pads = require "clench.plan.pads"
 local starts = require "clench.plan.starts"
 local touch = require "clench.plan.touch"
 local verification = require "clench.plan.verification"
