@@ -1,6 +1,7 @@
 #include "clench/model/find.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
@@ -11,14 +12,15 @@ namespace clench {
 // the caller's context, or one of its own
 class Remember {
  public:
-  Remember(const World& world, QueryContext* context) : context_(context ? *context : own_) {
+  Remember(const World& world, QueryContext* context)
+      : context_(context ? *context : own_.emplace()) {
     context_.attend(world.lineage(), world.model());
   }
   QueryContext& operator*() { return context_; }
   QueryContext* operator->() { return &context_; }
 
  private:
-  QueryContext own_;
+  std::optional<QueryContext> own_;
   QueryContext& context_;
 };
 

@@ -8,7 +8,7 @@ bool colliding(const Shape& a, const Shape& b, const Pose& X_AB, PairCache* cach
   const auto meet = [&](int triangle_a, int triangle_b) {
     return triangles_meet(placement.corners_a(triangle_a), placement.corners_b(triangle_b));
   };
-  if (cache && cache->measured.shapes == fingerprint(a, b) &&
+  if (cache && cache->measured.clear > 0 && cache->measured.shapes == fingerprint(a, b) &&
       motion_bound(b, cache->measured.X_AB, X_AB) < cache->measured.clear)
     return false;
   // what met last time often still does, what met before that seldom

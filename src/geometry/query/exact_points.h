@@ -5,8 +5,8 @@
 
 namespace clench {
 
-/// So many triangles are judged at once.
-inline constexpr int point_step = 4;
+/// So many triangles are judged at once: few points have more that may be the nearest.
+inline constexpr int point_step = 2;
 
 /// Corner k of triangle i at [k][i]: three coordinates. Lanes without a triangle repeat another.
 struct CornerLanes {

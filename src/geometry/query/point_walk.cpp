@@ -29,33 +29,32 @@ Triple<Real> triple(const double v[3]) {
 template <class F, class Bounds, class Judge, class Limit>
 bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
   using Real = typename F::Real;
-  Task<Real> stack[8 * deepest_tree + 8];
+  Task<Real> stack[8 * deepest_tree + 9];
   int height = 0;
   // bundle 0 holds one box alone
   stack[height++] = {std::numeric_limits<Real>::lowest(), tree.boxes(0).child[0]};
-  Real values[8];
   while (height > 0) {
-    const Task<Real> task = stack[--height];
+    Task<Real> task = stack[--height];
     if (task.bound > limit()) continue;
-    if (task.child & 1) {
-      if (judge(tree.leaf(task.child >> 1))) return true;
-      continue;
+    // down to the child of least bound, while the others wait: their order would cost more than it spares
+    while (!(task.child & 1)) {
+      const BoxBundle& from = tree.boxes(task.child >> 1);
+      const F gaps = bounds(load_boxes<F>(from));
+      unsigned near = used_lanes(from.child) & ~(gaps > limit()).set();
+      if (!near) break;
+      const unsigned least = near & (gaps <= min_of(gaps)).set();
+      const int next = __builtin_ctz(least ? least : near);
+      near ^= 1u << next;
+      Real values[8];
+      gaps.store(values);
+      // without branches, as none would be foreseen
+      for (int lane = 0; lane < 8; ++lane) {
+        stack[height] = {values[lane], from.child[lane]};
+        height += near >> lane & 1;
+      }
+      task = {values[next], from.child[next]};
     }
-    const BoxBundle& from = tree.boxes(task.child >> 1);
-    const F gaps = bounds(load_boxes<F>(from));
-    const unsigned near = used_lanes(from.child) & ~(gaps > limit()).set();
-    if (!near) continue;
-    gaps.store(values);
-    // the least bound on top; an order of the others would cost more than it spares
-    const int first = height;
-    for (unsigned rest = near; rest; rest &= rest - 1) {
-      const int lane = __builtin_ctz(rest);
-      Task<Real> next{values[lane], from.child[lane]};
-      tree.prefetch(next.child);
-      if (height > first && stack[height - 1].bound < next.bound)
-        std::swap(next, stack[height - 1]);
-      stack[height++] = next;
-    }
+    if ((task.child & 1) && judge(tree.leaf(task.child >> 1))) return true;
   }
   return false;
 }
@@ -100,10 +99,12 @@ void near_point(const Tree& tree, const double at[3], double extent, double roun
   const Real slack = slack_of<Real>(extent, tree.radius(), rounding);
   constexpr Real up = 1 + 4 * std::numeric_limits<Real>::epsilon();
   Real limit = at_least<Real>(reach) + slack, squared_limit = limit * limit * up;
+  Real squared_high = std::numeric_limits<Real>::infinity();
   const auto judge = [&](const TriangleBundle& leaf) {
     const PointBounds<F> bounds = point_bounds(load_triangles<F>(leaf), p);
-    if (nearest_only) {
-      const Real high = std::sqrt(min_of(bounds.squared_high)) + 2 * slack;
+    if (const Real squared = min_of(bounds.squared_high); nearest_only && squared < squared_high) {
+      squared_high = squared;
+      const Real high = std::sqrt(squared) + 2 * slack;
       if (high < limit) limit = high, squared_limit = limit * limit * up;
     }
     // lower bounds by squares: those that are no number stay
@@ -111,11 +112,11 @@ void near_point(const Tree& tree, const double at[3], double extent, double roun
                         (bounds.height * bounds.height > bounds.squared_high * squared_limit);
     unsigned left = used_lanes(leaf.triangle) & ~beyond.set();
     if (!left) return false;
-    Real height[8], squared_high[8];
-    bounds.height.store(height), bounds.squared_high.store(squared_high);
+    Real height[8], squared[8];
+    bounds.height.store(height), bounds.squared_high.store(squared);
     for (; left; left &= left - 1) {
       const int k = __builtin_ctz(left);
-      found.add(height[k] / std::sqrt(squared_high[k]), leaf.triangle[k]);
+      found.add(height[k] / std::sqrt(squared[k]), leaf.triangle[k]);
     }
     return false;
   };

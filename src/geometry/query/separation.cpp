@@ -42,8 +42,7 @@ class PolytopePair {
 
 }  // namespace
 
-// A direction that fails is mirrored by what it failed for, as long as that does it good; once more where no reach is
-// asked for, as most of what is asked so lies apart.
+// A direction that fails is mirrored by what it failed for, as long as that does it good.
 // source  Chung & Wang (1996), Quick collision detection of polytopes in virtual environments
 Separation find_separation(const TreePair& pair, double reach, const double start[3]) {
   // mirrored so often, a direction is still unit up to 2^-14
@@ -54,29 +53,22 @@ Separation find_separation(const TreePair& pair, double reach, const double star
   const float limit =
       (at_least<float>(reach) + slack_of<float>(extent, sizes, pair.rounding)) * (1 + 0x1p-13f);
   const PolytopePair polytopes(pair);
-  const auto parts = [&](const Triple<float>& n, float gap) {
-    out = {gap > limit, {n.x, n.y, n.z}};
-    return out.found;
-  };
-
   const auto single = [](double x) { return static_cast<float>(x); };
   Triple<float> n = {single(start[0]), single(start[1]), single(start[2])};
   float length = std::sqrt(dot(n, n));
-  if (length > 0.5f && length < 2) {
-    n = n.scaled(1 / length);
-    if (parts(n, dot(polytopes.between(n), n))) return out;
+  if (!(length > 0.5f && length < 2)) {
+    n = polytopes.offset();
+    length = std::sqrt(dot(n, n));
+    if (!(length > 0)) return out;
   }
-  n = polytopes.offset();
-  length = std::sqrt(dot(n, n));
-  if (!(length > 0)) return out;
   n = n.scaled(1 / length);
   float best = std::numeric_limits<float>::lowest();
-  int patience = reach > 0 ? 0 : 1;
   for (int i = 0; i <= max_mirrors; ++i) {
     const Triple<float> between = polytopes.between(n);
     const float gap = dot(between, n), squared = dot(between, between);
-    if (parts(n, gap) || !(squared > 0) || (!(gap > best) && patience-- == 0)) break;
-    best = std::max(best, gap);
+    out = {gap > limit, {n.x, n.y, n.z}};
+    if (out.found || !(gap > best) || !(squared > 0)) break;
+    best = gap;
     n = n - between.scaled(2 * gap / squared);
   }
   return out;

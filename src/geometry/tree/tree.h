@@ -36,13 +36,6 @@ class Tree {
   /// number 0 holds one box alone, that of the whole mesh
   const BoxBundle& boxes(int i) const { return boxes_[i]; }
   const TriangleBundle& leaf(int i) const { return leaves_[i]; }
-  /// asks for the memory of a child, which will be needed soon
-  void prefetch(int child) const {
-    const void* at = child & 1 ? static_cast<const void*>(&leaf(child >> 1)) : &boxes(child >> 1);
-    // every other line: the next one comes along
-    for (int line = 0; line < 3; ++line)
-      __builtin_prefetch(static_cast<const char*>(at) + 128 * line);
-  }
   const BoundingPolytope& bounding_polytope() const { return bounding_polytope_; }
   const double* centre() const { return centre_; }  ///< in the mesh's frame [m]
   double radius() const { return radius_; }         ///< no vertex is farther from the centre [m]

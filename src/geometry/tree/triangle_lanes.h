@@ -188,31 +188,37 @@ struct PointBounds {
 template <class F>
 CLENCH_INLINE PointBounds<F> point_bounds(const TrianglesOf<F>& t,
                                           const Triple<typename F::Real>& p) {
-  const F zero = F::all(0), one = F::all(1);
-  Triple<F> to[3], edge[3];
-  for (int k = 0; k < 3; ++k)
-    to[k] = {t.corner[k].x - p.x, t.corner[k].y - p.y, t.corner[k].z - p.z};
-  for (int k = 0; k < 3; ++k) edge[k] = to[(k + 1) % 3] - to[k];
-  Triple<F> best = to[0];
+  const auto from_p = [&](int k) {
+    return Triple<F>{t.corner[k].x - p.x, t.corner[k].y - p.y, t.corner[k].z - p.z};
+  };
+  const Triple<F> a = from_p(0), b = from_p(1), c = from_p(2), ab = b - a, ac = c - a;
+  const F a1 = dot(a, ab), b1 = dot(b, ab), c1 = dot(c, ab), a2 = dot(a, ac), b2 = dot(b, ac),
+          c2 = dot(c, ac);
+  // whatever the rounding, these points lie on the triangle
+  const auto share = [](const F& x, const F& y) {
+    return min(max(x / (x - y), F::all(0)), F::all(1));
+  };
+  Triple<F> best = a + ab.scaled(share(a1, b1));
   F least = dot(best, best);
-  for (int k = 0; k < 3; ++k) {
-    const F s = min(max(-dot(to[k], edge[k]) / dot(edge[k], edge[k]), zero), one);
-    const Triple<F> d = to[k] + edge[k].scaled(s);
-    const F squared = dot(d, d);
-    const auto nearer = squared < least;
+  const auto offer = [&](const Triple<F>& d, const F& squared, const typename F::Mask& nearer) {
     least = select(nearer, squared, least);
     best = select(nearer, d, best);
-  }
-  const lanes_detail::Face<F> face(to[0], edge[0], edge[2]);
-  typename F::Mask inside;
-  const Triple<F> d = face.to_foot({zero, zero, zero}, inside);
-  const F squared = dot(d, d);
-  const auto nearer = inside & (squared < least);
-  least = select(nearer, squared, least);
-  best = select(nearer, d, best);
+  };
+  const auto offer_edge = [&](const Triple<F>& d) {
+    const F squared = dot(d, d);
+    offer(d, squared, squared < least);
+  };
+  offer_edge(a + ac.scaled(share(a2, c2)));
+  offer_edge(b + (c - b).scaled(share(b2 - b1, c2 - c1)));
+  // the foot on the plane, by its barycentric coordinates
+  const F at_a = b1 * c2 - c1 * b2, at_b = c1 * a2 - a1 * c2, at_c = a1 * b2 - b1 * a2;
+  const F scale = F::all(1) / (at_a + at_b + at_c);
+  const Triple<F> d = a + ab.scaled(at_b * scale) + ac.scaled(at_c * scale);
+  const F squared = dot(d, d), zero = F::all(0);
+  offer(d, squared, (at_a > zero) & (at_b > zero) & (at_c > zero) & (squared < least));
   PointBounds<F> out;
   out.squared_high = least;
-  out.height = min(min(dot(to[0], best), dot(to[1], best)), dot(to[2], best));
+  out.height = min(min(dot(a, best), dot(b, best)), dot(c, best));
   return out;
 }
 
