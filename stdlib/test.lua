@@ -73,6 +73,16 @@ function t.fails(fn, ...)
   return message
 end
 
+--- runs fn; returns the warnings that it logs, a list of texts
+function t.warnings(fn)
+  local said = {}
+  clench.log.sink(function(level, text) if level == "warning" then said[#said + 1] = text end end)
+  local ok, message = pcall(fn)
+  clench.log.sink()
+  if not ok then error(message, 0) end
+  return said
+end
+
 --- ends the test without a verdict
 function t.skip(reason) error({mark = skip, reason = reason or "no reason given"}, 0) end
 

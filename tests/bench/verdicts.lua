@@ -1,6 +1,7 @@
 -- Grasps of URDF hands on scans, their verdicts by study.shake, and all that another engine needs to judge them again, as JSON: a file per pair.
 -- clench run tests/bench/verdicts.lua FOLDER KIND [COUNT]
---   KIND   "random", force closure from random approaches; "verified", by plan.sample with shake; "brief", two of our own hand on our own cube
+--   KIND   "random", force closure from random approaches; "planned", by plan.sample; "verified", by plan.sample with shake; "brief", two of our
+--          own hand on our own cube
 --   COUNT  of each pair
 package.path = "tests/bench/?.lua;" .. package.path
 local clench = require "clench"
@@ -35,8 +36,8 @@ end
 
 local function find(hand, object)
   local options = {hand = hand, object = object, threads = clench.parallel.cores, seed = 3}
-  if kind == "verified" then
-    options.count, options.seconds, options.verify = count, 25, {shake = true}
+  if kind == "verified" or kind == "planned" then
+    options.count, options.seconds, options.verify = count, 25, kind == "verified" and {shake = true} or nil
     local found = {}
     for i, grasp in ipairs(clench.plan.sample(options).grasps) do found[i] = grasp end
     return found

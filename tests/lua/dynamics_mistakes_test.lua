@@ -25,24 +25,14 @@ local function all_finite(t, world)
   end
 end
 
--- warnings that fn logs
-local function warnings(fn)
-  local said = {}
-  clench.log.sink(function(level, text) if level == "warning" then said[#said + 1] = text end end)
-  local ok, message = pcall(fn)
-  clench.log.sink()
-  if not ok then error(message, 0) end
-  return table.concat(said, "\n")
-end
-
 -- each is told once in a script: first of all tests
 test("overlaps, and demands that contradict each other, are told after a run, once", function(t)
   local world = room()
   add(world, 0, 0.045)
   local told = "world:run: bodies overlap (body and body_2); they are pushed apart slowly; world.report.overlaps counts them"
-  local said = warnings(function() world:run(0.01) end)
+  local said = table.concat(t.warnings(function() world:run(0.01) end), "\n")
   t.ok(said:find(told, 1, true), said)
-  t.equal(warnings(function() world:run(0.01) end), "")
+  t.equal(t.warnings(function() world:run(0.01) end), {})
 
   -- between two walls that come nearer, whatever they push
   world = clench.world {gravity = {0, 0, 0}}
@@ -50,7 +40,7 @@ test("overlaps, and demands that contradict each other, are told after a run, on
   world:add_obstacle(box, {pose = {xyz = {0.1001, 0, 0}}})
   world:add_object(box, {mass = 1})
   left.velocity = {linear = {0.1, 0, 0}}
-  said = warnings(function() world:run(0.01) end)
+  said = table.concat(t.warnings(function() world:run(0.01) end), "\n")
   t.ok(world.report.failures > 0)
   t.ok(said:find("world:run: some steps ask of contacts, limits and motors what cannot be at once; what comes nearest was done; " ..
     "world.report.failures counts them", 1, true), said)

@@ -2,28 +2,18 @@
 local clench = require "clench"
 local test = require "test"
 
--- warnings that fn logs
-local function warnings(fn)
-  local said = {}
-  clench.log.sink(function(level, text) if level == "warning" then said[#said + 1] = text end end)
-  local ok, message = pcall(fn)
-  clench.log.sink()
-  if not ok then error(message, 0) end
-  return said
-end
-
 test("degrees and millimetres in a pose are told once, with the script's line", function(t)
   local world = clench.world {}
   local box = clench.shapes.box {0.1, 0.1, 0.1}
   -- within a turn and ten metres nothing is
-  t.equal(#warnings(function() clench.pose {rpy = {0, -6.28, 3}, xyz = {10, 0, -10}} end), 0)
-  local said = warnings(function()
+  t.equal(#t.warnings(function() clench.pose {rpy = {0, -6.28, 3}, xyz = {10, 0, -10}} end), 0)
+  local said = t.warnings(function()
     for _ = 1, 2 do world:add_object(box, {pose = {rpy = {0, 0, 90}, xyz = {300, 0, 0}}}) end
     clench.pose {axis = {0, 0, 1}, angle = 45}
     world.objects[1].pose = {xyz = {0, 0, 1000}}
   end)
   t.equal(#said, 2)
-  t.ok(said[1]:find("mistakes_test.lua:21: world:add_object: pose: rpy is 90: radians? clench.rad(90) is 1.571", 1, true), said[1])
+  t.ok(said[1]:find("mistakes_test.lua:11: world:add_object: pose: rpy is 90: radians? clench.rad(90) is 1.571", 1, true), said[1])
   t.ok(said[2]:find("world:add_object: pose: it is 300 m away: metres? clench.mm(300) is 0.3", 1, true), said[2])
 end)
 
@@ -42,7 +32,7 @@ test("a standoff in millimetres is told, and so is what a pose may be given by",
 end)
 
 test("a slip in the name of a material is told once, and a new material is none", function(t)
-  local said = warnings(function()
+  local said = t.warnings(function()
     local world = clench.world {}
     world:set_friction("cork", "wood", {static = 0.7})
     world:set_friction("rubber 2", "wood", {static = 0.7})
