@@ -90,14 +90,9 @@ bool ask(const BodyPair& pair, PairCache& cache, Asked collides) {
 
 bool any_of_few(const World& world, QueryContext& context, Asked collides) {
   auto& [bodies, pairs, likely] = context.candidates(world.model(), world.settings());
-  std::array<const BodyBox*, few> boxes;
-  uint64_t known = 0;
-  static_assert(few <= 64);
+  std::array<const BodyBox*, few> boxes = {};
   const auto box = [&, &ids = bodies](int i) -> const BodyBox& {
-    if ((known >> i & 1) == 0) {
-      known |= uint64_t{1} << i;
-      boxes[i] = &context.box(ids[i], world.body(ids[i]), world.pose(ids[i]));
-    }
+    if (!boxes[i]) boxes[i] = &context.box(ids[i], world.body(ids[i]), world.pose(ids[i]));
     return *boxes[i];
   };
   for (size_t k = 0; k < likely.size(); ++k) {

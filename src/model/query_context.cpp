@@ -14,7 +14,9 @@ static bool apart_along_axes(const BodyBox& a, const BodyBox& b, double reach) {
   return std::max(along_a.maxCoeff(), along_b.maxCoeff()) > reach;
 }
 
-bool spheres_and_axes_within_reach(const BodyBox& a, const BodyBox& b, double reach) {
+bool within_reach(const BodyBox& a, const BodyBox& b, double reach) {
+  // all axes at once: which one parts them is hard to foretell
+  if ((a.low - b.high).cwiseMax(b.low - a.high).maxCoeff() > reach) return false;
   const double far = reach + a.radius + b.radius;
   return far >= 0 && (a.centre - b.centre).squaredNorm() <= far * far * (1 + 1e-12) &&
          !apart_along_axes(a, b, reach);
@@ -25,18 +27,16 @@ static BodyBox box_of(const Shape& shape, const Pose& X_WB) {
   const Eigen::Matrix3d R = X_WB.rotation.normalized().toRotationMatrix();
   const double rounding =
       1e-12 * (X_WB.position.cwiseAbs().maxCoeff() + shape.centre().norm() + shape.radius());
-  const Vector3d slack = Vector3d::Constant(rounding), half = 0.5 * bounds.size() + slack,
+  const Vector3d middle = R * bounds.centre() + X_WB.position, half = 0.5 * bounds.size(),
+                 centre = R * shape.centre() + X_WB.position, slack = Vector3d::Constant(rounding),
                  extent = R.cwiseAbs() * half + slack;
-  BodyBox out{.axes = R,
-              .middle = R * bounds.centre() + X_WB.position,
-              .half = half,
-              .centre = R * shape.centre() + X_WB.position,
-              .radius = shape.radius() + 2 * rounding};
-  for (int i = 0; i < 3; ++i) {
-    out.low[i] = single_beyond(out.middle[i] - extent[i], -1);
-    out.high[i] = single_beyond(out.middle[i] + extent[i], 1);
-  }
-  return out;
+  return {middle - extent,
+          middle + extent,
+          R,
+          middle,
+          half + slack,
+          centre,
+          shape.radius() + 2 * rounding};
 }
 
 void QueryContext::attend(const std::shared_ptr<const void>& lineage, const WorldModel& model) {

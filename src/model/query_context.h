@@ -1,6 +1,5 @@
 // What queries remember of a world from one to the next.
 #pragma once
-#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -13,8 +12,7 @@ namespace clench {
 
 /// What holds a body in the world, its rounding included: a box along the world's axes, one along its own, and a sphere.
 struct BodyBox {
-  /// in single precision, with a fourth coordinate, so that all are compared at once
-  Eigen::Array4f low = Eigen::Array4f::Zero(), high = Eigen::Array4f::Zero();
+  Eigen::Vector3d low, high;
   Eigen::Matrix3d axes;  ///< of its own box, a column each
   Eigen::Vector3d middle, half;
   Eigen::Vector3d centre;  ///< of the sphere
@@ -28,20 +26,8 @@ struct SweepItem {
   const BodyBox* box = nullptr;
 };
 
-/// In single precision, beyond x on its side by enough for the rounding of differences.
-inline float single_beyond(double x, int side) {
-  return static_cast<float>(x + side * 0x1p-22 * std::abs(x));
-}
-
-/// Two bodies whose boxes along the world's axes are within reach [m]: may they be?
-bool spheres_and_axes_within_reach(const BodyBox& a, const BodyBox& b, double reach);
-
 /// May two bodies be as near as reach [m]? True where they are.
-inline bool within_reach(const BodyBox& a, const BodyBox& b, double reach) {
-  // all axes at once: which one parts them is hard to foretell
-  return !((a.low - b.high).max(b.low - a.high).maxCoeff() > single_beyond(reach, 1)) &&
-         spheres_and_axes_within_reach(a, b, reach);
-}
+bool within_reach(const BodyBox& a, const BodyBox& b, double reach);
 
 /// One for each thread that asks. It makes answers faster and changes no bit of them: whatever it remembers it compares with
 /// how the world is now, so that nobody has to tell it of changes, restored snapshots or removed bodies.

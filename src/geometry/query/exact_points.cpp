@@ -6,7 +6,7 @@ namespace clench {
 
 namespace {
 
-using F = Lanes<double, 2, point_step>;
+using F = Lanes<double, point_step, point_step>;
 using Vector = Triple<F>;
 
 CLENCH_INLINE Vector corner(const CornerLanes& triangles, int k) {

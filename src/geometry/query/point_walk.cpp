@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "clench/geometry/tree/box_lanes.h"
@@ -29,7 +28,7 @@ Triple<Real> triple(const double v[3]) {
 template <class F, class Bounds, class Judge, class Limit>
 bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
   using Real = typename F::Real;
-  Task<Real> stack[8 * deepest_tree + 9];
+  Task<Real> stack[8 * deepest_tree + 8];
   int height = 0;
   // bundle 0 holds one box alone
   stack[height++] = {std::numeric_limits<Real>::lowest(), tree.boxes(0).child[0]};

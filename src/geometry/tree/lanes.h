@@ -119,34 +119,19 @@ struct Lanes {
     for (int i = 0; i < chunks; ++i) out.chunk[i] = -chunk[i];
     return out;
   }
-  // the second where one is not a number; the compiler does not find these instructions by itself
-#if defined(__AVX__)
-#define CLENCH_LANES_CHOICE(name, op)                                            \
-  friend CLENCH_INLINE Lanes name(const Lanes& x, const Lanes& y) {              \
-    Lanes out;                                                                   \
-    for (int i = 0; i < chunks; ++i) {                                           \
-      const Chunk &a = x.chunk[i], &b = y.chunk[i];                              \
-      if constexpr (sizeof(Chunk) == 32 && sizeof(Real) == 4)                    \
-        out.chunk[i] = (Chunk)_mm256_##name##_ps((__m256)a, (__m256)b);          \
-      else if constexpr (sizeof(Chunk) == 32)                                    \
-        out.chunk[i] = (Chunk)_mm256_##name##_pd((__m256d)a, (__m256d)b);        \
-      else                                                                       \
-        out.chunk[i] = a op b ? a : b;                                           \
-    }                                                                            \
-    return out;                                                                  \
+  // the second where one is not a number
+  friend CLENCH_INLINE Lanes max(const Lanes& x, const Lanes& y) {
+    Lanes out;
+    for (int i = 0; i < chunks; ++i)
+      out.chunk[i] = x.chunk[i] > y.chunk[i] ? x.chunk[i] : y.chunk[i];
+    return out;
   }
-#else
-#define CLENCH_LANES_CHOICE(name, op)                                            \
-  friend CLENCH_INLINE Lanes name(const Lanes& x, const Lanes& y) {              \
-    Lanes out;                                                                   \
-    for (int i = 0; i < chunks; ++i)                                             \
-      out.chunk[i] = x.chunk[i] op y.chunk[i] ? x.chunk[i] : y.chunk[i];         \
-    return out;                                                                  \
+  friend CLENCH_INLINE Lanes min(const Lanes& x, const Lanes& y) {
+    Lanes out;
+    for (int i = 0; i < chunks; ++i)
+      out.chunk[i] = x.chunk[i] < y.chunk[i] ? x.chunk[i] : y.chunk[i];
+    return out;
   }
-#endif
-  CLENCH_LANES_CHOICE(max, >)
-  CLENCH_LANES_CHOICE(min, <)
-#undef CLENCH_LANES_CHOICE
   friend CLENCH_INLINE Lanes abs(const Lanes& x) {
     Lanes out;
     constexpr Int most = ~(Int{1} << (8 * sizeof(Real) - 1));
@@ -185,14 +170,6 @@ struct Lanes {
 
 template <class F>
 CLENCH_INLINE typename F::Real min_of(const F& x) {
-#if defined(__AVX__)
-  if constexpr (std::is_same_v<F, Lanes<float, 8>>) {
-    const __m256 all = (__m256)x.chunk[0];
-    const __m128 four = _mm_min_ps(_mm256_castps256_ps128(all), _mm256_extractf128_ps(all, 1));
-    const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
-    return _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)));
-  }
-#endif
   typename F::Real values[lane_count];
   x.store(values);
   for (int step = lane_count / 2; step > 0; step /= 2)
