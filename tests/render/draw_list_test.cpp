@@ -35,7 +35,8 @@ TEST_CASE("a scene is moved to its centre and divided by its radius") {
   double most = 0;
   for (const Corner& corner : list.corners) {
     CHECK(corner.n.norm() == doctest::Approx(1));
-    CHECK(corner.color == std::array<uint8_t, 4>{255, 128, 0, 255});
+    // (1, 0.5, 0) on a screen is 0.012 + 0.988 x^2.2 as light, in parts of 65535
+    CHECK(corner.paint == Paint{65535, 14878, 786, 65535});
     most = std::max<double>(most, corner.p.norm());
   }
   CHECK(most == doctest::Approx(1));

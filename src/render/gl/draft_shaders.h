@@ -7,19 +7,18 @@ namespace clench::shaders {
 inline constexpr const char* draft_vertex = R"(
 layout(location = 0) in vec3 p;
 layout(location = 1) in vec3 n;
-layout(location = 2) in vec4 color;
+layout(location = 2) in vec4 own_paint;
 uniform mat4 to_scene;
 uniform mat4 to_clip;        // of the mesh's units
 uniform float painted;       // 1: corners have colours of their own
-uniform vec4 one_color;
+uniform vec4 one_paint;
 out vec3 at;
 out vec3 normal;
-out vec4 paint;
+flat out vec4 paint;         // corners of a triangle have one paint
 void main() {
   at = (to_scene * vec4(p, 1)).xyz;
   normal = mat3(to_scene) * n;
-  // of a colour on a screen; nothing is so black that its shape is lost
-  paint = vec4(0.012 + 0.988 * pow(mix(one_color.rgb, color.rgb, painted), vec3(2.2)), one_color.a);
+  paint = vec4(mix(one_paint.rgb, own_paint.rgb, painted), one_paint.a);
   gl_Position = to_clip * vec4(p, 1);
 }
 )";
@@ -68,7 +67,7 @@ vec3 shine(vec3 n, vec3 v, float direct) {
 }
 in vec3 at;
 in vec3 normal;
-in vec4 paint;
+flat in vec4 paint;
 uniform float glow;          // 1: cones and arrows, whatever the light
 out vec4 result;
 void main() {
@@ -93,7 +92,7 @@ void main() {
 inline constexpr const char* draft_floor_fragment = R"(
 in vec3 at;
 in vec3 normal;
-in vec4 paint;
+flat in vec4 paint;
 uniform float bare;          // 1: nothing is behind but the shadow
 out vec4 result;
 void main() {
@@ -114,7 +113,7 @@ void main() { result = vec4(developed(backdrop()), 1); }
 inline constexpr const char* draft_seen_fragment = R"(
 in vec3 at;
 in vec3 normal;
-in vec4 paint;
+flat in vec4 paint;
 layout(location = 0) out vec4 place;
 layout(location = 1) out vec4 facing;
 layout(location = 2) out vec4 colors;

@@ -8,19 +8,19 @@ namespace clench::shaders {
 inline constexpr const char* surface_vertex = R"(
 layout(location = 0) in vec3 p;
 layout(location = 1) in vec3 n;
-layout(location = 2) in vec4 color;
+layout(location = 2) in vec4 own_paint;
 layout(location = 3) in vec4 room;
 layout(location = 4) in vec4 lamp;
 uniform mat4 to_clip;
 out vec3 at;
 out vec3 normal;
-out vec4 paint;
+flat out vec4 paint;         // corners of a triangle have one paint
 out vec4 room_light;
 out vec4 lamp_light;
 void main() {
   at = p;
   normal = n;
-  paint = color;
+  paint = own_paint;
   room_light = room;
   lamp_light = lamp;
   gl_Position = to_clip * vec4(p, 1);
@@ -37,10 +37,10 @@ void main() {
 }
 )";
 
-/// one triangle that covers everything
+/// one triangle that covers everything, as far away as can be
 inline constexpr const char* cover_vertex = R"(
 void main() {
-  gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1);
+  gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 1, 1);
 }
 )";
 
@@ -100,7 +100,7 @@ void main() {}
 inline constexpr const char* seen_fragment = R"(
 in vec3 at;
 in vec3 normal;
-in vec4 paint;
+flat in vec4 paint;
 in vec4 room_light;
 uniform float floor_sign;    // -1 for the floor, else 1
 layout(location = 0) out vec4 place;
@@ -111,7 +111,8 @@ void main() {
   vec2 light = gl_FrontFacing ? room_light.xy : room_light.zw;
   place = vec4(at, light.x);
   facing = vec4(side * normalize(normal), light.y);
-  colors = vec4(paint.rgb, 0.5 + 0.5 * floor_sign);
+  // their roots, as bytes are too coarse for what is dark
+  colors = vec4(sqrt(paint.rgb), 0.5 + 0.5 * floor_sign);
 }
 )";
 
@@ -132,8 +133,6 @@ vec3 varnish(vec3 n, vec3 v, vec3 to_lamp, float direct, float open) {
   float gloss = g * g * g;
   return 0.35 * (vec3(direct * gloss) + mirrored(reflect(-v, n)) * fresnel * min(1, open));
 }
-// of a colour on a screen; nothing is so black that its shape is lost
-vec3 linear(vec3 color) { return 0.012 + 0.988 * pow(color, vec3(2.2)); }
 )";
 
 /// what was seen first, in the light of the lamps
@@ -156,7 +155,7 @@ void main() {
   vec3 behind = backdrop(), v = normalize(eye - p);
   // the floor is the backdrop, less the light that bodies keep from it
   vec3 light = on_floor ? behind * (place.w + direct) / open_light
-                        : linear(paint.rgb) * (place.w + direct) + varnish(n, v, to_light[0], direct, facing.w);
+                        : paint.rgb * paint.rgb * (place.w + direct) + varnish(n, v, to_light[0], direct, facing.w);
   // far away everything melts into the backdrop
   float fade = nothing ? 1 : smoothstep(0.5, 1.0, length(p) / reach);
   // a tenth of the light is missing all around, and is no shadow
@@ -170,7 +169,7 @@ void main() {
 inline constexpr const char* through_fragment = R"(
 in vec3 at;
 in vec3 normal;
-in vec4 paint;
+flat in vec4 paint;
 in vec4 room_light;
 in vec4 lamp_light;
 uniform vec3 to_lamp;
@@ -181,8 +180,9 @@ void main() {
   vec2 room = gl_FrontFacing ? room_light.xy : room_light.zw;
   float direct = gl_FrontFacing ? lamp_light.x : lamp_light.z;
   // denser where one looks along it
-  float cover = mix(paint.a, 1, 0.75 * pow(1 - clamp(dot(n, v), 0, 1), 2.5));
-  result = vec4(linear(paint.rgb) * (room.x + direct) * cover + varnish(n, v, to_lamp, direct, room.y), cover);
+  float over = 1 - clamp(dot(n, v), 0, 1);
+  float cover = mix(paint.a, 1, 0.75 * over * over * sqrt(over));
+  result = vec4(paint.rgb * (room.x + direct) * cover + varnish(n, v, to_lamp, direct, room.y), cover);
 }
 )";
 
@@ -190,12 +190,12 @@ void main() {
 inline constexpr const char* mark_fragment = R"(
 in vec3 at;
 in vec3 normal;
-in vec4 paint;
+flat in vec4 paint;
 out vec4 result;
 void main() {
   vec3 n = normalize(gl_FrontFacing ? normal : -normal);
   float across = clamp(dot(n, normalize(eye - at)), 0, 1);
-  result = vec4(linear(paint.rgb) * (0.75 + 0.30 * across + 0.25 * max(0, n.z)) * paint.a, paint.a);
+  result = vec4(paint.rgb * (0.75 + 0.30 * across + 0.25 * max(0, n.z)) * paint.a, paint.a);
 }
 )";
 

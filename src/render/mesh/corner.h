@@ -6,12 +6,22 @@
 
 namespace clench {
 
+/// Red green blue, as a surface of this colour returns light, and opacity: parts of 65535.
+using Paint = std::array<uint16_t, 4>;
+
 /// One corner of triangles as the shaders read it.
 struct Corner {
   Eigen::Vector3f p;  ///< scene units
   Eigen::Vector3f n;  ///< unit, to the side from which the triangle runs counter-clockwise
-  std::array<uint8_t, 4> color;  ///< red green blue as on a screen, opacity
+  Paint paint;
 };
-static_assert(sizeof(Corner) == 28);
+static_assert(sizeof(Corner) == 32);
+
+/// The part of light that a surface returns whose colour on a screen is this, 0..1. Nothing is so black that its shape
+/// is lost.
+Eigen::Vector3f linear(const Eigen::Vector3f& color);
+
+/// color: as on a screen
+Paint make_paint(const Eigen::Vector3f& color, float opacity);
 
 }  // namespace clench

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <span>
 
-#include "clench/base/convert.h"
 #include "clench/base/error.h"
 #include "clench/render/mesh/corner_normals.h"
+#include "clench/render/mesh/extent.h"
 #include "clench/render/mesh/pieces.h"
 #include "clench/render/mesh/refine.h"
 
@@ -16,43 +16,33 @@ namespace {
 
 constexpr double crease = 35 * std::numbers::pi / 180;
 constexpr float solid_from = 0.999f;   // opacity above which nothing shines through
-constexpr float longest_edge = 0.07f;  // across which light is interpolated [scene units]
+// across which light is interpolated [scene units]: of what is solid, and of what is seen through
+constexpr float longest_edge = 0.07f, longest_clear_edge = 0.2f;
 // of one piece, by splitting; what comes with more keeps them
 constexpr size_t max_triangles = 200000;
 
-std::array<uint8_t, 4> to_bytes(const Eigen::Vector3f& color, float opacity) {
-  const auto byte = [](float x) {
-    return static_cast<uint8_t>(floor_between(255 * x + 0.5, 0, 255));
-  };
-  return {byte(color[0]), byte(color[1]), byte(color[2]), byte(opacity)};
-}
-
-// centre and largest distance from it, without overflow for huge numbers
 void find_scale(std::span<const Piece> pieces, DrawList& list) {
-  Bounds bounds;
-  for (const Piece& piece : pieces)
-    for (const auto& p : piece.p_W) bounds.add(p);
-  if (bounds.empty()) return;
-  list.centre = 0.5 * bounds.low + 0.5 * bounds.high;
-  double scale = 0;
-  for (const Piece& piece : pieces)
-    for (const auto& p : piece.p_W) scale = std::max(scale, (p - list.centre).stableNorm());
-  if (!std::isfinite(scale)) fail("picture: the scene is larger than numbers can be");
-  // a single point is seen from a distance that its coordinates can resolve
-  list.scale = std::max(scale, 1e-9 * std::max(1.0, list.centre.cwiseAbs().maxCoeff()));
+  const auto ball = ball_around([&](const auto& what) {
+    for (const Piece& piece : pieces)
+      for (const auto& p : piece.p_W) what(p);
+  });
+  if (ball) list.centre = ball->centre, list.scale = ball->scale;
 }
 
 Batch append(Piece& piece, DrawList& list) {
   for (auto& p : piece.p_W) p = (p - list.centre) / list.scale;
   const auto normals = corner_normals(piece.p_W, piece.triangles, crease);
+  std::vector<Paint> paints;
+  for (const auto& color : piece.colors) paints.push_back(make_paint(color, piece.opacity));
   std::vector<Corner> corners;
   for (size_t i = 0; i < piece.triangles.size(); ++i) {
     if (normals[i][0].isZero()) continue;
-    const auto color = to_bytes(piece.colors[piece.colors.size() == 1 ? 0 : i], piece.opacity);
+    const Paint& paint = paints[paints.size() == 1 ? 0 : i];
     for (int k = 0; k < 3; ++k)
-      corners.push_back({piece.p_W[piece.triangles[i][k]].cast<float>(), normals[i][k], color});
+      corners.push_back({piece.p_W[piece.triangles[i][k]].cast<float>(), normals[i][k], paint});
   }
-  const auto fine = piece.mark ? corners : split_long_edges(corners, longest_edge, max_triangles);
+  const float longest = piece.opacity < solid_from ? longest_clear_edge : longest_edge;
+  const auto fine = piece.mark ? corners : split_long_edges(corners, longest, max_triangles);
   Batch batch{.opacity = piece.opacity};
   batch.first_caster = static_cast<int>(list.indices.size());
   if (piece.mark || piece.background) corners.clear();

@@ -9,7 +9,7 @@ namespace clench {
 namespace {
 
 constexpr int cone_sides = 40;
-constexpr int dot_rings = 8;
+constexpr int dot_sides = 12, dot_rings = 6;
 constexpr int arrow_sides = 24;
 constexpr double head_width = 3, head_length = 7;  // in radii of the rod
 
@@ -78,14 +78,14 @@ Piece mesh_piece(const DrawMesh& m, size_t number) {
 Piece cone_piece(const DrawCone& c) {
   Piece piece{.colors = {c.color}, .opacity = 0.85f, .mark = true};
   const Eigen::Vector3d side = c.axis.unitOrthogonal(), other = c.axis.cross(side);
-  const auto around = [&](int i) -> Eigen::Vector3d {
-    const double angle = 2 * std::numbers::pi * i / cone_sides;
+  const auto around = [&](int i, int sides) -> Eigen::Vector3d {
+    const double angle = 2 * std::numbers::pi * i / sides;
     return std::cos(angle) * side + std::sin(angle) * other;
   };
   const double radius = cone_radius(c);
   const Eigen::Vector3d end = c.apex + c.height * c.axis;
   piece.p_W = {c.apex, end};
-  for (int i = 0; i < cone_sides; ++i) piece.p_W.push_back(end + radius * around(i));
+  for (int i = 0; i < cone_sides; ++i) piece.p_W.push_back(end + radius * around(i, cone_sides));
   for (int i = 0; i < cone_sides; ++i) {
     const int a = 2 + i, b = 2 + (i + 1) % cone_sides;
     piece.triangles.push_back({0, b, a});
@@ -93,16 +93,16 @@ Piece cone_piece(const DrawCone& c) {
   }
   const int first = static_cast<int>(piece.p_W.size());
   for (int r = 0; r <= dot_rings; ++r)
-    for (int i = 0; i < cone_sides; ++i) {
+    for (int i = 0; i < dot_sides; ++i) {
       const double polar = std::numbers::pi * r / dot_rings;
       piece.p_W.push_back(c.apex + 0.10 * c.height *
-                                       (std::cos(polar) * c.axis + std::sin(polar) * around(i)));
+                                       (std::cos(polar) * c.axis + std::sin(polar) * around(i, dot_sides)));
     }
   for (int r = 0; r < dot_rings; ++r)
-    for (int i = 0; i < cone_sides; ++i) {
-      const int a = first + r * cone_sides + i, b = first + r * cone_sides + (i + 1) % cone_sides;
-      piece.triangles.push_back({a, a + cone_sides, b});
-      piece.triangles.push_back({b, a + cone_sides, b + cone_sides});
+    for (int i = 0; i < dot_sides; ++i) {
+      const int a = first + r * dot_sides + i, b = first + r * dot_sides + (i + 1) % dot_sides;
+      piece.triangles.push_back({a, a + dot_sides, b});
+      piece.triangles.push_back({b, a + dot_sides, b + dot_sides});
     }
   return piece;
 }

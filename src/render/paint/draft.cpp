@@ -27,7 +27,7 @@ constexpr float draft_solid = 0.999f;     // opacity above which nothing shines 
 struct Placed {
   const StoredMesh* mesh;
   Eigen::Matrix4d to_scene;
-  Eigen::Vector4f color;
+  Eigen::Vector4f paint;
   bool background;
   double distance;  // of its centre from the eye, scene units
   bool one_side = false;  // is all that can be seen
@@ -124,7 +124,7 @@ void Draft::load(MeshStore& store, const Scene& scene) {
     options_.progress.tell(0.1, "drawing");
     const StoredMesh& stored = store.at(mesh);
     Placed placed{&stored, moved_by(mesh, stored, extent_), {}, mesh.background, 0};
-    placed.color << mesh.color.cwiseMax(0.0f).cwiseMin(1.0f), mesh.opacity;
+    placed.paint << linear(mesh.color), mesh.opacity;
     placed.distance = (placed.to_scene.topRightCorner<3, 1>() - eye_.eye).norm();
     placed.one_side = stored.closed && hides_inside(placed.to_scene.topRightCorner<3, 1>(),
                                                     stored.scale / extent_.scale, eye_);
@@ -216,7 +216,7 @@ void Draft::draw(const Placed& placed, unsigned program, const Eigen::Matrix4d& 
   gl::set(program, "to_scene", Eigen::Matrix4f(placed.to_scene.cast<float>()));
   gl::set(program, "to_clip", Eigen::Matrix4f((clip * placed.to_scene).cast<float>()));
   gl::set(program, "painted", placed.mesh->painted ? 1.0f : 0.0f);
-  gl::set(program, "one_color", placed.color);
+  gl::set(program, "one_paint", placed.paint);
   if (both_sides) {
     glBindVertexArray(placed.mesh->array);
     glDrawElements(GL_TRIANGLES, placed.mesh->count, GL_UNSIGNED_INT, nullptr);
@@ -300,11 +300,6 @@ void Draft::paint(const Tile& tile, Picture& out) {
   glViewport(0, 0, width, height);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  if (!bare) {
-    glDisable(GL_DEPTH_TEST);
-    give_backdrop(programs_.draft_behind);
-    cover_.draw(programs_.draft_behind);
-  }
   glEnable(GL_DEPTH_TEST);
   give_light(programs_.draft);
   gl::set(programs_.draft, "eye", shading_eye(eye_));
@@ -322,6 +317,12 @@ void Draft::paint(const Tile& tile, Picture& out) {
     draw({&*floor_, Eigen::Matrix4d::Identity(), {0, 0, 0, 1}, false, 0}, programs_.draft_floor,
          clip);
     give_light(programs_.draft);
+  }
+  if (!bare) {
+    give_backdrop(programs_.draft_behind);
+    glDepthFunc(GL_LEQUAL);
+    cover_.draw(programs_.draft_behind);
+    glDepthFunc(GL_LESS);
   }
   std::optional<Seen> seen;
   if (options_.outline > 0) {

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <numbers>
 
-#include "clench/base/convert.h"
 #include "clench/render/mesh/corner_normals.h"
 #include "clench/render/mesh/outward.h"
 #include "clench/render/paint/shadows.h"
@@ -25,15 +24,14 @@ void share_corners(const std::vector<Eigen::Vector3d>& vertices,
   // corners of a vertex so far, as a chain; none: -1
   std::vector<int> first(vertices.size(), -1), next;
   const size_t base = corners.size();
+  std::vector<Paint> paints;
+  for (const auto& color : colors) paints.push_back(make_paint(color, 1));
   for (size_t i = 0; i < triangles.size(); ++i) {
     if (normals[i][0].isZero()) continue;
-    const Eigen::Vector3f& color = colors[colors.size() == 1 ? 0 : i];
-    std::array<uint8_t, 4> bytes = {0, 0, 0, 255};
-    for (int k = 0; k < 3; ++k)
-      bytes[k] = static_cast<uint8_t>(floor_between(255 * color[k] + 0.5, 0, 255));
+    const Paint& paint = paints[paints.size() == 1 ? 0 : i];
     for (int k = 0; k < 3; ++k) {
       const int v = triangles[i][k];
-      const Corner corner{vertices[v].cast<float>(), normals[i][k], bytes};
+      const Corner corner{vertices[v].cast<float>(), normals[i][k], paint};
       int at = first[v];
       while (at >= 0 && std::memcmp(&corners[base + at], &corner, sizeof corner) != 0) at = next[at];
       if (at < 0) {

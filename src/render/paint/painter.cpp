@@ -17,8 +17,8 @@ namespace clench {
 namespace {
 
 // what is drawn to, of a tile's size
-struct Canvas {
-  explicit Canvas(const Tile& tile);
+struct Layers {
+  explicit Layers(const Tile& tile);
   // what is seen first, and the framebuffer of these
   gl::Object places, facings, paints, depths, first;
   gl::Object light, lit;         // one pass
@@ -26,7 +26,7 @@ struct Canvas {
   gl::Object pixels, developed;  // as a screen shows it
 };
 
-Canvas::Canvas(const Tile& tile) {
+Layers::Layers(const Tile& tile) {
   using gl::Format;
   const auto texture = [&](Format format) {
     return gl::make_texture(format, tile.drawn_width(), tile.drawn_height());
@@ -52,13 +52,13 @@ class Painter {
 
  private:
   void draw(const Batch& batch) const;
-  void find_first(const Canvas& canvas, const Eigen::Matrix4f& clip);
-  void find_group(std::span<const Batch> group, const Canvas& solid, const Canvas& canvas,
+  void find_first(const Layers& layers, const Eigen::Matrix4f& clip);
+  void find_group(std::span<const Batch> group, const Layers& solid, const Layers& layers,
                   const Eigen::Matrix4f& clip, const Tile& tile);
-  void shade(const Canvas& canvas, const Tile& tile);
+  void shade(const Layers& layers, const Tile& tile);
   void lay_marks(const Eigen::Matrix4f& clip);
   void lay_clear(const Eigen::Matrix4f& clip);
-  void add(const Canvas& canvas);
+  void add(const Layers& layers);
 
   const Programs& programs_;
   const DrawList& list_;
@@ -116,8 +116,8 @@ void Painter::draw(const Batch& batch) const {
 }
 
 // solid bodies and the floor, without the lamp
-void Painter::find_first(const Canvas& canvas, const Eigen::Matrix4f& clip) {
-  glBindFramebuffer(GL_FRAMEBUFFER, canvas.first);
+void Painter::find_first(const Layers& layers, const Eigen::Matrix4f& clip) {
+  glBindFramebuffer(GL_FRAMEBUFFER, layers.first);
   glDepthMask(GL_TRUE);
   glClearColor(0, 0, 0, 0);
   glClear(GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT);
@@ -136,13 +136,13 @@ void Painter::find_first(const Canvas& canvas, const Eigen::Matrix4f& clip) {
 }
 
 // what is seen of a group, where nothing solid hides it, for its lines
-void Painter::find_group(std::span<const Batch> group, const Canvas& solid, const Canvas& canvas,
+void Painter::find_group(std::span<const Batch> group, const Layers& solid, const Layers& layers,
                          const Eigen::Matrix4f& clip, const Tile& tile) {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, solid.first);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.first);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, layers.first);
   const int width = tile.drawn_width(), height = tile.drawn_height();
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, canvas.first);
+  glBindFramebuffer(GL_FRAMEBUFFER, layers.first);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glClear(GL_COLOR_BUFFER_BIT);
@@ -154,17 +154,17 @@ void Painter::find_group(std::span<const Batch> group, const Canvas& solid, cons
   glBindFramebuffer(GL_FRAMEBUFFER, solid.lit);
 }
 
-void Painter::shade(const Canvas& canvas, const Tile& tile) {
-  glBindFramebuffer(GL_FRAMEBUFFER, canvas.lit);
+void Painter::shade(const Layers& layers, const Tile& tile) {
+  glBindFramebuffer(GL_FRAMEBUFFER, layers.lit);
   glDisable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
   shadows_.give(programs_.shade);
   // a sample sees a few points of the lamp, which stand for all
   gl::set(programs_.shade, "power", static_cast<float>(options_.samples));
-  gl::bind(programs_.shade, "places", 1, canvas.places);
-  gl::bind(programs_.shade, "facings", 2, canvas.facings);
-  gl::bind(programs_.shade, "paints", 3, canvas.paints);
-  gl::bind(programs_.shade, "depths", 4, canvas.depths);
+  gl::bind(programs_.shade, "places", 1, layers.places);
+  gl::bind(programs_.shade, "facings", 2, layers.facings);
+  gl::bind(programs_.shade, "paints", 3, layers.paints);
+  gl::bind(programs_.shade, "depths", 4, layers.depths);
   gl::set(programs_.shade, "eye", shading_eye_);
   gl::set(programs_.shade, "open_light", open_light_);
   gl::set(programs_.shade, "reach", static_cast<float>(floor_reach));
@@ -210,33 +210,33 @@ void Painter::lay_clear(const Eigen::Matrix4f& clip) {
   glDisable(GL_BLEND);
 }
 
-void Painter::add(const Canvas& canvas) {
-  glBindFramebuffer(GL_FRAMEBUFFER, canvas.added);
+void Painter::add(const Layers& layers) {
+  glBindFramebuffer(GL_FRAMEBUFFER, layers.added);
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE);
-  gl::bind(programs_.add, "light", 1, canvas.light);
+  gl::bind(programs_.add, "light", 1, layers.light);
   gl::set(programs_.add, "weight", 1.0f / static_cast<float>(options_.samples));
   cover_.draw(programs_.add);
   glDisable(GL_BLEND);
 }
 
 void Painter::paint(const Tile& tile, Picture& out) {
-  const Canvas canvas(tile);
+  const Layers layers(tile);
   const Outline lines(programs_.outline, eye_, options_);
   // bodies that are seen through and cones have lines of their own
-  const std::optional<Canvas> group =
-      options_.outline > 0 ? std::optional<Canvas>(tile) : std::nullopt;
+  const std::optional<Layers> group =
+      options_.outline > 0 ? std::optional<Layers>(tile) : std::nullopt;
   const auto find = [&](std::span<const Batch> batches, const Eigen::Matrix4f& clip) {
     if (group && !batches.empty() && batches.front().count > 0)
-      find_group(batches, canvas, *group, clip, tile);
+      find_group(batches, layers, *group, clip, tile);
   };
   const auto lay_lines = [&](std::span<const Batch> batches) {
     if (!group || batches.empty() || batches.front().count == 0) return;
     glDisable(GL_DEPTH_TEST);
     lines.draw({group->places, group->facings, group->paints}, 0.7f, false);
   };
-  glBindFramebuffer(GL_FRAMEBUFFER, canvas.added);
+  glBindFramebuffer(GL_FRAMEBUFFER, layers.added);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
   for (int s = 0; s < options_.samples; ++s) {
@@ -248,10 +248,10 @@ void Painter::paint(const Tile& tile, Picture& out) {
     glViewport(0, 0, tile.drawn_width(), tile.drawn_height());
     const Eigen::Matrix4f clip =
         (crop_to(tile, options_, shifts_[s]) * projection_).cast<float>();
-    find_first(canvas, clip);
-    shade(canvas, tile);
+    find_first(layers, clip);
+    shade(layers, tile);
     if (options_.outline > 0)
-      lines.draw({canvas.places, canvas.facings, canvas.paints}, 1, false);
+      lines.draw({layers.places, layers.facings, layers.paints}, 1, false);
     // found before they hide themselves
     const std::span marks(&list_.marks, 1);
     find(marks, clip);
@@ -260,10 +260,10 @@ void Painter::paint(const Tile& tile, Picture& out) {
     lay_clear(clip);
     find(list_.clear, clip);
     lay_lines(list_.clear);
-    add(canvas);
+    add(layers);
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, canvas.developed);
-  gl::bind(programs_.develop, "light", 1, canvas.sum);
+  glBindFramebuffer(GL_FRAMEBUFFER, layers.developed);
+  gl::bind(programs_.develop, "light", 1, layers.sum);
   cover_.draw(programs_.develop);
   done_ += double(tile.width) * tile.height;
   read_tile(tile, out);

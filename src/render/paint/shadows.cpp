@@ -49,12 +49,12 @@ LoadedList::LoadedList(const DrawList& list)
 void name_corner_fields() {
   const auto field = [](int at, int count, GLenum type, size_t offset) {
     glEnableVertexAttribArray(at);
-    glVertexAttribPointer(at, count, type, type == GL_UNSIGNED_BYTE, sizeof(Corner),
+    glVertexAttribPointer(at, count, type, type == GL_UNSIGNED_SHORT, sizeof(Corner),
                           reinterpret_cast<const void*>(offset));
   };
   field(0, 3, GL_FLOAT, offsetof(Corner, p));
   field(1, 3, GL_FLOAT, offsetof(Corner, n));
-  field(2, 4, GL_UNSIGNED_BYTE, offsetof(Corner, color));
+  field(2, 4, GL_UNSIGNED_SHORT, offsetof(Corner, paint));
 }
 
 void read_light(const LoadedList& loaded, int place, unsigned light) {

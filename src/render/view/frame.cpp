@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "clench/base/convert.h"
 #include "clench/base/error.h"
+#include "clench/render/mesh/extent.h"
 #include "clench/render/mesh/pieces.h"
 
 namespace clench {
@@ -14,7 +16,8 @@ namespace {
 
 constexpr double used = 0.84;  // part of the frame's width and height that a framed scene may fill
 
-constexpr int looked_at = 12000;  // points that views are compared by
+// points that views are compared by: of surfaces, of what must be in the frame, and of contacts
+constexpr int looked_at = 5000, framed_looked_at = 1500, marks_looked_at = 1000;
 constexpr int around = 12;  // directions tried at either height
 
 // from the front right, a little above
@@ -88,47 +91,53 @@ struct Sight {
 
 // points evenly spread over a mesh, `per_area` of them a unit of its area
 // source  Roberts (2018), The unreasonable effectiveness of quasirandom sequences
-void spread_over(const Points& p, const std::vector<Triangle>& triangles, double per_area,
-                 Points& out) {
+void spread_over(const Points& p, const std::vector<Triangle>& triangles,
+                 const std::vector<double>& areas, double per_area, Points& out) {
   double due = 0.5, a = 0.5, b = 0.5;
-  for (const Triangle& t : triangles) {
-    const Eigen::Vector3d u = p[t[1]] - p[t[0]], v = p[t[2]] - p[t[0]];
-    for (due += 0.5 * u.cross(v).norm() * per_area; due >= 1; --due) {
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    const Triangle& t = triangles[i];
+    for (due += areas[i] * per_area; due >= 1; --due) {
       a += 0.7548776662466927, b += 0.5698402909980532;
       a -= std::floor(a), b -= std::floor(b);
       const bool over = a + b > 1;
-      out.push_back(p[t[0]] + (over ? 1 - a : a) * u + (over ? 1 - b : b) * v);
+      out.push_back(p[t[0]] + (over ? 1 - a : a) * (p[t[1]] - p[t[0]]) +
+                    (over ? 1 - b : b) * (p[t[2]] - p[t[0]]));
     }
   }
 }
 
-double area(const Points& p, const std::vector<Triangle>& triangles) {
-  double sum = 0;
+std::vector<double> areas_of(const Points& p, const std::vector<Triangle>& triangles) {
+  std::vector<double> out;
+  out.reserve(triangles.size());
   for (const Triangle& t : triangles)
-    sum += 0.5 * (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm();
-  return sum;
+    out.push_back(0.5 * (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm());
+  return out;
 }
 
 void append(Points& to, const Points& from) { to.insert(to.end(), from.begin(), from.end()); }
 
+// about so many of them, evenly from first to last
+Points every_so_often(const Points& points, size_t count) {
+  const size_t step = 1 + points.size() / count;
+  Points out;
+  for (size_t i = 0; i < points.size(); i += step) out.push_back(points[i]);
+  return out;
+}
+
 // about the middle of all, and divided by the largest distance from it
 void normalise(std::vector<Points>& placed, const std::vector<bool>& must, Sight& sight) {
-  Bounds bounds;
-  const auto each = [&](auto&& what) {
+  const auto ball = ball_around([&](const auto& what) {
     for (size_t i = 0; i < placed.size(); ++i)
       if (must[i])
         for (const auto& p : placed[i]) what(p);
     for (const auto& p : sight.marks) what(p);
-  };
-  each([&](const Eigen::Vector3d& p) { bounds.add(p); });
-  if (bounds.empty()) return;
-  sight.centre = 0.5 * bounds.low + 0.5 * bounds.high;
-  double scale = 0;
-  each([&](const auto& p) { scale = std::max(scale, (p - sight.centre).stableNorm()); });
-  sight.scale = std::max(scale, 1e-9 * std::max(1.0, sight.centre.cwiseAbs().maxCoeff()));
+  });
+  if (!ball) return;
+  sight.centre = ball->centre, sight.scale = ball->scale;
+  const double unit = 1 / sight.scale;
   for (Points& points : placed)
-    for (auto& p : points) p = (p - sight.centre) / sight.scale;
-  for (auto& p : sight.marks) p = (p - sight.centre) / sight.scale;
+    for (auto& p : points) p = unit * (p - sight.centre);
+  for (auto& p : sight.marks) p = unit * (p - sight.centre);
 }
 
 Sight sight_of(const Scene& scene) {
@@ -150,24 +159,29 @@ Sight sight_of(const Scene& scene) {
   std::vector<bool> must;
   for (const DrawMesh* mesh : meshes) {
     Points points = mesh->shape->mesh().vertices;
-    for (auto& p : points) p = mesh->X_WM * p;
+    const Eigen::Matrix3d R = mesh->X_WM.rotation.toRotationMatrix();
+    for (auto& p : points) p = R * p + mesh->X_WM.position;
     placed.push_back(std::move(points));
     must.push_back(only_floor || (!mesh->background && (mesh->framed || !any)));
   }
   normalise(placed, must, sight);
 
-  std::array<double, 2> areas = {};
-  for (size_t i = 0; i < meshes.size(); ++i)
-    areas[must[i]] += area(placed[i], meshes[i]->shape->mesh().triangles);
+  std::vector<std::vector<double>> areas;
+  std::array<double, 2> all = {};
+  for (size_t i = 0; i < meshes.size(); ++i) {
+    areas.push_back(areas_of(placed[i], meshes[i]->shape->mesh().triangles));
+    all[must[i]] += std::accumulate(areas[i].begin(), areas[i].end(), 0.0);
+  }
   for (size_t i = 0; i < meshes.size(); ++i) {
     if (must[i]) append(sight.framed, placed[i]);
     if (meshes[i]->background) continue;
     Points& to = meshes[i]->opacity < 0.999f ? sight.clear : must[i] ? sight.solid : sight.aside;
-    if (areas[must[i]] > 0)
-      spread_over(placed[i], meshes[i]->shape->mesh().triangles,
-                  (must[i] ? 1.0 : 0.3) * looked_at / areas[must[i]], to);
+    if (all[must[i]] > 0)
+      spread_over(placed[i], meshes[i]->shape->mesh().triangles, areas[i],
+                  (must[i] ? 1.0 : 0.3) * looked_at / all[must[i]], to);
   }
   append(sight.framed, sight.marks);
+  sight.marks = every_so_often(sight.marks, marks_looked_at);
   return sight;
 }
 
@@ -294,9 +308,7 @@ Eye frame(const Scene& scene, double aspect, bool ortho) {
                aspect, ortho);
 
   // from all around; the default unless another shows clearly more
-  const size_t step = 1 + sight.framed.size() / 4000;
-  Points some;
-  for (size_t i = 0; i < sight.framed.size(); i += step) some.push_back(sight.framed[i]);
+  const Points some = every_so_often(sight.framed, framed_looked_at);
   Eigen::Vector3d best = default_back;
   double most = -1e9;
   for (int k = 0; k < 2 * around; ++k) {

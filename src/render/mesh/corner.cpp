@@ -1,0 +1,23 @@
+#include "clench/render/mesh/corner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/base/convert.h"
+
+namespace clench {
+
+Eigen::Vector3f linear(const Eigen::Vector3f& color) {
+  return color.unaryExpr(
+      [](float x) { return 0.012f + 0.988f * std::pow(std::min(std::max(x, 0.0f), 1.0f), 2.2f); });
+}
+
+Paint make_paint(const Eigen::Vector3f& color, float opacity) {
+  const auto part = [](float x) {
+    return static_cast<uint16_t>(floor_between(65535 * double{x} + 0.5, 0, 65535));
+  };
+  const Eigen::Vector3f light = linear(color);
+  return {part(light[0]), part(light[1]), part(light[2]), part(opacity)};
+}
+
+}  // namespace clench
