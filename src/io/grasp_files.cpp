@@ -83,20 +83,24 @@ std::vector<GraspSpec> read_grasp_file(const fs::path& path, const std::string& 
   });
 }
 
-void write_grasp_file(const std::vector<GraspSpec>& grasps, const fs::path& path,
-                      const std::string& format, const WriteOptions& options) {
-  const std::string ending = ending_of(path), file = path.filename().string();
-  if (format.empty() && ending == ".json")
+static GraspFormat format_by_ending(const std::string& ending, const std::string& file) {
+  if (ending == ".jsonl") return GraspFormat::lines;
+  if (ending == ".csv") return GraspFormat::csv;
+  if (ending == ".npz") return GraspFormat::npz;
+  if (ending == ".yaml" || ending == ".yml") return GraspFormat::isaac_grasp;
+  if (ending == ".json")
     fail(
         "{}: .json may be several formats; expected format = \"graspgen\" or \"multigripper\", got "
         "none",
         file);
-  const GraspFormat which = !format.empty()                         ? grasp_format(format)
-                            : ending == ".csv"                      ? GraspFormat::csv
-                            : ending == ".npz"                      ? GraspFormat::npz
-                            : ending == ".yaml" || ending == ".yml" ? GraspFormat::isaac_grasp
-                                                                    : GraspFormat::lines;
-  switch (which) {
+  fail("expected a name that ends in .jsonl, .csv, .npz, .yaml or .json, or a format, got {}",
+       in_quotes(file));
+}
+
+void write_grasp_file(const std::vector<GraspSpec>& grasps, const fs::path& path,
+                      const std::string& format, const WriteOptions& options) {
+  const std::string file = path.filename().string();
+  switch (format.empty() ? format_by_ending(ending_of(path), file) : grasp_format(format)) {
     case GraspFormat::csv:
       return write_grasp_table(grasps, path, options);
     case GraspFormat::npz:

@@ -47,7 +47,7 @@ function batch.try(job, told, next_state, options)
 
   local function take(result)
     if result.error then
-      if result.error:find "interrupted$" then return end  -- by Ctrl-C, which is told apart
+      if result.kind == "stopped" then return end  -- by Ctrl-C, which is told apart
       told.rejected[result.error] = (told.rejected[result.error] or 0) + 1
       return
     end

@@ -244,6 +244,7 @@ TEST_CASE("lists of grasps in other formats that are none are refused in a sente
   };
   auto list = some_grasps();
   refuse(list, "a.json", "", "a.json: .json may be several formats");
+  refuse(list, "a.foo", "", "expected a name that ends in .jsonl, .csv, .npz, .yaml or .json, or a format, got 'a.foo'");
   refuse(list, "a.json", "graspgem", "unknown format 'graspgem'");
   list[1].object_name = "other";
   refuse(list, "a.yaml", "",

@@ -23,9 +23,14 @@ namespace clench {
 
 namespace {
 
+// of an item, or of what came before all of them
+struct TaskError {
+  std::string words, kind;  // no words: none; no kind: an error of Lua's
+};
+
 struct Outcome {
   Parcel value;
-  std::string error;  // empty: none
+  TaskError failure;
 };
 
 // what the states do, as text or compiled, and what all of them are given
@@ -108,25 +113,33 @@ int take_turn(lua_State* L) {
   return 0;
 }
 
-// (error value) -> its words
+// (error value) -> its words, its kind or nil
 int tell_error(lua_State* L) {
   push_packed(L, "host.error_text");
   lua_pushvalue(L, 1);
   protected_call(L, 1, 1);
-  return 1;
+  if (!lua_istable(L, 1)) return 1;
+  lua_pushliteral(L, "kind");
+  lua_rawget(L, 1);
+  return 2;
 }
 
 // pops the error's value
-std::string take_error(lua_State* L) {
+TaskError take_error(lua_State* L) {
+  const auto words = [&](int index) {
+    return lua_type(L, index) == LUA_TSTRING ? std::string(string_at(L, index)) : std::string();
+  };
+  const int top = lua_gettop(L) - 1;
   lua_pushcfunction(L, guarded<tell_error>);
   lua_insert(L, -2);
-  const bool told = lua_pcall(L, 1, 1, 0) == LUA_OK && lua_type(L, -1) == LUA_TSTRING && lua_rawlen(L, -1) > 0;
-  std::string out(told ? string_at(L, -1) : std::string_view("an error without words"));
-  lua_pop(L, 1);
+  TaskError out;
+  if (lua_pcall(L, 1, 2, 0) == LUA_OK) out = {words(-2), words(-1)};
+  if (out.words.empty()) out.words = "an error without words";
+  lua_settop(L, top);
   return out;
 }
 
-bool make_ready(Worker& worker, const Task& task, std::string& error) {
+bool make_ready(Worker& worker, const Task& task, TaskError& failure) {
   lua_State* L = worker.state.lua();
   if (!task.script_folder.empty()) set_setting(L, Setting::modules, task.script_folder);
   if (!task.confine.empty()) set_setting(L, Setting::confine, task.confine);
@@ -136,7 +149,7 @@ bool make_ready(Worker& worker, const Task& task, std::string& error) {
   lua_pushlightuserdata(L, const_cast<Task*>(&task));
   lua_pushlightuserdata(L, &worker);
   if (lua_pcall(L, 2, 2, 0) == LUA_OK) return true;
-  error = take_error(L);
+  failure = take_error(L);
   return false;
 }
 
@@ -150,7 +163,7 @@ void do_item(Worker& worker, const Task& task, size_t i, Outcome& outcome) {
   lua_pushvalue(L, 1);
   lua_pushvalue(L, 2);
   if (lua_pcall(L, 3, 0, 0) == LUA_OK) return;
-  outcome.error = take_error(L);
+  outcome.failure = take_error(L);
 }
 
 // --- the threads ---
@@ -193,8 +206,8 @@ class Crew {
   bool broken() const { return !broken_.empty(); }
 
   void run(Worker& worker) {
-    std::string error;
-    const bool ready = make_ready(worker, task_, error);
+    TaskError failure;
+    const bool ready = make_ready(worker, task_, failure);
     for (size_t i; ready && !ended_ && (i = next_++) < outcomes_.size();) {
       Outcome outcome;
       do_item(worker, task_, i, outcome);
@@ -204,7 +217,7 @@ class Crew {
       changed_.notify_one();
     }
     const std::lock_guard lock(mutex_);
-    if (!ready && !ended_) broken_ = error;
+    if (!ready && !ended_) broken_ = failure.words;
     ++idle_;
     changed_.notify_one();
   }
@@ -268,10 +281,15 @@ void read_items(lua_State* L, Task& task, const std::string& subject) {
 }
 
 void push_outcome(lua_State* L, const Outcome* outcome) {
-  if (outcome && outcome->error.empty()) return outcome->value.unpack(L);
-  lua_createtable(L, 0, 1);
-  push(L, outcome ? std::string_view(outcome->error) : "stopped before it was done");
+  if (outcome && outcome->failure.words.empty()) return outcome->value.unpack(L);
+  static const TaskError not_done{"stopped before it was done", "stopped"};
+  const TaskError& failure = outcome ? outcome->failure : not_done;
+  lua_createtable(L, 0, 2);
+  push(L, std::string_view(failure.words));
   lua_setfield(L, -2, "error");
+  if (failure.kind.empty()) return;
+  push(L, std::string_view(failure.kind));
+  lua_setfield(L, -2, "kind");
 }
 
 int map(lua_State* L) {
@@ -327,7 +345,7 @@ int map(lua_State* L) {
         if (!watching.progress().stop_asked())
           watching.progress().tell(static_cast<double>(crew.done()) / static_cast<double>(count), subject);
       }
-      failed += !outcome || !outcome->error.empty();
+      failed += !outcome || !outcome->failure.words.empty();
       push_outcome(L, outcome);
       lua_rawseti(L, results, static_cast<lua_Integer>(i) + 1);
       if (!told || !outcome) continue;
@@ -357,7 +375,7 @@ Calls a function for each item of a list, in many threads, each with a state of 
 @param task function|string  (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
 @param items table  a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
 @param options? {threads?: integer, shared?: any, each?: function}  threads: all cores by default; shared: what every state is given once; each(result, number): called here in the order of the items, as soon as they are done
-@return table results  an item that failed gives {error = string}, and so does one that was not done when it was stopped
+@return table results  an item that failed gives {error = string, kind? = string}, with the kind that errors of Clench have, and so does one that was not done when it was stopped
 @return integer failed
 > clench.parallel.map(function(x) return x * x end, {1, 2, 3})  --> {1, 4, 9}, 0
 > clench.parallel.map(function(p, s) s.body.pose = p; return s.body.pose.position.z end, {clench.pose {xyz = {0, 0, 2}}}, {shared = {body = flask}})  --> {2.0}, 0

@@ -93,13 +93,14 @@ Adds a grasp at the end: its value as it is now, measures included.
 @return integer count
 > clench.grasps():add(grasp)  --> 1)"},
     {"save", guarded<save>, R"(
-Writes the list. JSON lines hold all there is: a head with the version, then a grasp on each line, numbers to the bit.
-`.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, GraspGen's and MultiGripperGrasp's `.json` by
+Writes the list. JSON lines (`.jsonl`) hold all there is: a head with the version, then a grasp on each line, numbers to the bit.
+`.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by
 `format`; a warning names what a format does not hold. The same list gives the same bytes.
 @param path string
 @param options? {format?: string}  as clench.grasps takes it
 > list = clench.grasps()
 > list:save("grasps.json")  --> error: .json may be several formats
+> list:save "grasps.txt"  --> error: expected a name that ends in .jsonl, .csv, .npz, .yaml or .json, or a format
 > list:save("grasps.txt", {format = "cvs"})  --> error: unknown format 'cvs', expected one of jsonl, csv
 > list:save "no_such_folder/grasps.jsonl"  --> error: no such folder)"},
 };
