@@ -1,5 +1,7 @@
 #include "clench/io/grasp_files.h"
 
+#include <optional>
+
 #include "clench/base/file.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
@@ -47,13 +49,17 @@ static GraspFormat look_into(const fs::path& path) {
       file);
 }
 
-static GraspFormat format_to_read(const fs::path& path, const std::string& format) {
-  if (!format.empty()) return grasp_format(format);
-  const std::string ending = ending_of(path);
+static std::optional<GraspFormat> format_of(const std::string& ending) {
   if (ending == ".jsonl") return GraspFormat::lines;
   if (ending == ".csv") return GraspFormat::csv;
   if (ending == ".npz") return GraspFormat::npz;
   if (ending == ".yaml" || ending == ".yml") return GraspFormat::isaac_grasp;
+  return std::nullopt;
+}
+
+static GraspFormat format_to_read(const fs::path& path, const std::string& format) {
+  if (!format.empty()) return grasp_format(format);
+  if (const auto known = format_of(ending_of(path))) return *known;
   return look_into(path);
 }
 
@@ -83,11 +89,9 @@ std::vector<GraspSpec> read_grasp_file(const fs::path& path, const std::string& 
   });
 }
 
-static GraspFormat format_by_ending(const std::string& ending, const std::string& file) {
-  if (ending == ".jsonl") return GraspFormat::lines;
-  if (ending == ".csv") return GraspFormat::csv;
-  if (ending == ".npz") return GraspFormat::npz;
-  if (ending == ".yaml" || ending == ".yml") return GraspFormat::isaac_grasp;
+static GraspFormat format_to_write(const std::string& ending, const std::string& file) {
+  if (ending.empty()) return GraspFormat::lines;
+  if (const auto known = format_of(ending)) return *known;
   if (ending == ".json")
     fail(
         "{}: .json may be several formats; expected format = \"graspgen\" or \"multigripper\", got "
@@ -100,7 +104,7 @@ static GraspFormat format_by_ending(const std::string& ending, const std::string
 void write_grasp_file(const std::vector<GraspSpec>& grasps, const fs::path& path,
                       const std::string& format, const WriteOptions& options) {
   const std::string file = path.filename().string();
-  switch (format.empty() ? format_by_ending(ending_of(path), file) : grasp_format(format)) {
+  switch (format.empty() ? format_to_write(ending_of(path), file) : grasp_format(format)) {
     case GraspFormat::csv:
       return write_grasp_table(grasps, path, options);
     case GraspFormat::npz:

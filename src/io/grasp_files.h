@@ -22,8 +22,8 @@ std::vector<GraspSpec> read_grasp_file(const std::filesystem::path& path,
                                        const std::string& format = {},
                                        const ReadOptions& options = {});
 
-/// format  empty: .jsonl, .csv, .npz, .yaml and .yml (isaac_grasp) by their endings; of .json and
-///         others it has to be given
+/// format  empty: .jsonl, .csv, .npz, .yaml and .yml (isaac_grasp) by their endings, JSON lines
+///         without one; of .json and others it has to be given
 /// Warns of what a format does not hold.
 void write_grasp_file(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path,
                       const std::string& format = {}, const WriteOptions& options = {});
