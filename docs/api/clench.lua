@@ -653,7 +653,7 @@ local grasps = {}
 ---@return integer count
 function grasps:add(grasp) end
 
----Writes the list. JSON lines (`.jsonl`) hold all there is: a head with the version, then a grasp on each line, numbers to the bit. `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by `format`; a warning names what a format does not hold. The same list gives the same bytes.
+---Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head with the version, then a grasp on each line, numbers to the bit. `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by `format`; a warning names what a format does not hold. The same list gives the same bytes.
 ---@param path string
 ---@param options? {format?: string} # as clench.grasps takes it
 function grasps:save(path, options) end
@@ -1285,7 +1285,7 @@ clench.parallel = {}
 ---@param task function|string # (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
 ---@param items table # a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
 ---@param options? {threads?: integer, shared?: any, each?: function} # threads: all cores by default; shared: what every state is given once; each(result, number): called here in the order of the items, as soon as they are done
----@return table results # an item that failed gives {error = string, kind? = string}, with the kind that errors of Clench have, and so does one that was not done when it was stopped
+---@return table results # an item that failed gives {error: string, kind?: string}, the kind of an error of Clench, and so does one that was not done when it was stopped
 ---@return integer failed
 function clench.parallel.map(task, items, options) end
 

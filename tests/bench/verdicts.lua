@@ -34,13 +34,6 @@ local function make(hand_name, object_name)
   return hand, object, out
 end
 
--- a description without its meshes, which need not go over to other threads
-local function tree_of(described)
-  local links = {}
-  for i, link in ipairs(described.links) do links[i] = {name = link.name, parent = link.parent, pose = link.pose, joint = link.joint} end
-  return {links = links}
-end
-
 local function find(hand, object)
   local options = {hand = hand, object = object, threads = clench.parallel.cores, seed = 3}
   if kind == "verified" or kind == "planned" then
@@ -63,16 +56,17 @@ local function find(hand, object)
   return table.move(all, 1, math.min(count, #all), 1, {})
 end
 
+-- the other engines move joints one by one: those of a DOF share its torque
 local function judge(grasp, shared)
   local clench = require "clench"
-  package.path = "tests/bench/?.lua;" .. package.path
-  local describe = require "verdicts.describe"
   local hand, object = shared.hand, shared.object
   local placed = grasp:apply(hand.world, {hand = hand, object = object})
   local weight = 9.81 * object.mass
   local forces = placed:contact_forces {objective = "max_margin", total_force = shared.weights * weight}
   local verdict = clench.study.shake {hand = hand, object = object, force = weight, mass = object.mass, grip_force = shared.weights * weight}
-  return {pose = grasp.pose, dofs = hand.dofs, torques = describe.torques(shared.described, hand, forces.forces or {}), epsilon = placed.epsilon,
+  local torques = forces.joint_torques
+  for i, dof in ipairs(torques and shared.dofs or {}) do torques[i] = torques[i] / dof.joints end
+  return {pose = grasp.pose, dofs = hand.dofs, torques = torques, epsilon = placed.epsilon,
           load = require "clench.plan.verification".load(object, placed, shared.weights), held = verdict.held, survived = verdict.survived}
 end
 
@@ -82,7 +76,7 @@ for _, object_name in ipairs(kind == "brief" and {"cube"} or {"apple", "can", "m
     local hand, object, out = make(hand_name, object_name)
     local grasps = find(hand, object)
     out.grasps = {}
-    for _, row in ipairs(clench.parallel.map(judge, grasps, {shared = {hand = hand, object = object, weights = weights, described = tree_of(out.hand)}})) do
+    for _, row in ipairs(clench.parallel.map(judge, grasps, {shared = {hand = hand, object = object, weights = weights, dofs = out.hand.dofs}})) do
       if row.error then error(row.error) end
       row.pose, row.verified = describe.pose(row.pose), kind == "verified"
       out.grasps[#out.grasps + 1] = row

@@ -9,8 +9,7 @@ namespace {
 
 constexpr int reach_along = 12;                       // of a step that is followed [pixels]
 constexpr int min_contrast = 12;                      // that is smoothed, of 255
-constexpr int brightest_by_contrast = 10;             // that of the brightest may be so many times it
-constexpr float max_spot = 0.6f;                      // of a single pixel
+constexpr float part_contrast = 0.1f, max_spot = 0.6f;  // of the brightest; of a single pixel
 
 struct Brightness {
   int width, height;
@@ -30,17 +29,6 @@ Brightness brightness_of(const Picture& p) {
   return out;
 }
 
-// where a row differs enough from its neighbours; eight or more pixels at a time, as most do not
-void find_contrasts(const Brightness& b, int y, std::vector<uint8_t>& differs) {
-  const uint8_t *m = &b.values[static_cast<size_t>(y) * b.width], *n = m - b.width, *s = m + b.width;
-  for (int x = 1; x + 1 < b.width; ++x) {
-    const uint8_t high = std::max(std::max(std::max(n[x], s[x]), std::max(m[x - 1], m[x + 1])), m[x]),
-                  low = std::min(std::min(std::min(n[x], s[x]), std::min(m[x - 1], m[x + 1])), m[x]);
-    const int range = high - low;
-    differs[x] = (range >= min_contrast) & (brightest_by_contrast * range >= high);
-  }
-}
-
 // how much of the pixel across belongs here, and where that is
 struct Mix {
   float part = 0;
@@ -49,7 +37,10 @@ struct Mix {
 
 Mix mix_at(const Brightness& b, int x, int y) {
   const int m = b.at(x, y), n = b.at(x, y - 1), s = b.at(x, y + 1), e = b.at(x + 1, y),
-            w = b.at(x - 1, y), range = std::max({m, n, s, e, w}) - std::min({m, n, s, e, w});
+            w = b.at(x - 1, y);
+  const int high = std::max({m, n, s, e, w}), low = std::min({m, n, s, e, w}), range = high - low;
+  if (range < min_contrast || static_cast<float>(range) < part_contrast * static_cast<float>(high))
+    return {};
   const int ne = b.at(x + 1, y - 1), nw = b.at(x - 1, y - 1), se = b.at(x + 1, y + 1),
             sw = b.at(x - 1, y + 1);
   const bool level = 2 * std::abs(n + s - 2 * m) + std::abs(ne + se - 2 * e) +
@@ -101,11 +92,8 @@ void smooth_edges(Picture& picture) {
     const float sum = (1 - part) * values[here] + part * values[across];
     return static_cast<uint8_t>(sum + 0.5f);
   };
-  std::vector<uint8_t> differs(picture.width);
-  for (int y = 1; y + 1 < picture.height; ++y) {
-    find_contrasts(b, y, differs);
+  for (int y = 1; y + 1 < picture.height; ++y)
     for (int x = 1; x + 1 < picture.width; ++x) {
-      if (!differs[x]) continue;
       const Mix mix = mix_at(b, x, y);
       if (!(mix.part > 0)) continue;
       const size_t here = static_cast<size_t>(y) * picture.width + x,
@@ -114,7 +102,6 @@ void smooth_edges(Picture& picture) {
         picture.pixels[3 * here + k] = mixed(from.pixels, 3 * here + k, 3 * across + k, mix.part);
       if (!from.alpha.empty()) picture.alpha[here] = mixed(from.alpha, here, across, mix.part);
     }
-  }
 }
 
 }  // namespace clench

@@ -7,7 +7,7 @@
 
 namespace clench {
 
-Eigen::Vector3f linear(const Eigen::Vector3f& color) {
+Eigen::Vector3f linear_rgb(const Eigen::Vector3f& color) {
   return color.unaryExpr(
       [](float x) { return 0.012f + 0.988f * std::pow(std::min(std::max(x, 0.0f), 1.0f), 2.2f); });
 }
@@ -16,7 +16,7 @@ Paint make_paint(const Eigen::Vector3f& color, float opacity) {
   const auto part = [](float x) {
     return static_cast<uint16_t>(floor_between(65535 * double{x} + 0.5, 0, 65535));
   };
-  const Eigen::Vector3f light = linear(color);
+  const Eigen::Vector3f light = linear_rgb(color);
   return {part(light[0]), part(light[1]), part(light[2]), part(opacity)};
 }
 

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <span>
 
-#include "clench/base/error.h"
 #include "clench/render/mesh/corner_normals.h"
 #include "clench/render/mesh/extent.h"
 #include "clench/render/mesh/pieces.h"

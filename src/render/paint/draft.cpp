@@ -124,7 +124,7 @@ void Draft::load(MeshStore& store, const Scene& scene) {
     options_.progress.tell(0.1, "drawing");
     const StoredMesh& stored = store.at(mesh);
     Placed placed{&stored, moved_by(mesh, stored, extent_), {}, mesh.background, 0};
-    placed.paint << linear(mesh.color), mesh.opacity;
+    placed.paint << linear_rgb(mesh.color), mesh.opacity;
     placed.distance = (placed.to_scene.topRightCorner<3, 1>() - eye_.eye).norm();
     placed.one_side = stored.closed && hides_inside(placed.to_scene.topRightCorner<3, 1>(),
                                                     stored.scale / extent_.scale, eye_);

@@ -375,7 +375,7 @@ Calls a function for each item of a list, in many threads, each with a state of 
 @param task function|string  (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
 @param items table  a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
 @param options? {threads?: integer, shared?: any, each?: function}  threads: all cores by default; shared: what every state is given once; each(result, number): called here in the order of the items, as soon as they are done
-@return table results  an item that failed gives {error = string, kind? = string}, with the kind that errors of Clench have, and so does one that was not done when it was stopped
+@return table results  an item that failed gives {error: string, kind?: string}, the kind of an error of Clench, and so does one that was not done when it was stopped
 @return integer failed
 > clench.parallel.map(function(x) return x * x end, {1, 2, 3})  --> {1, 4, 9}, 0
 > clench.parallel.map(function(p, s) s.body.pose = p; return s.body.pose.position.z end, {clench.pose {xyz = {0, 0, 2}}}, {shared = {body = flask}})  --> {2.0}, 0

@@ -74,7 +74,8 @@ class Grip {
       const double scale = link.turns ? 1 : 100;
       double torque = scale * (options_.kp * (joints_[j].target - hand_->getJointPos(i)) - options_.kd * hand_->getJointVel(i));
       torque -= scene_.dofs[link.dof].damping * hand_->getJointVel(i);
-      hand_->addJointTorque(i, torque + share * grasp_.torques[j]);
+      if (!grasp_.torques.empty()) torque += share * grasp_.torques[link.dof] / link.ratio;
+      hand_->addJointTorque(i, torque);
     }
     object_->applyCentralForce(to_bullet(force));
     world_.stepSimulation(options_.step, 0);

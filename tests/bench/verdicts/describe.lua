@@ -58,52 +58,16 @@ function describe.hand(hand)
   local dofs = {}
   for i, info in ipairs(hand.dof_info) do
     dofs[i] = {min = hand.dof_limits[i][1], max = hand.dof_limits[i][2], value = hand.dofs[i], max_effort = info.max_effort}
-    dofs[i].damping, dofs[i].friction, dofs[i].armature = 0, 0, 0
+    dofs[i].damping, dofs[i].friction, dofs[i].armature, dofs[i].joints = 0, 0, 0, 0
   end
   for _, chain in ipairs(hand.chains) do
     for _, joint in ipairs(chain.joints) do
       local dof = dofs[joint.dof]
+      dof.joints = dof.joints + 1
       for _, name in ipairs {"damping", "friction", "armature"} do dof[name] = dof[name] + (joint[name] or 0) end
     end
   end
   return {links = links, dofs = dofs}
-end
-
-local function beyond(links, number)
-  local names = {}
-  for n, link in ipairs(links) do
-    local at = n - 1
-    while at >= 0 and at ~= number do at = links[at + 1].parent end
-    if at == number then names[link.name] = true end
-  end
-  return names
-end
-
---- The torque of each joint of a description, in the order of its links, that balances contact forces: joints of one DOF balance
---- each its own, as engines that know no DOFs move them one by one.
----@param described table  of describe.hand
----@param hand robot  as it holds the object
----@param forces table[]  of grasp:contact_forces
-function describe.torques(described, hand, forces)
-  local by_name, torques = {}, {}
-  for _, link in ipairs(hand.links) do by_name[link.name] = link end
-  for i, link in ipairs(described.links) do
-    local joint = link.joint
-    if joint then
-      local moved = by_name[link.name].pose * clench.pose {xyz = link.pose[1], quat = link.pose[2]}:inverse()
-      local point = clench.vec3(table.unpack(joint.point))
-      local from = moved * point
-      local axis, carried, torque = moved * (point + clench.vec3(table.unpack(joint.axis))) - from, beyond(described.links, i - 1), 0
-      for _, held in ipairs(forces) do
-        if carried[held.contact.link.name] then
-          local lever = joint.kind == "revolute" and axis:cross(held.contact.point - from) or axis
-          torque = torque + lever:dot(held.force)
-        end
-      end
-      torques[#torques + 1] = torque
-    end
-  end
-  return torques
 end
 
 describe.body, describe.pose = body_of, pose_of

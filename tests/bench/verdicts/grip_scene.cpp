@@ -57,8 +57,9 @@ GripScene read_grip_scene(const std::string& path) {
     out.dofs.push_back({.value = v.at("value"), .min = v.at("min"), .max = v.at("max"), .damping = v.at("damping"),
                         .friction = v.at("friction"), .armature = v.at("armature")});
   for (const json& v : all.at("grasps")) {
-    StoredGrasp grasp{.pose = pose_of(v.at("pose")), .dofs = v.at("dofs").get<std::vector<double>>(), .torques = v.at("torques").get<std::vector<double>>(), .epsilon = v.at("epsilon"), .load = v.at("load"),
+    StoredGrasp grasp{.pose = pose_of(v.at("pose")), .dofs = v.at("dofs").get<std::vector<double>>(), .torques = {}, .epsilon = v.at("epsilon"), .load = v.at("load"),
                       .verified = v.at("verified"), .held = v.at("held"), .survived = v.at("survived")};
+    if (v.contains("torques")) grasp.torques = v.at("torques").get<std::vector<double>>();
     out.grasps.push_back(grasp);
   }
   return out;

@@ -34,7 +34,7 @@ struct GripDof {
 
 struct StoredGrasp {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  // of the hand in the object
-  std::vector<double> dofs, torques;                       // torques: of the links' joints in their order, beside what holds the posture
+  std::vector<double> dofs, torques;                       // torques: of the motors, beside what holds the posture; empty: none found
   double epsilon = 0, load = 0;
   bool verified = false;  // by `clench plan --verify`
   int held = 0;           // in how many of the six directions study.shake held it

@@ -83,7 +83,7 @@ function shake(scene, grasp) {
       mujoco.mj_step(model, data);
     }
   };
-  run(0.5, (share) => joints.forEach(({v}, k) => { data.qfrc_applied[v] = share * grasp.torques[k]; }));
+  run(0.5, (share) => joints.forEach(({joint, v}) => { data.qfrc_applied[v] = share * (grasp.torques ? grasp.torques[joint.dof] : 0) / joint.ratio; }));
   const pressed = pose();
   run(1);
   const rest = pose();

@@ -93,7 +93,7 @@ Adds a grasp at the end: its value as it is now, measures included.
 @return integer count
 > clench.grasps():add(grasp)  --> 1)"},
     {"save", guarded<save>, R"(
-Writes the list. JSON lines (`.jsonl`) hold all there is: a head with the version, then a grasp on each line, numbers to the bit.
+Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head with the version, then a grasp on each line, numbers to the bit.
 `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by
 `format`; a warning names what a format does not hold. The same list gives the same bytes.
 @param path string
