@@ -1,14 +1,15 @@
 -- Grasps of URDF hands on scans, their verdicts by study.shake, and all that another engine needs to judge them again, as JSON: a file per pair.
--- clench run tests/bench/verdicts.lua FOLDER KIND [COUNT]
+-- clench run tests/bench/verdicts.lua FOLDER KIND [COUNT [SEED]]
 --   KIND   "random", force closure from random approaches; "planned", by plan.sample; "verified", by plan.sample with shake; "brief", two of our
 --          own hand on our own cube
 --   COUNT  of each pair
+--   SEED   of the approaches that are tried
 package.path = "tests/bench/?.lua;" .. package.path
 local clench = require "clench"
 local describe = require "verdicts.describe"
 
-local folder, kind, count = ...
-count = math.tointeger(tonumber(count)) or 15
+local folder, kind, count, seed = ...
+count, seed = math.tointeger(tonumber(count)) or 15, math.tointeger(tonumber(seed)) or 3
 local data = (os.getenv "CLENCH_SHARED" or "../shared") .. "/data/"
 local hands = {allegro = "allegro_hand/allegro_hand_right", leap = "leap_hand/leap_hand_right", shadow = "shadow_hand/shadow_hand_right",
                barrett = "barrett_hand/bhand_model"}
@@ -35,7 +36,7 @@ local function make(hand_name, object_name)
 end
 
 local function find(hand, object)
-  local options = {hand = hand, object = object, threads = clench.parallel.cores, seed = 3}
+  local options = {hand = hand, object = object, threads = clench.parallel.cores, seed = seed}
   if kind == "verified" or kind == "planned" then
     options.count, options.seconds, options.verify = count, 25, kind == "verified" and {shake = true} or nil
     local found = {}
@@ -48,7 +49,7 @@ local function find(hand, object)
     if grasp.epsilon > min_epsilon then all[#all + 1] = grasp end
   end
   -- any of them, not the best
-  local random = clench.random(7)
+  local random = clench.random(seed + 4)
   for i = #all, 2, -1 do
     local j = random:integer(1, i)
     all[i], all[j] = all[j], all[i]

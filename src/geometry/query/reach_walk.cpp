@@ -14,6 +14,9 @@ namespace clench {
 // of its bounds shows in an answer: the compiler may contract products and sums in this file.
 namespace {
 
+// When one pair that meets is enough, so many are judged as soon as a leaf is done.
+constexpr int patience = 3;
+
 // ordered: what overlaps most first
 template <class F, bool ordered>
 class ReachWalk {
@@ -189,7 +192,7 @@ class ReachWalk {
     return expected & ~(off_a | off_b).set();
   }
 
-  // Pairs of two leaves in reach wait until eight are there to be judged at once.
+  // Pairs of two leaves in reach wait for others, to be judged at once.
   bool judge_leaves(const Task& task, PairVisit visit) {
     const int leaf_a = task.child_a >> 1, leaf_b = task.child_b >> 1;
     const TriangleBundle &from_a = a_.leaf(leaf_a), &from_b = b_.leaf(leaf_b);
@@ -211,6 +214,8 @@ class ReachWalk {
         if (waiting_.full() && judge(visit)) return true;
       }
     }
+    if constexpr (ordered)
+      if (waiting_.count() >= patience) return judge(visit);
     return false;
   }
 

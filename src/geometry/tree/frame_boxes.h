@@ -1,7 +1,7 @@
 // The boxes of a tree in the frame of a query: a bundle is moved when first asked for, and kept, as a
 // query comes back to most of them. For the walks only.
 #pragma once
-#include <cstring>
+#include <cstddef>
 
 #include "clench/geometry/tree/box_lanes.h"
 
@@ -15,10 +15,9 @@ inline constexpr int box_rows = 15;
 
 template <class F>
 CLENCH_INLINE BoxOf<F> eight_of(BoxRows<typename F::Real> rows) {
-  BoxOf<F> out;
-  static_assert(sizeof out == 8 * box_rows * sizeof *rows);
-  std::memcpy(&out, rows, sizeof out);
-  return out;
+  const auto row = [&](int i) { return F::stored(rows + 8 * i); };
+  const auto triple = [&](int i) { return Triple<F>{row(i), row(i + 1), row(i + 2)}; };
+  return {{triple(0), triple(3), triple(6)}, triple(9), {row(12), row(13), row(14)}};
 }
 
 template <class Real>
@@ -61,7 +60,11 @@ class FrameBoxes {
     numbers_[slot] = bundle;
     BoxOf<F> eight = load_boxes<F>(tree_.boxes(bundle));
     if constexpr (Moved) eight = moved(eight, move_);
-    std::memcpy(rows_[slot], &eight, sizeof eight);
+    Real* to = rows_[slot];
+    const auto keep = [&](const F& row) { row.store(to), to += 8; };
+    for (const Triple<F>& axis : eight.axis) keep(axis.x), keep(axis.y), keep(axis.z);
+    keep(eight.centre.x), keep(eight.centre.y), keep(eight.centre.z);
+    for (const F& half : eight.half) keep(half);
   }
 
   const Tree& tree_;

@@ -1,7 +1,5 @@
 // Pairs of triangles that wait until eight of them can be judged at once. For the walks only.
 #pragma once
-#include <cstring>
-
 #include "clench/geometry/tree/triangle_lanes.h"
 #include "clench/geometry/tree/walk.h"
 
@@ -43,7 +41,9 @@ class WaitingPairs {
  private:
   static CLENCH_INLINE TrianglesOf<F> load(const Corners& rows) {
     TrianglesOf<F> out;
-    std::memcpy(&out, rows, sizeof out);
+    for (int k = 0; k < 3; ++k)
+      out.corner[k] = {F::stored(rows[3 * k]), F::stored(rows[3 * k + 1]),
+                       F::stored(rows[3 * k + 2])};
     return out;
   }
 
